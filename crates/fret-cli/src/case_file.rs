@@ -1,0 +1,60 @@
+//! A case file on disk: read whole, with one clear refusal when that is impossible. What the text means is the core's to say.
+
+use std::fs::File;
+use std::io::{self, Read};
+use std::path::{Path, PathBuf};
+
+use fret_core::case::{Case, CaseError};
+use fret_core::plan::Plan;
+
+/// Bytes read at the most: one more than the core takes, so that an endless stream is refused and not read.
+const MOST_BYTES: u64 = (4 << 20) + 1;
+
+/// A case file that could be read.
+#[derive(Debug)]
+pub struct CaseFile {
+    /// Where it lies, as given.
+    pub path: PathBuf,
+    /// Its text, verbatim.
+    pub text: String,
+}
+
+impl CaseFile {
+    /// Reads a case file.
+    pub fn read(path: &Path) -> Result<Self, CaseError> {
+        let refuse = |message: String| CaseError::plain(&path.display().to_string(), message);
+        let mut bytes = Vec::new();
+        File::open(path)
+            .and_then(|file| file.take(MOST_BYTES).read_to_end(&mut bytes))
+            .map_err(|error| refuse(unreadable(path, &error)))?;
+        let text = String::from_utf8(bytes).map_err(|error| {
+            let place = error.utf8_error().valid_up_to();
+            refuse(format!("not a text in UTF-8 (byte {place} is not part of a letter)"))
+        })?;
+        Ok(Self { path: path.to_owned(), text })
+    }
+
+    /// Its name as it stands in messages.
+    pub fn name(&self) -> String {
+        self.path.display().to_string()
+    }
+
+    /// Its file name without the extension; names the results.
+    pub fn stem(&self) -> PathBuf {
+        self.path.file_stem().map_or_else(|| PathBuf::from("case"), PathBuf::from)
+    }
+
+    /// The case, read and planned.
+    pub fn planned(&self) -> Result<Plan, CaseError> {
+        Plan::new(Case::from_toml(&self.text, &self.name())?)
+    }
+}
+
+fn unreadable(path: &Path, error: &io::Error) -> String {
+    match error.kind() {
+        io::ErrorKind::NotFound => "no such file".to_owned(),
+        _ if path.is_dir() => "a folder, not a case file".to_owned(),
+        io::ErrorKind::PermissionDenied => "no permission to read it".to_owned(),
+        _ => format!("cannot be read: {error}"),
+    }
+}

@@ -1,0 +1,142 @@
+//! Why a call ended without its answer, in words and as an exit code.
+
+use std::io;
+use std::path::{Path, PathBuf};
+
+use fret_core::case::CaseError;
+use fret_core::simulation::RunError;
+use serde_json::{Value, json};
+
+/// Exit code of a refused case or call.
+pub const REFUSED: u8 = 1;
+/// Exit code of a numerical failure, and of a file that could not be written.
+pub const FAILED: u8 = 2;
+/// Exit code of an interrupted run.
+pub const INTERRUPTED: u8 = 130;
+
+/// Why a call ended without its answer.
+#[derive(Debug)]
+pub enum Failure {
+    /// The case is not one that can be computed.
+    Case(CaseError),
+    /// The call is not one that can be followed: what, and what to do instead.
+    Call(String, String),
+    /// The case could not be solved.
+    Unsolved(RunError),
+    /// Somebody stopped the run.
+    Interrupted(String),
+    /// A file could not be written.
+    Unwritten(Unwritten),
+    /// A mistake in the program itself.
+    Defect(String),
+}
+
+/// A file or stream that could not be written.
+#[derive(Debug)]
+pub struct Unwritten {
+    /// Which one.
+    pub path: PathBuf,
+    /// Why not.
+    pub cause: io::Error,
+}
+
+impl Unwritten {
+    /// The writing of `path` failed by `cause`.
+    pub fn at(path: &Path) -> impl FnOnce(io::Error) -> Self {
+        let path = path.to_owned();
+        |cause| Self { path, cause }
+    }
+}
+
+impl std::fmt::Display for Unwritten {
+    fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let cause = match self.cause.kind() {
+            io::ErrorKind::PermissionDenied => "no permission".to_owned(),
+            io::ErrorKind::ReadOnlyFilesystem => "the file system is read-only".to_owned(),
+            io::ErrorKind::StorageFull => "the disk is full".to_owned(),
+            io::ErrorKind::QuotaExceeded => "the disk quota is used up".to_owned(),
+            _ => self.cause.to_string(),
+        };
+        write!(formatter, "{}: cannot be written: {cause}", self.path.display())
+    }
+}
+
+impl Failure {
+    /// A verb or an option that has a name but no code.
+    pub fn not_built(what: &str) -> Self {
+        Self::Call(format!("{what}: not built yet"), "built are: run, check, plan, schema".to_owned())
+    }
+
+    /// The exit code.
+    pub fn code(&self) -> u8 {
+        match self {
+            Self::Case(_) | Self::Call(..) => REFUSED,
+            Self::Unsolved(_) | Self::Unwritten(_) | Self::Defect(_) => FAILED,
+            Self::Interrupted(_) => INTERRUPTED,
+        }
+    }
+
+    /// One word for records.
+    pub fn status(&self) -> &'static str {
+        match self {
+            Self::Case(_) | Self::Call(..) => "refused",
+            Self::Unsolved(_) | Self::Unwritten(_) | Self::Defect(_) => "failed",
+            Self::Interrupted(_) => "interrupted",
+        }
+    }
+
+    /// What went wrong, without colour, for records.
+    pub fn message(&self) -> String {
+        match self {
+            Self::Case(error) => error.render(false),
+            Self::Call(what, _) | Self::Interrupted(what) => what.clone(),
+            Self::Unsolved(error) => error.to_string(),
+            Self::Unwritten(unwritten) => unwritten.to_string(),
+            Self::Defect(what) => format!("a defect in fret itself, please report it: {what}"),
+        }
+    }
+
+    /// What went wrong, as a person reads it.
+    pub fn render(&self, colour: bool) -> String {
+        let head = |word: &str, code: &str| {
+            if colour { format!("\x1b[1m\x1b[{code}m{word}\x1b[0m") } else { word.to_owned() }
+        };
+        match self {
+            Self::Case(error) => error.render(colour),
+            Self::Call(what, help) => format!("{}: {what}\n  = help: {help}", head("error", "31")),
+            Self::Interrupted(what) => format!("{}: {what}", head("interrupted", "33")),
+            _ => format!("{}: {}", head("error", "31"), self.message()),
+        }
+    }
+
+    /// What went wrong, for programs.
+    pub fn to_json(&self) -> Value {
+        let mut value = json!({ "status": self.status(), "message": self.message() });
+        if let Self::Case(error) = self {
+            let mistakes = error.mistakes().iter().map(|mistake| {
+                let place = error.place(mistake);
+                json!({
+                    "message": mistake.message,
+                    "help": mistake.help,
+                    "line": place.map(|(line, _)| line),
+                    "column": place.map(|(_, column)| column),
+                })
+            });
+            value["message"] = json!(format!("{}: refused", error.name()));
+            value["mistakes"] = mistakes.collect();
+        }
+        value
+    }
+}
+
+impl From<CaseError> for Failure {
+    fn from(error: CaseError) -> Self {
+        Self::Case(error)
+    }
+}
+
+impl From<Unwritten> for Failure {
+    fn from(unwritten: Unwritten) -> Self {
+        Self::Unwritten(unwritten)
+    }
+}

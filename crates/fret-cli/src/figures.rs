@@ -1,0 +1,87 @@
+//! How numbers, counts and names are shown to a person. Files and JSON carry numbers in full and do not pass here.
+
+/// A number to five significant figures, in plain digits where that is short.
+pub fn figure(value: f64) -> String {
+    let rounded = format!("{value:.4e}");
+    let exponent = rounded.split_once('e').and_then(|(_, exponent)| exponent.parse::<i32>().ok());
+    match exponent {
+        _ if value == 0.0 => "0".to_owned(),
+        Some(exponent @ -2..=4) => format!("{value:.*}", (4 - exponent) as usize),
+        _ => rounded,
+    }
+}
+
+/// The same for a number that only matters beside another: what vanishes in the rounding of `scale` is shown as zero.
+pub fn figure_beside(value: f64, scale: f64) -> String {
+    if value.abs() <= 1e-12 * scale.abs() { "0".to_owned() } else { figure(value) }
+}
+
+/// A count with its noun.
+pub fn counted(count: usize, noun: &str) -> String {
+    let end = if count == 1 { "" } else { "s" };
+    format!("{count} {noun}{end}")
+}
+
+/// A span of time.
+pub fn duration(seconds: f64) -> String {
+    let whole = seconds.round() as u64;
+    match whole {
+        _ if seconds < 9.95 => format!("{seconds:.1} s"),
+        0..60 => format!("{whole} s"),
+        60..3600 => format!("{} min {:02} s", whole / 60, whole % 60),
+        _ => format!("{} h {:02} min", whole / 3600, whole % 3600 / 60),
+    }
+}
+
+/// An amount of memory.
+pub fn memory(bytes: usize) -> String {
+    let megabytes = bytes as f64 / 1e6;
+    if megabytes < 1e3 { format!("{megabytes:.1} MB") } else { format!("{:.1} GB", megabytes / 1e3) }
+}
+
+/// A name, cut where it is longer than so many letters.
+pub fn shortened(name: &str, letters: usize) -> String {
+    if name.chars().count() <= letters {
+        name.to_owned()
+    } else {
+        name.chars().take(letters - 1).chain(['…']).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn figures_have_five_digits_whatever_their_size() {
+        for (value, shown) in [
+            (0.0, "0"),
+            (12.0, "12.000"),
+            (-0.9, "-0.90000"),
+            (0.999_999_99, "1.0000"),
+            (99999.4, "99999"),
+            (123_456.0, "1.2346e5"),
+            (0.012_345_67, "0.012346"),
+            (1.5e-6, "1.5000e-6"),
+            (f64::NAN, "NaN"),
+        ] {
+            assert_eq!(figure(value), shown);
+        }
+    }
+
+    #[test]
+    fn rounding_noise_is_shown_as_zero_beside_what_it_is_noise_of() {
+        assert_eq!(figure_beside(-1.1e-17, 1.0), "0");
+        assert_eq!(figure_beside(-1.1e-17, 1e-16), "-1.1000e-17");
+        assert_eq!(figure_beside(f64::NAN, 1.0), "NaN");
+    }
+
+    #[test]
+    fn durations_are_told_in_the_unit_a_person_would_use() {
+        for (seconds, shown) in
+            [(0.04, "0.0 s"), (9.94, "9.9 s"), (59.2, "59 s"), (75.0, "1 min 15 s"), (7322.0, "2 h 02 min")]
+        {
+            assert_eq!(duration(seconds), shown);
+        }
+    }
+}

@@ -1,0 +1,209 @@
+//! `fields.zarr`: kept fields as a Zarr v3 folder (dims step, x, y), one chunk file a step and field, raw little-endian numbers.
+//!
+//! Shape and step numbers stand from the start; a step that is not reached reads as NaN (zone: 255). xarray opens it with
+//! `xr.open_zarr(path, consolidated=False)`. Format: <https://zarr-specs.readthedocs.io/en/latest/v3/core/index.html>.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use fret_core::history::KeptFields;
+use fret_core::model::Zone;
+use fret_core::plan::Plan;
+use ndarray::Array2;
+use serde_json::{Value, json};
+
+use super::whole_file::write_whole;
+use crate::failure::Unwritten;
+
+/// The store while it is filled.
+#[derive(Debug)]
+pub struct FieldStore {
+    path: PathBuf,
+    cells: [usize; 2],
+    arrays: Vec<&'static FieldArray>,
+    steps: Vec<usize>,
+}
+
+/// One array of the store over step, x and y.
+#[derive(Debug)]
+struct FieldArray {
+    name: &'static str,
+    /// The name in the case file that asks for it.
+    asked_as: &'static str,
+    long_name: &'static str,
+    units: &'static str,
+}
+
+const PRESSURE: &str = "case units: pressure";
+const LENGTH: &str = "case units: length";
+
+const FIELD_ARRAYS: [FieldArray; 7] = [
+    FieldArray {
+        name: "pressure",
+        asked_as: "pressure",
+        long_name: "contact pressure, compression positive",
+        units: PRESSURE,
+    },
+    FieldArray {
+        name: "shear_x",
+        asked_as: "shear",
+        long_name: "shear traction on the lower body along x",
+        units: PRESSURE,
+    },
+    FieldArray {
+        name: "shear_y",
+        asked_as: "shear",
+        long_name: "shear traction on the lower body along y",
+        units: PRESSURE,
+    },
+    FieldArray {
+        name: "slip_x",
+        asked_as: "slip",
+        long_name: "accumulated slip of the upper body against the lower along x",
+        units: LENGTH,
+    },
+    FieldArray {
+        name: "slip_y",
+        asked_as: "slip",
+        long_name: "accumulated slip of the upper body against the lower along y",
+        units: LENGTH,
+    },
+    FieldArray { name: "gap", asked_as: "gap", long_name: "gap between the surfaces", units: LENGTH },
+    FieldArray { name: "zone", asked_as: "zone", long_name: "what the cell does", units: "1" },
+];
+
+impl FieldStore {
+    /// A store of the plan's final shape, without any field yet.
+    pub fn create(path: &Path, plan: &Plan) -> Result<Self, Unwritten> {
+        let asked = |array: &&FieldArray| plan.case.output.fields.iter().any(|name| name == array.asked_as);
+        let store = Self {
+            path: path.to_owned(),
+            cells: plan.grid.cells(),
+            arrays: FIELD_ARRAYS.iter().filter(asked).collect(),
+            steps: plan.case.kept_increments(),
+        };
+        let group = json!({
+            "zarr_format": 3,
+            "node_type": "group",
+            "attributes": { "title": plan.case.title, "made_by": concat!("fretting ", env!("CARGO_PKG_VERSION")) },
+        });
+        store.write_text("zarr.json", &group)?;
+        for (axis, name) in ["x", "y"].into_iter().enumerate() {
+            let centres = plan.grid.centres(axis);
+            let bytes: Vec<u8> = centres.iter().flat_map(|centre| centre.to_le_bytes()).collect();
+            store.write_coordinate(name, "float64", LENGTH, "cell centre", &bytes)?;
+        }
+        store.write_metadata()?;
+        Ok(store)
+    }
+
+    /// Writes the fields of one increment.
+    pub fn keep(&mut self, kept: &KeptFields) -> Result<(), Unwritten> {
+        let step = self.position(kept.increment)?;
+        let [shear, slip] = [&kept.shear, &kept.slip];
+        for array in &self.arrays {
+            let bytes = match array.name {
+                "pressure" => kept.pressure.as_ref().map(numbers),
+                "shear_x" => shear.as_ref().map(|[x, _]| numbers(x)),
+                "shear_y" => shear.as_ref().map(|[_, y]| numbers(y)),
+                "slip_x" => slip.as_ref().map(|[x, _]| numbers(x)),
+                "slip_y" => slip.as_ref().map(|[_, y]| numbers(y)),
+                "gap" => kept.gap.as_ref().map(numbers),
+                _ => kept.zone.as_ref().map(zones),
+            };
+            if let Some(bytes) = bytes {
+                self.write(&format!("{}/c/{step}/0/0", array.name), &bytes)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Place of an increment along `step`. One that was not foreseen is added, so that no field is ever lost.
+    fn position(&mut self, increment: usize) -> Result<usize, Unwritten> {
+        if let Ok(position) = self.steps.binary_search(&increment) {
+            return Ok(position);
+        }
+        self.steps.push(increment);
+        self.write_metadata()?;
+        Ok(self.steps.len() - 1)
+    }
+
+    fn write_metadata(&self) -> Result<(), Unwritten> {
+        let numbers: Vec<u8> = self.steps.iter().flat_map(|&step| (step as i64).to_le_bytes()).collect();
+        self.write_coordinate("step", "int64", "1", "number of the increment, from 0", &numbers)?;
+        let [nx, ny] = self.cells;
+        for array in &self.arrays {
+            let zone = array.name == "zone";
+            let mut attributes = json!({ "units": array.units, "long_name": array.long_name });
+            if zone {
+                attributes["flag_values"] = json!([0, 1, 2]);
+                attributes["flag_meanings"] = json!("open stick slip");
+            }
+            let metadata = json!({
+                "zarr_format": 3,
+                "node_type": "array",
+                "shape": [self.steps.len(), nx, ny],
+                "data_type": if zone { "uint8" } else { "float64" },
+                "chunk_grid": { "name": "regular", "configuration": { "chunk_shape": [1, nx, ny] } },
+                "chunk_key_encoding": { "name": "default", "configuration": { "separator": "/" } },
+                "fill_value": if zone { json!(255) } else { json!("NaN") },
+                "codecs": [little_endian_bytes()],
+                "attributes": attributes,
+                "dimension_names": ["step", "x", "y"],
+            });
+            self.write_text(&format!("{}/zarr.json", array.name), &metadata)?;
+        }
+        Ok(())
+    }
+
+    /// An axis in one chunk: every number takes eight bytes.
+    fn write_coordinate(
+        &self,
+        name: &str,
+        data_type: &str,
+        units: &str,
+        long_name: &str,
+        bytes: &[u8],
+    ) -> Result<(), Unwritten> {
+        let length = bytes.len() / 8;
+        let metadata = json!({
+            "zarr_format": 3,
+            "node_type": "array",
+            "shape": [length],
+            "data_type": data_type,
+            "chunk_grid": { "name": "regular", "configuration": { "chunk_shape": [length] } },
+            "chunk_key_encoding": { "name": "default", "configuration": { "separator": "/" } },
+            "fill_value": 0,
+            "codecs": [little_endian_bytes()],
+            "attributes": { "units": units, "long_name": long_name },
+            "dimension_names": [name],
+        });
+        self.write(&format!("{name}/c/0"), bytes)?;
+        self.write_text(&format!("{name}/zarr.json"), &metadata)
+    }
+
+    fn write_text(&self, key: &str, value: &Value) -> Result<(), Unwritten> {
+        self.write(key, format!("{value:#}\n").as_bytes())
+    }
+
+    fn write(&self, key: &str, content: &[u8]) -> Result<(), Unwritten> {
+        let path = self.path.join(key);
+        if let Some(folder) = path.parent() {
+            fs::create_dir_all(folder).map_err(Unwritten::at(folder))?;
+        }
+        write_whole(&path, content)
+    }
+}
+
+fn little_endian_bytes() -> Value {
+    json!({ "name": "bytes", "configuration": { "endian": "little" } })
+}
+
+/// A field in the order of its index `[i, j]`, j fastest, as Zarr wants it.
+fn numbers(field: &Array2<f64>) -> Vec<u8> {
+    field.iter().flat_map(|value| value.to_le_bytes()).collect()
+}
+
+fn zones(field: &Array2<Zone>) -> Vec<u8> {
+    field.iter().map(|&zone| zone as u8).collect()
+}

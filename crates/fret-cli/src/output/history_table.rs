@@ -1,0 +1,118 @@
+//! `history.csv`: a line an increment, on disk as soon as the increment is solved.
+
+use std::fs::File;
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+use fret_core::history::{Regime, StepRecord};
+
+use crate::failure::Unwritten;
+
+/// The columns, in order; the names are those of `history.steps` in Python.
+const COLUMNS: [&str; 23] = [
+    "increment",
+    "stage",
+    "normal_force",
+    "approach",
+    "tangential_force_x",
+    "tangential_force_y",
+    "shift_x",
+    "shift_y",
+    "twist_moment",
+    "twist",
+    "max_pressure",
+    "max_shear",
+    "contact_area",
+    "stick_area",
+    "dissipated_energy",
+    "residual",
+    "convolutions",
+    "preconditioner_passes",
+    "outer_iterations",
+    "wall_s",
+    "contact_cells",
+    "stick_cells",
+    "regime",
+];
+
+/// The table while it grows.
+#[derive(Debug)]
+pub struct HistoryTable {
+    path: PathBuf,
+    file: File,
+}
+
+impl HistoryTable {
+    /// A table with its head; an earlier one is gone.
+    pub fn create(path: &Path) -> Result<Self, Unwritten> {
+        let mut file = File::create(path).map_err(Unwritten::at(path))?;
+        file.write_all(format!("{}\n", COLUMNS.join(",")).as_bytes()).map_err(Unwritten::at(path))?;
+        Ok(Self { path: path.to_owned(), file })
+    }
+
+    /// Adds an increment: one write a line, so that a killed process leaves whole lines.
+    pub fn add(&mut self, record: &StepRecord) -> Result<(), Unwritten> {
+        self.file.write_all(line(record).as_bytes()).map_err(Unwritten::at(&self.path))
+    }
+
+    /// Waits until the table is on the disk.
+    pub fn close(self) -> Result<(), Unwritten> {
+        self.file.sync_all().map_err(Unwritten::at(&self.path))
+    }
+}
+
+fn line(record: &StepRecord) -> String {
+    let cells: [String; COLUMNS.len()] = [
+        record.increment.to_string(),
+        record.stage.to_string(),
+        exact(record.normal_force),
+        exact(record.approach),
+        exact(record.tangential_force[0]),
+        exact(record.tangential_force[1]),
+        exact(record.shift[0]),
+        exact(record.shift[1]),
+        exact(record.twist_moment),
+        exact(record.twist),
+        exact(record.max_pressure),
+        exact(record.max_shear),
+        exact(record.contact_area),
+        exact(record.stick_area),
+        exact(record.dissipated_energy),
+        exact(record.residual.largest()),
+        record.work.convolutions.to_string(),
+        record.work.preconditioner_passes.to_string(),
+        record.work.outer_iterations.to_string(),
+        exact(record.wall_s),
+        record.contact_cells.to_string(),
+        record.stick_cells.to_string(),
+        word(record.regime).to_owned(),
+    ];
+    cells.join(",") + "\n"
+}
+
+/// The shortest digits that read back as the same number.
+fn exact(value: f64) -> String {
+    format!("{value:?}")
+}
+
+fn word(regime: Regime) -> &'static str {
+    match regime {
+        Regime::Apart => "apart",
+        Regime::FullStick => "full_stick",
+        Regime::PartialSlip => "partial_slip",
+        Regime::GrossSlip => "gross_slip",
+        Regime::Frictionless => "frictionless",
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_read_back_as_they_were() {
+        for value in [0.1 + 0.2, 1.0 / 3.0, 1e-300, -4.2e17, 12.0] {
+            assert_eq!(exact(value).parse(), Ok(value));
+        }
+    }
+}

@@ -1,0 +1,112 @@
+//! `run.json`: what was computed, by which version, with what, and how it ended.
+
+use std::path::Path;
+use std::time::{SystemTime, UNIX_EPOCH};
+
+use fret_core::plan::Plan;
+use serde_json::{Value, json};
+
+use crate::case_file::CaseFile;
+use crate::failure::Failure;
+use crate::tally::Tally;
+
+/// Version of the folder's format.
+const FORMAT: u32 = 1;
+
+/// The record of a run, without its end.
+#[derive(Debug)]
+pub struct RunRecord(Value);
+
+impl RunRecord {
+    /// The record of a run that starts now.
+    pub fn new(case_file: &CaseFile, plan: &Plan, threads: usize) -> Self {
+        let started = SystemTime::now().duration_since(UNIX_EPOCH).map_or(0, |since| since.as_secs());
+        Self(json!({
+            "format": FORMAT,
+            "program": "fretting",
+            "version": env!("CARGO_PKG_VERSION"),
+            "started_unix_s": started,
+            "threads": threads,
+            "tolerance": plan.case.tolerance,
+            "case_file": {
+                "name": case_file.path.file_name().map(|name| name.to_string_lossy()),
+                "fnv1a64": fnv1a64(case_file.text.as_bytes()),
+                "path_fnv1a64": path_hash(&case_file.path),
+            },
+            "plan": resolved(plan),
+        }))
+    }
+
+    /// As it stands while the run goes; as it stays when the run is killed.
+    pub fn running(&self) -> Vec<u8> {
+        self.with(json!({ "status": "running" }))
+    }
+
+    /// As it stands after the run.
+    pub fn ended(&self, tally: &Tally, wall_s: f64, failure: Option<&Failure>) -> Vec<u8> {
+        self.with(json!({
+            "status": failure.map_or("solved", Failure::status),
+            "message": failure.map(Failure::message),
+            "totals": {
+                "increments": tally.solved,
+                "convolutions": tally.work.convolutions,
+                "preconditioner_passes": tally.work.preconditioner_passes,
+                "outer_iterations": tally.work.outer_iterations,
+                "largest_residual": tally.largest_residual,
+                "dissipated_energy": tally.stage_ends.last().map_or(0.0, |record| record.dissipated_energy),
+                "wall_s": wall_s,
+            },
+        }))
+    }
+
+    fn with(&self, end: Value) -> Vec<u8> {
+        let mut record = self.0.clone();
+        if let (Some(record), Value::Object(end)) = (record.as_object_mut(), end) {
+            record.extend(end);
+        }
+        format!("{record:#}\n").into_bytes()
+    }
+}
+
+/// A plan as JSON, with the case as it was understood: every default filled in.
+pub fn resolved(plan: &Plan) -> Value {
+    // Only a number that is no number JSON has could fail here, and a checked case holds none.
+    let mut value = serde_json::to_value(plan).unwrap_or(Value::Null);
+    if plan.case.output.every == usize::MAX {
+        value["case"]["output"]["every"] = Value::Null;
+    }
+    value
+}
+
+/// Whether a record was made from the file that `case_file` was read from.
+pub fn is_of_case(record: &[u8], case_file: &CaseFile) -> bool {
+    serde_json::from_slice::<Value>(record)
+        .is_ok_and(|record| record["case_file"]["path_fnv1a64"] == path_hash(&case_file.path))
+}
+
+/// A case file's place, told apart from others without telling a reader of the results where the user's files lie.
+fn path_hash(path: &Path) -> String {
+    let path = path.canonicalize().unwrap_or_else(|_| path.to_owned());
+    fnv1a64(path.as_os_str().as_encoded_bytes())
+}
+
+/// Fowler, Noll and Vo's hash FNV-1a of 64 bits, in hexadecimal digits: tells texts apart, is no protection.
+fn fnv1a64(bytes: &[u8]) -> String {
+    let hash = bytes.iter().fold(0xcbf2_9ce4_8422_2325_u64, |hash, &byte| {
+        (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3)
+    });
+    format!("{hash:016x}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_hash_is_fnv_1a() {
+        // Test vectors of the authors' list (isthe.com/chongo/tech/comp/fnv).
+        assert_eq!(fnv1a64(b""), "cbf29ce484222325");
+        assert_eq!(fnv1a64(b"a"), "af63dc4c8601ec8c");
+        assert_eq!(fnv1a64(b"foobar"), "85944171f73967e8");
+    }
+}

@@ -1,0 +1,29 @@
+//! Files that are there whole or not at all: written beside, synchronised, renamed into place.
+
+use std::fs::{self, File};
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+use crate::failure::Unwritten;
+
+/// Writes a file. A reader, and a kill at any moment, finds the old content or the new one, never a part.
+pub fn write_whole(path: &Path, content: &[u8]) -> Result<(), Unwritten> {
+    let part = part_of(path);
+    File::create(&part)
+        .and_then(|mut file| {
+            file.write_all(content)?;
+            file.sync_all()
+        })
+        .and_then(|()| fs::rename(&part, path))
+        .map_err(|error| {
+            // What is left of a failed attempt is of no use; if even that cannot be removed, the first error says why.
+            let _ = fs::remove_file(&part);
+            Unwritten::at(path)(error)
+        })
+}
+
+fn part_of(path: &Path) -> PathBuf {
+    let mut name = path.as_os_str().to_owned();
+    name.push(".part");
+    PathBuf::from(name)
+}

@@ -1,0 +1,151 @@
+//! How a run is followed on standard error: a live bar for a person, plain lines for a log, nothing when nobody wants it.
+
+use std::time::{Duration, Instant};
+
+use fret_core::history::StepRecord;
+use fret_core::simulation::Iteration;
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+
+use crate::figures::{duration, figure, shortened};
+use crate::tally::Tally;
+use crate::terminal;
+
+/// The bar's second line is not written anew more often than this.
+const LIVE_PAUSE: Duration = Duration::from_millis(60);
+/// Plain lines come no more often than this, except at the end of a stage and at every tenth of the run.
+const PLAIN_PAUSE: Duration = Duration::from_secs(2);
+/// Later the pauses grow with the run: this share of the time it has taken.
+const PLAIN_PAUSE_SHARE: f64 = 0.05;
+/// Letters of the title that stand before the bar.
+const TITLE_LETTERS: usize = 24;
+
+/// A face for the run.
+#[derive(Debug)]
+pub struct Progress {
+    face: Face,
+    increments: usize,
+    started: Instant,
+    last_shown: Instant,
+    tenths: usize,
+}
+
+#[derive(Debug)]
+enum Face {
+    Quiet,
+    Plain,
+    Live(ProgressBar),
+}
+
+impl Progress {
+    /// The face that fits: quiet when asked for, live for a terminal, plain otherwise.
+    pub fn new(quiet: bool, title: &str, increments: usize) -> Self {
+        let face = match (quiet, terminal::is_watched()) {
+            (true, _) => Face::Quiet,
+            (false, true) => Face::Live(live_bar(title, increments)),
+            (false, false) => Face::Plain,
+        };
+        let now = Instant::now();
+        let progress = Self { face, increments, started: now, last_shown: now, tenths: 0 };
+        if let Face::Live(bar) = &progress.face {
+            bar.set_message("preparing the operators");
+            bar.enable_steady_tick(Duration::from_millis(120));
+        }
+        progress
+    }
+
+    /// An iteration was done.
+    pub fn iterated(&mut self, iteration: &Iteration, tally: &Tally) {
+        let pause = match self.face {
+            Face::Quiet => return,
+            Face::Live(_) => LIVE_PAUSE,
+            Face::Plain => self.plain_pause(),
+        };
+        if self.last_shown.elapsed() < pause {
+            return;
+        }
+        self.last_shown = Instant::now();
+        let stage = tally.stage_of(iteration.increment).map_or("", |stage| stage.name.as_str());
+        let stage = shortened(stage, TITLE_LETTERS);
+        let standing = format!(
+            "{stage}  iteration {}  residual {:.1e} (goal {:.1e})",
+            iteration.iteration, iteration.residual, iteration.tolerance
+        );
+        match &self.face {
+            Face::Live(bar) => bar.set_message(standing),
+            _ => self.line(&format!("{}  {standing}", self.place(iteration.increment + 1))),
+        }
+    }
+
+    /// An increment is solved and counted.
+    pub fn solved(&mut self, record: &StepRecord, tally: &Tally) {
+        if let Face::Live(bar) = &self.face {
+            bar.set_position(tally.solved as u64);
+        }
+        let stage = tally.stages.get(record.stage);
+        let ends_stage = stage.is_some_and(|stage| stage.last == record.increment);
+        let tenths = tally.solved * 10 / self.increments.max(1);
+        let due = tenths > self.tenths || self.last_shown.elapsed() >= self.plain_pause();
+        if !(ends_stage || (matches!(self.face, Face::Plain) && due)) {
+            return;
+        }
+        self.tenths = tenths;
+        self.last_shown = Instant::now();
+        let name = stage.map_or("", |stage| stage.name.as_str());
+        self.line(&format!(
+            "{}  {name}{}  force {}  max pressure {}  residual {:.1e}  {}",
+            self.place(tally.solved),
+            if ends_stage { " done" } else { "" },
+            figure(record.normal_force),
+            figure(record.max_pressure),
+            record.residual.largest(),
+            self.time(tally.solved),
+        ));
+    }
+
+    /// The run is over, in whatever way: the terminal belongs to others again.
+    pub fn end(&self) {
+        if let Face::Live(bar) = &self.face {
+            bar.finish_and_clear();
+        }
+    }
+
+    fn line(&self, text: &str) {
+        match &self.face {
+            Face::Quiet => {}
+            Face::Plain => terminal::say(text),
+            Face::Live(bar) => bar.println(text),
+        }
+    }
+
+    fn place(&self, count: usize) -> String {
+        let width = self.increments.to_string().len();
+        format!("increment {count:>width$}/{}", self.increments)
+    }
+
+    fn time(&self, solved: usize) -> String {
+        let elapsed = self.started.elapsed().as_secs_f64();
+        let left = elapsed * self.increments.saturating_sub(solved) as f64 / solved.max(1) as f64;
+        if solved < self.increments {
+            format!("{}, about {} left", duration(elapsed), duration(left))
+        } else {
+            duration(elapsed)
+        }
+    }
+
+    fn plain_pause(&self) -> Duration {
+        PLAIN_PAUSE.max(self.started.elapsed().mul_f64(PLAIN_PAUSE_SHARE))
+    }
+}
+
+fn live_bar(title: &str, increments: usize) -> ProgressBar {
+    let colour = if terminal::errors_in_colour() { ":.cyan/dim" } else { "" };
+    let template = format!(
+        "{{prefix}}  {{wide_bar{colour}}} {{pos}}/{{len}}  {{elapsed_precise}} < {{eta_precise}}\n  {{spinner}} {{msg}}"
+    );
+
+    // The template is ours; if it were ever wrong, indicatif's own style serves as well.
+    let style = ProgressStyle::with_template(&template).unwrap_or_else(|_| ProgressStyle::default_bar());
+    ProgressBar::with_draw_target(Some(increments as u64), ProgressDrawTarget::stderr())
+        .with_style(style.progress_chars("━╸─"))
+        .with_prefix(shortened(title, TITLE_LETTERS))
+}

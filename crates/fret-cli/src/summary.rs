@@ -1,0 +1,190 @@
+//! What a run found, at its end: as a table for a person, as JSON for a program.
+
+use std::fmt::Write;
+use std::path::Path;
+
+use fret_core::history::StepRecord;
+use fret_core::plan::{Coupling, Plan};
+use serde_json::{Value, json};
+
+use crate::failure::Failure;
+use crate::figures::{counted, duration, figure, figure_beside, shortened};
+use crate::tally::{CycleEnergy, Tally};
+
+/// Stages that stand side by side in the table.
+const MOST_COLUMNS: usize = 4;
+/// Cycles that are listed one by one.
+const MOST_CYCLES: usize = 6;
+/// Width of the names on the left.
+const NAMES: usize = 30;
+/// Width of a column of numbers.
+const COLUMN: usize = 15;
+
+/// A run that is over.
+#[derive(Debug)]
+pub struct Summary<'a> {
+    /// What was planned.
+    pub plan: &'a Plan,
+    /// What it came to.
+    pub tally: &'a Tally,
+    /// Where the results are.
+    pub folder: &'a Path,
+    /// Time of the whole run [s].
+    pub wall_s: f64,
+    /// Threads computed with.
+    pub threads: usize,
+}
+
+type Reading = fn(&StepRecord) -> String;
+
+impl Summary<'_> {
+    /// The table.
+    pub fn table(&self) -> String {
+        let mut table = String::new();
+        if !self.plan.case.title.is_empty() {
+            let _ = writeln!(table, "{}\n", self.plan.case.title);
+        }
+        let ends = &self.tally.stage_ends;
+        let shown = &ends[ends.len().saturating_sub(MOST_COLUMNS)..];
+        let names = shown.iter().map(|record| self.stage_name(record.stage));
+        row(&mut table, "at the end of", names.map(|name| shortened(name, COLUMN - 2)));
+        for (name, reading) in self.readings() {
+            row(&mut table, name, shown.iter().map(reading));
+        }
+        if shown.len() < ends.len() {
+            let _ = writeln!(table, "(the last {MOST_COLUMNS} of {} stages)", ends.len());
+        }
+        table.push('\n');
+        self.cycles(&mut table);
+        let residual =
+            format!("{:.1e} (asked for {:.1e})", self.tally.largest_residual, self.plan.case.tolerance);
+        for (name, value) in [
+            ("increments", self.tally.solved.to_string()),
+            ("largest residual", residual),
+            ("convolutions", self.tally.work.convolutions.to_string()),
+            ("wall time", format!("{} on {}", duration(self.wall_s), counted(self.threads, "thread"))),
+            ("results", self.folder.display().to_string()),
+        ] {
+            let _ = writeln!(table, "{name:<NAMES$}{value}");
+        }
+        table.truncate(table.trim_end().len());
+        table
+    }
+
+    fn readings(&self) -> Vec<(&'static str, Reading)> {
+        let mut readings: Vec<(&'static str, Reading)> = vec![
+            ("normal force", |record| figure(record.normal_force)),
+            ("approach", |record| figure(record.approach)),
+            ("largest pressure", |record| figure(record.max_pressure)),
+            ("contact area", |record| figure(record.contact_area)),
+            ("radius of a circle that large", |record| {
+                figure((record.contact_area / std::f64::consts::PI).sqrt())
+            }),
+        ];
+        if self.plan.coupling != Coupling::Frictionless {
+            readings.extend::<[(&'static str, Reading); 7]>([
+                ("tangential force x", |record| {
+                    figure_beside(record.tangential_force[0], record.normal_force)
+                }),
+                ("tangential force y", |record| {
+                    figure_beside(record.tangential_force[1], record.normal_force)
+                }),
+                ("shift x", |record| figure_beside(record.shift[0], record.shift[0].hypot(record.shift[1]))),
+                ("shift y", |record| figure_beside(record.shift[1], record.shift[0].hypot(record.shift[1]))),
+                ("largest shear", |record| figure(record.max_shear)),
+                ("share of the contact in stick", |record| {
+                    stick_share(record).map_or("-".to_owned(), percent)
+                }),
+                ("energy dissipated so far", |record| figure(record.dissipated_energy)),
+            ]);
+        }
+        if self.plan.case.stages.iter().any(|stage| stage.twist.is_some()) {
+            readings.push(("twist moment", |record| figure(record.twist_moment)));
+            readings.push(("twist", |record| figure(record.twist)));
+        }
+        readings
+    }
+
+    fn cycles(&self, table: &mut String) {
+        let energies = &self.tally.cycle_energies;
+        let skipped = energies.len().saturating_sub(MOST_CYCLES);
+        let mut line = |energy: &CycleEnergy| {
+            let name = format!("energy dissipated in cycle {}", energy.cycle);
+            let value = figure(energy.energy);
+            let _ = writeln!(table, "{name:<NAMES$}{value:>COLUMN$}  {}", self.stage_name(energy.stage));
+        };
+        energies.iter().take(1).for_each(&mut line);
+        energies.iter().skip(1 + skipped).for_each(&mut line);
+        if skipped > 0 {
+            let _ =
+                writeln!(table, "(the first cycle and the last {} of {})", MOST_CYCLES - 1, energies.len());
+        }
+        if !energies.is_empty() {
+            table.push('\n');
+        }
+    }
+
+    /// The same for programs; `failure` says why the run ended early, if it did.
+    pub fn to_json(&self, failure: Option<&Failure>) -> Value {
+        let stages: Vec<Value> = self
+            .tally
+            .stage_ends
+            .iter()
+            .map(|record| {
+                let mut value = serde_json::to_value(record).unwrap_or(Value::Null);
+                value["name"] = json!(self.stage_name(record.stage));
+                value["equivalent_radius"] = json!((record.contact_area / std::f64::consts::PI).sqrt());
+                value["stick_share"] = json!(stick_share(record));
+                value
+            })
+            .collect();
+        let cycles: Vec<Value> = self
+            .tally
+            .cycle_energies
+            .iter()
+            .map(|energy| {
+                json!({
+                    "stage": self.stage_name(energy.stage),
+                    "cycle": energy.cycle,
+                    "dissipated_energy": energy.energy,
+                })
+            })
+            .collect();
+        json!({
+            "status": failure.map_or("solved", Failure::status),
+            "message": failure.map(Failure::message),
+            "title": self.plan.case.title,
+            "stages": stages,
+            "cycles": cycles,
+            "increments": self.tally.solved,
+            "increments_planned": self.plan.increments,
+            "largest_residual": self.tally.largest_residual,
+            "tolerance": self.plan.case.tolerance,
+            "work": self.tally.work,
+            "wall_s": self.wall_s,
+            "threads": self.threads,
+            "results": self.folder,
+        })
+    }
+
+    fn stage_name(&self, stage: usize) -> &str {
+        self.tally.stages.get(stage).map_or("", |stage| stage.name.as_str())
+    }
+}
+
+fn row(table: &mut String, name: &str, values: impl Iterator<Item = String>) {
+    let _ = write!(table, "{name:<NAMES$}");
+    for value in values {
+        let _ = write!(table, "{value:>COLUMN$}");
+    }
+    table.push('\n');
+}
+
+/// Share of the cells in contact that stick; none when nothing touches.
+fn stick_share(record: &StepRecord) -> Option<f64> {
+    (record.contact_cells > 0).then(|| record.stick_cells as f64 / record.contact_cells as f64)
+}
+
+fn percent(share: f64) -> String {
+    format!("{:.1} %", 100.0 * share)
+}

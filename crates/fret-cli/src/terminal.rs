@@ -1,0 +1,38 @@
+//! The two streams: answers on standard output, everything else on standard error; when there is colour and when there is a person.
+
+use std::io::{self, IsTerminal, Write};
+use std::path::Path;
+
+use crate::failure::{Failure, Unwritten};
+
+/// Writes an answer. A reader that has gone away (`fret plan case.toml | head -1`) is no failure.
+pub fn answer(text: &str) -> Result<(), Failure> {
+    let mut stdout = io::stdout().lock();
+    match writeln!(stdout, "{text}").and_then(|()| stdout.flush()) {
+        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => {
+            Err(Unwritten::at(Path::new("standard output"))(error).into())
+        }
+        _ => Ok(()),
+    }
+}
+
+/// Says something beside the answer. When standard error is closed, there is nobody to tell.
+pub fn say(text: &str) {
+    let _ = writeln!(io::stderr().lock(), "{text}");
+}
+
+/// Whether a person watches standard error.
+pub fn is_watched() -> bool {
+    io::stderr().is_terminal()
+}
+
+/// Whether standard error takes colour.
+pub fn errors_in_colour() -> bool {
+    is_watched() && colour_is_welcome()
+}
+
+fn colour_is_welcome() -> bool {
+    let unwelcome = std::env::var_os("NO_COLOR").is_some_and(|value| !value.is_empty());
+    let dumb = std::env::var_os("TERM").is_some_and(|term| term == "dumb");
+    !unwelcome && !dumb
+}

@@ -1,0 +1,50 @@
+//! `check`, `plan`, `schema`: answers without any heavy work and without any file.
+
+use std::path::Path;
+
+use crate::bench::{Bench, SPHERE};
+
+#[test]
+fn a_good_case_is_called_good_with_a_few_facts() {
+    let bench = Bench::new("good");
+    let answer = bench.file("case.toml", SPHERE).fret(&["check", "case.toml"]);
+    assert_eq!(answer.code, Some(0), "{}", answer.err);
+    assert!(answer.out.starts_with("case.toml: good\n"), "{}", answer.out);
+    assert!(answer.out.contains("24 x 24 cells"), "{}", answer.out);
+    assert!(answer.out.contains("19 increments"), "{}", answer.out);
+    assert_eq!(answer.err, "");
+    assert_eq!(bench.names(), ["case.toml"]);
+}
+
+#[test]
+fn a_plan_says_what_is_left_out_and_why() {
+    let bench = Bench::new("plan");
+    let frictionless = SPHERE.replace("coefficient = 0.1", "coefficient = 0.0");
+    let pressed_only = frictionless.split("[[load]]\nname = \"fretting\"").next().unwrap().to_owned();
+    let answer = bench.file("case.toml", &pressed_only).fret(&["plan", "case.toml"]);
+    assert_eq!(answer.code, Some(0), "{}", answer.err);
+    for words in ["left out", "there is no friction", "memory"] {
+        assert!(answer.out.contains(words), "expected {words:?}: {}", answer.out);
+    }
+    assert_eq!(bench.names(), ["case.toml"], "planning writes nothing");
+}
+
+#[test]
+fn a_plan_in_json_carries_the_case_as_it_was_understood() {
+    let bench = Bench::new("plan-json");
+    let answer = bench.file("case.toml", SPHERE).fret(&["plan", "case.toml", "--json"]);
+    let plan: serde_json::Value = serde_json::from_str(&answer.out).unwrap();
+    assert_eq!(plan["increments"], 19);
+    assert_eq!(plan["grid"]["cells"], serde_json::json!([24, 24]));
+    assert_eq!(plan["case"]["tolerance"], 1e-8);
+    assert!(plan["left_out"].is_array());
+}
+
+#[test]
+fn the_schema_beside_the_examples_is_the_one_the_command_prints() {
+    let printed = Bench::new("schema").fret(&["schema"]);
+    assert_eq!(printed.code, Some(0));
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../examples/fret.schema.json");
+    let stored = std::fs::read_to_string(path).unwrap().replace("\r\n", "\n");
+    assert_eq!(stored, printed.out, "renew it: cargo run -- schema > examples/fret.schema.json");
+}

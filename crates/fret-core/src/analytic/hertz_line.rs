@@ -1,0 +1,57 @@
+//! A cylinder pressed on a half-space without friction.
+
+use std::f64::consts::PI;
+
+use serde::Serialize;
+
+use super::error::{AnalyticError, positive};
+use super::moduli::effective_modulus;
+
+/// Frictionless line contact of cylinders, gap `x² / 2R`.
+///
+/// `a² = 4P'R/(πE*)`, `p0 = 2P'/(πa)`. Source: Hertz (1881); Johnson (1985), *Contact Mechanics*, §4.2(c).
+/// The approach does not exist: in two dimensions displacement grows with the logarithm of the distance.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[non_exhaustive]
+pub struct HertzLine {
+    /// Force per length P' [force / length].
+    pub line_force: f64,
+    /// Half-width a of the contact [length].
+    pub half_width: f64,
+    /// Pressure p0 in the middle [pressure].
+    pub peak_pressure: f64,
+}
+
+impl HertzLine {
+    /// Contact of relative radius R under a force per length.
+    ///
+    /// # Errors
+    /// When a value is not positive and finite.
+    pub fn cylinder(radius: f64, line_force: f64, modulus: f64) -> Result<Self, AnalyticError> {
+        let (radius, line_force) = (positive("radius", radius)?, positive("line force", line_force)?);
+        let half_width = (4.0 * line_force * radius / (PI * effective_modulus(modulus)?)).sqrt();
+        Ok(Self { line_force, half_width, peak_pressure: 2.0 * line_force / (PI * half_width) })
+    }
+
+    /// Pressure at `x` from the middle [pressure]; zero outside the contact.
+    pub fn pressure(&self, x: f64) -> f64 {
+        let depth = 1.0 - (x / self.half_width).powi(2);
+        self.peak_pressure * depth.max(0.0).sqrt()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::HertzLine;
+    use crate::analytic::quadrature::integral;
+
+    #[test]
+    fn cylinder_matches_the_steel_example() {
+        let contact = HertzLine::cylinder(10.0, 100.0, 200e3 / 0.91).unwrap();
+        assert!((contact.half_width - 0.076_113_336_1).abs() < 1e-10);
+        assert!((contact.peak_pressure - 836.410_286_5).abs() < 1e-7);
+        let carried = integral(-contact.half_width, contact.half_width, |x| contact.pressure(x));
+        assert!((carried / 100.0 - 1.0).abs() < 1e-13);
+        assert!(HertzLine::cylinder(10.0, 0.0, 1.0).is_err());
+    }
+}

@@ -1,0 +1,282 @@
+//! The case file as it is written: unchecked, with the place of every value. The doc comments here are the schema's descriptions.
+
+use schemars::JsonSchema;
+use serde::Deserialize;
+use serde::de::{self, SeqAccess, Visitor};
+use toml::Spanned;
+
+/// A fretting contact: bodies, first gap, friction, and a loading history. Any consistent system of units.
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[schemars(title = "fretting case")]
+pub(super) struct CaseFile {
+    /// A title for tables and pictures.
+    pub title: Option<String>,
+    /// The mesh of the potential contact area.
+    pub grid: GridFile,
+    /// The body that moves.
+    #[schemars(with = "BodyFile")]
+    pub upper: Spanned<BodyFile>,
+    /// The body below; z points into it.
+    #[schemars(with = "BodyFile")]
+    pub lower: Spanned<BodyFile>,
+    /// Undeformed gap: zero at first touch.
+    #[schemars(with = "ProfileFile")]
+    pub profile: Spanned<ProfileFile>,
+    /// Dry friction. Without it the contact is frictionless.
+    pub friction: Option<FrictionFile>,
+    /// Stages of the loading history, in order.
+    #[schemars(with = "Vec<StageFile>")]
+    pub load: Spanned<Vec<Spanned<StageFile>>>,
+    /// Accuracy of the solution.
+    pub solver: Option<SolverFile>,
+    /// What is kept.
+    pub output: Option<OutputFile>,
+}
+
+/// The mesh of the potential contact area, centred on the first point of touch.
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(super) struct GridFile {
+    /// Number of cells along x and y.
+    #[schemars(with = "[usize; 2]")]
+    pub cells: Spanned<[usize; 2]>,
+    /// Side lengths along x and y, or "auto": chosen so that the contact fits with a margin.
+    #[schemars(with = "SizeSchema")]
+    pub size: Spanned<SizeFile>,
+    /// Whether the scene repeats in x and y; free space otherwise.
+    #[schemars(with = "Option<bool>")]
+    pub periodic: Option<Spanned<bool>>,
+}
+
+/// Side lengths, or the word "auto".
+#[derive(Debug, Clone, Copy)]
+pub(super) enum SizeFile {
+    Given([f64; 2]),
+    Auto,
+}
+
+#[derive(JsonSchema)]
+#[serde(untagged)]
+#[expect(dead_code, reason = "stands for SizeFile in the schema")]
+enum SizeSchema {
+    Given([f64; 2]),
+    Auto(AutoWord),
+}
+
+#[derive(JsonSchema)]
+#[serde(rename_all = "lowercase")]
+#[expect(dead_code, reason = "stands for a word in the schema")]
+enum AutoWord {
+    Auto,
+}
+
+impl<'de> Deserialize<'de> for SizeFile {
+    fn deserialize<D: de::Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct SizeVisitor;
+        impl<'de> Visitor<'de> for SizeVisitor {
+            type Value = SizeFile;
+            fn expecting(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+                formatter.write_str("two side lengths [x, y] or \"auto\"")
+            }
+            fn visit_str<E: de::Error>(self, word: &str) -> Result<SizeFile, E> {
+                if word == "auto" {
+                    Ok(SizeFile::Auto)
+                } else {
+                    Err(E::invalid_value(de::Unexpected::Str(word), &self))
+                }
+            }
+            fn visit_seq<A: SeqAccess<'de>>(self, mut sequence: A) -> Result<SizeFile, A::Error> {
+                let mut sides = [0.0; 2];
+                for (index, side) in sides.iter_mut().enumerate() {
+                    *side =
+                        sequence.next_element()?.ok_or_else(|| de::Error::invalid_length(index, &self))?;
+                }
+                if sequence.next_element::<f64>()?.is_some() {
+                    return Err(de::Error::invalid_length(3, &self));
+                }
+                Ok(SizeFile::Given(sides))
+            }
+        }
+        deserializer.deserialize_any(SizeVisitor)
+    }
+}
+
+/// A body: `rigid = true`, or coatings (outermost first) on a `substrate` or on `base = "rigid"`.
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(super) struct BodyFile {
+    /// A body that does not deform.
+    #[schemars(with = "Option<bool>")]
+    pub rigid: Option<Spanned<bool>>,
+    /// Bonded coatings, outermost first.
+    #[schemars(with = "Option<Vec<CoatingFile>>")]
+    pub coatings: Option<Spanned<Vec<CoatingFile>>>,
+    /// The elastic half-space under the coatings.
+    #[schemars(with = "Option<MaterialFile>")]
+    pub substrate: Option<Spanned<MaterialFile>>,
+    /// What the coatings are bonded to when there is no substrate: "rigid".
+    #[schemars(with = "Option<BaseFile>")]
+    pub base: Option<Spanned<BaseFile>>,
+}
+
+/// The one foundation that is not a substrate.
+#[derive(Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub(super) enum BaseFile {
+    /// A foundation that does not deform.
+    Rigid,
+}
+
+/// A bonded layer.
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(super) struct CoatingFile {
+    /// Thickness [length], positive.
+    #[schemars(with = "f64")]
+    pub thickness: Spanned<f64>,
+    /// Young's modulus [pressure], positive.
+    #[schemars(with = "f64")]
+    pub young: Spanned<f64>,
+    /// Poisson's ratio, above -1, at most 0.5.
+    #[schemars(with = "f64")]
+    pub poisson: Spanned<f64>,
+}
+
+/// An isotropic elastic material.
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(super) struct MaterialFile {
+    /// Young's modulus [pressure], positive.
+    #[schemars(with = "f64")]
+    pub young: Spanned<f64>,
+    /// Poisson's ratio, above -1, at most 0.5.
+    #[schemars(with = "f64")]
+    pub poisson: Spanned<f64>,
+}
+
+/// Shape of the undeformed gap.
+#[derive(Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub(super) enum ProfileFile {
+    /// A sphere, as the paraboloid r^2 / (2 R).
+    Sphere(SphereFile),
+    /// A paraboloid with two radii of curvature.
+    Ellipsoid(EllipsoidFile),
+    /// A cylinder (not built yet).
+    Cylinder(#[schemars(with = "serde_json::Value")] de::IgnoredAny),
+    /// A flat punch with rounded edges (not built yet).
+    RoundedPunch(#[schemars(with = "serde_json::Value")] de::IgnoredAny),
+    /// A flat punch (not built yet).
+    FlatPunch(#[schemars(with = "serde_json::Value")] de::IgnoredAny),
+    /// A cone (not built yet).
+    Cone(#[schemars(with = "serde_json::Value")] de::IgnoredAny),
+    /// A sinusoidal surface (not built yet).
+    Wave(#[schemars(with = "serde_json::Value")] de::IgnoredAny),
+    /// Measured heights from a file (not built yet).
+    Heights(#[schemars(with = "serde_json::Value")] de::IgnoredAny),
+}
+
+/// A sphere.
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(super) struct SphereFile {
+    /// Radius [length], positive.
+    #[schemars(with = "f64")]
+    pub radius: Spanned<f64>,
+}
+
+/// An ellipsoid.
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(super) struct EllipsoidFile {
+    /// Radius of curvature in the x-z plane [length], positive.
+    #[schemars(with = "f64")]
+    pub radius_x: Spanned<f64>,
+    /// Radius of curvature in the y-z plane [length], positive.
+    #[schemars(with = "f64")]
+    pub radius_y: Spanned<f64>,
+}
+
+/// Coulomb's law of friction.
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(super) struct FrictionFile {
+    /// Coefficient, zero or positive.
+    #[schemars(with = "Option<f64>")]
+    pub coefficient: Option<Spanned<f64>>,
+    /// A file with a coefficient for every cell (not built yet).
+    #[schemars(with = "Option<String>")]
+    pub map: Option<Spanned<String>>,
+}
+
+/// A stage of the loading history. Controls not named stay as they were.
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(super) struct StageFile {
+    /// A name for messages and tables.
+    pub name: Option<String>,
+    /// Normal force at the end of the stage [force], compression positive.
+    #[schemars(with = "Option<f64>")]
+    pub normal_force: Option<Spanned<f64>>,
+    /// Rigid approach at the end of the stage [length].
+    #[schemars(with = "Option<f64>")]
+    pub approach: Option<Spanned<f64>>,
+    /// Tangential force along x and y [force]: at the end of the stage, or the amplitude of its cycles.
+    #[schemars(with = "Option<[f64; 2]>")]
+    pub tangential_force: Option<Spanned<[f64; 2]>>,
+    /// Rigid tangential displacement of the upper body along x and y [length]: at the end, or the amplitude.
+    #[schemars(with = "Option<[f64; 2]>")]
+    pub shift: Option<Spanned<[f64; 2]>>,
+    /// Moment about z [force x length]: at the end, or the amplitude.
+    #[schemars(with = "Option<f64>")]
+    pub twist_moment: Option<Spanned<f64>>,
+    /// Rotation of the upper body about z [rad]: at the end, or the amplitude.
+    #[schemars(with = "Option<f64>")]
+    pub twist: Option<Spanned<f64>>,
+    /// Number of increments of the stage, or of one cycle.
+    #[schemars(with = "usize")]
+    pub increments: Spanned<usize>,
+    /// How the controls run to their targets; "linear" when not given.
+    #[schemars(with = "Option<RampFile>")]
+    pub ramp: Option<Spanned<RampFile>>,
+    /// Number of cycles 0, +amplitude, -amplitude, 0 about the values before the stage.
+    #[schemars(with = "Option<usize>")]
+    pub cycles: Option<Spanned<usize>>,
+}
+
+/// How a ramp runs.
+#[derive(Debug, Clone, Copy, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub(super) enum RampFile {
+    /// Equal steps.
+    Linear,
+    /// Forces with (k/n)^3, approach with (k/n)^2: a sphere's contact radius grows evenly.
+    Cubic,
+}
+
+/// Accuracy of the solution.
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(super) struct SolverFile {
+    /// Bound on the complementarity and Coulomb residuals of every increment, relative; 1e-8 when not given.
+    #[schemars(with = "Option<f64>")]
+    pub tolerance: Option<Spanned<f64>>,
+}
+
+/// What is kept of the solution.
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(super) struct OutputFile {
+    /// Fields to keep: "pressure", "shear", "slip", "gap", "zone". All but the gap when not given.
+    #[schemars(with = "Option<Vec<String>>")]
+    pub fields: Option<Vec<Spanned<String>>>,
+    /// Fields of every so many increments are kept, and of the last of each stage; only of the last when not given.
+    #[schemars(with = "Option<usize>")]
+    pub every: Option<Spanned<usize>>,
+}
+
+/// JSON Schema of the case file.
+pub fn schema() -> serde_json::Value {
+    schemars::schema_for!(CaseFile).to_value()
+}

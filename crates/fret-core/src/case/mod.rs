@@ -1,0 +1,172 @@
+//! The written question: a case, checked. Read from TOML text (`read`), judged all at once (`check`), refused with places (`refusal`).
+
+mod check;
+mod file;
+mod read;
+mod refusal;
+
+use serde::Serialize;
+
+use crate::model::{CoulombFriction, ContactPair, Profile};
+
+pub use file::schema;
+pub use refusal::{CaseError, Mistake};
+
+/// Fields that can be kept, by the names of the case file.
+pub const FIELD_NAMES: [&str; 5] = ["pressure", "shear", "slip", "gap", "zone"];
+
+/// A case that has passed every check.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Case {
+    /// Title, or an empty text.
+    pub title: String,
+    /// Cells `[nx, ny]`.
+    pub cells: [usize; 2],
+    /// Side lengths of the grid.
+    pub size: GridSize,
+    /// Whether the scene repeats in x and y.
+    pub periodic: bool,
+    /// The two bodies.
+    pub bodies: ContactPair,
+    /// Undeformed gap.
+    pub profile: Profile,
+    /// Friction law.
+    pub friction: CoulombFriction,
+    /// Loading history.
+    pub stages: Vec<Stage>,
+    /// Bound on the residual of every increment.
+    pub tolerance: f64,
+    /// What is kept.
+    pub output: Output,
+}
+
+/// Side lengths of the grid.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum GridSize {
+    /// Given [length].
+    Given([f64; 2]),
+    /// Chosen so that the largest contact of the history fits with a margin.
+    Auto,
+}
+
+/// One stage of the loading history.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Stage {
+    /// Name for messages and tables.
+    pub name: String,
+    /// What changes normally, if anything.
+    pub normal: Option<StageControl>,
+    /// What changes tangentially along x and y, if anything.
+    pub tangential: Option<[StageControl; 2]>,
+    /// What changes about z, if anything.
+    pub twist: Option<StageControl>,
+    /// Increments of the stage, or of one cycle.
+    pub increments: usize,
+    /// How the stage runs through its increments.
+    pub course: Course,
+}
+
+/// The value a control reaches at the end of a ramp, or its amplitude in a cycle.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum StageControl {
+    /// A force [force] or moment [force x length].
+    Force(f64),
+    /// A motion [length] or rotation [rad].
+    Motion(f64),
+}
+
+/// How a stage runs from where it starts.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Course {
+    /// Equal steps to the target.
+    Linear,
+    /// Forces with the third power of the share done, approach with the second: a sphere's contact radius grows evenly.
+    Cubic,
+    /// 0, +amplitude, -amplitude, 0 about the start, this many times.
+    Cycles(usize),
+}
+
+impl Stage {
+    /// Increments of the whole stage.
+    pub fn increments_in_all(&self) -> usize {
+        match self.course {
+            Course::Cycles(cycles) => self.increments * cycles,
+            Course::Linear | Course::Cubic => self.increments,
+        }
+    }
+
+    /// Whether the stage moves or loads the bodies tangentially.
+    pub fn is_tangential(&self) -> bool {
+        self.tangential.is_some() || self.twist.is_some()
+    }
+}
+
+/// What of the solution is kept.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct Output {
+    /// Names out of [`FIELD_NAMES`].
+    pub fields: Vec<String>,
+    /// Fields of every so many increments are kept, and of the last of each stage.
+    pub every: usize,
+}
+
+impl Case {
+    /// Reads and checks a case from TOML text. `name` stands in messages (a file name).
+    ///
+    /// # Errors
+    /// With every mistake found, each with its place and a way out.
+    pub fn from_toml(text: &str, name: &str) -> Result<Self, CaseError> {
+        read::case(text, name)
+    }
+
+    /// Reads and checks a case given as JSON text of the same structure; messages show it as TOML.
+    ///
+    /// # Errors
+    /// As [`Case::from_toml`]; also when the text is not a JSON object.
+    pub fn from_json(text: &str, name: &str) -> Result<Self, CaseError> {
+        let refuse = |message: String| CaseError::plain(name, message);
+        let value: serde_json::Value =
+            serde_json::from_str(text).map_err(|error| refuse(format!("not readable as JSON: {error}")))?;
+        let table = toml::Table::try_from(without_null(value))
+            .map_err(|error| refuse(format!("not a case: {error}")))?;
+        let text = toml::to_string(&table).map_err(|error| refuse(format!("not a case: {error}")))?;
+        Self::from_toml(&text, name)
+    }
+
+    /// Whether fields are kept of increment `k` (from 1) of a stage: of every `output.every`-th, and of the last.
+    pub fn keeps(&self, stage: usize, k: usize) -> bool {
+        k % self.output.every == 0 || k == self.stages[stage].increments_in_all()
+    }
+
+    /// Numbers in the whole history, from 0, of the increments whose fields are kept.
+    pub fn kept_increments(&self) -> Vec<usize> {
+        let mut kept = Vec::new();
+        let mut before = 0;
+        for (number, stage) in self.stages.iter().enumerate() {
+            let all = stage.increments_in_all();
+            kept.extend((1..=all).filter(|&k| self.keeps(number, k)).map(|k| before + k - 1));
+            before += all;
+        }
+        kept
+    }
+
+    /// Increments of the whole history.
+    pub fn increments(&self) -> usize {
+        self.stages.iter().map(Stage::increments_in_all).sum()
+    }
+}
+
+/// JSON's null means "not given"; TOML has no word for it.
+fn without_null(value: serde_json::Value) -> serde_json::Value {
+    use serde_json::Value;
+    match value {
+        Value::Object(map) => Value::Object(
+            map.into_iter().filter(|(_, v)| !v.is_null()).map(|(k, v)| (k, without_null(v))).collect(),
+        ),
+        Value::Array(items) => Value::Array(items.into_iter().map(without_null).collect()),
+        other => other,
+    }
+}

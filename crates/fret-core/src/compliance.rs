@@ -1,0 +1,201 @@
+//! The elastic answer of the pair: tractions in, relative surface displacements out.
+//! The one place where kernels meet components and signs: z into the lower body, displacements lower minus upper.
+
+use ndarray::Array2;
+
+use crate::kernel::InfluenceCoefficients;
+use crate::model::TangentialField;
+use crate::spectral::{Block, Convolution, ConvolutionError, Kernel, Parity, Workspace};
+
+/// Elastic answer of a box of cells. Tractions [pressure], displacements [length]; rows of cells, index `i * ny + j`.
+pub trait SurfaceCompliance {
+    /// Cells `[nx, ny]` of the box.
+    fn shape(&self) -> [usize; 2];
+    /// Influence of a cell's pressure on its own normal displacement, and of its shear on its own tangential one [length/pressure].
+    fn own(&self) -> Own;
+    /// `u_z` from pressure alone.
+    fn normal(&mut self, pressure: &[f64], normal: &mut [f64]);
+    /// `(u_x, u_y)` from shear alone.
+    fn tangential(&mut self, shear: &TangentialField, tangential: &mut TangentialField);
+    /// All displacements from all tractions.
+    fn full(
+        &mut self,
+        pressure: &[f64],
+        shear: &TangentialField,
+        normal: &mut [f64],
+        tangential: &mut TangentialField,
+    );
+}
+
+/// Influence of a cell on itself [length/pressure].
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Own {
+    /// Normal.
+    pub normal: f64,
+    /// Tangential, the smaller of the two directions.
+    pub tangential: f64,
+}
+
+/// Which answers a solver will ask for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Wanted {
+    /// Normal from pressure.
+    pub normal: bool,
+    /// Tangential from shear.
+    pub tangential: bool,
+    /// All from all.
+    pub full: bool,
+    /// Normal from pressure and shear.
+    pub normal_from_all: bool,
+}
+
+/// The elastic answer by fast convolution in free space.
+pub struct SpectralCompliance {
+    shape: [usize; 2],
+    own: Own,
+    normal: Option<(Convolution, Workspace)>,
+    tangential: Option<(Convolution, Workspace)>,
+    full: Option<(Convolution, Workspace)>,
+    normal_from_all: Option<(Convolution, Workspace)>,
+    /// Applications so far.
+    pub applications: usize,
+}
+
+const NORMAL_BLOCKS: [Block; 1] = [block(0, 0, 0, 1.0)];
+const TANGENTIAL_BLOCKS: [Block; 4] =
+    [block(0, 0, 0, 1.0), block(1, 1, 1, 1.0), block(0, 1, 2, 1.0), block(1, 0, 2, 1.0)];
+/// Inputs and outputs z, x, y; kernels zz, xx, yy, xy, zx, zy. `u_x` from pressure is minus `u_z` from `q_x` (reciprocity of odd kernels).
+const FULL_BLOCKS: [Block; 9] = [
+    block(0, 0, 0, 1.0),
+    block(1, 1, 1, 1.0),
+    block(2, 2, 2, 1.0),
+    block(1, 2, 3, 1.0),
+    block(2, 1, 3, 1.0),
+    block(0, 1, 4, 1.0),
+    block(1, 0, 4, -1.0),
+    block(0, 2, 5, 1.0),
+    block(2, 0, 5, -1.0),
+];
+
+const NORMAL_FROM_ALL_BLOCKS: [Block; 3] = [block(0, 0, 0, 1.0), block(0, 1, 1, 1.0), block(0, 2, 2, 1.0)];
+
+const fn block(output: usize, input: usize, kernel: usize, sign: f64) -> Block {
+    Block { output, input, kernel, sign }
+}
+
+/// The kernels of a list of coefficients, each with its parity in x and y.
+fn kernels<'a>(list: &[(&'a Option<Array2<f64>>, Parity)]) -> Vec<Kernel<'a>> {
+    list.iter()
+        .filter_map(|(values, parity)| values.as_ref().map(|values| Kernel { values: values.view(), parity: *parity }))
+        .collect()
+}
+
+impl SpectralCompliance {
+    /// Operators of a box of `shape` cells from coefficients that cover at least its offsets.
+    ///
+    /// # Errors
+    /// When a wanted coefficient is missing or does not cover the box.
+    pub fn new(
+        coefficients: &InfluenceCoefficients,
+        shape: [usize; 2],
+        wanted: Wanted,
+    ) -> Result<Self, ConvolutionError> {
+        let c = coefficients;
+        let build = |wanted: bool, list: &[(&Option<Array2<f64>>, Parity)], blocks: &[Block]| {
+            wanted
+                .then(|| {
+                    let convolution = Convolution::new(shape, &kernels(list), blocks)?;
+                    let workspace = convolution.workspace();
+                    Ok((convolution, workspace))
+                })
+                .transpose()
+        };
+        let own = |values: &Option<Array2<f64>>| values.as_ref().map_or(0.0, |values| values[[0, 0]]);
+        let normal = [(&c.zz, Parity::EvenEven)];
+        let tangential = [(&c.xx, Parity::EvenEven), (&c.yy, Parity::EvenEven), (&c.xy, Parity::OddOdd)];
+        let full = [
+            normal[0],
+            tangential[0],
+            tangential[1],
+            tangential[2],
+            (&c.zx, Parity::OddEven),
+            (&c.zy, Parity::EvenOdd),
+        ];
+        Ok(Self {
+            shape,
+            own: Own { normal: own(&c.zz), tangential: own(&c.xx).min(own(&c.yy)) },
+            normal: build(wanted.normal, &normal, &NORMAL_BLOCKS)?,
+            tangential: build(wanted.tangential, &tangential, &TANGENTIAL_BLOCKS)?,
+            full: build(wanted.full, &full, &FULL_BLOCKS)?,
+            normal_from_all: build(wanted.normal_from_all, &[full[0], full[4], full[5]], &NORMAL_FROM_ALL_BLOCKS)?,
+            applications: 0,
+        })
+    }
+
+    /// `u_z` from pressure and shear; needs the operator of that name.
+    pub fn normal_from_all(&mut self, pressure: &[f64], shear: &TangentialField, normal: &mut [f64]) {
+        if let Some((convolution, workspace)) = &mut self.normal_from_all {
+            self.applications += 1;
+            convolution.apply(workspace, &[pressure, &shear.x, &shear.y], &mut [normal]);
+        }
+    }
+
+    /// Memory of the operators [bytes].
+    pub fn memory_bytes(&self) -> usize {
+        [&self.normal, &self.tangential, &self.full, &self.normal_from_all]
+            .into_iter()
+            .flatten()
+            .map(|(convolution, workspace)| convolution.memory_bytes() + workspace.memory_bytes())
+            .sum()
+    }
+}
+
+impl SurfaceCompliance for SpectralCompliance {
+    fn shape(&self) -> [usize; 2] {
+        self.shape
+    }
+
+    fn own(&self) -> Own {
+        self.own
+    }
+
+    fn normal(&mut self, pressure: &[f64], normal: &mut [f64]) {
+        if let Some((convolution, workspace)) = &mut self.normal {
+            self.applications += 1;
+            convolution.apply(workspace, &[pressure], &mut [normal]);
+        } else {
+            let zero = TangentialField::zeros(pressure.len());
+            let mut aside = TangentialField::zeros(pressure.len());
+            self.full(pressure, &zero, normal, &mut aside);
+        }
+    }
+
+    fn tangential(&mut self, shear: &TangentialField, tangential: &mut TangentialField) {
+        if let Some((convolution, workspace)) = &mut self.tangential {
+            self.applications += 1;
+            convolution.apply(workspace, &shear.parts(), &mut [&mut tangential.x, &mut tangential.y]);
+        } else {
+            let zero = vec![0.0; shear.x.len()];
+            let mut aside = vec![0.0; shear.x.len()];
+            self.full(&zero, shear, &mut aside, tangential);
+        }
+    }
+
+    fn full(
+        &mut self,
+        pressure: &[f64],
+        shear: &TangentialField,
+        normal: &mut [f64],
+        tangential: &mut TangentialField,
+    ) {
+        if let Some((convolution, workspace)) = &mut self.full {
+            self.applications += 1;
+            let input = [pressure, &shear.x, &shear.y];
+            convolution.apply(workspace, &input, &mut [normal, &mut tangential.x, &mut tangential.y]);
+        } else {
+            debug_assert!(self.normal.is_some() && self.tangential.is_some(), "no operator was asked for");
+            self.normal(pressure, normal);
+            self.tangential(shear, tangential);
+        }
+    }
+}

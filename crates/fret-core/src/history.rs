@@ -1,0 +1,156 @@
+//! What a run leaves behind: one record an increment, the fields asked for, the last state.
+
+use ndarray::Array2;
+use serde::{Deserialize, Serialize};
+
+use crate::model::{ContactState, SurfaceGrid, Zone};
+
+/// How well an increment satisfies its equations; all parts dimensionless and relative.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+pub struct Residual {
+    /// `|p - max(p - r gap, 0)| / |p|`, r the inverse self influence of a cell.
+    pub complementarity: f64,
+    /// `|q - Proj(q - r s)| / |mu p|`, Proj onto the friction disc, s minus the slip increment.
+    pub coulomb: f64,
+    /// Prescribed forces against the sums of the tractions, relative to the normal force (tangential: to mu W).
+    pub equilibrium: f64,
+}
+
+impl Residual {
+    /// The worst of the three.
+    pub fn largest(&self) -> f64 {
+        self.complementarity.max(self.coulomb).max(self.equilibrium)
+    }
+}
+
+/// Work spent, in counts that do not depend on the machine.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+pub struct Work {
+    /// Operator applications, each one fused pass whatever its components.
+    pub convolutions: usize,
+    /// Preconditioner applications (unpadded).
+    pub preconditioner_passes: usize,
+    /// Outer iterations: changes of the contact, stick and slip zones.
+    pub outer_iterations: usize,
+}
+
+impl std::ops::AddAssign for Work {
+    fn add_assign(&mut self, other: Self) {
+        self.convolutions += other.convolutions;
+        self.preconditioner_passes += other.preconditioner_passes;
+        self.outer_iterations += other.outer_iterations;
+    }
+}
+
+/// What the contact as a whole does in an increment.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Regime {
+    /// The bodies do not touch.
+    Apart,
+    /// Every cell in contact sticks.
+    FullStick,
+    /// Some cells stick, some slip.
+    PartialSlip,
+    /// Every cell in contact slips.
+    GrossSlip,
+    /// There is no friction.
+    Frictionless,
+}
+
+/// One increment of the history. Units are those of the case.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct StepRecord {
+    /// Number of the increment in the whole history, from 0.
+    pub increment: usize,
+    /// Number of its stage, from 0.
+    pub stage: usize,
+    /// Normal force [force], compression positive.
+    pub normal_force: f64,
+    /// Rigid approach [length].
+    pub approach: f64,
+    /// Tangential force on the lower body along x and y [force].
+    pub tangential_force: [f64; 2],
+    /// Rigid tangential displacement of the upper body [length].
+    pub shift: [f64; 2],
+    /// Moment about z on the lower body [force x length].
+    pub twist_moment: f64,
+    /// Rotation of the upper body about z [rad].
+    pub twist: f64,
+    /// Largest pressure of a cell [pressure].
+    pub max_pressure: f64,
+    /// Largest shear traction of a cell [pressure].
+    pub max_shear: f64,
+    /// Area of contact [length^2], from the zero line of the pressure between cells.
+    pub contact_area: f64,
+    /// Area that sticks [length^2]: the contact area times the share of its cells that stick.
+    pub stick_area: f64,
+    /// Cells in contact.
+    pub contact_cells: usize,
+    /// Cells in contact that stick.
+    pub stick_cells: usize,
+    /// Work of friction since the start [force x length].
+    pub dissipated_energy: f64,
+    /// What the contact does.
+    pub regime: Regime,
+    /// How well the equations hold.
+    pub residual: Residual,
+    /// Work spent on the increment.
+    pub work: Work,
+    /// Time spent on the increment [s].
+    pub wall_s: f64,
+}
+
+/// Fields kept of one increment, shape `(nx, ny)`; `None` where nobody asked.
+#[derive(Debug, Clone, PartialEq)]
+pub struct KeptFields {
+    /// Number of the increment in the whole history.
+    pub increment: usize,
+    /// Pressure [pressure].
+    pub pressure: Option<Array2<f64>>,
+    /// Shear on the lower body, x and y [pressure].
+    pub shear: Option<[Array2<f64>; 2]>,
+    /// Accumulated slip, x and y [length].
+    pub slip: Option<[Array2<f64>; 2]>,
+    /// Gap [length].
+    pub gap: Option<Array2<f64>>,
+    /// Zone of each cell.
+    pub zone: Option<Array2<Zone>>,
+}
+
+/// All of a run.
+#[derive(Debug, Clone)]
+pub struct History {
+    /// The grid the fields live on.
+    pub grid: SurfaceGrid,
+    /// Names of the stages.
+    pub stages: Vec<String>,
+    /// One record an increment.
+    pub steps: Vec<StepRecord>,
+    /// Kept fields, in the order of the increments.
+    pub fields: Vec<KeptFields>,
+    /// The last state reached.
+    pub state: ContactState,
+}
+
+impl History {
+    /// Work of all increments.
+    pub fn work(&self) -> Work {
+        let mut sum = Work::default();
+        for step in &self.steps {
+            sum += step.work;
+        }
+        sum
+    }
+
+    /// Largest residual of all increments.
+    pub fn largest_residual(&self) -> f64 {
+        self.steps.iter().map(|step| step.residual.largest()).fold(0.0, f64::max)
+    }
+
+    /// Kept fields of an increment.
+    pub fn fields_of(&self, increment: usize) -> Option<&KeptFields> {
+        let position = self.fields.binary_search_by_key(&increment, |kept| kept.increment).ok()?;
+        self.fields.get(position)
+    }
+}

@@ -1,0 +1,26 @@
+//! How a surface answers a unit traction: on one cell of a grid, or in one wave.
+
+pub mod collocation;
+pub mod frequency_response;
+pub mod influence;
+pub mod pair_response;
+pub mod periodic;
+
+pub(crate) mod complex;
+pub(crate) mod layer;
+
+mod bessel;
+mod cells;
+#[cfg(test)]
+mod closed_form;
+mod panels;
+mod quadrature;
+mod radial;
+#[cfg(test)]
+mod samples;
+
+pub use collocation::cells_too_coarse_for_incompressible_film;
+pub use frequency_response::{FrequencyResponse, Response};
+pub use influence::{Components, InfluenceCoefficients, influence_coefficients};
+pub use pair_response::PairResponse;
+pub use periodic::{PeriodicSymbols, ResponseTable, periodic_symbols};

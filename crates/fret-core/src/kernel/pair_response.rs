@@ -1,0 +1,147 @@
+//! The two bodies together. The place where the sign of the upper body's coupling is decided.
+
+use super::complex::Wavenumber;
+use super::frequency_response::{FrequencyResponse, Response, ResponseTimesK};
+use crate::model::{Body, ContactPair};
+
+/// Composite frequency response of a pair: displacements of the lower surface minus those of the upper one, as the contact
+/// sees them.
+///
+/// Self terms (`zz`, `rr`, `tt`) of the two bodies add. The coupling `rz` is the lower body's minus the upper's: shear acts on
+/// the upper body in the opposite sense and its depth points the other way. Two bodies of one elasticity do not couple.
+#[derive(Clone, Debug)]
+pub struct PairResponse {
+    lower: Option<FrequencyResponse>,
+    upper: Option<FrequencyResponse>,
+}
+
+impl PairResponse {
+    /// Prepares the response of a pair.
+    pub fn new(pair: &ContactPair) -> Self {
+        let prepare = |body: &Body| match body {
+            Body::Rigid => None,
+            Body::Elastic(half_space) => Some(FrequencyResponse::new(half_space)),
+        };
+        Self { lower: prepare(pair.lower()), upper: prepare(pair.upper()) }
+    }
+
+    /// `C(k)` at a wavenumber `k > 0` [rad/length]: [length/pressure].
+    pub fn at(&self, k: f64) -> Response {
+        self.times_k(k).over(k)
+    }
+
+    /// `k C(k)` [1/pressure].
+    pub fn times_k(&self, k: f64) -> Response {
+        let ResponseTimesK { zz, rr, rz, tt } = self.times_wavenumber(k);
+        Response { zz, rr, rz, tt }
+    }
+
+    /// `k C(k)` at a real or complex wavenumber.
+    pub(crate) fn times_wavenumber<T: Wavenumber>(&self, k: T) -> ResponseTimesK<T> {
+        let mut sum = ResponseTimesK { zz: T::zero(), rr: T::zero(), rz: T::zero(), tt: T::zero() };
+        for (body, coupling) in [(&self.lower, 1.0), (&self.upper, -1.0)] {
+            let Some(body) = body else { continue };
+            let body = body.times_wavenumber(k);
+            sum = ResponseTimesK {
+                zz: sum.zz + body.zz,
+                rr: sum.rr + body.rr,
+                rz: sum.rz + body.rz * coupling,
+                tt: sum.tt + body.tt,
+            };
+        }
+        sum
+    }
+
+    fn bodies(&self) -> impl Iterator<Item = &FrequencyResponse> {
+        self.lower.iter().chain(&self.upper)
+    }
+
+    /// The response times k where it does not depend on k: two homogeneous bodies, or one and a rigid one.
+    pub(crate) fn constant(&self) -> Option<Response> {
+        self.bodies().all(|body| body.constant().is_some()).then(|| self.times_k(1.0))
+    }
+
+    /// The longest length in either body, see [`FrequencyResponse::longest_length`].
+    pub(crate) fn longest_length(&self) -> f64 {
+        self.bodies().map(FrequencyResponse::longest_length).fold(0.0, f64::max)
+    }
+
+    /// Whether pressure causes no tangential displacement and shear no normal one: `rz = 0` at every wavenumber, as for two
+    /// bodies of one elasticity, or incompressible half-spaces.
+    ///
+    /// Judged on wavenumbers from far below the longest length of the bodies to far above the shortest one, eight per e-fold:
+    /// `max |k rz| <= 1e-14 max(k sqrt(rr zz))`, what is left by rounding.
+    pub fn is_uncoupled(&self) -> bool {
+        let longest = self.longest_length();
+        let shortest = self.bodies().filter_map(FrequencyResponse::shortest_length).fold(longest, f64::min);
+        let (first, last) = if longest > 0.0 { (1e-6 / longest, 1e2 / shortest) } else { (1.0, 1.0) };
+        let steps = (8.0 * libm::log(last / first)).ceil() as u32;
+        let mut coupling = 0.0_f64;
+        let mut size = 0.0_f64;
+        for step in 0..=steps {
+            let response = self.times_k(first * libm::exp(f64::from(step) / 8.0));
+            coupling = coupling.max(response.rz.abs());
+            size = size.max((response.rr * response.zz).sqrt());
+        }
+        coupling <= 1e-14 * size
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::samples::{Random, material, stack};
+    use super::*;
+    use crate::model::HalfSpace;
+
+    fn two(upper: &HalfSpace, lower: &HalfSpace) -> PairResponse {
+        let pair = ContactPair::new(Body::Elastic(upper.clone()), Body::Elastic(lower.clone())).unwrap();
+        PairResponse::new(&pair)
+    }
+
+    #[test]
+    fn self_terms_add_and_coupling_subtracts() {
+        let upper = stack(&[(3.0, 0.2, 0.5)], Some((1.0, 0.4)));
+        let lower = stack(&[], Some((2.0, 0.1)));
+        let (one, other) = (FrequencyResponse::new(&lower).at(0.7), FrequencyResponse::new(&upper).at(0.7));
+        let found = two(&upper, &lower).at(0.7);
+        assert!((found.zz - (one.zz + other.zz)).abs() < 1e-15 * found.zz);
+        assert!((found.rr - (one.rr + other.rr)).abs() < 1e-15 * found.rr);
+        assert!((found.tt - (one.tt + other.tt)).abs() < 1e-15 * found.tt);
+        assert!((found.rz - (one.rz - other.rz)).abs() < 1e-15 * one.rz);
+        let turned = two(&lower, &upper).at(0.7);
+        assert_eq!(turned.rz, -found.rz);
+        assert_eq!(turned.zz, found.zz);
+    }
+
+    #[test]
+    fn bodies_of_one_elasticity_do_not_couple() {
+        let mut random = Random::seeded(5);
+        for _ in 0..20 {
+            let body = random.half_space(4, 1e3, false);
+            assert!(two(&body, &body).is_uncoupled());
+        }
+        // Dundurs: (1 - 2 nu)/G is what counts
+        let one = HalfSpace::homogeneous(material((1.0, 0.3)));
+        let young = 0.2 / 0.4 * 1.4 / 1.3; // G doubled by the ratio of 1 - 2 nu: (0.2/0.4) (1.3 -> 1.4)
+        let other = HalfSpace::homogeneous(material((young, 0.4)));
+        assert!(two(&one, &other).is_uncoupled());
+        assert!(!two(&one, &HalfSpace::homogeneous(material((young, 0.3)))).is_uncoupled());
+    }
+
+    #[test]
+    fn incompressible_half_spaces_do_not_couple_but_incompressible_coatings_do() {
+        let incompressible = HalfSpace::homogeneous(material((1.0, 0.5)));
+        let pair = ContactPair::new(Body::Rigid, Body::Elastic(incompressible)).unwrap();
+        assert!(PairResponse::new(&pair).is_uncoupled());
+        let coated = stack(&[(2.0, 0.5, 1.0)], Some((1.0, 0.5)));
+        let pair = ContactPair::new(Body::Rigid, Body::Elastic(coated)).unwrap();
+        assert!(!PairResponse::new(&pair).is_uncoupled());
+    }
+
+    #[test]
+    fn a_difference_deep_down_is_noticed() {
+        let lower = stack(&[(1.0, 0.3, 1.0)], Some((2.0, 0.3)));
+        let upper = stack(&[(1.0, 0.3, 1.0)], Some((2.0, 0.31)));
+        assert!(!two(&upper, &lower).is_uncoupled());
+    }
+}

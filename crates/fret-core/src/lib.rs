@@ -1,0 +1,14 @@
+//! Fretting contact of coated elastic bodies: pressure, shear, stick and slip through the whole loading history.
+
+pub mod analytic;
+pub mod case;
+pub mod compliance;
+mod edge;
+pub mod history;
+pub mod kernel;
+pub mod model;
+pub mod plan;
+pub mod simulation;
+pub mod solver;
+pub mod spectral;
+mod stepping;

@@ -1,0 +1,78 @@
+//! The mesh of the potential contact area: uniform rectangular cells, centred on the first point of touch.
+
+use ndarray::Array1;
+use serde::{Deserialize, Serialize};
+
+/// A uniform grid of `cells[0] x cells[1]` rectangular cells. Fields on it have shape `(nx, ny)`, index `[i, j]` = `[x, y]`.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct SurfaceGrid {
+    cells: [usize; 2],
+    spacing: [f64; 2],
+}
+
+/// Why a grid was refused.
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+pub enum GridError {
+    /// No cells along an axis.
+    #[error("cells = [{0}, {1}]: each side needs at least one cell")]
+    NoCells(usize, usize),
+    /// A spacing that is not a positive finite length.
+    #[error("cell sides {0} x {1}: must be positive finite lengths")]
+    Spacing(f64, f64),
+}
+
+impl SurfaceGrid {
+    /// Grid from the number of cells and the side lengths of one cell [length].
+    ///
+    /// # Errors
+    /// When a count is zero or a side is not a positive finite length.
+    pub fn new(cells: [usize; 2], spacing: [f64; 2]) -> Result<Self, GridError> {
+        if cells.contains(&0) {
+            return Err(GridError::NoCells(cells[0], cells[1]));
+        }
+        if spacing.iter().any(|side| !(side.is_finite() && *side > 0.0)) {
+            return Err(GridError::Spacing(spacing[0], spacing[1]));
+        }
+        Ok(Self { cells, spacing })
+    }
+
+    /// Number of cells `[nx, ny]`.
+    pub fn cells(&self) -> [usize; 2] {
+        self.cells
+    }
+
+    /// Sides of one cell `[dx, dy]` [length].
+    pub fn spacing(&self) -> [f64; 2] {
+        self.spacing
+    }
+
+    /// Sides of the whole grid [length].
+    pub fn size(&self) -> [f64; 2] {
+        [self.cells[0] as f64 * self.spacing[0], self.cells[1] as f64 * self.spacing[1]]
+    }
+
+    /// Area of one cell [length^2].
+    pub fn cell_area(&self) -> f64 {
+        self.spacing[0] * self.spacing[1]
+    }
+
+    /// Number of all cells.
+    pub fn len(&self) -> usize {
+        self.cells[0] * self.cells[1]
+    }
+
+    /// Never true: a grid has cells.
+    pub fn is_empty(&self) -> bool {
+        false
+    }
+
+    /// Coordinate of the centre of the `index`-th cell along `axis` [length]: `(i - (n-1)/2) d`.
+    pub fn centre(&self, axis: usize, index: usize) -> f64 {
+        (index as f64 - (self.cells[axis] as f64 - 1.0) / 2.0) * self.spacing[axis]
+    }
+
+    /// Coordinates of all cell centres along `axis` [length].
+    pub fn centres(&self, axis: usize) -> Array1<f64> {
+        (0..self.cells[axis]).map(|index| self.centre(axis, index)).collect()
+    }
+}

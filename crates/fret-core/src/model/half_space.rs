@@ -1,0 +1,217 @@
+//! The bodies: isotropic materials, coatings, layered half-spaces, and the pair that touches.
+
+use serde::{Deserialize, Serialize};
+
+/// Why a material or a coating was refused.
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+pub enum MaterialError {
+    /// Young's modulus out of range.
+    #[error("Young's modulus {0}: must be a positive finite modulus")]
+    Young(f64),
+    /// Poisson's ratio out of range.
+    #[error("Poisson's ratio {0}: must lie above -1 and not above 0.5")]
+    Poisson(f64),
+    /// Thickness out of range.
+    #[error("thickness {0}: must be a positive finite length")]
+    Thickness(f64),
+    /// Two rigid bodies.
+    #[error("both bodies are rigid: nothing can deform; give at least one of them a substrate or coatings")]
+    BothRigid,
+    /// A rigid base without anything on it.
+    #[error("a rigid base without coatings is a rigid body: write rigid = true, or add coatings")]
+    BareRigidBase,
+}
+
+/// A linear elastic isotropic material.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct ElasticMaterial {
+    young: f64,
+    poisson: f64,
+}
+
+impl ElasticMaterial {
+    /// Material from Young's modulus [pressure] and Poisson's ratio [-], `-1 < poisson <= 0.5`.
+    ///
+    /// # Errors
+    /// When a value is out of its range.
+    pub fn new(young: f64, poisson: f64) -> Result<Self, MaterialError> {
+        if !(young.is_finite() && young > 0.0) {
+            return Err(MaterialError::Young(young));
+        }
+        if !(poisson > -1.0 && poisson <= 0.5) {
+            return Err(MaterialError::Poisson(poisson));
+        }
+        Ok(Self { young, poisson })
+    }
+
+    /// Young's modulus E [pressure].
+    pub fn young(&self) -> f64 {
+        self.young
+    }
+
+    /// Poisson's ratio [-].
+    pub fn poisson(&self) -> f64 {
+        self.poisson
+    }
+
+    /// Shear modulus `G = E / (2 (1 + nu))` [pressure].
+    pub fn shear_modulus(&self) -> f64 {
+        self.young / (2.0 * (1.0 + self.poisson))
+    }
+}
+
+/// A bonded layer of uniform thickness.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Coating {
+    material: ElasticMaterial,
+    thickness: f64,
+}
+
+impl Coating {
+    /// Coating of a material with its thickness [length].
+    ///
+    /// # Errors
+    /// When the thickness is not a positive finite length.
+    pub fn new(material: ElasticMaterial, thickness: f64) -> Result<Self, MaterialError> {
+        if !(thickness.is_finite() && thickness > 0.0) {
+            return Err(MaterialError::Thickness(thickness));
+        }
+        Ok(Self { material, thickness })
+    }
+
+    /// The coating's material.
+    pub fn material(&self) -> &ElasticMaterial {
+        &self.material
+    }
+
+    /// Thickness [length].
+    pub fn thickness(&self) -> f64 {
+        self.thickness
+    }
+}
+
+/// What the lowest coating is bonded to.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub enum Base {
+    /// An elastic half-space.
+    Elastic(ElasticMaterial),
+    /// A rigid foundation.
+    Rigid,
+}
+
+/// A half-space under any number of bonded coatings.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct HalfSpace {
+    coatings: Vec<Coating>,
+    base: Base,
+}
+
+impl HalfSpace {
+    /// Half-space from its coatings, outermost first, and what they lie on.
+    ///
+    /// # Errors
+    /// When the base is rigid and there is no coating.
+    pub fn new(coatings: Vec<Coating>, base: Base) -> Result<Self, MaterialError> {
+        if coatings.is_empty() && base == Base::Rigid {
+            return Err(MaterialError::BareRigidBase);
+        }
+        Ok(Self { coatings, base })
+    }
+
+    /// A homogeneous half-space.
+    pub fn homogeneous(material: ElasticMaterial) -> Self {
+        Self { coatings: Vec::new(), base: Base::Elastic(material) }
+    }
+
+    /// Coatings, outermost first.
+    pub fn coatings(&self) -> &[Coating] {
+        &self.coatings
+    }
+
+    /// What the lowest coating is bonded to.
+    pub fn base(&self) -> &Base {
+        &self.base
+    }
+
+    /// Sum of the coatings' thicknesses [length].
+    pub fn coating_thickness(&self) -> f64 {
+        self.coatings.iter().map(Coating::thickness).sum()
+    }
+
+    /// The material at the surface.
+    pub fn surface_material(&self) -> &ElasticMaterial {
+        match (self.coatings.first(), &self.base) {
+            (Some(coating), _) => coating.material(),
+            (None, Base::Elastic(material)) => material,
+            (None, Base::Rigid) => unreachable!("a rigid base always carries a coating"),
+        }
+    }
+
+    /// The single material of a half-space that is homogeneous: without coatings, or with coatings of the base's own material.
+    pub fn single_material(&self) -> Option<&ElasticMaterial> {
+        match &self.base {
+            Base::Elastic(material) => {
+                self.coatings.iter().all(|coating| coating.material() == material).then_some(material)
+            }
+            Base::Rigid => None,
+        }
+    }
+
+    /// The same half-space without the layer work it does not need: neighbouring coatings of one material joined,
+    /// coatings of the base's own material dropped.
+    #[must_use]
+    pub fn simplified(&self) -> Self {
+        let mut coatings: Vec<Coating> = Vec::with_capacity(self.coatings.len());
+        for coating in &self.coatings {
+            match coatings.last_mut() {
+                Some(last) if last.material == coating.material => last.thickness += coating.thickness,
+                _ => coatings.push(*coating),
+            }
+        }
+        if let (Some(last), Base::Elastic(material)) = (coatings.last(), &self.base)
+            && last.material == *material
+        {
+            coatings.pop();
+        }
+        Self { coatings, base: self.base }
+    }
+}
+
+/// One of the two bodies.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub enum Body {
+    /// Does not deform.
+    Rigid,
+    /// A layered half-space.
+    Elastic(HalfSpace),
+}
+
+/// The two bodies that touch; at least one is elastic.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct ContactPair {
+    upper: Body,
+    lower: Body,
+}
+
+impl ContactPair {
+    /// Pair of bodies.
+    ///
+    /// # Errors
+    /// When both are rigid.
+    pub fn new(upper: Body, lower: Body) -> Result<Self, MaterialError> {
+        if upper == Body::Rigid && lower == Body::Rigid {
+            return Err(MaterialError::BothRigid);
+        }
+        Ok(Self { upper, lower })
+    }
+
+    /// The body that moves.
+    pub fn upper(&self) -> &Body {
+        &self.upper
+    }
+
+    /// The body below, into which z points.
+    pub fn lower(&self) -> &Body {
+        &self.lower
+    }
+}

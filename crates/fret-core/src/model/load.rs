@@ -1,0 +1,23 @@
+//! What is prescribed in one increment: a force or a motion, for each rigid degree of freedom.
+
+use serde::{Deserialize, Serialize};
+
+/// What is prescribed for one rigid degree of freedom.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub enum Control {
+    /// The resultant [force], or [force x length] for twist; the motion follows.
+    Force(f64),
+    /// The rigid motion [length], or [rad] for twist; the resultant follows.
+    Motion(f64),
+}
+
+/// Loads and motions at the end of one increment.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct LoadStep {
+    /// Normal force (compression positive) or approach.
+    pub normal: Control,
+    /// Tangential force on the lower body, or shift of the upper body, along x and y.
+    pub tangential: [Control; 2],
+    /// Moment about z on the lower body, or rotation of the upper body.
+    pub twist: Control,
+}

@@ -1,0 +1,17 @@
+//! The nouns of a contact: grid, bodies, profile, friction, loads, state. No numerics live here.
+
+pub mod field;
+pub mod friction;
+pub mod grid;
+pub mod half_space;
+pub mod load;
+pub mod profile;
+pub mod state;
+
+pub use field::TangentialField;
+pub use friction::{CoulombFriction, FrictionError};
+pub use grid::{GridError, SurfaceGrid};
+pub use half_space::{Base, Body, Coating, ContactPair, ElasticMaterial, HalfSpace, MaterialError};
+pub use load::{Control, LoadStep};
+pub use profile::{Profile, ProfileError};
+pub use state::{ContactState, Zone};

@@ -1,0 +1,54 @@
+//! All that an increment leaves behind for the next one: history lives here and nowhere else.
+
+use ndarray::Array2;
+use serde::{Deserialize, Serialize};
+
+/// What a cell of the surface does.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[repr(u8)]
+pub enum Zone {
+    /// The surfaces are apart.
+    Open = 0,
+    /// In contact without slip in this increment.
+    Stick = 1,
+    /// In contact and slipping in this increment.
+    Slip = 2,
+}
+
+/// Tractions, displacements and rigid motions at the end of an increment. Fields have shape `(nx, ny)`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct ContactState {
+    /// Contact pressure [pressure], compression positive.
+    pub pressure: Array2<f64>,
+    /// Shear traction on the lower body along x and y [pressure].
+    pub shear: [Array2<f64>; 2],
+    /// Slip accumulated along its path: sum of the increments of the upper point relative to the lower, x and y [length].
+    pub slip: [Array2<f64>; 2],
+    /// What each cell did in the last increment.
+    pub zone: Array2<Zone>,
+    /// Rigid normal approach [length].
+    pub approach: f64,
+    /// Rigid tangential displacement of the upper body relative to the lower [length].
+    pub shift: [f64; 2],
+    /// Rotation of the upper body about z [rad].
+    pub twist: f64,
+    /// Work of friction since the start [force x length].
+    pub dissipated_energy: f64,
+}
+
+impl ContactState {
+    /// Bodies that have not touched yet.
+    pub fn untouched(cells: [usize; 2]) -> Self {
+        let zero = Array2::zeros(cells);
+        Self {
+            pressure: zero.clone(),
+            shear: [zero.clone(), zero.clone()],
+            slip: [zero.clone(), zero],
+            zone: Array2::from_elem(cells, Zone::Open),
+            approach: 0.0,
+            shift: [0.0; 2],
+            twist: 0.0,
+            dissipated_energy: 0.0,
+        }
+    }
+}

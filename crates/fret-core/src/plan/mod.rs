@@ -1,0 +1,137 @@
+//! The question made numerical, before any work: grid, sizes, what is computed and what is left out and why.
+
+mod extent;
+
+use serde::Serialize;
+
+use crate::case::{Case, CaseError, GridSize};
+use crate::kernel::PairResponse;
+use crate::model::{Body, SurfaceGrid};
+use extent::{Extent, automatic_size, contact_extent};
+
+/// Something the scene does not need.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct LeftOut {
+    /// What is not computed.
+    pub what: String,
+    /// Why the answer is the same without it.
+    pub why: String,
+    /// What that saves.
+    pub saves: String,
+}
+
+/// How pressure and shear act on each other.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Coupling {
+    /// No friction: pressure alone.
+    Frictionless,
+    /// Shear does not move the surfaces normally: pressure first, then shear.
+    Uncoupled,
+    /// Pressure and shear together.
+    Coupled,
+}
+
+/// A case ready to be computed.
+#[derive(Debug, Clone, Serialize)]
+pub struct Plan {
+    /// The question.
+    pub case: Case,
+    /// The grid.
+    pub grid: SurfaceGrid,
+    /// How pressure and shear act on each other.
+    pub coupling: Coupling,
+    /// What is left out.
+    pub left_out: Vec<LeftOut>,
+    /// Increments of the whole history.
+    pub increments: usize,
+    /// Memory expected at the most [bytes].
+    pub memory_bytes: usize,
+    /// Operator applications expected, by the experience of earlier runs.
+    pub convolutions_expected: usize,
+}
+
+impl Plan {
+    /// Plans a case.
+    ///
+    /// # Errors
+    /// When the contact would not fit into the grid.
+    pub fn new(case: Case) -> Result<Self, CaseError> {
+        let response = PairResponse::new(&case.bodies);
+        let frictionless = case.friction.is_frictionless();
+        let uncoupled = response.is_uncoupled();
+        let coupling = match (frictionless, uncoupled) {
+            (true, _) => Coupling::Frictionless,
+            (false, true) => Coupling::Uncoupled,
+            (false, false) => Coupling::Coupled,
+        };
+        let size = match case.size {
+            GridSize::Given(size) => size,
+            GridSize::Auto => automatic_size(&case).ok_or_else(|| {
+                CaseError::plain(
+                    "case",
+                    "grid.size = \"auto\": no contact was found under the heaviest load; give the side lengths",
+                )
+            })?,
+        };
+        let spacing = [size[0] / case.cells[0] as f64, size[1] / case.cells[1] as f64];
+        let grid = SurfaceGrid::new(case.cells, spacing)
+            .map_err(|error| CaseError::plain("case", error.to_string()))?;
+        if matches!(case.size, GridSize::Given(_)) && contact_extent(&case, size) == Extent::Beyond {
+            return Err(CaseError::plain(
+                "case",
+                format!(
+                    "grid.size = {size:?}: the contact under the heaviest load reaches the edge of the grid; enlarge it, or write size = \"auto\""
+                ),
+            ));
+        }
+        let left_out = left_out(&case, coupling);
+        let increments = case.increments();
+        let fields = match coupling {
+            Coupling::Frictionless => 20,
+            Coupling::Uncoupled => 40,
+            Coupling::Coupled => 70,
+        };
+        let per_increment = match coupling {
+            Coupling::Frictionless => 12,
+            Coupling::Uncoupled | Coupling::Coupled => 20,
+        };
+        Ok(Self {
+            memory_bytes: grid.len() * 8 * fields,
+            convolutions_expected: increments * per_increment,
+            case,
+            grid,
+            coupling,
+            left_out,
+            increments,
+        })
+    }
+}
+
+fn left_out(case: &Case, coupling: Coupling) -> Vec<LeftOut> {
+    let mut list = Vec::new();
+    let mut leave = |what: &str, why: &str, saves: &str| {
+        list.push(LeftOut { what: what.to_owned(), why: why.to_owned(), saves: saves.to_owned() });
+    };
+    let homogeneous = |body: &Body| match body {
+        Body::Rigid => true,
+        Body::Elastic(half_space) => half_space.single_material().is_some(),
+    };
+    if homogeneous(case.bodies.upper()) && homogeneous(case.bodies.lower()) {
+        leave("layered response", "no body has a coating that differs from what lies below it", "the radial table of the coated response");
+    }
+    match coupling {
+        Coupling::Frictionless => leave(
+            "shear, slip and the tangential equations",
+            "there is no friction",
+            "five of six kernels and every tangential iteration",
+        ),
+        Coupling::Uncoupled => leave(
+            "coupling of pressure and shear",
+            "the bodies answer a shear with equal normal displacements, so pressure does not depend on shear",
+            "two of six kernels; pressure is solved only when the normal load changes",
+        ),
+        Coupling::Coupled => {}
+    }
+    list
+}

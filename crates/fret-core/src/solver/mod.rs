@@ -1,0 +1,364 @@
+//! One load increment: from the state before and the new loads to the state after.
+//!
+//! [`ContactSolver`] picks what the scene needs (pressure alone, pressure then shear, or both together), works in a box
+//! around the contact, and checks the rest of the grid once.
+
+mod coupled;
+mod normal;
+mod preconditioner;
+mod region;
+mod residual;
+mod retraction;
+mod rigid;
+mod scene;
+mod settings;
+mod shear;
+mod zones;
+
+use ndarray::{Array2, ArrayView2};
+
+use crate::compliance::{SpectralCompliance, SurfaceCompliance, Wanted};
+use crate::edge;
+use crate::history::Work;
+use crate::kernel::InfluenceCoefficients;
+use crate::model::{ContactState, Control, CoulombFriction, LoadStep, SurfaceGrid};
+use crate::plan::Coupling;
+use crate::spectral::{ConvolutionError, good_length};
+
+pub use scene::{Outcome, Resultants};
+pub use settings::{SolveError, SolverSettings, Watch};
+
+use coupled::{Displacements, Tractions};
+use preconditioner::Preconditioner;
+use region::Region;
+use scene::{BoxOperators, Scene, Solved};
+
+/// A solved increment.
+#[derive(Debug)]
+pub struct Increment {
+    /// Tractions, motions and history after the increment.
+    pub state: ContactState,
+    /// Resultants, counts, residuals.
+    pub outcome: Outcome,
+    /// Area of contact [length^2], from its edge between the cells.
+    pub contact_area: f64,
+    /// Area that sticks [length^2]: the share of the cells in contact that stick.
+    pub stick_area: f64,
+    /// Gap on the whole grid [length].
+    pub gap: Array2<f64>,
+    /// Work spent.
+    pub work: Work,
+}
+
+/// Displacements of the last state in its box, and its gap on the whole grid.
+struct Settled {
+    region: Region,
+    displacements: Displacements,
+    gap: Array2<f64>,
+    contact_area: f64,
+    load: LoadStep,
+}
+
+/// Solves increments of one scene.
+pub struct ContactSolver<'a> {
+    grid: SurfaceGrid,
+    undeformed: Array2<f64>,
+    friction: &'a CoulombFriction,
+    coupling: Coupling,
+    coefficients: InfluenceCoefficients,
+    settings: SolverSettings,
+    operators: Option<BoxOperators>,
+    /// Normal displacement of the whole grid, to check what lies outside the box.
+    outside: Option<SpectralCompliance>,
+    settled: Option<Settled>,
+    /// The state before the last one and the load that led to it, for the predictor.
+    before: Option<(LoadStep, ContactState)>,
+    last_load: Option<LoadStep>,
+    boxed: bool,
+}
+
+impl<'a> ContactSolver<'a> {
+    /// Solver of a scene. `boxed`: iterate in a box around the contact where that is smaller than the grid.
+    pub fn new(
+        grid: SurfaceGrid,
+        undeformed: Array2<f64>,
+        friction: &'a CoulombFriction,
+        coupling: Coupling,
+        coefficients: InfluenceCoefficients,
+        settings: SolverSettings,
+        boxed: bool,
+    ) -> Self {
+        Self {
+            grid,
+            undeformed,
+            friction,
+            coupling,
+            coefficients,
+            settings,
+            operators: None,
+            outside: None,
+            settled: None,
+            before: None,
+            last_load: None,
+            boxed,
+        }
+    }
+
+    /// Solves one increment: from `state`, which the step before returned, to the loads and motions of `load`.
+    ///
+    /// # Errors
+    /// When the equations cannot be satisfied, the loads have no equilibrium, or the contact reaches the grid's edge.
+    pub fn step(&mut self, state: &ContactState, load: &LoadStep, watch: Watch<'_>) -> Result<Increment, SolveError> {
+        self.check_sliding(load)?;
+        let mut work = Work::default();
+        let mut region = self.region_for(state, load);
+        loop {
+            let (solved, state_after, outcome) = self.step_in(region, state, load, &mut work, watch)?;
+            if touches_edge(&state_after.pressure) {
+                return Err(SolveError::ContactAtEdge);
+            }
+            let kept = self.settled.take().filter(|settled| {
+                self.coupling != Coupling::Coupled && settled.region == region && settled.load.normal == load.normal
+            });
+            let (gap, contact_area) = match kept {
+                Some(settled) => (settled.gap, settled.contact_area),
+                None => {
+                    let gap = self.gap_everywhere(region, &solved, &state_after, &mut work);
+                    if self.overlaps_outside(region, &gap) {
+                        region = Region::whole(self.grid.cells());
+                        continue;
+                    }
+                    let area = self.contact_area(region, &solved);
+                    (gap, area)
+                }
+            };
+            let previous = self.last_load.replace(*load);
+            self.before = previous.map(|last| (last, state.clone()));
+            self.settled = Some(Settled {
+                region,
+                displacements: solved.displacements,
+                gap: gap.clone(),
+                contact_area,
+                load: *load,
+            });
+            let share = outcome.stick_cells as f64 / outcome.contact_cells.max(1) as f64;
+            let stick_area = contact_area * share;
+            return Ok(Increment { state: state_after, outcome, contact_area, stick_area, gap, work });
+        }
+    }
+
+    fn check_sliding(&self, load: &LoadStep) -> Result<(), SolveError> {
+        if let (Control::Force(normal), [x, y]) = (load.normal, load.tangential) {
+            let part = |control| match control {
+                Control::Force(force) => force,
+                Control::Motion(_) => 0.0,
+            };
+            let asked = part(x).hypot(part(y));
+            let bound = self.friction.largest() * normal.max(0.0);
+            if asked > bound * (1.0 + 1e-12) {
+                return Err(SolveError::AboveSliding { asked, bound });
+            }
+        }
+        Ok(())
+    }
+
+    /// The box of an increment: around the contact so far and the predicted one, kept while it fits.
+    fn region_for(&self, state: &ContactState, load: &LoadStep) -> Region {
+        let whole = Region::whole(self.grid.cells());
+        let touched = state.pressure.iter().any(|p| *p > 0.0);
+        if !self.boxed || !touched {
+            return whole;
+        }
+        let predicted = self.predicted(state, load);
+        let cells = self.grid.cells();
+        let in_contact = |i: usize, j: usize| state.pressure[[i, j]] > 0.0 || predicted.0[[i, j]] > 0.0;
+        let least = Region::around(cells, 1, |n| n, in_contact);
+        let extent = least.shape[0].max(least.shape[1]);
+        let wanted = Region::around(cells, (extent / 12).max(3), good_length, in_contact);
+        match &self.operators {
+            Some(operators) => {
+                let now = operators.region;
+                let fits = (0..2).all(|axis| {
+                    now.origin[axis] <= least.origin[axis]
+                        && least.origin[axis] + least.shape[axis] <= now.origin[axis] + now.shape[axis]
+                });
+                if fits && now.len() as f64 <= 1.6 * wanted.len() as f64 { now } else { wanted }
+            }
+            None => wanted,
+        }
+    }
+
+    /// Tractions extrapolated linearly in the load while it keeps its direction.
+    fn predicted(&self, state: &ContactState, load: &LoadStep) -> (Array2<f64>, [Array2<f64>; 2]) {
+        let share = self.continuation(load);
+        match (&self.before, share) {
+            (Some((_, before)), Some(share)) => {
+                let extrapolate = |now: &Array2<f64>, then: &Array2<f64>| now + &((now - then) * share);
+                (
+                    extrapolate(&state.pressure, &before.pressure).mapv(|p| p.max(0.0)),
+                    [
+                        extrapolate(&state.shear[0], &before.shear[0]),
+                        extrapolate(&state.shear[1], &before.shear[1]),
+                    ],
+                )
+            }
+            _ => (state.pressure.clone(), state.shear.clone()),
+        }
+    }
+
+    /// Ratio of this load increment to the last one when it goes on in the same direction.
+    fn continuation(&self, load: &LoadStep) -> Option<f64> {
+        let (Some((first, _)), Some(second)) = (&self.before, &self.last_load) else { return None };
+        let (older, newer) = (change(first, second)?, change(second, load)?);
+        let mut product = 0.0;
+        let (mut old_square, mut new_square) = (0.0, 0.0);
+        for (a, b) in older.iter().zip(&newer) {
+            let scale = a.abs().max(b.abs());
+            if scale > 0.0 {
+                product += (a / scale) * (b / scale);
+                old_square += (a / scale).powi(2);
+                new_square += (b / scale).powi(2);
+            }
+        }
+        let cosine = product / (old_square * new_square).sqrt();
+        (cosine > 0.5).then(|| (product / old_square).min(3.0))
+    }
+
+    /// The operators of a box; those of the last box when its shape is the same.
+    fn operators_for(&mut self, region: Region) -> Result<BoxOperators, ConvolutionError> {
+        if let Some(mut operators) = self.operators.take()
+            && operators.region.shape == region.shape
+        {
+            operators.region = region;
+            return Ok(operators);
+        }
+        let wanted = Wanted {
+            normal: true,
+            tangential: self.coupling == Coupling::Uncoupled,
+            full: self.coupling == Coupling::Coupled,
+            normal_from_all: false,
+        };
+        let tangential = self.coupling != Coupling::Frictionless;
+        Ok(BoxOperators {
+            region,
+            compliance: SpectralCompliance::new(&self.coefficients, region.shape, wanted)?,
+            preconditioner: Preconditioner::new(&self.coefficients, region.shape, true, tangential)?,
+        })
+    }
+
+    /// One increment with all contact inside `region`.
+    fn step_in(
+        &mut self,
+        region: Region,
+        state: &ContactState,
+        load: &LoadStep,
+        work: &mut Work,
+        watch: Watch<'_>,
+    ) -> Result<(Solved, ContactState, Outcome), SolveError> {
+        let grid = self.grid;
+        let scene = Scene::new(&grid, &self.undeformed, self.friction, state, load, region);
+        if scene.is_apart() {
+            let solved = scene.apart();
+            let (after, outcome) = scene.settle(&solved);
+            return Ok((solved, after, outcome));
+        }
+        let predicted = self.predicted(state, load);
+        let tractions =
+            Tractions { pressure: region.gather(&predicted.0), shear: region.gather_tangential(&predicted.1) };
+        let mut operators = self.operators_for(region).map_err(|_| SolveError::OperatorsMissing)?;
+        let start = (operators.compliance.applications, operators.preconditioner.passes);
+        let settled = self.settled.as_ref().filter(|settled| settled.region == region);
+        let displaced = settled.map(|settled| &settled.displacements);
+        let unchanged = settled.is_some_and(|settled| settled.load.normal == load.normal);
+        let solved = match self.coupling {
+            Coupling::Coupled => scene.together(tractions, displaced, &mut operators, &self.settings, watch),
+            Coupling::Uncoupled | Coupling::Frictionless => {
+                let frictionless = self.coupling == Coupling::Frictionless;
+                scene.in_turn(tractions, displaced, unchanged, frictionless, &mut operators, &self.settings, watch)
+            }
+        };
+        work.convolutions += operators.compliance.applications - start.0;
+        work.preconditioner_passes += operators.preconditioner.passes - start.1;
+        self.operators = Some(operators);
+        let solved = solved?;
+        work.outer_iterations += solved.iterations;
+        let (after, outcome) = scene.settle(&solved);
+        Ok((solved, after, outcome))
+    }
+
+    /// Gap on the whole grid from tractions in a box.
+    fn gap_everywhere(
+        &mut self,
+        region: Region,
+        solved: &Solved,
+        state: &ContactState,
+        work: &mut Work,
+    ) -> Array2<f64> {
+        let cells = self.grid.cells();
+        let whole = Region::whole(cells);
+        let mut gap = Array2::zeros(cells);
+        if region == whole {
+            whole.scatter(&solved.gap, &mut gap);
+            return gap;
+        }
+        gap.assign(&self.undeformed);
+        gap -= state.approach;
+        if self.outside.is_none() {
+            let wanted = Wanted {
+                normal: self.coupling != Coupling::Coupled,
+                normal_from_all: self.coupling == Coupling::Coupled,
+                ..Wanted::default()
+            };
+            self.outside = SpectralCompliance::new(&self.coefficients, cells, wanted).ok();
+        }
+        if let Some(outside) = &mut self.outside {
+            let mut normal = vec![0.0; whole.len()];
+            let pressure = whole.gather(&state.pressure);
+            if self.coupling == Coupling::Coupled {
+                outside.normal_from_all(&pressure, &whole.gather_tangential(&state.shear), &mut normal);
+            } else {
+                outside.normal(&pressure, &mut normal);
+            }
+            work.convolutions += 1;
+            for (gap, u) in gap.iter_mut().zip(&normal) {
+                *gap += u;
+            }
+        }
+        gap
+    }
+
+    /// Whether the surfaces would overlap somewhere outside the box.
+    fn overlaps_outside(&self, region: Region, gap: &Array2<f64>) -> bool {
+        region != Region::whole(self.grid.cells())
+            && gap.indexed_iter().any(|((i, j), gap)| *gap < 0.0 && !region.contains(i, j))
+    }
+
+    /// Contact area [length^2] from the edge between the cells of a box.
+    fn contact_area(&self, region: Region, solved: &Solved) -> f64 {
+        let view = |field| ArrayView2::from_shape(region.shape, field);
+        match (view(solved.tractions.pressure.as_slice()), view(solved.gap.as_slice())) {
+            (Ok(pressure), Ok(gap)) => edge::contact_cells(pressure, gap) * self.grid.cell_area(),
+            _ => 0.0,
+        }
+    }
+}
+
+/// Loads as numbers, when both name the same controls.
+fn change(from: &LoadStep, to: &LoadStep) -> Option<[f64; 4]> {
+    let difference = |a: Control, b: Control| match (a, b) {
+        (Control::Force(a), Control::Force(b)) | (Control::Motion(a), Control::Motion(b)) => Some(b - a),
+        _ => None,
+    };
+    Some([
+        difference(from.normal, to.normal)?,
+        difference(from.tangential[0], to.tangential[0])?,
+        difference(from.tangential[1], to.tangential[1])?,
+        difference(from.twist, to.twist)?,
+    ])
+}
+
+fn touches_edge(pressure: &Array2<f64>) -> bool {
+    let (nx, ny) = pressure.dim();
+    let any = |view: ndarray::ArrayView1<'_, f64>| view.iter().any(|p| *p > 0.0);
+    any(pressure.row(0)) || any(pressure.row(nx - 1)) || any(pressure.column(0)) || any(pressure.column(ny - 1))
+}

@@ -1,0 +1,174 @@
+//! An approximate inverse of the elastic answer by unpadded transforms on the box: the kernel made periodic with the
+//! nearest image of each offset only, inverted wave by wave; for slipping cells with the slip stiffness added.
+
+use ndarray::{Array2, s};
+
+use super::zones::{Freedom, Zones};
+use crate::kernel::InfluenceCoefficients;
+use crate::model::TangentialField;
+use crate::spectral::{Block, ConvolutionError, Kernel, Parity, PeriodicProduct, Symbol, Workspace};
+
+/// Second level of slip stiffness, in units of the smallest elastic symbol.
+const STIFF_LEVEL: f64 = 30.0;
+
+const NORMAL: [Block; 1] = [Block { output: 0, input: 0, kernel: 0, sign: 1.0 }];
+const TANGENTIAL: [Block; 4] = [
+    Block { output: 0, input: 0, kernel: 0, sign: 1.0 },
+    Block { output: 1, input: 1, kernel: 1, sign: 1.0 },
+    Block { output: 0, input: 1, kernel: 2, sign: 1.0 },
+    Block { output: 1, input: 0, kernel: 2, sign: 1.0 },
+];
+
+/// Approximate inverses for a box.
+pub struct Preconditioner {
+    normal: Option<(PeriodicProduct, Workspace)>,
+    /// Inverses of the symbol, and of the symbol plus [`STIFF_LEVEL`] smallest symbols.
+    shear: Option<[(PeriodicProduct, Workspace); 2]>,
+    /// Smallest symbol of the tangential response [length/pressure].
+    softest: f64,
+    scaled: TangentialField,
+    part: TangentialField,
+    /// Passes so far.
+    pub passes: usize,
+}
+
+impl Preconditioner {
+    /// Inverses for a box of `shape` cells; normal, tangential or both.
+    ///
+    /// # Errors
+    /// When a coefficient is missing or does not cover the box.
+    pub fn new(
+        coefficients: &InfluenceCoefficients,
+        shape: [usize; 2],
+        normal: bool,
+        tangential: bool,
+    ) -> Result<Self, ConvolutionError> {
+        let c = coefficients;
+        let symbol = |values: &Option<Array2<f64>>, parity: Parity| {
+            let values = values.as_ref().ok_or(ConvolutionError::EmptyShape(0, 0))?;
+            let half = [shape[0] / 2 + 1, shape[1] / 2 + 1];
+            let mut near = values.slice(s![..half[0].min(values.nrows()), ..half[1].min(values.ncols())]).to_owned();
+            // An odd kernel has no nearest image half a period away.
+            for (axis, odd) in parity.odd().into_iter().enumerate() {
+                if odd && shape[axis].is_multiple_of(2) && near.shape()[axis] == half[axis] {
+                    near.index_axis_mut(ndarray::Axis(axis), half[axis] - 1).fill(0.0);
+                }
+            }
+            Ok(PeriodicProduct::symbol_of(shape, &Kernel { values: near.view(), parity }))
+        };
+        let product = |symbols: &[Symbol<'_>], blocks: &[Block]| {
+            let product = PeriodicProduct::new(shape, symbols, blocks)?;
+            let workspace = product.workspace();
+            Ok::<_, ConvolutionError>((product, workspace))
+        };
+        let normal = if normal {
+            let mut response = symbol(&c.zz, Parity::EvenEven)?;
+            let least = smallest_positive(&response);
+            response.mapv_inplace(|value| 1.0 / value.max(least));
+            Some(product(&[Symbol { values: response.view(), parity: Parity::EvenEven }], &NORMAL)?)
+        } else {
+            None
+        };
+        let mut softest = 0.0;
+        let shear = if tangential {
+            let xx = symbol(&c.xx, Parity::EvenEven)?;
+            let yy = symbol(&c.yy, Parity::EvenEven)?;
+            let xy = symbol(&c.xy, Parity::OddOdd)?;
+            softest = smallest_positive(&xx).min(smallest_positive(&yy));
+            let level = |shift: f64| {
+                let [xx, yy, xy] = inverse(&xx, &yy, &xy, softest, shift);
+                let symbols = [
+                    Symbol { values: xx.view(), parity: Parity::EvenEven },
+                    Symbol { values: yy.view(), parity: Parity::EvenEven },
+                    Symbol { values: xy.view(), parity: Parity::OddOdd },
+                ];
+                product(&symbols, &TANGENTIAL)
+            };
+            Some([level(0.0)?, level(STIFF_LEVEL * softest)?])
+        } else {
+            None
+        };
+        let len = shape[0] * shape[1];
+        Ok(Self {
+            normal,
+            shear,
+            softest,
+            scaled: TangentialField::zeros(len),
+            part: TangentialField::zeros(len),
+            passes: 0,
+        })
+    }
+
+    /// Pressures that would remove normal displacements `right`, before any restriction to a set.
+    pub fn normal(&mut self, right: &[f64], pressure: &mut [f64]) {
+        if let Some((product, workspace)) = &mut self.normal {
+            self.passes += 1;
+            product.apply(workspace, &[right], &mut [pressure]);
+        }
+    }
+
+    /// Shears that would remove tangential displacements `right` on the frozen zones, restricted to what these leave free:
+    /// a partition of unity over the slip stiffness between two levels.
+    pub fn shear(&mut self, right: &TangentialField, zones: &Zones, shear: &mut TangentialField) {
+        let Some(levels) = &mut self.shear else { return };
+        let softest = self.softest;
+        let stiff = zones
+            .contact
+            .iter()
+            .any(|&cell| zones.freedom[cell] == Freedom::Slip && zones.stiffness[cell] > softest);
+        shear.clear();
+        let span = STIFF_LEVEL.ln();
+        for (level, (product, workspace)) in levels.iter_mut().enumerate() {
+            if level == 1 && !stiff {
+                continue;
+            }
+            let shift = if level == 0 { 0.0 } else { STIFF_LEVEL * softest };
+            let scale = |cell: usize| -> f64 {
+                let stiffness = zones.stiffness[cell];
+                let share =
+                    if stiffness <= softest { 0.0 } else { ((stiffness / softest).ln() / span).min(1.0) };
+                let weight = if level == 0 { 1.0 - share } else { share };
+                (weight * (softest + shift) / (softest + stiffness)).sqrt()
+            };
+            self.scaled.clear();
+            for &cell in &zones.contact {
+                let factor = scale(cell);
+                self.scaled.set(cell, [factor * right.x[cell], factor * right.y[cell]]);
+            }
+            self.passes += 1;
+            product.apply(workspace, &self.scaled.parts(), &mut [&mut self.part.x, &mut self.part.y]);
+            for &cell in &zones.contact {
+                let factor = scale(cell);
+                shear.x[cell] += factor * self.part.x[cell];
+                shear.y[cell] += factor * self.part.y[cell];
+            }
+        }
+        zones.keep_free(shear);
+    }
+}
+
+/// Smallest positive value of a symbol: what any that is not positive is raised to.
+fn smallest_positive(symbol: &Array2<f64>) -> f64 {
+    symbol.iter().copied().filter(|value| *value > 0.0).fold(f64::INFINITY, f64::min)
+}
+
+/// Wave by wave inverse of `[[xx, t], [t, yy]] + shift`, with the transfer function `t = -xy` of an odd-odd kernel.
+fn inverse(
+    xx: &Array2<f64>,
+    yy: &Array2<f64>,
+    xy: &Array2<f64>,
+    softest: f64,
+    shift: f64,
+) -> [Array2<f64>; 3] {
+    let mut result = [xx.clone(), yy.clone(), xy.clone()];
+    for (index, &cross) in xy.indexed_iter() {
+        let (a, d) = (xx[index].max(softest) + shift, yy[index].max(softest) + shift);
+        let det = a * d - cross * cross;
+        // Not positive: as if uncoupled.
+        let (det, cross) = if det > 1e-3 * a * d { (det, cross) } else { (a * d, 0.0) };
+        result[0][index] = d / det;
+        result[1][index] = a / det;
+        result[2][index] = -cross / det;
+    }
+    result
+}

@@ -1,0 +1,92 @@
+//! The box around the contact: where the iteration works, and how fields pass between it and the whole grid.
+
+use ndarray::Array2;
+
+use crate::model::field::TangentialField;
+
+/// A rectangular part of the grid.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Region {
+    /// First cell.
+    pub origin: [usize; 2],
+    /// Number of cells.
+    pub shape: [usize; 2],
+}
+
+impl Region {
+    /// The whole grid.
+    pub fn whole(cells: [usize; 2]) -> Self {
+        Self { origin: [0, 0], shape: cells }
+    }
+
+    /// Number of cells.
+    pub fn len(&self) -> usize {
+        self.shape[0] * self.shape[1]
+    }
+
+    /// The part of a grid field, as flat rows.
+    pub fn gather(&self, field: &Array2<f64>) -> Vec<f64> {
+        let mut part = Vec::with_capacity(self.len());
+        for i in 0..self.shape[0] {
+            let row = field.row(self.origin[0] + i);
+            part.extend(row.iter().skip(self.origin[1]).take(self.shape[1]));
+        }
+        part
+    }
+
+    /// The part of a tangential grid field.
+    pub fn gather_tangential(&self, field: &[Array2<f64>; 2]) -> TangentialField {
+        TangentialField { x: self.gather(&field[0]), y: self.gather(&field[1]) }
+    }
+
+    /// Writes the part into a grid field that is zero elsewhere.
+    pub fn scatter(&self, part: &[f64], field: &mut Array2<f64>) {
+        field.fill(0.0);
+        for i in 0..self.shape[0] {
+            for j in 0..self.shape[1] {
+                field[[self.origin[0] + i, self.origin[1] + j]] = part[i * self.shape[1] + j];
+            }
+        }
+    }
+
+    /// Whether a cell of the grid lies inside.
+    pub fn contains(&self, i: usize, j: usize) -> bool {
+        (self.origin[0]..self.origin[0] + self.shape[0]).contains(&i)
+            && (self.origin[1]..self.origin[1] + self.shape[1]).contains(&j)
+    }
+
+    /// The smallest box around all cells where `wanted`, with a `margin` of cells on each side, its sides rounded up by
+    /// `good_length`; the whole grid when that is hardly larger, or when nothing is wanted.
+    pub fn around(
+        cells: [usize; 2],
+        margin: usize,
+        good_length: impl Fn(usize) -> usize,
+        wanted: impl Fn(usize, usize) -> bool,
+    ) -> Self {
+        let mut low = [usize::MAX; 2];
+        let mut high = [0_usize; 2];
+        for i in 0..cells[0] {
+            for j in 0..cells[1] {
+                if wanted(i, j) {
+                    low = [low[0].min(i), low[1].min(j)];
+                    high = [high[0].max(i), high[1].max(j)];
+                }
+            }
+        }
+        if low[0] == usize::MAX {
+            return Self::whole(cells);
+        }
+        let mut region = Self::whole(cells);
+        for axis in 0..2 {
+            let shape = good_length(high[axis] - low[axis] + 1 + 2 * margin);
+            if shape as f64 > 0.93 * cells[axis] as f64 {
+                continue;
+            }
+            // Centred on what is wanted, moved inside where it would stick out.
+            let middle = (low[axis] + high[axis] + 1) / 2;
+            region.origin[axis] = middle.saturating_sub(shape / 2).min(cells[axis] - shape);
+            region.shape[axis] = shape;
+        }
+        region
+    }
+}

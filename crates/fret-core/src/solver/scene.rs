@@ -1,0 +1,444 @@
+//! One increment seen inside one box: everything the equations need, gathered; solved; and put back on the grid.
+
+use ndarray::Array2;
+
+use super::coupled::{CoupledTask, Displacements, Tractions, solve_coupled};
+use super::normal::{NormalTask, first_pressure, solve_normal};
+use super::preconditioner::Preconditioner;
+use super::region::Region;
+use super::residual::{NormalVerdict, TangentialTask, TangentialVerdict, judge_normal};
+use super::retraction::{retract_pressure, retract_shear};
+use super::rigid::RigidModes;
+use super::settings::{SolveError, SolverSettings, Watch};
+use super::shear::solve_shear;
+use super::zones::Zones;
+use crate::compliance::{SpectralCompliance, SurfaceCompliance};
+use crate::history::{Regime, Residual};
+use crate::model::field::sum;
+use crate::model::{ContactState, Control, CoulombFriction, LoadStep, SurfaceGrid, TangentialField, Zone};
+
+/// Residual to which the frictionless start of a coupled contact is solved.
+const ROUGH: f64 = 1e-2;
+
+/// The operators of a box.
+pub struct BoxOperators {
+    /// Where the box lies.
+    pub region: Region,
+    /// The elastic answer.
+    pub compliance: SpectralCompliance,
+    /// Its approximate inverse.
+    pub preconditioner: Preconditioner,
+}
+
+/// One increment in one box.
+pub struct Scene<'a> {
+    grid: &'a SurfaceGrid,
+    state: &'a ContactState,
+    region: Region,
+    undeformed: Vec<f64>,
+    friction: Vec<f64>,
+    total: Option<f64>,
+    approach: f64,
+    modes: RigidModes,
+    motion: [f64; 3],
+    resultant: [f64; 3],
+}
+
+/// A solved box.
+pub struct Solved {
+    /// Pressure and shear.
+    pub tractions: Tractions,
+    /// Their displacements.
+    pub displacements: Displacements,
+    /// Gap [length].
+    pub gap: Vec<f64>,
+    /// Minus the slip increment [length].
+    s: TangentialField,
+    normal: NormalVerdict,
+    tangential: TangentialVerdict,
+    /// Outer iterations.
+    pub iterations: usize,
+}
+
+/// Sums of the tractions.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Resultants {
+    /// Normal force [force].
+    pub normal: f64,
+    /// Tangential force on the lower body [force].
+    pub tangential: [f64; 2],
+    /// Moment about z on the lower body [force x length].
+    pub moment: f64,
+}
+
+/// What an increment did, apart from the fields.
+#[derive(Debug, Clone, Copy)]
+pub struct Outcome {
+    /// Resultants of the tractions.
+    pub resultants: Resultants,
+    /// Cells in contact.
+    pub contact_cells: usize,
+    /// Cells that stick.
+    pub stick_cells: usize,
+    /// What the contact does.
+    pub regime: Regime,
+    /// How well the equations hold.
+    pub residual: Residual,
+}
+
+impl<'a> Scene<'a> {
+    /// Gathers what an increment needs inside `region`.
+    pub fn new(
+        grid: &'a SurfaceGrid,
+        undeformed: &Array2<f64>,
+        friction: &CoulombFriction,
+        state: &'a ContactState,
+        load: &LoadStep,
+        region: Region,
+    ) -> Self {
+        let centres = |axis: usize| -> Vec<f64> {
+            (0..region.shape[axis]).map(|index| grid.centre(axis, region.origin[axis] + index)).collect()
+        };
+        let controls = [load.tangential[0], load.tangential[1], load.twist];
+        let by_force = controls.map(|control| matches!(control, Control::Force(_)));
+        let rotates = state.twist != 0.0 || load.twist != Control::Motion(0.0);
+        let modes = RigidModes::new(&centres(0), &centres(1), rotates, by_force);
+        let area = grid.cell_area();
+        let now = [state.shift[0], state.shift[1], state.twist];
+        let units = [1.0, 1.0, modes.length];
+        let mut motion = [0.0; 3];
+        let mut resultant = [0.0; 3];
+        for mode in 0..3 {
+            match controls[mode] {
+                Control::Motion(target) => motion[mode] = (target - now[mode]) * units[mode],
+                Control::Force(target) => resultant[mode] = target / (area * units[mode]),
+            }
+        }
+        let [_, columns] = region.shape;
+        let friction = (0..region.len())
+            .map(|cell| friction.at(region.origin[0] + cell / columns, region.origin[1] + cell % columns))
+            .collect();
+        let (total, approach) = match load.normal {
+            Control::Force(force) => (Some(force / area), state.approach),
+            Control::Motion(approach) => (None, approach),
+        };
+        Self {
+            grid,
+            state,
+            region,
+            undeformed: region.gather(undeformed),
+            friction,
+            total,
+            approach,
+            modes,
+            motion,
+            resultant,
+        }
+    }
+
+    /// The bodies do not touch under these loads.
+    pub fn is_apart(&self) -> bool {
+        let lowest = self.undeformed.iter().copied().fold(f64::INFINITY, f64::min);
+        match self.total {
+            Some(total) => total <= 0.0,
+            None => self.approach <= lowest,
+        }
+    }
+
+    /// Bodies that do not touch.
+    pub fn apart(&self) -> Solved {
+        let len = self.region.len();
+        let lowest = self.undeformed.iter().copied().fold(f64::INFINITY, f64::min);
+        let approach = if self.total.is_some() { lowest } else { self.approach };
+        Solved {
+            tractions: Tractions::zeros(len),
+            displacements: Displacements::zeros(len),
+            gap: self.undeformed.iter().map(|gap| gap - approach).collect(),
+            s: TangentialField::zeros(len),
+            normal: NormalVerdict { approach, residual: 0.0 },
+            tangential: TangentialVerdict { motion: self.motion, residual: 0.0 },
+            iterations: 0,
+        }
+    }
+
+    fn touched(&self) -> bool {
+        self.state.pressure.iter().any(|p| *p > 0.0)
+    }
+
+    fn normal_task(&self) -> NormalTask<'_> {
+        NormalTask { undeformed: &self.undeformed, total: self.total, approach: self.approach }
+    }
+
+    fn bound(&self, pressure: &[f64]) -> Vec<f64> {
+        pressure.iter().zip(&self.friction).map(|(p, mu)| p * mu).collect()
+    }
+
+    fn task<'b>(
+        &'b self,
+        contact: &'b [usize],
+        bound: &'b [f64],
+        before: &'b TangentialField,
+        own: f64,
+    ) -> TangentialTask<'b> {
+        TangentialTask {
+            contact,
+            bound,
+            before,
+            modes: &self.modes,
+            motion: self.motion,
+            resultant: self.resultant,
+            own,
+        }
+    }
+
+    /// Predicted tractions made feasible.
+    fn feasible(&self, tractions: &mut Tractions, before: &TangentialField, own: f64) {
+        retract_pressure(&mut tractions.pressure, self.total);
+        let bound = self.bound(&tractions.pressure);
+        let contact = loaded(&tractions.pressure);
+        let at_rest = TangentialField::zeros(bound.len());
+        let zones = Zones::classify(contact.clone(), &tractions.shear, &at_rest, &bound, |_| false);
+        retract_shear(&mut tractions.shear, &zones, &self.task(&contact, &bound, before, own));
+    }
+
+    /// Pressure and shear together. `settled`: displacements of the state before, when they are known.
+    pub fn together(
+        &self,
+        mut tractions: Tractions,
+        settled: Option<&Displacements>,
+        operators: &mut BoxOperators,
+        settings: &SolverSettings,
+        watch: Watch<'_>,
+    ) -> Result<Solved, SolveError> {
+        let len = self.region.len();
+        let BoxOperators { compliance, preconditioner, .. } = operators;
+        let own = compliance.own();
+        let mut displacements = Displacements::zeros(len);
+        let mut before = TangentialField::zeros(len);
+        if self.touched() {
+            before = self.displaced_before(settled, compliance, true);
+            self.feasible(&mut tractions, &before, own.tangential);
+        } else {
+            tractions.shear.clear();
+            tractions.pressure = first_pressure(&self.normal_task(), own.normal);
+            compliance.normal(&tractions.pressure, &mut displacements.normal);
+            let rough = SolverSettings { tolerance: ROUGH, ..*settings };
+            solve_normal(
+                &self.normal_task(),
+                &mut tractions.pressure,
+                &mut displacements.normal,
+                compliance,
+                preconditioner,
+                &rough,
+                watch,
+            )?;
+            self.feasible(&mut tractions, &before, own.tangential);
+        }
+        compliance.full(
+            &tractions.pressure,
+            &tractions.shear,
+            &mut displacements.normal,
+            &mut displacements.tangential,
+        );
+        let task = CoupledTask {
+            undeformed: &self.undeformed,
+            friction: &self.friction,
+            total: self.total,
+            approach: self.approach,
+            before: &before,
+            modes: &self.modes,
+            motion: self.motion,
+            resultant: self.resultant,
+        };
+        let solution =
+            solve_coupled(&task, &mut tractions, &mut displacements, compliance, preconditioner, settings, watch)?;
+        Ok(Solved {
+            tractions,
+            displacements,
+            gap: solution.gap,
+            s: solution.s,
+            normal: solution.normal,
+            tangential: solution.tangential,
+            iterations: solution.iterations,
+        })
+    }
+
+    /// Tangential displacement of the state before, in the box.
+    fn displaced_before(
+        &self,
+        settled: Option<&Displacements>,
+        compliance: &mut SpectralCompliance,
+        with_pressure: bool,
+    ) -> TangentialField {
+        if let Some(settled) = settled {
+            return settled.tangential.clone();
+        }
+        let mut before = TangentialField::zeros(self.region.len());
+        let shear = self.region.gather_tangential(&self.state.shear);
+        if with_pressure {
+            let pressure = self.region.gather(&self.state.pressure);
+            let mut aside = vec![0.0; self.region.len()];
+            compliance.full(&pressure, &shear, &mut aside, &mut before);
+        } else if shear.x.iter().chain(&shear.y).any(|q| *q != 0.0) {
+            compliance.tangential(&shear, &mut before);
+        }
+        before
+    }
+
+    /// Pressure first, then shear on it: for bodies whose shear does not move the surfaces normally.
+    /// `unchanged`: the normal load is that of the state before, so pressure stays.
+    pub fn in_turn(
+        &self,
+        mut tractions: Tractions,
+        settled: Option<&Displacements>,
+        unchanged: bool,
+        frictionless: bool,
+        operators: &mut BoxOperators,
+        settings: &SolverSettings,
+        watch: Watch<'_>,
+    ) -> Result<Solved, SolveError> {
+        let len = self.region.len();
+        let BoxOperators { compliance, preconditioner, .. } = operators;
+        let own = compliance.own();
+        let mut displacements = Displacements::zeros(len);
+        let (mut gap, normal, mut iterations);
+        if let (true, Some(settled)) = (unchanged, settled) {
+            tractions.pressure = self.region.gather(&self.state.pressure);
+            displacements.normal.clone_from(&settled.normal);
+            gap = displacements.normal.iter().zip(&self.undeformed).map(|(u, g)| u + g).collect::<Vec<_>>();
+            let prescribed = if self.total.is_none() { Some(self.approach) } else { None };
+            normal = judge_normal(&tractions.pressure, &mut gap, &self.undeformed, own.normal, prescribed);
+            iterations = 0;
+        } else {
+            let usable = retract_pressure(&mut tractions.pressure, self.total);
+            if !self.touched() || !usable {
+                tractions.pressure = first_pressure(&self.normal_task(), own.normal);
+            }
+            compliance.normal(&tractions.pressure, &mut displacements.normal);
+            let solution = solve_normal(
+                &self.normal_task(),
+                &mut tractions.pressure,
+                &mut displacements.normal,
+                compliance,
+                preconditioner,
+                settings,
+                watch,
+            )?;
+            gap = solution.gap;
+            normal = solution.verdict;
+            iterations = solution.iterations;
+        }
+        let mut s = TangentialField::zeros(len);
+        let mut tangential = TangentialVerdict { motion: self.motion, residual: 0.0 };
+        let caused = self.motion != [0.0; 3]
+            || self.resultant != [0.0; 3]
+            || self.state.shear.iter().any(|shear| shear.iter().any(|q| *q != 0.0));
+        if frictionless || !caused {
+            tractions.shear.clear();
+        } else {
+            let before = self.displaced_before(settled, compliance, false);
+            let bound = self.bound(&tractions.pressure);
+            let contact = loaded(&tractions.pressure);
+            let task = self.task(&contact, &bound, &before, own.tangential);
+            let at_rest = TangentialField::zeros(len);
+            let zones = Zones::classify(contact.clone(), &tractions.shear, &at_rest, &bound, |_| false);
+            retract_shear(&mut tractions.shear, &zones, &task);
+            compliance.tangential(&tractions.shear, &mut displacements.tangential);
+            let solution = solve_shear(
+                &task,
+                &mut tractions.shear,
+                &mut displacements.tangential,
+                compliance,
+                preconditioner,
+                settings,
+                watch,
+            )?;
+            tangential = solution.verdict;
+            s = solution.s;
+            iterations += solution.iterations;
+        }
+        Ok(Solved { tractions, displacements, gap, s, normal, tangential, iterations })
+    }
+
+    /// The state after the increment, and what happened.
+    pub fn settle(&self, solved: &Solved) -> (ContactState, Outcome) {
+        let Tractions { pressure, shear } = &solved.tractions;
+        let area = self.grid.cell_area();
+        let bound = self.bound(pressure);
+        let contact = loaded(pressure);
+        let zones = Zones::classify(contact.clone(), shear, &solved.s, &bound, |_| false);
+        let mut state = self.state.clone();
+        self.region.scatter(pressure, &mut state.pressure);
+        self.region.scatter(&shear.x, &mut state.shear[0]);
+        self.region.scatter(&shear.y, &mut state.shear[1]);
+        state.zone.fill(Zone::Open);
+        state.approach = solved.normal.approach;
+        let moved = solved.tangential.motion;
+        state.shift = [state.shift[0] + moved[0], state.shift[1] + moved[1]];
+        state.twist += moved[2] / self.modes.length;
+        let columns = self.region.shape[1];
+        let mut stick_cells = 0;
+        let mut sums = [0.0; 3];
+        let mut dissipated = 0.0;
+        for &cell in &contact {
+            let at = [self.region.origin[0] + cell / columns, self.region.origin[1] + cell % columns];
+            let q = shear.at(cell);
+            let products = self.modes.products(q, cell);
+            for mode in 0..3 {
+                sums[mode] += products[mode];
+            }
+            if zones.is_on_circle(cell) {
+                state.zone[at] = Zone::Slip;
+                let slip = [-solved.s.x[cell], -solved.s.y[cell]];
+                state.slip[0][at] += slip[0];
+                state.slip[1][at] += slip[1];
+                dissipated += q[0] * slip[0] + q[1] * slip[1];
+            } else {
+                state.zone[at] = Zone::Stick;
+                stick_cells += 1;
+            }
+        }
+        state.dissipated_energy += dissipated * area;
+        let total = sum(pressure);
+        let limit: f64 = contact.iter().map(|&cell| bound[cell]).sum();
+        let mut equilibrium = match self.total {
+            Some(asked) if asked > 0.0 => ((total - asked) / asked).abs(),
+            _ => 0.0,
+        };
+        if limit > 0.0 {
+            for mode in 0..3 {
+                if self.modes.by_force[mode] {
+                    equilibrium = equilibrium.max(((sums[mode] - self.resultant[mode]) / limit).abs());
+                }
+            }
+        }
+        let regime = match (contact.len(), stick_cells) {
+            (0, _) => Regime::Apart,
+            _ if limit == 0.0 => Regime::Frictionless,
+            (_, 0) => Regime::GrossSlip,
+            (all, stick) if all == stick => Regime::FullStick,
+            _ => Regime::PartialSlip,
+        };
+        let outcome = Outcome {
+            resultants: Resultants {
+                normal: total * area,
+                tangential: [sums[0] * area, sums[1] * area],
+                moment: sums[2] * area * self.modes.length,
+            },
+            contact_cells: contact.len(),
+            stick_cells,
+            regime,
+            residual: Residual {
+                complementarity: solved.normal.residual,
+                coulomb: solved.tangential.residual,
+                equilibrium,
+            },
+        };
+        (state, outcome)
+    }
+}
+
+/// Cells with pressure, in their order.
+fn loaded(pressure: &[f64]) -> Vec<usize> {
+    (0..pressure.len()).filter(|&cell| pressure[cell] > 0.0).collect()
+}

@@ -1,0 +1,49 @@
+//! What an increment is asked for, and how it can end without an answer.
+
+use std::ops::ControlFlow;
+
+/// Limits of the solver.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SolverSettings {
+    /// Bound on the residual, dimensionless.
+    pub tolerance: f64,
+    /// Changes of the zones before an increment is given up.
+    pub most_outer_iterations: usize,
+    /// Krylov steps on frozen zones.
+    pub most_inner_iterations: usize,
+}
+
+impl SolverSettings {
+    /// Settings for a tolerance.
+    pub fn new(tolerance: f64) -> Self {
+        Self { tolerance, most_outer_iterations: 200, most_inner_iterations: 30 }
+    }
+}
+
+/// Why an increment has no answer.
+#[derive(Debug, Clone, PartialEq)]
+pub enum SolveError {
+    /// The residual stayed above the tolerance.
+    NotConverged {
+        /// Residual reached.
+        reached: f64,
+        /// Iterations made.
+        iterations: usize,
+    },
+    /// More tangential force than friction carries.
+    AboveSliding {
+        /// Force asked for [force].
+        asked: f64,
+        /// mu W [force].
+        bound: f64,
+    },
+    /// The contact reaches the edge of the grid.
+    ContactAtEdge,
+    /// The influence coefficients do not cover the scene.
+    OperatorsMissing,
+    /// Somebody stopped the iteration.
+    Stopped,
+}
+
+/// Hears of every outer iteration and its residual; may stop it.
+pub type Watch<'a> = &'a mut dyn FnMut(usize, f64) -> ControlFlow<()>;

@@ -1,0 +1,79 @@
+//! Products of fields with kernels in free space.
+
+use super::block::Terms;
+use super::line_product::LineProduct;
+use super::{Block, ConvolutionError, Kernel, Workspace};
+
+/// Free-space product of fields with translation-invariant kernels:
+///
+/// `output_o[i, j] = sum over blocks (o, f, k, s) of s * sum_{m, n} K_k[i - m, j - n] input_f[m, n]`
+///
+/// over a grid of `nx x ny` cells, with nothing outside. Immutable and shareable between threads; the memory it works
+/// in is a [`Workspace`].
+///
+/// ```
+/// # use fret_core::spectral::{Block, Convolution, Kernel, Parity};
+/// let values = ndarray::array![[4.0, 2.0], [1.0, 0.5]]; // offsets (0, 0), (0, 1); (1, 0), (1, 1)
+/// let kernel = Kernel { values: values.view(), parity: Parity::EvenEven };
+/// let block = Block { output: 0, input: 0, kernel: 0, sign: 1.0 };
+/// let convolution = Convolution::new([2, 2], &[kernel], &[block])?;
+/// let mut workspace = convolution.workspace();
+/// let mut output = vec![0.0; 4];
+/// convolution.apply(&mut workspace, &[&[0.0, 0.0, 0.0, 1.0]], &mut [&mut output]);
+/// for (found, expected) in output.iter().zip([0.5, 1.0, 2.0, 4.0]) {
+///     assert!((found - expected).abs() < 1e-14);
+/// }
+/// # Ok::<(), fret_core::spectral::ConvolutionError>(())
+/// ```
+pub struct Convolution {
+    terms: Terms,
+    lines: LineProduct,
+}
+
+impl Convolution {
+    /// Plans the product on a grid of `shape = [nx, ny]` cells, any size from `1 x 1`.
+    ///
+    /// Of each kernel the leading `nx x ny` values are used. Costs about half an application per kernel.
+    ///
+    /// # Errors
+    /// When the shape is empty, there are no blocks, a kernel is too small or not finite, or a block names a kernel
+    /// that is not there.
+    pub fn new(
+        shape: [usize; 2],
+        kernels: &[Kernel<'_>],
+        blocks: &[Block],
+    ) -> Result<Self, ConvolutionError> {
+        let terms = Terms::new(shape, shape, kernels, blocks)?;
+        let lines = LineProduct::free_space(terms.clone(), kernels);
+        Ok(Self { terms, lines })
+    }
+
+    /// Memory to apply this product in.
+    pub fn workspace(&self) -> Workspace {
+        let mut workspace = Workspace::default();
+        workspace.lines(self.lines.scratch_len());
+        workspace
+    }
+
+    /// Computes all outputs (what they held before is lost). Fields are contiguous, `nx * ny` values, index
+    /// `i * ny + j`.
+    ///
+    /// Allocates nothing; the result is bitwise the same for any number of threads.
+    ///
+    /// # Panics
+    /// When the number of fields or their length is not what the product was made for.
+    pub fn apply(&self, workspace: &mut Workspace, input: &[&[f64]], output: &mut [&mut [f64]]) {
+        self.terms.check_fields(input, output);
+        self.lines.apply(workspace.lines(self.lines.scratch_len()), input, output);
+    }
+
+    /// Number of cells `[nx, ny]`.
+    pub fn shape(&self) -> [usize; 2] {
+        self.terms.shape
+    }
+
+    /// Memory held by the transformed kernels [bytes].
+    pub fn memory_bytes(&self) -> usize {
+        self.lines.memory_bytes()
+    }
+}

@@ -1,0 +1,22 @@
+//! Discrete Fourier work: products of fields with translation-invariant kernels. Knows no mechanics.
+//!
+//! [`Convolution`] is the free-space (zero-padded) product, [`PeriodicProduct`] the periodic one. Both are planned once,
+//! immutable and shared; the memory they work in is a [`Workspace`], made once and passed in.
+
+mod block;
+mod convolution;
+mod fourier;
+mod lengths;
+mod line_product;
+mod parity;
+mod periodic_product;
+#[cfg(test)]
+mod tests;
+mod workspace;
+
+pub use block::{Block, ConvolutionError, Kernel, Symbol};
+pub use convolution::Convolution;
+pub use lengths::good_length;
+pub use parity::Parity;
+pub use periodic_product::PeriodicProduct;
+pub use workspace::Workspace;

@@ -1,0 +1,79 @@
+//! Products of fields with transfer functions on a periodic grid.
+
+use ndarray::Array2;
+
+use super::block::Terms;
+use super::line_product::{self, LineProduct};
+use super::{Block, ConvolutionError, Kernel, Symbol, Workspace};
+
+/// Product of periodic fields with real transfer functions:
+///
+/// `output_o = sum over blocks (o, f, k, s) of s * F^-1( S_k F(input_f) )`
+///
+/// with the discrete Fourier transform `F` on a grid of `nx x ny` cells and the transfer functions `S_k` given as
+/// [`Symbol`]s. Immutable and shareable between threads; the memory it works in is a [`Workspace`].
+pub struct PeriodicProduct {
+    terms: Terms,
+    lines: LineProduct,
+}
+
+impl PeriodicProduct {
+    /// Plans the product on a grid of `shape = [nx, ny]` cells, any size from `1 x 1`. Lengths that
+    /// [`good_length`](super::good_length) leaves as they are, are several times faster.
+    ///
+    /// # Errors
+    /// When the shape is empty, there are no blocks, a symbol is too small or not finite, or a block names a symbol
+    /// that is not there.
+    pub fn new(
+        shape: [usize; 2],
+        symbols: &[Symbol<'_>],
+        blocks: &[Block],
+    ) -> Result<Self, ConvolutionError> {
+        let kernels: Vec<_> =
+            symbols.iter().map(|symbol| Kernel { values: symbol.values, parity: symbol.parity }).collect();
+        let terms = Terms::new(shape, shape.map(|n| n / 2 + 1), &kernels, blocks)?;
+        let lines = LineProduct::periodic(terms.clone(), &kernels);
+        Ok(Self { terms, lines })
+    }
+
+    /// Memory to apply this product in.
+    pub fn workspace(&self) -> Workspace {
+        let mut workspace = Workspace::default();
+        workspace.lines(self.lines.scratch_len());
+        workspace
+    }
+
+    /// Computes all outputs (what they held before is lost). Fields are contiguous, `nx * ny` values, index
+    /// `i * ny + j`.
+    ///
+    /// Allocates nothing; the result is bitwise the same for any number of threads.
+    ///
+    /// # Panics
+    /// When the number of fields or their length is not what the product was made for.
+    pub fn apply(&self, workspace: &mut Workspace, input: &[&[f64]], output: &mut [&mut [f64]]) {
+        self.terms.check_fields(input, output);
+        self.lines.apply(workspace.lines(self.lines.scratch_len()), input, output);
+    }
+
+    /// Number of cells `[nx, ny]`.
+    pub fn shape(&self) -> [usize; 2] {
+        self.terms.shape
+    }
+
+    /// Memory held by the symbols [bytes].
+    pub fn memory_bytes(&self) -> usize {
+        self.lines.memory_bytes()
+    }
+
+    /// Symbol values `(nx/2 + 1, ny/2 + 1)` of a kernel in real space that is repeated with the period of the grid, in
+    /// the convention of [`Symbol`] (with the kernel's parity).
+    ///
+    /// Of the kernel the values at offsets `0..=nx/2`, `0..=ny/2` are used; the others follow by parity and period.
+    /// Along an odd axis those at 0 and, for even lengths, at half the period count as zero.
+    ///
+    /// # Errors
+    /// When the shape is empty or the kernel is too small or not finite.
+    pub fn symbol_of(shape: [usize; 2], kernel: &Kernel<'_>) -> Array2<f64> {
+        line_product::symbol_of(shape, kernel)
+    }
+}

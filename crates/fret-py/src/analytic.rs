@@ -1,0 +1,193 @@
+//! Closed-form solutions: their numbers as JSON text, their curves evaluated on arrays. `fretting.analytic` gives them names.
+
+use fret_core::analytic::{
+    AnalyticError, Branch, CattaneoMindlin, Cone, EffectiveModuli, FlatPunch, Hertz, HertzEllipse, HertzLine,
+    MindlinDeresiewicz, Torsion, Westergaard,
+};
+use fret_core::model::ElasticMaterial;
+use numpy::{IntoPyArray, PyArray1, PyReadonlyArray1};
+use pyo3::exceptions::{PyKeyError, PyValueError};
+use pyo3::prelude::{Bound, PyErr, PyResult, Python, pyclass, pyfunction, pymethods};
+use serde_json::{Value, json};
+
+use crate::error::bad_value;
+
+/// A function of one coordinate.
+type Curve = Box<dyn Fn(f64) -> f64 + Send + Sync>;
+/// `(sphere radius, force, effective modulus)`.
+type HertzNumbers = (f64, f64, f64);
+
+/// One closed-form solution.
+#[pyclass(frozen, module = "fretting._core")]
+pub struct Solution {
+    numbers: Value,
+    curves: Vec<(&'static str, Curve)>,
+}
+
+#[pymethods]
+impl Solution {
+    /// All numbers of the solution, JSON text.
+    fn numbers(&self) -> String {
+        self.numbers.to_string()
+    }
+
+    /// A curve of the solution at every coordinate of a contiguous array.
+    fn curve<'py>(
+        &self,
+        py: Python<'py>,
+        name: &str,
+        at: PyReadonlyArray1<'py, f64>,
+    ) -> PyResult<Bound<'py, PyArray1<f64>>> {
+        let known = self.curves.iter().find(|(known, _)| *known == name);
+        let (_, curve) = known.ok_or_else(|| PyKeyError::new_err(name.to_owned()))?;
+        let values: Vec<f64> = at.as_slice()?.iter().map(|&at| curve(at)).collect();
+        Ok(values.into_pyarray(py))
+    }
+}
+
+fn solution(numbers: Value, curves: Vec<(&'static str, Curve)>) -> Solution {
+    Solution { numbers, curves }
+}
+
+fn numbers(of: impl serde::Serialize) -> PyResult<Value> {
+    serde_json::to_value(of).map_err(bad_value)
+}
+
+fn refused(error: AnalyticError) -> PyErr {
+    bad_value(error)
+}
+
+fn hertz_of((radius, force, modulus): HertzNumbers) -> PyResult<Hertz> {
+    Hertz::sphere(radius, force, modulus).map_err(refused)
+}
+
+/// Effective moduli of two bodies `(young, poisson)`; a rigid upper body when `None`.
+#[pyfunction]
+pub fn effective_moduli(lower: (f64, f64), upper: Option<(f64, f64)>) -> PyResult<Solution> {
+    let material = |(young, poisson)| ElasticMaterial::new(young, poisson).map_err(bad_value);
+    let lower = material(lower)?;
+    let moduli = match upper {
+        Some(upper) => EffectiveModuli::of_pair(&material(upper)?, &lower),
+        None => EffectiveModuli::rigid_on(&lower),
+    };
+    Ok(solution(numbers(moduli)?, vec![]))
+}
+
+/// Sphere without friction.
+#[pyfunction]
+pub fn hertz(sphere: HertzNumbers) -> PyResult<Solution> {
+    let hertz = hertz_of(sphere)?;
+    Ok(solution(numbers(hertz)?, vec![("pressure", Box::new(move |r| hertz.pressure(r)))]))
+}
+
+/// Ellipsoid without friction.
+#[pyfunction]
+pub fn hertz_ellipse(radii: [f64; 2], force: f64, modulus: f64) -> PyResult<Solution> {
+    let ellipse = HertzEllipse::ellipsoid(radii, force, modulus).map_err(refused)?;
+    Ok(solution(numbers(ellipse)?, vec![]))
+}
+
+/// Cylinder without friction.
+#[pyfunction]
+pub fn hertz_line(radius: f64, line_force: f64, modulus: f64) -> PyResult<Solution> {
+    let line = HertzLine::cylinder(radius, line_force, modulus).map_err(refused)?;
+    Ok(solution(numbers(line)?, vec![("pressure", Box::new(move |x| line.pressure(x)))]))
+}
+
+/// Flat circular punch without friction.
+#[pyfunction]
+pub fn flat_punch(radius: f64, force: f64, modulus: f64) -> PyResult<Solution> {
+    let punch = FlatPunch::new(radius, force, modulus).map_err(refused)?;
+    Ok(solution(numbers(punch)?, vec![("pressure", Box::new(move |r| punch.pressure(r)))]))
+}
+
+/// Cone without friction.
+#[pyfunction]
+pub fn cone(slope: f64, force: f64, modulus: f64) -> PyResult<Solution> {
+    let cone = Cone::new(slope, force, modulus).map_err(refused)?;
+    Ok(solution(numbers(cone)?, vec![("pressure", Box::new(move |r| cone.pressure(r)))]))
+}
+
+/// Sinusoidal surface without friction.
+#[pyfunction]
+pub fn westergaard(amplitude: f64, wavelength: f64, mean_pressure: f64, modulus: f64) -> PyResult<Solution> {
+    let wave = Westergaard::new(amplitude, wavelength, mean_pressure, modulus).map_err(refused)?;
+    Ok(solution(numbers(wave)?, vec![("pressure", Box::new(move |x| wave.pressure(x)))]))
+}
+
+fn partial_slip(contact: CattaneoMindlin) -> PyResult<Solution> {
+    let mut numbers = numbers(contact)?;
+    numbers["full_slip_shift"] = json!(contact.full_slip_shift());
+    numbers["dissipated_energy"] = json!(contact.dissipated_energy());
+    let curves: Vec<(_, Curve)> =
+        vec![("shear", Box::new(move |r| contact.shear(r))), ("slip", Box::new(move |r| contact.slip(r)))];
+    Ok(solution(numbers, curves))
+}
+
+/// Sphere pushed sideways for the first time.
+#[pyfunction]
+pub fn cattaneo_mindlin(
+    sphere: HertzNumbers,
+    friction: f64,
+    shear_modulus: f64,
+    tangential_force: f64,
+) -> PyResult<Solution> {
+    let contact = CattaneoMindlin::new(&hertz_of(sphere)?, friction, shear_modulus, tangential_force);
+    partial_slip(contact.map_err(refused)?)
+}
+
+/// Sphere pushed to and fro: the numbers of the whole loop, and the contact at its first peak.
+#[pyfunction]
+pub fn mindlin_deresiewicz(
+    sphere: HertzNumbers,
+    friction: f64,
+    shear_modulus: f64,
+    amplitude: f64,
+) -> PyResult<(Solution, Solution)> {
+    let fretting_loop =
+        MindlinDeresiewicz::new(&hertz_of(sphere)?, friction, shear_modulus, amplitude).map_err(refused)?;
+    let numbers = json!({
+        "dissipated_energy_per_cycle": fretting_loop.dissipated_energy_per_cycle(),
+        "energy_ratio": fretting_loop.energy_ratio(),
+    });
+    Ok((solution(numbers, vec![]), partial_slip(*fretting_loop.peak())?))
+}
+
+/// Sphere pushed to and fro, at a tangential force on a branch of its loop.
+#[pyfunction]
+pub fn mindlin_deresiewicz_at(
+    sphere: HertzNumbers,
+    friction: f64,
+    shear_modulus: f64,
+    amplitude: f64,
+    branch: &str,
+    tangential_force: f64,
+) -> PyResult<Solution> {
+    let branch = match branch {
+        "loading" => Branch::Loading,
+        "unloading" => Branch::Unloading,
+        "reloading" => Branch::Reloading,
+        other => {
+            return Err(PyValueError::new_err(format!(
+                "branch = {other:?}: must be \"loading\", \"unloading\" or \"reloading\""
+            )));
+        }
+    };
+    let point = MindlinDeresiewicz::new(&hertz_of(sphere)?, friction, shear_modulus, amplitude)
+        .and_then(|fretting_loop| fretting_loop.at(branch, tangential_force))
+        .map_err(refused)?;
+    let numbers = json!({
+        "tangential_force": point.tangential_force(),
+        "shift": point.shift(),
+        "stick_radius": point.stick_radius(),
+    });
+    Ok(solution(numbers, vec![("shear", Box::new(move |r| point.shear(r)))]))
+}
+
+/// Sphere twisted about the normal for the first time.
+#[pyfunction]
+pub fn torsion(sphere: HertzNumbers, friction: f64, shear_modulus: f64, moment: f64) -> PyResult<Solution> {
+    let torsion =
+        Torsion::under_moment(&hertz_of(sphere)?, friction, shear_modulus, moment).map_err(refused)?;
+    Ok(solution(numbers(torsion)?, vec![("shear", Box::new(move |r| torsion.shear(r)))]))
+}

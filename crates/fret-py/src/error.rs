@@ -1,0 +1,37 @@
+//! From the core's refusals and failures to the exceptions of `fretting.errors`.
+
+use fret_core::case;
+use fret_core::simulation;
+use pyo3::PyErr;
+use pyo3::exceptions::PyValueError;
+
+pyo3::import_exception!(fretting.errors, CaseError);
+pyo3::import_exception!(fretting.errors, RunError);
+
+/// A refused case: the text a person reads, and `(line, column, message, help)` of every mistake.
+pub fn refused(error: &case::CaseError) -> PyErr {
+    let mistakes: Vec<_> = error
+        .mistakes()
+        .iter()
+        .map(|mistake| {
+            let (line, column) = error.place(mistake).unzip();
+            (line, column, mistake.message.clone(), mistake.help.clone())
+        })
+        .collect();
+    CaseError::new_err((error.render(false), mistakes))
+}
+
+/// A run that ended without its answer: the message and the number of the increment.
+pub fn failed(error: &simulation::RunError) -> PyErr {
+    use simulation::RunError::{AboveSliding, ContactAtEdge, Interrupted, NotConverged};
+    let (NotConverged { increment, .. }
+    | ContactAtEdge { increment, .. }
+    | AboveSliding { increment, .. }
+    | Interrupted { increment }) = error;
+    RunError::new_err((error.to_string(), *increment))
+}
+
+/// A bad argument of a function.
+pub fn bad_value(error: impl std::error::Error) -> PyErr {
+    PyValueError::new_err(error.to_string())
+}

@@ -1,0 +1,41 @@
+//! The private Python module `fretting._core`: conversion between Python and `fret-core`, and nothing else.
+//!
+//! Names, defaults, documentation and everything that can be written in Python stand in `python/fretting`.
+
+#![expect(clippy::needless_pass_by_value, reason = "what Python passes is converted, and arrives by value")]
+
+mod analytic;
+mod case;
+mod error;
+mod history;
+mod kernels;
+mod plan;
+mod simulation;
+mod threads;
+
+/// Conversion between Python and fret-core; use the names of `fretting`.
+#[pyo3::pymodule]
+mod _core {
+    use pyo3::prelude::{Bound, PyModule, PyModuleMethods, PyResult};
+
+    #[pymodule_export]
+    use crate::analytic::{
+        Solution, cattaneo_mindlin, cone, effective_moduli, flat_punch, hertz, hertz_ellipse, hertz_line,
+        mindlin_deresiewicz, mindlin_deresiewicz_at, torsion, westergaard,
+    };
+    #[pymodule_export]
+    use crate::case::Case;
+    #[pymodule_export]
+    use crate::history::History;
+    #[pymodule_export]
+    use crate::kernels::{Convolution, frequency_response, influence_coefficients};
+    #[pymodule_export]
+    use crate::plan::plan;
+    #[pymodule_export]
+    use crate::simulation::run;
+
+    #[pymodule_init]
+    fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {
+        module.add("__version__", env!("CARGO_PKG_VERSION"))
+    }
+}

@@ -1,0 +1,147 @@
+//! The project's own chores, run by `cargo xtask`: each is a list of commands, shown as they run, stopped at the first that fails.
+
+use std::env;
+use std::fmt;
+use std::path::{Path, PathBuf};
+use std::process::{Command, ExitCode};
+
+const USAGE: &str = "\
+usage: cargo xtask CHORE
+
+  test    all tests: Rust in release mode, then the Python package, built and installed into target/venv
+  check   format, clippy, documentation: warnings are errors
+  bench   the benchmarks
+  docs    the Rust documentation, into target/doc
+  wheel   the Python wheel, into target/wheels";
+
+fn main() -> ExitCode {
+    let words: Vec<String> = env::args().skip(1).collect();
+    let (chore, steps) = match words.iter().map(String::as_str).collect::<Vec<_>>()[..] {
+        ["test"] => ("test", test()),
+        ["check"] => ("check", check()),
+        ["bench"] => ("bench", vec![cargo(&["bench", "--workspace", "--locked"])]),
+        ["docs"] => ("docs", vec![cargo(&["doc", "--workspace", "--no-deps", "--locked"])]),
+        ["wheel"] => ("wheel", wheel()),
+        _ => {
+            eprintln!("{USAGE}");
+            return ExitCode::FAILURE;
+        }
+    };
+    match steps.iter().try_for_each(Step::run) {
+        Ok(()) => {
+            let names: Vec<&str> = steps.iter().map(|step| step.what).collect();
+            eprintln!("xtask {chore}: passed: {}", names.join(", "));
+            ExitCode::SUCCESS
+        }
+        Err(failure) => {
+            eprintln!("xtask {chore}: {failure}");
+            ExitCode::from(failure.code)
+        }
+    }
+}
+
+/// One command of a chore.
+struct Step {
+    what: &'static str,
+    program: PathBuf,
+    arguments: Vec<String>,
+    variables: Vec<(&'static str, &'static str)>,
+}
+
+/// A command that did not end well.
+struct Failure {
+    what: &'static str,
+    why: String,
+    code: u8,
+}
+
+impl fmt::Display for Failure {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(formatter, "{} failed: {}", self.what, self.why)
+    }
+}
+
+impl Step {
+    fn new(what: &'static str, program: impl Into<PathBuf>, arguments: &[&str]) -> Self {
+        let arguments = arguments.iter().map(|&argument| argument.to_owned()).collect();
+        Self { what, program: program.into(), arguments, variables: Vec::new() }
+    }
+
+    fn called(mut self, what: &'static str) -> Self {
+        self.what = what;
+        self
+    }
+
+    fn with(mut self, name: &'static str, value: &'static str) -> Self {
+        self.variables.push((name, value));
+        self
+    }
+
+    fn run(&self) -> Result<(), Failure> {
+        let settings: Vec<String> =
+            self.variables.iter().map(|(name, value)| format!("{name}='{value}' ")).collect();
+        eprintln!("+ {}{} {}", settings.concat(), self.program.display(), self.arguments.join(" "));
+        let ended = Command::new(&self.program)
+            .args(&self.arguments)
+            .envs(self.variables.iter().copied())
+            .current_dir(root())
+            .status();
+        let fail = |why: String, code: u8| Err(Failure { what: self.what, why, code });
+        match ended {
+            Ok(status) if status.success() => Ok(()),
+            Ok(status) => {
+                fail(status.to_string(), status.code().and_then(|code| u8::try_from(code).ok()).unwrap_or(1))
+            }
+            Err(error) => fail(format!("{}: {error}", self.program.display()), 1),
+        }
+    }
+}
+
+fn test() -> Vec<Step> {
+    let mut steps = vec![cargo(&["test", "--release", "--workspace", "--locked"]).called("Rust tests")];
+    steps.extend(venv());
+    steps.push(python("Python build", &["-m", "pip", "install", "--quiet", ".", "pytest", "numpy"]));
+    steps.push(python("Python tests", &["-m", "pytest", "python/tests"]));
+    steps
+}
+
+fn check() -> Vec<Step> {
+    vec![
+        cargo(&["fmt", "--all", "--check"]),
+        cargo(&["clippy", "--workspace", "--all-targets", "--locked", "--", "--deny", "warnings"]),
+        cargo(&["doc", "--workspace", "--no-deps", "--locked"]).with("RUSTDOCFLAGS", "--deny warnings"),
+    ]
+}
+
+fn wheel() -> Vec<Step> {
+    let mut steps = Vec::from_iter(venv());
+    steps.push(python("wheel", &["-m", "pip", "wheel", "--no-deps", "--wheel-dir", "target/wheels", "."]));
+    steps
+}
+
+/// `cargo` with these words; the step is called after the first.
+fn cargo(arguments: &[&'static str]) -> Step {
+    let program = env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
+    Step::new(arguments.first().copied().unwrap_or("cargo"), program, arguments)
+}
+
+/// The making of `target/venv`, where it is missing.
+fn venv() -> Option<Step> {
+    let system_python = if cfg!(windows) { "py" } else { "python3" };
+    let missing = !root().join(venv_python()).exists();
+    missing.then(|| Step::new("Python environment", system_python, &["-m", "venv", "target/venv"]))
+}
+
+fn python(what: &'static str, arguments: &[&str]) -> Step {
+    Step::new(what, root().join(venv_python()), arguments)
+}
+
+fn venv_python() -> &'static str {
+    if cfg!(windows) { "target/venv/Scripts/python.exe" } else { "target/venv/bin/python" }
+}
+
+/// The folder of the workspace.
+fn root() -> &'static Path {
+    let here = Path::new(env!("CARGO_MANIFEST_DIR"));
+    here.ancestors().nth(2).unwrap_or(here)
+}

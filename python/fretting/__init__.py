@@ -1,0 +1,50 @@
+"""Fretting contact of coated elastic bodies: pressure, shear, stick and slip through the loading history.
+
+A case goes in, a history comes out:
+
+>>> import fretting
+>>> history = fretting.run({
+...     "grid": {"cells": [32, 32], "size": "auto"},
+...     "upper": {"rigid": True},
+...     "lower": {"substrate": {"young": 210e9, "poisson": 0.3}},
+...     "profile": {"sphere": {"radius": 10e-3}},
+...     "load": [{"normal_force": 10.0, "increments": 1}],
+... })
+>>> history.field("pressure").shape
+(32, 32)
+
+Any consistent system of units. Fields have shape (nx, ny), index ``[i, j]`` at ``(x[i], y[j])``; z points into the
+lower body, compression is positive.
+"""
+
+from typing import NoReturn
+
+from fretting import analytic
+from fretting._core import __version__
+from fretting.errors import CaseError, FrettingError, Mistake, RunError
+from fretting.history import History
+from fretting.kernels import Convolution, frequency_response, influence_coefficients
+from fretting.planning import Plan, plan
+from fretting.simulation import run
+
+__all__ = [
+    "CaseError",
+    "Convolution",
+    "FrettingError",
+    "History",
+    "Mistake",
+    "Plan",
+    "RunError",
+    "__version__",
+    "analytic",
+    "frequency_response",
+    "influence_coefficients",
+    "plan",
+    "run",
+]
+
+
+def __getattr__(name: str) -> NoReturn:
+    if name in ("sweep", "subsurface_stress", "plot"):
+        raise AttributeError(f"fretting.{name} is not built yet")
+    raise AttributeError(f"module 'fretting' has no attribute {name!r}")

@@ -1,0 +1,30 @@
+"""Arrays as the compiled module wants them: double precision, contiguous, finite."""
+
+from typing import TypeAlias
+
+import numpy as np
+import numpy.typing as npt
+
+Reals: TypeAlias = npt.NDArray[np.float64]
+
+
+def real_array(name: str, values: npt.ArrayLike, dimensions: int | None = None) -> Reals:
+    """Turn `values` into a contiguous array of finite doubles; without a copy when it is one already.
+
+    Raises
+    ------
+    TypeError
+        When the values are not real numbers.
+    ValueError
+        When the number of dimensions is another one, or a value is not finite.
+    """
+    given = np.asarray(values)
+    if given.dtype.kind not in "fiu":
+        raise TypeError(f"{name}: expected real numbers, found an array of {given.dtype}")
+    if dimensions is not None and given.ndim != dimensions:
+        raise ValueError(f"{name} of shape {given.shape}: must have {dimensions} dimensions")
+    array: Reals = np.asarray(given, dtype=np.float64, order="C")
+    if not np.isfinite(array).all():
+        place = tuple(int(index) for index in np.argwhere(~np.isfinite(array))[0])
+        raise ValueError(f"{name}: value {array[place]} at {list(place)} is not finite")
+    return array

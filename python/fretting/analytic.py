@@ -1,0 +1,465 @@
+"""Closed-form contact solutions, to plot and to judge by.
+
+Signs: pressure and approach are positive in compression; shear, shift and tangential force are those of the upper body
+on the lower. Any consistent system of units. Everything here holds for homogeneous half-spaces;
+:func:`effective_moduli` says how compliant two of them are together.
+
+>>> from fretting import analytic
+>>> moduli = analytic.effective_moduli(lower=(210e9, 0.3))
+>>> sphere = analytic.hertz(radius=10e-3, force=12.0, modulus=moduli.normal)
+>>> f"{sphere.contact_radius:.3e} {sphere.peak_pressure:.3e}"
+'7.306e-05 1.073e+09'
+"""
+
+import json
+from dataclasses import dataclass, field
+from typing import Any, Literal, TypeAlias
+
+import numpy as np
+import numpy.typing as npt
+
+from fretting import _core
+from fretting._arrays import Reals, real_array
+
+__all__ = [
+    "CattaneoMindlin",
+    "Cone",
+    "EffectiveModuli",
+    "FlatPunch",
+    "Hertz",
+    "HertzEllipse",
+    "HertzLine",
+    "LoopPoint",
+    "MindlinDeresiewicz",
+    "Torsion",
+    "Westergaard",
+    "cattaneo_mindlin",
+    "cone",
+    "effective_moduli",
+    "flat_punch",
+    "hertz",
+    "hertz_ellipse",
+    "hertz_line",
+    "mindlin_deresiewicz",
+    "torsion",
+    "westergaard",
+]
+
+Material: TypeAlias = tuple[float, float]
+"""Young's modulus [pressure] and Poisson's ratio [-]."""
+Branch: TypeAlias = Literal["loading", "unloading", "reloading"]
+
+
+@dataclass(frozen=True)
+class EffectiveModuli:
+    """Effective moduli of two homogeneous half-spaces; a rigid body adds no compliance."""
+
+    normal: float
+    """``1/E* = sum of (1 - nu^2)/E`` [pressure]: normal contact."""
+    shear: float
+    """``1/G* = sum of (2 - nu)/G`` [pressure]: tangential contact."""
+    torsional: float
+    """``1/G = sum of 1/G`` [pressure]: torsion."""
+    coupling: float
+    """Dundurs' beta [-], 0 for like bodies."""
+
+
+@dataclass(frozen=True)
+class Hertz:
+    """Frictionless contact of a sphere (paraboloid ``r^2 / (2 R)``)."""
+
+    radius: float
+    """Relative radius R [length]."""
+    modulus: float
+    """Effective modulus E* [pressure]."""
+    force: float
+    """Normal force P [force]."""
+    contact_radius: float
+    """Radius a of the contact [length]."""
+    peak_pressure: float
+    """Pressure p0 in the middle [pressure]."""
+    approach: float
+    """Approach of distant points [length]."""
+    _solution: _core.Solution = field(repr=False, compare=False)
+
+    def pressure(self, r: npt.ArrayLike) -> Reals:
+        """Pressure at distances `r` from the middle [pressure], of the shape of `r`; zero outside the contact."""
+        return _curve(self._solution, "pressure", r)
+
+
+@dataclass(frozen=True)
+class HertzEllipse:
+    """Frictionless contact of an ellipsoid (gap ``x^2 / (2 Rx) + y^2 / (2 Ry)``)."""
+
+    force: float
+    """Normal force P [force]."""
+    semi_axes: tuple[float, float]
+    """Semi-axes of the contact along x and y [length]."""
+    peak_pressure: float
+    """Pressure p0 in the middle [pressure]."""
+    approach: float
+    """Approach of distant points [length]."""
+
+    def pressure(self, x: npt.ArrayLike, y: npt.ArrayLike) -> Reals:
+        """Pressure at points [pressure], of the broadcast shape of `x` and `y`; zero outside the contact."""
+        a, b = self.semi_axes
+        depth = 1.0 - (real_array("x", x) / a) ** 2 - (real_array("y", y) / b) ** 2
+        pressure: Reals = self.peak_pressure * np.sqrt(np.maximum(depth, 0.0))
+        return pressure
+
+
+@dataclass(frozen=True)
+class HertzLine:
+    """Frictionless line contact of a cylinder (gap ``x^2 / (2 R)``)."""
+
+    line_force: float
+    """Force per length [force/length]."""
+    half_width: float
+    """Half-width of the contact [length]."""
+    peak_pressure: float
+    """Pressure in the middle [pressure]."""
+    _solution: _core.Solution = field(repr=False, compare=False)
+
+    def pressure(self, x: npt.ArrayLike) -> Reals:
+        """Pressure at `x` from the middle [pressure], of the shape of `x`; zero outside the contact."""
+        return _curve(self._solution, "pressure", x)
+
+
+@dataclass(frozen=True)
+class FlatPunch:
+    """Frictionless contact of a flat circular punch."""
+
+    force: float
+    """Normal force [force]."""
+    contact_radius: float
+    """Radius of the punch and of the contact [length]."""
+    approach: float
+    """Approach [length]."""
+    _solution: _core.Solution = field(repr=False, compare=False)
+
+    def pressure(self, r: npt.ArrayLike) -> Reals:
+        """Pressure at distances `r` from the middle [pressure]; infinite at the edge, zero outside."""
+        return _curve(self._solution, "pressure", r)
+
+
+@dataclass(frozen=True)
+class Cone:
+    """Frictionless contact of a blunt cone (gap ``slope r``)."""
+
+    force: float
+    """Normal force [force]."""
+    contact_radius: float
+    """Radius of the contact [length]."""
+    approach: float
+    """Approach [length]."""
+    mean_pressure: float
+    """Mean pressure [pressure], whatever the load."""
+    _solution: _core.Solution = field(repr=False, compare=False)
+
+    def pressure(self, r: npt.ArrayLike) -> Reals:
+        """Pressure at distances `r` from the tip [pressure]; infinite at the tip, zero outside the contact."""
+        return _curve(self._solution, "pressure", r)
+
+
+@dataclass(frozen=True)
+class Westergaard:
+    """Frictionless contact of a sinusoidal surface with a flat one, plane strain."""
+
+    wavelength: float
+    """Wavelength [length]."""
+    mean_pressure: float
+    """Mean pressure over a wavelength [pressure]."""
+    full_contact_pressure: float
+    """Mean pressure at which the contact becomes full [pressure]."""
+    half_width: float
+    """Half-width of the contact at a crest [length]; half the wavelength in full contact."""
+    _solution: _core.Solution = field(repr=False, compare=False)
+
+    def pressure(self, x: npt.ArrayLike) -> Reals:
+        """Pressure at `x` from a crest [pressure], of the shape of `x`."""
+        return _curve(self._solution, "pressure", x)
+
+
+@dataclass(frozen=True)
+class CattaneoMindlin:
+    """Partial slip of a Hertz contact under a growing tangential force at constant normal force."""
+
+    tangential_force: float
+    """Tangential force T [force], signed."""
+    friction_force: float
+    """Largest tangential force that friction holds, mu P [force]."""
+    contact_radius: float
+    """Radius a of the contact [length]."""
+    peak_friction: float
+    """Largest shear that friction holds anywhere, mu p0 [pressure]."""
+    initial_stiffness: float
+    """Tangential stiffness before any slip [force/length]."""
+    stick_radius: float
+    """Radius c of the disc that sticks [length]."""
+    shift: float
+    """Tangential shift of the bodies [length], with the sign of T."""
+    full_slip_shift: float
+    """Shift at the onset of full slip [length]."""
+    dissipated_energy: float
+    """Work of friction since the tangential force was zero [force x length]."""
+    _solution: _core.Solution = field(repr=False, compare=False)
+
+    def shear(self, r: npt.ArrayLike) -> Reals:
+        """Shear at distances `r` from the middle [pressure], along the force; zero outside the contact."""
+        return _curve(self._solution, "shear", r)
+
+    def slip(self, r: npt.ArrayLike) -> Reals:
+        """Slip at distances `r` [length], along the force, averaged over the direction; zero where the bodies stick."""
+        return _curve(self._solution, "slip", r)
+
+
+@dataclass(frozen=True)
+class LoopPoint:
+    """A Hertz contact at one point of its fretting loop."""
+
+    tangential_force: float
+    """Tangential force T [force]."""
+    shift: float
+    """Tangential shift of the bodies [length]."""
+    stick_radius: float
+    """Radius of the disc that has not slipped since the last turning point [length]."""
+    _solution: _core.Solution = field(repr=False, compare=False)
+
+    def shear(self, r: npt.ArrayLike) -> Reals:
+        """Shear at distances `r` from the middle [pressure], along the force; zero outside the contact."""
+        return _curve(self._solution, "shear", r)
+
+
+@dataclass(frozen=True)
+class MindlinDeresiewicz:
+    """The fretting loop of a Hertz contact between two equal tangential forces, at constant normal force."""
+
+    sphere: Hertz
+    """The normal contact."""
+    friction: float
+    """Friction coefficient [-]."""
+    shear_modulus: float
+    """Effective shear modulus G* [pressure]."""
+    amplitude: float
+    """Amplitude of the tangential force [force]."""
+    dissipated_energy_per_cycle: float
+    """Work of friction in one cycle [force x length]: the area of the loop."""
+    energy_ratio: float
+    """That work over ``4 T0 shift0`` [-]: 0.2 at the onset of full slip."""
+    peak: CattaneoMindlin
+    """The contact at the first peak."""
+
+    def at(self, branch: Branch, tangential_force: float) -> LoopPoint:
+        """Return the contact at a tangential force [force] on a branch of the loop.
+
+        Raises
+        ------
+        ValueError
+            When the loop does not reach the force.
+        """
+        solution = _core.mindlin_deresiewicz_at(
+            _hertz_numbers(self.sphere), self.friction, self.shear_modulus, self.amplitude, branch, tangential_force
+        )
+        return LoopPoint(**_numbers(solution), _solution=solution)
+
+
+@dataclass(frozen=True)
+class Torsion:
+    """Partial slip of a Hertz contact under a growing twisting moment at constant normal force."""
+
+    moment: float
+    """Twisting moment [force x length], signed."""
+    twist: float
+    """Rotation of the upper body against the lower [rad]."""
+    stick_radius: float
+    """Radius of the disc that sticks [length]."""
+    contact_radius: float
+    """Radius of the contact [length]."""
+    peak_friction: float
+    """Largest shear that friction holds anywhere, mu p0 [pressure]."""
+    _solution: _core.Solution = field(repr=False, compare=False)
+
+    def shear(self, r: npt.ArrayLike) -> Reals:
+        """Circumferential shear at distances `r` from the middle [pressure]; zero outside the contact."""
+        return _curve(self._solution, "shear", r)
+
+
+def effective_moduli(lower: Material, upper: Material | None = None) -> EffectiveModuli:
+    """Effective moduli of two bodies, each (young, poisson); a rigid upper body when it is not given."""
+    return EffectiveModuli(**_numbers(_core.effective_moduli(lower, upper)))
+
+
+def hertz(radius: float, force: float, modulus: float) -> Hertz:
+    """Press a sphere on a half-space without friction.
+
+    ``a^3 = 3 P R / (4 E*)``, ``p0 = 3 P / (2 pi a^2)``, ``approach = a^2 / R``. Exact with friction too when the bodies
+    do not couple.
+
+    Parameters
+    ----------
+    radius : float
+        Relative radius R of the spheres [length].
+    force : float
+        Normal force [force].
+    modulus : float
+        Effective modulus E* [pressure].
+
+    References
+    ----------
+    Hertz (1881); Johnson (1985), *Contact Mechanics*, section 4.2.
+    """
+    solution = _core.hertz((radius, force, modulus))
+    numbers = _numbers(solution)
+    return Hertz(
+        radius=numbers.pop("sphere_radius"),
+        modulus=numbers.pop("effective_modulus"),
+        **numbers,
+        _solution=solution,
+    )
+
+
+def hertz_ellipse(radius_x: float, radius_y: float, force: float, modulus: float) -> HertzEllipse:
+    """Press an ellipsoid on a half-space without friction; relative radii of curvature [length].
+
+    References
+    ----------
+    Hertz (1881); Johnson (1985), *Contact Mechanics*, section 4.2.
+    """
+    numbers = _numbers(_core.hertz_ellipse((radius_x, radius_y), force, modulus))
+    a, b = numbers.pop("semi_axes")
+    return HertzEllipse(semi_axes=(a, b), **numbers)
+
+
+def hertz_line(radius: float, line_force: float, modulus: float) -> HertzLine:
+    """Press a cylinder on a half-space without friction, under a force per length [force/length].
+
+    References
+    ----------
+    Hertz (1881); Johnson (1985), *Contact Mechanics*, section 4.2(c).
+    """
+    solution = _core.hertz_line(radius, line_force, modulus)
+    return HertzLine(**_numbers(solution), _solution=solution)
+
+
+def flat_punch(radius: float, force: float, modulus: float) -> FlatPunch:
+    """Press a flat circular punch on a half-space without friction.
+
+    References
+    ----------
+    Boussinesq (1885); Johnson (1985), *Contact Mechanics*, section 3.4.
+    """
+    solution = _core.flat_punch(radius, force, modulus)
+    return FlatPunch(**_numbers(solution), _solution=solution)
+
+
+def cone(slope: float, force: float, modulus: float) -> Cone:
+    """Press a blunt cone, of the `slope` [-] of its side against the surface, on a half-space without friction.
+
+    References
+    ----------
+    Love (1939); Sneddon (1965), Int. J. Engng Sci. 3, 47.
+    """
+    solution = _core.cone(slope, force, modulus)
+    return Cone(**_numbers(solution), _solution=solution)
+
+
+def westergaard(amplitude: float, wavelength: float, mean_pressure: float, modulus: float) -> Westergaard:
+    """Press a sinusoidal surface on a flat half-space without friction.
+
+    References
+    ----------
+    Westergaard (1939), J. Appl. Mech. 6, 49; Johnson (1985), *Contact Mechanics*, section 13.2.
+    """
+    solution = _core.westergaard(amplitude, wavelength, mean_pressure, modulus)
+    return Westergaard(**_numbers(solution), _solution=solution)
+
+
+def cattaneo_mindlin(sphere: Hertz, friction: float, shear_modulus: float, tangential_force: float) -> CattaneoMindlin:
+    """Push a Hertz contact sideways for the first time.
+
+    Exact for uncoupled bodies with Poisson's ratio 0; otherwise it neglects the slip across the force.
+
+    Parameters
+    ----------
+    sphere : Hertz
+        The normal contact.
+    friction : float
+        Friction coefficient [-].
+    shear_modulus : float
+        Effective shear modulus G* [pressure].
+    tangential_force : float
+        Tangential force [force], at most friction times normal force.
+
+    References
+    ----------
+    Cattaneo (1938); Mindlin (1949); Johnson (1985), *Contact Mechanics*, section 7.2.
+    """
+    solution = _core.cattaneo_mindlin(_hertz_numbers(sphere), friction, shear_modulus, tangential_force)
+    return CattaneoMindlin(**_numbers(solution), _solution=solution)
+
+
+def mindlin_deresiewicz(sphere: Hertz, friction: float, shear_modulus: float, amplitude: float) -> MindlinDeresiewicz:
+    """Push a Hertz contact to and fro between two equal tangential forces.
+
+    Limits as for :func:`cattaneo_mindlin`.
+
+    Parameters
+    ----------
+    sphere : Hertz
+        The normal contact.
+    friction : float
+        Friction coefficient [-].
+    shear_modulus : float
+        Effective shear modulus G* [pressure].
+    amplitude : float
+        Amplitude of the tangential force [force], at most friction times normal force.
+
+    References
+    ----------
+    Mindlin & Deresiewicz (1953); Johnson (1985), *Contact Mechanics*, section 7.4.
+    """
+    fretting_loop, peak = _core.mindlin_deresiewicz(_hertz_numbers(sphere), friction, shear_modulus, amplitude)
+    return MindlinDeresiewicz(
+        sphere=sphere,
+        friction=friction,
+        shear_modulus=shear_modulus,
+        amplitude=amplitude,
+        peak=CattaneoMindlin(**_numbers(peak), _solution=peak),
+        **_numbers(fretting_loop),
+    )
+
+
+def torsion(sphere: Hertz, friction: float, shear_modulus: float, moment: float) -> Torsion:
+    """Twist a Hertz contact about its normal for the first time; exact for any pair of homogeneous bodies.
+
+    Parameters
+    ----------
+    sphere : Hertz
+        The normal contact.
+    friction : float
+        Friction coefficient [-].
+    shear_modulus : float
+        Torsional shear modulus [pressure].
+    moment : float
+        Twisting moment [force x length], less than ``3 pi mu P a / 16``.
+
+    References
+    ----------
+    Lubkin (1951), J. Appl. Mech. 18, 183.
+    """
+    solution = _core.torsion(_hertz_numbers(sphere), friction, shear_modulus, moment)
+    return Torsion(**_numbers(solution), _solution=solution)
+
+
+def _hertz_numbers(sphere: Hertz) -> tuple[float, float, float]:
+    return sphere.radius, sphere.force, sphere.modulus
+
+
+def _numbers(solution: _core.Solution) -> dict[str, Any]:
+    numbers: dict[str, Any] = json.loads(solution.numbers())
+    return numbers
+
+
+def _curve(solution: _core.Solution, name: str, at: npt.ArrayLike) -> Reals:
+    places = real_array(name, at)
+    return solution.curve(name, places.ravel()).reshape(places.shape)

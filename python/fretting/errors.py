@@ -1,0 +1,60 @@
+"""Exceptions of the library."""
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+
+class Mistake(NamedTuple):
+    """One mistake in a case."""
+
+    line: int | None
+    """Line in the case text, from 1; ``None`` when the mistake stands nowhere in particular."""
+    column: int | None
+    """Column in that line, from 1."""
+    message: str
+    """What was found, and what is allowed."""
+    help: str | None
+    """What to do about it, when that can be said."""
+
+
+class FrettingError(Exception):
+    """Base of all exceptions of the library."""
+
+    __module__ = "fretting"
+
+
+class CaseError(FrettingError, ValueError):
+    """A case was refused.
+
+    Attributes
+    ----------
+    mistakes : list of Mistake
+        All mistakes found, each ``(line, column, message, help)``, in the order of the text. Line and column of a
+        case given as a dict count in its TOML form, which the message shows.
+    """
+
+    __module__ = "fretting"
+
+    mistakes: list[Mistake]
+
+    def __init__(self, message: str, mistakes: Sequence[tuple[int | None, int | None, str, str | None]] = ()) -> None:
+        super().__init__(message)
+        self.mistakes = [Mistake(*mistake) for mistake in mistakes]
+
+
+class RunError(FrettingError, RuntimeError):
+    """A run ended without its answer; there is no silent wrong one.
+
+    Attributes
+    ----------
+    increment : int
+        Number of the increment that could not be solved, from 0 over the whole history.
+    """
+
+    __module__ = "fretting"
+
+    increment: int
+
+    def __init__(self, message: str, increment: int = -1) -> None:
+        super().__init__(message)
+        self.increment = increment

@@ -1,0 +1,243 @@
+"""The answer of a run."""
+
+from typing import TYPE_CHECKING, Any, Literal, Protocol, Self, get_args
+
+import numpy as np
+import numpy.typing as npt
+
+from fretting import _core
+from fretting._arrays import Reals
+
+if TYPE_CHECKING:
+    import xarray
+
+FieldName = Literal["pressure", "shear_x", "shear_y", "slip_x", "slip_y", "gap", "zone"]
+FIELD_NAMES: tuple[str, ...] = get_args(FieldName)
+
+_MEANING = {
+    "pressure": "contact pressure, compression positive [pressure]",
+    "shear_x": "shear traction on the lower body along x [pressure]",
+    "shear_y": "shear traction on the lower body along y [pressure]",
+    "slip_x": "accumulated slip along x, upper body relative to lower [length]",
+    "slip_y": "accumulated slip along y, upper body relative to lower [length]",
+    "gap": "gap between the surfaces [length]",
+    "zone": "0 open, 1 stick, 2 slip; -1 where not kept",
+    "normal_force": "normal force, compression positive [force]",
+    "approach": "rigid normal approach [length]",
+    "tangential_force_x": "tangential force on the lower body along x [force]",
+    "tangential_force_y": "tangential force on the lower body along y [force]",
+    "shift_x": "rigid tangential displacement of the upper body along x [length]",
+    "shift_y": "rigid tangential displacement of the upper body along y [length]",
+    "twist_moment": "moment about z on the lower body [force x length]",
+    "twist": "rotation of the upper body about z [rad]",
+    "max_pressure": "largest pressure of a cell [pressure]",
+    "max_shear": "largest shear traction of a cell [pressure]",
+    "contact_area": "area of contact [length^2]",
+    "stick_area": "area that sticks [length^2]",
+    "dissipated_energy": "work of friction since the start [force x length]",
+    "residual": "worst of the complementarity, Coulomb and equilibrium residuals, relative [-]",
+    "wall_s": "time spent on the increment [s]",
+    "increment": "number of the increment in the whole history, from 0",
+    "stage": "number of the stage, from 0",
+    "contact_cells": "cells in contact",
+    "stick_cells": "cells in contact that stick",
+    "convolutions": "operator applications, each one fused pass whatever its components",
+    "preconditioner_passes": "preconditioner applications",
+    "outer_iterations": "changes of the contact, stick and slip zones",
+    "regime": "apart, full_stick, partial_slip, gross_slip or frictionless",
+}
+
+
+class _Kept(Protocol):
+    """Where the fields come from: the compiled module, or a copy that went through another process."""
+
+    def kept_steps(self) -> list[int]: ...
+    def kept_fields(self, increment: int) -> list[str]: ...
+    def field(self, name: str, increment: int) -> npt.NDArray[Any]: ...
+
+
+class _Copied:
+    """Fields as plain arrays."""
+
+    def __init__(self, fields: dict[int, dict[str, npt.NDArray[Any]]]) -> None:
+        self.fields = fields
+
+    def kept_steps(self) -> list[int]:
+        return list(self.fields)
+
+    def kept_fields(self, increment: int) -> list[str]:
+        return list(self.fields.get(increment, {}))
+
+    def field(self, name: str, increment: int) -> npt.NDArray[Any]:
+        return self.fields[increment][name].copy()
+
+
+class History:
+    """All of a run: numbers of every increment, fields of those that were kept.
+
+    Values are in the units of the case. Fields have shape (nx, ny), index ``[i, j]`` at ``(x[i], y[j])``.
+
+    Attributes
+    ----------
+    steps : dict of str to ndarray
+        One entry per increment: ``normal_force``, ``approach``, ``tangential_force_x``, ``tangential_force_y``,
+        ``shift_x``, ``shift_y``, ``twist_moment``, ``twist``, ``max_pressure``, ``max_shear``, ``contact_area``,
+        ``stick_area``, ``dissipated_energy`` (cumulative), ``residual``, ``wall_s`` (float); ``increment``, ``stage``,
+        ``contact_cells``, ``stick_cells``, ``convolutions``, ``preconditioner_passes``, ``outer_iterations`` (int);
+        ``regime`` (str).
+    x, y : ndarray
+        Coordinates of the cell centres [length], shapes (nx,) and (ny,).
+    stages : list of str
+        Names of the stages.
+
+    Notes
+    -----
+    Can be pickled, and so be sent between processes.
+    """
+
+    steps: dict[str, npt.NDArray[Any]]
+    x: Reals
+    y: Reals
+    stages: list[str]
+
+    _kept: _Kept
+
+    def __init__(self, answer: _core.History) -> None:
+        self._kept = answer
+        self.steps = {name: np.asarray(column) for name, column in answer.steps().items()}
+        self.x = answer.centres(0)
+        self.y = answer.centres(1)
+        self.stages = answer.stages()
+
+    def __getstate__(self) -> dict[str, Any]:
+        """Everything as plain arrays."""
+        kept = {
+            increment: {name: self._kept.field(name, increment) for name in self._kept.kept_fields(increment)}
+            for increment in self.kept_steps
+        }
+        return {**self.__dict__, "_kept": _Copied(kept)}
+
+    def __copy__(self) -> Self:
+        """Return a history that shares what this one holds."""
+        twin = type(self).__new__(type(self))
+        twin.__dict__.update(self.__dict__)
+        return twin
+
+    def __len__(self) -> int:
+        """Return the number of increments."""
+        return len(self.steps["increment"])
+
+    @property
+    def shape(self) -> tuple[int, int]:
+        """Shape (nx, ny) of the fields."""
+        return len(self.x), len(self.y)
+
+    @property
+    def kept_steps(self) -> list[int]:
+        """Increments whose fields are kept, ascending."""
+        return self._kept.kept_steps()
+
+    def field(self, name: FieldName, step: int = -1) -> npt.NDArray[Any]:
+        """Return a field of an increment.
+
+        Parameters
+        ----------
+        name : {"pressure", "shear_x", "shear_y", "slip_x", "slip_y", "gap", "zone"}
+            ``slip_x``, ``slip_y`` are accumulated along the path; ``zone`` is 0 open, 1 stick, 2 slip.
+        step : int
+            Number of the increment in the whole history, from 0; negative from the end.
+
+        Returns
+        -------
+        ndarray
+            Shape (nx, ny); float64 [pressure or length], ``zone`` uint8. The caller's own copy.
+
+        Raises
+        ------
+        KeyError
+            When the field is not kept; the message lists what is. ``[output]`` of the case says what to keep.
+        IndexError
+            When there is no such increment.
+        """
+        if name not in FIELD_NAMES:
+            raise KeyError(f"no field is called {name!r}; fields are: {', '.join(FIELD_NAMES)}")
+        count = len(self)
+        if not -count <= step < count:
+            raise IndexError(f"step {step}: the history has {count} increments")
+        increment = int(step) % count
+        kept = self._kept.kept_fields(increment)
+        if not kept:
+            raise KeyError(
+                f"no fields of increment {increment} are kept; kept are those of {_listed(self.kept_steps)} "
+                "([output] every = ... keeps more)"
+            )
+        if name not in kept:
+            raise KeyError(f"{name} is not kept; kept are: {', '.join(kept)} ([output] fields = [...] keeps more)")
+        return self._kept.field(name, increment)
+
+    def to_xarray(self, steps: Literal["all", "kept"] = "all") -> "xarray.Dataset":
+        """Return everything as a Dataset with dimensions ``step``, ``x``, ``y``.
+
+        Parameters
+        ----------
+        steps : {"all", "kept"}
+            ``"all"``: every increment; fields that are not kept are NaN (``zone``: -1). ``"kept"``: only increments
+            whose fields are kept, for long histories of large grids.
+
+        Raises
+        ------
+        ImportError
+            When xarray is not installed (``pip install fretting[xarray]``).
+        """
+        try:
+            import xarray
+        except ImportError as error:
+            raise ImportError("to_xarray needs xarray: pip install 'fretting[xarray]'") from error
+        if steps not in ("all", "kept"):
+            raise ValueError(f"steps = {steps!r}: must be 'all' or 'kept'")
+        kept = self.kept_steps
+        chosen = np.arange(len(self)) if steps == "all" else np.asarray(kept, dtype=np.int64)
+        row = {int(increment): position for position, increment in enumerate(chosen)}
+        variables: dict[str, Any] = {
+            name: ("step", column[chosen], {"long_name": _MEANING[name]})
+            for name, column in self.steps.items()
+            if name != "increment"
+        }
+        for name in FIELD_NAMES:
+            holders = [increment for increment in kept if name in self._kept.kept_fields(increment)]
+            if not holders:
+                continue
+            fill, dtype = (-1, np.int8) if name == "zone" else (np.nan, np.float64)
+            stack: npt.NDArray[Any] = np.full((len(chosen), *self.shape), fill, dtype=dtype)
+            for increment in holders:
+                stack[row[increment]] = self._kept.field(name, increment)
+            variables[name] = (("step", "x", "y"), stack, {"long_name": _MEANING[name]})
+        coordinates = {
+            "step": ("step", chosen, {"long_name": _MEANING["increment"]}),
+            "x": ("x", self.x, {"long_name": "cell centres along x [length]"}),
+            "y": ("y", self.y, {"long_name": "cell centres along y [length]"}),
+        }
+        return xarray.Dataset(variables, coords=coordinates, attrs={"stages": self.stages})
+
+    def __repr__(self) -> str:
+        """Sizes, the last step, and what is kept."""
+        nx, ny = self.shape
+        lines = [f"History: {len(self)} increments, {nx} x {ny} cells, stages: {', '.join(self.stages)}"]
+        if len(self):
+            last = {name: column[-1] for name, column in self.steps.items()}
+            lines += [
+                f"  last: {last['regime'].replace('_', ' ')}, normal force {last['normal_force']:.6g}, "
+                f"max pressure {last['max_pressure']:.6g}, dissipated {last['dissipated_energy']:.6g}",
+                f"  worst residual {self.steps['residual'].max():.1e}",
+                f"  fields kept of {len(self.kept_steps)} increments: "
+                f"{', '.join(self._kept.kept_fields(self.kept_steps[-1])) if self.kept_steps else 'none'}",
+            ]
+        return "\n".join(lines)
+
+
+def _listed(steps: list[int]) -> str:
+    if not steps:
+        return "no increment"
+    if len(steps) <= 12:
+        return ", ".join(map(str, steps))
+    return f"{', '.join(map(str, steps[:6]))}, ..., {', '.join(map(str, steps[-3:]))} ({len(steps)} in all)"

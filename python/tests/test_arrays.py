@@ -1,0 +1,155 @@
+"""Names, shapes and number types of what a run leaves behind."""
+
+import pickle
+from typing import Any, get_args
+
+import numpy as np
+import pytest
+
+import fretting
+from fretting.history import FieldName
+
+REALS = {
+    "normal_force", "approach", "tangential_force_x", "tangential_force_y", "shift_x", "shift_y", "twist_moment",
+    "twist", "max_pressure", "max_shear", "contact_area", "stick_area", "dissipated_energy", "residual", "wall_s",
+}  # fmt: skip
+COUNTS = {
+    "increment", "stage", "contact_cells", "stick_cells", "convolutions", "preconditioner_passes", "outer_iterations",
+}  # fmt: skip
+
+
+@pytest.fixture
+def history(fretting_case: dict[str, Any]) -> fretting.History:
+    fretting_case["grid"] = {"cells": [32, 24], "size": [300e-6, 300e-6]}
+    return fretting.run(fretting_case)
+
+
+def test_steps_are_columns_of_one_entry_an_increment(history: fretting.History) -> None:
+    assert set(history.steps) == REALS | COUNTS | {"regime"}
+    assert len(history) == 17
+    for name, column in history.steps.items():
+        assert column.shape == (17,), name
+    for name in REALS:
+        assert history.steps[name].dtype == np.float64, name
+        assert np.isfinite(history.steps[name]).all(), name
+    for name in COUNTS:
+        assert history.steps[name].dtype == np.int64, name
+    np.testing.assert_array_equal(history.steps["increment"], np.arange(17))
+    np.testing.assert_array_equal(history.steps["stage"], [0] + [1] * 16)
+    assert history.stages == ["indent", "fretting"]
+    assert set(history.steps["regime"]) <= {"full_stick", "partial_slip", "gross_slip"}
+
+
+def test_fields_are_nx_by_ny_and_the_callers_own(history: fretting.History) -> None:
+    for name in get_args(FieldName):
+        field = history.field(name)
+        assert field.shape == (32, 24), name
+        assert field.dtype == (np.uint8 if name == "zone" else np.float64), name
+        field[...] = 1
+        assert not (history.field(name) == 1).all(), name
+    assert set(np.unique(history.field("zone"))) <= {0, 1, 2}
+
+
+def test_cell_centres_lie_about_the_first_point_of_touch(history: fretting.History) -> None:
+    assert history.shape == (32, 24)
+    np.testing.assert_allclose(history.x, (np.arange(32) - 15.5) * (300e-6 / 32), rtol=1e-14)
+    np.testing.assert_allclose(history.y, (np.arange(24) - 11.5) * (300e-6 / 24), rtol=1e-14)
+
+
+def test_steps_count_from_either_end(history: fretting.History) -> None:
+    np.testing.assert_array_equal(history.field("pressure", -1), history.field("pressure", 16))
+    assert 0 in history.kept_steps  # the last of a stage
+    assert 16 in history.kept_steps
+    with pytest.raises(IndexError, match="17 increments"):
+        history.field("pressure", 17)
+    with pytest.raises(IndexError, match="17 increments"):
+        history.field("pressure", -18)
+
+
+def test_what_was_not_kept_says_what_was(fretting_case: dict[str, Any]) -> None:
+    fretting_case["grid"]["cells"] = [24, 24]
+    fretting_case["output"] = {"fields": ["pressure"]}
+    history = fretting.run(fretting_case)
+    assert history.kept_steps == [0, 16]
+    with pytest.raises(KeyError, match="kept are those of 0, 16"):
+        history.field("pressure", 3)
+    with pytest.raises(KeyError, match="zone is not kept; kept are: pressure"):
+        history.field("zone")
+    with pytest.raises(KeyError, match="no field is called 'presure'"):
+        history.field("presure")  # type: ignore[arg-type]
+
+
+def test_repr_tells_sizes_and_what_is_kept(history: fretting.History) -> None:
+    text = repr(history)
+    assert "17 increments, 32 x 24 cells, stages: indent, fretting" in text
+    assert "pressure, shear_x" in text
+
+
+def test_dataset_has_the_dimensions_step_x_y(history: fretting.History) -> None:
+    pytest.importorskip("xarray")
+    data = history.to_xarray()
+    assert dict(data.sizes) == {"step": 17, "x": 32, "y": 24}
+    np.testing.assert_array_equal(data["normal_force"].values, history.steps["normal_force"])
+    np.testing.assert_array_equal(data["pressure"].sel(step=16).values, history.field("pressure"))
+    absent = next(step for step in range(17) if step not in history.kept_steps)
+    assert np.isnan(data["pressure"].sel(step=absent)).all()
+    assert (data["zone"].sel(step=absent) == -1).all()
+    kept = history.to_xarray(steps="kept")
+    assert list(kept["step"].values) == history.kept_steps
+    assert not np.isnan(kept["pressure"]).any()
+
+
+def test_history_survives_pickling(history: fretting.History) -> None:
+    again = pickle.loads(pickle.dumps(history))
+    assert repr(again) == repr(history)
+    assert again.kept_steps == history.kept_steps
+    for name in get_args(FieldName):
+        np.testing.assert_array_equal(again.field(name, 4), history.field(name, 4))
+    for name, column in history.steps.items():
+        np.testing.assert_array_equal(again.steps[name], column)
+
+
+def test_progress_is_told_after_every_increment(
+    sphere_case: dict[str, Any], capsys: pytest.CaptureFixture[str]
+) -> None:
+    sphere_case["grid"]["cells"] = [16, 16]
+    sphere_case["load"][0]["increments"] = 3
+    heard: list[dict[str, Any]] = []
+    history = fretting.run(sphere_case, progress=heard.append)
+    assert [step["increment"] for step in heard] == [0, 1, 2]
+    assert all(step["increments"] == 3 for step in heard)
+    assert [step["normal_force"] for step in heard] == list(history.steps["normal_force"])
+    fretting.run(sphere_case, progress=True)
+    assert "increment 3/3" in capsys.readouterr().err
+
+
+def test_what_progress_raises_ends_the_run(sphere_case: dict[str, Any]) -> None:
+    sphere_case["grid"]["cells"] = [16, 16]
+    sphere_case["load"][0]["increments"] = 5
+    heard = []
+
+    def stop(step: dict[str, Any]) -> None:
+        heard.append(step)
+        raise LookupError("enough")
+
+    with pytest.raises(LookupError, match="enough"):
+        fretting.run(sphere_case, progress=stop)
+    assert len(heard) == 1
+
+
+def test_a_run_may_be_started_while_another_tells_its_progress(sphere_case: dict[str, Any]) -> None:
+    """With one worker thread, which is the one that waits."""
+    sphere_case["grid"]["cells"] = [16, 16]
+    product = fretting.Convolution(np.ones((4, 4)))
+    inner = []
+
+    def run_another(step: dict[str, Any]) -> None:
+        inner.append(fretting.run(sphere_case, threads=1).steps["approach"][-1] + 0.0 * product(np.ones((4, 4))).sum())
+
+    outer = fretting.run(sphere_case, threads=1, progress=run_another)
+    assert inner == [outer.steps["approach"][-1]]
+
+
+def test_bad_thread_counts_are_refused(sphere_case: dict[str, Any]) -> None:
+    with pytest.raises(ValueError, match="threads = 0"):
+        fretting.run(sphere_case, threads=0)
