@@ -1,1 +1,155 @@
+//! Scenes and comparisons that several validation tests share.
 
+use std::fmt::Write;
+
+use fret_core::case::Case;
+use fret_core::history::History;
+use fret_core::plan::Plan;
+use fret_core::simulation::{RunError, Silent, Simulation};
+
+/// A sphere of radius 100 pressed so that a Hertz contact on a half-space of modulus `E = 1`, `nu = poisson` under it has
+/// radius 1: the numbers of most scenes here.
+#[derive(Debug, Clone)]
+pub struct Sphere {
+    /// Cells a side.
+    pub cells: usize,
+    /// Side length.
+    pub size: f64,
+    /// Poisson's ratio of all materials.
+    pub poisson: f64,
+    /// Young's modulus of the coating over that of the substrate, and its thickness; `None`: no coating.
+    pub coating: Option<(f64, f64)>,
+    /// Upper body of the same material instead of a rigid one.
+    pub identical: bool,
+    /// Coefficient of friction.
+    pub friction: f64,
+    /// Solver tolerance.
+    pub tolerance: f64,
+    /// Factor on every length.
+    pub length: f64,
+    /// Factor on every modulus.
+    pub modulus: f64,
+}
+
+impl Default for Sphere {
+    fn default() -> Self {
+        Self {
+            cells: 64,
+            size: 2.4,
+            poisson: 0.3,
+            coating: None,
+            identical: false,
+            friction: 0.0,
+            tolerance: 1e-8,
+            length: 1.0,
+            modulus: 1.0,
+        }
+    }
+}
+
+/// Sphere radius of these scenes, in contact radii.
+pub const RADIUS: f64 = 100.0;
+
+impl Sphere {
+    /// Effective modulus of the substrate pair.
+    pub fn effective_modulus(&self) -> f64 {
+        let one = self.modulus / (1.0 - self.poisson * self.poisson);
+        if self.identical { one / 2.0 } else { one }
+    }
+
+    /// Effective shear modulus of the substrate pair: `1/G* = sum (2 - nu)/G`.
+    pub fn effective_shear_modulus(&self) -> f64 {
+        let one = self.modulus / (2.0 * (1.0 + self.poisson) * (2.0 - self.poisson));
+        if self.identical { one / 2.0 } else { one }
+    }
+
+    /// Force that gives the substrate alone a contact radius of one length.
+    pub fn force(&self) -> f64 {
+        4.0 * self.effective_modulus() * self.length * self.length / (3.0 * RADIUS)
+    }
+
+    /// Hertz's largest pressure under that force, substrate alone.
+    pub fn peak_pressure(&self) -> f64 {
+        1.5 * self.force() / (std::f64::consts::PI * self.length * self.length)
+    }
+
+    /// Hertz's approach under that force, substrate alone.
+    pub fn approach(&self) -> f64 {
+        self.length / RADIUS
+    }
+
+    /// The case text without its loads.
+    pub fn head(&self) -> String {
+        let Self { cells, poisson, modulus, .. } = self;
+        let size = self.size * self.length;
+        let substrate = format!("substrate = {{ young = {modulus:e}, poisson = {poisson} }}\n");
+        let upper = if self.identical { substrate.clone() } else { "rigid = true\n".to_owned() };
+        let coating = self.coating.map_or(String::new(), |(ratio, thickness)| {
+            format!(
+                "coatings = [{{ thickness = {:e}, young = {:e}, poisson = {poisson} }}]\n",
+                thickness * self.length,
+                ratio * modulus
+            )
+        });
+        format!(
+            "[grid]\ncells = [{cells}, {cells}]\nsize = [{size:e}, {size:e}]\n[upper]\n{upper}[lower]\n{coating}{substrate}\
+             [profile.sphere]\nradius = {:e}\n[friction]\ncoefficient = {}\n[solver]\ntolerance = {:e}\n",
+            RADIUS * self.length,
+            self.friction,
+            self.tolerance
+        )
+    }
+
+    /// Pressed to a share of [`Sphere::force`] in `increments`.
+    pub fn pressed(&self, share: f64, increments: usize, ramp: &str) -> String {
+        let force = share * self.force();
+        format!(
+            "{}[[load]]\nname = \"press\"\nnormal_force = {force:e}\nincrements = {increments}\nramp = \"{ramp}\"\n",
+            self.head()
+        )
+    }
+
+    /// Adds a stage of tangential force along x, in units of mu W.
+    pub fn pulled(&self, text: &str, share: f64, increments: usize, cycles: Option<usize>) -> String {
+        let force = share * self.friction * self.force();
+        let mut text = text.to_owned();
+        let _ = write!(text, "[[load]]\nname = \"pull\"\ntangential_force = [{force:e}, 0.0]\nincrements = {increments}\n");
+        if let Some(cycles) = cycles {
+            let _ = writeln!(text, "cycles = {cycles}");
+        }
+        text
+    }
+}
+
+/// Runs a case text that must be a good case.
+///
+/// # Errors
+/// As [`Simulation::run`].
+///
+/// # Panics
+/// When the case is refused.
+pub fn run(text: &str) -> Result<History, RunError> {
+    let case = Case::from_toml(text, "case.toml").unwrap_or_else(|error| panic!("{error}"));
+    let plan = Plan::new(case).unwrap_or_else(|error| panic!("{error}"));
+    Simulation::new(&plan).run(&mut Silent)
+}
+
+/// Runs a case text that must be solved.
+///
+/// # Panics
+/// When it is refused or not solved, or an increment misses its residual.
+pub fn solved(text: &str) -> History {
+    let history = run(text).unwrap_or_else(|error| panic!("{error}"));
+    assert!(history.largest_residual() <= 1e-8, "residual {:e}", history.largest_residual());
+    history
+}
+
+/// Output block that keeps all fields of every `every`-th increment.
+pub fn keeping(every: usize) -> String {
+    format!("[output]\nfields = [\"pressure\", \"shear\", \"slip\", \"gap\", \"zone\"]\nevery = {every}\n")
+}
+
+/// Observed order of convergence from errors on grids refined by two.
+pub fn observed_order(coarse: f64, fine: f64) -> f64 {
+    (coarse / fine).abs().log2()
+}

@@ -51,15 +51,15 @@ def test_first_peak_is_cattaneo_mindlin(history: fretting.History) -> None:
     share = AMPLITUDE / (FRICTION * FORCE)
     assert history.steps["tangential_force_x"][peak] == pytest.approx(AMPLITUDE, rel=1e-8)
     assert history.steps["regime"][peak] == "partial_slip"
-    # 25 cells a radius: the circle of slip is known to about half a cell.
-    assert history.steps["shift_x"][peak] == pytest.approx(shift(share), rel=1e-2)
+    # 25 cells a radius: integral values to (dx/a)^2 = 2e-3, the circle of slip to about half a cell.
+    assert history.steps["shift_x"][peak] == pytest.approx(shift(share), rel=1e-3)
     c = stick_radius(share)
     dx = history.x[1] - history.x[0]
-    assert np.sqrt(history.steps["stick_area"][peak] / np.pi) == pytest.approx(c, abs=dx)
+    assert np.sqrt(history.steps["stick_area"][peak] / np.pi) == pytest.approx(c, abs=0.5 * dx)
     r = np.hypot(history.x[:, None], history.y[None, :])
     expected = FRICTION * PEAK * (disc(r, A) - disc(r, c))
     away = (np.abs(r - A) > 1.5 * dx) & (np.abs(r - c) > 1.5 * dx)
-    assert np.abs(history.field("shear_x", peak) - expected)[away].max() < 0.015 * FRICTION * PEAK
+    assert np.abs(history.field("shear_x", peak) - expected)[away].max() < 0.005 * FRICTION * PEAK
     assert np.abs(history.field("shear_y", peak)).max() < 1e-3 * FRICTION * PEAK
 
 
@@ -68,13 +68,13 @@ def test_unloaded_contact_keeps_the_shear_of_mindlin_and_deresiewicz(history: fr
     share = AMPLITUDE / (FRICTION * FORCE)
     assert abs(history.steps["tangential_force_x"][zero]) < 1e-8 * AMPLITUDE
     expected_shift = shift(share) - 2.0 * shift(share / 2.0)
-    assert history.steps["shift_x"][zero] == pytest.approx(expected_shift, rel=2e-2)
+    assert history.steps["shift_x"][zero] == pytest.approx(expected_shift, rel=2e-3)
     r = np.hypot(history.x[:, None], history.y[None, :])
     c, half = stick_radius(share), stick_radius(share / 2.0)
     expected = -FRICTION * PEAK * (disc(r, A) - 2.0 * disc(r, half) + disc(r, c))
     dx = history.x[1] - history.x[0]
     away = (np.abs(r - A) > 1.5 * dx) & (np.abs(r - c) > 1.5 * dx) & (np.abs(r - half) > 1.5 * dx)
-    assert np.abs(history.field("shear_x", zero) - expected)[away].max() < 0.02 * FRICTION * PEAK
+    assert np.abs(history.field("shear_x", zero) - expected)[away].max() < 0.01 * FRICTION * PEAK
 
 
 def test_second_cycle_closes_and_its_area_is_the_dissipated_energy(history: fretting.History) -> None:
@@ -88,10 +88,10 @@ def test_second_cycle_closes_and_its_area_is_the_dissipated_energy(history: fret
     loop = fretting.analytic.mindlin_deresiewicz(
         fretting.analytic.hertz(RADIUS, FORCE, NORMAL_MODULUS), FRICTION, SHEAR_MODULUS, AMPLITUDE
     )
-    assert lost == pytest.approx(loop.dissipated_energy_per_cycle, rel=0.05)
-    # Backward Euler in the increments: the polygon of the loop has the area of the work of friction to order 1/16.
+    assert lost == pytest.approx(loop.dissipated_energy_per_cycle, rel=2e-3)
+    # Sixteen chords inscribed in the two branches cut off about 2 % of the area.
     area = np.sum(0.5 * (force[second][1:] + force[second][:-1]) * np.diff(moved[second]))
-    assert area == pytest.approx(loop.dissipated_energy_per_cycle, rel=0.1)
+    assert area == pytest.approx(loop.dissipated_energy_per_cycle, rel=0.03)
 
 
 def test_closed_forms_of_the_library_are_those_written_here() -> None:

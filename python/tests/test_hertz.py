@@ -19,16 +19,17 @@ def test_pressure_radius_and_approach_are_hertz(sphere_case: dict[str, Any]) -> 
 
     assert steps["normal_force"][-1] == pytest.approx(force, rel=1e-8)
     assert steps["residual"][-1] <= 1e-8
-    # 15 cells a radius; the square root at the edge limits piecewise constant cells to order (dx/a)^1.5 locally.
-    assert steps["approach"][-1] == pytest.approx(a**2 / radius, rel=5e-3)
-    assert steps["max_pressure"][-1] == pytest.approx(peak, rel=5e-3)
-    assert np.sqrt(steps["contact_area"][-1] / np.pi) == pytest.approx(a, abs=0.5 * dx)
+    # 15 cells a radius: integral values err by about (dx/a)^2 / 10 = 5e-4. The nearest cell's middle lies dx/sqrt(2)
+    # from the peak, where the pressure is lower by (dx/a)^2 / 4 = 1.2e-3.
+    assert steps["approach"][-1] == pytest.approx(a**2 / radius, rel=5e-4)
+    assert steps["max_pressure"][-1] == pytest.approx(peak, rel=2e-3)
+    assert np.sqrt(steps["contact_area"][-1] / np.pi) == pytest.approx(a, abs=0.1 * dx)  # from the zero line of p
 
     pressure = history.field("pressure")
     r = np.hypot(history.x[:, None], history.y[None, :])
     expected = peak * np.sqrt(np.maximum(1.0 - (r / a) ** 2, 0.0))
     inside = r < a - 1.5 * dx
-    assert np.abs(pressure - expected)[inside].max() < 0.01 * peak
+    assert np.abs(pressure - expected)[inside].max() < 0.005 * peak
     assert (pressure[r > a + dx] == 0.0).all()
     assert pressure.sum() * dx**2 == pytest.approx(force, rel=1e-8)
     np.testing.assert_array_equal(history.field("zone") > 0, pressure > 0.0)
@@ -43,7 +44,7 @@ def test_prescribed_approach_gives_hertz_force(sphere_case: dict[str, Any]) -> N
     history = fretting.run(sphere_case, threads=1)
     a = np.sqrt(approach * radius)
     assert history.steps["approach"][-1] == approach
-    assert history.steps["normal_force"][-1] == pytest.approx(4.0 * modulus * a**3 / (3.0 * radius), rel=5e-3)
+    assert history.steps["normal_force"][-1] == pytest.approx(4.0 * modulus * a**3 / (3.0 * radius), rel=1e-3)
 
 
 def test_any_number_of_threads_gives_the_same_bits(sphere_case: dict[str, Any]) -> None:

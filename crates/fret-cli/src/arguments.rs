@@ -58,7 +58,7 @@ pub enum Verb {
 pub struct RunArguments {
     /// The case file (TOML)
     pub case: PathBuf,
-    /// Folder for the results [default: results/<case name>]
+    /// Folder for the results [default: results/ and the name of the case]
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
     /// Threads to compute with [default: all the machine has]

@@ -89,8 +89,8 @@ impl Summary<'_> {
                 ("tangential force y", |record| {
                     figure_beside(record.tangential_force[1], record.normal_force)
                 }),
-                ("shift x", |record| figure_beside(record.shift[0], record.shift[0].hypot(record.shift[1]))),
-                ("shift y", |record| figure_beside(record.shift[1], record.shift[0].hypot(record.shift[1]))),
+                ("shift x", |record| figure_beside(record.shift[0], record.approach)),
+                ("shift y", |record| figure_beside(record.shift[1], record.approach)),
                 ("largest shear", |record| figure(record.max_shear)),
                 ("share of the contact in stick", |record| {
                     stick_share(record).map_or("-".to_owned(), percent)
@@ -163,7 +163,7 @@ impl Summary<'_> {
             "work": self.tally.work,
             "wall_s": self.wall_s,
             "threads": self.threads,
-            "results": self.folder,
+            "results": self.folder.display().to_string(),
         })
     }
 

@@ -79,7 +79,10 @@ impl Tally {
     pub fn add(&mut self, record: &StepRecord) {
         self.solved += 1;
         self.work += record.work;
-        self.largest_residual = self.largest_residual.max(record.residual.largest());
+        let residual = record.residual.largest();
+        if residual > self.largest_residual || residual.is_nan() {
+            self.largest_residual = residual;
+        }
         match self.stage_ends.last_mut() {
             Some(last) if last.stage == record.stage => *last = record.clone(),
             _ => self.stage_ends.push(record.clone()),

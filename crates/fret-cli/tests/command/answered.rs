@@ -48,3 +48,18 @@ fn the_schema_beside_the_examples_is_the_one_the_command_prints() {
     let stored = std::fs::read_to_string(path).unwrap().replace("\r\n", "\n");
     assert_eq!(stored, printed.out, "renew it: cargo run -- schema > examples/fret.schema.json");
 }
+
+#[test]
+fn every_example_is_a_good_case_and_names_its_schema() {
+    let examples = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../examples");
+    let bench = Bench::new("examples");
+    for entry in std::fs::read_dir(examples).unwrap() {
+        let path = entry.unwrap().path();
+        if path.extension().is_some_and(|extension| extension == "toml") {
+            let text = std::fs::read_to_string(&path).unwrap();
+            assert_eq!(text.lines().next(), Some("#:schema ./fret.schema.json"), "{}", path.display());
+            let answer = bench.fret(&["check", path.to_str().unwrap()]);
+            assert_eq!(answer.code, Some(0), "{}", answer.err);
+        }
+    }
+}

@@ -1,5 +1,7 @@
 //! Runs the command `fret` itself: what it answers, where it writes, how it refuses.
 
+#![expect(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
+
 mod answered;
 mod bench;
 mod refused;

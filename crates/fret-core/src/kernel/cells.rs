@@ -228,8 +228,8 @@ mod tests {
     fn homogeneous_cells_follow_love_and_cerruti() {
         let quadrature = CellQuadrature::new();
         for nu in [-0.5, 0.0, 0.3, 0.5] {
-            for sides in [[1.0, 1.0], [1.0, 10.0], [3.0, 0.5], [10.0, 1.0]] {
-                let kernels = kernels(&pair(&[], Some((2.6, nu))), sides, 2000.0);
+            for sides in [[1.0, 1.0], [1.0, 10.0], [3.0, 0.5], [100.0, 1.0]] {
+                let kernels = kernels(&pair(&[], Some((2.6, nu))), sides, 2e4);
                 for (i, j) in [
                     (0, 0),
                     (1, 0),

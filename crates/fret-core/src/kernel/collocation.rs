@@ -11,7 +11,7 @@ use crate::model::{Base, HalfSpace};
 ///
 /// True when the coatings down to a base that is rigid, or stiffer than each of them by more than 1e3, have a total thickness
 /// `h < 0.2 cell` and `1 - 2 nu < 10 (h/cell)^2` in all of them; the base may be a stiff coating. `cell` is the shorter side
-/// of `spacing` [length].
+/// of `spacing` \[length\].
 pub fn cells_too_coarse_for_incompressible_film(half_space: &HalfSpace, spacing: [f64; 2]) -> bool {
     let half_space = half_space.simplified();
     let coatings = half_space.coatings();

@@ -151,7 +151,7 @@ impl Wavenumber for Complex {
     }
     #[inline]
     fn modulus(self) -> f64 {
-        libm::hypot(self.re, self.im)
+        (self.re * self.re + self.im * self.im).sqrt()
     }
     #[inline]
     fn exp(self) -> Self {

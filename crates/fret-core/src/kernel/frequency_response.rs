@@ -126,7 +126,7 @@ impl FrequencyResponse {
         thickness * (stiffest / softest)
     }
 
-    /// The thinnest coating's thickness [length]; none without coatings.
+    /// The thinnest coating's thickness \[length\]; none without coatings.
     pub(crate) fn shortest_length(&self) -> Option<f64> {
         self.layers.iter().map(|layer| layer.thickness).reduce(f64::min)
     }

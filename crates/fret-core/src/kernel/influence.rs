@@ -50,7 +50,7 @@ pub struct InfluenceCoefficients {
     pub zy: Option<Array2<f64>>,
 }
 
-/// Influence coefficients of a pair for offsets up to `cells - 1` on a grid of the given `spacing` [length].
+/// Influence coefficients of a pair for offsets up to `cells - 1` on a grid of the given `spacing` \[length\].
 ///
 /// The radial kernels of the whole stack are tabulated once and integrated over cells by Gauss rules whose number of points
 /// depends on distance over side alone; no step depends on the thickness or the stiffness of the coatings. Error about 1e-14

@@ -8,6 +8,7 @@ pub mod periodic;
 
 pub(crate) mod complex;
 pub(crate) mod layer;
+pub(crate) mod matrix;
 
 mod bessel;
 mod cells;

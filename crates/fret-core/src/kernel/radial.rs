@@ -247,7 +247,7 @@ impl RadialKernels {
         self.panels.at(square)
     }
 
-    /// Radius of the disc [length].
+    /// Radius of the disc \[length\].
     pub(crate) fn disc_radius(&self) -> f64 {
         self.disc_radius
     }
@@ -356,9 +356,11 @@ mod tests {
         ];
         for (layers, substrate, tolerance) in cases {
             let pair = PairResponse::new(&pair(layers, substrate));
-            let kernels = RadialKernels::new(&pair, 0.01, 20.0);
+            let kernels = RadialKernels::new(&pair, 0.01, 100.0);
             let thinnest = layers.iter().map(|layer| layer.2).fold(1.0, f64::min);
-            for r in [0.03, 0.7, 1.9, 6.0] {
+            let radii =
+                if substrate.is_some() { [0.03, 0.7, 1.9, 6.0, 60.0] } else { [0.03, 0.3, 0.7, 1.9, 6.0] };
+            for r in radii {
                 let error = worst(at_radius(&kernels, r), by_quadrature(&pair, r, thinnest));
                 assert!(error < tolerance, "{layers:?} {substrate:?} r = {r}: {error:.1e}");
             }

@@ -11,13 +11,13 @@ use crate::plan::Coupling;
 use crate::solver::{ContactSolver, SolveError, SolverSettings};
 
 /// Cells a side of the coarse grid.
-const COARSE: usize = 32;
+const COARSE: usize = 48;
 /// Side of an automatic grid in units of the contact's width.
 const MARGIN: f64 = 1.2;
 
 /// Where the contact stays under the heaviest load.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Extent {
+enum Extent {
     /// Inside the grid: its widths along x and y [length], up to a coarse cell.
     Inside([f64; 2]),
     /// It reaches the edge.
@@ -28,8 +28,19 @@ pub enum Extent {
     Unknown,
 }
 
+/// Whether the contact certainly reaches beyond a grid of side lengths `size`: judged on a coarse grid half as large again,
+/// which sees the edge of contact up to one of its cells.
+pub fn reaches_beyond(case: &Case, size: [f64; 2]) -> bool {
+    let wider = size.map(|side| 1.5 * side);
+    match contact_extent(case, wider) {
+        Extent::Beyond => true,
+        Extent::Inside(widths) => (0..2).any(|axis| widths[axis] - wider[axis] / COARSE as f64 > size[axis]),
+        Extent::Nothing | Extent::Unknown => false,
+    }
+}
+
 /// Extent of the contact of a case on a grid of side lengths `size`.
-pub fn contact_extent(case: &Case, size: [f64; 2]) -> Extent {
+fn contact_extent(case: &Case, size: [f64; 2]) -> Extent {
     let mut widest = Extent::Nothing;
     for normal in heaviest_loads(case) {
         match extent_under(case, size, normal) {

@@ -7,7 +7,7 @@ use serde::Serialize;
 use crate::case::{Case, CaseError, GridSize};
 use crate::kernel::PairResponse;
 use crate::model::{Body, SurfaceGrid};
-use extent::{Extent, automatic_size, contact_extent};
+use extent::{automatic_size, reaches_beyond};
 
 /// Something the scene does not need.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
@@ -77,7 +77,7 @@ impl Plan {
         let spacing = [size[0] / case.cells[0] as f64, size[1] / case.cells[1] as f64];
         let grid = SurfaceGrid::new(case.cells, spacing)
             .map_err(|error| CaseError::plain("case", error.to_string()))?;
-        if matches!(case.size, GridSize::Given(_)) && contact_extent(&case, size) == Extent::Beyond {
+        if matches!(case.size, GridSize::Given(_)) && reaches_beyond(&case, size) {
             return Err(CaseError::plain(
                 "case",
                 format!(
