@@ -40,7 +40,8 @@ fn approach_control_and_force_control_are_the_same_contact() {
 #[test]
 fn cattaneo_mindlin_traction_and_shift() {
     // nu = 0: the closed form is exact, transverse slip vanishes.
-    let sphere = Sphere { cells: 128, size: 2.2, poisson: 0.0, identical: true, friction: 0.3, ..Sphere::default() };
+    let sphere =
+        Sphere { cells: 128, size: 2.2, poisson: 0.0, identical: true, friction: 0.3, ..Sphere::default() };
     let text = sphere.pulled(&sphere.pressed(1.0, 1, "linear"), 0.75, 1, None) + &keeping(1);
     let history = solved(&text);
     let hertz = Hertz::sphere(RADIUS, sphere.force(), sphere.effective_modulus()).unwrap();

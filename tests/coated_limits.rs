@@ -34,7 +34,8 @@ fn figure_1() -> Vec<Row> {
 
 /// Errors of peak pressure, approach and radius on `cells` x `cells`, on a domain of 2.4 contact radii.
 fn errors(row: &Row, cells: usize) -> [f64; 3] {
-    let sphere = Sphere { cells, size: 2.4 * row.a, coating: Some((row.young_ratio, row.h)), ..Sphere::default() };
+    let sphere =
+        Sphere { cells, size: 2.4 * row.a, coating: Some((row.young_ratio, row.h)), ..Sphere::default() };
     let step = solved(&sphere.pressed(1.0, 1, "linear")).steps[0].clone();
     let radius = (step.contact_area / std::f64::consts::PI).sqrt();
     [
@@ -50,7 +51,10 @@ fn figure_1_of_the_paper_at_128_cells() {
     assert_eq!(rows.len(), 5);
     for row in &rows {
         let [peak, approach, radius] = errors(row, 128);
-        println!("E1/E2 = {}: peak {peak:.1e}, approach {approach:.1e}, radius {radius:.1e}", row.young_ratio);
+        println!(
+            "E1/E2 = {}: peak {peak:.1e}, approach {approach:.1e}, radius {radius:.1e}",
+            row.young_ratio
+        );
         assert!(peak.abs() < 3e-4 && approach.abs() < 3e-4, "E1/E2 = {}: {peak} {approach}", row.young_ratio);
         assert!(radius.abs() < 2e-3, "E1/E2 = {}: {radius}", row.young_ratio);
     }
@@ -61,7 +65,10 @@ fn coated_spheres_converge_with_second_order() {
     for row in figure_1() {
         let [coarse, middle, fine] = [64, 128, 256].map(|cells| errors(&row, cells)[1]);
         let order = observed_order(coarse, fine) / 2.0;
-        println!("E1/E2 = {}: approach {coarse:.1e} {middle:.1e} {fine:.1e}, order {order:.2}", row.young_ratio);
+        println!(
+            "E1/E2 = {}: approach {coarse:.1e} {middle:.1e} {fine:.1e}, order {order:.2}",
+            row.young_ratio
+        );
         assert!(order > 1.8, "E1/E2 = {}: {coarse} {middle} {fine}", row.young_ratio);
     }
 }

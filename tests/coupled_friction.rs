@@ -61,8 +61,18 @@ fn history_error_falls_with_the_increments() {
 /// Rows: E1/E2; pressure over Hertz's at r/aH = 0.1 .. 1.0 (0 outside); edge; approach over Hertz's.
 /// Rigid sphere, thickness aH, nu = 0.3, mu = 0.1, axisymmetric rings with exact kernels, 100 cubic increments.
 const COATED: [(f64, [f64; 10], f64, f64); 3] = [
-    (0.5, [0.73249, 0.71892, 0.70074, 0.67707, 0.64722, 0.61042, 0.56567, 0.51294, 0.44972, 0.37104], 1.20, 1.22310),
-    (1.0, [1.06117, 1.02559, 0.98542, 0.93776, 0.87881, 0.80532, 0.71250, 0.59141, 0.41893, 0.0], 0.994, 0.99574),
+    (
+        0.5,
+        [0.73249, 0.71892, 0.70074, 0.67707, 0.64722, 0.61042, 0.56567, 0.51294, 0.44972, 0.37104],
+        1.20,
+        1.22310,
+    ),
+    (
+        1.0,
+        [1.06117, 1.02559, 0.98542, 0.93776, 0.87881, 0.80532, 0.71250, 0.59141, 0.41893, 0.0],
+        0.994,
+        0.99574,
+    ),
     (2.0, [1.55750, 1.49261, 1.41695, 1.31891, 1.18933, 1.01401, 0.76061, 0.26318, 0.0, 0.0], 0.813, 0.82305),
 ];
 
@@ -92,7 +102,10 @@ fn coated_sphere_pressed_with_friction() {
             }
             let found = along_x(&history.grid, field, r) / sphere.peak_pressure();
             // Interpolated between cells of 0.025: the curvature of the profile over a cell.
-            assert!((found - expected).abs() < 3e-3 * pressure[0], "E1/E2 {ratio}, r {r}: {found} against {expected}");
+            assert!(
+                (found - expected).abs() < 3e-3 * pressure[0],
+                "E1/E2 {ratio}, r {r}: {found} against {expected}"
+            );
         }
     }
 }

@@ -18,7 +18,8 @@ fn figure_2(cells: usize, increments: usize, cycles: usize) -> (Sphere, History)
 fn exact(sphere: &Sphere) -> (Hertz, MindlinDeresiewicz) {
     let hertz = Hertz::sphere(RADIUS, sphere.force(), sphere.effective_modulus()).unwrap();
     let amplitude = AMPLITUDE * FRICTION * sphere.force();
-    let cycle = MindlinDeresiewicz::new(&hertz, FRICTION, sphere.effective_shear_modulus(), amplitude).unwrap();
+    let cycle =
+        MindlinDeresiewicz::new(&hertz, FRICTION, sphere.effective_shear_modulus(), amplitude).unwrap();
     (hertz, cycle)
 }
 
@@ -52,12 +53,20 @@ fn figure_2_of_the_paper_all_along_the_loop() {
         let rms_in_contact = (square / inside).sqrt() / (FRICTION * hertz.peak_pressure);
         assert!(rms_in_contact < 5e-3, "increment {k}: rms in contact {rms_in_contact}");
         let at_null = k == 12 || k == 24;
-        println!("k = {k:2}, T/muW = {:6.3}: rms {rms:.1e}", step.tangential_force[0] / (FRICTION * sphere.force()));
+        println!(
+            "k = {k:2}, T/muW = {:6.3}: rms {rms:.1e}",
+            step.tangential_force[0] / (FRICTION * sphere.force())
+        );
         assert!(rms < if at_null { 3e-3 } else { 6e-3 }, "increment {k}: rms {rms}");
         worst = worst.max(rms);
         // The shift of the whole loop, relative to its largest.
         let peak = cycle.peak().shift;
-        assert!((step.shift[0] - point.shift()).abs() < 2e-3 * peak, "{k}: {} {}", step.shift[0], point.shift());
+        assert!(
+            (step.shift[0] - point.shift()).abs() < 2e-3 * peak,
+            "{k}: {} {}",
+            step.shift[0],
+            point.shift()
+        );
     }
     println!("worst rms {worst:.1e}");
 }
@@ -90,7 +99,8 @@ fn energy_of_the_loop_and_its_repetition() {
 
 #[test]
 fn a_coupled_coated_loop_dissipates_and_closes() {
-    let sphere = Sphere { cells: 48, size: 2.0, coating: Some((2.0, 1.0)), friction: 0.1, ..Sphere::default() };
+    let sphere =
+        Sphere { cells: 48, size: 2.0, coating: Some((2.0, 1.0)), friction: 0.1, ..Sphere::default() };
     let text = sphere.pulled(&sphere.pressed(1.0, 10, "cubic"), 0.754, 24, Some(3));
     let history = solved(&text);
     let steps = &history.steps;

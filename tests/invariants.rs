@@ -4,14 +4,8 @@ use fret_core::history::{History, StepRecord};
 use fret_validation::{Sphere, keeping, solved};
 
 fn coupled_scene(length: f64, modulus: f64) -> History {
-    let sphere = Sphere {
-        cells: 32,
-        coating: Some((2.0, 0.5)),
-        friction: 0.2,
-        length,
-        modulus,
-        ..Sphere::default()
-    };
+    let sphere =
+        Sphere { cells: 32, coating: Some((2.0, 0.5)), friction: 0.2, length, modulus, ..Sphere::default() };
     let text = sphere.pulled(&sphere.pressed(1.0, 4, "cubic"), 0.6, 3, None);
     solved(&(text + &keeping(1)))
 }
@@ -64,8 +58,14 @@ fn mirrors_of_the_scene_are_mirrors_of_the_fields() {
 
 #[test]
 fn pulling_along_y_is_pulling_along_x_turned() {
-    let sphere =
-        Sphere { cells: 32, size: 2.9, coating: Some((0.5, 0.5)), friction: 0.2, tolerance: 1e-11, ..Sphere::default() };
+    let sphere = Sphere {
+        cells: 32,
+        size: 2.9,
+        coating: Some((0.5, 0.5)),
+        friction: 0.2,
+        tolerance: 1e-11,
+        ..Sphere::default()
+    };
     let along = |direction: [f64; 2]| {
         let force = 0.5 * 0.2 * sphere.force();
         let text = format!(
@@ -92,7 +92,13 @@ fn one_and_two_threads_give_the_same_bits() {
     let run = |threads: usize| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
         pool.install(|| {
-            let sphere = Sphere { cells: 128, size: 2.1, coating: Some((2.0, 0.5)), friction: 0.2, ..Sphere::default() };
+            let sphere = Sphere {
+                cells: 128,
+                size: 2.1,
+                coating: Some((2.0, 0.5)),
+                friction: 0.2,
+                ..Sphere::default()
+            };
             let text = sphere.pulled(&sphere.pressed(1.0, 1, "cubic"), 0.6, 1, None);
             solved(&(text + &keeping(1)))
         })

@@ -113,7 +113,10 @@ impl Sphere {
     pub fn pulled(&self, text: &str, share: f64, increments: usize, cycles: Option<usize>) -> String {
         let force = share * self.friction * self.force();
         let mut text = text.to_owned();
-        let _ = write!(text, "[[load]]\nname = \"pull\"\ntangential_force = [{force:e}, 0.0]\nincrements = {increments}\n");
+        let _ = write!(
+            text,
+            "[[load]]\nname = \"pull\"\ntangential_force = [{force:e}, 0.0]\nincrements = {increments}\n"
+        );
         if let Some(cycles) = cycles {
             let _ = writeln!(text, "cycles = {cycles}");
         }

@@ -26,7 +26,9 @@ fn onset(ratio: f64) -> [f64; 2] {
 fn coated_contacts_slide_at_mu_w_and_not_below() {
     for ratio in [0.5, 1.0, 2.0] {
         let [last_stick, far] = onset(ratio);
-        println!("E1/E2 = {ratio}: last stick cell vanishes at T = {last_stick:.4} mu W, far beyond T = {far:.5} mu W");
+        println!(
+            "E1/E2 = {ratio}: last stick cell vanishes at T = {last_stick:.4} mu W, far beyond T = {far:.5} mu W"
+        );
         assert!(last_stick > 0.97 && last_stick <= 1.0 + 1e-9, "E1/E2 = {ratio}: {last_stick}");
         assert!(far > 0.9999 && far <= 1.0 + 1e-9, "E1/E2 = {ratio}: {far}");
     }

@@ -86,7 +86,9 @@ const fn block(output: usize, input: usize, kernel: usize, sign: f64) -> Block {
 /// The kernels of a list of coefficients, each with its parity in x and y.
 fn kernels<'a>(list: &[(&'a Option<Array2<f64>>, Parity)]) -> Vec<Kernel<'a>> {
     list.iter()
-        .filter_map(|(values, parity)| values.as_ref().map(|values| Kernel { values: values.view(), parity: *parity }))
+        .filter_map(|(values, parity)| {
+            values.as_ref().map(|values| Kernel { values: values.view(), parity: *parity })
+        })
         .collect()
 }
 
@@ -127,7 +129,11 @@ impl SpectralCompliance {
             normal: build(wanted.normal, &normal, &NORMAL_BLOCKS)?,
             tangential: build(wanted.tangential, &tangential, &TANGENTIAL_BLOCKS)?,
             full: build(wanted.full, &full, &FULL_BLOCKS)?,
-            normal_from_all: build(wanted.normal_from_all, &[full[0], full[4], full[5]], &NORMAL_FROM_ALL_BLOCKS)?,
+            normal_from_all: build(
+                wanted.normal_from_all,
+                &[full[0], full[4], full[5]],
+                &NORMAL_FROM_ALL_BLOCKS,
+            )?,
             applications: 0,
         })
     }

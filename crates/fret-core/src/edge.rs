@@ -48,7 +48,10 @@ pub fn contact_cells(pressure: ArrayView2<'_, f64>, gap: ArrayView2<'_, f64>) ->
     let mut area = 0.0;
     for i in 0..nx as isize {
         for j in 0..ny as isize {
-            let near: Vec<f64> = (-1..=1).flat_map(|a| (-1..=1).map(move |b| (a, b))).map(|(a, b)| level(i + a, j + b)).collect();
+            let near: Vec<f64> = (-1..=1)
+                .flat_map(|a| (-1..=1).map(move |b| (a, b)))
+                .map(|(a, b)| level(i + a, j + b))
+                .collect();
             if near.iter().all(|value| *value > 0.0) {
                 area += 1.0;
             } else if near.iter().any(|value| *value > 0.0) {
@@ -67,7 +70,8 @@ fn filled(near: &[f64]) -> f64 {
         let (i, j) = (if x < 0.0 { 0 } else { 1 }, if y < 0.0 { 0 } else { 1 });
         let (u, v) = (x + 1.0 - i as f64, y + 1.0 - j as f64);
         let value = |a: usize, b: usize| near[(i + a) * 3 + j + b];
-        let h = (1.0 - u) * ((1.0 - v) * value(0, 0) + v * value(0, 1)) + u * ((1.0 - v) * value(1, 0) + v * value(1, 1));
+        let h = (1.0 - u) * ((1.0 - v) * value(0, 0) + v * value(0, 1))
+            + u * ((1.0 - v) * value(1, 0) + v * value(1, 1));
         let slope_x = (1.0 - v) * (value(1, 0) - value(0, 0)) + v * (value(1, 1) - value(0, 1));
         let slope_y = (1.0 - u) * (value(0, 1) - value(0, 0)) + u * (value(1, 1) - value(1, 0));
         (h, slope_x.hypot(slope_y))

@@ -35,7 +35,12 @@ pub trait Observer {
     }
 
     /// An increment is solved; `kept` holds its fields when they are kept. `Break` stops the run after it.
-    fn solved(&mut self, record: &StepRecord, state: &ContactState, kept: Option<&KeptFields>) -> ControlFlow<()> {
+    fn solved(
+        &mut self,
+        record: &StepRecord,
+        state: &ContactState,
+        kept: Option<&KeptFields>,
+    ) -> ControlFlow<()> {
         let _ = (record, state, kept);
         ControlFlow::Continue(())
     }
@@ -69,7 +74,9 @@ pub enum RunError {
         advice: String,
     },
     /// The contact reaches the edge of the grid.
-    #[error("increment {increment} ({stage}): the contact reaches the edge of the grid; enlarge grid.size, or write size = \"auto\"")]
+    #[error(
+        "increment {increment} ({stage}): the contact reaches the edge of the grid; enlarge grid.size, or write size = \"auto\""
+    )]
     ContactAtEdge {
         /// Number of the increment, from 0.
         increment: usize,
@@ -77,7 +84,9 @@ pub enum RunError {
         stage: String,
     },
     /// A tangential load above what friction carries.
-    #[error("increment {increment} ({stage}): tangential force {asked:.6e} is above mu W = {bound:.6e}: no equilibrium; prescribe the shift to slide")]
+    #[error(
+        "increment {increment} ({stage}): tangential force {asked:.6e} is above mu W = {bound:.6e}: no equilibrium; prescribe the shift to slide"
+    )]
     AboveSliding {
         /// Number of the increment, from 0.
         increment: usize,
@@ -94,6 +103,18 @@ pub enum RunError {
         /// Number of the increment that was not finished, from 0.
         increment: usize,
     },
+}
+
+impl RunError {
+    /// Number of the increment that has no answer, from 0.
+    pub fn increment(&self) -> usize {
+        match self {
+            Self::NotConverged { increment, .. }
+            | Self::ContactAtEdge { increment, .. }
+            | Self::AboveSliding { increment, .. }
+            | Self::Interrupted { increment } => *increment,
+        }
+    }
 }
 
 /// A planned case with its operators, ready to run.
@@ -150,7 +171,12 @@ impl<'a> Simulation<'a> {
                 let load = steps.at(k);
                 let started = Instant::now();
                 let mut watch = |iteration: usize, residual: f64| {
-                    observer.iterated(&Iteration { increment, iteration, residual, tolerance: case.tolerance })
+                    observer.iterated(&Iteration {
+                        increment,
+                        iteration,
+                        residual,
+                        tolerance: case.tolerance,
+                    })
                 };
                 let solved = solver
                     .step(&history.state, &load, &mut watch)
@@ -224,7 +250,9 @@ fn run_error(error: SolveError, increment: usize, stage: &Stage, tolerance: f64)
             iterations,
             advice: "try more increments in this stage, or a larger solver.tolerance".to_owned(),
         },
-        SolveError::AboveSliding { asked, bound } => RunError::AboveSliding { increment, stage, asked, bound },
+        SolveError::AboveSliding { asked, bound } => {
+            RunError::AboveSliding { increment, stage, asked, bound }
+        }
         SolveError::ContactAtEdge => RunError::ContactAtEdge { increment, stage },
         SolveError::OperatorsMissing => RunError::NotConverged {
             increment,
@@ -232,7 +260,8 @@ fn run_error(error: SolveError, increment: usize, stage: &Stage, tolerance: f64)
             reached: f64::INFINITY,
             tolerance,
             iterations: 0,
-            advice: "the elastic answer could not be computed: check moduli and lengths for extreme values".to_owned(),
+            advice: "the elastic answer could not be computed: check moduli and lengths for extreme values"
+                .to_owned(),
         },
         SolveError::Stopped => RunError::Interrupted { increment },
     }

@@ -28,8 +28,12 @@ impl<'a> StageSteps<'a> {
         }
         if let Some(controls) = &stage.tangential {
             for axis in 0..2 {
-                start.tangential[axis] =
-                    begin(&controls[axis], held.tangential[axis], resultants.tangential[axis], state.shift[axis]);
+                start.tangential[axis] = begin(
+                    &controls[axis],
+                    held.tangential[axis],
+                    resultants.tangential[axis],
+                    state.shift[axis],
+                );
             }
         }
         if let Some(control) = &stage.twist {

@@ -156,7 +156,8 @@ fn body(judge: &mut Judge, which: &str, given: &Spanned<BodyFile>) -> Option<Bod
     let base = match (&body.substrate, &body.base) {
         (Some(substrate), None) => {
             let place = format!("{which}.substrate");
-            material(judge, &place, &substrate.get_ref().young, &substrate.get_ref().poisson).map(Base::Elastic)
+            material(judge, &place, &substrate.get_ref().young, &substrate.get_ref().poisson)
+                .map(Base::Elastic)
         }
         (None, Some(_)) => Some(Base::Rigid),
         (Some(_), Some(base)) => judge.refuse(
@@ -192,7 +193,7 @@ fn coating(judge: &mut Judge, place: &str, given: &CoatingFile) -> Option<Coatin
     let material = material(judge, place, &given.young, &given.poisson);
     let thickness = *given.thickness.get_ref();
     if !(thickness.is_finite() && thickness > 0.0) {
-        let message = format!("{place}.thickness = {thickness}: must be a positive finite length");
+        let message = format!("{place}.thickness = {thickness:?}: must be a positive finite length");
         return judge.refuse(given.thickness.span(), message, "");
     }
     Coating::new(material?, thickness).ok()
@@ -220,10 +221,9 @@ fn material(
 
 fn profile(judge: &mut Judge, given: &Spanned<ProfileFile>) -> Option<Profile> {
     let (profile, radii) = match given.get_ref() {
-        ProfileFile::Sphere(sphere) => (
-            Profile::Sphere { radius: *sphere.radius.get_ref() },
-            vec![("sphere", "radius", &sphere.radius)],
-        ),
+        ProfileFile::Sphere(sphere) => {
+            (Profile::Sphere { radius: *sphere.radius.get_ref() }, vec![("sphere", "radius", &sphere.radius)])
+        }
         ProfileFile::Ellipsoid(ellipsoid) => (
             Profile::Ellipsoid {
                 radius_x: *ellipsoid.radius_x.get_ref(),
@@ -247,7 +247,8 @@ fn profile(judge: &mut Judge, given: &Spanned<ProfileFile>) -> Option<Profile> {
             for (shape, name, value) in radii {
                 let radius = *value.get_ref();
                 if !(radius.is_finite() && radius > 0.0) {
-                    let message = format!("profile.{shape}.{name} = {radius}: must be a positive finite length");
+                    let message =
+                        format!("profile.{shape}.{name} = {radius:?}: must be a positive finite length");
                     judge.refuse::<()>(value.span(), message, "");
                 }
             }
@@ -322,12 +323,20 @@ fn stage(judge: &mut Judge, index: usize, given: &Spanned<StageFile>, frictionle
         let message = format!("{place}.increments = {increments}: must lie between 1 and {MOST_INCREMENTS}");
         judge.refuse::<()>(file.increments.span(), message, "");
     }
-    let normal =
-        one_control(judge, &place, ("normal_force", file.normal_force.as_ref()), ("approach", file.approach.as_ref()));
-    let twist =
-        one_control(judge, &place, ("twist_moment", file.twist_moment.as_ref()), ("twist", file.twist.as_ref()));
+    let normal = one_control(
+        judge,
+        &place,
+        ("normal_force", file.normal_force.as_ref()),
+        ("approach", file.approach.as_ref()),
+    );
+    let twist = one_control(
+        judge,
+        &place,
+        ("twist_moment", file.twist_moment.as_ref()),
+        ("twist", file.twist.as_ref()),
+    );
     let tangential = tangential_control(judge, &place, file);
-    if index == 0 && normal.is_none() {
+    if index == 0 && file.normal_force.is_none() && file.approach.is_none() {
         judge.refuse::<()>(
             given.span(),
             format!("{place}: the first stage says neither normal_force nor approach"),
@@ -339,7 +348,9 @@ fn stage(judge: &mut Judge, index: usize, given: &Spanned<StageFile>, frictionle
     {
         judge.refuse::<()>(
             value.span(),
-            format!("{place}.normal_force = {force}: compression is positive, and the surfaces do not adhere"),
+            format!(
+                "{place}.normal_force = {force:?}: compression is positive, and the surfaces do not adhere"
+            ),
             "",
         );
     }
@@ -368,8 +379,14 @@ fn stage(judge: &mut Judge, index: usize, given: &Spanned<StageFile>, frictionle
             "normal_force, approach, tangential_force, shift, twist_moment or twist",
         );
     }
-    (judge.mistakes.len() == before)
-        .then(|| Stage { name, normal, tangential, twist, increments, course: course.unwrap_or(Course::Linear) })
+    (judge.mistakes.len() == before).then(|| Stage {
+        name,
+        normal,
+        tangential,
+        twist,
+        increments,
+        course: course.unwrap_or(Course::Linear),
+    })
 }
 
 fn course(judge: &mut Judge, place: &str, file: &StageFile, increments: usize) -> Option<Course> {
@@ -415,7 +432,12 @@ fn course(judge: &mut Judge, place: &str, file: &StageFile, increments: usize) -
 
 type Given<'a, T> = (&'a str, Option<&'a Spanned<T>>);
 
-fn one_control(judge: &mut Judge, place: &str, force: Given<'_, f64>, motion: Given<'_, f64>) -> Option<StageControl> {
+fn one_control(
+    judge: &mut Judge,
+    place: &str,
+    force: Given<'_, f64>,
+    motion: Given<'_, f64>,
+) -> Option<StageControl> {
     let (key, value, control): (&str, &Spanned<f64>, fn(f64) -> StageControl) = match (force.1, motion.1) {
         (None, None) => return None,
         (Some(value), None) => (force.0, value, StageControl::Force),
@@ -484,7 +506,8 @@ fn sliding(judge: &mut Judge, friction: &CoulombFriction, list: &Spanned<Vec<Spa
         let force = if stage.cycles.is_some() { start.unwrap_or(force) } else { force };
         let reached = if stage.cycles.is_some() {
             let given = tangential.get_ref();
-            let [plus, minus] = [1.0, -1.0].map(|sign| (held[0] + sign * given[0]).hypot(held[1] + sign * given[1]));
+            let [plus, minus] =
+                [1.0, -1.0].map(|sign| (held[0] + sign * given[0]).hypot(held[1] + sign * given[1]));
             plus.max(minus)
         } else {
             held = *tangential.get_ref();
@@ -523,10 +546,14 @@ fn output(judge: &mut Judge, given: Option<&OutputFile>) -> Option<Output> {
         }
     }
     let every = match given.and_then(|output| output.every.as_ref()) {
-        None => usize::MAX,
-        Some(every) if *every.get_ref() >= 1 => *every.get_ref(),
+        None => None,
+        Some(every) if *every.get_ref() >= 1 => Some(*every.get_ref()),
         Some(every) => {
-            return judge.refuse(every.span(), "output.every = 0: must be at least 1", "every = 1 keeps all increments");
+            return judge.refuse(
+                every.span(),
+                "output.every = 0: must be at least 1",
+                "every = 1 keeps all increments",
+            );
         }
     };
     good.then_some(Output { fields, every })

@@ -7,7 +7,7 @@ mod refusal;
 
 use serde::Serialize;
 
-use crate::model::{CoulombFriction, ContactPair, Profile};
+use crate::model::{ContactPair, CoulombFriction, Profile};
 
 pub use file::schema;
 pub use refusal::{CaseError, Mistake};
@@ -109,8 +109,8 @@ impl Stage {
 pub struct Output {
     /// Names out of [`FIELD_NAMES`].
     pub fields: Vec<String>,
-    /// Fields of every so many increments are kept, and of the last of each stage.
-    pub every: usize,
+    /// Fields of every so many increments of a stage are kept, and of its last; `None`: of the last only.
+    pub every: Option<usize>,
 }
 
 impl Case {
@@ -138,7 +138,7 @@ impl Case {
 
     /// Whether fields are kept of increment `k` (from 1) of a stage: of every `output.every`-th, and of the last.
     pub fn keeps(&self, stage: usize, k: usize) -> bool {
-        k % self.output.every == 0 || k == self.stages[stage].increments_in_all()
+        self.output.every.is_some_and(|every| k % every == 0) || k == self.stages[stage].increments_in_all()
     }
 
     /// Numbers in the whole history, from 0, of the increments whose fields are kept.

@@ -20,7 +20,10 @@ const LONGEST: usize = 4 << 20;
 
 pub(super) fn case(text: &str, name: &str) -> Result<Case, CaseError> {
     if text.len() > LONGEST {
-        return Err(CaseError::plain(name, format!("{} bytes: a case file has at most {LONGEST}", text.len())));
+        return Err(CaseError::plain(
+            name,
+            format!("{} bytes: a case file has at most {LONGEST}", text.len()),
+        ));
     }
     if text.bytes().filter(|byte| matches!(byte, b'[' | b'{')).count() > 100_000 {
         return Err(CaseError::plain(name, "more than 100000 brackets: not a case file"));
@@ -50,12 +53,20 @@ pub(super) fn case(text: &str, name: &str) -> Result<Case, CaseError> {
                     return Err(CaseError::new(name, text, mistakes));
                 };
                 // A table that lost an entry above may now miss it: that is no mistake of its own.
-                let echo = error.message().starts_with("missing field")
-                    && removed.iter().any(|gone| span.start <= gone.start && gone.end <= span.end.max(gone.end));
+                let lost_entry = ["missing field", "wanted exactly 1 element"];
+                let echo = lost_entry.iter().any(|words| error.message().starts_with(words))
+                    && removed
+                        .iter()
+                        .any(|gone| span.start <= gone.start && gone.end <= span.end.max(gone.end));
                 if !echo {
                     mistakes.push(mistake(&error, Some(span.clone())));
                 }
-                let taken = remove_at(root.get_mut(), &span);
+                let message = error.message();
+                let taken = match (near_miss(message), stand_in(message)) {
+                    (Some(meant), _) => take_at(root.get_mut(), &span, &Instead::Renamed(meant)),
+                    (None, Some(value)) => take_at(root.get_mut(), &span, &Instead::Value(value)),
+                    (None, None) => take_at(root.get_mut(), &span, &Instead::Nothing),
+                };
                 match taken {
                     Some(gone) if mistakes.len() < MOST_MISTAKES => removed.push(gone),
                     _ => return Err(CaseError::new(name, text, mistakes)),
@@ -67,14 +78,23 @@ pub(super) fn case(text: &str, name: &str) -> Result<Case, CaseError> {
         Ok(case) if mistakes.is_empty() => Ok(case),
         Ok(_) => Err(CaseError::new(name, text, mistakes)),
         Err(found) => {
-            mistakes.extend(found);
+            // What stands in for a refused value is not judged.
+            let stood_in = |mistake: &Mistake| {
+                mistake.span.as_ref().is_some_and(|span| {
+                    removed.iter().any(|gone| gone.start <= span.start && span.end <= gone.end)
+                })
+            };
+            mistakes.extend(found.into_iter().filter(|mistake| !stood_in(mistake)));
             Err(CaseError::new(name, text, mistakes))
         }
     }
 }
 
 fn mistake(error: &toml::de::Error, span: Option<Range<usize>>) -> Mistake {
-    let message = error.message().to_owned();
+    let message = error
+        .message()
+        .replace("expected f64", "expected a number")
+        .replace("expected usize", "expected a whole number");
     let help = near_miss(&message).map_or_else(
         || Some("`fret schema` lists every key with its meaning".to_owned()),
         |near| Some(format!("did you mean `{near}`?")),
@@ -90,26 +110,10 @@ fn near_miss(message: &str) -> Option<String> {
     let mut words = message.split('`').skip(1).step_by(2);
     let found = words.next()?;
     words
-        .map(|word| (edit_distance(found, word), word))
+        .map(|word| (strsim::damerau_levenshtein(found, word), word))
         .min()
         .filter(|(distance, word)| *distance <= (word.len() / 3).max(1))
         .map(|(_, word)| word.to_owned())
-}
-
-/// Levenshtein's distance.
-fn edit_distance(a: &str, b: &str) -> usize {
-    let b: Vec<char> = b.chars().collect();
-    let mut row: Vec<usize> = (0..=b.len()).collect();
-    for (i, letter) in a.chars().enumerate() {
-        let mut diagonal = row[0];
-        row[0] = i + 1;
-        for (j, other) in b.iter().enumerate() {
-            let change = diagonal + usize::from(letter != *other);
-            diagonal = row[j + 1];
-            row[j + 1] = change.min(row[j] + 1).min(diagonal + 1);
-        }
-    }
-    row[b.len()]
 }
 
 fn depth(table: &DeTable<'_>) -> usize {
@@ -123,33 +127,74 @@ fn depth(table: &DeTable<'_>) -> usize {
     1 + table.iter().map(|(_, value)| of_value(value.get_ref())).max().unwrap_or(0)
 }
 
-/// Removes the innermost entry whose key or value stands at `span`; the bytes it stood at.
-fn remove_at(table: &mut DeTable<'_>, span: &Range<usize>) -> Option<Range<usize>> {
-    let mut at: Option<(String, Range<usize>)> = None;
+/// What a refused entry is replaced by, so that the rest of the case can be judged.
+enum Instead {
+    Nothing,
+    Renamed(String),
+    Value(DeValue<'static>),
+}
+
+/// A harmless value of the type that serde's message expected.
+fn stand_in(message: &str) -> Option<DeValue<'static>> {
+    if !message.starts_with("invalid type") {
+        return None;
+    }
+    let text = if message.ends_with("expected f64") {
+        "x = 0.3"
+    } else if message.ends_with("expected usize") {
+        "x = 4"
+    } else if message.ends_with("expected a boolean") {
+        "x = false"
+    } else if message.ends_with("expected a string") {
+        "x = ''"
+    } else {
+        return None;
+    };
+    let mut table = DeTable::parse(text).ok()?;
+    table.get_mut().remove("x").map(Spanned::into_inner)
+}
+
+/// Takes out the innermost entry whose key or value stands at `span`, and puts what stands in for it; the bytes it stood at.
+fn take_at<'i>(table: &mut DeTable<'i>, span: &Range<usize>, instead: &Instead) -> Option<Range<usize>> {
+    let mut at: Option<(String, Range<usize>, Range<usize>)> = None;
     for (key, value) in table.iter_mut() {
         let (key_span, value_span) = (key.span(), value.span());
+        let entry = key_span.start..value_span.end.max(key_span.end);
         if key_span == *span {
-            at = Some((key.get_ref().to_string(), key_span.start..value_span.end.max(key_span.end)));
+            at = Some((key.get_ref().to_string(), entry, value_span));
             break;
         }
-        if let Some(gone) = remove_inside(value, span) {
+        if let Some(gone) = take_inside(value, span, instead) {
             return Some(gone);
         }
         if value_span.start <= span.start && span.end <= value_span.end {
-            at = Some((key.get_ref().to_string(), key_span.start..value_span.end));
+            at = Some((key.get_ref().to_string(), entry, value_span));
             break;
         }
     }
-    let (key, gone) = at?;
-    table.remove(key.as_str());
+    let (key, gone, value_span) = at?;
+    let taken = table.remove(key.as_str())?;
+    match instead {
+        Instead::Renamed(meant) if !table.contains_key(meant.as_str()) => {
+            table.insert(Spanned::new(gone.clone(), meant.clone().into()), taken);
+        }
+        Instead::Value(value) => {
+            table.insert(Spanned::new(gone.clone(), key.into()), Spanned::new(value_span, value.clone()));
+        }
+        Instead::Renamed(_) | Instead::Nothing => {}
+    }
     Some(gone)
 }
 
-fn remove_inside(value: &mut Spanned<DeValue<'_>>, span: &Range<usize>) -> Option<Range<usize>> {
+fn take_inside(
+    value: &mut Spanned<DeValue<'_>>,
+    span: &Range<usize>,
+    instead: &Instead,
+) -> Option<Range<usize>> {
     match value.get_mut() {
-        DeValue::Table(inner) => remove_at(inner, span),
+        DeValue::Table(inner) => take_at(inner, span, instead),
         DeValue::Array(items) => items.iter_mut().find_map(|item| match item.get_mut() {
-            DeValue::Table(inner) => remove_at(inner, span),
+            DeValue::Table(inner) => take_at(inner, span, instead),
             _ => None,
         }),
         _ => None,

@@ -1,6 +1,6 @@
 //! Coulomb's law of dry friction: the bound on shear from pressure.
 
-use ndarray::{Array2, ArrayView2};
+use ndarray::Array2;
 use serde::{Deserialize, Serialize};
 
 /// Why a friction law was refused.
@@ -21,6 +21,7 @@ pub enum FrictionError {
 
 /// Dry friction: `|q| <= mu p`, with equality and direction of the slip where the surfaces slip.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum CoulombFriction {
     /// One coefficient everywhere [-].
     Uniform(f64),
@@ -42,9 +43,9 @@ impl CoulombFriction {
     ///
     /// # Errors
     /// When an entry is negative or not finite.
-    pub fn map(coefficients: ArrayView2<'_, f64>) -> Result<Self, FrictionError> {
+    pub fn map(coefficients: Array2<f64>) -> Result<Self, FrictionError> {
         coefficients.iter().try_for_each(|&coefficient| check(coefficient))?;
-        Ok(Self::Map(coefficients.to_owned()))
+        Ok(Self::Map(coefficients))
     }
 
     /// Whether there is no friction anywhere.

@@ -6,13 +6,13 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 pub enum MaterialError {
     /// Young's modulus out of range.
-    #[error("Young's modulus {0}: must be a positive finite modulus")]
+    #[error("Young's modulus {0:?}: must be a positive finite modulus")]
     Young(f64),
     /// Poisson's ratio out of range.
-    #[error("Poisson's ratio {0}: must lie above -1 and not above 0.5")]
+    #[error("Poisson's ratio {0:?}: must lie above -1 and not above 0.5")]
     Poisson(f64),
     /// Thickness out of range.
-    #[error("thickness {0}: must be a positive finite length")]
+    #[error("thickness {0:?}: must be a positive finite length")]
     Thickness(f64),
     /// Two rigid bodies.
     #[error("both bodies are rigid: nothing can deform; give at least one of them a substrate or coatings")]
@@ -92,6 +92,7 @@ impl Coating {
 
 /// What the lowest coating is bonded to.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Base {
     /// An elastic half-space.
     Elastic(ElasticMaterial),
@@ -179,6 +180,7 @@ impl HalfSpace {
 
 /// One of the two bodies.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Body {
     /// Does not deform.
     Rigid,

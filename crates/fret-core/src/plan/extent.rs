@@ -123,7 +123,8 @@ fn extent_under(case: &Case, size: [f64; 2], normal: Control) -> Extent {
     };
     let pressure = &solved.state.pressure;
     let width = |axis: usize| {
-        let touched = pressure.axis_iter(ndarray::Axis(axis)).filter(|line| line.iter().any(|p| *p > 0.0)).count();
+        let touched =
+            pressure.axis_iter(ndarray::Axis(axis)).filter(|line| line.iter().any(|p| *p > 0.0)).count();
         touched as f64 * spacing[axis]
     };
     if solved.outcome.contact_cells == 0 { Extent::Nothing } else { Extent::Inside([width(0), width(1)]) }

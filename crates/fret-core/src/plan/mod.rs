@@ -118,7 +118,11 @@ fn left_out(case: &Case, coupling: Coupling) -> Vec<LeftOut> {
         Body::Elastic(half_space) => half_space.single_material().is_some(),
     };
     if homogeneous(case.bodies.upper()) && homogeneous(case.bodies.lower()) {
-        leave("layered response", "no body has a coating that differs from what lies below it", "the radial table of the coated response");
+        leave(
+            "layered response",
+            "no body has a coating that differs from what lies below it",
+            "the radial table of the coated response",
+        );
     }
     match coupling {
         Coupling::Frictionless => leave(

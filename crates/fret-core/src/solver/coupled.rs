@@ -116,9 +116,9 @@ pub fn solve_coupled(
     let mut kept: Option<(Tractions, Displacements, f64)> = None;
     let mut damping = 1.0_f64;
     for iteration in 0..settings.most_outer_iterations {
-        let mut gap: Vec<f64> = displacements.normal.iter().zip(task.undeformed).map(|(u, g)| u + g).collect();
-        let normal =
-            judge_normal(&tractions.pressure, &mut gap, task.undeformed, own.normal, prescribed);
+        let mut gap: Vec<f64> =
+            displacements.normal.iter().zip(task.undeformed).map(|(u, g)| u + g).collect();
+        let normal = judge_normal(&tractions.pressure, &mut gap, task.undeformed, own.normal, prescribed);
         let bound: Vec<f64> = tractions.pressure.iter().zip(task.friction).map(|(p, mu)| p * mu).collect();
         let contact: Vec<usize> =
             (0..len).filter(|&cell| tractions.pressure[cell] > 0.0 || gap[cell] < 0.0).collect();
@@ -154,12 +154,18 @@ pub fn solve_coupled(
                 *u = 0.5 * (*u + b);
             }
             displacements.tangential.add_scaled(-1.0, &displaced.tangential);
-            displacements.tangential.x.iter_mut().chain(displacements.tangential.y.iter_mut()).for_each(|u| *u *= 0.5);
+            displacements
+                .tangential
+                .x
+                .iter_mut()
+                .chain(displacements.tangential.y.iter_mut())
+                .for_each(|u| *u *= 0.5);
             displacements.tangential.add_scaled(1.0, &displaced.tangential);
             continue;
         }
         damping = 1.0;
-        theta = if residual > 0.9 * last_residual { (4.0 * theta).min(300.0) } else { (theta / 2.0).max(THETA) };
+        theta =
+            if residual > 0.9 * last_residual { (4.0 * theta).min(300.0) } else { (theta / 2.0).max(THETA) };
         last_residual = residual;
         kept = Some((tractions.clone(), displacements.clone(), residual));
         let zones = Zones::classify(contact.clone(), &tractions.shear, &s, &bound, |cell| {
@@ -303,7 +309,12 @@ impl Frozen<'_, '_> {
     }
 
     /// Left side of the frozen equations for tractions `along` with their displacements.
-    fn image_of(&self, along: &Tractions, displaced: &Displacements, rigid: &RigidProjector<'_>) -> Tractions {
+    fn image_of(
+        &self,
+        along: &Tractions,
+        displaced: &Displacements,
+        rigid: &RigidProjector<'_>,
+    ) -> Tractions {
         let len = along.pressure.len();
         let mut image = Tractions::zeros(len);
         let mut turning = TangentialField::zeros(len);
@@ -332,7 +343,8 @@ impl Frozen<'_, '_> {
                 continue;
             }
             let limit = friction * pressure.max(0.0);
-            let vector = [tractions.shear.x[cell] + step.shear.x[cell], tractions.shear.y[cell] + step.shear.y[cell]];
+            let vector =
+                [tractions.shear.x[cell] + step.shear.x[cell], tractions.shear.y[cell] + step.shear.y[cell]];
             let size = (vector[0] * vector[0] + vector[1] * vector[1]).sqrt();
             if size > limit || self.zones.is_on_circle(cell) {
                 square += ((size - limit) / friction).powi(2);
@@ -357,5 +369,9 @@ impl Frozen<'_, '_> {
 
 fn scale_by(tractions: &mut Tractions, factor: f64) {
     let Tractions { pressure, shear } = tractions;
-    pressure.iter_mut().chain(shear.x.iter_mut()).chain(shear.y.iter_mut()).for_each(|value| *value *= factor);
+    pressure
+        .iter_mut()
+        .chain(shear.x.iter_mut())
+        .chain(shear.y.iter_mut())
+        .for_each(|value| *value *= factor);
 }

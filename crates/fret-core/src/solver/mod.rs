@@ -108,7 +108,12 @@ impl<'a> ContactSolver<'a> {
     ///
     /// # Errors
     /// When the equations cannot be satisfied, the loads have no equilibrium, or the contact reaches the grid's edge.
-    pub fn step(&mut self, state: &ContactState, load: &LoadStep, watch: Watch<'_>) -> Result<Increment, SolveError> {
+    pub fn step(
+        &mut self,
+        state: &ContactState,
+        load: &LoadStep,
+        watch: Watch<'_>,
+    ) -> Result<Increment, SolveError> {
         self.check_sliding(load)?;
         let mut work = Work::default();
         let mut region = self.region_for(state, load);
@@ -118,7 +123,9 @@ impl<'a> ContactSolver<'a> {
                 return Err(SolveError::ContactAtEdge);
             }
             let kept = self.settled.take().filter(|settled| {
-                self.coupling != Coupling::Coupled && settled.region == region && settled.load.normal == load.normal
+                self.coupling != Coupling::Coupled
+                    && settled.region == region
+                    && settled.load.normal == load.normal
             });
             let (gap, contact_area) = match kept {
                 Some(settled) => (settled.gap, settled.contact_area),
@@ -263,8 +270,10 @@ impl<'a> ContactSolver<'a> {
             return Ok((solved, after, outcome));
         }
         let predicted = self.predicted(state, load);
-        let tractions =
-            Tractions { pressure: region.gather(&predicted.0), shear: region.gather_tangential(&predicted.1) };
+        let tractions = Tractions {
+            pressure: region.gather(&predicted.0),
+            shear: region.gather_tangential(&predicted.1),
+        };
         let mut operators = self.operators_for(region).map_err(|_| SolveError::OperatorsMissing)?;
         let start = (operators.compliance.applications, operators.preconditioner.passes);
         let settled = self.settled.as_ref().filter(|settled| settled.region == region);
@@ -274,7 +283,15 @@ impl<'a> ContactSolver<'a> {
             Coupling::Coupled => scene.together(tractions, displaced, &mut operators, &self.settings, watch),
             Coupling::Uncoupled | Coupling::Frictionless => {
                 let frictionless = self.coupling == Coupling::Frictionless;
-                scene.in_turn(tractions, displaced, unchanged, frictionless, &mut operators, &self.settings, watch)
+                scene.in_turn(
+                    tractions,
+                    displaced,
+                    unchanged,
+                    frictionless,
+                    &mut operators,
+                    &self.settings,
+                    watch,
+                )
             }
         };
         work.convolutions += operators.compliance.applications - start.0;
@@ -360,5 +377,8 @@ fn change(from: &LoadStep, to: &LoadStep) -> Option<[f64; 4]> {
 fn touches_edge(pressure: &Array2<f64>) -> bool {
     let (nx, ny) = pressure.dim();
     let any = |view: ndarray::ArrayView1<'_, f64>| view.iter().any(|p| *p > 0.0);
-    any(pressure.row(0)) || any(pressure.row(nx - 1)) || any(pressure.column(0)) || any(pressure.column(ny - 1))
+    any(pressure.row(0))
+        || any(pressure.row(nx - 1))
+        || any(pressure.column(0))
+        || any(pressure.column(ny - 1))
 }

@@ -72,7 +72,8 @@ pub fn solve_normal(
         let active: Vec<bool> =
             (0..len).map(|cell| (pressure[cell] > 0.0 || gap[cell] < 0.0) && !leaves(cell)).collect();
         let leaving: Vec<usize> = (0..len).filter(|&cell| leaves(cell)).collect();
-        let mut residual: Vec<f64> = (0..len).map(|cell| if active[cell] { gap[cell] } else { 0.0 }).collect();
+        let mut residual: Vec<f64> =
+            (0..len).map(|cell| if active[cell] { gap[cell] } else { 0.0 }).collect();
         if task.total.is_some() {
             remove_mean(&mut residual, &active);
         }
@@ -132,7 +133,9 @@ pub fn solve_normal(
             }
             share = share.max(1.0);
         }
-        for ((p, u), (c, i)) in pressure.iter_mut().zip(displacement.iter_mut()).zip(change.iter().zip(&image)) {
+        for ((p, u), (c, i)) in
+            pressure.iter_mut().zip(displacement.iter_mut()).zip(change.iter().zip(&image))
+        {
             *p = (*p + share * c).max(0.0);
             *u += share * i;
         }
@@ -153,10 +156,7 @@ pub fn first_pressure(task: &NormalTask<'_>, own: f64) -> Vec<f64> {
             let (_, limit, _) = gaps.select_nth_unstable_by(eighth - 1, f64::total_cmp);
             let limit = *limit;
             let count = task.undeformed.iter().filter(|gap| **gap <= limit).count();
-            task.undeformed
-                .iter()
-                .map(|gap| if *gap <= limit { total / count as f64 } else { 0.0 })
-                .collect()
+            task.undeformed.iter().map(|gap| if *gap <= limit { total / count as f64 } else { 0.0 }).collect()
         }
         None => task.undeformed.iter().map(|gap| ((task.approach - gap) / own).max(0.0) * 0.1).collect(),
     }
@@ -180,7 +180,8 @@ fn remove_mean(field: &mut [f64], active: &[bool]) {
     if count == 0 {
         return;
     }
-    let mean = field.iter().zip(active).filter(|(_, active)| **active).map(|(value, _)| value).sum::<f64>() / count as f64;
+    let mean = field.iter().zip(active).filter(|(_, active)| **active).map(|(value, _)| value).sum::<f64>()
+        / count as f64;
     for (value, active) in field.iter_mut().zip(active) {
         if *active {
             *value -= mean;

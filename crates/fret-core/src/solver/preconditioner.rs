@@ -47,7 +47,8 @@ impl Preconditioner {
         let symbol = |values: &Option<Array2<f64>>, parity: Parity| {
             let values = values.as_ref().ok_or(ConvolutionError::EmptyShape(0, 0))?;
             let half = [shape[0] / 2 + 1, shape[1] / 2 + 1];
-            let mut near = values.slice(s![..half[0].min(values.nrows()), ..half[1].min(values.ncols())]).to_owned();
+            let mut near =
+                values.slice(s![..half[0].min(values.nrows()), ..half[1].min(values.ncols())]).to_owned();
             // An odd kernel has no nearest image half a period away.
             for (axis, odd) in parity.odd().into_iter().enumerate() {
                 if odd && shape[axis].is_multiple_of(2) && near.shape()[axis] == half[axis] {

@@ -1,7 +1,7 @@
 //! The judge: how well pressure and shear satisfy their laws. Finds approach, shift and twist on the way.
 
-use crate::model::field::{TangentialField, dot, sum};
 use super::rigid::RigidModes;
+use crate::model::field::{TangentialField, dot, sum};
 
 /// Verdict on the normal side.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -102,7 +102,8 @@ impl TangentialTask<'_> {
             let (now, before) = (u.at(cell), self.before.at(cell));
             s.set(cell, [now[0] - before[0] - rigid[0], now[1] - before[1] - rigid[1]]);
         }
-        let found = if self.modes.any_by_force() { self.motion_by_force(q, s, stiffness, guess) } else { [0.0; 3] };
+        let found =
+            if self.modes.any_by_force() { self.motion_by_force(q, s, stiffness, guess) } else { [0.0; 3] };
         let mut off = 0.0;
         let mut bound = 0.0;
         for &cell in self.contact {
@@ -126,7 +127,13 @@ impl TangentialTask<'_> {
     }
 
     /// Root of `sum Proj(q - r s + r motion) . mode = resultant`: Newton on a convex potential, with Armijo's rule.
-    fn motion_by_force(&self, q: &TangentialField, s: &TangentialField, stiffness: f64, guess: [f64; 3]) -> [f64; 3] {
+    fn motion_by_force(
+        &self,
+        q: &TangentialField,
+        s: &TangentialField,
+        stiffness: f64,
+        guess: [f64; 3],
+    ) -> [f64; 3] {
         let total: f64 = self.contact.iter().map(|&cell| self.bound[cell]).sum();
         if total <= 0.0 {
             return [0.0; 3];
@@ -170,7 +177,9 @@ impl TangentialTask<'_> {
                 let trial = [0, 1, 2].map(|mode| motion[mode] + share * change[mode]);
                 let there = self.potential(q, s, stiffness, &trial);
                 let slack = 1e-15 * (here.value.abs() + total * spread);
-                if there.value <= here.value + 1e-4 * share * slope || (there.value <= here.value + slack && size(&there.defect) < defect) {
+                if there.value <= here.value + 1e-4 * share * slope
+                    || (there.value <= here.value + slack && size(&there.defect) < defect)
+                {
                     motion = trial;
                     here = there;
                     accepted = true;
@@ -185,7 +194,13 @@ impl TangentialTask<'_> {
         motion.map(|m| m / stiffness)
     }
 
-    fn potential(&self, q: &TangentialField, s: &TangentialField, stiffness: f64, motion: &[f64; 3]) -> Potential {
+    fn potential(
+        &self,
+        q: &TangentialField,
+        s: &TangentialField,
+        stiffness: f64,
+        motion: &[f64; 3],
+    ) -> Potential {
         let mut value = 0.0;
         let mut defect = self.resultant.map(|target| -target);
         let mut curvature = [[0.0; 3]; 3];
@@ -193,10 +208,8 @@ impl TangentialTask<'_> {
         let mut straight = [0.0; 3];
         for &cell in self.contact {
             let rigid = self.modes.displacement(motion, cell);
-            let v = [
-                q.x[cell] - stiffness * s.x[cell] + rigid[0],
-                q.y[cell] - stiffness * s.y[cell] + rigid[1],
-            ];
+            let v =
+                [q.x[cell] - stiffness * s.x[cell] + rigid[0], q.y[cell] - stiffness * s.y[cell] + rigid[1]];
             let limit = self.bound[cell];
             let square = v[0] * v[0] + v[1] * v[1];
             let (image, share, along) = if square <= limit * limit {

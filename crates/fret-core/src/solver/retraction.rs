@@ -1,8 +1,8 @@
 //! The way back to tractions that the laws allow: no tension, no shear above mu p, resultants exact.
 
-use crate::model::field::{TangentialField, sum};
 use super::residual::TangentialTask;
 use super::zones::Zones;
+use crate::model::field::{TangentialField, sum};
 
 /// Cuts tension off and restores the total pressure by scaling, which keeps the shape of the edge.
 /// Returns false when nothing is left to scale.

@@ -35,9 +35,7 @@ impl RigidModes {
     pub fn displacement(&self, amounts: &[f64; 3], cell: usize) -> [f64; 2] {
         match &self.rotation {
             None => [amounts[0], amounts[1]],
-            Some(field) => {
-                [amounts[0] + amounts[2] * field.x[cell], amounts[1] + amounts[2] * field.y[cell]]
-            }
+            Some(field) => [amounts[0] + amounts[2] * field.x[cell], amounts[1] + amounts[2] * field.y[cell]],
         }
     }
 

@@ -250,8 +250,15 @@ impl<'a> Scene<'a> {
             motion: self.motion,
             resultant: self.resultant,
         };
-        let solution =
-            solve_coupled(&task, &mut tractions, &mut displacements, compliance, preconditioner, settings, watch)?;
+        let solution = solve_coupled(
+            &task,
+            &mut tractions,
+            &mut displacements,
+            compliance,
+            preconditioner,
+            settings,
+            watch,
+        )?;
         Ok(Solved {
             tractions,
             displacements,

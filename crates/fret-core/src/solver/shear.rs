@@ -52,7 +52,11 @@ pub fn solve_shear(
         if verdict.residual < settings.tolerance {
             return Ok(ShearSolution { verdict, s, iterations: iteration });
         }
-        theta = if verdict.residual > 0.9 * last_residual { (4.0 * theta).min(300.0) } else { (theta / 2.0).max(THETA) };
+        theta = if verdict.residual > 0.9 * last_residual {
+            (4.0 * theta).min(300.0)
+        } else {
+            (theta / 2.0).max(THETA)
+        };
         last_residual = verdict.residual;
         let zones = Zones::classify(task.contact.to_vec(), shear, &s, task.bound, |_| false);
         let frozen = Frozen { task, zones: &zones, settings, theta };
@@ -120,7 +124,8 @@ impl Frozen<'_, '_> {
                     let stiff = self.stiff_product(&direction.along, &direction.along);
                     let curvature = direction.along.dot(&direction.image) + stiff;
                     if curvature > 0.0 {
-                        let beta = -(z.dot(&direction.image) + self.stiff_product(&z, &direction.along)) / curvature;
+                        let beta =
+                            -(z.dot(&direction.image) + self.stiff_product(&z, &direction.along)) / curvature;
                         along.add_scaled(beta, &direction.along);
                     }
                 }
