@@ -8,7 +8,7 @@ const OFFSET: f64 = 0.024;
 
 /// Contact area in units of one cell, from pressure and gap on a grid (or a box of it). Good to about 0.05 cells along the
 /// perimeter for smooth contacts; a contact without an edge inside the grid is counted by cells.
-pub fn contact_cells(pressure: ArrayView2<'_, f64>, gap: ArrayView2<'_, f64>) -> f64 {
+pub fn contact_cells(pressure: &ArrayView2<'_, f64>, gap: &ArrayView2<'_, f64>) -> f64 {
     let (nx, ny) = pressure.dim();
     let inside = |i: usize, j: usize| pressure[[i, j]] > 0.0;
     let counted = pressure.iter().filter(|p| **p > 0.0).count() as f64;
@@ -67,7 +67,7 @@ fn filled(near: &[f64]) -> f64 {
     const PARTS: usize = 4;
     let at = |x: f64, y: f64| {
         // x, y in cells from the middle of the cell, -0.5..0.5
-        let (i, j) = (if x < 0.0 { 0 } else { 1 }, if y < 0.0 { 0 } else { 1 });
+        let (i, j) = (usize::from(x >= 0.0), usize::from(y >= 0.0));
         let (u, v) = (x + 1.0 - i as f64, y + 1.0 - j as f64);
         let value = |a: usize, b: usize| near[(i + a) * 3 + j + b];
         let h = (1.0 - u) * ((1.0 - v) * value(0, 0) + v * value(0, 1))

@@ -17,9 +17,9 @@ pub struct Residual {
 }
 
 impl Residual {
-    /// The worst of the three.
+    /// The worst of the three; not a number when any of them is none.
     pub fn largest(&self) -> f64 {
-        self.complementarity.max(self.coulomb).max(self.equilibrium)
+        worst([self.complementarity, self.coulomb, self.equilibrium])
     }
 }
 
@@ -145,7 +145,7 @@ impl History {
 
     /// Largest residual of all increments.
     pub fn largest_residual(&self) -> f64 {
-        self.steps.iter().map(|step| step.residual.largest()).fold(0.0, f64::max)
+        worst(self.steps.iter().map(|step| step.residual.largest()))
     }
 
     /// Kept fields of an increment.
@@ -153,4 +153,9 @@ impl History {
         let position = self.fields.binary_search_by_key(&increment, |kept| kept.increment).ok()?;
         self.fields.get(position)
     }
+}
+
+/// Largest of some values that are not negative; a value that is no number stays one.
+fn worst(values: impl IntoIterator<Item = f64>) -> f64 {
+    values.into_iter().fold(0.0, |most: f64, value| if value.is_nan() || value > most { value } else { most })
 }

@@ -180,7 +180,7 @@ impl<'a> Simulation<'a> {
                 };
                 let solved = solver
                     .step(&history.state, &load, &mut watch)
-                    .map_err(|error| run_error(error, increment, stage, case.tolerance))?;
+                    .map_err(|error| run_error(&error, increment, stage, case.tolerance))?;
                 let record = record(&solved, increment, number, started.elapsed().as_secs_f64());
                 let kept = case.keeps(number, k).then(|| kept(&solved, increment, &case.output.fields));
                 resultants = solved.outcome.resultants;
@@ -239,9 +239,9 @@ fn kept(solved: &Increment, increment: usize, names: &[String]) -> KeptFields {
     }
 }
 
-fn run_error(error: SolveError, increment: usize, stage: &Stage, tolerance: f64) -> RunError {
+fn run_error(error: &SolveError, increment: usize, stage: &Stage, tolerance: f64) -> RunError {
     let stage = stage.name.clone();
-    match error {
+    match *error {
         SolveError::NotConverged { reached, iterations } => RunError::NotConverged {
             increment,
             stage,

@@ -8,7 +8,7 @@ use super::file::{
     BodyFile, CaseFile, CoatingFile, FrictionFile, OutputFile, ProfileFile, RampFile, SizeFile, StageFile,
 };
 use super::refusal::Mistake;
-use super::{Case, Course, FIELD_NAMES, GridSize, Output, Stage, StageControl};
+use super::{Case, Course, FIELD_NAMES, GridSize, Origin, Output, Stage, StageControl};
 use crate::model::{
     Base, Body, Coating, ContactPair, CoulombFriction, ElasticMaterial, HalfSpace, MaterialError, Profile,
     ProfileError,
@@ -36,7 +36,7 @@ impl Judge {
     }
 }
 
-pub(super) fn case(file: CaseFile) -> Result<Case, Vec<Mistake>> {
+pub(super) fn case(file: CaseFile, name: &str, text: &str) -> Result<Case, Vec<Mistake>> {
     let mut judge = Judge { mistakes: Vec::new() };
     let cells = cells(&mut judge, &file.grid.cells);
     let size = size(&mut judge, &file.grid.size);
@@ -90,6 +90,7 @@ pub(super) fn case(file: CaseFile) -> Result<Case, Vec<Mistake>> {
             stages,
             tolerance,
             output,
+            origin: Origin { name: name.to_owned(), text: text.to_owned(), size: file.grid.size.span() },
         }),
         _ => Err(judge.mistakes),
     }
@@ -461,19 +462,20 @@ fn one_control(
 }
 
 fn tangential_control(judge: &mut Judge, place: &str, file: &StageFile) -> Option<[StageControl; 2]> {
-    let (key, value, control): (&str, &Spanned<[f64; 2]>, fn(f64) -> StageControl) =
-        match (&file.tangential_force, &file.shift) {
-            (None, None) => return None,
-            (Some(value), None) => ("tangential_force", value, StageControl::Force),
-            (None, Some(value)) => ("shift", value, StageControl::Motion),
-            (Some(_), Some(value)) => {
-                return judge.refuse(
-                    value.span(),
-                    format!("{place}: tangential_force and shift, both at once"),
-                    "prescribe one of the two; the other follows",
-                );
-            }
-        };
+    type Kind = fn(f64) -> StageControl;
+    let (key, value, control): (&str, &Spanned<[f64; 2]>, Kind) = match (&file.tangential_force, &file.shift)
+    {
+        (None, None) => return None,
+        (Some(value), None) => ("tangential_force", value, StageControl::Force),
+        (None, Some(value)) => ("shift", value, StageControl::Motion),
+        (Some(_), Some(value)) => {
+            return judge.refuse(
+                value.span(),
+                format!("{place}: tangential_force and shift, both at once"),
+                "prescribe one of the two; the other follows",
+            );
+        }
+    };
     if value.get_ref().iter().any(|part| !part.is_finite()) {
         return judge.refuse(
             value.span(),

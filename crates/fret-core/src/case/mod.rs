@@ -38,6 +38,17 @@ pub struct Case {
     pub tolerance: f64,
     /// What is kept.
     pub output: Output,
+    /// Where the case was written, for messages.
+    #[serde(skip)]
+    pub(crate) origin: Origin,
+}
+
+/// The text a case was read from, and where in it things stand.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub(crate) struct Origin {
+    pub name: String,
+    pub text: String,
+    pub size: std::ops::Range<usize>,
 }
 
 /// Side lengths of the grid.
@@ -136,9 +147,16 @@ impl Case {
         Self::from_toml(&text, name)
     }
 
+    /// Refuses the case for its grid's side lengths.
+    pub(crate) fn refuse_size(&self, message: String, help: &str) -> CaseError {
+        let mistake = Mistake { message, help: Some(help.to_owned()), span: Some(self.origin.size.clone()) };
+        CaseError::new(&self.origin.name, &self.origin.text, vec![mistake])
+    }
+
     /// Whether fields are kept of increment `k` (from 1) of a stage: of every `output.every`-th, and of the last.
     pub fn keeps(&self, stage: usize, k: usize) -> bool {
-        self.output.every.is_some_and(|every| k % every == 0) || k == self.stages[stage].increments_in_all()
+        self.output.every.is_some_and(|every| k.is_multiple_of(every))
+            || k == self.stages[stage].increments_in_all()
     }
 
     /// Numbers in the whole history, from 0, of the increments whose fields are kept.

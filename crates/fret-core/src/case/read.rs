@@ -74,7 +74,7 @@ pub(super) fn case(text: &str, name: &str) -> Result<Case, CaseError> {
             }
         }
     };
-    match check::case(file) {
+    match check::case(file, name, text) {
         Ok(case) if mistakes.is_empty() => Ok(case),
         Ok(_) => Err(CaseError::new(name, text, mistakes)),
         Err(found) => {
@@ -155,7 +155,7 @@ fn stand_in(message: &str) -> Option<DeValue<'static>> {
 }
 
 /// Takes out the innermost entry whose key or value stands at `span`, and puts what stands in for it; the bytes it stood at.
-fn take_at<'i>(table: &mut DeTable<'i>, span: &Range<usize>, instead: &Instead) -> Option<Range<usize>> {
+fn take_at(table: &mut DeTable<'_>, span: &Range<usize>, instead: &Instead) -> Option<Range<usize>> {
     let mut at: Option<(String, Range<usize>, Range<usize>)> = None;
     for (key, value) in table.iter_mut() {
         let (key_span, value_span) = (key.span(), value.span());

@@ -55,29 +55,24 @@ impl CaseError {
     /// The refusal as a person reads it, with the lines of the case; in colour for a terminal.
     pub fn render(&self, colour: bool) -> String {
         let renderer = if colour { Renderer::styled() } else { Renderer::plain() };
-        let blocks: Vec<String> = self
-            .mistakes
-            .iter()
-            .map(|mistake| match mistake.span.clone().filter(|span| span.end <= self.text.len()) {
-                Some(span) => {
-                    let snippet = Snippet::source(&self.text)
-                        .path(&self.name)
-                        .annotation(AnnotationKind::Primary.span(span));
-                    let group = Level::ERROR.primary_title(&mistake.message).element(snippet);
-                    let group = match &mistake.help {
-                        Some(help) => group.element(Level::HELP.message(help)),
-                        None => group,
-                    };
-                    renderer.render(&[group])
-                }
-                None => {
-                    let help =
-                        mistake.help.as_ref().map_or(String::new(), |help| format!("\n  = help: {help}"));
-                    format!("error: {}: {}{help}", self.name, mistake.message)
-                }
-            })
-            .collect();
+        let blocks: Vec<String> =
+            self.mistakes.iter().map(|mistake| self.block(mistake, &renderer)).collect();
         blocks.join("\n\n")
+    }
+
+    fn block(&self, mistake: &Mistake, renderer: &Renderer) -> String {
+        let Some(span) = mistake.span.clone().filter(|span| span.end <= self.text.len()) else {
+            let help = mistake.help.as_ref().map_or(String::new(), |help| format!("\n  = help: {help}"));
+            return format!("error: {}: {}{help}", self.name, mistake.message);
+        };
+        let snippet =
+            Snippet::source(&self.text).path(&self.name).annotation(AnnotationKind::Primary.span(span));
+        let group = Level::ERROR.primary_title(&mistake.message).element(snippet);
+        let group = match &mistake.help {
+            Some(help) => group.element(Level::HELP.message(help)),
+            None => group,
+        };
+        renderer.render(&[group])
     }
 }
 

@@ -5,6 +5,8 @@ pub mod frequency_response;
 pub mod influence;
 pub mod pair_response;
 pub mod periodic;
+pub mod sampled;
+pub mod sublayers;
 
 pub(crate) mod complex;
 pub(crate) mod layer;
@@ -18,10 +20,12 @@ mod panels;
 mod quadrature;
 mod radial;
 #[cfg(test)]
-mod samples;
+pub(crate) mod samples;
 
 pub use collocation::cells_too_coarse_for_incompressible_film;
 pub use frequency_response::{FrequencyResponse, Response};
 pub use influence::{Components, InfluenceCoefficients, influence_coefficients};
 pub use pair_response::PairResponse;
 pub use periodic::{PeriodicSymbols, ResponseTable, periodic_symbols};
+pub use sampled::sampled_coefficients;
+pub use sublayers::{SublayerError, layered_half_space};

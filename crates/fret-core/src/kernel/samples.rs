@@ -1,35 +1,35 @@
-//! Bodies and reference numbers for the tests of this room: golden rows, seeded random stacks, short constructors.
+//! Bodies and reference numbers for tests: golden rows, seeded random stacks, short constructors.
 
 use serde::Deserialize;
 
 use crate::model::{Base, Body, Coating, ContactPair, ElasticMaterial, HalfSpace};
 
 /// `(Young's modulus, Poisson's ratio)`
-pub(super) type Elasticity = (f64, f64);
+pub(crate) type Elasticity = (f64, f64);
 
-pub(super) fn material((young, poisson): Elasticity) -> ElasticMaterial {
+pub(crate) fn material((young, poisson): Elasticity) -> ElasticMaterial {
     ElasticMaterial::new(young, poisson).unwrap()
 }
 
 /// Coatings `(E, nu, h)` from the surface down, on a substrate or a rigid base.
-pub(super) fn stack(layers: &[(f64, f64, f64)], substrate: Option<Elasticity>) -> HalfSpace {
+pub(crate) fn stack(layers: &[(f64, f64, f64)], substrate: Option<Elasticity>) -> HalfSpace {
     let coatings = layers.iter().map(|&(e, nu, h)| Coating::new(material((e, nu)), h).unwrap()).collect();
     HalfSpace::new(coatings, substrate.map_or(Base::Rigid, |elasticity| Base::Elastic(material(elasticity))))
         .unwrap()
 }
 
 /// A half-space under a rigid body.
-pub(super) fn under_rigid(half_space: HalfSpace) -> ContactPair {
+pub(crate) fn under_rigid(half_space: HalfSpace) -> ContactPair {
     ContactPair::new(Body::Rigid, Body::Elastic(half_space)).unwrap()
 }
 
 /// Shorthand for a coated half-space under a rigid body.
-pub(super) fn pair(layers: &[(f64, f64, f64)], substrate: Option<Elasticity>) -> ContactPair {
+pub(crate) fn pair(layers: &[(f64, f64, f64)], substrate: Option<Elasticity>) -> ContactPair {
     under_rigid(stack(layers, substrate))
 }
 
 /// The rows of a golden file.
-pub(super) fn golden<Row: for<'a> Deserialize<'a>>(name: &str) -> Vec<Row> {
+pub(crate) fn golden<Row: for<'a> Deserialize<'a>>(name: &str) -> Vec<Row> {
     #[derive(Deserialize)]
     struct Table<Row> {
         rows: Vec<Row>,
@@ -40,15 +40,15 @@ pub(super) fn golden<Row: for<'a> Deserialize<'a>>(name: &str) -> Vec<Row> {
 }
 
 /// A seeded source of random numbers (splitmix64).
-pub(super) struct Random(u64);
+pub(crate) struct Random(u64);
 
 impl Random {
-    pub(super) fn seeded(seed: u64) -> Self {
+    pub(crate) fn seeded(seed: u64) -> Self {
         Self(seed)
     }
 
     /// Uniform in `[0, 1)`.
-    pub(super) fn uniform(&mut self) -> f64 {
+    pub(crate) fn uniform(&mut self) -> f64 {
         self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
         let mut z = self.0;
         z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
@@ -57,17 +57,17 @@ impl Random {
     }
 
     /// Uniform in the logarithm between two positive numbers.
-    pub(super) fn log_uniform(&mut self, least: f64, greatest: f64) -> f64 {
+    pub(crate) fn log_uniform(&mut self, least: f64, greatest: f64) -> f64 {
         least * (greatest / least).powf(self.uniform())
     }
 
     /// A whole number in `first..=last`.
-    pub(super) fn whole(&mut self, first: usize, last: usize) -> usize {
+    pub(crate) fn whole(&mut self, first: usize, last: usize) -> usize {
         first + (self.uniform() * (last - first + 1) as f64) as usize
     }
 
     /// Poisson's ratios with the awkward ones well represented.
-    pub(super) fn poisson(&mut self) -> f64 {
+    pub(crate) fn poisson(&mut self) -> f64 {
         match self.uniform() {
             u if u < 0.18 => 0.5,
             u if u < 0.28 => 0.5 - 10.0_f64.powf(-1.0 - 11.0 * self.uniform()),
@@ -78,7 +78,7 @@ impl Random {
     }
 
     /// One to `most` coatings of total thickness one, moduli within `contrast`, thicknesses within three decades.
-    pub(super) fn half_space(&mut self, most: usize, contrast: f64, rigid: bool) -> HalfSpace {
+    pub(crate) fn half_space(&mut self, most: usize, contrast: f64, rigid: bool) -> HalfSpace {
         let count = self.whole(1, most);
         let mut layers: Vec<(f64, f64, f64)> = (0..count)
             .map(|_| (self.log_uniform(1.0, contrast), self.poisson(), self.log_uniform(1e-3, 1.0)))

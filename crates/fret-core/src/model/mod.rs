@@ -2,6 +2,7 @@
 
 pub mod field;
 pub mod friction;
+pub mod graded;
 pub mod grid;
 pub mod half_space;
 pub mod load;
@@ -10,6 +11,7 @@ pub mod state;
 
 pub use field::TangentialField;
 pub use friction::{CoulombFriction, FrictionError};
+pub use graded::{GradedCoating, GradientError, Layer, YoungGradient};
 pub use grid::{GridError, SurfaceGrid};
 pub use half_space::{Base, Body, Coating, ContactPair, ElasticMaterial, HalfSpace, MaterialError};
 pub use load::{Control, LoadStep};

@@ -68,22 +68,18 @@ impl Plan {
         let size = match case.size {
             GridSize::Given(size) => size,
             GridSize::Auto => automatic_size(&case).ok_or_else(|| {
-                CaseError::plain(
-                    "case",
-                    "grid.size = \"auto\": no contact was found under the heaviest load; give the side lengths",
-                )
+                let message = "grid.size = \"auto\": no contact was found under the heaviest load".to_owned();
+                case.refuse_size(message, "give the side lengths")
             })?,
         };
         let spacing = [size[0] / case.cells[0] as f64, size[1] / case.cells[1] as f64];
-        let grid = SurfaceGrid::new(case.cells, spacing)
-            .map_err(|error| CaseError::plain("case", error.to_string()))?;
+        let grid =
+            SurfaceGrid::new(case.cells, spacing).map_err(|error| case.refuse_size(error.to_string(), ""))?;
         if matches!(case.size, GridSize::Given(_)) && reaches_beyond(&case, size) {
-            return Err(CaseError::plain(
-                "case",
-                format!(
-                    "grid.size = {size:?}: the contact under the heaviest load reaches the edge of the grid; enlarge it, or write size = \"auto\""
-                ),
-            ));
+            let message = format!(
+                "grid.size = {size:?}: the contact under the heaviest load reaches the edge of the grid"
+            );
+            return Err(case.refuse_size(message, "enlarge it, or write size = \"auto\""));
         }
         let left_out = left_out(&case, coupling);
         let increments = case.increments();

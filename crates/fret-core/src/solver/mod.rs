@@ -31,7 +31,7 @@ pub use settings::{SolveError, SolverSettings, Watch};
 use coupled::{Displacements, Tractions};
 use preconditioner::Preconditioner;
 use region::Region;
-use scene::{BoxOperators, Scene, Solved};
+use scene::{BoxOperators, Scene, Solved, Turn};
 
 /// A solved increment.
 #[derive(Debug)]
@@ -127,17 +127,16 @@ impl<'a> ContactSolver<'a> {
                     && settled.region == region
                     && settled.load.normal == load.normal
             });
-            let (gap, contact_area) = match kept {
-                Some(settled) => (settled.gap, settled.contact_area),
-                None => {
-                    let gap = self.gap_everywhere(region, &solved, &state_after, &mut work);
-                    if self.overlaps_outside(region, &gap) {
-                        region = Region::whole(self.grid.cells());
-                        continue;
-                    }
-                    let area = self.contact_area(region, &solved);
-                    (gap, area)
+            let (gap, contact_area) = if let Some(settled) = kept {
+                (settled.gap, settled.contact_area)
+            } else {
+                let gap = self.gap_everywhere(region, &solved, &state_after, &mut work);
+                if self.overlaps_outside(region, &gap) {
+                    region = Region::whole(self.grid.cells());
+                    continue;
                 }
+                let area = self.contact_area(region, &solved);
+                (gap, area)
             };
             let previous = self.last_load.replace(*load);
             self.before = previous.map(|last| (last, state.clone()));
@@ -282,16 +281,8 @@ impl<'a> ContactSolver<'a> {
         let solved = match self.coupling {
             Coupling::Coupled => scene.together(tractions, displaced, &mut operators, &self.settings, watch),
             Coupling::Uncoupled | Coupling::Frictionless => {
-                let frictionless = self.coupling == Coupling::Frictionless;
-                scene.in_turn(
-                    tractions,
-                    displaced,
-                    unchanged,
-                    frictionless,
-                    &mut operators,
-                    &self.settings,
-                    watch,
-                )
+                let turn = Turn { unchanged, frictionless: self.coupling == Coupling::Frictionless };
+                scene.in_turn(tractions, displaced, turn, &mut operators, &self.settings, watch)
             }
         };
         work.convolutions += operators.compliance.applications - start.0;
@@ -354,7 +345,7 @@ impl<'a> ContactSolver<'a> {
     fn contact_area(&self, region: Region, solved: &Solved) -> f64 {
         let view = |field| ArrayView2::from_shape(region.shape, field);
         match (view(solved.tractions.pressure.as_slice()), view(solved.gap.as_slice())) {
-            (Ok(pressure), Ok(gap)) => edge::contact_cells(pressure, gap) * self.grid.cell_area(),
+            (Ok(pressure), Ok(gap)) => edge::contact_cells(&pressure, &gap) * self.grid.cell_area(),
             _ => 0.0,
         }
     }

@@ -83,7 +83,7 @@ impl Region {
                 continue;
             }
             // Centred on what is wanted, moved inside where it would stick out.
-            let middle = (low[axis] + high[axis] + 1) / 2;
+            let middle = (low[axis] + high[axis]).div_ceil(2);
             region.origin[axis] = middle.saturating_sub(shape / 2).min(cells[axis] - shape);
             region.shape[axis] = shape;
         }

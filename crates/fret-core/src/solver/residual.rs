@@ -12,7 +12,7 @@ pub struct NormalVerdict {
     pub residual: f64,
 }
 
-/// Judges pressures; `height` is u_z + undeformed gap and becomes the gap. `own` is a cell's influence on itself.
+/// Judges pressures; `height` is normal displacement + undeformed gap and becomes the gap. `own` is a cell's influence on itself.
 pub fn judge_normal(
     pressure: &[f64],
     height: &mut [f64],
@@ -24,7 +24,9 @@ pub fn judge_normal(
     let approach = approach.unwrap_or_else(|| mean_where_loaded(pressure, height));
     if loaded <= 0.0 {
         let lowest = height.iter().copied().fold(f64::INFINITY, f64::min);
-        height.iter_mut().for_each(|gap| *gap -= approach);
+        for gap in height.iter_mut() {
+            *gap -= approach;
+        }
         let residual = if lowest >= approach { 0.0 } else { 1.0 };
         return NormalVerdict { approach, residual };
     }
@@ -39,7 +41,7 @@ pub fn judge_normal(
 }
 
 /// Mean of a field over the loaded cells; its lowest value when none is loaded.
-pub fn mean_where_loaded(pressure: &[f64], field: &[f64]) -> f64 {
+fn mean_where_loaded(pressure: &[f64], field: &[f64]) -> f64 {
     let mut total = 0.0;
     let mut count = 0_usize;
     for (&p, &value) in pressure.iter().zip(field) {

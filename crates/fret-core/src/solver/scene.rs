@@ -44,6 +44,15 @@ pub struct Scene<'a> {
     resultant: [f64; 3],
 }
 
+/// What an increment of pressure and shear in turn can leave out.
+#[derive(Debug, Clone, Copy)]
+pub struct Turn {
+    /// The normal load is that of the state before: pressure stays.
+    pub unchanged: bool,
+    /// There is no friction: no shear.
+    pub frictionless: bool,
+}
+
 /// A solved box.
 pub struct Solved {
     /// Pressure and shear.
@@ -293,13 +302,11 @@ impl<'a> Scene<'a> {
     }
 
     /// Pressure first, then shear on it: for bodies whose shear does not move the surfaces normally.
-    /// `unchanged`: the normal load is that of the state before, so pressure stays.
     pub fn in_turn(
         &self,
         mut tractions: Tractions,
         settled: Option<&Displacements>,
-        unchanged: bool,
-        frictionless: bool,
+        turn: Turn,
         operators: &mut BoxOperators,
         settings: &SolverSettings,
         watch: Watch<'_>,
@@ -309,7 +316,7 @@ impl<'a> Scene<'a> {
         let own = compliance.own();
         let mut displacements = Displacements::zeros(len);
         let (mut gap, normal, mut iterations);
-        if let (true, Some(settled)) = (unchanged, settled) {
+        if let (true, Some(settled)) = (turn.unchanged, settled) {
             tractions.pressure = self.region.gather(&self.state.pressure);
             displacements.normal.clone_from(&settled.normal);
             gap = displacements.normal.iter().zip(&self.undeformed).map(|(u, g)| u + g).collect::<Vec<_>>();
@@ -340,7 +347,7 @@ impl<'a> Scene<'a> {
         let caused = self.motion != [0.0; 3]
             || self.resultant != [0.0; 3]
             || self.state.shear.iter().any(|shear| shear.iter().any(|q| *q != 0.0));
-        if frictionless || !caused {
+        if turn.frictionless || !caused {
             tractions.shear.clear();
         } else {
             let before = self.displaced_before(settled, compliance, false);

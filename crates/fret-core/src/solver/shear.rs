@@ -159,7 +159,7 @@ impl Frozen<'_, '_> {
             *last = Some(Direction { along, image });
             cut = self.cut_of(shear, &step);
             let residual = rho.norm();
-            let left = z_norm * tau.abs() * (residual / start).min(1.0).max(1e-3);
+            let left = z_norm * tau.abs() * (residual / start).clamp(1e-3, 1.0);
             if residual < floor || (cut > 0.0 && (cut > self.theta * left || residual < ETA * start)) {
                 break;
             }

@@ -123,7 +123,7 @@ impl Terms {
             return Err(ConvolutionError::NoBlocks);
         }
         for (index, kernel) in kernels.iter().enumerate() {
-            check_quadrant(index, kernel.values, quadrant)?;
+            check_quadrant(index, &kernel.values, quadrant)?;
         }
         for (index, block) in blocks.iter().enumerate() {
             if block.kernel >= kernels.len() {
@@ -169,7 +169,7 @@ impl Terms {
 
 fn check_quadrant(
     kernel: usize,
-    values: ArrayView2<'_, f64>,
+    values: &ArrayView2<'_, f64>,
     quadrant: [usize; 2],
 ) -> Result<(), ConvolutionError> {
     let [needed_x, needed_y] = quadrant;

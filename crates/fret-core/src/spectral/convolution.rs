@@ -1,8 +1,8 @@
 //! Products of fields with kernels in free space.
 
 use super::block::Terms;
-use super::line_product::LineProduct;
-use super::{Block, ConvolutionError, Kernel, Workspace};
+use super::engine::PlannedProduct;
+use super::{Block, ConvolutionError, Engine, Kernel, Workspace};
 
 /// Free-space product of fields with translation-invariant kernels:
 ///
@@ -27,7 +27,7 @@ use super::{Block, ConvolutionError, Kernel, Workspace};
 /// ```
 pub struct Convolution {
     terms: Terms,
-    lines: LineProduct,
+    product: PlannedProduct,
 }
 
 impl Convolution {
@@ -43,16 +43,27 @@ impl Convolution {
         kernels: &[Kernel<'_>],
         blocks: &[Block],
     ) -> Result<Self, ConvolutionError> {
+        Self::on(Engine::fastest(), shape, kernels, blocks)
+    }
+
+    /// Like [`new`](Self::new), on a chosen engine.
+    ///
+    /// # Errors
+    /// As [`new`](Self::new).
+    pub fn on(
+        engine: Engine,
+        shape: [usize; 2],
+        kernels: &[Kernel<'_>],
+        blocks: &[Block],
+    ) -> Result<Self, ConvolutionError> {
         let terms = Terms::new(shape, shape, kernels, blocks)?;
-        let lines = LineProduct::free_space(terms.clone(), kernels);
-        Ok(Self { terms, lines })
+        let product = PlannedProduct::free_space(engine, &terms, kernels);
+        Ok(Self { terms, product })
     }
 
     /// Memory to apply this product in.
     pub fn workspace(&self) -> Workspace {
-        let mut workspace = Workspace::default();
-        workspace.lines(self.lines.scratch_len());
-        workspace
+        self.product.workspace()
     }
 
     /// Computes all outputs (what they held before is lost). Fields are contiguous, `nx * ny` values, index
@@ -64,7 +75,7 @@ impl Convolution {
     /// When the number of fields or their length is not what the product was made for.
     pub fn apply(&self, workspace: &mut Workspace, input: &[&[f64]], output: &mut [&mut [f64]]) {
         self.terms.check_fields(input, output);
-        self.lines.apply(workspace.lines(self.lines.scratch_len()), input, output);
+        self.product.apply(workspace, input, output);
     }
 
     /// Number of cells `[nx, ny]`.
@@ -72,8 +83,8 @@ impl Convolution {
         self.terms.shape
     }
 
-    /// Memory held by the transformed kernels [bytes].
+    /// Memory held by the transformed kernels, in bytes.
     pub fn memory_bytes(&self) -> usize {
-        self.lines.memory_bytes()
+        self.product.memory_bytes()
     }
 }

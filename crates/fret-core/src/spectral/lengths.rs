@@ -47,7 +47,7 @@ mod tests {
     #[test]
     fn the_next_good_length_is_the_smallest_one_that_divides_out() {
         for n in 0..3000 {
-            let expected = (n.max(4)..).find(|&length| divides_out(length));
+            let expected = (n.max(4)..=4 * n.max(4)).find(|&length| divides_out(length));
             assert_eq!(Some(good_length(n)), expected, "n = {n}");
             assert_eq!(is_good_length(n), n >= 4 && divides_out(n), "n = {n}");
         }

@@ -54,7 +54,7 @@ impl LineProduct {
         Self { kernels: kernels.collect(), terms, frequencies: Frequencies::Whole, along_x, along_y }
     }
 
-    /// Memory of the factors [bytes].
+    /// Memory of the factors, in bytes.
     pub fn memory_bytes(&self) -> usize {
         self.kernels.iter().map(|kernel| size_of_val(kernel.as_slice())).sum()
     }
@@ -164,14 +164,14 @@ fn half_shifted_spectrum(
 ) -> Vec<f64> {
     let odd = kernel.parity.odd();
     let quadrant = kernel.values.slice(s![..shape[0], ..shape[1]]);
-    let along_y = one_sided(quadrant, lines[1], odd[1]);
-    let both = one_sided(along_y.t(), lines[0], odd[0]);
+    let along_y = one_sided(&quadrant, lines[1], odd[1]);
+    let both = one_sided(&along_y.t(), lines[0], odd[0]);
     let sign = if kernel.parity == Parity::OddOdd { -scale } else { scale };
     both.t().iter().map(|value| value * sign).collect()
 }
 
 /// `2 Re` (even) or `2 Im` (odd) of the transforms of all rows, each taken once at offset 0 and twice elsewhere.
-fn one_sided(rows: ArrayView2<'_, f64>, transform: &LineTransform, odd: bool) -> Array2<f64> {
+fn one_sided(rows: &ArrayView2<'_, f64>, transform: &LineTransform, odd: bool) -> Array2<f64> {
     let mut line = vec![Complex::default(); rows.ncols()];
     let mut scratch = vec![Complex::default(); transform.scratch_len()];
     let mut result = Array2::zeros(rows.dim());
@@ -207,13 +207,13 @@ pub(super) fn folded_indices(n: usize, odd: bool) -> Vec<(usize, f64)> {
 
 /// Symbol values of a periodised kernel, in the convention of [`Symbol`](super::Symbol).
 pub(super) fn symbol_of(shape: [usize; 2], kernel: &Kernel<'_>) -> Array2<f64> {
-    let along_y = real_symbol_rows(kernel.values, shape[1], kernel.parity.odd()[1]);
+    let along_y = real_symbol_rows(&kernel.values, shape[1], kernel.parity.odd()[1]);
     let rows = along_y.slice(s![..=shape[0] / 2, ..]);
-    real_symbol_rows(rows.t(), shape[0], kernel.parity.odd()[0]).reversed_axes()
+    real_symbol_rows(&rows.t(), shape[0], kernel.parity.odd()[0]).reversed_axes()
 }
 
 /// `sum_x K(x) cos(k x)` or `sum_x K(x) sin(k x)` over one period, for the leading `n/2 + 1` values of each row.
-fn real_symbol_rows(rows: ArrayView2<'_, f64>, n: usize, odd: bool) -> Array2<f64> {
+fn real_symbol_rows(rows: &ArrayView2<'_, f64>, n: usize, odd: bool) -> Array2<f64> {
     let transform = LineTransform::new(n, Frequencies::Whole);
     let folded = folded_indices(n, odd);
     let mut line = vec![Complex::default(); n];

@@ -5,7 +5,10 @@
 
 mod block;
 mod convolution;
+mod engine;
 mod fourier;
+mod inverse_table;
+mod lanes;
 mod lengths;
 mod line_product;
 mod parity;
@@ -16,6 +19,8 @@ mod workspace;
 
 pub use block::{Block, ConvolutionError, Kernel, Symbol};
 pub use convolution::Convolution;
+pub use engine::Engine;
+pub use inverse_table::inverse_table;
 pub use lengths::good_length;
 pub use parity::Parity;
 pub use periodic_product::PeriodicProduct;

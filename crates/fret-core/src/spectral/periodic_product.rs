@@ -3,8 +3,9 @@
 use ndarray::Array2;
 
 use super::block::Terms;
-use super::line_product::{self, LineProduct};
-use super::{Block, ConvolutionError, Kernel, Symbol, Workspace};
+use super::engine::PlannedProduct;
+use super::line_product;
+use super::{Block, ConvolutionError, Engine, Kernel, Symbol, Workspace};
 
 /// Product of periodic fields with real transfer functions:
 ///
@@ -14,7 +15,7 @@ use super::{Block, ConvolutionError, Kernel, Symbol, Workspace};
 /// [`Symbol`]s. Immutable and shareable between threads; the memory it works in is a [`Workspace`].
 pub struct PeriodicProduct {
     terms: Terms,
-    lines: LineProduct,
+    product: PlannedProduct,
 }
 
 impl PeriodicProduct {
@@ -29,18 +30,29 @@ impl PeriodicProduct {
         symbols: &[Symbol<'_>],
         blocks: &[Block],
     ) -> Result<Self, ConvolutionError> {
+        Self::on(Engine::fastest(), shape, symbols, blocks)
+    }
+
+    /// Like [`new`](Self::new), on a chosen engine.
+    ///
+    /// # Errors
+    /// As [`new`](Self::new).
+    pub fn on(
+        engine: Engine,
+        shape: [usize; 2],
+        symbols: &[Symbol<'_>],
+        blocks: &[Block],
+    ) -> Result<Self, ConvolutionError> {
         let kernels: Vec<_> =
             symbols.iter().map(|symbol| Kernel { values: symbol.values, parity: symbol.parity }).collect();
         let terms = Terms::new(shape, shape.map(|n| n / 2 + 1), &kernels, blocks)?;
-        let lines = LineProduct::periodic(terms.clone(), &kernels);
-        Ok(Self { terms, lines })
+        let product = PlannedProduct::periodic(engine, &terms, &kernels);
+        Ok(Self { terms, product })
     }
 
     /// Memory to apply this product in.
     pub fn workspace(&self) -> Workspace {
-        let mut workspace = Workspace::default();
-        workspace.lines(self.lines.scratch_len());
-        workspace
+        self.product.workspace()
     }
 
     /// Computes all outputs (what they held before is lost). Fields are contiguous, `nx * ny` values, index
@@ -52,7 +64,7 @@ impl PeriodicProduct {
     /// When the number of fields or their length is not what the product was made for.
     pub fn apply(&self, workspace: &mut Workspace, input: &[&[f64]], output: &mut [&mut [f64]]) {
         self.terms.check_fields(input, output);
-        self.lines.apply(workspace.lines(self.lines.scratch_len()), input, output);
+        self.product.apply(workspace, input, output);
     }
 
     /// Number of cells `[nx, ny]`.
@@ -60,9 +72,9 @@ impl PeriodicProduct {
         self.terms.shape
     }
 
-    /// Memory held by the symbols [bytes].
+    /// Memory held by the symbols, in bytes.
     pub fn memory_bytes(&self) -> usize {
-        self.lines.memory_bytes()
+        self.product.memory_bytes()
     }
 
     /// Symbol values `(nx/2 + 1, ny/2 + 1)` of a kernel in real space that is repeated with the period of the grid, in
@@ -71,9 +83,14 @@ impl PeriodicProduct {
     /// Of the kernel the values at offsets `0..=nx/2`, `0..=ny/2` are used; the others follow by parity and period.
     /// Along an odd axis those at 0 and, for even lengths, at half the period count as zero.
     ///
-    /// # Errors
-    /// When the shape is empty or the kernel is too small or not finite.
+    /// # Panics
+    /// When the kernel has fewer values than that.
     pub fn symbol_of(shape: [usize; 2], kernel: &Kernel<'_>) -> Array2<f64> {
+        let (found, needed) = (kernel.values.dim(), shape.map(|n| n / 2 + 1));
+        assert!(
+            found.0 >= needed[0] && found.1 >= needed[1],
+            "kernel of {found:?} values periodised on a {shape:?} grid, which needs {needed:?}"
+        );
         line_product::symbol_of(shape, kernel)
     }
 }

@@ -2,7 +2,7 @@
 
 use ndarray::Array2;
 
-use super::{Block, Convolution, ConvolutionError, Kernel, Parity, PeriodicProduct, Symbol};
+use super::{Block, Convolution, ConvolutionError, Engine, Kernel, Parity, PeriodicProduct, Symbol};
 
 const PARITIES: [Parity; 4] = [Parity::EvenEven, Parity::OddEven, Parity::EvenOdd, Parity::OddOdd];
 
@@ -157,42 +157,47 @@ impl Problem {
         output
     }
 
-    fn convolve(&self) -> Vec<Vec<f64>> {
-        let product = Convolution::new(self.shape, &self.kernels(), &self.blocks).unwrap();
+    fn convolve(&self, engine: Engine) -> Vec<Vec<f64>> {
+        let product = Convolution::on(engine, self.shape, &self.kernels(), &self.blocks).unwrap();
         self.apply(|input, output| product.apply(&mut product.workspace(), input, output))
     }
 
-    /// Largest difference from plain sums at all cells, or at `samples` of them.
-    fn worst(
+    /// Plain sums at all cells, or at `samples` of them (both corners among them): output, cell, value.
+    fn judged(
         &self,
-        found: &[Vec<f64>],
         samples: Option<usize>,
         judge: fn(&Self, usize, [usize; 2]) -> f64,
-    ) -> f64 {
-        let [nx, ny] = self.shape;
-        let cells = nx * ny;
+    ) -> Vec<(usize, usize, f64)> {
+        let ny = self.shape[1];
+        let cells = self.shape[0] * ny;
         let mut numbers = Numbers(7);
-        let mut worst = 0.0_f64;
-        for (output, values) in found.iter().enumerate() {
-            for sample in 0..samples.unwrap_or(cells) {
-                let cell = match samples {
-                    None => sample,
-                    Some(_) if sample == 0 => 0,
-                    Some(_) if sample == 1 => cells - 1,
-                    Some(_) => ((numbers.next().abs() * cells as f64) as usize).min(cells - 1),
-                };
-                let difference = (values[cell] - judge(self, output, [cell / ny, cell % ny])).abs();
-                assert!(difference.is_finite());
-                worst = worst.max(difference);
+        let picked: Vec<usize> = match samples {
+            None => (0..cells).collect(),
+            Some(samples) => {
+                let inside =
+                    (2..samples).map(|_| ((numbers.next().abs() * cells as f64) as usize).min(cells - 1));
+                [0, cells - 1].into_iter().chain(inside).collect()
             }
+        };
+        let values = |output| {
+            let at = move |&cell: &usize| (output, cell, judge(self, output, [cell / ny, cell % ny]));
+            picked.iter().map(at)
+        };
+        (0..self.outputs()).flat_map(values).collect()
+    }
+
+    /// Fails unless every judged value is found within `tolerance`.
+    fn compare(found: &[Vec<f64>], judged: &[(usize, usize, f64)], tolerance: f64, what: &str) {
+        for &(output, cell, expected) in judged {
+            let difference = (found[output][cell] - expected).abs();
+            assert!(difference <= tolerance, "{what}: output {output} cell {cell} is off by {difference:e}");
         }
-        worst
     }
 }
 
-/// Both ways round off like random walks: an FFT as `eps log2(N) |K| |x|`, the plain sum as `eps sqrt(N)` of its largest
-/// partial sum, and `|K| |x| = N/3` for numbers uniform in (-1, 1) with `N` cells. Twice `eps (N/3)` per block is
-/// a bound never reached and 10 digits below any mistake.
+/// The plain sum is the less exact of the two ways: over `N` terms of size 1/3 its partial sums walk to `sqrt(N)/3`, each is
+/// rounded by `eps/2`, and that adds up to `eps N / 15` (root mean square). Ten times as much is not reached by chance, and a
+/// mistake is larger than a term. The transforms round off by a few `eps log2(N) sqrt(N)`, which matters below 16 cells only.
 fn tolerance(problem: &Problem) -> f64 {
     2.0 * f64::EPSILON * (problem.shape[0] * problem.shape[1]).max(16) as f64 / 3.0
         * problem.blocks.len() as f64
@@ -222,8 +227,11 @@ fn each_parity_is_the_plain_sum_on_any_shape() {
     for (seed, shape) in SHAPES.into_iter().enumerate() {
         for parity in PARITIES {
             let problem = Problem::new(shape, shape, &[parity], &[block(0, 0, 0, 1.0)], seed as u64);
-            let worst = problem.worst(&problem.convolve(), None, Problem::free_space_at);
-            assert!(worst <= tolerance(&problem), "{shape:?} {parity:?}: {worst:e}");
+            let judged = problem.judged(None, Problem::free_space_at);
+            for engine in Engine::available() {
+                let what = format!("{shape:?} {parity:?} {engine:?}");
+                Problem::compare(&problem.convolve(engine), &judged, tolerance(&problem), &what);
+            }
         }
     }
 }
@@ -234,8 +242,11 @@ fn all_couplings_together_are_the_plain_sum() {
     for (seed, shape) in SHAPES.into_iter().enumerate() {
         let problem =
             Problem::new(shape, [shape[0] + 3, shape[1] + 1], &parities, &blocks, 100 + seed as u64);
-        let worst = problem.worst(&problem.convolve(), None, Problem::free_space_at);
-        assert!(worst <= tolerance(&problem), "{shape:?}: {worst:e}");
+        let judged = problem.judged(None, Problem::free_space_at);
+        for engine in Engine::available() {
+            let what = format!("{shape:?} {engine:?}");
+            Problem::compare(&problem.convolve(engine), &judged, tolerance(&problem), &what);
+        }
     }
 }
 
@@ -250,11 +261,152 @@ fn periodic_products_are_the_plain_sum_over_one_period() {
             kernels: symbols.into_iter().zip(&parities).map(|(values, &parity)| (values, parity)).collect(),
             ..Problem::new(shape, shape, &parities, &blocks, 200 + seed as u64)
         };
-        let product = PeriodicProduct::new(shape, &in_frequency.symbols(), &blocks).unwrap();
-        let found = problem.apply(|input, output| product.apply(&mut product.workspace(), input, output));
-        let worst = problem.worst(&found, None, Problem::periodic_at);
-        assert!(worst <= tolerance(&problem), "{shape:?}: {worst:e}");
+        let judged = problem.judged(None, Problem::periodic_at);
+        for engine in Engine::available() {
+            let product = PeriodicProduct::on(engine, shape, &in_frequency.symbols(), &blocks).unwrap();
+            let found = problem.apply(|input, output| product.apply(&mut product.workspace(), input, output));
+            Problem::compare(&found, &judged, tolerance(&problem), &format!("{shape:?} {engine:?}"));
+        }
     }
+}
+
+/// Large enough for depth-first passes, several blocks of them and several strips; cells chosen at random and both corners.
+#[test]
+fn large_grids_are_the_plain_sum_at_sampled_cells() {
+    let (parities, blocks) = full_blocks();
+    for (shape, samples) in [([512, 512], 12), ([640, 72], 12), ([96, 768], 12), ([500, 333], 8)] {
+        let problem = Problem::new(shape, shape, &parities, &blocks, 300 + shape[1] as u64);
+        let judged = problem.judged(Some(samples), Problem::free_space_at);
+        for engine in Engine::available() {
+            let what = format!("{shape:?} {engine:?}");
+            Problem::compare(&problem.convolve(engine), &judged, tolerance(&problem), &what);
+        }
+    }
+}
+
+/// Everything on a product can be seen from what impulses give; at the corners the copies that must not appear are nearest.
+#[test]
+fn an_impulse_in_a_corner_reaches_the_others_once_and_nothing_wraps() {
+    for shape in [[16, 24], [33, 50], [64, 64]] {
+        let [nx, ny] = shape;
+        for parity in PARITIES {
+            let mut problem = Problem::new(shape, shape, &[parity], &[block(0, 0, 0, 1.0)], 9);
+            for corner in [[0, 0], [0, ny - 1], [nx - 1, 0], [nx - 1, ny - 1]] {
+                problem.input[0].fill(0.0);
+                problem.input[0][corner[0] * ny + corner[1]] = 1.0;
+                for engine in Engine::available() {
+                    let found = &problem.convolve(engine)[0];
+                    for (cell, value) in found.iter().enumerate() {
+                        let offset = [
+                            (cell / ny) as isize - corner[0] as isize,
+                            (cell % ny) as isize - corner[1] as isize,
+                        ];
+                        let expected = problem.kernel_at(0, offset);
+                        // One nonzero input: rounding is that of the transform of the kernel, of size sqrt(N/3) per
+                        // frequency, averaged back: eps log2(N) at most. 1e-14 is 45 eps.
+                        assert!(
+                            (value - expected).abs() < 1e-14,
+                            "{shape:?} {parity:?} {engine:?} {corner:?} {cell}"
+                        );
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// Engines add in different orders and with or without fused operations: equal up to the rounding of a transform.
+#[test]
+fn all_engines_give_the_same_product() {
+    let (parities, blocks) = full_blocks();
+    for shape in [[128, 96], [100, 240], [8, 8]] {
+        let problem = Problem::new(shape, shape, &parities, &blocks, 11);
+        let all: Vec<_> = Engine::available().into_iter().map(|engine| problem.convolve(engine)).collect();
+        let judge = &all[all.len() - 1];
+        for found in &all {
+            for (found, expected) in found.iter().flatten().zip(judge.iter().flatten()) {
+                assert!((found - expected).abs() <= tolerance(&problem), "{shape:?}: {found} {expected}");
+            }
+        }
+    }
+}
+
+#[test]
+fn one_thread_or_more_give_the_same_bits() {
+    let (parities, blocks) = full_blocks();
+    for shape in [[96, 96], [128, 200], [256, 130], [97, 500]] {
+        let problem = Problem::new(shape, shape, &parities, &blocks, 12);
+        let symbols = Problem::new(shape, shape, &parities, &blocks, 13);
+        for engine in Engine::available() {
+            let run = |threads: usize| {
+                let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+                let periodic = PeriodicProduct::on(engine, shape, &symbols.symbols(), &blocks).unwrap();
+                pool.install(|| {
+                    let mut found = problem.convolve(engine);
+                    let mut workspace = periodic.workspace();
+                    found
+                        .extend(problem.apply(|input, output| periodic.apply(&mut workspace, input, output)));
+                    found.into_iter().flatten().map(f64::to_bits).collect::<Vec<_>>()
+                })
+            };
+            let serial = run(1);
+            for threads in [2, 3, 5] {
+                assert!(serial == run(threads), "{shape:?} {engine:?} {threads} threads");
+            }
+        }
+    }
+}
+
+#[test]
+fn the_content_and_the_origin_of_a_workspace_do_not_matter() {
+    let (parities, blocks) = full_blocks();
+    let small = Problem::new([24, 40], [24, 40], &parities, &blocks, 14);
+    let large = Problem::new([96, 100], [96, 100], &parities, &blocks, 15);
+    for engine in Engine::available() {
+        let plan = |problem: &Problem| {
+            Convolution::on(engine, problem.shape, &problem.kernels(), &problem.blocks).unwrap()
+        };
+        let (small_product, large_product) = (plan(&small), plan(&large));
+        let mut workspace = small_product.workspace();
+        for _ in 0..2 {
+            let found = large.apply(|input, output| large_product.apply(&mut workspace, input, output));
+            assert_eq!(found, large.convolve(engine));
+            let found = small.apply(|input, output| small_product.apply(&mut workspace, input, output));
+            assert_eq!(found, small.convolve(engine));
+        }
+        // Whatever a field of infinities leaves behind must not reach the next product.
+        let infinite = vec![f64::INFINITY; 24 * 40];
+        small.apply(|_, output| small_product.apply(&mut workspace, &[infinite.as_slice(); 3], output));
+        let found = small.apply(|input, output| small_product.apply(&mut workspace, input, output));
+        assert_eq!(found, small.convolve(engine));
+    }
+}
+
+#[test]
+fn fields_may_be_many_or_differ_in_number() {
+    let parities = [Parity::EvenEven, Parity::OddEven];
+    let several: [&[Block]; 3] = [
+        &[block(0, 0, 0, 1.0), block(1, 0, 1, -1.0), block(2, 0, 0, 0.5)],
+        &[block(0, 0, 0, 1.0), block(0, 1, 1, -1.0), block(0, 1, 0, 2.0)],
+        &[block(0, 0, 0, 1.0), block(4, 3, 1, 1.0), block(4, 0, 0, 1.0)],
+    ];
+    for blocks in several {
+        let problem = Problem::new([20, 24], [20, 24], &parities, blocks, 16);
+        let judged = problem.judged(None, Problem::free_space_at);
+        for engine in Engine::available() {
+            // A factor of 2 among the blocks doubles the rounding.
+            let what = format!("{engine:?} {blocks:?}");
+            Problem::compare(&problem.convolve(engine), &judged, 2.0 * tolerance(&problem), &what);
+        }
+    }
+}
+
+#[test]
+#[should_panic(expected = "field of 15 values passed to a product on a 4 x 4 grid")]
+fn a_field_of_another_size_is_named() {
+    let problem = Problem::new([4, 4], [4, 4], &[Parity::EvenEven], &[block(0, 0, 0, 1.0)], 17);
+    let product = Convolution::new([4, 4], &problem.kernels(), &problem.blocks).unwrap();
+    product.apply(&mut product.workspace(), &[&[0.0; 15]], &mut [&mut [0.0; 16]]);
 }
 
 #[test]

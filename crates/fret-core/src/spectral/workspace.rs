@@ -2,17 +2,28 @@
 
 use rustfft::num_complex::Complex;
 
+use super::lanes::AlignedReals;
+
 /// Scratch memory of a [`Convolution`](super::Convolution) or [`PeriodicProduct`](super::PeriodicProduct).
 ///
-/// Made once by `workspace()`, passed to every `apply`; its content after a call is nobody's. One made for another
-/// product works too: it grows, once, to what is needed.
+/// Made once by `workspace()`, passed to every `apply`; its content after a call is nobody's. It serves as many threads as
+/// the pool has in which it was made. One made for another product works too: it grows, once, to what is needed.
 #[derive(Debug, Clone, Default)]
 pub struct Workspace {
-    pub(super) lines: Vec<Complex<f64>>,
+    lanes: AlignedReals,
+    lines: Vec<Complex<f64>>,
 }
 
 impl Workspace {
-    /// At least `count` complex numbers of unknown content.
+    /// At least `count` numbers of unknown content, from the start of a cache line on.
+    pub(super) fn lanes(&mut self, count: usize) -> &mut [f64] {
+        if self.lanes.len() < count {
+            self.lanes = AlignedReals::zeros(count);
+        }
+        self.lanes.as_mut_slice()
+    }
+
+    /// `count` complex numbers of unknown content.
     pub(super) fn lines(&mut self, count: usize) -> &mut [Complex<f64>] {
         if self.lines.len() < count {
             self.lines.resize(count, Complex::default());
@@ -20,8 +31,8 @@ impl Workspace {
         &mut self.lines[..count]
     }
 
-    /// Memory held [bytes].
+    /// Memory held, in bytes.
     pub fn memory_bytes(&self) -> usize {
-        self.lines.capacity() * size_of::<Complex<f64>>()
+        self.lanes.memory_bytes() + self.lines.capacity() * size_of::<Complex<f64>>()
     }
 }

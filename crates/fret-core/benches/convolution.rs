@@ -1,0 +1,151 @@
+//! Time per application of the spectral products on every engine of this machine.
+//!
+//! Problems: `n` pressure to normal displacement (1 kernel), `t` both shear components (3 kernels, 4 blocks), `f` pressure and
+//! shear with all couplings (6 kernels, 9 blocks), `p` the periodic product of problem `n`. The engines take turns, round
+//! after round; printed are the best time of each on one thread, its ratio to the plain line-by-line engine on rustfft (best
+//! against best), the cost of planning, and the best time of the fastest engine on two threads.
+//!
+//! Arguments: the sizes to run, by default 64 128 256 512 1024.
+
+#![expect(clippy::print_stdout, reason = "a benchmark prints its table")]
+
+use std::hint::black_box;
+use std::time::{Duration, Instant};
+
+use fret_core::spectral::{Block, Convolution, Engine, Kernel, Parity, PeriodicProduct, Symbol, Workspace};
+use ndarray::Array2;
+
+/// Name, parities of the kernels, blocks as (output, input, kernel, sign).
+type Problem = (&'static str, &'static [Parity], &'static [(usize, usize, usize, f64)]);
+
+use Parity::{EvenEven, EvenOdd, OddEven, OddOdd};
+
+const PROBLEMS: [Problem; 4] = [
+    ("n", &[EvenEven], &[(0, 0, 0, 1.0)]),
+    ("t", &[EvenEven, EvenEven, OddOdd], &[(0, 0, 0, 1.0), (1, 1, 1, 1.0), (0, 1, 2, 1.0), (1, 0, 2, 1.0)]),
+    (
+        "f",
+        &[EvenEven, EvenEven, EvenEven, OddOdd, OddEven, EvenOdd],
+        &[
+            (0, 0, 0, 1.0),
+            (1, 1, 1, 1.0),
+            (2, 2, 2, 1.0),
+            (1, 2, 3, 1.0),
+            (2, 1, 3, 1.0),
+            (0, 1, 4, 1.0),
+            (1, 0, 4, -1.0),
+            (0, 2, 5, 1.0),
+            (2, 0, 5, -1.0),
+        ],
+    ),
+    ("p", &[EvenEven], &[(0, 0, 0, 1.0)]),
+];
+
+enum Product {
+    FreeSpace(Convolution),
+    Periodic(PeriodicProduct),
+}
+
+impl Product {
+    fn workspace(&self) -> Workspace {
+        match self {
+            Self::FreeSpace(product) => product.workspace(),
+            Self::Periodic(product) => product.workspace(),
+        }
+    }
+
+    fn apply(&self, workspace: &mut Workspace, input: &[&[f64]], output: &mut [&mut [f64]]) {
+        match self {
+            Self::FreeSpace(product) => product.apply(workspace, input, output),
+            Self::Periodic(product) => product.apply(workspace, input, output),
+        }
+    }
+}
+
+/// Falls off like an influence coefficient.
+fn kernel(n: usize, index: usize) -> Array2<f64> {
+    Array2::from_shape_fn([n, n], |(i, j)| 1.0 / (1.0 + index as f64 + (i * i + 2 * j * j) as f64).sqrt())
+}
+
+fn best(best: Duration, run: impl FnOnce()) -> Duration {
+    let start = Instant::now();
+    run();
+    best.min(start.elapsed())
+}
+
+fn measure(n: usize, (name, parities, blocks): Problem) -> Result<(), Box<dyn std::error::Error>> {
+    let kernels: Vec<_> = (0..parities.len()).map(|index| kernel(n, index)).collect();
+    let blocks: Vec<_> =
+        blocks.iter().map(|&(output, input, kernel, sign)| Block { output, input, kernel, sign }).collect();
+    let engines = Engine::available();
+    let mut planning = Duration::MAX;
+    let mut products = Vec::new();
+    for &engine in &engines {
+        let plan = || -> Result<_, Box<dyn std::error::Error>> {
+            let quadrants = kernels.iter().zip(parities);
+            Ok(if name == "p" {
+                let symbols: Vec<_> =
+                    quadrants.map(|(values, &parity)| Symbol { values: values.view(), parity }).collect();
+                Product::Periodic(PeriodicProduct::on(engine, [n, n], &symbols, &blocks)?)
+            } else {
+                let kernels: Vec<_> =
+                    quadrants.map(|(values, &parity)| Kernel { values: values.view(), parity }).collect();
+                Product::FreeSpace(Convolution::on(engine, [n, n], &kernels, &blocks)?)
+            })
+        };
+        let product = plan()?;
+        if products.is_empty() {
+            for _ in 0..3 {
+                planning = best(planning, || drop(black_box(plan())));
+            }
+        }
+        products.push((product.workspace(), product));
+    }
+    let fields = blocks.iter().map(|block| block.input + 1).max().unwrap_or(0);
+    let input: Vec<Vec<f64>> = (0..fields)
+        .map(|field| (0..n * n).map(|cell| ((cell * 37 + field) % 101) as f64).collect())
+        .collect();
+    let input: Vec<_> = input.iter().map(Vec::as_slice).collect();
+    let mut output = vec![vec![0.0; n * n]; fields];
+    let mut output: Vec<_> = output.iter_mut().map(Vec::as_mut_slice).collect();
+
+    let rounds = (4_000_000 / (n * n)).clamp(5, 200);
+    let mut times = vec![Duration::MAX; products.len()];
+    for _ in 0..rounds {
+        for ((workspace, product), time) in products.iter_mut().zip(&mut times) {
+            product.apply(workspace, &input, &mut output);
+            *time = best(*time, || product.apply(workspace, &input, &mut output));
+        }
+    }
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(2).build()?;
+    let two_threads = pool.install(|| {
+        let (_, product) = &products[0];
+        let mut workspace = product.workspace();
+        let mut time = Duration::MAX;
+        for _ in 0..rounds {
+            time = best(time, || product.apply(&mut workspace, &input, &mut output));
+        }
+        time
+    });
+
+    let milliseconds = |time: Duration| time.as_secs_f64() * 1e3;
+    let lines = times.last().copied().unwrap_or(Duration::MAX);
+    print!("{name} {n:5}");
+    for time in &times {
+        print!("  {:8.3} ({:.3})", milliseconds(*time), milliseconds(*time) / milliseconds(lines));
+    }
+    println!("   plan {:8.3}   two threads {:8.3}", milliseconds(planning), milliseconds(two_threads));
+    Ok(())
+}
+
+fn main() -> Result<(), Box<dyn std::error::Error>> {
+    let sizes: Vec<usize> = std::env::args().skip(1).filter_map(|argument| argument.parse().ok()).collect();
+    let sizes = if sizes.is_empty() { vec![64, 128, 256, 512, 1024] } else { sizes };
+    println!("[ms], in brackets the ratio to the last engine: {:?}", Engine::available());
+    for problem in PROBLEMS {
+        for &n in &sizes {
+            measure(n, problem)?;
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,246 @@
+//! Column stage: forward transform, kernels and inverse transform of one strip of all fields, in cache.
+//!
+//! The free-space product has two parts: the columns at `w_k`, and those at `-w_k`, which are the columns at `w_k` of the
+//! numbers with real and imaginary part exchanged. The periodic product has the first part only.
+
+use std::ops::Range;
+
+use super::butterfly::{Complex, butterfly, plain_butterfly, splat};
+use super::memory::{Line, OnCacheLine, as_lines, as_lines_mut, as_vectors};
+use super::passes::{forward_middle, inverse_middle, load_quad, parts, with_radix};
+use super::plan::LinePlan;
+use super::rows::Layout;
+use super::simd::{Lanes, Task};
+
+/// One term of the kernel product, in the order of the engine.
+#[derive(Debug, Clone, Copy)]
+pub struct Term {
+    pub input: usize,
+    pub kernel: usize,
+    /// Factor in the parts at `w_k` and at `-w_k`.
+    pub factors: [f64; 2],
+    /// Whether the factor is to be multiplied by `i`.
+    pub imaginary: bool,
+}
+
+/// Strips of the spectra of `F` fields (the larger of the numbers of inputs and outputs), in `P` parts, from `first` on.
+pub struct Columns<'a, const F: usize, const P: usize> {
+    pub layout: &'a Layout,
+    pub plan: &'a LinePlan,
+    /// Spectra of the inputs, `[input][group][strip][row of the group]`.
+    pub inputs: &'a [f64],
+    /// Numbers of one input.
+    pub input_len: usize,
+    /// `[strip][group of four places][kernel][place of the group]`
+    pub kernels: &'a [f64],
+    pub kernel_count: usize,
+    /// Terms of each output.
+    pub terms: &'a [Vec<Term>],
+    pub first: usize,
+    pub strips: &'a mut [f64],
+    pub scratch: &'a mut [f64],
+}
+
+impl<L: Lanes, const F: usize, const P: usize> Task<L> for Columns<'_, F, P> {
+    #[inline(always)]
+    fn run(self, lanes: L) {
+        let Self { layout, plan, terms, kernel_count, .. } = self;
+        let (n, inner) = (plan.length(), plan.inner_length());
+        let inputs = self.inputs.len() / self.input_len;
+        let stride = layout.group_stride / (2 * L::WIDTH);
+        let lines = &mut as_lines_mut::<L>(self.scratch)[..F * P * n];
+        let kernel_len = n * kernel_count * L::WIDTH;
+        for (strip, outputs) in (self.first..).zip(self.strips.chunks_exact_mut(layout.strip_stride)) {
+            for (input, lines) in self.inputs.chunks_exact(self.input_len).zip(lines.chunks_exact_mut(P * n))
+            {
+                let spectrum = &as_lines::<L>(input)[strip * L::WIDTH..];
+                with_radix!(plan.outermost(), R => {
+                    lanes.enter(OutermostForward::<L, R, P> { plan, spectrum, stride, lines });
+                });
+            }
+            let kernels = as_vectors::<L>(&self.kernels[strip * kernel_len..][..kernel_len]);
+            for block in 0..plan.outermost() {
+                let places = block * inner..(block + 1) * inner;
+                for column in lines.chunks_exact_mut(n).take(P * inputs) {
+                    forward_middle(lanes, plan, block, &mut column[places.clone()]);
+                }
+                let (lines, places) = (&mut *lines, places.clone());
+                lanes.enter(Multiply::<L, F, P> {
+                    plan,
+                    inputs,
+                    kernels,
+                    kernel_count,
+                    terms,
+                    places,
+                    lines,
+                });
+                for column in lines.chunks_exact_mut(n).take(P * terms.len()) {
+                    inverse_middle(lanes, plan, &mut column[block * inner..(block + 1) * inner]);
+                }
+            }
+            let outputs = as_lines_mut::<L>(&mut outputs[..terms.len() * n * 2 * L::WIDTH]);
+            for (output, lines) in outputs.chunks_exact_mut(n).zip(lines.chunks_exact_mut(P * n)) {
+                with_radix!(plan.outermost(), R => {
+                    lanes.enter(OutermostInverse::<L, R, P> { plan, lines, output });
+                });
+            }
+        }
+    }
+}
+
+/// Reads one column of an input and does the outermost pass of its parts.
+struct OutermostForward<'a, L: Lanes, const R: usize, const P: usize> {
+    plan: &'a LinePlan,
+    spectrum: &'a [Line<L>],
+    /// Lines from one row group to the next.
+    stride: usize,
+    lines: &'a mut [Line<L>],
+}
+
+impl<L: Lanes, const R: usize, const P: usize> Task<L> for OutermostForward<'_, L, R, P> {
+    #[inline(always)]
+    fn run(self, lanes: L) {
+        let Self { plan, spectrum, stride, lines } = self;
+        let places = plan.inner_length();
+        let weights = splat(lanes, &plan.forward(0)[0]);
+        let (direct, mirrored) = lines.split_at_mut(plan.length());
+        let direct = parts::<L, R>(direct, places);
+        let mirrored = parts::<L, R>(mirrored, places);
+        for j in 0..places {
+            let mut x = [Complex::zero(lanes); R];
+            for m in 0..R {
+                let row = m * places + j;
+                x[m] = Complex::load(
+                    &spectrum[(row / L::WIDTH).wrapping_mul(stride).wrapping_add(row % L::WIDTH)],
+                );
+            }
+            let y = butterfly(lanes, x, &weights);
+            for m in 0..R {
+                y[m].store(&mut direct[m][j]);
+            }
+            if P == 2 {
+                for m in 0..R {
+                    x[m] = x[m].swapped();
+                }
+                let y = butterfly(lanes, x, &weights);
+                for m in 0..R {
+                    y[m].store(&mut mirrored[m][j]);
+                }
+            }
+        }
+    }
+}
+
+/// Innermost forward pass, kernels, innermost inverse pass, on some places of all columns.
+struct Multiply<'a, L: Lanes, const F: usize, const P: usize> {
+    plan: &'a LinePlan,
+    inputs: usize,
+    kernels: &'a [L::Reals],
+    kernel_count: usize,
+    terms: &'a [Vec<Term>],
+    places: Range<usize>,
+    lines: &'a mut [Line<L>],
+}
+
+impl<L: Lanes, const F: usize, const P: usize> Task<L> for Multiply<'_, L, F, P> {
+    #[inline(always)]
+    fn run(self, lanes: L) {
+        let n = self.plan.length();
+        let count = self.kernel_count;
+        let lines = self.lines;
+        let mut before = OnCacheLine([[[Complex::zero(lanes); 4]; P]; F]);
+        for place in self.places.step_by(4) {
+            let weights = splat(lanes, &self.plan.innermost_forward()[place / 4]);
+            let kernels = &self.kernels[place * count..(place + 4) * count];
+            for field in 0..self.inputs.min(F) {
+                for part in 0..P {
+                    let quad = &lines[(field * P + part) * n + place..][..4];
+                    before.0[field][part] = butterfly(lanes, load_quad(lanes, quad), &weights);
+                }
+            }
+            for (output, terms) in self.terms.iter().enumerate() {
+                let mut sums = [[Complex::zero(lanes); 4]; P];
+                for term in terms {
+                    let kernel = &kernels[4 * term.kernel..][..4];
+                    let x = &before.0[term.input];
+                    for part in 0..P {
+                        let factor = lanes.splat(term.factors[part]);
+                        for m in 0..4 {
+                            let kernel = lanes.mul(kernel[m], factor);
+                            sums[part][m] = if term.imaginary {
+                                sums[part][m].add_turned(lanes, kernel, x[part][m])
+                            } else {
+                                sums[part][m].add_scaled(lanes, kernel, x[part][m])
+                            };
+                        }
+                    }
+                }
+                for part in 0..P {
+                    for m in 0..4 {
+                        sums[part][m] = sums[part][m].swapped();
+                    }
+                    let y = plain_butterfly(lanes, sums[part]);
+                    let quad = &mut lines[(output * P + part) * n + place..][..4];
+                    for m in 0..4 {
+                        y[m].store(&mut quad[m]);
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// Outermost inverse pass of the parts of one column, their sum, and out.
+struct OutermostInverse<'a, L: Lanes, const R: usize, const P: usize> {
+    plan: &'a LinePlan,
+    lines: &'a mut [Line<L>],
+    output: &'a mut [Line<L>],
+}
+
+impl<L: Lanes, const R: usize, const P: usize> Task<L> for OutermostInverse<'_, L, R, P> {
+    #[inline(always)]
+    fn run(self, lanes: L) {
+        let Self { plan, lines, output } = self;
+        let places = plan.inner_length();
+        let turns = plan.output_turns();
+        let (direct, mirrored) = lines.split_at_mut(plan.length());
+        let direct = parts::<L, R>(direct, places);
+        let mirrored = parts::<L, R>(mirrored, places);
+        let output = parts::<L, R>(output, places);
+        for (j, (weights, turn)) in plan.inverse(0).iter().zip(plan.first_turns()).enumerate() {
+            let weights = splat(lanes, weights);
+            let mut x = [Complex::zero(lanes); R];
+            for m in 0..R {
+                x[m] = Complex::load(&direct[m][j]);
+            }
+            if P == 1 {
+                let y = butterfly(lanes, x, &weights);
+                for m in 0..R {
+                    y[m].swapped().store(&mut output[m][j]);
+                }
+                continue;
+            }
+            let [cosine, sine] = [lanes.splat(turn[0]), lanes.splat(turn[1])];
+            x[0] = x[0].rotated(lanes, cosine, sine);
+            let a = butterfly(lanes, x, &weights);
+            for m in 0..R {
+                x[m] = Complex::load(&mirrored[m][j]);
+            }
+            x[0] = x[0].rotated(lanes, cosine, sine);
+            let b = butterfly(lanes, x, &weights);
+            for m in 0..R {
+                let mut sum =
+                    Complex::<L> { re: lanes.add(a[m].im, b[m].re), im: lanes.add(a[m].re, b[m].im) };
+                if m > 0 {
+                    let [cosine, sine] = [lanes.splat(turns[m][0]), lanes.splat(turns[m][1])];
+                    let [across, along] = [lanes.sub(b[m].im, a[m].re), lanes.sub(a[m].im, b[m].re)];
+                    sum = Complex {
+                        re: lanes.mul_add(sine, across, lanes.mul(cosine, sum.re)),
+                        im: lanes.mul_add(sine, along, lanes.mul(cosine, sum.im)),
+                    };
+                }
+                sum.store(&mut output[m][j]);
+            }
+        }
+    }
+}

@@ -1,0 +1,28 @@
+//! The lane engine: both products with SIMD lanes across lines, never inside one transform.
+//!
+//! Lines are transformed [`Lanes::WIDTH`](simd::Lanes::WIDTH) at a time, so that SIMD code is one vector operation per
+//! scalar one. Frequencies stay in the order in which they come out; kernels are stored in that order. Per strip of
+//! columns, forward transform, kernels and inverse transform are done in cache. From the ground: `simd` and
+//! `butterfly` (arithmetic), `plan` (tables), `passes` (one line transform), `rows`, `paired_rows` and `columns` (the stages
+//! of a product), `spectrum` (kernels in the order of the engine), `product` (the whole).
+
+#![expect(
+    clippy::needless_range_loop,
+    clippy::manual_memcpy,
+    reason = "an index runs over several arrays of lanes at once, and vectors must be moved in registers, not by calls"
+)]
+
+mod butterfly;
+mod columns;
+mod memory;
+mod paired_rows;
+mod passes;
+mod plan;
+mod product;
+mod rows;
+mod simd;
+mod spectrum;
+mod threads;
+
+pub(super) use memory::AlignedReals;
+pub(super) use product::{InstructionSet, LaneProduct};

@@ -1,0 +1,182 @@
+//! Row stages of the periodic product: two real rows at a time as the real and imaginary part of one complex row.
+//!
+//! Of the transform `Z` of `a + i b` the transforms of the two are `2 A_k = Z_k + conj(Z_-k)` and
+//! `2 B_k = -i (Z_k - conj(Z_-k))`, wanted for `k = 0..=n/2` only; the factors 2 go into the kernels.
+//! Strips hold the wavenumbers in natural order.
+
+use super::butterfly::{Complex, butterfly, plain_butterfly, splat};
+use super::memory::{Line, as_lines_mut, as_vectors_mut};
+use super::passes::{forward_middle, inverse_middle, load_quad, parts, with_radix};
+use super::plan::LinePlan;
+use super::rows::{Layout, gather_rows, rows_of_strip, scatter_rows};
+use super::simd::{Lanes, MAX_WIDTH, Task};
+
+/// Rows of a field to pairs of groups of the spectrum, from pair `first` on.
+pub struct PairsForward<'a> {
+    pub layout: &'a Layout,
+    pub plan: &'a LinePlan,
+    /// Position of each frequency in the transform.
+    pub positions: &'a [usize],
+    pub field: &'a [f64],
+    pub first: usize,
+    pub pairs: &'a mut [f64],
+    pub scratch: &'a mut [f64],
+}
+
+impl<L: Lanes> Task<L> for PairsForward<'_> {
+    #[inline(always)]
+    fn run(self, lanes: L) {
+        let Self { layout, plan, positions, field, first, pairs, scratch } = self;
+        let [nx, ny] = layout.shape;
+        let (staging_a, scratch) = scratch.split_at_mut(plan.padded_length() * L::WIDTH);
+        let (staging_b, scratch) = scratch.split_at_mut(plan.padded_length() * L::WIDTH);
+        let [staging_a, staging_b] = [as_vectors_mut::<L>(staging_a), as_vectors_mut::<L>(staging_b)];
+        let lines = &mut as_lines_mut::<L>(scratch)[..ny];
+        for (pair, spectrum) in (first..).zip(pairs.chunks_exact_mut(2 * layout.group_stride)) {
+            let begin = (2 * pair * L::WIDTH).min(nx);
+            let middle = (begin + L::WIDTH).min(nx);
+            let end = (middle + L::WIDTH).min(nx);
+            gather_rows(lanes, &field[begin * ny..middle * ny], ny, staging_a);
+            gather_rows(lanes, &field[middle * ny..end * ny], ny, staging_b);
+            with_radix!(plan.outermost(), R => outermost_forward::<L, R>(lanes, plan, staging_a, staging_b, lines));
+            for (block, lines) in lines.chunks_exact_mut(plan.inner_length()).enumerate() {
+                forward_middle(lanes, plan, block, lines);
+            }
+            for (lines, weights) in lines.chunks_exact_mut(4).zip(plan.innermost_forward()) {
+                let x = load_quad(lanes, lines);
+                let y = butterfly(lanes, x, &splat(lanes, weights));
+                for m in 0..4 {
+                    y[m].store(&mut lines[m]);
+                }
+            }
+            let (group_a, group_b) = spectrum.split_at_mut(layout.group_stride);
+            let groups = as_lines_mut::<L>(group_a).chunks_exact_mut(L::WIDTH);
+            let groups =
+                groups.zip(as_lines_mut::<L>(group_b).chunks_exact_mut(L::WIDTH)).take(layout.strips);
+            for (strip, (group_a, group_b)) in groups.enumerate() {
+                let mut a = [[lanes.splat(0.0); MAX_WIDTH]; 2];
+                let mut b = [[lanes.splat(0.0); MAX_WIDTH]; 2];
+                for lane in 0..L::WIDTH.min(ny / 2 + 1 - strip * L::WIDTH) {
+                    let k = strip * L::WIDTH + lane;
+                    let z = lines[positions[k]];
+                    let mirrored = lines[positions[if k == 0 { 0 } else { ny - k }]];
+                    a[0][lane] = lanes.add(z[0], mirrored[0]);
+                    a[1][lane] = lanes.sub(z[1], mirrored[1]);
+                    b[0][lane] = lanes.add(z[1], mirrored[1]);
+                    b[1][lane] = lanes.sub(mirrored[0], z[0]);
+                }
+                for block in a.iter_mut().chain(&mut b) {
+                    lanes.transpose(block);
+                }
+                for row in 0..L::WIDTH {
+                    group_a[row] = [a[0][row], a[1][row]];
+                    group_b[row] = [b[0][row], b[1][row]];
+                }
+            }
+        }
+    }
+}
+
+/// Rows of an output from the strips of its spectrum, from pair `first` of row groups on.
+pub struct PairsInverse<'a> {
+    pub layout: &'a Layout,
+    pub plan: &'a LinePlan,
+    /// Position of each frequency in the transform.
+    pub positions: &'a [usize],
+    /// Spectra from the first strip of this output on.
+    pub spectrum: &'a [f64],
+    pub first: usize,
+    pub rows: &'a mut [f64],
+    pub scratch: &'a mut [f64],
+}
+
+impl<L: Lanes> Task<L> for PairsInverse<'_> {
+    #[inline(always)]
+    fn run(self, lanes: L) {
+        let Self { layout, plan, positions, spectrum, first, rows, scratch } = self;
+        let ny = layout.shape[1];
+        let (staging_a, scratch) = scratch.split_at_mut(plan.padded_length() * L::WIDTH);
+        let (staging_b, scratch) = scratch.split_at_mut(plan.padded_length() * L::WIDTH);
+        let [staging_a, staging_b] = [as_vectors_mut::<L>(staging_a), as_vectors_mut::<L>(staging_b)];
+        let lines = &mut as_lines_mut::<L>(scratch)[..ny];
+        for (pair, rows) in (first..).zip(rows.chunks_mut(2 * L::WIDTH * ny)) {
+            for strip in 0..layout.strips {
+                let (mut a_re, mut a_im) = rows_of_strip(lanes, layout, spectrum, strip, 2 * pair);
+                let (mut b_re, mut b_im) = rows_of_strip(lanes, layout, spectrum, strip, 2 * pair + 1);
+                for block in [&mut a_re, &mut a_im, &mut b_re, &mut b_im] {
+                    lanes.transpose(block);
+                }
+                for lane in 0..L::WIDTH.min(ny / 2 + 1 - strip * L::WIDTH) {
+                    let k = strip * L::WIDTH + lane;
+                    // Swapped: imaginary part first.
+                    lines[positions[k]] =
+                        [lanes.add(a_im[lane], b_re[lane]), lanes.sub(a_re[lane], b_im[lane])];
+                    if k > 0 && 2 * k < ny {
+                        lines[positions[ny - k]] =
+                            [lanes.sub(b_re[lane], a_im[lane]), lanes.add(a_re[lane], b_im[lane])];
+                    }
+                }
+            }
+            for lines in lines.chunks_exact_mut(4) {
+                let x = load_quad(lanes, lines);
+                let y = plain_butterfly(lanes, x);
+                for m in 0..4 {
+                    y[m].store(&mut lines[m]);
+                }
+            }
+            for lines in lines.chunks_exact_mut(plan.inner_length()) {
+                inverse_middle(lanes, plan, lines);
+            }
+            with_radix!(plan.outermost(), R => outermost_inverse::<L, R>(lanes, plan, lines, staging_a, staging_b));
+            let (rows_a, rows_b) = rows.split_at_mut(rows.len().min(L::WIDTH * ny));
+            scatter_rows(lanes, staging_a, rows_a, ny);
+            scatter_rows(lanes, staging_b, rows_b, ny);
+        }
+    }
+}
+
+#[inline(always)]
+fn outermost_forward<L: Lanes, const R: usize>(
+    lanes: L,
+    plan: &LinePlan,
+    real: &[L::Reals],
+    imaginary: &[L::Reals],
+    lines: &mut [Line<L>],
+) {
+    let places = plan.inner_length();
+    let weights = splat(lanes, &plan.forward(0)[0]);
+    let parts = parts::<L, R>(lines, places);
+    for j in 0..places {
+        let mut x = [Complex::zero(lanes); R];
+        for m in 0..R {
+            x[m] = Complex { re: real[m * places + j], im: imaginary[m * places + j] };
+        }
+        let y = butterfly(lanes, x, &weights);
+        for m in 0..R {
+            y[m].store(&mut parts[m][j]);
+        }
+    }
+}
+
+#[inline(always)]
+fn outermost_inverse<L: Lanes, const R: usize>(
+    lanes: L,
+    plan: &LinePlan,
+    lines: &mut [Line<L>],
+    real: &mut [L::Reals],
+    imaginary: &mut [L::Reals],
+) {
+    let places = plan.inner_length();
+    let parts = parts::<L, R>(lines, places);
+    for (j, weights) in plan.inverse(0).iter().enumerate() {
+        let mut x = [Complex::zero(lanes); R];
+        for m in 0..R {
+            x[m] = Complex::load(&parts[m][j]);
+        }
+        let y = butterfly(lanes, x, &splat(lanes, weights));
+        for m in 0..R {
+            real[m * places + j] = y[m].im;
+            imaginary[m * places + j] = y[m].re;
+        }
+    }
+}

@@ -1,0 +1,348 @@
+//! The products of the lane engine: tables, kernels, and the order of the stages.
+
+use ndarray::s;
+
+use super::super::block::Terms;
+use super::super::lengths::good_length;
+use super::super::line_product::folded_indices;
+use super::super::{Kernel, Parity};
+use super::columns::{Columns, Term};
+use super::memory::{AlignedReals, CACHE_LINE};
+use super::paired_rows::{PairsForward, PairsInverse};
+use super::plan::LinePlan;
+use super::rows::{Layout, RowsForward, RowsInverse};
+use super::simd::{Lanes, Portable};
+use super::spectrum::KernelColumns;
+use super::threads::{Scratch, divide, pieces};
+
+/// Most fields that go through the column stage together.
+const MAX_FIELDS: usize = 3;
+
+/// Shortest line: an outermost and an innermost pass.
+const SHORTEST: usize = 8;
+
+/// The instruction sets the engine is compiled for.
+#[derive(Clone, Copy)]
+pub enum InstructionSet {
+    Portable,
+    #[cfg(target_arch = "x86_64")]
+    Avx2(pulp::x86::V3),
+    #[cfg(target_arch = "x86_64")]
+    Avx512(pulp::x86::V4),
+}
+
+impl InstructionSet {
+    /// All that this machine has, fastest first.
+    pub fn available() -> Vec<Self> {
+        let mut available = Vec::new();
+        #[cfg(target_arch = "x86_64")]
+        {
+            available.extend(pulp::x86::V4::try_new().map(Self::Avx512));
+            available.extend(pulp::x86::V3::try_new().map(Self::Avx2));
+        }
+        available.push(Self::Portable);
+        available
+    }
+
+    /// What it is called.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Portable => "portable lanes",
+            #[cfg(target_arch = "x86_64")]
+            Self::Avx2(_) => "AVX2 lanes",
+            #[cfg(target_arch = "x86_64")]
+            Self::Avx512(_) => "AVX-512 lanes",
+        }
+    }
+
+    fn width(self) -> usize {
+        match self {
+            Self::Portable => Portable::WIDTH,
+            #[cfg(target_arch = "x86_64")]
+            Self::Avx2(_) => pulp::x86::V3::WIDTH,
+            #[cfg(target_arch = "x86_64")]
+            Self::Avx512(_) => pulp::x86::V4::WIDTH,
+        }
+    }
+}
+
+/// Runs a task on an instruction set.
+macro_rules! enter {
+    ($set:expr, $task:expr) => {
+        match $set {
+            InstructionSet::Portable => Portable.enter($task),
+            #[cfg(target_arch = "x86_64")]
+            InstructionSet::Avx2(lanes) => lanes.enter($task),
+            #[cfg(target_arch = "x86_64")]
+            InstructionSet::Avx512(lanes) => lanes.enter($task),
+        }
+    };
+}
+
+/// What differs between the two products.
+enum Boundary {
+    FreeSpace,
+    /// With the position of each frequency in the transform along `y`.
+    Periodic {
+        positions: Vec<usize>,
+    },
+}
+
+/// A product on the lane engine.
+pub struct LaneProduct {
+    set: InstructionSet,
+    boundary: Boundary,
+    layout: Layout,
+    along_x: LinePlan,
+    along_y: LinePlan,
+    inputs: usize,
+    outputs: usize,
+    /// Per output.
+    terms: Vec<Vec<Term>>,
+    kernel_count: usize,
+    kernels: AlignedReals,
+}
+
+impl LaneProduct {
+    /// Whether the engine takes as many fields.
+    pub fn takes(terms: &Terms) -> bool {
+        terms.inputs <= MAX_FIELDS && terms.outputs <= MAX_FIELDS
+    }
+
+    /// Free-space product from the quadrants of the kernels; any shape.
+    pub fn free_space(set: InstructionSet, terms: &Terms, kernels: &[Kernel<'_>]) -> Self {
+        let [nx, ny] = terms.shape.map(|n| good_length(n).max(SHORTEST));
+        let mut product = Self::planned(set, terms, Boundary::FreeSpace, [nx, ny], 0.25, ny);
+        let [cells_x, cells_y] = terms.shape;
+        let scale = 1.0 / (2.0 * nx as f64 * ny as f64);
+        let mut rows = AlignedReals::zeros(product.input_len());
+        let mut scratch = AlignedReals::zeros(product.scratch_len());
+        let mut quadrant = vec![0.0; terms.cells()];
+        for (index, &Kernel { values, parity }) in kernels.iter().enumerate() {
+            // Twice the values, but those on the axes once: the transform of a quadrant stands for all four.
+            let sign = if parity == Parity::OddOdd { -4.0 * scale } else { 4.0 * scale };
+            let values = values.slice(s![..cells_x, ..cells_y]);
+            for (i, (row, values)) in quadrant.chunks_exact_mut(cells_y).zip(values.rows()).enumerate() {
+                let factor = if i == 0 { 0.5 * sign } else { sign };
+                for (to, &from) in row.iter_mut().zip(values) {
+                    *to = factor * from;
+                }
+                row[0] *= 0.5;
+            }
+            let [rows, scratch] = [rows.as_mut_slice(), scratch.as_mut_slice()];
+            let field = quadrant.as_slice();
+            let Self { layout, along_x, along_y, kernel_count, kernels: to, .. } = &mut product;
+            let (layout, plan) = (&*layout, &*along_y);
+            enter!(set, RowsForward { layout, plan, field, first: 0, groups: rows, scratch });
+            let (plan, kernel, kernel_count, kernels) = (&*along_x, index, *kernel_count, to.as_mut_slice());
+            let odd = parity.odd();
+            enter!(set, KernelColumns { layout, plan, rows, odd, kernel, kernel_count, kernels, scratch });
+        }
+        product
+    }
+
+    /// Periodic product from the quadrants of the symbols; lengths must be good and at least 8.
+    pub fn periodic(set: InstructionSet, terms: &Terms, symbols: &[Kernel<'_>]) -> Self {
+        let [nx, ny] = terms.shape;
+        let mut positions = vec![0; ny];
+        let boundary = Boundary::Periodic { positions: Vec::new() };
+        let mut product = Self::planned(set, terms, boundary, [nx, ny], 0.0, ny / 2 + 1);
+        for (position, frequency) in product.along_y.order().into_iter().enumerate() {
+            positions[frequency] = position;
+        }
+        product.boundary = Boundary::Periodic { positions };
+        let order = product.along_x.order();
+        let width = set.width();
+        // The transforms of paired rows come out doubled.
+        let scale = 0.5 / (nx as f64 * ny as f64);
+        let count = product.kernel_count;
+        let kernels = product.kernels.as_mut_slice();
+        for (index, symbol) in symbols.iter().enumerate() {
+            let scale = if symbol.parity == Parity::EvenEven { scale } else { -scale };
+            let odd = symbol.parity.odd();
+            let [folded_x, folded_y] = [folded_indices(nx, odd[0]), folded_indices(ny, odd[1])];
+            for (strip, kernels) in kernels.chunks_exact_mut(nx * count * width).enumerate() {
+                for (place, &kx) in order.iter().enumerate() {
+                    let (a, sign_a) = folded_x[kx];
+                    let values =
+                        &mut kernels[((place / 4 * count + index) * 4 + place % 4) * width..][..width];
+                    for (value, ky) in values.iter_mut().zip(strip * width..=ny / 2) {
+                        let (b, sign_b) = folded_y[ky];
+                        *value = scale * sign_a * sign_b * symbol.values[[a, b]];
+                    }
+                }
+            }
+        }
+        product
+    }
+
+    fn planned(
+        set: InstructionSet,
+        terms: &Terms,
+        boundary: Boundary,
+        [nx, ny]: [usize; 2],
+        fraction: f64,
+        frequencies: usize,
+    ) -> Self {
+        let width = set.width();
+        let strips = frequencies.div_ceil(width);
+        // A cache line or two between groups and strips, against strides that are powers of two.
+        let padding = 2 * CACHE_LINE.max(width);
+        let layout = Layout {
+            shape: terms.shape,
+            column_len: nx,
+            strips,
+            group_stride: strips * width * 2 * width + padding,
+            strip_stride: terms.outputs * nx * 2 * width + padding,
+        };
+        let order = |output| {
+            let blocks = terms.blocks.iter().filter(move |block| block.output == output);
+            let terms = blocks.map(|block| {
+                let parity = terms.parities[block.kernel];
+                let mirrored = if parity.odd()[1] { -block.sign } else { block.sign };
+                let imaginary = parity.is_imaginary();
+                Term { input: block.input, kernel: block.kernel, factors: [block.sign, mirrored], imaginary }
+            });
+            terms.collect()
+        };
+        let kernel_count = terms.parities.len();
+        Self {
+            set,
+            boundary,
+            layout,
+            along_x: LinePlan::new(nx, fraction),
+            along_y: LinePlan::new(ny, fraction),
+            inputs: terms.inputs,
+            outputs: terms.outputs,
+            terms: (0..terms.outputs).map(order).collect(),
+            kernel_count,
+            kernels: AlignedReals::zeros(strips * nx * kernel_count * width),
+        }
+    }
+
+    /// Memory of the kernels, in bytes.
+    pub fn memory_bytes(&self) -> usize {
+        self.kernels.memory_bytes()
+    }
+
+    /// Parts of each column.
+    fn parts(&self) -> usize {
+        match self.boundary {
+            Boundary::FreeSpace => 2,
+            Boundary::Periodic { .. } => 1,
+        }
+    }
+
+    /// Row groups that are transformed together.
+    fn paired(&self) -> usize {
+        3 - self.parts()
+    }
+
+    fn input_len(&self) -> usize {
+        let groups = self.along_x.length().div_ceil(self.set.width()).next_multiple_of(self.paired());
+        groups * self.layout.group_stride
+    }
+
+    fn scratch_len(&self) -> usize {
+        let width = self.set.width();
+        let rows = (2 + self.paired()) * self.along_y.padded_length();
+        let fields = self.inputs.max(self.outputs);
+        let columns = 2 * fields * self.parts() * self.along_x.length();
+        (rows.max(columns) * width).next_multiple_of(CACHE_LINE) + 2 * CACHE_LINE
+    }
+
+    /// Numbers of work space for as many threads.
+    pub fn work_len(&self, threads: usize) -> usize {
+        self.inputs * self.input_len()
+            + self.layout.strips * self.layout.strip_stride
+            + threads.max(1) * self.scratch_len()
+    }
+
+    /// `output = sum of blocks`, with work space for at least one thread.
+    pub fn apply(&self, work: &mut [f64], input: &[&[f64]], output: &mut [&mut [f64]]) {
+        match self.inputs.max(self.outputs) {
+            1 => self.apply_to::<1>(work, input, output),
+            2 => self.apply_to::<2>(work, input, output),
+            _ => self.apply_to::<3>(work, input, output),
+        }
+    }
+
+    fn apply_to<const F: usize>(&self, work: &mut [f64], input: &[&[f64]], output: &mut [&mut [f64]]) {
+        let (spectra, work) = work.split_at_mut(self.inputs * self.input_len());
+        let (strips, numbers) = work.split_at_mut(self.layout.strips * self.layout.strip_stride);
+        let piece_len = self.scratch_len();
+        let pieces = pieces(self.layout.shape, numbers.len() / piece_len);
+        for (field, spectrum) in input.iter().zip(spectra.chunks_exact_mut(self.input_len())) {
+            self.rows_forward(field, spectrum, Scratch { numbers, piece_len }, pieces);
+        }
+        let scratch = Scratch { numbers, piece_len };
+        match self.boundary {
+            Boundary::FreeSpace => self.columns::<F, 2>(spectra, strips, scratch, pieces),
+            Boundary::Periodic { .. } => self.columns::<F, 1>(spectra, strips, scratch, pieces),
+        }
+        let output_len = self.layout.column_len * 2 * self.set.width();
+        for (index, field) in output.iter_mut().enumerate() {
+            self.rows_inverse(&strips[index * output_len..], field, Scratch { numbers, piece_len }, pieces);
+        }
+    }
+
+    fn rows_forward(&self, field: &[f64], spectrum: &mut [f64], scratch: Scratch<'_>, pieces: usize) {
+        let Self { layout, along_y: plan, .. } = self;
+        let chunk = self.paired() * layout.group_stride;
+        divide(
+            spectrum,
+            chunk,
+            scratch,
+            pieces,
+            &|first, groups: &mut [f64], scratch: &mut [f64]| match &self.boundary {
+                Boundary::FreeSpace => {
+                    enter!(self.set, RowsForward { layout, plan, field, first, groups, scratch });
+                }
+                Boundary::Periodic { positions } => {
+                    let pairs = groups;
+                    enter!(self.set, PairsForward { layout, plan, positions, field, first, pairs, scratch });
+                }
+            },
+        );
+    }
+
+    fn columns<const F: usize, const P: usize>(
+        &self,
+        inputs: &[f64],
+        strips: &mut [f64],
+        scratch: Scratch<'_>,
+        pieces: usize,
+    ) {
+        let chunk = self.layout.strip_stride;
+        divide(strips, chunk, scratch, pieces, &|first, strips: &mut [f64], scratch: &mut [f64]| {
+            let columns = Columns::<F, P> {
+                layout: &self.layout,
+                plan: &self.along_x,
+                inputs,
+                input_len: self.input_len(),
+                kernels: self.kernels.as_slice(),
+                kernel_count: self.kernel_count,
+                terms: &self.terms,
+                first,
+                strips,
+                scratch,
+            };
+            enter!(self.set, columns);
+        });
+    }
+
+    fn rows_inverse(&self, spectrum: &[f64], field: &mut [f64], scratch: Scratch<'_>, pieces: usize) {
+        let Self { layout, along_y: plan, .. } = self;
+        let chunk = self.paired() * self.set.width() * layout.shape[1];
+        divide(field, chunk, scratch, pieces, &|first, rows: &mut [f64], scratch: &mut [f64]| match &self
+            .boundary
+        {
+            Boundary::FreeSpace => {
+                enter!(self.set, RowsInverse { layout, plan, spectrum, first, rows, scratch });
+            }
+            Boundary::Periodic { positions } => {
+                enter!(self.set, PairsInverse { layout, plan, positions, spectrum, first, rows, scratch });
+            }
+        });
+    }
+}

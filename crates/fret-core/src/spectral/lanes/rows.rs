@@ -1,0 +1,331 @@
+//! Row stages of the free-space product: real rows to half-shifted frequencies and back.
+//!
+//! A group of as many rows as there are lanes is turned into vectors, transformed, and turned back into strips: lines whose
+//! lanes are neighbouring frequencies of one row.
+
+use super::butterfly::{Complex, butterfly, plain_butterfly, splat};
+use super::memory::{Line, as_lines, as_lines_mut, as_vectors, as_vectors_mut};
+use super::passes::{forward_middle, inverse_middle, load_quad, parts, with_radix};
+use super::plan::LinePlan;
+use super::simd::{Lanes, MAX_WIDTH, Task};
+
+/// Where things are: see the fields.
+#[derive(Debug, Clone, Copy)]
+pub struct Layout {
+    /// Cells of the fields, `[nx, ny]`.
+    pub shape: [usize; 2],
+    /// Lines of a column: the transform length along `x`.
+    pub column_len: usize,
+    /// Strips of frequencies along `y`.
+    pub strips: usize,
+    /// Numbers from one row group to the next, in the spectrum of one input: `[group][strip][row of the group]`.
+    pub group_stride: usize,
+    /// Numbers from one strip to the next in the spectra of the outputs: `[strip][output][row]`.
+    pub strip_stride: usize,
+}
+
+/// Rows of a field to groups of the spectrum, from group `first` on.
+pub struct RowsForward<'a> {
+    pub layout: &'a Layout,
+    pub plan: &'a LinePlan,
+    pub field: &'a [f64],
+    pub first: usize,
+    pub groups: &'a mut [f64],
+    pub scratch: &'a mut [f64],
+}
+
+impl<L: Lanes> Task<L> for RowsForward<'_> {
+    #[inline(always)]
+    fn run(self, lanes: L) {
+        let Self { layout, plan, field, first, groups, scratch } = self;
+        let [nx, ny] = layout.shape;
+        let (staging, scratch) = scratch.split_at_mut(plan.padded_length() * L::WIDTH);
+        let staging = as_vectors_mut::<L>(staging);
+        let lines = &mut as_lines_mut::<L>(scratch)[..plan.padded_length()];
+        for (group, spectrum) in (first..).zip(groups.chunks_exact_mut(layout.group_stride)) {
+            let spectrum = as_lines_mut::<L>(spectrum);
+            let rows = nx.saturating_sub(group * L::WIDTH).min(L::WIDTH);
+            if rows == 0 {
+                spectrum.fill([lanes.splat(0.0); 2]);
+                continue;
+            }
+            gather_rows(lanes, &field[group * L::WIDTH * ny..][..rows * ny], ny, staging);
+            with_radix!(plan.outermost(), R => outermost_forward::<L, R>(lanes, plan, staging, lines));
+            for (block, lines) in lines[..plan.length()].chunks_exact_mut(plan.inner_length()).enumerate() {
+                forward_middle(lanes, plan, block, lines);
+            }
+            lanes.enter(InnermostForward::<L> { plan, lines, spectrum });
+        }
+    }
+}
+
+/// Innermost forward pass, and the turn from vectors across rows to vectors across frequencies.
+struct InnermostForward<'a, L: Lanes> {
+    plan: &'a LinePlan,
+    lines: &'a [Line<L>],
+    spectrum: &'a mut [Line<L>],
+}
+
+impl<L: Lanes> Task<L> for InnermostForward<'_, L> {
+    #[inline(always)]
+    fn run(self, lanes: L) {
+        let weights = self.plan.innermost_forward().chunks_exact(L::WIDTH / 4);
+        let strips = self.lines.chunks_exact(L::WIDTH).zip(weights);
+        for ((lines, weights), strip) in strips.zip(self.spectrum.chunks_exact_mut(L::WIDTH)) {
+            let mut re = [lanes.splat(0.0); MAX_WIDTH];
+            let mut im = [lanes.splat(0.0); MAX_WIDTH];
+            for quad in 0..L::WIDTH / 4 {
+                let x = load_quad(lanes, &lines[4 * quad..4 * quad + 4]);
+                let y = butterfly(lanes, x, &splat(lanes, &weights[quad]));
+                for m in 0..4 {
+                    re[4 * quad + m] = y[m].re;
+                    im[4 * quad + m] = y[m].im;
+                }
+            }
+            lanes.transpose(&mut re);
+            lanes.transpose(&mut im);
+            for row in 0..L::WIDTH {
+                strip[row] = [re[row], im[row]];
+            }
+        }
+    }
+}
+
+/// Rows of an output from the strips of its spectrum, from row group `first` on.
+pub struct RowsInverse<'a> {
+    pub layout: &'a Layout,
+    pub plan: &'a LinePlan,
+    /// Spectra from the first strip of this output on.
+    pub spectrum: &'a [f64],
+    pub first: usize,
+    pub rows: &'a mut [f64],
+    pub scratch: &'a mut [f64],
+}
+
+impl<L: Lanes> Task<L> for RowsInverse<'_> {
+    #[inline(always)]
+    fn run(self, lanes: L) {
+        let Self { layout, plan, spectrum, first, rows, scratch } = self;
+        let ny = layout.shape[1];
+        let (staging, scratch) = scratch.split_at_mut(plan.padded_length() * L::WIDTH);
+        let staging = as_vectors_mut::<L>(staging);
+        let lines = &mut as_lines_mut::<L>(scratch)[..plan.padded_length()];
+        for (group, rows) in (first..).zip(rows.chunks_mut(L::WIDTH * ny)) {
+            lanes.enter(InnermostInverse::<L> { layout, spectrum, group, lines });
+            for lines in lines[..plan.length()].chunks_exact_mut(plan.inner_length()) {
+                inverse_middle(lanes, plan, lines);
+            }
+            with_radix!(plan.outermost(), R => outermost_inverse::<L, R>(lanes, plan, lines, staging));
+            scatter_rows(lanes, staging, rows, ny);
+        }
+    }
+}
+
+/// The turn from vectors across frequencies to vectors across rows, and innermost inverse pass.
+struct InnermostInverse<'a, L: Lanes> {
+    layout: &'a Layout,
+    spectrum: &'a [f64],
+    group: usize,
+    lines: &'a mut [Line<L>],
+}
+
+impl<L: Lanes> Task<L> for InnermostInverse<'_, L> {
+    #[inline(always)]
+    fn run(self, lanes: L) {
+        let Self { layout, spectrum, group, lines } = self;
+        for (strip, lines) in lines.chunks_exact_mut(L::WIDTH).take(layout.strips).enumerate() {
+            let (mut re, mut im) = rows_of_strip(lanes, layout, spectrum, strip, group);
+            lanes.transpose(&mut re);
+            lanes.transpose(&mut im);
+            for quad in 0..L::WIDTH / 4 {
+                let mut x = [Complex::<L>::zero(lanes); 4];
+                for m in 0..4 {
+                    x[m] = Complex { re: im[4 * quad + m], im: re[4 * quad + m] };
+                }
+                let y = plain_butterfly(lanes, x);
+                for m in 0..4 {
+                    y[m].store(&mut lines[4 * quad + m]);
+                }
+            }
+        }
+    }
+}
+
+/// The rows of one group in one strip of the outputs' spectra, real and imaginary parts.
+#[inline(always)]
+pub fn rows_of_strip<L: Lanes>(
+    lanes: L,
+    layout: &Layout,
+    spectrum: &[f64],
+    strip: usize,
+    group: usize,
+) -> ([L::Reals; MAX_WIDTH], [L::Reals; MAX_WIDTH]) {
+    let mut re = [lanes.splat(0.0); MAX_WIDTH];
+    let mut im = [lanes.splat(0.0); MAX_WIDTH];
+    let first = group * L::WIDTH;
+    let rows = layout.column_len.saturating_sub(first).min(L::WIDTH);
+    if rows > 0 {
+        let column = as_lines::<L>(
+            &spectrum[strip * layout.strip_stride + first * 2 * L::WIDTH..][..rows * 2 * L::WIDTH],
+        );
+        if column.len() == L::WIDTH {
+            for row in 0..L::WIDTH {
+                [re[row], im[row]] = column[row];
+            }
+        } else {
+            for (row, line) in column.iter().enumerate() {
+                [re[row], im[row]] = *line;
+            }
+        }
+    }
+    (re, im)
+}
+
+/// Real rows of `ny` numbers to vectors across the rows; what is not there is zero.
+#[inline(always)]
+pub fn gather_rows<L: Lanes>(lanes: L, rows: &[f64], ny: usize, staging: &mut [L::Reals]) {
+    lanes.enter(GatherRows::<L> { rows, ny, staging });
+}
+
+struct GatherRows<'a, L: Lanes> {
+    rows: &'a [f64],
+    ny: usize,
+    staging: &'a mut [L::Reals],
+}
+
+impl<L: Lanes> Task<L> for GatherRows<'_, L> {
+    #[inline(always)]
+    fn run(self, lanes: L) {
+        let full = self.ny / L::WIDTH;
+        let mut whole: [&[L::Reals]; MAX_WIDTH] = [&[]; MAX_WIDTH];
+        let mut rest: [&[f64]; MAX_WIDTH] = [&[]; MAX_WIDTH];
+        for (row, (whole, rest)) in self.rows.chunks_exact(self.ny).zip(whole.iter_mut().zip(&mut rest)) {
+            let (vectors, numbers) = row.split_at(full * L::WIDTH);
+            (*whole, *rest) = (as_vectors::<L>(vectors), numbers);
+        }
+        let mut blocks = self.staging.chunks_exact_mut(L::WIDTH);
+        for (index, vectors) in (&mut blocks).take(full).enumerate() {
+            let mut block = [lanes.splat(0.0); MAX_WIDTH];
+            for row in 0..L::WIDTH {
+                if let Some(vector) = whole[row].get(index) {
+                    block[row] = *vector;
+                }
+            }
+            lanes.transpose(&mut block);
+            for row in 0..L::WIDTH {
+                vectors[row] = block[row];
+            }
+        }
+        for vectors in blocks {
+            let mut block = [lanes.splat(0.0); MAX_WIDTH];
+            for row in 0..L::WIDTH {
+                let mut padded = [0.0; MAX_WIDTH];
+                for (to, from) in padded.iter_mut().zip(rest[row]) {
+                    *to = *from;
+                }
+                block[row] = as_vectors::<L>(&padded)[0];
+                rest[row] = &[];
+            }
+            lanes.transpose(&mut block);
+            for row in 0..L::WIDTH {
+                vectors[row] = block[row];
+            }
+        }
+    }
+}
+
+/// Vectors across rows back to rows of `ny` numbers.
+#[inline(always)]
+pub fn scatter_rows<L: Lanes>(lanes: L, staging: &[L::Reals], rows: &mut [f64], ny: usize) {
+    lanes.enter(ScatterRows::<L> { staging, rows, ny });
+}
+
+struct ScatterRows<'a, L: Lanes> {
+    staging: &'a [L::Reals],
+    rows: &'a mut [f64],
+    ny: usize,
+}
+
+impl<L: Lanes> Task<L> for ScatterRows<'_, L> {
+    #[inline(always)]
+    fn run(self, lanes: L) {
+        let full = self.ny / L::WIDTH;
+        let mut whole: [&mut [L::Reals]; MAX_WIDTH] = std::array::from_fn(|_| Default::default());
+        let mut rest: [&mut [f64]; MAX_WIDTH] = std::array::from_fn(|_| Default::default());
+        for (row, (whole, rest)) in self.rows.chunks_exact_mut(self.ny).zip(whole.iter_mut().zip(&mut rest)) {
+            let (vectors, numbers) = row.split_at_mut(full * L::WIDTH);
+            (*whole, *rest) = (as_vectors_mut::<L>(vectors), numbers);
+        }
+        for (index, vectors) in self.staging.chunks_exact(L::WIDTH).enumerate().take(full + 1) {
+            let mut block = [lanes.splat(0.0); MAX_WIDTH];
+            for row in 0..L::WIDTH {
+                block[row] = vectors[row];
+            }
+            lanes.transpose(&mut block);
+            if index < full {
+                for row in 0..L::WIDTH {
+                    if let Some(vector) = whole[row].get_mut(index) {
+                        *vector = block[row];
+                    }
+                }
+            } else {
+                for row in 0..L::WIDTH {
+                    let mut padded = [0.0; MAX_WIDTH];
+                    as_vectors_mut::<L>(&mut padded)[0] = block[row];
+                    for (to, from) in rest[row].iter_mut().zip(&padded) {
+                        *to = *from;
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// Outermost forward pass on real lines.
+#[inline(always)]
+fn outermost_forward<L: Lanes, const R: usize>(
+    lanes: L,
+    plan: &LinePlan,
+    staging: &[L::Reals],
+    lines: &mut [Line<L>],
+) {
+    let places = plan.inner_length();
+    let weights = splat(lanes, &plan.forward(0)[0]);
+    let parts = parts::<L, R>(&mut lines[..R * places], places);
+    for j in 0..places {
+        let mut x = [Complex::zero(lanes); R];
+        for m in 0..R {
+            x[m].re = staging[m * places + j];
+        }
+        let y = butterfly(lanes, x, &weights);
+        for m in 0..R {
+            y[m].store(&mut parts[m][j]);
+        }
+    }
+}
+
+/// Outermost inverse pass on swapped numbers, of which only the real part of the result is wanted.
+#[inline(always)]
+fn outermost_inverse<L: Lanes, const R: usize>(
+    lanes: L,
+    plan: &LinePlan,
+    lines: &mut [Line<L>],
+    staging: &mut [L::Reals],
+) {
+    let places = plan.inner_length();
+    let turns = plan.output_turns();
+    let parts = parts::<L, R>(&mut lines[..R * places], places);
+    for (j, (weights, [cosine, sine])) in plan.inverse(0).iter().zip(plan.first_turns()).enumerate() {
+        let mut x = [Complex::zero(lanes); R];
+        for m in 0..R {
+            x[m] = Complex::load(&parts[m][j]);
+        }
+        x[0] = x[0].rotated(lanes, lanes.splat(*cosine), lanes.splat(*sine));
+        let y = butterfly(lanes, x, &splat(lanes, weights));
+        staging[j] = y[0].im;
+        for m in 1..R {
+            let [cosine, sine] = [lanes.splat(turns[m][0]), lanes.splat(turns[m][1])];
+            staging[m * places + j] = lanes.negate_mul_add(sine, y[m].re, lanes.mul(cosine, y[m].im));
+        }
+    }
+}

@@ -1,0 +1,66 @@
+//! A product asks for no memory: a solver applies it hundreds of thousands of times.
+
+use std::alloc::{GlobalAlloc, Layout, System};
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use fret_core::spectral::{Block, Convolution, Engine, Kernel, Parity, PeriodicProduct, Symbol};
+use ndarray::Array2;
+
+struct Counting;
+
+static ALLOCATIONS: AtomicUsize = AtomicUsize::new(0);
+
+#[expect(unsafe_code, reason = "an allocator cannot be written without; this one forwards to the system's")]
+// SAFETY: every call is forwarded unchanged to the system allocator, which keeps the contract.
+unsafe impl GlobalAlloc for Counting {
+    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
+        ALLOCATIONS.fetch_add(1, Ordering::Relaxed);
+        // SAFETY: the caller keeps the contract of `alloc`.
+        unsafe { System.alloc(layout) }
+    }
+
+    unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
+        // SAFETY: the caller keeps the contract of `dealloc`.
+        unsafe { System.dealloc(pointer, layout) }
+    }
+}
+
+#[global_allocator]
+static COUNTING: Counting = Counting;
+
+/// Allocations of the second of two equal calls (the first may make a thread set itself up).
+fn allocations(mut call: impl FnMut()) -> usize {
+    call();
+    let before = ALLOCATIONS.load(Ordering::Relaxed);
+    call();
+    ALLOCATIONS.load(Ordering::Relaxed) - before
+}
+
+// One test only: another one at the same time would be counted too.
+#[test]
+fn applying_a_product_allocates_nothing() -> Result<(), Box<dyn std::error::Error>> {
+    let shape = [128, 120];
+    let values = Array2::from_shape_fn(shape, |(i, j)| 1.0 / (1.0 + (i * i + j * j) as f64));
+    let block = Block { output: 0, input: 0, kernel: 0, sign: 1.0 };
+    let input = vec![1.0; 128 * 120];
+    let mut output = vec![0.0; 128 * 120];
+    for threads in [1, 2] {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build()?;
+        for engine in Engine::available() {
+            let parity = Parity::EvenEven;
+            let kernel = Kernel { values: values.view(), parity };
+            let symbol = Symbol { values: values.view(), parity };
+            let free_space = Convolution::on(engine, shape, &[kernel], &[block])?;
+            let periodic = PeriodicProduct::on(engine, shape, &[symbol], &[block])?;
+            let counts = pool.install(|| {
+                let (mut in_free_space, mut in_periodic) = (free_space.workspace(), periodic.workspace());
+                [
+                    allocations(|| free_space.apply(&mut in_free_space, &[&input], &mut [&mut output])),
+                    allocations(|| periodic.apply(&mut in_periodic, &[&input], &mut [&mut output])),
+                ]
+            });
+            assert_eq!(counts, [0, 0], "{engine:?}, {threads} threads");
+        }
+    }
+    Ok(())
+}
