@@ -9,7 +9,9 @@
 
 mod analytic_limits;
 mod coated_limits;
+mod coefficient_tables;
 mod coupled_friction;
 mod fretting_cycles;
 mod invariants;
 mod sliding;
+mod two_bodies;

@@ -1,11 +1,17 @@
 //! The elastic answer of the pair: tractions in, relative surface displacements out.
 //! The one place where kernels meet components and signs: z into the lower body, displacements lower minus upper.
 
+#[cfg(test)]
+mod conformance;
+mod direct;
+
 use ndarray::Array2;
 
 use crate::kernel::InfluenceCoefficients;
 use crate::model::TangentialField;
 use crate::spectral::{Block, Convolution, ConvolutionError, Kernel, Parity, Workspace};
+
+pub use direct::DirectCompliance;
 
 /// Elastic answer of a box of cells. Tractions [pressure], displacements [length]; rows of cells, index `i * ny + j`.
 pub trait SurfaceCompliance {
@@ -83,6 +89,24 @@ const fn block(output: usize, input: usize, kernel: usize, sign: f64) -> Block {
     Block { output, input, kernel, sign }
 }
 
+/// The kernels that the blocks of [`FULL_BLOCKS`] name, each with its parity.
+fn signed_kernels(c: &InfluenceCoefficients) -> [(&Option<Array2<f64>>, Parity); 6] {
+    [
+        (&c.zz, Parity::EvenEven),
+        (&c.xx, Parity::EvenEven),
+        (&c.yy, Parity::EvenEven),
+        (&c.xy, Parity::OddOdd),
+        (&c.zx, Parity::OddEven),
+        (&c.zy, Parity::EvenOdd),
+    ]
+}
+
+/// Influence of a cell on itself; zero where the coefficient is absent.
+fn own_of(c: &InfluenceCoefficients) -> Own {
+    let own = |values: &Option<Array2<f64>>| values.as_ref().map_or(0.0, |values| values[[0, 0]]);
+    Own { normal: own(&c.zz), tangential: own(&c.xx).min(own(&c.yy)) }
+}
+
 /// The kernels of a list of coefficients, each with its parity in x and y.
 fn kernels<'a>(list: &[(&'a Option<Array2<f64>>, Parity)]) -> Vec<Kernel<'a>> {
     list.iter()
@@ -102,7 +126,6 @@ impl SpectralCompliance {
         shape: [usize; 2],
         wanted: Wanted,
     ) -> Result<Self, ConvolutionError> {
-        let c = coefficients;
         let build = |wanted: bool, list: &[(&Option<Array2<f64>>, Parity)], blocks: &[Block]| {
             wanted
                 .then(|| {
@@ -112,22 +135,12 @@ impl SpectralCompliance {
                 })
                 .transpose()
         };
-        let own = |values: &Option<Array2<f64>>| values.as_ref().map_or(0.0, |values| values[[0, 0]]);
-        let normal = [(&c.zz, Parity::EvenEven)];
-        let tangential = [(&c.xx, Parity::EvenEven), (&c.yy, Parity::EvenEven), (&c.xy, Parity::OddOdd)];
-        let full = [
-            normal[0],
-            tangential[0],
-            tangential[1],
-            tangential[2],
-            (&c.zx, Parity::OddEven),
-            (&c.zy, Parity::EvenOdd),
-        ];
+        let full = signed_kernels(coefficients);
         Ok(Self {
             shape,
-            own: Own { normal: own(&c.zz), tangential: own(&c.xx).min(own(&c.yy)) },
-            normal: build(wanted.normal, &normal, &NORMAL_BLOCKS)?,
-            tangential: build(wanted.tangential, &tangential, &TANGENTIAL_BLOCKS)?,
+            own: own_of(coefficients),
+            normal: build(wanted.normal, &full[..1], &NORMAL_BLOCKS)?,
+            tangential: build(wanted.tangential, &full[1..4], &TANGENTIAL_BLOCKS)?,
             full: build(wanted.full, &full, &FULL_BLOCKS)?,
             normal_from_all: build(
                 wanted.normal_from_all,

@@ -100,7 +100,7 @@ impl Step {
 fn test() -> Vec<Step> {
     let mut steps = vec![cargo(&["test", "--release", "--workspace", "--locked"]).called("Rust tests")];
     steps.extend(venv());
-    steps.push(python("Python build", &["-m", "pip", "install", "--quiet", ".", "pytest", "numpy"]));
+    steps.push(python("Python build", &["-m", "pip", "install", "--quiet", ".", "pytest", "mypy", "xarray"]));
     steps.push(python("Python tests", &["-m", "pytest", "python/tests"]));
     steps
 }

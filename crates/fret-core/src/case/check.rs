@@ -4,14 +4,12 @@ use std::ops::Range;
 
 use toml::Spanned;
 
-use super::file::{
-    BodyFile, CaseFile, CoatingFile, FrictionFile, OutputFile, ProfileFile, RampFile, SizeFile, StageFile,
-};
+use super::file::{BodyFile, CaseFile, FrictionFile, OutputFile, ProfileFile, RampFile, SizeFile, StageFile};
 use super::refusal::Mistake;
-use super::{Case, Course, FIELD_NAMES, GridSize, Origin, Output, Stage, StageControl};
+use super::{Case, Course, FIELD_NAMES, GridSize, Origin, Output, Stage, StageControl, coating};
+use crate::kernel::sublayers::{RESPONSE_BOUND, SublayerError, layered_half_space};
 use crate::model::{
-    Base, Body, Coating, ContactPair, CoulombFriction, ElasticMaterial, HalfSpace, MaterialError, Profile,
-    ProfileError,
+    Base, Body, ContactPair, CoulombFriction, ElasticMaterial, Layer, MaterialError, Profile, ProfileError,
 };
 
 /// Cells along one side of the grid, at the most.
@@ -24,12 +22,17 @@ const MOST_INCREMENTS: usize = 10_000_000;
 const TOLERANCE: f64 = 1e-8;
 
 /// Collects mistakes; `None` stands for a value that was refused.
-struct Judge {
+pub(super) struct Judge {
     mistakes: Vec<Mistake>,
 }
 
 impl Judge {
-    fn refuse<T>(&mut self, span: Range<usize>, message: impl Into<String>, help: &str) -> Option<T> {
+    pub(super) fn refuse<T>(
+        &mut self,
+        span: Range<usize>,
+        message: impl Into<String>,
+        help: &str,
+    ) -> Option<T> {
         let help = (!help.is_empty()).then(|| help.to_owned());
         self.mistakes.push(Mistake { message: message.into(), help, span: Some(span) });
         None
@@ -172,35 +175,33 @@ fn body(judge: &mut Judge, which: &str, given: &Spanned<BodyFile>) -> Option<Bod
             "rigid = true, or substrate = { young = ..., poisson = ... }, or base = \"rigid\" under coatings",
         ),
     };
-    let coatings: Option<Vec<Coating>> = match &body.coatings {
+    let layers: Option<Vec<Layer>> = match &body.coatings {
         None => Some(Vec::new()),
         Some(list) => {
-            let checked: Vec<Option<Coating>> = list
+            let checked: Vec<Option<Layer>> = list
                 .get_ref()
                 .iter()
                 .enumerate()
-                .map(|(index, coating)| self::coating(judge, &format!("{which}.coatings[{index}]"), coating))
+                .map(|(index, entry)| coating::layer(judge, &format!("{which}.coatings[{index}]"), entry))
                 .collect();
             checked.into_iter().collect()
         }
     };
-    match HalfSpace::new(coatings?, base?) {
+    match layered_half_space(&layers?, base?, RESPONSE_BOUND) {
         Ok(half_space) => Some(Body::Elastic(half_space)),
-        Err(error) => judge.refuse(given.span(), format!("{which}: {error}"), ""),
+        Err(error @ SublayerError::TooSteep { .. }) => {
+            let span = body.coatings.as_ref().map_or(given.span(), Spanned::span);
+            judge.refuse(
+                span,
+                format!("{which}.coatings: {error}"),
+                "a modulus that changes less, or gradient.layers = ... to be content with so many",
+            )
+        }
+        Err(SublayerError::Material(error)) => judge.refuse(given.span(), format!("{which}: {error}"), ""),
     }
 }
 
-fn coating(judge: &mut Judge, place: &str, given: &CoatingFile) -> Option<Coating> {
-    let material = material(judge, place, &given.young, &given.poisson);
-    let thickness = *given.thickness.get_ref();
-    if !(thickness.is_finite() && thickness > 0.0) {
-        let message = format!("{place}.thickness = {thickness:?}: must be a positive finite length");
-        return judge.refuse(given.thickness.span(), message, "");
-    }
-    Coating::new(material?, thickness).ok()
-}
-
-fn material(
+pub(super) fn material(
     judge: &mut Judge,
     place: &str,
     young: &Spanned<f64>,

@@ -111,7 +111,7 @@ pub(super) struct BodyFile {
     pub rigid: Option<Spanned<bool>>,
     /// Bonded coatings, outermost first.
     #[schemars(with = "Option<Vec<CoatingFile>>")]
-    pub coatings: Option<Spanned<Vec<CoatingFile>>>,
+    pub coatings: Option<Spanned<Vec<Spanned<CoatingFile>>>>,
     /// The elastic half-space under the coatings.
     #[schemars(with = "Option<MaterialFile>")]
     pub substrate: Option<Spanned<MaterialFile>>,
@@ -128,19 +128,51 @@ pub(super) enum BaseFile {
     Rigid,
 }
 
-/// A bonded layer.
+/// A bonded layer: uniform (`young`), or of a stiffness that changes with depth (`gradient`).
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(super) struct CoatingFile {
     /// Thickness [length], positive.
     #[schemars(with = "f64")]
     pub thickness: Spanned<f64>,
-    /// Young's modulus [pressure], positive.
-    #[schemars(with = "f64")]
-    pub young: Spanned<f64>,
-    /// Poisson's ratio, above -1, at most 0.5.
+    /// Young's modulus [pressure], positive; instead of a gradient.
+    #[schemars(with = "Option<f64>")]
+    pub young: Option<Spanned<f64>>,
+    /// Young's modulus over the depth; instead of `young`.
+    #[schemars(with = "Option<GradientFile>")]
+    pub gradient: Option<Spanned<GradientFile>>,
+    /// Poisson's ratio, above -1, at most 0.5; the same at every depth.
     #[schemars(with = "f64")]
     pub poisson: Spanned<f64>,
+}
+
+/// Young's modulus over the depth of a coating: `young` at both faces and the `law` between them, or a `table`.
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(super) struct GradientFile {
+    /// Young's modulus at the coating's surface and at its lower face [pressure], positive.
+    #[schemars(with = "Option<[f64; 2]>")]
+    pub young: Option<Spanned<[f64; 2]>>,
+    /// How it runs from one to the other.
+    #[schemars(with = "Option<LawFile>")]
+    pub law: Option<Spanned<LawFile>>,
+    /// Rows of depth [length] and Young's modulus [pressure], depths rising from 0 to the thickness; linear between them.
+    #[schemars(with = "Option<Vec<[f64; 2]>>")]
+    pub table: Option<Spanned<Vec<[f64; 2]>>>,
+    /// Number of uniform sublayers that stand for the coating; when not given, as many as keep the surface's response
+    /// within 1e-4 of itself.
+    #[schemars(with = "Option<usize>")]
+    pub layers: Option<Spanned<usize>>,
+}
+
+/// How Young's modulus runs over the depth.
+#[derive(Debug, Clone, Copy, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub(super) enum LawFile {
+    /// By equal factors over equal depths.
+    Exponential,
+    /// By equal differences over equal depths.
+    Linear,
 }
 
 /// An isotropic elastic material.

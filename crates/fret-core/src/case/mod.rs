@@ -1,6 +1,7 @@
 //! The written question: a case, checked. Read from TOML text (`read`), judged all at once (`check`), refused with places (`refusal`).
 
 mod check;
+mod coating;
 mod file;
 mod read;
 mod refusal;

@@ -62,7 +62,8 @@ pub(super) fn case(text: &str, name: &str) -> Result<Case, CaseError> {
                     mistakes.push(mistake(&error, Some(span.clone())));
                 }
                 let message = error.message();
-                let taken = match (near_miss(message), stand_in(message)) {
+                let renamed = near_miss(message).filter(|_| message.starts_with("unknown field"));
+                let taken = match (renamed, stand_in(message)) {
                     (Some(meant), _) => take_at(root.get_mut(), &span, &Instead::Renamed(meant)),
                     (None, Some(value)) => take_at(root.get_mut(), &span, &Instead::Value(value)),
                     (None, None) => take_at(root.get_mut(), &span, &Instead::Nothing),
@@ -134,8 +135,11 @@ enum Instead {
     Value(DeValue<'static>),
 }
 
-/// A harmless value of the type that serde's message expected.
+/// A harmless value of the type, or one of the words, that serde's message expected.
 fn stand_in(message: &str) -> Option<DeValue<'static>> {
+    if message.starts_with("unknown variant") {
+        return message.split('`').nth(3).map(|word| DeValue::String(word.to_owned().into()));
+    }
     if !message.starts_with("invalid type") {
         return None;
     }

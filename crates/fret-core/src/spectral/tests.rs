@@ -379,6 +379,11 @@ fn the_content_and_the_origin_of_a_workspace_do_not_matter() {
         small.apply(|_, output| small_product.apply(&mut workspace, &[infinite.as_slice(); 3], output));
         let found = small.apply(|input, output| small_product.apply(&mut workspace, input, output));
         assert_eq!(found, small.convolve(engine));
+        let periodic = PeriodicProduct::on(engine, small.shape, &small.symbols(), &small.blocks).unwrap();
+        let clean = small.apply(|input, output| periodic.apply(&mut periodic.workspace(), input, output));
+        small.apply(|_, output| periodic.apply(&mut workspace, &[infinite.as_slice(); 3], output));
+        let found = small.apply(|input, output| periodic.apply(&mut workspace, input, output));
+        assert_eq!(found, clean);
     }
 }
 

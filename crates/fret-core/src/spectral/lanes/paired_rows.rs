@@ -4,19 +4,37 @@
 //! `2 B_k = -i (Z_k - conj(Z_-k))`, wanted for `k = 0..=n/2` only; the factors 2 go into the kernels.
 //! Strips hold the wavenumbers in natural order.
 
-use super::butterfly::{Complex, butterfly, plain_butterfly, splat};
+use super::butterfly::{Complex, Weights, butterfly, plain_butterfly, splat};
 use super::memory::{Line, as_lines_mut, as_vectors_mut};
 use super::passes::{forward_middle, inverse_middle, load_quad, parts, with_radix};
 use super::plan::LinePlan;
 use super::rows::{Layout, gather_rows, rows_of_strip, scatter_rows};
 use super::simd::{Lanes, MAX_WIDTH, Task};
 
+/// Where the frequencies `k` and `-k` come out of the transform of a pair of rows.
+#[derive(Debug, Clone, Copy)]
+pub struct Places {
+    pub direct: usize,
+    pub mirrored: usize,
+}
+
+/// Places of the frequencies `0..=n/2`, filled up to `count` with the place of a spare line behind the transform.
+pub fn places(order: &[usize], count: usize) -> Vec<Places> {
+    let n = order.len();
+    let mut positions = vec![0; n];
+    for (position, &frequency) in order.iter().enumerate() {
+        positions[frequency] = position;
+    }
+    let of_frequency = |k: usize| Places { direct: positions[k], mirrored: positions[(n - k) % n] };
+    let spare = Places { direct: n, mirrored: n };
+    (0..count).map(|k| if k <= n / 2 { of_frequency(k) } else { spare }).collect()
+}
+
 /// Rows of a field to pairs of groups of the spectrum, from pair `first` on.
 pub struct PairsForward<'a> {
     pub layout: &'a Layout,
     pub plan: &'a LinePlan,
-    /// Position of each frequency in the transform.
-    pub positions: &'a [usize],
+    pub places: &'a [Places],
     pub field: &'a [f64],
     pub first: usize,
     pub pairs: &'a mut [f64],
@@ -26,12 +44,12 @@ pub struct PairsForward<'a> {
 impl<L: Lanes> Task<L> for PairsForward<'_> {
     #[inline(always)]
     fn run(self, lanes: L) {
-        let Self { layout, plan, positions, field, first, pairs, scratch } = self;
+        let Self { layout, plan, places, field, first, pairs, scratch } = self;
         let [nx, ny] = layout.shape;
         let (staging_a, scratch) = scratch.split_at_mut(plan.padded_length() * L::WIDTH);
         let (staging_b, scratch) = scratch.split_at_mut(plan.padded_length() * L::WIDTH);
         let [staging_a, staging_b] = [as_vectors_mut::<L>(staging_a), as_vectors_mut::<L>(staging_b)];
-        let lines = &mut as_lines_mut::<L>(scratch)[..ny];
+        let lines = &mut as_lines_mut::<L>(scratch)[..=ny];
         for (pair, spectrum) in (first..).zip(pairs.chunks_exact_mut(2 * layout.group_stride)) {
             let begin = (2 * pair * L::WIDTH).min(nx);
             let middle = (begin + L::WIDTH).min(nx);
@@ -39,39 +57,56 @@ impl<L: Lanes> Task<L> for PairsForward<'_> {
             gather_rows(lanes, &field[begin * ny..middle * ny], ny, staging_a);
             gather_rows(lanes, &field[middle * ny..end * ny], ny, staging_b);
             with_radix!(plan.outermost(), R => outermost_forward::<L, R>(lanes, plan, staging_a, staging_b, lines));
-            for (block, lines) in lines.chunks_exact_mut(plan.inner_length()).enumerate() {
+            for (block, lines) in lines[..ny].chunks_exact_mut(plan.inner_length()).enumerate() {
                 forward_middle(lanes, plan, block, lines);
             }
-            for (lines, weights) in lines.chunks_exact_mut(4).zip(plan.innermost_forward()) {
-                let x = load_quad(lanes, lines);
-                let y = butterfly(lanes, x, &splat(lanes, weights));
-                for m in 0..4 {
-                    y[m].store(&mut lines[m]);
-                }
-            }
             let (group_a, group_b) = spectrum.split_at_mut(layout.group_stride);
-            let groups = as_lines_mut::<L>(group_a).chunks_exact_mut(L::WIDTH);
-            let groups =
-                groups.zip(as_lines_mut::<L>(group_b).chunks_exact_mut(L::WIDTH)).take(layout.strips);
-            for (strip, (group_a, group_b)) in groups.enumerate() {
-                let mut a = [[lanes.splat(0.0); MAX_WIDTH]; 2];
-                let mut b = [[lanes.splat(0.0); MAX_WIDTH]; 2];
-                for lane in 0..L::WIDTH.min(ny / 2 + 1 - strip * L::WIDTH) {
-                    let k = strip * L::WIDTH + lane;
-                    let z = lines[positions[k]];
-                    let mirrored = lines[positions[if k == 0 { 0 } else { ny - k }]];
-                    a[0][lane] = lanes.add(z[0], mirrored[0]);
-                    a[1][lane] = lanes.sub(z[1], mirrored[1]);
-                    b[0][lane] = lanes.add(z[1], mirrored[1]);
-                    b[1][lane] = lanes.sub(mirrored[0], z[0]);
-                }
-                for block in a.iter_mut().chain(&mut b) {
-                    lanes.transpose(block);
-                }
-                for row in 0..L::WIDTH {
-                    group_a[row] = [a[0][row], a[1][row]];
-                    group_b[row] = [b[0][row], b[1][row]];
-                }
+            let [group_a, group_b] = [as_lines_mut::<L>(group_a), as_lines_mut::<L>(group_b)];
+            let weights = plan.innermost_forward();
+            lanes.enter(Separate::<L> { weights, places, lines, group_a, group_b });
+        }
+    }
+}
+
+/// Innermost forward pass, and the spectra of both rows from that of the pair.
+struct Separate<'a, L: Lanes> {
+    weights: &'a [Weights],
+    places: &'a [Places],
+    /// One line more than the transform has.
+    lines: &'a mut [Line<L>],
+    group_a: &'a mut [Line<L>],
+    group_b: &'a mut [Line<L>],
+}
+
+impl<L: Lanes> Task<L> for Separate<'_, L> {
+    #[inline(always)]
+    fn run(self, lanes: L) {
+        let lines = self.lines;
+        for (lines, weights) in lines.chunks_exact_mut(4).zip(self.weights) {
+            let y = butterfly(lanes, load_quad(lanes, lines), &splat(lanes, weights));
+            for m in 0..4 {
+                y[m].store(&mut lines[m]);
+            }
+        }
+        let groups = self.group_a.chunks_exact_mut(L::WIDTH).zip(self.group_b.chunks_exact_mut(L::WIDTH));
+        for (places, (group_a, group_b)) in self.places.chunks_exact(L::WIDTH).zip(groups) {
+            let mut a = [[lanes.splat(0.0); MAX_WIDTH]; 2];
+            let mut b = [[lanes.splat(0.0); MAX_WIDTH]; 2];
+            for lane in 0..L::WIDTH {
+                let z = lines[places[lane].direct];
+                let mirrored = lines[places[lane].mirrored];
+                a[0][lane] = lanes.add(z[0], mirrored[0]);
+                a[1][lane] = lanes.sub(z[1], mirrored[1]);
+                b[0][lane] = lanes.add(z[1], mirrored[1]);
+                b[1][lane] = lanes.sub(mirrored[0], z[0]);
+            }
+            lanes.transpose(&mut a[0]);
+            lanes.transpose(&mut a[1]);
+            lanes.transpose(&mut b[0]);
+            lanes.transpose(&mut b[1]);
+            for row in 0..L::WIDTH {
+                group_a[row] = [a[0][row], a[1][row]];
+                group_b[row] = [b[0][row], b[1][row]];
             }
         }
     }
@@ -81,8 +116,7 @@ impl<L: Lanes> Task<L> for PairsForward<'_> {
 pub struct PairsInverse<'a> {
     pub layout: &'a Layout,
     pub plan: &'a LinePlan,
-    /// Position of each frequency in the transform.
-    pub positions: &'a [usize],
+    pub places: &'a [Places],
     /// Spectra from the first strip of this output on.
     pub spectrum: &'a [f64],
     pub first: usize,
@@ -93,44 +127,59 @@ pub struct PairsInverse<'a> {
 impl<L: Lanes> Task<L> for PairsInverse<'_> {
     #[inline(always)]
     fn run(self, lanes: L) {
-        let Self { layout, plan, positions, spectrum, first, rows, scratch } = self;
+        let Self { layout, plan, places, spectrum, first, rows, scratch } = self;
         let ny = layout.shape[1];
         let (staging_a, scratch) = scratch.split_at_mut(plan.padded_length() * L::WIDTH);
         let (staging_b, scratch) = scratch.split_at_mut(plan.padded_length() * L::WIDTH);
         let [staging_a, staging_b] = [as_vectors_mut::<L>(staging_a), as_vectors_mut::<L>(staging_b)];
-        let lines = &mut as_lines_mut::<L>(scratch)[..ny];
+        let lines = &mut as_lines_mut::<L>(scratch)[..=ny];
         for (pair, rows) in (first..).zip(rows.chunks_mut(2 * L::WIDTH * ny)) {
-            for strip in 0..layout.strips {
-                let (mut a_re, mut a_im) = rows_of_strip(lanes, layout, spectrum, strip, 2 * pair);
-                let (mut b_re, mut b_im) = rows_of_strip(lanes, layout, spectrum, strip, 2 * pair + 1);
-                for block in [&mut a_re, &mut a_im, &mut b_re, &mut b_im] {
-                    lanes.transpose(block);
-                }
-                for lane in 0..L::WIDTH.min(ny / 2 + 1 - strip * L::WIDTH) {
-                    let k = strip * L::WIDTH + lane;
-                    // Swapped: imaginary part first.
-                    lines[positions[k]] =
-                        [lanes.add(a_im[lane], b_re[lane]), lanes.sub(a_re[lane], b_im[lane])];
-                    if k > 0 && 2 * k < ny {
-                        lines[positions[ny - k]] =
-                            [lanes.sub(b_re[lane], a_im[lane]), lanes.add(a_re[lane], b_im[lane])];
-                    }
-                }
-            }
-            for lines in lines.chunks_exact_mut(4) {
-                let x = load_quad(lanes, lines);
-                let y = plain_butterfly(lanes, x);
-                for m in 0..4 {
-                    y[m].store(&mut lines[m]);
-                }
-            }
-            for lines in lines.chunks_exact_mut(plan.inner_length()) {
+            lanes.enter(Join::<L> { layout, spectrum, places, pair, lines });
+            for lines in lines[..ny].chunks_exact_mut(plan.inner_length()) {
                 inverse_middle(lanes, plan, lines);
             }
             with_radix!(plan.outermost(), R => outermost_inverse::<L, R>(lanes, plan, lines, staging_a, staging_b));
             let (rows_a, rows_b) = rows.split_at_mut(rows.len().min(L::WIDTH * ny));
             scatter_rows(lanes, staging_a, rows_a, ny);
             scatter_rows(lanes, staging_b, rows_b, ny);
+        }
+    }
+}
+
+/// The spectrum of a pair of rows from those of both, with real and imaginary part exchanged, and innermost inverse pass.
+struct Join<'a, L: Lanes> {
+    layout: &'a Layout,
+    spectrum: &'a [f64],
+    places: &'a [Places],
+    pair: usize,
+    /// One line more than the transform has.
+    lines: &'a mut [Line<L>],
+}
+
+impl<L: Lanes> Task<L> for Join<'_, L> {
+    #[inline(always)]
+    fn run(self, lanes: L) {
+        let Self { layout, spectrum, places, pair, lines } = self;
+        for (strip, places) in places.chunks_exact(L::WIDTH).enumerate() {
+            let (mut a_re, mut a_im) = rows_of_strip(lanes, layout, spectrum, strip, 2 * pair);
+            let (mut b_re, mut b_im) = rows_of_strip(lanes, layout, spectrum, strip, 2 * pair + 1);
+            lanes.transpose(&mut a_re);
+            lanes.transpose(&mut a_im);
+            lanes.transpose(&mut b_re);
+            lanes.transpose(&mut b_im);
+            for lane in 0..L::WIDTH {
+                // Mirrored first: at the ends of the spectrum both are one place.
+                lines[places[lane].mirrored] =
+                    [lanes.sub(b_re[lane], a_im[lane]), lanes.add(a_re[lane], b_im[lane])];
+                lines[places[lane].direct] =
+                    [lanes.add(a_im[lane], b_re[lane]), lanes.sub(a_re[lane], b_im[lane])];
+            }
+        }
+        for lines in lines.chunks_exact_mut(4) {
+            let y = plain_butterfly(lanes, load_quad(lanes, lines));
+            for m in 0..4 {
+                y[m].store(&mut lines[m]);
+            }
         }
     }
 }

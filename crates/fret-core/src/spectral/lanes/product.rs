@@ -8,7 +8,7 @@ use super::super::line_product::folded_indices;
 use super::super::{Kernel, Parity};
 use super::columns::{Columns, Term};
 use super::memory::{AlignedReals, CACHE_LINE};
-use super::paired_rows::{PairsForward, PairsInverse};
+use super::paired_rows::{PairsForward, PairsInverse, Places, places};
 use super::plan::LinePlan;
 use super::rows::{Layout, RowsForward, RowsInverse};
 use super::simd::{Lanes, Portable};
@@ -82,9 +82,9 @@ macro_rules! enter {
 /// What differs between the two products.
 enum Boundary {
     FreeSpace,
-    /// With the position of each frequency in the transform along `y`.
+    /// With the places of the frequencies in the transform along `y`.
     Periodic {
-        positions: Vec<usize>,
+        places: Vec<Places>,
     },
 }
 
@@ -117,25 +117,31 @@ impl LaneProduct {
         let scale = 1.0 / (2.0 * nx as f64 * ny as f64);
         let mut rows = AlignedReals::zeros(product.input_len());
         let mut scratch = AlignedReals::zeros(product.scratch_len());
-        let mut quadrant = vec![0.0; terms.cells()];
-        for (index, &Kernel { values, parity }) in kernels.iter().enumerate() {
+        let Self { layout, along_x, along_y, kernel_count, kernels: transformed, .. } = &mut product;
+        let (rows, scratch) = (rows.as_mut_slice(), scratch.as_mut_slice());
+        let mut quadrant = vec![0.0; set.width() * cells_y];
+        for (kernel, &Kernel { values, parity }) in kernels.iter().enumerate() {
             // Twice the values, but those on the axes once: the transform of a quadrant stands for all four.
             let sign = if parity == Parity::OddOdd { -4.0 * scale } else { 4.0 * scale };
             let values = values.slice(s![..cells_x, ..cells_y]);
-            for (i, (row, values)) in quadrant.chunks_exact_mut(cells_y).zip(values.rows()).enumerate() {
-                let factor = if i == 0 { 0.5 * sign } else { sign };
-                for (to, &from) in row.iter_mut().zip(values) {
-                    *to = factor * from;
+            for (group, groups) in rows.chunks_exact_mut(layout.group_stride).enumerate() {
+                let first = (group * set.width()).min(cells_x);
+                let values = values.slice(s![first..(first + set.width()).min(cells_x), ..]);
+                for (row, values) in quadrant.chunks_exact_mut(cells_y).zip(values.rows()) {
+                    for (to, &from) in row.iter_mut().zip(values) {
+                        *to = sign * from;
+                    }
+                    row[0] *= 0.5;
                 }
-                row[0] *= 0.5;
+                if group == 0 {
+                    quadrant[..cells_y].iter_mut().for_each(|value| *value *= 0.5);
+                }
+                let layout = &Layout { shape: [values.nrows(), cells_y], ..*layout };
+                let field = quadrant.as_slice();
+                enter!(set, RowsForward { layout, plan: &*along_y, field, first: 0, groups, scratch });
             }
-            let [rows, scratch] = [rows.as_mut_slice(), scratch.as_mut_slice()];
-            let field = quadrant.as_slice();
-            let Self { layout, along_x, along_y, kernel_count, kernels: to, .. } = &mut product;
-            let (layout, plan) = (&*layout, &*along_y);
-            enter!(set, RowsForward { layout, plan, field, first: 0, groups: rows, scratch });
-            let (plan, kernel, kernel_count, kernels) = (&*along_x, index, *kernel_count, to.as_mut_slice());
-            let odd = parity.odd();
+            let (layout, plan, kernel_count, odd) = (&*layout, &*along_x, *kernel_count, parity.odd());
+            let kernels = transformed.as_mut_slice();
             enter!(set, KernelColumns { layout, plan, rows, odd, kernel, kernel_count, kernels, scratch });
         }
         product
@@ -144,13 +150,10 @@ impl LaneProduct {
     /// Periodic product from the quadrants of the symbols; lengths must be good and at least 8.
     pub fn periodic(set: InstructionSet, terms: &Terms, symbols: &[Kernel<'_>]) -> Self {
         let [nx, ny] = terms.shape;
-        let mut positions = vec![0; ny];
-        let boundary = Boundary::Periodic { positions: Vec::new() };
+        let boundary = Boundary::Periodic { places: Vec::new() };
         let mut product = Self::planned(set, terms, boundary, [nx, ny], 0.0, ny / 2 + 1);
-        for (position, frequency) in product.along_y.order().into_iter().enumerate() {
-            positions[frequency] = position;
-        }
-        product.boundary = Boundary::Periodic { positions };
+        let count = product.layout.strips * set.width();
+        product.boundary = Boundary::Periodic { places: places(&product.along_y.order(), count) };
         let order = product.along_x.order();
         let width = set.width();
         // The transforms of paired rows come out doubled.
@@ -298,9 +301,9 @@ impl LaneProduct {
                 Boundary::FreeSpace => {
                     enter!(self.set, RowsForward { layout, plan, field, first, groups, scratch });
                 }
-                Boundary::Periodic { positions } => {
+                Boundary::Periodic { places } => {
                     let pairs = groups;
-                    enter!(self.set, PairsForward { layout, plan, positions, field, first, pairs, scratch });
+                    enter!(self.set, PairsForward { layout, plan, places, field, first, pairs, scratch });
                 }
             },
         );
@@ -340,8 +343,8 @@ impl LaneProduct {
             Boundary::FreeSpace => {
                 enter!(self.set, RowsInverse { layout, plan, spectrum, first, rows, scratch });
             }
-            Boundary::Periodic { positions } => {
-                enter!(self.set, PairsInverse { layout, plan, positions, spectrum, first, rows, scratch });
+            Boundary::Periodic { places } => {
+                enter!(self.set, PairsInverse { layout, plan, places, spectrum, first, rows, scratch });
             }
         });
     }
