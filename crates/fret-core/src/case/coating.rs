@@ -223,6 +223,7 @@ mod tests {
         assert_eq!(refused(thickness).1, "-0.5");
         let steep =
             "{ thickness = 0.5, poisson = 0.3, gradient = { young = [1e-13, 1.0], law = \"linear\" } }";
-        assert!(refused(steep).0.contains("4096 sublayers"));
+        let error = read(steep).unwrap_err();
+        assert!(error.mistakes().len() == 1 && error.to_string().contains("4096 sublayers"), "{error}");
     }
 }
