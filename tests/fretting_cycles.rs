@@ -38,7 +38,10 @@ fn figure_2_of_the_paper_all_along_the_loop() {
         } else {
             Branch::Reloading
         };
-        let point = cycle.at(branch, step.tangential_force[0]).unwrap();
+        // The sum of the shears is the force up to rounding; at the turns it must not exceed the amplitude.
+        let amplitude = AMPLITUDE * FRICTION * sphere.force();
+        let pull = step.tangential_force[0].clamp(-amplitude, amplitude);
+        let point = cycle.at(branch, pull).unwrap();
         let shear = &kept.shear.as_ref().unwrap()[0];
         let mut square = 0.0;
         let mut inside = 0.0;

@@ -51,14 +51,15 @@ fn graded(
             false
         }
     };
-    let sublayers = sublayers(judge, place, gradient.layers.as_ref());
+    let has_count = can_be_built(judge, place, gradient.layers.as_ref());
+    let sublayers = gradient.layers.as_ref().map(|count| *count.get_ref());
     let young = young(judge, place, given, gradient);
-    if !has_poisson || !has_thickness {
+    if !has_poisson || !has_thickness || !has_count {
         return None;
     }
     let young = young?;
     match GradedCoating::new(young, poisson, *given.thickness.get_ref()) {
-        Ok(coating) => Some(Layer::Graded { coating, sublayers: sublayers? }),
+        Ok(coating) => Some(Layer::Graded { coating, sublayers }),
         Err(error) => {
             let key = if gradient.table.is_some() { "table" } else { "young" };
             let span = gradient.table.as_ref().map(Spanned::span);
@@ -75,17 +76,17 @@ fn graded(
     }
 }
 
-/// The number of sublayers asked for; the inner `None`: left to the error bound.
-fn sublayers(judge: &mut Judge, place: &str, given: Option<&Spanned<usize>>) -> Option<Option<usize>> {
-    match given {
-        None => Some(None),
-        Some(count) if (1..=MOST_SUBLAYERS).contains(count.get_ref()) => Some(Some(*count.get_ref())),
-        Some(count) => judge.refuse(
-            count.span(),
-            format!("{place}.gradient.layers = {}: must lie between 1 and {MOST_SUBLAYERS}", count.get_ref()),
-            "leave it out: the number is then chosen by an error bound",
-        ),
-    }
+/// Whether the number of sublayers, when it is given, is one that can be built.
+fn can_be_built(judge: &mut Judge, place: &str, given: Option<&Spanned<usize>>) -> bool {
+    let Some(count) = given.filter(|count| !(1..=MOST_SUBLAYERS).contains(count.get_ref())) else {
+        return true;
+    };
+    judge.refuse::<()>(
+        count.span(),
+        format!("{place}.gradient.layers = {}: must lie between 1 and {MOST_SUBLAYERS}", count.get_ref()),
+        "leave it out: the number is then chosen by an error bound",
+    );
+    false
 }
 
 /// The modulus over the depth, as it is written; its numbers are judged later.

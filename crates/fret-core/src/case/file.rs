@@ -159,8 +159,7 @@ pub(super) struct GradientFile {
     /// Rows of depth [length] and Young's modulus [pressure], depths rising from 0 to the thickness; linear between them.
     #[schemars(with = "Option<Vec<[f64; 2]>>")]
     pub table: Option<Spanned<Vec<[f64; 2]>>>,
-    /// Number of uniform sublayers that stand for the coating; when not given, as many as keep the surface's response
-    /// within 1e-4 of itself.
+    /// Number of uniform sublayers; when not given, as many as keep the surface's response within 1e-4 of itself.
     #[schemars(with = "Option<usize>")]
     pub layers: Option<Spanned<usize>>,
 }

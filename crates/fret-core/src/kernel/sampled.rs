@@ -1,5 +1,6 @@
 //! Influence coefficients by sampling the frequency response on an extended grid: the conversion most of the literature uses.
-//! For comparisons only; [`influence_coefficients`](super::influence_coefficients) is exact and cheaper.
+//! For comparisons only: [`influence_coefficients`](super::influence_coefficients) is right to rounding at the price of
+//! an extension by four.
 
 use std::f64::consts::TAU;
 
@@ -19,10 +20,10 @@ use crate::spectral::{Parity, Symbol, inverse_table};
 /// the sample is replaced: `zz` by the response at the wavenumber whose reciprocal is the mean of `1/k` over the frequency cell,
 /// `xx` and `yy` likewise with the directions weighted, the others by 0.
 ///
-/// What this does to the result: waves shorter than two cells are cut off (15 % of the own cell's value, whatever the
-/// extension); the images of the load stand `extension` grids apart and shift all values (1e-2 of a distant cell's value, by the
-/// grid's end 1e-1 and more; with `extension = 1` they stand so near that offsets beyond half the grid are theirs). Zero
-/// counts as one. Cost of `extension^2` times as many responses as cells, and as large a transform per component.
+/// What this does to the result: waves shorter than two cells are cut off (up to 15 % of the own cell's value, whatever the
+/// extension), and the images of the load, `extension` grids apart, shift all values: 1e-2 of a distant cell's value, 4e-2 and
+/// more at the grid's end. With `extension = 1` offsets beyond half the grid are those of the next image; 0 counts as 1.
+/// Cost: `extension^2` times as many responses as cells, and a transform as large for each component.
 pub fn sampled_coefficients(
     pair: &ContactPair,
     cells: [usize; 2],

@@ -7,8 +7,7 @@ use crate::kernel::{Components, influence_coefficients};
 use crate::model::{
     Base, Body, ContactState, Control, CoulombFriction, ElasticMaterial, LoadStep, Profile, SurfaceGrid,
 };
-use crate::plan::Coupling;
-use crate::solver::{ContactSolver, SolveError, SolverSettings};
+use crate::solver::{ContactSolver, Coupling, SolveError, SolverSettings};
 
 /// Cells a side of the coarse grid.
 const COARSE: usize = 48;

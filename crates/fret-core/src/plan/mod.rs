@@ -7,6 +7,7 @@ use serde::Serialize;
 use crate::case::{Case, CaseError, GridSize};
 use crate::kernel::PairResponse;
 use crate::model::{Body, SurfaceGrid};
+pub use crate::solver::Coupling;
 use extent::{automatic_size, reaches_beyond};
 
 /// Something the scene does not need.
@@ -18,18 +19,6 @@ pub struct LeftOut {
     pub why: String,
     /// What that saves.
     pub saves: String,
-}
-
-/// How pressure and shear act on each other.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Coupling {
-    /// No friction: pressure alone.
-    Frictionless,
-    /// Shear does not move the surfaces normally: pressure first, then shear.
-    Uncoupled,
-    /// Pressure and shear together.
-    Coupled,
 }
 
 /// A case ready to be computed.

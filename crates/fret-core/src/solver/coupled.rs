@@ -210,6 +210,7 @@ impl Frozen<'_, '_> {
     ) -> Tractions {
         let len = gap.len();
         let rigid = RigidProjector::new(self.tangential, self.zones);
+        preconditioner.freeze(self.zones);
         let mut residual = Tractions::zeros(len);
         for &cell in &self.zones.contact {
             residual.pressure[cell] = -gap[cell];

@@ -22,11 +22,10 @@ use crate::edge;
 use crate::history::Work;
 use crate::kernel::InfluenceCoefficients;
 use crate::model::{ContactState, Control, CoulombFriction, LoadStep, SurfaceGrid};
-use crate::plan::Coupling;
 use crate::spectral::{ConvolutionError, good_length};
 
 pub use scene::{Outcome, Resultants};
-pub use settings::{SolveError, SolverSettings, Watch};
+pub use settings::{Coupling, SolveError, SolverSettings, Watch};
 
 use coupled::{Displacements, Tractions};
 use preconditioner::Preconditioner;

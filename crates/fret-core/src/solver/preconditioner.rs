@@ -26,6 +26,8 @@ pub struct Preconditioner {
     shear: Option<[(PeriodicProduct, Workspace); 2]>,
     /// Smallest symbol of the tangential response [length/pressure].
     softest: f64,
+    /// Weights of the two levels in the cells of the frozen zones.
+    weights: [Vec<f64>; 2],
     scaled: TangentialField,
     part: TangentialField,
     /// Passes so far.
@@ -94,6 +96,7 @@ impl Preconditioner {
             normal,
             shear,
             softest,
+            weights: [Vec::new(), Vec::new()],
             scaled: TangentialField::zeros(len),
             part: TangentialField::zeros(len),
             passes: 0,
@@ -108,40 +111,45 @@ impl Preconditioner {
         }
     }
 
-    /// Shears that would remove tangential displacements `right` on the frozen zones, restricted to what these leave free:
-    /// a partition of unity over the slip stiffness between two levels.
-    pub fn shear(&mut self, right: &TangentialField, zones: &Zones, shear: &mut TangentialField) {
-        let Some(levels) = &mut self.shear else { return };
+    /// Prepares [`Preconditioner::shear`] for frozen zones: a partition of unity over the slip stiffness between two levels.
+    pub fn freeze(&mut self, zones: &Zones) {
         let softest = self.softest;
+        let span = STIFF_LEVEL.ln();
         let stiff = zones
             .contact
             .iter()
             .any(|&cell| zones.freedom[cell] == Freedom::Slip && zones.stiffness[cell] > softest);
+        for weights in &mut self.weights {
+            weights.clear();
+        }
+        for &cell in &zones.contact {
+            let stiffness = zones.stiffness[cell];
+            let share = if stiffness <= softest { 0.0 } else { ((stiffness / softest).ln() / span).min(1.0) };
+            self.weights[0].push(((1.0 - share) * softest / (softest + stiffness)).sqrt());
+            if stiff {
+                self.weights[1].push((share * (1.0 + STIFF_LEVEL) * softest / (softest + stiffness)).sqrt());
+            }
+        }
+    }
+
+    /// Shears that would remove tangential displacements `right` on the zones last frozen, restricted to what these leave
+    /// free.
+    pub fn shear(&mut self, right: &TangentialField, zones: &Zones, shear: &mut TangentialField) {
+        let Some(levels) = &mut self.shear else { return };
         shear.clear();
-        let span = STIFF_LEVEL.ln();
-        for (level, (product, workspace)) in levels.iter_mut().enumerate() {
-            if level == 1 && !stiff {
+        for ((product, workspace), weights) in levels.iter_mut().zip(&self.weights) {
+            if weights.is_empty() {
                 continue;
             }
-            let shift = if level == 0 { 0.0 } else { STIFF_LEVEL * softest };
-            let scale = |cell: usize| -> f64 {
-                let stiffness = zones.stiffness[cell];
-                let share =
-                    if stiffness <= softest { 0.0 } else { ((stiffness / softest).ln() / span).min(1.0) };
-                let weight = if level == 0 { 1.0 - share } else { share };
-                (weight * (softest + shift) / (softest + stiffness)).sqrt()
-            };
             self.scaled.clear();
-            for &cell in &zones.contact {
-                let factor = scale(cell);
-                self.scaled.set(cell, [factor * right.x[cell], factor * right.y[cell]]);
+            for (&cell, weight) in zones.contact.iter().zip(weights) {
+                self.scaled.set(cell, [weight * right.x[cell], weight * right.y[cell]]);
             }
             self.passes += 1;
             product.apply(workspace, &self.scaled.parts(), &mut [&mut self.part.x, &mut self.part.y]);
-            for &cell in &zones.contact {
-                let factor = scale(cell);
-                shear.x[cell] += factor * self.part.x[cell];
-                shear.y[cell] += factor * self.part.y[cell];
+            for (&cell, weight) in zones.contact.iter().zip(weights) {
+                shear.x[cell] += weight * self.part.x[cell];
+                shear.y[cell] += weight * self.part.y[cell];
             }
         }
         zones.keep_free(shear);

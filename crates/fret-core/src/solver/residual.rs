@@ -136,15 +136,9 @@ impl TangentialTask<'_> {
         stiffness: f64,
         guess: [f64; 3],
     ) -> [f64; 3] {
-        let total: f64 = self.contact.iter().map(|&cell| self.bound[cell]).sum();
-        if total <= 0.0 {
+        let discs = Discs::new(self, q, s, stiffness);
+        if discs.total <= 0.0 {
             return [0.0; 3];
-        }
-        let mut spread = 0.0_f64;
-        for &cell in self.contact {
-            spread = spread.max((q.x[cell] - stiffness * s.x[cell]).abs());
-            spread = spread.max((q.y[cell] - stiffness * s.y[cell]).abs());
-            spread = spread.max(self.bound[cell]);
         }
         let mut motion = [0.0; 3];
         for mode in 0..3 {
@@ -152,33 +146,35 @@ impl TangentialTask<'_> {
                 motion[mode] = stiffness * guess[mode];
             }
         }
-        let mut here = self.potential(q, s, stiffness, &motion);
-        let at_zero = self.potential(q, s, stiffness, &[0.0; 3]);
-        if at_zero.value < here.value {
-            motion = [0.0; 3];
-            here = at_zero;
+        let mut here = discs.potential(&motion);
+        if size(&here.defect) > 0.5 * discs.total {
+            // A guess far off: nothing moved may be nearer.
+            let at_rest = discs.potential(&[0.0; 3]);
+            if at_rest.value < here.value {
+                motion = [0.0; 3];
+                here = at_rest;
+            }
         }
-        let size = |defect: &[f64; 3]| defect.iter().map(|d| d * d).sum::<f64>().sqrt();
         for _ in 0..60 {
             let defect = size(&here.defect);
-            if defect <= 4e-16 * total {
+            if defect <= 4e-16 * discs.total {
                 break;
             }
             let mut change = self.modes.solve(&here.curvature, &here.defect.map(|d| -d));
             let length = size(&change);
-            if length > 2.0 * spread {
-                change = change.map(|c| c * 2.0 * spread / length);
+            if length > 2.0 * discs.spread {
+                change = change.map(|c| c * 2.0 * discs.spread / length);
             }
             let slope: f64 = change.iter().zip(&here.defect).map(|(c, d)| c * d).sum();
             if slope >= 0.0 {
                 break;
             }
+            let slack = 1e-15 * (here.value.abs() + discs.total * discs.spread);
             let mut share = 1.0;
             let mut accepted = false;
             for _ in 0..30 {
                 let trial = [0, 1, 2].map(|mode| motion[mode] + share * change[mode]);
-                let there = self.potential(q, s, stiffness, &trial);
-                let slack = 1e-15 * (here.value.abs() + total * spread);
+                let there = discs.potential(&trial);
                 if there.value <= here.value + 1e-4 * share * slope
                     || (there.value <= here.value + slack && size(&there.defect) < defect)
                 {
@@ -189,71 +185,109 @@ impl TangentialTask<'_> {
                 }
                 share *= 0.5;
             }
-            if !accepted {
+            if !accepted || (size(&here.defect) > 0.5 * defect && size(&here.defect) < 1e-14 * discs.total) {
                 break;
             }
         }
         motion.map(|m| m / stiffness)
     }
+}
 
-    fn potential(
-        &self,
-        q: &TangentialField,
-        s: &TangentialField,
-        stiffness: f64,
-        motion: &[f64; 3],
-    ) -> Potential {
-        let mut value = 0.0;
-        let mut defect = self.resultant.map(|target| -target);
-        let mut curvature = [[0.0; 3]; 3];
-        let rotates = self.modes.by_force[2];
-        let mut straight = [0.0; 3];
-        for &cell in self.contact {
-            let rigid = self.modes.displacement(motion, cell);
-            let v =
-                [q.x[cell] - stiffness * s.x[cell] + rigid[0], q.y[cell] - stiffness * s.y[cell] + rigid[1]];
-            let limit = self.bound[cell];
-            let square = v[0] * v[0] + v[1] * v[1];
-            let (image, share, along) = if square <= limit * limit {
-                value += 0.5 * square;
-                (v, 1.0, [0.0; 2])
+fn size(vector: &[f64; 3]) -> f64 {
+    vector.iter().map(|v| v * v).sum::<f64>().sqrt()
+}
+
+/// The vectors `q - r s` of the cells in contact with the radii of their discs, gathered for many looks.
+struct Discs<'a> {
+    task: &'a TangentialTask<'a>,
+    x: Vec<f64>,
+    y: Vec<f64>,
+    limit: Vec<f64>,
+    /// Sum of the radii.
+    total: f64,
+    /// Largest component of a vector, or radius.
+    spread: f64,
+}
+
+impl<'a> Discs<'a> {
+    fn new(task: &'a TangentialTask<'_>, q: &TangentialField, s: &TangentialField, stiffness: f64) -> Self {
+        let gathered = |q: &[f64], s: &[f64]| -> Vec<f64> {
+            task.contact.iter().map(|&cell| q[cell] - stiffness * s[cell]).collect()
+        };
+        let limit: Vec<f64> = task.contact.iter().map(|&cell| task.bound[cell]).collect();
+        let (x, y) = (gathered(&q.x, &s.x), gathered(&q.y, &s.y));
+        let total = sum(&limit);
+        let spread = x.iter().chain(&y).chain(&limit).fold(0.0_f64, |most, value| most.max(value.abs()));
+        Self { task, x, y, limit, total, spread }
+    }
+
+    fn potential(&self, motion: &[f64; 3]) -> Potential {
+        let mut potential =
+            if self.task.modes.by_force[2] { self.with_rotation(motion) } else { self.straight(motion) };
+        for mode in 0..3 {
+            if self.task.modes.by_force[mode] {
+                potential.value -= motion[mode] * self.task.resultant[mode];
+                potential.defect[mode] -= self.task.resultant[mode];
             } else {
-                let size = square.sqrt();
-                value += limit * (size - 0.5 * limit);
-                let along = [v[0] / size, v[1] / size];
-                ([limit * along[0], limit * along[1]], limit / size, along)
-            };
-            if rotates {
-                let products = self.modes.products(image, cell);
-                for mode in 0..3 {
-                    defect[mode] += products[mode];
-                    let a = self.modes.mode(mode, cell);
-                    let an = a[0] * along[0] + a[1] * along[1];
-                    for (other, entry) in curvature[mode].iter_mut().enumerate() {
-                        let b = self.modes.mode(other, cell);
-                        let bn = b[0] * along[0] + b[1] * along[1];
-                        *entry += share * (a[0] * b[0] + a[1] * b[1] - an * bn);
-                    }
-                }
-            } else {
-                defect[0] += image[0];
-                defect[1] += image[1];
-                straight[0] += share * (1.0 - along[0] * along[0]);
-                straight[1] += share * (1.0 - along[1] * along[1]);
-                straight[2] -= share * along[0] * along[1];
+                potential.defect[mode] = 0.0;
             }
         }
-        if !rotates {
-            curvature[0][0] = straight[0];
-            curvature[1][1] = straight[1];
-            curvature[0][1] = straight[2];
-            curvature[1][0] = straight[2];
+        potential
+    }
+
+    /// Sums over the cells when no rotation is sought.
+    fn straight(&self, motion: &[f64; 3]) -> Potential {
+        let mut value = 0.0;
+        let mut force = [0.0; 2];
+        let mut curvature = [0.0; 3];
+        let prescribed = self.task.modes.displacement(motion, 0);
+        for ((x, y), &limit) in self.x.iter().zip(&self.y).zip(&self.limit) {
+            let v = [x + prescribed[0], y + prescribed[1]];
+            let square = v[0] * v[0] + v[1] * v[1];
+            let length = square.sqrt();
+            let inside = length <= limit;
+            let share = if inside { 1.0 } else { limit / length };
+            let along = if inside { [0.0, 0.0] } else { [v[0] / length, v[1] / length] };
+            value += if inside { 0.5 * square } else { limit * (length - 0.5 * limit) };
+            force[0] += share * v[0];
+            force[1] += share * v[1];
+            curvature[0] += share * (1.0 - along[0] * along[0]);
+            curvature[1] += share * (1.0 - along[1] * along[1]);
+            curvature[2] -= share * along[0] * along[1];
         }
-        for mode in 0..3 {
-            if self.modes.by_force[mode] {
-                value -= motion[mode] * self.resultant[mode];
-            } else {
-                defect[mode] = 0.0;
+        let [xx, yy, xy] = curvature;
+        Potential {
+            value,
+            defect: [force[0], force[1], 0.0],
+            curvature: [[xx, xy, 0.0], [xy, yy, 0.0], [0.0; 3]],
+        }
+    }
+
+    /// Sums over the cells with all three motions.
+    fn with_rotation(&self, motion: &[f64; 3]) -> Potential {
+        let modes = self.task.modes;
+        let mut value = 0.0;
+        let mut defect = [0.0; 3];
+        let mut curvature = [[0.0; 3]; 3];
+        for (index, &cell) in self.task.contact.iter().enumerate() {
+            let rigid = modes.displacement(motion, cell);
+            let v = [self.x[index] + rigid[0], self.y[index] + rigid[1]];
+            let limit = self.limit[index];
+            let length = (v[0] * v[0] + v[1] * v[1]).sqrt();
+            let inside = length <= limit;
+            let share = if inside { 1.0 } else { limit / length };
+            let along = if inside { [0.0, 0.0] } else { [v[0] / length, v[1] / length] };
+            value += if inside { 0.5 * length * length } else { limit * (length - 0.5 * limit) };
+            let products = modes.products([share * v[0], share * v[1]], cell);
+            for mode in 0..3 {
+                defect[mode] += products[mode];
+                let a = modes.mode(mode, cell);
+                let an = a[0] * along[0] + a[1] * along[1];
+                for other in 0..3 {
+                    let b = modes.mode(other, cell);
+                    let bn = b[0] * along[0] + b[1] * along[1];
+                    curvature[mode][other] += share * (a[0] * b[0] + a[1] * b[1] - an * bn);
+                }
             }
         }
         Potential { value, defect, curvature }

@@ -2,6 +2,20 @@
 
 use std::ops::ControlFlow;
 
+use serde::Serialize;
+
+/// How pressure and shear act on each other.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Coupling {
+    /// No friction: pressure alone.
+    Frictionless,
+    /// Shear does not move the surfaces normally: pressure first, then shear.
+    Uncoupled,
+    /// Pressure and shear together.
+    Coupled,
+}
+
 /// Limits of the solver.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SolverSettings {

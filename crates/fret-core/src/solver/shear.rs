@@ -97,6 +97,7 @@ impl Frozen<'_, '_> {
     ) -> bool {
         let len = self.task.bound.len();
         let rigid = RigidProjector::new(self.task, self.zones);
+        preconditioner.freeze(self.zones);
         let mut rho = s.clone();
         rho.x.iter_mut().chain(rho.y.iter_mut()).for_each(|value| *value = -*value);
         self.zones.keep_free(&mut rho);
