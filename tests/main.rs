@@ -13,5 +13,6 @@ mod coefficient_tables;
 mod coupled_friction;
 mod fretting_cycles;
 mod invariants;
+mod periodic;
 mod sliding;
 mod two_bodies;

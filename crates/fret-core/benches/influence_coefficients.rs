@@ -9,7 +9,7 @@ use std::error::Error;
 use std::fmt::Write;
 use std::time::Instant;
 
-use fret_core::compliance::{SpectralCompliance, SurfaceCompliance, Wanted};
+use fret_core::compliance::{SpectralCompliance, SurfaceCompliance, SurfaceResponse, Wanted};
 use fret_core::kernel::sublayers::RESPONSE_BOUND;
 use fret_core::kernel::{
     Components, InfluenceCoefficients, influence_coefficients, layered_half_space, sampled_coefficients,
@@ -110,7 +110,8 @@ fn graded_costs() -> Result<(), Box<dyn Error>> {
 
 fn convolution_seconds(coefficients: &InfluenceCoefficients, n: usize) -> Result<f64, Box<dyn Error>> {
     let wanted = Wanted { full: true, ..Wanted::default() };
-    let mut compliance = SpectralCompliance::new(coefficients, [n, n], wanted)?;
+    let mut compliance =
+        SpectralCompliance::new(&SurfaceResponse::FreeSpace(coefficients.clone()), [n, n], wanted)?;
     let pressure = vec![1.0; n * n];
     let shear = TangentialField { x: vec![0.3; n * n], y: vec![-0.2; n * n] };
     let (mut normal, mut tangential) = (vec![0.0; n * n], TangentialField::zeros(n * n));

@@ -4,12 +4,14 @@
 #[cfg(test)]
 mod conformance;
 mod direct;
+mod product;
 
 use ndarray::Array2;
 
-use crate::kernel::InfluenceCoefficients;
+use crate::kernel::{InfluenceCoefficients, PeriodicSymbols};
 use crate::model::TangentialField;
-use crate::spectral::{Block, Convolution, ConvolutionError, Kernel, Parity, Workspace};
+use crate::spectral::{Block, Convolution, ConvolutionError, Kernel, Parity, PeriodicProduct, Symbol};
+use product::Product;
 
 pub use direct::DirectCompliance;
 
@@ -55,14 +57,30 @@ pub struct Wanted {
     pub normal_from_all: bool,
 }
 
-/// The elastic answer by fast convolution in free space.
+/// How the surface answers, as far as a grid needs to know it.
+#[derive(Debug, Clone)]
+pub enum SurfaceResponse {
+    /// The scene stands alone: coefficients over cell offsets.
+    FreeSpace(InfluenceCoefficients),
+    /// The scene repeats: the response at the grid's own wavenumbers.
+    Periodic(PeriodicSymbols),
+}
+
+impl SurfaceResponse {
+    /// Whether the scene repeats.
+    pub fn is_periodic(&self) -> bool {
+        matches!(self, Self::Periodic(_))
+    }
+}
+
+/// The elastic answer by fast products in Fourier space.
 pub struct SpectralCompliance {
     shape: [usize; 2],
     own: Own,
-    normal: Option<(Convolution, Workspace)>,
-    tangential: Option<(Convolution, Workspace)>,
-    full: Option<(Convolution, Workspace)>,
-    normal_from_all: Option<(Convolution, Workspace)>,
+    normal: Option<Product>,
+    tangential: Option<Product>,
+    full: Option<Product>,
+    normal_from_all: Option<Product>,
     /// Applications so far.
     pub applications: usize,
 }
@@ -107,55 +125,87 @@ fn own_of(c: &InfluenceCoefficients) -> Own {
     Own { normal: own(&c.zz), tangential: own(&c.xx).min(own(&c.yy)) }
 }
 
-/// The kernels of a list of coefficients, each with its parity in x and y.
-fn kernels<'a>(list: &[(&'a Option<Array2<f64>>, Parity)]) -> Vec<Kernel<'a>> {
-    list.iter()
-        .filter_map(|(values, parity)| {
-            values.as_ref().map(|values| Kernel { values: values.view(), parity: *parity })
+/// The symbols that the blocks of [`FULL_BLOCKS`] name, each with its parity.
+fn signed_symbols(symbols: &PeriodicSymbols) -> [(&Option<Array2<f64>>, Parity); 6] {
+    [
+        (&symbols.zz, Parity::EvenEven),
+        (&symbols.xx, Parity::EvenEven),
+        (&symbols.yy, Parity::EvenEven),
+        (&symbols.xy, Parity::OddOdd),
+        (&symbols.zx, Parity::OddEven),
+        (&symbols.zy, Parity::EvenOdd),
+    ]
+}
+
+/// Influence of a cell and of its periodic images on itself: the mean of the symbol over all wavenumbers.
+fn own_in_period(symbols: &PeriodicSymbols, shape: [usize; 2]) -> Own {
+    let times = |index: usize, count: usize| if index == 0 || 2 * index == count { 1.0 } else { 2.0 };
+    let own = |values: &Option<Array2<f64>>| {
+        values.as_ref().map_or(0.0, |values| {
+            let sum: f64 = values
+                .indexed_iter()
+                .map(|((a, b), value)| times(a, shape[0]) * times(b, shape[1]) * value)
+                .sum();
+            sum / (shape[0] * shape[1]) as f64
         })
-        .collect()
+    };
+    Own { normal: own(&symbols.zz), tangential: own(&symbols.xx).min(own(&symbols.yy)) }
 }
 
 impl SpectralCompliance {
-    /// Operators of a box of `shape` cells from coefficients that cover at least its offsets.
+    /// Operators of a box of `shape` cells; in free space the coefficients must cover at least its offsets, periodic symbols
+    /// must be of that very shape.
     ///
     /// # Errors
     /// When a wanted coefficient is missing or does not cover the box.
     pub fn new(
-        coefficients: &InfluenceCoefficients,
+        response: &SurfaceResponse,
         shape: [usize; 2],
         wanted: Wanted,
     ) -> Result<Self, ConvolutionError> {
-        let build = |wanted: bool, list: &[(&Option<Array2<f64>>, Parity)], blocks: &[Block]| {
-            wanted
-                .then(|| {
-                    let convolution = Convolution::new(shape, &kernels(list), blocks)?;
-                    let workspace = convolution.workspace();
-                    Ok((convolution, workspace))
-                })
-                .transpose()
+        let list = match response {
+            SurfaceResponse::FreeSpace(coefficients) => signed_kernels(coefficients),
+            SurfaceResponse::Periodic(symbols) => signed_symbols(symbols),
         };
-        let full = signed_kernels(coefficients);
+        let build = |wanted: bool, members: &[usize], blocks: &[Block]| {
+            if !wanted {
+                return Ok(None);
+            }
+            let there = members.iter().filter_map(|&m| list[m].0.as_ref().map(|values| (values, list[m].1)));
+            let product = match response {
+                SurfaceResponse::FreeSpace(_) => {
+                    let kernels: Vec<Kernel<'_>> =
+                        there.map(|(values, parity)| Kernel { values: values.view(), parity }).collect();
+                    Product::free_space(Convolution::new(shape, &kernels, blocks)?)
+                }
+                SurfaceResponse::Periodic(_) => {
+                    let symbols: Vec<Symbol<'_>> =
+                        there.map(|(values, parity)| Symbol { values: values.view(), parity }).collect();
+                    Product::periodic(PeriodicProduct::new(shape, &symbols, blocks)?)
+                }
+            };
+            Ok(Some(product))
+        };
+        let own = match response {
+            SurfaceResponse::FreeSpace(coefficients) => own_of(coefficients),
+            SurfaceResponse::Periodic(symbols) => own_in_period(symbols, shape),
+        };
         Ok(Self {
             shape,
-            own: own_of(coefficients),
-            normal: build(wanted.normal, &full[..1], &NORMAL_BLOCKS)?,
-            tangential: build(wanted.tangential, &full[1..4], &TANGENTIAL_BLOCKS)?,
-            full: build(wanted.full, &full, &FULL_BLOCKS)?,
-            normal_from_all: build(
-                wanted.normal_from_all,
-                &[full[0], full[4], full[5]],
-                &NORMAL_FROM_ALL_BLOCKS,
-            )?,
+            own,
+            normal: build(wanted.normal, &[0], &NORMAL_BLOCKS)?,
+            tangential: build(wanted.tangential, &[1, 2, 3], &TANGENTIAL_BLOCKS)?,
+            full: build(wanted.full, &[0, 1, 2, 3, 4, 5], &FULL_BLOCKS)?,
+            normal_from_all: build(wanted.normal_from_all, &[0, 4, 5], &NORMAL_FROM_ALL_BLOCKS)?,
             applications: 0,
         })
     }
 
     /// `u_z` from pressure and shear; needs the operator of that name.
     pub fn normal_from_all(&mut self, pressure: &[f64], shear: &TangentialField, normal: &mut [f64]) {
-        if let Some((convolution, workspace)) = &mut self.normal_from_all {
+        if let Some(product) = &mut self.normal_from_all {
             self.applications += 1;
-            convolution.apply(workspace, &[pressure, &shear.x, &shear.y], &mut [normal]);
+            product.apply(&[pressure, &shear.x, &shear.y], &mut [normal]);
         }
     }
 
@@ -164,7 +214,7 @@ impl SpectralCompliance {
         [&self.normal, &self.tangential, &self.full, &self.normal_from_all]
             .into_iter()
             .flatten()
-            .map(|(convolution, workspace)| convolution.memory_bytes() + workspace.memory_bytes())
+            .map(Product::memory_bytes)
             .sum()
     }
 }
@@ -179,9 +229,9 @@ impl SurfaceCompliance for SpectralCompliance {
     }
 
     fn normal(&mut self, pressure: &[f64], normal: &mut [f64]) {
-        if let Some((convolution, workspace)) = &mut self.normal {
+        if let Some(product) = &mut self.normal {
             self.applications += 1;
-            convolution.apply(workspace, &[pressure], &mut [normal]);
+            product.apply(&[pressure], &mut [normal]);
         } else {
             let zero = TangentialField::zeros(pressure.len());
             let mut aside = TangentialField::zeros(pressure.len());
@@ -190,9 +240,9 @@ impl SurfaceCompliance for SpectralCompliance {
     }
 
     fn tangential(&mut self, shear: &TangentialField, tangential: &mut TangentialField) {
-        if let Some((convolution, workspace)) = &mut self.tangential {
+        if let Some(product) = &mut self.tangential {
             self.applications += 1;
-            convolution.apply(workspace, &shear.parts(), &mut [&mut tangential.x, &mut tangential.y]);
+            product.apply(&shear.parts(), &mut [&mut tangential.x, &mut tangential.y]);
         } else {
             let zero = vec![0.0; shear.x.len()];
             let mut aside = vec![0.0; shear.x.len()];
@@ -207,10 +257,10 @@ impl SurfaceCompliance for SpectralCompliance {
         normal: &mut [f64],
         tangential: &mut TangentialField,
     ) {
-        if let Some((convolution, workspace)) = &mut self.full {
+        if let Some(product) = &mut self.full {
             self.applications += 1;
             let input = [pressure, &shear.x, &shear.y];
-            convolution.apply(workspace, &input, &mut [normal, &mut tangential.x, &mut tangential.y]);
+            product.apply(&input, &mut [normal, &mut tangential.x, &mut tangential.y]);
         } else {
             debug_assert!(self.normal.is_some() && self.tangential.is_some(), "no operator was asked for");
             self.normal(pressure, normal);

@@ -5,8 +5,9 @@ use std::ops::ControlFlow;
 use std::time::Instant;
 
 use crate::case::Stage;
+use crate::compliance::SurfaceResponse;
 use crate::history::{History, KeptFields, Residual, StepRecord};
-use crate::kernel::{Components, influence_coefficients};
+use crate::kernel::{Components, influence_coefficients, periodic_symbols};
 use crate::model::field::largest;
 use crate::model::{ContactState, Control, LoadStep};
 use crate::plan::{Coupling, Plan};
@@ -141,13 +142,28 @@ impl<'a> Simulation<'a> {
             Coupling::Uncoupled => Components { normal: true, tangential: true, coupling: false },
             Coupling::Coupled => Components::ALL,
         };
-        let coefficients = influence_coefficients(&case.bodies, case.cells, plan.grid.spacing(), wanted);
+        let response = if case.periodic {
+            SurfaceResponse::Periodic(periodic_symbols(
+                &case.bodies,
+                case.cells,
+                plan.grid.spacing(),
+                wanted,
+                0,
+            ))
+        } else {
+            SurfaceResponse::FreeSpace(influence_coefficients(
+                &case.bodies,
+                case.cells,
+                plan.grid.spacing(),
+                wanted,
+            ))
+        };
         let mut solver = ContactSolver::new(
             plan.grid,
             case.profile.gap(&plan.grid),
             &case.friction,
             plan.coupling,
-            coefficients,
+            response,
             SolverSettings::new(case.tolerance),
             true,
         );

@@ -2,10 +2,12 @@
 
 use toml::Spanned;
 
-use super::check::{Judge, material};
 use super::file::{CoatingFile, GradientFile, LawFile};
+use super::judge::Judge;
 use crate::kernel::sublayers::MOST_SUBLAYERS;
-use crate::model::{Coating, ElasticMaterial, GradedCoating, GradientError, Layer, YoungGradient};
+use crate::model::{
+    Coating, ElasticMaterial, GradedCoating, GradientError, Layer, MaterialError, YoungGradient,
+};
 
 /// The layer of an entry; `None` when something about it was refused.
 pub(super) fn layer(judge: &mut Judge, place: &str, entry: &Spanned<CoatingFile>) -> Option<Layer> {
@@ -34,6 +36,27 @@ pub(super) fn layer(judge: &mut Judge, place: &str, entry: &Spanned<CoatingFile>
         return judge.refuse(given.thickness.span(), message, "");
     }
     layer
+}
+
+/// The material of a modulus and a ratio; `None` when one of them was refused.
+pub(super) fn material(
+    judge: &mut Judge,
+    place: &str,
+    young: &Spanned<f64>,
+    poisson: &Spanned<f64>,
+) -> Option<ElasticMaterial> {
+    let mut good = true;
+    for (value, error) in [
+        (young, ElasticMaterial::new(*young.get_ref(), 0.0).err()),
+        (poisson, ElasticMaterial::new(1.0, *poisson.get_ref()).err()),
+    ] {
+        if let Some(error) = error {
+            good = false;
+            let key = if matches!(error, MaterialError::Young(_)) { "young" } else { "poisson" };
+            judge.refuse::<()>(value.span(), format!("{place}.{key}: {error}"), "");
+        }
+    }
+    if good { ElasticMaterial::new(*young.get_ref(), *poisson.get_ref()).ok() } else { None }
 }
 
 fn graded(

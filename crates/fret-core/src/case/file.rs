@@ -202,8 +202,8 @@ pub(super) enum ProfileFile {
     FlatPunch(#[schemars(with = "serde_json::Value")] de::IgnoredAny),
     /// A cone (not built yet).
     Cone(#[schemars(with = "serde_json::Value")] de::IgnoredAny),
-    /// A sinusoidal surface (not built yet).
-    Wave(#[schemars(with = "serde_json::Value")] de::IgnoredAny),
+    /// A sinusoidal surface amplitude (1 - cos(2 pi x / Lx) cos(2 pi y / Ly)).
+    Wave(WaveFile),
     /// Measured heights from a file (not built yet).
     Heights(#[schemars(with = "serde_json::Value")] de::IgnoredAny),
 }
@@ -227,6 +227,21 @@ pub(super) struct EllipsoidFile {
     /// Radius of curvature in the y-z plane [length], positive.
     #[schemars(with = "f64")]
     pub radius_y: Spanned<f64>,
+}
+
+/// A sinusoidal surface.
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(super) struct WaveFile {
+    /// Half of the height from valley to crest [length], positive.
+    #[schemars(with = "f64")]
+    pub amplitude: Spanned<f64>,
+    /// Wavelength along x [length]; straight along x when not given.
+    #[schemars(with = "Option<f64>")]
+    pub wavelength_x: Option<Spanned<f64>>,
+    /// Wavelength along y [length]; straight along y when not given.
+    #[schemars(with = "Option<f64>")]
+    pub wavelength_y: Option<Spanned<f64>>,
 }
 
 /// Coulomb's law of friction.

@@ -1,10 +1,15 @@
 //! The written question: a case, checked. Read from TOML text (`read`), judged all at once (`check`), refused with places (`refusal`).
 
+mod bodies;
 mod check;
 mod coating;
 mod file;
+mod judge;
 mod read;
 mod refusal;
+mod repeating;
+mod shape;
+mod stages;
 
 use serde::Serialize;
 

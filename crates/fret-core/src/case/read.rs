@@ -62,8 +62,7 @@ pub(super) fn case(text: &str, name: &str) -> Result<Case, CaseError> {
                     mistakes.push(mistake(&error, Some(span.clone())));
                 }
                 let message = error.message();
-                let renamed = near_miss(message).filter(|_| message.starts_with("unknown field"));
-                let taken = match (renamed, stand_in(message)) {
+                let taken = match (near_miss(message), stand_in(message)) {
                     (Some(meant), _) => take_at(root.get_mut(), &span, &Instead::Renamed(meant)),
                     (None, Some(value)) => take_at(root.get_mut(), &span, &Instead::Value(value)),
                     (None, None) => take_at(root.get_mut(), &span, &Instead::Nothing),
@@ -131,6 +130,7 @@ fn depth(table: &DeTable<'_>) -> usize {
 /// What a refused entry is replaced by, so that the rest of the case can be judged.
 enum Instead {
     Nothing,
+    /// The word that was meant: of a key or of a value, whichever is misspelt.
     Renamed(String),
     Value(DeValue<'static>),
 }
@@ -161,11 +161,13 @@ fn stand_in(message: &str) -> Option<DeValue<'static>> {
 /// Takes out the innermost entry whose key or value stands at `span`, and puts what stands in for it; the bytes it stood at.
 fn take_at(table: &mut DeTable<'_>, span: &Range<usize>, instead: &Instead) -> Option<Range<usize>> {
     let mut at: Option<(String, Range<usize>, Range<usize>)> = None;
+    let mut is_key = false;
     for (key, value) in table.iter_mut() {
         let (key_span, value_span) = (key.span(), value.span());
         let entry = key_span.start..value_span.end.max(key_span.end);
         if key_span == *span {
             at = Some((key.get_ref().to_string(), entry, value_span));
+            is_key = true;
             break;
         }
         if let Some(gone) = take_inside(value, span, instead) {
@@ -178,14 +180,19 @@ fn take_at(table: &mut DeTable<'_>, span: &Range<usize>, instead: &Instead) -> O
     }
     let (key, gone, value_span) = at?;
     let taken = table.remove(key.as_str())?;
+    let is_free = matches!(instead, Instead::Renamed(meant) if !table.contains_key(meant.as_str()));
+    let mut put = |key: String, value| table.insert(Spanned::new(gone.clone(), key.into()), value);
     match instead {
-        Instead::Renamed(meant) if !table.contains_key(meant.as_str()) => {
-            table.insert(Spanned::new(gone.clone(), meant.clone().into()), taken);
+        Instead::Renamed(meant) if is_key && is_free => {
+            put(meant.clone(), taken);
         }
-        Instead::Value(value) => {
-            table.insert(Spanned::new(gone.clone(), key.into()), Spanned::new(value_span, value.clone()));
+        Instead::Renamed(meant) if !is_key => {
+            put(key, Spanned::new(value_span, DeValue::String(meant.clone().into())));
         }
-        Instead::Renamed(_) | Instead::Nothing => {}
+        Instead::Value(value) if !is_key => {
+            put(key, Spanned::new(value_span, value.clone()));
+        }
+        Instead::Renamed(_) | Instead::Value(_) | Instead::Nothing => {}
     }
     Some(gone)
 }

@@ -1,6 +1,6 @@
 //! What every compliance promises: linear, reciprocal, positive, the same wherever the load stands, equal to the plain sum.
 
-use super::{DirectCompliance, SpectralCompliance, SurfaceCompliance, Wanted};
+use super::{DirectCompliance, SpectralCompliance, SurfaceCompliance, SurfaceResponse, Wanted};
 use crate::kernel::samples::{Random, stack, under_rigid};
 use crate::kernel::{Components, cells_too_coarse_for_incompressible_film, influence_coefficients};
 use crate::model::{Body, ContactPair, TangentialField};
@@ -177,7 +177,9 @@ fn both_compliances_keep_every_promise() {
             let all = Wanted { normal: true, tangential: true, full: true, normal_from_all: true };
             let fused = Wanted { full: true, ..Wanted::default() };
             for (name, wanted) in [("spectral", all), ("spectral, fused only", fused)] {
-                let mut spectral = SpectralCompliance::new(&coefficients, shape, wanted).unwrap();
+                let mut spectral =
+                    SpectralCompliance::new(&SurfaceResponse::FreeSpace(coefficients.clone()), shape, wanted)
+                        .unwrap();
                 conforms(&mut spectral, &mut random, name);
             }
             let mut direct = DirectCompliance::new(coefficients, shape).unwrap();
@@ -193,7 +195,9 @@ fn the_fast_convolution_is_the_plain_sum() {
         for (shape, spacing) in GRIDS {
             let coefficients = influence_coefficients(&pair, shape, spacing, Components::ALL);
             let wanted = Wanted { full: true, normal_from_all: true, ..Wanted::default() };
-            let mut spectral = SpectralCompliance::new(&coefficients, shape, wanted).unwrap();
+            let mut spectral =
+                SpectralCompliance::new(&SurfaceResponse::FreeSpace(coefficients.clone()), shape, wanted)
+                    .unwrap();
             let mut direct = DirectCompliance::new(coefficients, shape).unwrap();
             let traction = Field::random(&mut random, shape[0] * shape[1]);
             let (fast, plain) = (answer(&mut spectral, &traction), answer(&mut direct, &traction));

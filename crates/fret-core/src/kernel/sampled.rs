@@ -16,7 +16,7 @@ use crate::spectral::{Parity, Symbol, inverse_table};
 /// and wide, of the same `spacing` \[length\]; conventions as [`InfluenceCoefficients`].
 ///
 /// The response times the cell's factors `sin(k d/2)/(k d/2)`, transformed back by FFT, and of that the offsets below `cells`:
-/// Liu & Wang (2002), J. Tribol. 124, 36; Polonsky & Keer (2000), J. Tribol. 122, 30. The response is singular at `k = 0`, where
+/// Liu & Wang (2002), J. Tribol. 124, 36 (Polonsky & Keer 2000, J. Tribol. 122, 30, correct for the images instead). The response is singular at `k = 0`, where
 /// the sample is replaced: `zz` by the response at the wavenumber whose reciprocal is the mean of `1/k` over the frequency cell,
 /// `xx` and `yy` likewise with the directions weighted, the others by 0.
 ///

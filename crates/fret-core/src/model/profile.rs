@@ -34,6 +34,13 @@ pub enum Profile {
         /// Radius of curvature in the y-z plane [length].
         radius_y: f64,
     },
+    /// A sinusoidal surface `amplitude (1 - cos(2 pi x / Lx) cos(2 pi y / Ly))`.
+    Wave {
+        /// Amplitude [length]: half of the height from valley to crest.
+        amplitude: f64,
+        /// Wavelengths along x and y [length]; `None`: straight along that axis.
+        wavelengths: [Option<f64>; 2],
+    },
 }
 
 impl Profile {
@@ -45,6 +52,10 @@ impl Profile {
         let lengths = match self {
             Self::Sphere { radius } => [("radius", radius), ("radius", radius)],
             Self::Ellipsoid { radius_x, radius_y } => [("radius_x", radius_x), ("radius_y", radius_y)],
+            Self::Wave { amplitude, wavelengths: [x, y] } => {
+                let shortest = x.unwrap_or(amplitude).min(y.unwrap_or(amplitude));
+                [("amplitude", amplitude), ("wavelength", shortest)]
+            }
         };
         for (name, value) in lengths {
             if !(value.is_finite() && value > 0.0) {
@@ -59,6 +70,12 @@ impl Profile {
         match *self {
             Self::Sphere { radius } => (x * x + y * y) / (2.0 * radius),
             Self::Ellipsoid { radius_x, radius_y } => x * x / (2.0 * radius_x) + y * y / (2.0 * radius_y),
+            Self::Wave { amplitude, wavelengths } => {
+                let wave = |along: f64, length: Option<f64>| {
+                    length.map_or(1.0, |length| (std::f64::consts::TAU * along / length).cos())
+                };
+                amplitude * (1.0 - wave(x, wavelengths[0]) * wave(y, wavelengths[1]))
+            }
         }
     }
 

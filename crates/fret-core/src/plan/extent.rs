@@ -3,6 +3,7 @@
 use std::ops::ControlFlow;
 
 use crate::case::{Case, StageControl};
+use crate::compliance::SurfaceResponse;
 use crate::kernel::{Components, influence_coefficients};
 use crate::model::{
     Base, Body, ContactState, Control, CoulombFriction, ElasticMaterial, LoadStep, Profile, SurfaceGrid,
@@ -102,14 +103,15 @@ fn extent_under(case: &Case, size: [f64; 2], normal: Control) -> Extent {
     let spacing = [size[0] / COARSE as f64, size[1] / COARSE as f64];
     let Ok(grid) = SurfaceGrid::new(cells, spacing) else { return Extent::Unknown };
     let frictionless = CoulombFriction::Uniform(0.0);
-    let coefficients = influence_coefficients(&case.bodies, cells, spacing, Components::NORMAL);
+    let response =
+        SurfaceResponse::FreeSpace(influence_coefficients(&case.bodies, cells, spacing, Components::NORMAL));
     let settings = SolverSettings::new(1e-4);
     let mut solver = ContactSolver::new(
         grid,
         case.profile.gap(&grid),
         &frictionless,
         Coupling::Frictionless,
-        coefficients,
+        response,
         settings,
         false,
     );
@@ -134,6 +136,7 @@ fn first_guess(case: &Case) -> Option<f64> {
     let radius = match case.profile {
         Profile::Sphere { radius } => radius,
         Profile::Ellipsoid { radius_x, radius_y } => (radius_x * radius_y).sqrt(),
+        Profile::Wave { .. } => return None,
     };
     let compliance = |body: &Body| match body {
         Body::Rigid => 0.0,

@@ -64,7 +64,7 @@ impl Plan {
         let spacing = [size[0] / case.cells[0] as f64, size[1] / case.cells[1] as f64];
         let grid =
             SurfaceGrid::new(case.cells, spacing).map_err(|error| case.refuse_size(error.to_string(), ""))?;
-        if matches!(case.size, GridSize::Given(_)) && reaches_beyond(&case, size) {
+        if matches!(case.size, GridSize::Given(_)) && !case.periodic && reaches_beyond(&case, size) {
             let message = format!(
                 "grid.size = {size:?}: the contact under the heaviest load reaches the edge of the grid"
             );

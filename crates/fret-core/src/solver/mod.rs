@@ -17,10 +17,9 @@ mod zones;
 
 use ndarray::{Array2, ArrayView2};
 
-use crate::compliance::{SpectralCompliance, SurfaceCompliance, Wanted};
+use crate::compliance::{SpectralCompliance, SurfaceCompliance, SurfaceResponse, Wanted};
 use crate::edge;
 use crate::history::Work;
-use crate::kernel::InfluenceCoefficients;
 use crate::model::{ContactState, Control, CoulombFriction, LoadStep, SurfaceGrid};
 use crate::spectral::{ConvolutionError, good_length};
 
@@ -64,7 +63,7 @@ pub struct ContactSolver<'a> {
     undeformed: Array2<f64>,
     friction: &'a CoulombFriction,
     coupling: Coupling,
-    coefficients: InfluenceCoefficients,
+    response: SurfaceResponse,
     settings: SolverSettings,
     operators: Option<BoxOperators>,
     /// Normal displacement of the whole grid, to check what lies outside the box.
@@ -83,7 +82,7 @@ impl<'a> ContactSolver<'a> {
         undeformed: Array2<f64>,
         friction: &'a CoulombFriction,
         coupling: Coupling,
-        coefficients: InfluenceCoefficients,
+        response: SurfaceResponse,
         settings: SolverSettings,
         boxed: bool,
     ) -> Self {
@@ -92,7 +91,7 @@ impl<'a> ContactSolver<'a> {
             undeformed,
             friction,
             coupling,
-            coefficients,
+            response,
             settings,
             operators: None,
             outside: None,
@@ -118,7 +117,7 @@ impl<'a> ContactSolver<'a> {
         let mut region = self.region_for(state, load);
         loop {
             let (solved, state_after, outcome) = self.step_in(region, state, load, &mut work, watch)?;
-            if touches_edge(&state_after.pressure) {
+            if !self.response.is_periodic() && touches_edge(&state_after.pressure) {
                 return Err(SolveError::ContactAtEdge);
             }
             let kept = self.settled.take().filter(|settled| {
@@ -171,7 +170,7 @@ impl<'a> ContactSolver<'a> {
     fn region_for(&self, state: &ContactState, load: &LoadStep) -> Region {
         let whole = Region::whole(self.grid.cells());
         let touched = state.pressure.iter().any(|p| *p > 0.0);
-        if !self.boxed || !touched {
+        if !self.boxed || !touched || self.response.is_periodic() {
             return whole;
         }
         let predicted = self.predicted(state, load);
@@ -246,8 +245,8 @@ impl<'a> ContactSolver<'a> {
         let tangential = self.coupling != Coupling::Frictionless;
         Ok(BoxOperators {
             region,
-            compliance: SpectralCompliance::new(&self.coefficients, region.shape, wanted)?,
-            preconditioner: Preconditioner::new(&self.coefficients, region.shape, true, tangential)?,
+            compliance: SpectralCompliance::new(&self.response, region.shape, wanted)?,
+            preconditioner: Preconditioner::new(&self.response, region.shape, true, tangential)?,
         })
     }
 
@@ -261,7 +260,15 @@ impl<'a> ContactSolver<'a> {
         watch: Watch<'_>,
     ) -> Result<(Solved, ContactState, Outcome), SolveError> {
         let grid = self.grid;
-        let scene = Scene::new(&grid, &self.undeformed, self.friction, state, load, region);
+        let scene = Scene::new(
+            &grid,
+            &self.undeformed,
+            self.friction,
+            state,
+            load,
+            region,
+            self.response.is_periodic(),
+        );
         if scene.is_apart() {
             let solved = scene.apart();
             let (after, outcome) = scene.settle(&solved);
@@ -316,7 +323,7 @@ impl<'a> ContactSolver<'a> {
                 normal_from_all: self.coupling == Coupling::Coupled,
                 ..Wanted::default()
             };
-            self.outside = SpectralCompliance::new(&self.coefficients, cells, wanted).ok();
+            self.outside = SpectralCompliance::new(&self.response, cells, wanted).ok();
         }
         if let Some(outside) = &mut self.outside {
             let mut normal = vec![0.0; whole.len()];

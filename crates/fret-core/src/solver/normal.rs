@@ -225,6 +225,22 @@ fn within_reach(pressure: &[f64], change: &[f64], wanted: f64) -> f64 {
     wanted.min(limit).max(1.0)
 }
 
+/// A first pressure for a scene that repeats: the one of full contact, without its tension.
+pub fn full_contact_pressure(task: &NormalTask<'_>, preconditioner: &mut Preconditioner) -> Option<Vec<f64>> {
+    let mean = task.total? / task.undeformed.len() as f64;
+    let mut removed = vec![0.0; task.undeformed.len()];
+    preconditioner.normal(task.undeformed, &mut removed);
+    let mut pressure: Vec<f64> = removed.iter().map(|part| (mean - part).max(0.0)).collect();
+    let found = sum(&pressure);
+    if !(found > 0.0) {
+        return None;
+    }
+    for p in &mut pressure {
+        *p *= mean * task.undeformed.len() as f64 / found;
+    }
+    Some(pressure)
+}
+
 /// A first pressure: uniform over the eighth of the cells with the smallest gap under a force, the mattress of self
 /// influences under an approach.
 pub fn first_pressure(task: &NormalTask<'_>, own: f64) -> Vec<f64> {

@@ -4,7 +4,7 @@
 use ndarray::{Array2, s};
 
 use super::zones::{Freedom, Zones};
-use crate::kernel::InfluenceCoefficients;
+use crate::compliance::SurfaceResponse;
 use crate::model::TangentialField;
 use crate::spectral::{Block, ConvolutionError, Kernel, Parity, PeriodicProduct, Symbol, Workspace};
 
@@ -40,24 +40,18 @@ impl Preconditioner {
     /// # Errors
     /// When a coefficient is missing or does not cover the box.
     pub fn new(
-        coefficients: &InfluenceCoefficients,
+        response: &SurfaceResponse,
         shape: [usize; 2],
         normal: bool,
         tangential: bool,
     ) -> Result<Self, ConvolutionError> {
-        let c = coefficients;
+        let [zz, xx, yy, xy] = match response {
+            SurfaceResponse::FreeSpace(c) => [&c.zz, &c.xx, &c.yy, &c.xy],
+            SurfaceResponse::Periodic(c) => [&c.zz, &c.xx, &c.yy, &c.xy],
+        };
         let symbol = |values: &Option<Array2<f64>>, parity: Parity| {
             let values = values.as_ref().ok_or(ConvolutionError::EmptyShape(0, 0))?;
-            let half = [shape[0] / 2 + 1, shape[1] / 2 + 1];
-            let mut near =
-                values.slice(s![..half[0].min(values.nrows()), ..half[1].min(values.ncols())]).to_owned();
-            // An odd kernel has no nearest image half a period away.
-            for (axis, odd) in parity.odd().into_iter().enumerate() {
-                if odd && shape[axis].is_multiple_of(2) && near.shape()[axis] == half[axis] {
-                    near.index_axis_mut(ndarray::Axis(axis), half[axis] - 1).fill(0.0);
-                }
-            }
-            Ok(PeriodicProduct::symbol_of(shape, &Kernel { values: near.view(), parity }))
+            Ok(if response.is_periodic() { values.clone() } else { nearest_images(values, shape, parity) })
         };
         let product = |symbols: &[Symbol<'_>], blocks: &[Block]| {
             let product = PeriodicProduct::new(shape, symbols, blocks)?;
@@ -65,18 +59,18 @@ impl Preconditioner {
             Ok::<_, ConvolutionError>((product, workspace))
         };
         let normal = if normal {
-            let mut response = symbol(&c.zz, Parity::EvenEven)?;
-            let least = smallest_positive(&response);
-            response.mapv_inplace(|value| 1.0 / value.max(least));
-            Some(product(&[Symbol { values: response.view(), parity: Parity::EvenEven }], &NORMAL)?)
+            let mut inverse = symbol(zz, Parity::EvenEven)?;
+            let least = smallest_positive(&inverse);
+            inverse.mapv_inplace(|value| if value == 0.0 { 0.0 } else { 1.0 / value.max(least) });
+            Some(product(&[Symbol { values: inverse.view(), parity: Parity::EvenEven }], &NORMAL)?)
         } else {
             None
         };
         let mut softest = 0.0;
         let shear = if tangential {
-            let xx = symbol(&c.xx, Parity::EvenEven)?;
-            let yy = symbol(&c.yy, Parity::EvenEven)?;
-            let xy = symbol(&c.xy, Parity::OddOdd)?;
+            let xx = symbol(xx, Parity::EvenEven)?;
+            let yy = symbol(yy, Parity::EvenEven)?;
+            let xy = symbol(xy, Parity::OddOdd)?;
             softest = smallest_positive(&xx).min(smallest_positive(&yy));
             let level = |shift: f64| {
                 let [xx, yy, xy] = inverse(&xx, &yy, &xy, softest, shift);
@@ -156,6 +150,19 @@ impl Preconditioner {
     }
 }
 
+/// Symbol of a kernel made periodic with the nearest image of each offset only.
+fn nearest_images(values: &Array2<f64>, shape: [usize; 2], parity: Parity) -> Array2<f64> {
+    let half = [shape[0] / 2 + 1, shape[1] / 2 + 1];
+    let mut near = values.slice(s![..half[0].min(values.nrows()), ..half[1].min(values.ncols())]).to_owned();
+    // An odd kernel has no nearest image half a period away.
+    for (axis, odd) in parity.odd().into_iter().enumerate() {
+        if odd && shape[axis].is_multiple_of(2) && near.shape()[axis] == half[axis] {
+            near.index_axis_mut(ndarray::Axis(axis), half[axis] - 1).fill(0.0);
+        }
+    }
+    PeriodicProduct::symbol_of(shape, &Kernel { values: near.view(), parity })
+}
+
 /// Smallest positive value of a symbol: what any that is not positive is raised to.
 fn smallest_positive(symbol: &Array2<f64>) -> f64 {
     symbol.iter().copied().filter(|value| *value > 0.0).fold(f64::INFINITY, f64::min)
@@ -171,6 +178,13 @@ fn inverse(
 ) -> [Array2<f64>; 3] {
     let mut result = [xx.clone(), yy.clone(), xy.clone()];
     for (index, &cross) in xy.indexed_iter() {
+        if xx[index] == 0.0 && yy[index] == 0.0 {
+            // A uniform traction on a half-space that repeats: its displacement is a rigid motion, found elsewhere.
+            for part in &mut result {
+                part[index] = 0.0;
+            }
+            continue;
+        }
         let (a, d) = (xx[index].max(softest) + shift, yy[index].max(softest) + shift);
         let det = a * d - cross * cross;
         // Not positive: as if uncoupled.

@@ -3,7 +3,7 @@
 use ndarray::Array2;
 
 use super::coupled::{CoupledTask, Displacements, Tractions, solve_coupled};
-use super::normal::{NormalTask, first_pressure, solve_normal};
+use super::normal::{NormalTask, first_pressure, full_contact_pressure, solve_normal};
 use super::preconditioner::Preconditioner;
 use super::region::Region;
 use super::residual::{NormalVerdict, TangentialTask, TangentialVerdict, judge_normal};
@@ -42,6 +42,7 @@ pub struct Scene<'a> {
     modes: RigidModes,
     motion: [f64; 3],
     resultant: [f64; 3],
+    periodic: bool,
 }
 
 /// What an increment of pressure and shear in turn can leave out.
@@ -104,6 +105,7 @@ impl<'a> Scene<'a> {
         state: &'a ContactState,
         load: &LoadStep,
         region: Region,
+        periodic: bool,
     ) -> Self {
         let centres = |axis: usize| -> Vec<f64> {
             (0..region.shape[axis]).map(|index| grid.centre(axis, region.origin[axis] + index)).collect()
@@ -142,6 +144,7 @@ impl<'a> Scene<'a> {
             modes,
             motion,
             resultant,
+            periodic,
         }
     }
 
@@ -176,6 +179,13 @@ impl<'a> Scene<'a> {
 
     fn normal_task(&self) -> NormalTask<'_> {
         NormalTask { undeformed: &self.undeformed, total: self.total, approach: self.approach }
+    }
+
+    /// A first pressure; exact at once where a scene that repeats is in full contact.
+    fn first_pressure(&self, own: f64, preconditioner: &mut Preconditioner) -> Vec<f64> {
+        let task = self.normal_task();
+        let full = if self.periodic { full_contact_pressure(&task, preconditioner) } else { None };
+        full.unwrap_or_else(|| first_pressure(&task, own))
     }
 
     fn bound(&self, pressure: &[f64]) -> Vec<f64> {
@@ -229,7 +239,7 @@ impl<'a> Scene<'a> {
             self.feasible(&mut tractions, &before, own.tangential);
         } else {
             tractions.shear.clear();
-            tractions.pressure = first_pressure(&self.normal_task(), own.normal);
+            tractions.pressure = self.first_pressure(own.normal, preconditioner);
             compliance.normal(&tractions.pressure, &mut displacements.normal);
             let rough = SolverSettings { tolerance: ROUGH, ..*settings };
             solve_normal(
@@ -326,7 +336,7 @@ impl<'a> Scene<'a> {
         } else {
             let usable = retract_pressure(&mut tractions.pressure, self.total);
             if !self.touched() || !usable {
-                tractions.pressure = first_pressure(&self.normal_task(), own.normal);
+                tractions.pressure = self.first_pressure(own.normal, preconditioner);
             }
             compliance.normal(&tractions.pressure, &mut displacements.normal);
             let solution = solve_normal(

@@ -1,0 +1,71 @@
+//! The judgement of scenes that repeat in x and y.
+
+use toml::Spanned;
+
+use super::GridSize;
+use super::file::{GridFile, StageFile};
+use super::judge::Judge;
+use crate::model::Profile;
+
+/// Whether the scene repeats; refuses what has no meaning then.
+pub(super) fn repeats(
+    judge: &mut Judge,
+    grid: &GridFile,
+    size: Option<GridSize>,
+    stages: &Spanned<Vec<Spanned<StageFile>>>,
+    profile: Option<&Profile>,
+) -> bool {
+    let periodic = grid.periodic.as_ref().is_some_and(|periodic| *periodic.get_ref());
+    if let (false, Some(Profile::Wave { .. })) = (periodic, profile) {
+        judge.refuse::<()>(
+            grid.cells.span(),
+            "profile.wave: a wave repeats, the scene does not",
+            "grid.periodic = true",
+        );
+    }
+    if !periodic {
+        return false;
+    }
+    match (size, profile) {
+        (Some(GridSize::Auto), _) => {
+            judge.refuse::<()>(
+                grid.size.span(),
+                "grid.size = \"auto\" in a scene that repeats: the period is for you to say",
+                "size = [x, y]",
+            );
+        }
+        (Some(GridSize::Given(sides)), Some(Profile::Wave { wavelengths, .. })) => {
+            for (side, wavelength) in sides.into_iter().zip(wavelengths) {
+                let Some(wavelength) = wavelength else { continue };
+                let waves = side / wavelength;
+                if (waves - waves.round()).abs() > 1e-9 * waves || waves.round() < 1.0 {
+                    judge.refuse::<()>(
+                        grid.size.span(),
+                        format!("grid.size: {side:?} holds {waves:.6} waves of length {wavelength:?}"),
+                        "a scene that repeats holds whole waves",
+                    );
+                }
+            }
+        }
+        _ => {}
+    }
+    for stage in stages.get_ref() {
+        let stage = stage.get_ref();
+        let motions = [
+            ("approach", stage.approach.as_ref().map(Spanned::span)),
+            ("shift", stage.shift.as_ref().map(Spanned::span)),
+            ("twist_moment", stage.twist_moment.as_ref().map(Spanned::span)),
+            ("twist", stage.twist.as_ref().map(Spanned::span)),
+        ];
+        for (key, span) in motions {
+            if let Some(span) = span {
+                judge.refuse::<()>(
+                    span,
+                    format!("{key} in a scene that repeats: a half-space under a repeating load has no such motion"),
+                    "prescribe normal_force and tangential_force, those of one period",
+                );
+            }
+        }
+    }
+    true
+}
