@@ -1,8 +1,12 @@
 //! What every compliance promises: linear, reciprocal, positive, the same wherever the load stands, equal to the plain sum.
 
+use std::f64::consts::TAU;
+
 use super::{DirectCompliance, SpectralCompliance, SurfaceCompliance, SurfaceResponse, Wanted};
 use crate::kernel::samples::{Random, stack, under_rigid};
-use crate::kernel::{Components, cells_too_coarse_for_incompressible_film, influence_coefficients};
+use crate::kernel::{
+    Components, cells_too_coarse_for_incompressible_film, influence_coefficients, periodic_symbols,
+};
 use crate::model::{Body, ContactPair, TangentialField};
 
 /// Tractions or displacements of all cells: z, x, y.
@@ -216,6 +220,57 @@ fn the_fast_convolution_is_the_plain_sum() {
             spectral.normal_from_all(&traction.normal, &traction.tangential, &mut normal);
             let largest = plain.normal.iter().fold(0.0, |largest: f64, value| value.abs().max(largest));
             assert!(normal.iter().zip(&plain.normal).all(|(a, b)| (a - b).abs() < 1e-13 * largest));
+        }
+    }
+}
+
+#[test]
+fn a_compliance_that_repeats_keeps_every_promise() {
+    let mut random = Random::seeded(14);
+    for pair in pairs() {
+        for (shape, spacing) in GRIDS {
+            let symbols = periodic_symbols(&pair, shape, spacing, Components::ALL, 0);
+            let response = SurfaceResponse::Periodic(symbols.clone());
+            let all = Wanted { normal: true, tangential: true, full: true, normal_from_all: true };
+            let mut periodic = SpectralCompliance::new(&response, shape, all).unwrap();
+            conforms(&mut periodic, &mut random, "periodic");
+
+            // Against the plain sum over all waves: u = 1/N sum of C(k) cos(k (x - x')) p(x').
+            let zz = symbols.zz.unwrap();
+            let kernel = |i: usize, j: usize| {
+                let mut sum = 0.0;
+                for a in 0..shape[0] {
+                    for b in 0..shape[1] {
+                        let symbol = zz[[a.min(shape[0] - a), b.min(shape[1] - b)]];
+                        let phase =
+                            |n: usize, m: usize, count: usize| TAU * ((n * m) % count) as f64 / count as f64;
+                        sum += symbol * (phase(a, i, shape[0]) + phase(b, j, shape[1])).cos();
+                    }
+                }
+                sum / (shape[0] * shape[1]) as f64
+            };
+            let len = shape[0] * shape[1];
+            let traction = Field::random(&mut random, len);
+            let mut found = vec![0.0; len];
+            periodic.normal(&traction.normal, &mut found);
+            let own = kernel(0, 0);
+            for cell in [0, len / 3, len - 1] {
+                let at = [cell / shape[1], cell % shape[1]];
+                let plain: f64 = (0..len)
+                    .map(|other| {
+                        let lag = [0, 1].map(|axis| {
+                            let from = [other / shape[1], other % shape[1]][axis];
+                            (at[axis] + shape[axis] - from) % shape[axis]
+                        });
+                        kernel(lag[0], lag[1]) * traction.normal[other]
+                    })
+                    .sum();
+                // cosines good to an ulp, summed over all waves and cells
+                assert!(
+                    (found[cell] - plain).abs() < 1e-12 * own * (len as f64).sqrt(),
+                    "{pair:?} {shape:?}"
+                );
+            }
         }
     }
 }

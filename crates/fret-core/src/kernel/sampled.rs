@@ -16,9 +16,9 @@ use crate::spectral::{Parity, Symbol, inverse_table};
 /// and wide, of the same `spacing` \[length\]; conventions as [`InfluenceCoefficients`].
 ///
 /// The response times the cell's factors `sin(k d/2)/(k d/2)`, transformed back by FFT, and of that the offsets below `cells`:
-/// Liu & Wang (2002), J. Tribol. 124, 36 (Polonsky & Keer 2000, J. Tribol. 122, 30, correct for the images instead). The response is singular at `k = 0`, where
-/// the sample is replaced: `zz` by the response at the wavenumber whose reciprocal is the mean of `1/k` over the frequency cell,
-/// `xx` and `yy` likewise with the directions weighted, the others by 0.
+/// Liu & Wang (2002), J. Tribol. 124, 36 (Polonsky & Keer 2000, J. Tribol. 122, 30, correct for the images instead). The
+/// response is singular at `k = 0`, where the sample is replaced: `zz` by the response at the wavenumber whose reciprocal is
+/// the mean of `1/k` over the frequency cell, `xx` and `yy` likewise with the directions weighted, the others by 0.
 ///
 /// What this does to the result: waves shorter than two cells are cut off (up to 15 % of the own cell's value, whatever the
 /// extension), and the images of the load, `extension` grids apart, shift all values: 1e-2 of a distant cell's value, 4e-2 and
