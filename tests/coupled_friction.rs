@@ -58,27 +58,54 @@ fn history_error_falls_with_the_increments() {
     }
 }
 
-/// Rows: E1/E2; pressure over Hertz's at r/aH = 0.1 .. 1.0 (0 outside); edge; approach over Hertz's.
-/// Rigid sphere, thickness aH, nu = 0.3, mu = 0.1, axisymmetric rings with exact kernels, 100 cubic increments.
-const COATED: [(f64, [f64; 10], f64, f64); 3] = [
-    (
-        0.5,
-        [0.73249, 0.71892, 0.70074, 0.67707, 0.64722, 0.61042, 0.56567, 0.51294, 0.44972, 0.37104],
-        1.20,
-        1.22310,
-    ),
-    (
-        1.0,
-        [1.06117, 1.02559, 0.98542, 0.93776, 0.87881, 0.80532, 0.71250, 0.59141, 0.41893, 0.0],
-        0.994,
-        0.99574,
-    ),
-    (2.0, [1.55750, 1.49261, 1.41695, 1.31891, 1.18933, 1.01401, 0.76061, 0.26318, 0.0, 0.0], 0.813, 0.82305),
+/// A rigid sphere pressed on a coated half-space, thickness aH, nu = 0.3, mu = 0.1: axisymmetric rings with exact kernels,
+/// 100 cubic increments; uncertainty about 1e-4 for r >= 0.1 aH, ring width 0.00675 aH.
+struct Coated {
+    ratio: f64,
+    /// Pressure over Hertz's at r/aH = 0.1, 0.2 ...
+    pressure: &'static [f64],
+    /// Outward shear over Hertz's pressure at the same radii; `None`: mu p, slip everywhere.
+    shear: Option<&'static [f64]>,
+    edge: f64,
+    approach: f64,
+}
+
+const COATED: [Coated; 4] = [
+    Coated {
+        ratio: 0.5,
+        pressure: &[0.73249, 0.71892, 0.70074, 0.67707, 0.64722, 0.61042, 0.56567, 0.51294, 0.44972, 0.37104],
+        shear: Some(&[
+            0.02771, 0.03768, 0.04457, 0.05007, 0.05443, 0.05720, 0.05657, 0.05129, 0.04497, 0.03710,
+        ]),
+        edge: 1.20,
+        approach: 1.22310,
+    },
+    Coated {
+        ratio: 1.0,
+        pressure: &[1.06117, 1.02559, 0.98542, 0.93776, 0.87881, 0.80532, 0.71250, 0.59141, 0.41893],
+        shear: Some(&[0.07854, 0.10256, 0.09854, 0.09378, 0.08788, 0.08053, 0.07125, 0.05914, 0.04189]),
+        edge: 0.994,
+        approach: 0.99574,
+    },
+    Coated {
+        ratio: 2.0,
+        pressure: &[1.55750, 1.49261, 1.41695, 1.31891, 1.18933, 1.01401, 0.76061],
+        shear: None,
+        edge: 0.813,
+        approach: 0.82305,
+    },
+    Coated {
+        ratio: 4.0,
+        pressure: &[2.38587, 2.25639, 2.08572, 1.84565, 1.49572],
+        shear: None,
+        edge: 0.653,
+        approach: 0.67904,
+    },
 ];
 
 #[test]
 fn coated_sphere_pressed_with_friction() {
-    for (ratio, pressure, edge, approach) in COATED {
+    for Coated { ratio, pressure, shear, edge, approach } in COATED {
         let sphere = Sphere {
             cells: 96,
             size: 2.4 * edge,
@@ -94,19 +121,27 @@ fn coated_sphere_pressed_with_friction() {
         let radius = (last.contact_area / std::f64::consts::PI).sqrt();
         // The table's ring width is 0.00675.
         assert!((radius - edge).abs() < 0.01, "radius {radius} against {edge}");
-        let field = history.fields.last().unwrap().pressure.as_ref().unwrap();
+        let kept = history.fields.last().unwrap();
+        let fields = [kept.pressure.as_ref().unwrap(), &kept.shear.as_ref().unwrap()[0]];
+        let mut worst = [0.0_f64; 2];
         for (index, expected) in pressure.iter().enumerate() {
             let r = 0.1 * (index + 1) as f64;
             if r > edge - 0.06 {
                 continue;
             }
-            let found = along_x(&history.grid, field, r) / sphere.peak_pressure();
-            // Interpolated between cells of 0.025: the curvature of the profile over a cell.
-            assert!(
-                (found - expected).abs() < 3e-3 * pressure[0],
-                "E1/E2 {ratio}, r {r}: {found} against {expected}"
-            );
+            let expected = [*expected, shear.map_or(0.1 * expected, |shear| shear[index])];
+            for (part, scale) in [pressure[0], 0.1 * pressure[0]].into_iter().enumerate() {
+                let found = along_x(&history.grid, fields[part], r) / sphere.peak_pressure();
+                worst[part] = worst[part].max((found - expected[part]).abs() / scale);
+            }
         }
+        println!(
+            "   worst of pressure {:.1e} of the largest, of shear {:.1e} of mu times it",
+            worst[0], worst[1]
+        );
+        // Linear between cells of 0.025: the curvature of the profile over a cell. Shear has a kink at the border of stick
+        // and the error of the history, of first order in the 40 increments.
+        assert!(worst[0] < 1.5e-3 && worst[1] < 1e-2, "E1/E2 = {ratio}: {worst:?}");
     }
 }
 
