@@ -1,9 +1,9 @@
-"""Draw the three figures of Spinu's paper on the fretting contact of coated bodies.
+"""Draw the three figures of the paper on the fretting contact of coated bodies.
 
     python examples/draw_paper_figures.py [FOLDER]
 
 needs ``pip install fretting matplotlib`` and writes ``paper_figure_1.png`` to ``paper_figure_3.png`` into FOLDER
-(``docs/pictures`` of the project when not given). About a minute.
+(``docs/pictures`` of the project when not given). About two minutes.
 """
 
 import copy

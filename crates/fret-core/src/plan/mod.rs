@@ -72,17 +72,12 @@ impl Plan {
         }
         let left_out = left_out(&case, coupling);
         let increments = case.increments();
-        let fields = match coupling {
-            Coupling::Frictionless => 20,
-            Coupling::Uncoupled => 40,
-            Coupling::Coupled => 70,
-        };
         let per_increment = match coupling {
             Coupling::Frictionless => 12,
             Coupling::Uncoupled | Coupling::Coupled => 20,
         };
         Ok(Self {
-            memory_bytes: grid.len() * 8 * fields,
+            memory_bytes: memory(&case, &grid, coupling),
             convolutions_expected: increments * per_increment,
             case,
             grid,
@@ -91,6 +86,24 @@ impl Plan {
             increments,
         })
     }
+}
+
+/// Memory of a run at the most [bytes]: of the process, of the operators and fields of the solver, of the kept fields.
+/// The first two are fitted to runs of 64 to 512 cells a side and hold to a tenth.
+fn memory(case: &Case, grid: &SurfaceGrid, coupling: Coupling) -> usize {
+    const PROCESS: usize = 7 << 20;
+    let numbers_per_cell = match coupling {
+        Coupling::Frictionless => 37,
+        Coupling::Uncoupled => 97,
+        Coupling::Coupled => 118,
+    };
+    let bytes_of = |name: &String| match name.as_str() {
+        "shear" | "slip" => 16,
+        "zone" => 1,
+        _ => 8,
+    };
+    let kept: usize = case.output.fields.iter().map(bytes_of).sum();
+    PROCESS + grid.len() * (8 * numbers_per_cell + case.kept_increments().len() * kept)
 }
 
 fn left_out(case: &Case, coupling: Coupling) -> Vec<LeftOut> {
