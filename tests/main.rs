@@ -14,5 +14,6 @@ mod coupled_friction;
 mod fretting_cycles;
 mod invariants;
 mod periodic;
+mod random_scenes;
 mod sliding;
 mod two_bodies;

@@ -164,7 +164,7 @@ impl<'a> Simulation<'a> {
             &case.friction,
             plan.coupling,
             response,
-            SolverSettings::new(case.tolerance),
+            SolverSettings { scheme: case.scheme, ..SolverSettings::new(case.tolerance) },
             true,
         );
         let mut history = History {

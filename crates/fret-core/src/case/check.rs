@@ -10,7 +10,7 @@ use super::repeating::repeats;
 use super::shape::profile;
 use super::stages::{sliding, stages};
 use super::{Case, FIELD_NAMES, GridSize, Origin, Output};
-use crate::model::CoulombFriction;
+use crate::model::{CoulombFriction, Scheme};
 
 /// Cells along one side of the grid, at the most.
 const MOST_CELLS: usize = 1 << 14;
@@ -66,6 +66,11 @@ pub(super) fn case(file: CaseFile, name: &str, text: &str) -> Result<Case, Vec<M
             friction,
             stages,
             tolerance,
+            scheme: file
+                .solver
+                .as_ref()
+                .and_then(|solver| solver.scheme.as_ref())
+                .map_or(Scheme::default(), |scheme| *scheme.get_ref()),
             output,
             origin: Origin { name: name.to_owned(), text: text.to_owned(), size: file.grid.size.span() },
         }),

@@ -5,6 +5,8 @@ use serde::Deserialize;
 use serde::de::{self, SeqAccess, Visitor};
 use toml::Spanned;
 
+use crate::model::Scheme;
+
 /// A fretting contact: bodies, first gap, friction, and a loading history. Any consistent system of units.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -308,6 +310,10 @@ pub(super) struct SolverFile {
     /// Bound on the complementarity and Coulomb residuals of every increment, relative; 1e-8 when not given.
     #[schemars(with = "Option<f64>")]
     pub tolerance: Option<Spanned<f64>>,
+    /// "together" (when not given), or "alternating": pressure and shear in turn until they agree, as in the published
+    /// three-level scheme, for comparison.
+    #[schemars(with = "Option<Scheme>")]
+    pub scheme: Option<Spanned<Scheme>>,
 }
 
 /// What is kept of the solution.

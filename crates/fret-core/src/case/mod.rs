@@ -13,7 +13,7 @@ mod stages;
 
 use serde::Serialize;
 
-use crate::model::{ContactPair, CoulombFriction, Profile};
+use crate::model::{ContactPair, CoulombFriction, Profile, Scheme};
 
 pub use file::schema;
 pub use refusal::{CaseError, Mistake};
@@ -42,6 +42,8 @@ pub struct Case {
     pub stages: Vec<Stage>,
     /// Bound on the residual of every increment.
     pub tolerance: f64,
+    /// How coupled pressure and shear are solved.
+    pub scheme: Scheme,
     /// What is kept.
     pub output: Output,
     /// Where the case was written, for messages.

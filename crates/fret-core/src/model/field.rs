@@ -1,36 +1,37 @@
 //! Fields on the cells of a box as flat rows, index `i * ny + j`: sums and inner products in a fixed order.
 
-/// Partial sums of a long sum: fixed, so that the bits never depend on the machine's mood.
-const LANES: usize = 8;
+use pulp::Simd;
+
+use super::each_cell::{CellRule, Reals, each_cell};
 
 /// Sum of a field.
 pub fn sum(a: &[f64]) -> f64 {
-    let mut lanes = [0.0; LANES];
-    let chunks = a.chunks_exact(LANES);
-    let rest = chunks.remainder();
-    for chunk in chunks {
-        for (lane, value) in lanes.iter_mut().zip(chunk) {
-            *lane += value;
-        }
+    let [total] = each_cell(&Sum, [a], []);
+    total
+}
+
+struct Sum;
+
+impl CellRule<1, 0, 1> for Sum {
+    #[inline(always)]
+    fn at<S: Simd>(&self, [a]: [Reals<S>; 1], _: &mut [Reals<S>; 0]) -> [Reals<S>; 1] {
+        [a]
     }
-    fold(lanes) + rest.iter().sum::<f64>()
 }
 
 /// Inner product of two fields.
 pub fn dot(a: &[f64], b: &[f64]) -> f64 {
-    let mut lanes = [0.0; LANES];
-    let (a_chunks, b_chunks) = (a.chunks_exact(LANES), b.chunks_exact(LANES));
-    let rest: f64 = a_chunks.remainder().iter().zip(b_chunks.remainder()).map(|(x, y)| x * y).sum();
-    for (x, y) in a_chunks.zip(b_chunks) {
-        for lane in 0..LANES {
-            lanes[lane] += x[lane] * y[lane];
-        }
-    }
-    fold(lanes) + rest
+    let [total] = each_cell(&Dot, [a, b], []);
+    total
 }
 
-fn fold(lanes: [f64; LANES]) -> f64 {
-    ((lanes[0] + lanes[1]) + (lanes[2] + lanes[3])) + ((lanes[4] + lanes[5]) + (lanes[6] + lanes[7]))
+struct Dot;
+
+impl CellRule<2, 0, 1> for Dot {
+    #[inline(always)]
+    fn at<S: Simd>(&self, [a, b]: [Reals<S>; 2], _: &mut [Reals<S>; 0]) -> [Reals<S>; 1] {
+        [a * b]
+    }
 }
 
 /// Euclidean norm of a field.
@@ -40,8 +41,31 @@ pub fn norm(a: &[f64]) -> f64 {
 
 /// `y += factor x`.
 pub fn add_scaled(y: &mut [f64], factor: f64, x: &[f64]) {
-    for (target, value) in y.iter_mut().zip(x) {
-        *target += factor * value;
+    each_cell(&AddScaled(factor), [x], [y]);
+}
+
+struct AddScaled(f64);
+
+impl CellRule<1, 1, 0> for AddScaled {
+    #[inline(always)]
+    fn at<S: Simd>(&self, [x]: [Reals<S>; 1], [y]: &mut [Reals<S>; 1]) -> [Reals<S>; 0] {
+        *y = *y + x * self.0;
+        []
+    }
+}
+
+/// `y = x + factor y`.
+pub fn scale_and_add(y: &mut [f64], factor: f64, x: &[f64]) {
+    each_cell(&ScaleAndAdd(factor), [x], [y]);
+}
+
+struct ScaleAndAdd(f64);
+
+impl CellRule<1, 1, 0> for ScaleAndAdd {
+    #[inline(always)]
+    fn at<S: Simd>(&self, [x]: [Reals<S>; 1], [y]: &mut [Reals<S>; 1]) -> [Reals<S>; 0] {
+        *y = x + *y * self.0;
+        []
     }
 }
 
@@ -101,5 +125,21 @@ impl TangentialField {
     /// Both components.
     pub fn parts(&self) -> [&[f64]; 2] {
         [&self.x, &self.y]
+    }
+
+    /// Both components.
+    pub fn parts_mut(&mut self) -> [&mut [f64]; 2] {
+        [&mut self.x, &mut self.y]
+    }
+
+    /// Both components, to be resized.
+    pub fn each_mut(&mut self) -> [&mut Vec<f64>; 2] {
+        [&mut self.x, &mut self.y]
+    }
+
+    /// Takes over another field, keeping the memory.
+    pub fn copy_from(&mut self, other: &Self) {
+        self.x.clone_from(&other.x);
+        self.y.clone_from(&other.y);
     }
 }

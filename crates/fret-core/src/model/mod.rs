@@ -1,5 +1,6 @@
 //! The nouns of a contact: grid, bodies, profile, friction, loads, state. No numerics live here.
 
+pub mod each_cell;
 pub mod field;
 pub mod friction;
 pub mod graded;
@@ -7,6 +8,7 @@ pub mod grid;
 pub mod half_space;
 pub mod load;
 pub mod profile;
+pub mod scheme;
 pub mod state;
 
 pub use field::TangentialField;
@@ -16,4 +18,5 @@ pub use grid::{GridError, SurfaceGrid};
 pub use half_space::{Base, Body, Coating, ContactPair, ElasticMaterial, HalfSpace, MaterialError};
 pub use load::{Control, LoadStep};
 pub use profile::{Profile, ProfileError};
+pub use scheme::Scheme;
 pub use state::{ContactState, Zone};

@@ -3,7 +3,12 @@
 //! [`ContactSolver`] picks what the scene needs (pressure alone, pressure then shear, or both together), works in a box
 //! around the contact, and checks the rest of the grid once.
 
+mod alternating;
+mod contact_set;
+mod coulomb;
 mod coupled;
+mod frozen;
+mod krylov;
 mod normal;
 mod preconditioner;
 mod region;
@@ -13,6 +18,7 @@ mod rigid;
 mod scene;
 mod settings;
 mod shear;
+mod tractions;
 mod zones;
 
 use ndarray::{Array2, ArrayView2};
@@ -20,16 +26,16 @@ use ndarray::{Array2, ArrayView2};
 use crate::compliance::{SpectralCompliance, SurfaceCompliance, SurfaceResponse, Wanted};
 use crate::edge;
 use crate::history::Work;
-use crate::model::{ContactState, Control, CoulombFriction, LoadStep, SurfaceGrid};
+use crate::model::{ContactState, Control, CoulombFriction, LoadStep, Scheme, SurfaceGrid};
 use crate::spectral::{ConvolutionError, good_length};
 
 pub use scene::{Outcome, Resultants};
 pub use settings::{Coupling, SolveError, SolverSettings, Watch};
 
-use coupled::{Displacements, Tractions};
 use preconditioner::Preconditioner;
 use region::Region;
 use scene::{BoxOperators, Scene, Solved, Turn};
+use tractions::{Displacements, Tractions};
 
 /// A solved increment.
 #[derive(Debug)]
@@ -238,7 +244,8 @@ impl<'a> ContactSolver<'a> {
         }
         let wanted = Wanted {
             normal: true,
-            tangential: self.coupling == Coupling::Uncoupled,
+            tangential: self.coupling == Coupling::Uncoupled
+                || self.settings.scheme == Scheme::Alternating,
             full: self.coupling == Coupling::Coupled,
             normal_from_all: false,
         };

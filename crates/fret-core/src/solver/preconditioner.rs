@@ -2,10 +2,13 @@
 //! nearest image of each offset only, inverted wave by wave; for slipping cells with the slip stiffness added.
 
 use ndarray::{Array2, s};
+use pulp::Simd;
 
-use super::zones::{Freedom, Zones};
+use super::contact_set::ContactSet;
+use super::zones::Zones;
 use crate::compliance::SurfaceResponse;
 use crate::model::TangentialField;
+use crate::model::each_cell::{CellRule, Reals, each_cell};
 use crate::spectral::{Block, ConvolutionError, Kernel, Parity, PeriodicProduct, Symbol, Workspace};
 
 /// Second level of slip stiffness, in units of the smallest elastic symbol.
@@ -28,6 +31,9 @@ pub struct Preconditioner {
     softest: f64,
     /// Weights of the two levels in the cells of the frozen zones.
     weights: [Vec<f64>; 2],
+    /// Levels in use: one where nothing slips stiffly.
+    levels: usize,
+    packed: TangentialField,
     scaled: TangentialField,
     part: TangentialField,
     /// Passes so far.
@@ -91,6 +97,8 @@ impl Preconditioner {
             shear,
             softest,
             weights: [Vec::new(), Vec::new()],
+            levels: 1,
+            packed: TangentialField::default(),
             scaled: TangentialField::zeros(len),
             part: TangentialField::zeros(len),
             passes: 0,
@@ -108,45 +116,85 @@ impl Preconditioner {
     /// Prepares [`Preconditioner::shear`] for frozen zones: a partition of unity over the slip stiffness between two levels.
     pub fn freeze(&mut self, zones: &Zones) {
         let softest = self.softest;
-        let span = STIFF_LEVEL.ln();
-        let stiff = zones
-            .contact
-            .iter()
-            .any(|&cell| zones.freedom[cell] == Freedom::Slip && zones.stiffness[cell] > softest);
+        let largest = zones.stiffness.iter().copied().fold(0.0, f64::max);
+        self.levels = if largest > softest { 2 } else { 1 };
         for weights in &mut self.weights {
-            weights.clear();
+            weights.resize(zones.len(), 0.0);
         }
-        for &cell in &zones.contact {
-            let stiffness = zones.stiffness[cell];
-            let share = if stiffness <= softest { 0.0 } else { ((stiffness / softest).ln() / span).min(1.0) };
-            self.weights[0].push(((1.0 - share) * softest / (softest + stiffness)).sqrt());
-            if stiff {
-                self.weights[1].push((share * (1.0 + STIFF_LEVEL) * softest / (softest + stiffness)).sqrt());
-            }
+        let [soft, stiff] = &mut self.weights;
+        each_cell(&LevelWeights { softest }, [&zones.stiffness], [soft, stiff]);
+        for part in self.packed.each_mut() {
+            part.resize(zones.len(), 0.0);
         }
+        self.scaled.clear();
     }
 
-    /// Shears that would remove tangential displacements `right` on the zones last frozen, restricted to what these leave
-    /// free.
-    pub fn shear(&mut self, right: &TangentialField, zones: &Zones, shear: &mut TangentialField) {
-        let Some(levels) = &mut self.shear else { return };
-        shear.clear();
-        for ((product, workspace), weights) in levels.iter_mut().zip(&self.weights) {
-            if weights.is_empty() {
-                continue;
-            }
-            self.scaled.clear();
-            for (&cell, weight) in zones.contact.iter().zip(weights) {
-                self.scaled.set(cell, [weight * right.x[cell], weight * right.y[cell]]);
-            }
+    /// Shears that would remove tangential displacements `right` on the zones last frozen, before any restriction to what
+    /// these leave free. Packed over `contact`.
+    pub fn shear(&mut self, [right_x, right_y]: [&[f64]; 2], contact: &ContactSet, [x, y]: [&mut [f64]; 2]) {
+        let Self { shear: Some(levels), packed, scaled, part, .. } = self else { return };
+        x.fill(0.0);
+        y.fill(0.0);
+        for ((product, workspace), weights) in levels.iter_mut().zip(&self.weights).take(self.levels) {
+            let read = [right_x, right_y, weights];
+            each_cell(&Weighted, read, [&mut packed.x, &mut packed.y]);
+            contact.place_tangential(packed, scaled);
             self.passes += 1;
-            product.apply(workspace, &self.scaled.parts(), &mut [&mut self.part.x, &mut self.part.y]);
-            for (&cell, weight) in zones.contact.iter().zip(weights) {
-                shear.x[cell] += weight * self.part.x[cell];
-                shear.y[cell] += weight * self.part.y[cell];
-            }
+            product.apply(workspace, &scaled.parts(), &mut [&mut part.x, &mut part.y]);
+            contact.gather_tangential(part, packed);
+            let read = [&packed.x[..], &packed.y, weights];
+            each_cell(&AddWeighted, read, [&mut *x, &mut *y]);
         }
-        zones.keep_free(shear);
+    }
+}
+
+/// Square roots of the shares of two levels in the slip stiffness of a cell.
+struct LevelWeights {
+    softest: f64,
+}
+
+impl CellRule<1, 2, 0> for LevelWeights {
+    #[inline(always)]
+    fn at<S: Simd>(&self, [stiffness]: [Reals<S>; 1], [soft, stiff]: &mut [Reals<S>; 2]) -> [Reals<S>; 0] {
+        let one = stiffness.all(1.0);
+        // A share that grows like the logarithm, from 0 at the softest to 1 at the second level.
+        let root = (stiffness / self.softest).sqrt().max(one).min(stiffness.all(STIFF_LEVEL.sqrt()));
+        let top = (STIFF_LEVEL.sqrt() + 1.0) / (STIFF_LEVEL.sqrt() - 1.0);
+        let share = (root - one) / (root + one) * top;
+        let scale = one / (stiffness / self.softest + one);
+        *soft = ((one - share).max(one * 0.0) * scale).sqrt();
+        *stiff = (share * scale * (1.0 + STIFF_LEVEL)).sqrt();
+        []
+    }
+}
+
+struct Weighted;
+
+impl CellRule<3, 2, 0> for Weighted {
+    #[inline(always)]
+    fn at<S: Simd>(
+        &self,
+        [from_x, from_y, weight]: [Reals<S>; 3],
+        [x, y]: &mut [Reals<S>; 2],
+    ) -> [Reals<S>; 0] {
+        *x = from_x * weight;
+        *y = from_y * weight;
+        []
+    }
+}
+
+struct AddWeighted;
+
+impl CellRule<3, 2, 0> for AddWeighted {
+    #[inline(always)]
+    fn at<S: Simd>(
+        &self,
+        [from_x, from_y, weight]: [Reals<S>; 3],
+        [x, y]: &mut [Reals<S>; 2],
+    ) -> [Reals<S>; 0] {
+        *x = *x + from_x * weight;
+        *y = *y + from_y * weight;
+        []
     }
 }
 

@@ -1,7 +1,10 @@
 //! The way back to tractions that the laws allow: no tension, no shear above mu p, resultants exact.
 
-use super::residual::TangentialTask;
+use pulp::Simd;
+
+use super::coulomb::TangentialTask;
 use super::zones::Zones;
+use crate::model::each_cell::{CellRule, Reals, each_cell};
 use crate::model::field::{TangentialField, sum};
 
 /// Cuts tension off and restores the total pressure by scaling, which keeps the shape of the edge.
@@ -22,157 +25,179 @@ pub fn retract_pressure(pressure: &mut [f64], total: Option<f64>) -> bool {
     true
 }
 
-/// Brings shear back to its discs and to its resultants. A slipping cell stays on its circle; a cell that was just cut
-/// moves along its tangent only, since pulling it back would undo the slip zone.
-pub fn retract_shear(shear: &mut TangentialField, zones: &Zones, task: &TangentialTask<'_>) {
-    let len = task.bound.len();
-    let mut on_circle = vec![false; len];
-    for cell in 0..len {
-        let limit = task.bound[cell];
-        if limit <= 0.0 {
-            shear.set(cell, [0.0, 0.0]);
+/// Memory of the retraction of shear: a trial with its cells on the circle, and the marks of the last.
+#[derive(Debug, Default)]
+pub struct Retraction {
+    on_circle: Vec<f64>,
+    trial: TangentialField,
+    trial_on: Vec<f64>,
+}
+
+/// Resultants that are missing, and how they answer to `q + mu p (sum of modes)`.
+struct Balance {
+    defect: [f64; 3],
+    compliance: [f64; 6],
+}
+
+impl Retraction {
+    /// Brings shear back to its discs and to its resultants. A slipping cell stays on its circle; a cell that was just cut
+    /// moves along its tangent only, since pulling it back would undo the slip zone.
+    pub fn shear(&mut self, shear: &mut TangentialField, zones: &Zones, task: &TangentialTask<'_>) {
+        self.on_circle.clear();
+        self.on_circle.resize(zones.len(), 0.0);
+        let modes = task.modes;
+        let read = [
+            task.bound,
+            &zones.stick,
+            &zones.direction.x,
+            &zones.direction.y,
+            &modes.rotation.x,
+            &modes.rotation.y,
+        ];
+        let write = [&mut shear.x[..], &mut shear.y, &mut self.on_circle];
+        let found = each_cell(&ToDiscs, read, write);
+        if modes.any_by_force() {
+            self.restore_resultants(shear, balance(found, task), zones, task);
         }
     }
-    for &cell in task.contact {
-        let limit = task.bound[cell];
-        if limit <= 0.0 {
-            continue;
-        }
-        let vector = shear.at(cell);
-        let size = (vector[0] * vector[0] + vector[1] * vector[1]).sqrt();
-        let slips = zones.is_on_circle(cell);
-        if slips || size > limit {
-            on_circle[cell] = true;
-            if size > 0.0 {
-                shear.set(cell, [vector[0] * limit / size, vector[1] * limit / size]);
-            } else {
-                let along = zones.direction.at(cell);
-                shear.set(cell, [along[0] * limit, along[1] * limit]);
+
+    fn restore_resultants(
+        &mut self,
+        shear: &mut TangentialField,
+        mut balance: Balance,
+        zones: &Zones,
+        task: &TangentialTask<'_>,
+    ) {
+        let total = sum(task.bound);
+        let goal = 2e-16 * total;
+        let mut released = false;
+        for _ in 0..40 {
+            let size = length(&balance.defect);
+            if size <= goal {
+                return;
+            }
+            let change = task.modes.solve(balance.compliance, balance.defect);
+            let reach = length(&change);
+            let mut share = if reach > 0.5 { 0.5 / reach } else { 1.0 };
+            let mut accepted = false;
+            for _ in 0..12 {
+                let left = self.moved(shear, task, change.map(|c| c * share));
+                if length(&left.defect) < size * (1.0 - 0.1 * share) {
+                    std::mem::swap(shear, &mut self.trial);
+                    std::mem::swap(&mut self.on_circle, &mut self.trial_on);
+                    balance = left;
+                    accepted = true;
+                    break;
+                }
+                share *= 0.5;
+            }
+            if !accepted {
+                if released {
+                    return;
+                }
+                // Turning alone does not do: cells that were only cut may come off their circles again.
+                released = true;
+                for (on, stick) in self.on_circle.iter_mut().zip(&zones.stick) {
+                    *on = if size < 1e-6 * total { 1.0 - stick } else { 0.0 };
+                }
+                balance = self.moved(shear, task, [0.0; 3]);
             }
         }
     }
-    if task.modes.any_by_force() {
-        restore_resultants(shear, &mut on_circle, zones, task);
+
+    /// The trial: `shear` after a push by rigid motions, back on its discs.
+    fn moved(&mut self, shear: &TangentialField, task: &TangentialTask<'_>, amounts: [f64; 3]) -> Balance {
+        self.trial.x.clone_from(&shear.x);
+        self.trial.y.clone_from(&shear.y);
+        self.trial_on.clone_from(&self.on_circle);
+        let read = [task.bound, &task.modes.rotation.x, &task.modes.rotation.y];
+        let write = [&mut self.trial.x[..], &mut self.trial.y, &mut self.trial_on];
+        balance(each_cell(&Push(amounts), read, write), task)
     }
 }
 
-fn restore_resultants(
-    shear: &mut TangentialField,
-    on_circle: &mut [bool],
-    zones: &Zones,
-    task: &TangentialTask<'_>,
-) {
-    let total: f64 = task.contact.iter().map(|&cell| task.bound[cell]).sum();
-    let goal = 2e-16 * total;
-    let mut released = false;
-    let mut defect = defect_of(shear, task);
-    for _ in 0..40 {
-        let size = length(&defect);
-        if size <= goal {
-            return;
-        }
-        let change = task.modes.solve(&compliance_of(shear, on_circle, task), &defect);
-        let reach = length(&change);
-        let mut share = if reach > 0.5 { 0.5 / reach } else { 1.0 };
-        let mut accepted = false;
-        for _ in 0..12 {
-            let trial = moved(shear, on_circle, task, &change.map(|c| c * share));
-            let left = defect_of(&trial.0, task);
-            if length(&left) < size * (1.0 - 0.1 * share) {
-                *shear = trial.0;
-                on_circle.copy_from_slice(&trial.1);
-                defect = left;
-                accepted = true;
-                break;
-            }
-            share *= 0.5;
-        }
-        if !accepted {
-            if released {
-                return;
-            }
-            // Turning alone does not do: cells that were only cut may come off their circles again.
-            released = true;
-            for &cell in task.contact {
-                on_circle[cell] = zones.is_on_circle(cell) && size < 1e-6 * total;
-            }
-        }
-    }
+fn balance([x, y, r, xx, yy, rr, xy, xr, yr]: [f64; 9], task: &TangentialTask<'_>) -> Balance {
+    let found = [x, y, r];
+    let defect = [0, 1, 2].map(|mode| task.resultant[mode] - found[mode]);
+    Balance { defect: task.modes.only_by_force(defect), compliance: [xx, yy, rr, xy, xr, yr] }
 }
 
 fn length(vector: &[f64; 3]) -> f64 {
     vector.iter().map(|v| v * v).sum::<f64>().sqrt()
 }
 
-fn defect_of(shear: &TangentialField, task: &TangentialTask<'_>) -> [f64; 3] {
-    let mut found = [0.0; 3];
-    for &cell in task.contact {
-        let products = task.modes.products(shear.at(cell), cell);
-        for mode in 0..3 {
-            found[mode] += products[mode];
-        }
+/// Shear back to its discs: slipping cells to their circles, others where they stick out.
+struct ToDiscs;
+
+impl CellRule<6, 3, 9> for ToDiscs {
+    #[inline(always)]
+    fn at<S: Simd>(
+        &self,
+        [bound, stick, along_x, along_y, around_x, around_y]: [Reals<S>; 6],
+        [x, y, on]: &mut [Reals<S>; 3],
+    ) -> [Reals<S>; 9] {
+        let (zero, one) = (x.all(0.0), x.all(1.0));
+        let size = (*x * *x + *y * *y).sqrt();
+        let outside = size.if_at_most(bound, zero, one);
+        *on = outside.max(one - stick);
+        let scale = bound / size;
+        let directed = [
+            size.if_at_most(zero, along_x * bound, *x * scale),
+            size.if_at_most(zero, along_y * bound, *y * scale),
+        ];
+        *x = on.if_at_most(zero, *x, directed[0]);
+        *y = on.if_at_most(zero, *y, directed[1]);
+        balance_terms([*x, *y], *on, bound, [around_x, around_y])
     }
-    let mut defect = [0.0; 3];
-    for mode in 0..3 {
-        if task.modes.by_force[mode] {
-            defect[mode] = task.resultant[mode] - found[mode];
-        }
-    }
-    defect
 }
 
-/// Change of the resultants under `q + mu p (sum of modes)`.
-fn compliance_of(shear: &TangentialField, on_circle: &[bool], task: &TangentialTask<'_>) -> [[f64; 3]; 3] {
-    let mut matrix = [[0.0; 3]; 3];
-    let modes = if task.modes.by_force[2] { 3 } else { 2 };
-    for &cell in task.contact {
-        let limit = task.bound[cell];
-        if limit <= 0.0 {
-            continue;
-        }
-        let shear = shear.at(cell);
-        let along = if on_circle[cell] { [shear[0] / limit, shear[1] / limit] } else { [0.0, 0.0] };
-        for m in 0..modes {
-            let a = task.modes.mode(m, cell);
-            let an = a[0] * along[0] + a[1] * along[1];
-            for n in 0..modes {
-                let b = task.modes.mode(n, cell);
-                let bn = b[0] * along[0] + b[1] * along[1];
-                matrix[m][n] += limit * (a[0] * b[0] + a[1] * b[1] - an * bn);
-            }
-        }
+/// A push `mu p (sum of modes)`, along the tangent for cells on their circles, and back to the discs.
+struct Push([f64; 3]);
+
+impl CellRule<3, 3, 9> for Push {
+    #[inline(always)]
+    fn at<S: Simd>(
+        &self,
+        [bound, around_x, around_y]: [Reals<S>; 3],
+        [x, y, on]: &mut [Reals<S>; 3],
+    ) -> [Reals<S>; 9] {
+        let (zero, one) = (x.all(0.0), x.all(1.0));
+        let [shift_x, shift_y, twist] = self.0;
+        let push = [(around_x * twist + shift_x) * bound, (around_y * twist + shift_y) * bound];
+        let inverse = bound.if_at_most(zero, zero, *on / bound);
+        let along = [*x * inverse, *y * inverse];
+        let out = push[0] * along[0] + push[1] * along[1];
+        let moved = [*x + (push[0] - along[0] * out), *y + (push[1] - along[1] * out)];
+        let size = (moved[0] * moved[0] + moved[1] * moved[1]).sqrt();
+        *on = on.max(size.if_at_most(bound, zero, one));
+        let scale = size.if_at_most(zero, one, on.if_at_most(zero, one, bound / size));
+        *x = moved[0] * scale;
+        *y = moved[1] * scale;
+        balance_terms([*x, *y], *on, bound, [around_x, around_y])
     }
-    matrix
 }
 
-fn moved(
-    shear: &TangentialField,
-    on_circle: &[bool],
-    task: &TangentialTask<'_>,
-    amounts: &[f64; 3],
-) -> (TangentialField, Vec<bool>) {
-    let mut result = shear.clone();
-    let mut on = on_circle.to_vec();
-    for &cell in task.contact {
-        let limit = task.bound[cell];
-        if limit <= 0.0 {
-            continue;
-        }
-        let here = shear.at(cell);
-        let mut push = task.modes.displacement(amounts, cell);
-        if on_circle[cell] {
-            let along = [here[0] / limit, here[1] / limit];
-            let out = push[0] * along[0] + push[1] * along[1];
-            push = [push[0] - out * along[0], push[1] - out * along[1]];
-        }
-        let vector = [here[0] + limit * push[0], here[1] + limit * push[1]];
-        let size = (vector[0] * vector[0] + vector[1] * vector[1]).sqrt();
-        if on_circle[cell] || size > limit {
-            on[cell] = true;
-            result.set(cell, [vector[0] * limit / size, vector[1] * limit / size]);
-        } else {
-            result.set(cell, vector);
-        }
-    }
-    (result, on)
+/// Contributions of a cell to the resultants, and to their answer to a push.
+#[inline(always)]
+fn balance_terms<S: Simd>(
+    [x, y]: [Reals<S>; 2],
+    on: Reals<S>,
+    bound: Reals<S>,
+    [around_x, around_y]: [Reals<S>; 2],
+) -> [Reals<S>; 9] {
+    let zero = x.all(0.0);
+    let inverse = bound.if_at_most(zero, zero, on / bound);
+    let along = [x * inverse, y * inverse];
+    let turned = along[0] * around_x + along[1] * around_y;
+    [
+        x,
+        y,
+        x * around_x + y * around_y,
+        bound - bound * along[0] * along[0],
+        bound - bound * along[1] * along[1],
+        bound * (around_x * around_x + around_y * around_y - turned * turned),
+        bound * along[0] * along[1] * -1.0,
+        bound * (around_x - along[0] * turned),
+        bound * (around_y - along[1] * turned),
+    ]
 }

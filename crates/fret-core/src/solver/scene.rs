@@ -2,20 +2,26 @@
 
 use ndarray::Array2;
 
-use super::coupled::{CoupledTask, Displacements, Tractions, solve_coupled};
+use super::alternating::solve_alternating;
+use super::contact_set::ContactSet;
+use super::coulomb::{TangentialTask, TangentialVerdict};
+use super::coupled::{CoupledTask, solve_coupled};
 use super::normal::{NormalTask, first_pressure, full_contact_pressure, solve_normal};
 use super::preconditioner::Preconditioner;
 use super::region::Region;
-use super::residual::{NormalVerdict, TangentialTask, TangentialVerdict, judge_normal};
-use super::retraction::{retract_pressure, retract_shear};
-use super::rigid::RigidModes;
+use super::residual::{NormalVerdict, judge_normal};
+use super::retraction::{Retraction, retract_pressure};
+use super::rigid::{Places, RigidModes};
 use super::settings::{SolveError, SolverSettings, Watch};
 use super::shear::solve_shear;
+use super::tractions::{Displacements, Tractions};
 use super::zones::Zones;
 use crate::compliance::{SpectralCompliance, SurfaceCompliance};
 use crate::history::{Regime, Residual};
 use crate::model::field::sum;
-use crate::model::{ContactState, Control, CoulombFriction, LoadStep, SurfaceGrid, TangentialField, Zone};
+use crate::model::{
+    ContactState, Control, CoulombFriction, LoadStep, Scheme, SurfaceGrid, TangentialField, Zone,
+};
 
 /// Residual to which the frictionless start of a coupled contact is solved.
 const ROUGH: f64 = 1e-2;
@@ -39,7 +45,7 @@ pub struct Scene<'a> {
     friction: Vec<f64>,
     total: Option<f64>,
     approach: f64,
-    modes: RigidModes,
+    places: Places,
     motion: [f64; 3],
     resultant: [f64; 3],
     periodic: bool,
@@ -113,10 +119,10 @@ impl<'a> Scene<'a> {
         let controls = [load.tangential[0], load.tangential[1], load.twist];
         let by_force = controls.map(|control| matches!(control, Control::Force(_)));
         let rotates = state.twist != 0.0 || load.twist != Control::Motion(0.0);
-        let modes = RigidModes::new(&centres(0), &centres(1), rotates, by_force);
+        let places = Places::new(centres(0), centres(1), rotates, by_force);
         let area = grid.cell_area();
         let now = [state.shift[0], state.shift[1], state.twist];
-        let units = [1.0, 1.0, modes.length];
+        let units = [1.0, 1.0, places.length];
         let mut motion = [0.0; 3];
         let mut resultant = [0.0; 3];
         for mode in 0..3 {
@@ -141,7 +147,7 @@ impl<'a> Scene<'a> {
             friction,
             total,
             approach,
-            modes,
+            places,
             motion,
             resultant,
             periodic,
@@ -193,31 +199,31 @@ impl<'a> Scene<'a> {
     }
 
     fn task<'b>(
-        &'b self,
-        contact: &'b [usize],
+        &self,
         bound: &'b [f64],
         before: &'b TangentialField,
+        modes: &'b RigidModes,
         own: f64,
     ) -> TangentialTask<'b> {
-        TangentialTask {
-            contact,
-            bound,
-            before,
-            modes: &self.modes,
-            motion: self.motion,
-            resultant: self.resultant,
-            own,
-        }
+        TangentialTask { bound, before, modes, motion: self.motion, resultant: self.resultant, own }
     }
 
     /// Predicted tractions made feasible.
-    fn feasible(&self, tractions: &mut Tractions, before: &TangentialField, own: f64) {
+    fn feasible(&self, tractions: &mut Tractions, own: f64) {
         retract_pressure(&mut tractions.pressure, self.total);
-        let bound = self.bound(&tractions.pressure);
+        self.feasible_shear(tractions, own);
+    }
+
+    /// Predicted shear made feasible under its pressure.
+    fn feasible_shear(&self, tractions: &mut Tractions, own: f64) {
         let contact = loaded(&tractions.pressure);
-        let at_rest = TangentialField::zeros(bound.len());
-        let zones = Zones::classify(contact.clone(), &tractions.shear, &at_rest, &bound, |_| false);
-        retract_shear(&mut tractions.shear, &zones, &self.task(&contact, &bound, before, own));
+        let bound = contact.packed(&self.bound(&tractions.pressure));
+        let mut shear = contact.packed_tangential(&tractions.shear);
+        let at_rest = TangentialField::zeros(contact.len());
+        let modes = self.places.modes(&contact);
+        let zones = Zones::classify(&shear, &at_rest, &bound, |_| false);
+        Retraction::default().shear(&mut shear, &zones, &self.task(&bound, &at_rest, &modes, own));
+        contact.scatter_tangential(&shear, &mut tractions.shear);
     }
 
     /// Pressure and shear together. `settled`: displacements of the state before, when they are known.
@@ -236,7 +242,7 @@ impl<'a> Scene<'a> {
         let mut before = TangentialField::zeros(len);
         if self.touched() {
             before = self.displaced_before(settled, compliance, true);
-            self.feasible(&mut tractions, &before, own.tangential);
+            self.feasible(&mut tractions, own.tangential);
         } else {
             tractions.shear.clear();
             tractions.pressure = self.first_pressure(own.normal, preconditioner);
@@ -251,7 +257,7 @@ impl<'a> Scene<'a> {
                 &rough,
                 watch,
             )?;
-            self.feasible(&mut tractions, &before, own.tangential);
+            self.feasible(&mut tractions, own.tangential);
         }
         compliance.full(
             &tractions.pressure,
@@ -265,11 +271,15 @@ impl<'a> Scene<'a> {
             total: self.total,
             approach: self.approach,
             before: &before,
-            modes: &self.modes,
+            places: &self.places,
             motion: self.motion,
             resultant: self.resultant,
         };
-        let solution = solve_coupled(
+        let solve = match settings.scheme {
+            Scheme::Together => solve_coupled,
+            Scheme::Alternating => solve_alternating,
+        };
+        let solution = solve(
             &task,
             &mut tractions,
             &mut displacements,
@@ -361,24 +371,26 @@ impl<'a> Scene<'a> {
             tractions.shear.clear();
         } else {
             let before = self.displaced_before(settled, compliance, false);
-            let bound = self.bound(&tractions.pressure);
-            let contact = loaded(&tractions.pressure);
-            let task = self.task(&contact, &bound, &before, own.tangential);
-            let at_rest = TangentialField::zeros(len);
-            let zones = Zones::classify(contact.clone(), &tractions.shear, &at_rest, &bound, |_| false);
-            retract_shear(&mut tractions.shear, &zones, &task);
+            self.feasible_shear(&mut tractions, own.tangential);
             compliance.tangential(&tractions.shear, &mut displacements.tangential);
+            let contact = loaded(&tractions.pressure);
+            let bound = contact.packed(&self.bound(&tractions.pressure));
+            let before = contact.packed_tangential(&before);
+            let modes = self.places.modes(&contact);
+            let mut shear = contact.packed_tangential(&tractions.shear);
             let solution = solve_shear(
-                &task,
-                &mut tractions.shear,
+                &self.task(&bound, &before, &modes, own.tangential),
+                &contact,
+                &mut shear,
                 &mut displacements.tangential,
                 compliance,
                 preconditioner,
                 settings,
                 watch,
             )?;
+            contact.scatter_tangential(&shear, &mut tractions.shear);
+            contact.scatter_tangential(&solution.s, &mut s);
             tangential = solution.verdict;
-            s = solution.s;
             iterations += solution.iterations;
         }
         Ok(Solved { tractions, displacements, gap, s, normal, tangential, iterations })
@@ -388,9 +400,12 @@ impl<'a> Scene<'a> {
     pub fn settle(&self, solved: &Solved) -> (ContactState, Outcome) {
         let Tractions { pressure, shear } = &solved.tractions;
         let area = self.grid.cell_area();
-        let bound = self.bound(pressure);
         let contact = loaded(pressure);
-        let zones = Zones::classify(contact.clone(), shear, &solved.s, &bound, |_| false);
+        let bound = contact.packed(&self.bound(pressure));
+        let packed = contact.packed_tangential(shear);
+        let s = contact.packed_tangential(&solved.s);
+        let zones = Zones::classify(&packed, &s, &bound, |_| false);
+        let modes = self.places.modes(&contact);
         let mut state = self.state.clone();
         self.region.scatter(pressure, &mut state.pressure);
         self.region.scatter(&shear.x, &mut state.shear[0]);
@@ -399,21 +414,20 @@ impl<'a> Scene<'a> {
         state.approach = solved.normal.approach;
         let moved = solved.tangential.motion;
         state.shift = [state.shift[0] + moved[0], state.shift[1] + moved[1]];
-        state.twist += moved[2] / self.modes.length;
+        state.twist += moved[2] / self.places.length;
         let columns = self.region.shape[1];
         let mut stick_cells = 0;
         let mut sums = [0.0; 3];
         let mut dissipated = 0.0;
-        for &cell in &contact {
+        for (place, cell) in contact.cells().enumerate() {
             let at = [self.region.origin[0] + cell / columns, self.region.origin[1] + cell % columns];
-            let q = shear.at(cell);
-            let products = self.modes.products(q, cell);
-            for mode in 0..3 {
-                sums[mode] += products[mode];
-            }
-            if zones.is_on_circle(cell) {
+            let q = packed.at(place);
+            sums[0] += q[0];
+            sums[1] += q[1];
+            sums[2] += q[0] * modes.rotation.x[place] + q[1] * modes.rotation.y[place];
+            if zones.is_on_circle(place) {
                 state.zone[at] = Zone::Slip;
-                let slip = [-solved.s.x[cell], -solved.s.y[cell]];
+                let slip = [-s.x[place], -s.y[place]];
                 state.slip[0][at] += slip[0];
                 state.slip[1][at] += slip[1];
                 dissipated += q[0] * slip[0] + q[1] * slip[1];
@@ -424,14 +438,14 @@ impl<'a> Scene<'a> {
         }
         state.dissipated_energy += dissipated * area;
         let total = sum(pressure);
-        let limit: f64 = contact.iter().map(|&cell| bound[cell]).sum();
+        let limit = sum(&bound);
         let mut equilibrium = match self.total {
             Some(asked) if asked > 0.0 => ((total - asked) / asked).abs(),
             _ => 0.0,
         };
         if limit > 0.0 {
             for mode in 0..3 {
-                if self.modes.by_force[mode] {
+                if modes.by_force[mode] {
                     equilibrium = equilibrium.max(((sums[mode] - self.resultant[mode]) / limit).abs());
                 }
             }
@@ -447,7 +461,7 @@ impl<'a> Scene<'a> {
             resultants: Resultants {
                 normal: total * area,
                 tangential: [sums[0] * area, sums[1] * area],
-                moment: sums[2] * area * self.modes.length,
+                moment: sums[2] * area * self.places.length,
             },
             contact_cells: contact.len(),
             stick_cells,
@@ -462,7 +476,7 @@ impl<'a> Scene<'a> {
     }
 }
 
-/// Cells with pressure, in their order.
-fn loaded(pressure: &[f64]) -> Vec<usize> {
-    (0..pressure.len()).filter(|&cell| pressure[cell] > 0.0).collect()
+/// Cells with pressure.
+fn loaded(pressure: &[f64]) -> ContactSet {
+    ContactSet::of(pressure.len(), |cell| pressure[cell] > 0.0)
 }

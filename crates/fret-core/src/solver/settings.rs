@@ -4,6 +4,8 @@ use std::ops::ControlFlow;
 
 use serde::Serialize;
 
+use crate::model::Scheme;
+
 /// How pressure and shear act on each other.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
@@ -25,12 +27,14 @@ pub struct SolverSettings {
     pub most_outer_iterations: usize,
     /// Krylov steps on frozen zones.
     pub most_inner_iterations: usize,
+    /// How coupled pressure and shear are solved.
+    pub scheme: Scheme,
 }
 
 impl SolverSettings {
-    /// Settings for a tolerance.
+    /// Settings for a tolerance; coupled tractions together.
     pub fn new(tolerance: f64) -> Self {
-        Self { tolerance, most_outer_iterations: 200, most_inner_iterations: 30 }
+        Self { tolerance, most_outer_iterations: 200, most_inner_iterations: 30, scheme: Scheme::default() }
     }
 }
 

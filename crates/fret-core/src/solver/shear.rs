@@ -1,33 +1,40 @@
 //! Shear alone, at given pressure: stick and slip zones frozen from feasible shear, conjugate gradients on the frozen
 //! problem with the resultants held exactly, back to the friction discs; again until Coulomb's law holds.
 
+use pulp::Simd;
+
+use super::contact_set::ContactSet;
+use super::coulomb::{CoulombJudge, TangentialTask, TangentialVerdict};
 use super::preconditioner::Preconditioner;
-use super::residual::{TangentialTask, TangentialVerdict};
-use super::retraction::retract_shear;
+use super::retraction::Retraction;
 use super::settings::{SolveError, SolverSettings, Watch};
-use super::zones::{Freedom, Zones};
+use super::zones::{RigidProjector, Zones};
 use crate::compliance::SurfaceCompliance;
 use crate::model::TangentialField;
+use crate::model::each_cell::{CellRule, Reals, each_cell};
+use crate::model::field::{norm, scale_and_add};
 
 /// How much of the cut a frozen problem is solved below; raised while outer steps do not pay.
-const THETA: f64 = 0.3;
+pub const THETA: f64 = 0.3;
 /// Share of its start to which a frozen problem is solved at the most when something is cut.
-const ETA: f64 = 0.02;
+pub const ETA: f64 = 0.02;
 
 /// What the shear solver reached.
 #[derive(Debug)]
 pub struct ShearSolution {
     /// Increments of the rigid motions.
     pub verdict: TangentialVerdict,
-    /// Minus the slip increment.
+    /// Minus the slip increment, packed.
     pub s: TangentialField,
     /// Outer iterations made.
     pub iterations: usize,
 }
 
-/// Solves the tangential equations from a feasible `shear` with its displacement; both end at the solution.
+/// Solves the tangential equations from a feasible `shear`, packed over `contact`, with its `displacement` of the whole
+/// box; both end at the solution.
 pub fn solve_shear(
     task: &TangentialTask<'_>,
+    contact: &ContactSet,
     shear: &mut TangentialField,
     displacement: &mut TangentialField,
     compliance: &mut dyn SurfaceCompliance,
@@ -35,238 +42,229 @@ pub fn solve_shear(
     settings: &SolverSettings,
     watch: Watch<'_>,
 ) -> Result<ShearSolution, SolveError> {
-    let len = task.bound.len();
-    let mut s = TangentialField::zeros(len);
+    let mut judge = CoulombJudge::default();
+    let mut retraction = Retraction::default();
+    let mut here = contact.packed_tangential(displacement);
+    let mut inner = ConjugateGradients::new(contact, displacement.x.len());
     let mut motion = [0.0; 3];
-    let mut theta = THETA;
-    let mut last_residual = f64::INFINITY;
-    let mut best = f64::INFINITY;
-    let mut last: Option<Direction> = None;
+    let mut patience = Patience::default();
     for iteration in 0..settings.most_outer_iterations {
-        let verdict = task.judge(shear, displacement, motion, &mut s);
+        let verdict = judge.judge(task, shear, &here, motion);
         motion = verdict.motion;
-        best = best.min(verdict.residual);
         if watch(iteration, verdict.residual).is_break() {
             return Err(SolveError::Stopped);
         }
         if verdict.residual < settings.tolerance {
-            return Ok(ShearSolution { verdict, s, iterations: iteration });
+            return Ok(ShearSolution { verdict, s: judge.s, iterations: iteration });
         }
-        theta = if verdict.residual > 0.9 * last_residual {
-            (4.0 * theta).min(300.0)
-        } else {
-            (theta / 2.0).max(THETA)
-        };
-        last_residual = verdict.residual;
-        let zones = Zones::classify(task.contact.to_vec(), shear, &s, task.bound, |_| false);
+        let theta = patience.hears(verdict.residual);
+        let zones = Zones::classify(shear, &judge.s, task.bound, |_| false);
         let frozen = Frozen { task, zones: &zones, settings, theta };
-        let cut = frozen.solve(&s, shear, displacement, compliance, preconditioner, &mut last);
-        retract_shear(shear, &zones, task);
+        let cut = inner.solve(&frozen, &judge.s, shear, displacement, compliance, preconditioner);
+        retraction.shear(shear, &zones, task);
         if cut {
-            compliance.tangential(shear, displacement);
+            contact.place_tangential(shear, &mut inner.spread);
+            compliance.tangential(&inner.spread, displacement);
         }
+        contact.gather_tangential(displacement, &mut here);
     }
-    Err(SolveError::NotConverged { reached: best, iterations: settings.most_outer_iterations })
+    Err(SolveError::NotConverged { reached: patience.best, iterations: settings.most_outer_iterations })
 }
 
-/// A search direction with its elastic image.
-struct Direction {
-    along: TangentialField,
-    image: TangentialField,
+/// How far frozen problems are solved: further while outer steps do not pay.
+#[derive(Debug)]
+pub struct Patience {
+    theta: f64,
+    last: f64,
+    /// Smallest residual so far.
+    pub best: f64,
+}
+
+impl Default for Patience {
+    fn default() -> Self {
+        Self { theta: THETA, last: f64::INFINITY, best: f64::INFINITY }
+    }
+}
+
+impl Patience {
+    /// Takes note of a residual; returns the share of the cut below which the next frozen problem is solved.
+    pub fn hears(&mut self, residual: f64) -> f64 {
+        self.theta = if residual > 0.9 * self.last {
+            (4.0 * self.theta).min(300.0)
+        } else {
+            (self.theta / 2.0).max(THETA)
+        };
+        self.last = residual;
+        self.best = self.best.min(residual);
+        self.theta
+    }
 }
 
 /// The tangential problem on frozen zones.
-struct Frozen<'a, 'b> {
-    task: &'a TangentialTask<'b>,
+struct Frozen<'a> {
+    task: &'a TangentialTask<'a>,
     zones: &'a Zones,
     settings: &'a SolverSettings,
     theta: f64,
 }
 
-impl Frozen<'_, '_> {
-    /// Conjugate gradients until solving further would be lost in the cut. Adds the step to `shear` and its image to
-    /// `displacement`; tells whether the step leaves the feasible set, so that the image must be computed anew.
+/// Conjugate gradients on frozen zones, and their memory; fields are packed but for `spread` and `answer`.
+struct ConjugateGradients<'a> {
+    contact: &'a ContactSet,
+    residual: TangentialField,
+    z: TangentialField,
+    z_before: TangentialField,
+    step: TangentialField,
+    along: TangentialField,
+    image: TangentialField,
+    change: TangentialField,
+    /// Whether `along` and `image` hold a direction.
+    remembers: bool,
+    /// A field of the whole box, zero outside the contact.
+    spread: TangentialField,
+    /// Displacement of the whole box.
+    answer: TangentialField,
+}
+
+impl<'a> ConjugateGradients<'a> {
+    fn new(contact: &'a ContactSet, cells: usize) -> Self {
+        let packed = || TangentialField::zeros(contact.len());
+        Self {
+            contact,
+            residual: packed(),
+            z: packed(),
+            z_before: packed(),
+            step: packed(),
+            along: packed(),
+            image: packed(),
+            change: packed(),
+            remembers: false,
+            spread: TangentialField::zeros(cells),
+            answer: TangentialField::zeros(cells),
+        }
+    }
+
+    /// Solves until going further would be lost in the cut. Adds the step to `shear` and its image to `displacement`;
+    /// tells whether the step leaves the feasible set, so that the image must be computed anew.
     fn solve(
-        &self,
+        &mut self,
+        frozen: &Frozen<'_>,
         s: &TangentialField,
         shear: &mut TangentialField,
         displacement: &mut TangentialField,
         compliance: &mut dyn SurfaceCompliance,
         preconditioner: &mut Preconditioner,
-        last: &mut Option<Direction>,
     ) -> bool {
-        let len = self.task.bound.len();
-        let rigid = RigidProjector::new(self.task, self.zones);
-        preconditioner.freeze(self.zones);
-        let mut rho = s.clone();
-        rho.x.iter_mut().chain(rho.y.iter_mut()).for_each(|value| *value = -*value);
-        self.zones.keep_free(&mut rho);
-        rigid.remove(&mut rho);
-        let start = rho.norm();
-        let floor = 0.1 * self.settings.tolerance * self.bound_norm() * self.task.own;
-        let mut z = TangentialField::zeros(len);
-        let mut z_before: Option<(TangentialField, f64)> = None;
-        let mut step = TangentialField::zeros(len);
+        let Frozen { task, zones, settings, theta } = *frozen;
+        let rigid = RigidProjector::new(task.modes, zones);
+        preconditioner.freeze(zones);
+        self.residual.clear();
+        self.residual.add_scaled(-1.0, s);
+        rigid.keep_free(self.residual.parts_mut());
+        self.step.clear();
+        let start = self.residual.norm();
+        let floor = 0.1 * settings.tolerance * norm(task.bound) * task.own;
+        let mut product_before: Option<f64> = None;
         let mut cut = 0.0;
-        for _ in 0..self.settings.most_inner_iterations {
-            preconditioner.shear(&rho, self.zones, &mut z);
-            rigid.remove(&mut z);
-            let z_rho = z.dot(&rho);
-            let mut along = z.clone();
-            match (&z_before, last.as_mut()) {
-                (Some((before, product)), Some(direction)) => {
-                    let beta = ((z_rho - before.dot(&rho)) / product).max(0.0);
-                    along.add_scaled(beta, &direction.along);
-                }
-                (None, Some(direction)) => {
-                    // The last direction of the problem before, made tangential, is still nearly conjugate.
-                    self.zones.keep_free(&mut direction.along);
-                    rigid.remove(&mut direction.along);
-                    let stiff = self.stiff_product(&direction.along, &direction.along);
-                    let curvature = direction.along.dot(&direction.image) + stiff;
-                    if curvature > 0.0 {
-                        let beta =
-                            -(z.dot(&direction.image) + self.stiff_product(&z, &direction.along)) / curvature;
-                        along.add_scaled(beta, &direction.along);
-                    }
-                }
-                _ => {}
+        for _ in 0..settings.most_inner_iterations {
+            preconditioner.shear(self.residual.parts(), self.contact, self.z.parts_mut());
+            rigid.keep_free(self.z.parts_mut());
+            let product = self.z.dot(&self.residual);
+            let beta = match product_before {
+                Some(before) => ((product - self.z_before.dot(&self.residual)) / before).max(0.0),
+                None if self.remembers => self.conjugate_to_last(zones, &rigid),
+                None => 0.0,
+            };
+            scale_and_add(&mut self.along.x, beta, &self.z.x);
+            scale_and_add(&mut self.along.y, beta, &self.z.y);
+            let mut downhill = self.along.dot(&self.residual);
+            if downhill <= 0.1 * product {
+                self.along.copy_from(&self.z);
+                downhill = product;
             }
-            let mut d_rho = along.dot(&rho);
-            if d_rho <= 0.1 * z_rho {
-                along.clone_from(&z);
-                d_rho = z_rho;
-            }
-            if !(d_rho > 0.0) {
+            if !(downhill > 0.0) {
+                self.remembers = false;
                 break;
             }
-            let mut image = TangentialField::zeros(len);
-            compliance.tangential(&along, &mut image);
-            let curvature = along.dot(&image) + self.stiff_product(&along, &along);
+            self.contact.place_tangential(&self.along, &mut self.spread);
+            compliance.tangential(&self.spread, &mut self.answer);
+            self.contact.gather_tangential(&self.answer, &mut self.image);
+            self.change.copy_from(&self.image);
+            let curvature = add_slip_stiffness(&mut self.change, &self.along, &zones.stiffness);
             if !(curvature > 0.0) {
+                self.remembers = false;
                 break;
             }
-            let tau = d_rho / curvature;
-            step.add_scaled(tau, &along);
-            displacement.add_scaled(tau, &image);
-            // rho -= tau (free part of the image + D along), rigid part off.
-            let mut change = image.clone();
-            self.zones.keep_free(&mut change);
-            self.zones.add_stiffness(&mut change, &along);
-            rigid.remove(&mut change);
-            rho.add_scaled(-tau, &change);
-            let z_norm = z.norm();
-            z_before = Some((z.clone(), z_rho));
-            *last = Some(Direction { along, image });
-            cut = self.cut_of(shear, &step);
-            let residual = rho.norm();
-            let left = z_norm * tau.abs() * (residual / start).clamp(1e-3, 1.0);
-            if residual < floor || (cut > 0.0 && (cut > self.theta * left || residual < ETA * start)) {
+            self.remembers = true;
+            let tau = downhill / curvature;
+            self.step.add_scaled(tau, &self.along);
+            displacement.add_scaled(tau, &self.answer);
+            rigid.keep_free(self.change.parts_mut());
+            self.residual.add_scaled(-tau, &self.change);
+            let z_size = self.z.norm();
+            std::mem::swap(&mut self.z, &mut self.z_before);
+            product_before = Some(product);
+            let read = [&shear.x[..], &shear.y, &self.step.x, &self.step.y, task.bound, &zones.slip];
+            let [square] = each_cell(&Cut, read, []);
+            cut = square.sqrt();
+            let residual = self.residual.norm();
+            let left = z_size * tau.abs() * (residual / start).clamp(1e-3, 1.0);
+            if residual < floor || (cut > 0.0 && (cut > theta * left || residual < ETA * start)) {
                 break;
             }
         }
-        shear.add_scaled(1.0, &step);
+        shear.add_scaled(1.0, &self.step);
         cut > 0.0
     }
 
-    fn bound_norm(&self) -> f64 {
-        self.task.contact.iter().map(|&cell| self.task.bound[cell].powi(2)).sum::<f64>().sqrt()
-    }
-
-    fn stiff_product(&self, a: &TangentialField, b: &TangentialField) -> f64 {
-        let mut product = 0.0;
-        for &cell in &self.zones.contact {
-            if self.zones.freedom[cell] == Freedom::Slip {
-                product += self.zones.stiffness[cell] * (a.x[cell] * b.x[cell] + a.y[cell] * b.y[cell]);
-            }
-        }
-        product
-    }
-
-    /// Distance of `shear + step` from the discs and circles it has to go back to.
-    fn cut_of(&self, shear: &TangentialField, step: &TangentialField) -> f64 {
-        let mut square = 0.0;
-        for &cell in &self.zones.contact {
-            let vector = [shear.x[cell] + step.x[cell], shear.y[cell] + step.y[cell]];
-            let limit = self.task.bound[cell];
-            let size = (vector[0] * vector[0] + vector[1] * vector[1]).sqrt();
-            let moved = step.x[cell] != 0.0 || step.y[cell] != 0.0;
-            if size > limit || (self.zones.freedom[cell] == Freedom::Slip && moved) {
-                let off = size - limit;
-                if off.abs() > 1e-15 * limit {
-                    square += off * off;
-                }
-            }
-        }
-        square.sqrt()
+    /// Share of the last direction of the problem before, made tangential, that the first one takes up.
+    fn conjugate_to_last(&mut self, zones: &Zones, rigid: &RigidProjector<'_>) -> f64 {
+        rigid.keep_free(self.along.parts_mut());
+        let mut stiff = self.image.clone();
+        let curvature = add_slip_stiffness(&mut stiff, &self.along, &zones.stiffness);
+        if curvature > 0.0 { -self.z.dot(&stiff) / curvature } else { 0.0 }
     }
 }
 
-/// Takes off a field what rigid motions that follow from resultants can do on the frozen zones.
-pub(super) struct RigidProjector<'a> {
-    task: &'a TangentialTask<'a>,
-    zones: &'a Zones,
-    gram: [[f64; 3]; 3],
+/// Adds the slip stiffness times a (free) field to its image; returns their product with the field.
+pub fn add_slip_stiffness(image: &mut TangentialField, field: &TangentialField, stiffness: &[f64]) -> f64 {
+    let read = [&field.x[..], &field.y, stiffness];
+    let [product] = each_cell(&AddStiffness, read, [&mut image.x, &mut image.y]);
+    product
 }
 
-impl<'a> RigidProjector<'a> {
-    pub fn new(task: &'a TangentialTask<'_>, zones: &'a Zones) -> Self {
-        let mut gram = [[0.0; 3]; 3];
-        let modes = if task.modes.by_force[2] { 3 } else { 2 };
-        if task.modes.any_by_force() {
-            for &cell in &zones.contact {
-                for m in 0..modes {
-                    let a = free_mode(task, zones, m, cell);
-                    for n in 0..modes {
-                        let b = free_mode(task, zones, n, cell);
-                        gram[m][n] += a[0] * b[0] + a[1] * b[1];
-                    }
-                }
-            }
-        }
-        Self { task, zones, gram }
-    }
+struct AddStiffness;
 
-    pub fn remove(&self, field: &mut TangentialField) {
-        if !self.task.modes.any_by_force() {
-            return;
-        }
-        let mut products = [0.0; 3];
-        for &cell in &self.zones.contact {
-            let found = self.task.modes.products(field.at(cell), cell);
-            for mode in 0..3 {
-                products[mode] += found[mode];
-            }
-        }
-        self.subtract(field, self.task.modes.solve(&self.gram, &products));
-    }
-
-    /// Takes off the rigid motion whose resultant is `resultant`.
-    pub fn remove_resultant(&self, field: &mut TangentialField, resultant: [f64; 3]) {
-        if self.task.modes.any_by_force() {
-            self.subtract(field, self.task.modes.solve(&self.gram, &resultant));
-        }
-    }
-
-    fn subtract(&self, field: &mut TangentialField, amounts: [f64; 3]) {
-        for &cell in &self.zones.contact {
-            let rigid = self.task.modes.displacement(&amounts, cell);
-            let part = match self.zones.freedom[cell] {
-                Freedom::Open | Freedom::Follow => [0.0, 0.0],
-                Freedom::Stick => rigid,
-                Freedom::Slip => self.zones.tangent_part(rigid, cell),
-            };
-            field.x[cell] -= part[0];
-            field.y[cell] -= part[1];
-        }
+impl CellRule<3, 2, 1> for AddStiffness {
+    #[inline(always)]
+    fn at<S: Simd>(
+        &self,
+        [x, y, stiffness]: [Reals<S>; 3],
+        [image_x, image_y]: &mut [Reals<S>; 2],
+    ) -> [Reals<S>; 1] {
+        *image_x = *image_x + stiffness * x;
+        *image_y = *image_y + stiffness * y;
+        [x * *image_x + y * *image_y]
     }
 }
 
-fn free_mode(task: &TangentialTask<'_>, zones: &Zones, mode: usize, cell: usize) -> [f64; 2] {
-    let vector = task.modes.mode(mode, cell);
-    match zones.freedom[cell] {
-        Freedom::Open | Freedom::Follow => [0.0, 0.0],
-        Freedom::Stick => vector,
-        Freedom::Slip => zones.tangent_part(vector, cell),
+/// Squared distance of `shear + step` from the discs and circles it has to go back to.
+struct Cut;
+
+impl CellRule<6, 0, 1> for Cut {
+    #[inline(always)]
+    fn at<S: Simd>(
+        &self,
+        [x, y, step_x, step_y, bound, slip]: [Reals<S>; 6],
+        _: &mut [Reals<S>; 0],
+    ) -> [Reals<S>; 1] {
+        let (zero, one) = (x.all(0.0), x.all(1.0));
+        let moved = [x + step_x, y + step_y];
+        let off = (moved[0] * moved[0] + moved[1] * moved[1]).sqrt() - bound;
+        let moves = (step_x * step_x + step_y * step_y).if_at_most(zero, zero, slip);
+        let counts = off.if_at_most(zero, moves, one);
+        let square = off * off;
+        let rounding = bound * bound * 1e-30;
+        [square.if_at_most(rounding, zero, counts * square)]
     }
 }

@@ -1,16 +1,18 @@
 //! Contact, stick and slip, taken from feasible tractions: a cell slips only when it is on its friction circle and the
 //! surfaces pull it along; it sticks again only when they pull it inward.
 
-use crate::model::field::TangentialField;
+use pulp::Simd;
+
+use super::rigid::RigidModes;
+use crate::model::TangentialField;
+use crate::model::each_cell::{CellRule, Reals, each_cell};
 
 /// On the circle up to this share of its radius.
 const ON_CIRCLE: f64 = 1e-10;
 
-/// What a cell does, frozen for the inner solver.
+/// What a cell in contact does, frozen for the inner solver.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Freedom {
-    /// Not in contact.
-    Open,
     /// Both components of the shear are unknown.
     Stick,
     /// The shear is on its circle and can only turn.
@@ -19,95 +21,212 @@ pub enum Freedom {
     Follow,
 }
 
-/// Frozen zones of a box.
+/// Frozen zones of the cells in contact.
 #[derive(Debug, Clone)]
 pub struct Zones {
     /// Freedom of every cell.
     pub freedom: Vec<Freedom>,
-    /// Direction of the shear in slipping cells, unit vectors; zero elsewhere.
+    /// 1 where a cell sticks, 0 elsewhere.
+    pub stick: Vec<f64>,
+    /// 1 where a cell slips, 0 elsewhere.
+    pub slip: Vec<f64>,
+    /// Direction of the shear of cells that do not stick, unit vectors; zero elsewhere.
     pub direction: TangentialField,
     /// Slip stiffness of slipping cells [length/pressure]: turning by tau changes the pull along the tangent by D tau.
     pub stiffness: Vec<f64>,
-    /// Cells in contact, in their order.
-    pub contact: Vec<usize>,
 }
 
 impl Zones {
-    /// Zones from shear `q`, friction bound `mu p` and `s` = minus the slip increment, over the cells in `contact`;
-    /// `entering` tells cells without pressure that join the contact.
+    /// Zones from shear `q`, friction bound `mu p` and `s` = minus the slip increment, all packed; `entering` tells cells
+    /// without pressure that join the contact.
     pub fn classify(
-        contact: Vec<usize>,
         q: &TangentialField,
         s: &TangentialField,
         bound: &[f64],
         entering: impl Fn(usize) -> bool,
     ) -> Self {
-        let largest = contact.iter().map(|&cell| bound[cell]).fold(0.0, f64::max);
-        let floor = 1e-6 * largest;
-        let mut freedom = vec![Freedom::Open; bound.len()];
-        let mut direction = TangentialField::zeros(bound.len());
-        let mut stiffness = vec![0.0; bound.len()];
-        for &cell in &contact {
+        let len = bound.len();
+        let floor = 1e-6 * bound.iter().copied().fold(0.0, f64::max);
+        let mut zones = Self {
+            freedom: vec![Freedom::Stick; len],
+            stick: vec![1.0; len],
+            slip: vec![0.0; len],
+            direction: TangentialField::zeros(len),
+            stiffness: vec![0.0; len],
+        };
+        for cell in 0..len {
             let pull = s.at(cell);
             if entering(cell) {
                 let size = pull[0].hypot(pull[1]);
-                freedom[cell] = Freedom::Follow;
                 let along = if size > 0.0 { [-pull[0] / size, -pull[1] / size] } else { [1.0, 0.0] };
-                direction.set(cell, along);
+                zones.set(cell, Freedom::Follow, along);
                 continue;
             }
             let shear = q.at(cell);
             let size = (shear[0] * shear[0] + shear[1] * shear[1]).sqrt();
-            freedom[cell] = Freedom::Stick;
             if size > 0.0 && size >= bound[cell] * (1.0 - ON_CIRCLE) {
                 let along = [shear[0] / size, shear[1] / size];
                 let outward = -(pull[0] * along[0] + pull[1] * along[1]);
                 if outward > 0.0 {
-                    freedom[cell] = Freedom::Slip;
-                    direction.set(cell, along);
-                    stiffness[cell] = outward / bound[cell].max(floor);
+                    zones.set(cell, Freedom::Slip, along);
+                    zones.stiffness[cell] = outward / bound[cell].max(floor);
                 }
             } else if bound[cell] <= 0.0 {
-                freedom[cell] = Freedom::Follow;
-                direction.set(cell, [1.0, 0.0]);
+                zones.set(cell, Freedom::Follow, [1.0, 0.0]);
             }
         }
-        Self { freedom, direction, stiffness, contact }
+        zones
     }
 
-    /// Keeps of a tangential field what the zones leave free: all in stick, the tangent part in slip, nothing elsewhere.
-    pub fn keep_free(&self, field: &mut TangentialField) {
-        for cell in 0..self.freedom.len() {
-            match self.freedom[cell] {
-                Freedom::Stick => {}
-                Freedom::Open | Freedom::Follow => field.set(cell, [0.0, 0.0]),
-                Freedom::Slip => field.set(cell, self.tangent_part(field.at(cell), cell)),
-            }
-        }
+    fn set(&mut self, cell: usize, freedom: Freedom, along: [f64; 2]) {
+        self.freedom[cell] = freedom;
+        self.stick[cell] = 0.0;
+        self.slip[cell] = if freedom == Freedom::Slip { 1.0 } else { 0.0 };
+        self.direction.set(cell, along);
     }
 
     /// Whether the shear of a cell lies on its circle and grows with pressure.
-    #[inline]
     pub fn is_on_circle(&self, cell: usize) -> bool {
-        matches!(self.freedom[cell], Freedom::Slip | Freedom::Follow)
+        self.freedom[cell] != Freedom::Stick
     }
 
-    /// Part of a vector along the tangent of a slipping cell's circle.
-    #[inline]
-    pub fn tangent_part(&self, vector: [f64; 2], cell: usize) -> [f64; 2] {
-        let along = self.direction.at(cell);
-        let turn = along[0] * vector[1] - along[1] * vector[0];
-        [-along[1] * turn, along[0] * turn]
+    /// Number of cells in contact.
+    pub fn len(&self) -> usize {
+        self.stick.len()
     }
 
-    /// Adds the slip stiffness times the (tangent) field.
-    pub fn add_stiffness(&self, image: &mut TangentialField, field: &TangentialField) {
-        for &cell in &self.contact {
-            if self.freedom[cell] == Freedom::Slip {
-                let stiffness = self.stiffness[cell];
-                image.x[cell] += stiffness * field.x[cell];
-                image.y[cell] += stiffness * field.y[cell];
-            }
+    /// Keeps of a tangential field what the zones leave free: all in stick, the tangent part in slip, nothing elsewhere.
+    /// Returns the products of what is left with the rigid motions.
+    pub fn keep_free(&self, field: [&mut [f64]; 2], modes: &RigidModes) -> [f64; 3] {
+        let read = [
+            &self.stick,
+            &self.slip,
+            &self.direction.x,
+            &self.direction.y,
+            &modes.rotation.x,
+            &modes.rotation.y,
+        ];
+        each_cell(&KeepFree, read.map(Vec::as_slice), field)
+    }
+}
+
+/// Part of a vector that a cell is free to change.
+#[inline(always)]
+pub fn free_part<S: Simd>(
+    vector: [Reals<S>; 2],
+    stick: Reals<S>,
+    slip: Reals<S>,
+    direction: [Reals<S>; 2],
+) -> [Reals<S>; 2] {
+    let turn = slip * (direction[0] * vector[1] - direction[1] * vector[0]);
+    [stick * vector[0] - direction[1] * turn, stick * vector[1] + direction[0] * turn]
+}
+
+struct KeepFree;
+
+impl CellRule<6, 2, 3> for KeepFree {
+    #[inline(always)]
+    fn at<S: Simd>(
+        &self,
+        [stick, slip, along_x, along_y, around_x, around_y]: [Reals<S>; 6],
+        [x, y]: &mut [Reals<S>; 2],
+    ) -> [Reals<S>; 3] {
+        [*x, *y] = free_part([*x, *y], stick, slip, [along_x, along_y]);
+        [*x, *y, *x * around_x + *y * around_y]
+    }
+}
+
+/// Takes off a field what rigid motions that follow from resultants can do on the frozen zones.
+pub struct RigidProjector<'a> {
+    modes: &'a RigidModes,
+    zones: &'a Zones,
+    gram: [f64; 6],
+}
+
+impl<'a> RigidProjector<'a> {
+    /// Projector for motions and zones.
+    pub fn new(modes: &'a RigidModes, zones: &'a Zones) -> Self {
+        let gram = if modes.any_by_force() {
+            let read = [
+                &zones.stick,
+                &zones.slip,
+                &zones.direction.x,
+                &zones.direction.y,
+                &modes.rotation.x,
+                &modes.rotation.y,
+            ];
+            each_cell(&Gram, read.map(Vec::as_slice), [])
+        } else {
+            [0.0; 6]
+        };
+        Self { modes, zones, gram }
+    }
+
+    /// Keeps the free part of a field, without what rigid motions can do.
+    pub fn keep_free(&self, [x, y]: [&mut [f64]; 2]) {
+        let products = self.zones.keep_free([&mut *x, &mut *y], self.modes);
+        self.remove_resultant([x, y], products);
+    }
+
+    /// Takes off the rigid motion whose resultant is `resultant`.
+    pub fn remove_resultant(&self, field: [&mut [f64]; 2], resultant: [f64; 3]) {
+        if self.modes.any_by_force() {
+            let read = [
+                &self.zones.stick,
+                &self.zones.slip,
+                &self.zones.direction.x,
+                &self.zones.direction.y,
+                &self.modes.rotation.x,
+                &self.modes.rotation.y,
+            ];
+            let amounts = self.modes.solve(self.gram, resultant);
+            each_cell(&RemoveRigid(amounts), read.map(Vec::as_slice), field);
         }
+    }
+
+    /// Amounts of the motions whose free parts have `resultant`; the field that [`Self::remove_resultant`] takes off.
+    pub fn amounts(&self, resultant: [f64; 3]) -> [f64; 3] {
+        if self.modes.any_by_force() { self.modes.solve(self.gram, resultant) } else { [0.0; 3] }
+    }
+}
+
+struct Gram;
+
+impl CellRule<6, 0, 6> for Gram {
+    #[inline(always)]
+    fn at<S: Simd>(
+        &self,
+        [stick, slip, along_x, along_y, around_x, around_y]: [Reals<S>; 6],
+        _: &mut [Reals<S>; 0],
+    ) -> [Reals<S>; 6] {
+        // Products of the free parts of the modes: 1 in stick, of the tangent parts in slip.
+        let (tx, ty) = (along_y, along_x * -1.0);
+        let tr = tx * around_x + ty * around_y;
+        [
+            stick + slip * tx * tx,
+            stick + slip * ty * ty,
+            stick * (around_x * around_x + around_y * around_y) + slip * tr * tr,
+            slip * tx * ty,
+            stick * around_x + slip * tx * tr,
+            stick * around_y + slip * ty * tr,
+        ]
+    }
+}
+
+struct RemoveRigid([f64; 3]);
+
+impl CellRule<6, 2, 0> for RemoveRigid {
+    #[inline(always)]
+    fn at<S: Simd>(
+        &self,
+        [stick, slip, along_x, along_y, around_x, around_y]: [Reals<S>; 6],
+        [x, y]: &mut [Reals<S>; 2],
+    ) -> [Reals<S>; 0] {
+        let [shift_x, shift_y, twist] = self.0;
+        let rigid = [around_x * twist + shift_x, around_y * twist + shift_y];
+        let part = free_part(rigid, stick, slip, [along_x, along_y]);
+        *x = *x - part[0];
+        *y = *y - part[1];
+        []
     }
 }

@@ -1,0 +1,352 @@
+//! The coupled problem on frozen zones: pressure free on the contact, shear free in stick, turning in slip and following
+//! the pressure there.
+
+use pulp::Simd;
+
+use super::contact_set::ContactSet;
+use super::krylov::{Directions, Triple};
+use super::preconditioner::Preconditioner;
+use super::rigid::RigidModes;
+use super::shear::ETA;
+use super::tractions::{Displacements, Tractions};
+use super::zones::{RigidProjector, Zones, free_part};
+use crate::compliance::SurfaceCompliance;
+use crate::model::TangentialField;
+use crate::model::each_cell::{CellRule, Reals, each_cell};
+use crate::model::field::{add_scaled, largest, sum};
+
+/// Feasible tractions of the cells in contact, packed.
+#[derive(Debug)]
+pub struct Packed {
+    /// Pressure [pressure].
+    pub pressure: Vec<f64>,
+    /// Shear [pressure].
+    pub shear: TangentialField,
+    /// Friction coefficient [-].
+    pub friction: Vec<f64>,
+    /// Friction bound [pressure].
+    pub bound: Vec<f64>,
+}
+
+impl Packed {
+    /// Packs the tractions of a box.
+    pub fn new(contact: &ContactSet, tractions: &Tractions, friction: &[f64]) -> Self {
+        let mut packed = Self {
+            pressure: contact.packed(&tractions.pressure),
+            shear: contact.packed_tangential(&tractions.shear),
+            friction: contact.packed(friction),
+            bound: vec![0.0; contact.len()],
+        };
+        packed.find_bound();
+        packed
+    }
+
+    /// Adds a step.
+    pub fn add(&mut self, step: &Triple) {
+        let [p, x, y] = step.parts();
+        add_scaled(&mut self.pressure, 1.0, p);
+        add_scaled(&mut self.shear.x, 1.0, x);
+        add_scaled(&mut self.shear.y, 1.0, y);
+    }
+
+    /// The friction bound of the pressure.
+    pub fn find_bound(&mut self) {
+        for ((bound, p), mu) in self.bound.iter_mut().zip(&self.pressure).zip(&self.friction) {
+            *bound = p * mu;
+        }
+    }
+}
+
+/// The frozen problem.
+#[derive(Debug)]
+pub struct Frozen<'a> {
+    /// Cells in contact.
+    pub contact: &'a ContactSet,
+    /// What they do.
+    pub zones: &'a Zones,
+    /// Rigid motions.
+    pub modes: &'a RigidModes,
+    /// Tractions to start from.
+    pub packed: &'a Packed,
+    /// The normal force is prescribed: the mean gap follows.
+    pub holds_force: bool,
+    /// Krylov steps at the most.
+    pub most: usize,
+    /// Size of a residual that is small beside the tolerance [length].
+    pub floor: f64,
+    /// Share of the cut below which solving stops.
+    pub theta: f64,
+}
+
+/// Memory of the Krylov method.
+#[derive(Debug)]
+pub struct KrylovMemory {
+    directions: Directions,
+    residual: Triple,
+    /// The step found, packed.
+    pub step: Triple,
+    /// Tractions of the box, zero outside the contact.
+    spread: Tractions,
+    answer: Displacements,
+}
+
+impl KrylovMemory {
+    /// Memory for a box of so many cells.
+    pub fn new(cells: usize) -> Self {
+        Self {
+            directions: Directions::default(),
+            residual: Triple::default(),
+            step: Triple::default(),
+            spread: Tractions::zeros(cells),
+            answer: Displacements::zeros(cells),
+        }
+    }
+}
+
+impl Frozen<'_> {
+    /// Finds the step that solves the frozen problem as far as the zones deserve it, from `gap` and `s`, minus the slip
+    /// increment, packed.
+    pub fn solve(
+        &self,
+        gap: &[f64],
+        s: &TangentialField,
+        memory: &mut KrylovMemory,
+        compliance: &mut dyn SurfaceCompliance,
+        preconditioner: &mut Preconditioner,
+    ) {
+        let len = self.contact.len();
+        let rigid = RigidProjector::new(self.modes, self.zones);
+        preconditioner.freeze(self.zones);
+        memory.directions.restart();
+        memory.spread.clear();
+        memory.step.clear(len);
+        memory.residual.clear(len);
+        let [normal, x, y] = memory.residual.parts_mut();
+        for (to, from) in [(&mut *normal, gap), (&mut *x, &s.x[..]), (&mut *y, &s.y[..])] {
+            add_scaled(to, -1.0, from);
+        }
+        self.remove_mean(normal);
+        rigid.keep_free([x, y]);
+        let start = memory.residual.norm();
+        let mut first_size = 0.0;
+        for depth in 0..self.most {
+            let KrylovMemory { directions, residual, step, spread, answer } = memory;
+            let direction = directions.open(len);
+            self.precondition(residual, &rigid, preconditioner, spread, answer, &mut direction.along);
+            if depth == 0 {
+                first_size = self.size_of(&direction.along);
+            }
+            let [p, x, y] = direction.along.parts();
+            self.contact.place(p, &mut spread.pressure);
+            self.contact.place(x, &mut spread.shear.x);
+            self.contact.place(y, &mut spread.shear.y);
+            compliance.full(&spread.pressure, &spread.shear, &mut answer.normal, &mut answer.tangential);
+            self.image_of(&direction.along, answer, &rigid, &mut direction.image);
+            let Some(left_over) = directions.descend(residual, step) else { break };
+            let cut = self.cut_of(step);
+            let left = first_size * left_over / start;
+            if left_over < self.floor || (cut > 0.0 && (cut > self.theta * left || left_over < ETA * start)) {
+                break;
+            }
+        }
+    }
+
+    fn remove_mean(&self, field: &mut [f64]) {
+        if self.holds_force {
+            let mean = sum(field) / field.len().max(1) as f64;
+            each_cell(&Less(mean), [], [field]);
+        }
+    }
+
+    /// Tractions that would remove the displacements `residual`: pressure and shear each by its own inverse, shear
+    /// following the pressure in slip, resultants kept.
+    fn precondition(
+        &self,
+        residual: &Triple,
+        rigid: &RigidProjector<'_>,
+        preconditioner: &mut Preconditioner,
+        spread: &mut Tractions,
+        answer: &mut Displacements,
+        along: &mut Triple,
+    ) {
+        let [normal, x, y] = residual.parts();
+        let [p, qx, qy] = along.parts_mut();
+        self.contact.place(normal, &mut spread.pressure);
+        preconditioner.normal(&spread.pressure, &mut answer.normal);
+        self.contact.gather(&answer.normal, p);
+        self.remove_mean(p);
+        preconditioner.shear([x, y], self.contact, [qx, qy]);
+        let zones = self.zones;
+        let rotation = &self.modes.rotation;
+        let read = [
+            &zones.stick[..],
+            &zones.slip,
+            &zones.direction.x,
+            &zones.direction.y,
+            &rotation.x,
+            &rotation.y,
+            &self.packed.friction,
+            p,
+        ];
+        let resultant = each_cell(&FreeAndFollow, read, [qx, qy]);
+        let amounts = rigid.amounts(resultant);
+        each_cell(&Follow(amounts), read, [qx, qy]);
+    }
+
+    /// Left side of the frozen equations for tractions `along` with their displacements in the box.
+    fn image_of(
+        &self,
+        along: &Triple,
+        answer: &Displacements,
+        rigid: &RigidProjector<'_>,
+        image: &mut Triple,
+    ) {
+        let [normal, x, y] = image.parts_mut();
+        self.contact.gather(&answer.normal, normal);
+        self.contact.gather(&answer.tangential.x, x);
+        self.contact.gather(&answer.tangential.y, y);
+        self.remove_mean(normal);
+        let [_, qx, qy] = along.parts();
+        let zones = self.zones;
+        let rotation = &self.modes.rotation;
+        let read = [
+            &zones.stick[..],
+            &zones.slip,
+            &zones.direction.x,
+            &zones.direction.y,
+            &rotation.x,
+            &rotation.y,
+            &zones.stiffness,
+            qx,
+            qy,
+        ];
+        let resultant = each_cell(&FreeAndStiff, read, [&mut *x, &mut *y]);
+        rigid.remove_resultant([x, y], resultant);
+    }
+
+    /// Distance of tractions + step from feasible ones, in units of pressure.
+    fn cut_of(&self, step: &Triple) -> f64 {
+        let [p, qx, qy] = step.parts();
+        let packed = self.packed;
+        let read = [
+            &packed.pressure[..],
+            &packed.shear.x,
+            &packed.shear.y,
+            &packed.friction,
+            &self.zones.stick,
+            p,
+            qx,
+            qy,
+        ];
+        let [square] = each_cell(&Cut, read, []);
+        square.sqrt()
+    }
+
+    /// Size of tractions in units of pressure.
+    fn size_of(&self, tractions: &Triple) -> f64 {
+        let [p, qx, qy] = tractions.parts();
+        let [square] = each_cell(&Size, [&self.packed.friction, p, qx, qy], []);
+        square.sqrt()
+    }
+}
+
+/// Residual of the frozen equations that is small beside a tolerance, for pressures and a cell's own influence.
+pub fn floor(tolerance: f64, pressure: &[f64], own: f64) -> f64 {
+    0.02 * tolerance * largest(pressure) * own
+}
+
+struct Less(f64);
+
+impl CellRule<0, 1, 0> for Less {
+    #[inline(always)]
+    fn at<S: Simd>(&self, _: [Reals<S>; 0], [value]: &mut [Reals<S>; 1]) -> [Reals<S>; 0] {
+        *value = *value - self.0;
+        []
+    }
+}
+
+/// Keeps the free part of shear; sums the resultants of it and of the shear that follows pressure.
+struct FreeAndFollow;
+
+impl CellRule<8, 2, 3> for FreeAndFollow {
+    #[inline(always)]
+    fn at<S: Simd>(
+        &self,
+        [stick, slip, along_x, along_y, around_x, around_y, friction, p]: [Reals<S>; 8],
+        [x, y]: &mut [Reals<S>; 2],
+    ) -> [Reals<S>; 3] {
+        [*x, *y] = free_part([*x, *y], stick, slip, [along_x, along_y]);
+        let follow = friction * p;
+        let both = [*x + follow * along_x, *y + follow * along_y];
+        [both[0], both[1], both[0] * around_x + both[1] * around_y]
+    }
+}
+
+/// Takes the free part of a rigid motion off, and adds the shear that follows pressure.
+struct Follow([f64; 3]);
+
+impl CellRule<8, 2, 0> for Follow {
+    #[inline(always)]
+    fn at<S: Simd>(
+        &self,
+        [stick, slip, along_x, along_y, around_x, around_y, friction, p]: [Reals<S>; 8],
+        [x, y]: &mut [Reals<S>; 2],
+    ) -> [Reals<S>; 0] {
+        let [shift_x, shift_y, twist] = self.0;
+        let rigid = [around_x * twist + shift_x, around_y * twist + shift_y];
+        let part = free_part(rigid, stick, slip, [along_x, along_y]);
+        let follow = friction * p;
+        *x = *x - part[0] + follow * along_x;
+        *y = *y - part[1] + follow * along_y;
+        []
+    }
+}
+
+/// Keeps the free part of a displacement and adds the slip stiffness times the turning shear; sums its resultants.
+struct FreeAndStiff;
+
+impl CellRule<9, 2, 3> for FreeAndStiff {
+    #[inline(always)]
+    fn at<S: Simd>(
+        &self,
+        [stick, slip, along_x, along_y, around_x, around_y, stiffness, qx, qy]: [Reals<S>; 9],
+        [x, y]: &mut [Reals<S>; 2],
+    ) -> [Reals<S>; 3] {
+        let turn = slip * (along_x * *y - along_y * *x + stiffness * (along_x * qy - along_y * qx));
+        *x = stick * *x - along_y * turn;
+        *y = stick * *y + along_x * turn;
+        [*x, *y, *x * around_x + *y * around_y]
+    }
+}
+
+struct Cut;
+
+impl CellRule<8, 0, 1> for Cut {
+    #[inline(always)]
+    fn at<S: Simd>(
+        &self,
+        [p, qx, qy, friction, stick, dp, dx, dy]: [Reals<S>; 8],
+        _: &mut [Reals<S>; 0],
+    ) -> [Reals<S>; 1] {
+        let (zero, one) = (p.all(0.0), p.all(1.0));
+        let pressure = p + dp;
+        let tension = pressure.min(zero);
+        let vector = [qx + dx, qy + dy];
+        let size = (vector[0] * vector[0] + vector[1] * vector[1]).sqrt();
+        let off = size - friction * pressure.max(zero);
+        let counts = off.if_at_most(zero, one - stick, one);
+        let share = friction.if_at_most(zero, zero, counts * off / friction);
+        [tension * tension + share * share]
+    }
+}
+
+struct Size;
+
+impl CellRule<4, 0, 1> for Size {
+    #[inline(always)]
+    fn at<S: Simd>(&self, [friction, p, x, y]: [Reals<S>; 4], _: &mut [Reals<S>; 0]) -> [Reals<S>; 1] {
+        let zero = p.all(0.0);
+        let shear = friction.if_at_most(zero, zero, (x * x + y * y) / (friction * friction));
+        [p * p + shear]
+    }
+}

@@ -1,0 +1,84 @@
+//! Pressure and shear of a box, and the displacements they cause.
+
+use pulp::Simd;
+
+use crate::model::TangentialField;
+use crate::model::each_cell::{CellRule, Reals, each_cell};
+
+/// Tractions of a box: pressure and shear.
+#[derive(Debug, Clone)]
+pub struct Tractions {
+    /// Pressure [pressure].
+    pub pressure: Vec<f64>,
+    /// Shear on the lower body [pressure].
+    pub shear: TangentialField,
+}
+
+impl Tractions {
+    /// No traction anywhere.
+    pub fn zeros(len: usize) -> Self {
+        Self { pressure: vec![0.0; len], shear: TangentialField::zeros(len) }
+    }
+
+    /// No traction anywhere, keeping the memory.
+    pub fn clear(&mut self) {
+        self.pressure.fill(0.0);
+        self.shear.clear();
+    }
+
+    /// Halfway to other tractions.
+    pub fn average_with(&mut self, other: &Self) {
+        average(&mut self.pressure, &other.pressure);
+        average(&mut self.shear.x, &other.shear.x);
+        average(&mut self.shear.y, &other.shear.y);
+    }
+
+    /// Takes over other tractions, keeping the memory.
+    pub fn copy_from(&mut self, other: &Self) {
+        self.pressure.clone_from(&other.pressure);
+        self.shear.copy_from(&other.shear);
+    }
+}
+
+/// Displacements of a box [length].
+#[derive(Debug, Clone)]
+pub struct Displacements {
+    /// Normal.
+    pub normal: Vec<f64>,
+    /// Tangential.
+    pub tangential: TangentialField,
+}
+
+impl Displacements {
+    /// Nothing displaced.
+    pub fn zeros(len: usize) -> Self {
+        Self { normal: vec![0.0; len], tangential: TangentialField::zeros(len) }
+    }
+
+    /// Halfway to other displacements.
+    pub fn average_with(&mut self, other: &Self) {
+        average(&mut self.normal, &other.normal);
+        average(&mut self.tangential.x, &other.tangential.x);
+        average(&mut self.tangential.y, &other.tangential.y);
+    }
+
+    /// Takes over other displacements, keeping the memory.
+    pub fn copy_from(&mut self, other: &Self) {
+        self.normal.clone_from(&other.normal);
+        self.tangential.copy_from(&other.tangential);
+    }
+}
+
+fn average(field: &mut [f64], other: &[f64]) {
+    each_cell(&Average, [other], [field]);
+}
+
+struct Average;
+
+impl CellRule<1, 1, 0> for Average {
+    #[inline(always)]
+    fn at<S: Simd>(&self, [other]: [Reals<S>; 1], [value]: &mut [Reals<S>; 1]) -> [Reals<S>; 0] {
+        *value = (*value + other) * 0.5;
+        []
+    }
+}
