@@ -104,7 +104,7 @@ fn six_components_in_all_regimes_are_right_to_rounding() {
     assert_eq!((rows, values, large, farthest), (300, 1187, 273, [1000, 1000]));
 }
 
-/// Change of the compliances C_zz, C_rr, C_tt, C_rz by a coating far thinner than a wave, per thickness: strained by the
+/// Change of the compliances `C_zz`, `C_rr`, `C_tt`, `C_rz` by a coating far thinner than a wave, per thickness: strained by the
 /// surface under it and squeezed by the traction on it, it changes the tractions on that surface by those of its plate.
 fn thin_coating(coating: Material, substrate: Material) -> [f64; 4] {
     let shear = |(young, poisson): Material| young / (2.0 * (1.0 + poisson));
