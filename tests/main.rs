@@ -9,6 +9,7 @@
 
 mod analytic_limits;
 mod coated_limits;
+mod coefficient_regimes;
 mod coefficient_tables;
 mod coupled_friction;
 mod fretting_cycles;
