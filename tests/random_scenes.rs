@@ -135,8 +135,7 @@ fn loads(dice: &mut Dice, scene: &Scene, force: f64) -> String {
             let share = if dice.chance(0.3) { 0.9999 } else { dice.between(0.05, 0.99) };
             let turn = dice.between(0.0, std::f64::consts::TAU);
             let pull = share * most * pressed;
-            let controls =
-                format!("tangential_force = [{:e}, {:e}]\n", pull * turn.cos(), pull * turn.sin());
+            let controls = format!("tangential_force = [{:e}, {:e}]\n", pull * turn.cos(), pull * turn.sin());
             stage(&mut text, &controls, dice.whole(1, 4));
         } else if kind < 0.75 {
             let turn = dice.between(0.0, std::f64::consts::TAU);

@@ -1,57 +1,112 @@
 //! The edge of contact between the cells: area from the zero line of one level function.
 //! Near an edge both `p^2` inside and `gap^(2/3)` outside are linear in the distance to it.
 
-use ndarray::ArrayView2;
+use ndarray::{Array2, ArrayView2, Axis, Slice};
 
 /// The zero line lies this share of a cell inside the true edge (measured on Hertz contacts, confirmed on coated ones).
 const OFFSET: f64 = 0.024;
+
+/// How far from the contact the level function is computed [cells].
+const NEAR: usize = 2;
+
+/// One function for both sides of the edge: `p^2` where there is pressure, `-kappa gap^(2/3)` outside; kappa makes the median
+/// slopes of both along grid lines across the edge equal. Farther out than two cells it is just negative. `None` when no grid
+/// line crosses an edge.
+pub fn level_function(pressure: &ArrayView2<'_, f64>, gap: &ArrayView2<'_, f64>) -> Option<Array2<f64>> {
+    let (nx, ny) = pressure.dim();
+    let inside = |i: usize, j: usize| pressure[[i, j]] > 0.0;
+    let near = spread(&pressure.mapv(|p| p > 0.0));
+    let mut level = Array2::zeros((nx, ny));
+    for ((i, j), value) in level.indexed_iter_mut() {
+        *value = if inside(i, j) {
+            pressure[[i, j]].powi(2)
+        } else if near[[i, j]] {
+            -libm::cbrt(gap[[i, j]].max(0.0).powi(2))
+        } else {
+            f64::NEG_INFINITY
+        };
+    }
+    let mut rises = Vec::new();
+    let mut falls = Vec::new();
+    let mut crossing = |cells: [[usize; 2]; 4]| {
+        let [a, b, c, d] = cells;
+        if level[a] > 0.0 && level[b] > 0.0 && level[c] <= 0.0 && level[d] <= 0.0 {
+            rises.push((level[a] - level[b]).abs());
+            falls.push((level[d] - level[c]).abs());
+        }
+    };
+    for i in 0..nx {
+        for j in 0..ny {
+            if !inside(i, j) {
+                continue;
+            }
+            if i + 3 < nx {
+                crossing([[i, j], [i + 1, j], [i + 2, j], [i + 3, j]]);
+            }
+            if i >= 3 {
+                crossing([[i, j], [i - 1, j], [i - 2, j], [i - 3, j]]);
+            }
+            if j + 3 < ny {
+                crossing([[i, j], [i, j + 1], [i, j + 2], [i, j + 3]]);
+            }
+            if j >= 3 {
+                crossing([[i, j], [i, j - 1], [i, j - 2], [i, j - 3]]);
+            }
+        }
+    }
+    let (rise, fall) = (median(&mut rises)?, median(&mut falls)?);
+    if !(rise > 0.0 && fall > 0.0) {
+        return None;
+    }
+    let kappa = rise / fall;
+    let mut lowest = 0.0_f64;
+    for value in &mut level {
+        if *value <= 0.0 && *value > f64::NEG_INFINITY {
+            *value *= kappa;
+            lowest = lowest.min(*value);
+        }
+    }
+    level.mapv_inplace(|value| value.max(lowest));
+    Some(level)
+}
+
+/// Cells with a marked one at most [`NEAR`] away along both axes.
+fn spread(marked: &Array2<bool>) -> Array2<bool> {
+    let mut result = marked.clone();
+    for axis in 0..2 {
+        let before = result.clone();
+        let len = before.len_of(Axis(axis));
+        for distance in 1..=NEAR.min(len.saturating_sub(1)) {
+            let (far, near) = (len - distance, distance as isize);
+            let low = before.slice_axis(Axis(axis), Slice::from(..far as isize));
+            let high = before.slice_axis(Axis(axis), Slice::from(near..));
+            result
+                .slice_axis_mut(Axis(axis), Slice::from(near..))
+                .zip_mut_with(&low, |to, from| *to |= *from);
+            result
+                .slice_axis_mut(Axis(axis), Slice::from(..far as isize))
+                .zip_mut_with(&high, |to, from| *to |= *from);
+        }
+    }
+    result
+}
 
 /// Contact area in units of one cell, from pressure and gap on a grid (or a box of it). Good to about 0.05 cells along the
 /// perimeter for smooth contacts; a contact without an edge inside the grid is counted by cells.
 pub fn contact_cells(pressure: &ArrayView2<'_, f64>, gap: &ArrayView2<'_, f64>) -> f64 {
     let (nx, ny) = pressure.dim();
-    let inside = |i: usize, j: usize| pressure[[i, j]] > 0.0;
-    let counted = pressure.iter().filter(|p| **p > 0.0).count() as f64;
-    let square = |i: usize, j: usize| pressure[[i, j]].powi(2);
-    let outer = |i: usize, j: usize| gap[[i, j]].max(0.0).powf(2.0 / 3.0);
-    let mut rises = Vec::new();
-    let mut falls = Vec::new();
-    let mut crossing = |cells: [[usize; 2]; 4]| {
-        let [a, b, c, d] = cells.map(|[i, j]| (i, j));
-        if inside(a.0, a.1) && inside(b.0, b.1) && !inside(c.0, c.1) && !inside(d.0, d.1) {
-            rises.push((square(a.0, a.1) - square(b.0, b.1)).abs());
-            falls.push((outer(d.0, d.1) - outer(c.0, c.1)).abs());
-        }
-    };
-    for i in 0..nx {
-        for j in 0..ny {
-            if i + 3 < nx {
-                crossing([[i, j], [i + 1, j], [i + 2, j], [i + 3, j]]);
-                crossing([[i + 3, j], [i + 2, j], [i + 1, j], [i, j]]);
-            }
-            if j + 3 < ny {
-                crossing([[i, j], [i, j + 1], [i, j + 2], [i, j + 3]]);
-                crossing([[i, j + 3], [i, j + 2], [i, j + 1], [i, j]]);
-            }
-        }
-    }
-    let (Some(rise), Some(fall)) = (median(&mut rises), median(&mut falls)) else { return counted };
-    if !(rise > 0.0 && fall > 0.0) {
-        return counted;
-    }
-    let kappa = rise / fall;
-    let level = |i: isize, j: isize| {
-        let i = i.clamp(0, nx as isize - 1) as usize;
-        let j = j.clamp(0, ny as isize - 1) as usize;
-        if inside(i, j) { square(i, j) } else { -kappa * outer(i, j) }
+    let Some(level) = level_function(pressure, gap) else {
+        return pressure.iter().filter(|p| **p > 0.0).count() as f64;
     };
     let mut area = 0.0;
-    for i in 0..nx as isize {
-        for j in 0..ny as isize {
-            let near: Vec<f64> = (-1..=1)
-                .flat_map(|a| (-1..=1).map(move |b| (a, b)))
-                .map(|(a, b)| level(i + a, j + b))
-                .collect();
+    for i in 0..nx {
+        let rows = [i.saturating_sub(1), i, (i + 1).min(nx - 1)];
+        for j in 0..ny {
+            let columns = [j.saturating_sub(1), j, (j + 1).min(ny - 1)];
+            let mut near = [0.0; 9];
+            for (place, value) in near.iter_mut().enumerate() {
+                *value = level[[rows[place / 3], columns[place % 3]]];
+            }
             if near.iter().all(|value| *value > 0.0) {
                 area += 1.0;
             } else if near.iter().any(|value| *value > 0.0) {

@@ -24,10 +24,14 @@ impl Residual {
 }
 
 /// Work spent, in counts that do not depend on the machine.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct Work {
     /// Operator applications, each one fused pass whatever its components.
     pub convolutions: usize,
+    /// The same, each weighted by its number of cells over that of the whole grid: what applications in boxes and on coarser
+    /// grids are worth.
+    #[serde(default)]
+    pub full_grid_convolutions: f64,
     /// Preconditioner applications (unpadded).
     pub preconditioner_passes: usize,
     /// Outer iterations: changes of the contact, stick and slip zones.
@@ -37,6 +41,7 @@ pub struct Work {
 impl std::ops::AddAssign for Work {
     fn add_assign(&mut self, other: Self) {
         self.convolutions += other.convolutions;
+        self.full_grid_convolutions += other.full_grid_convolutions;
         self.preconditioner_passes += other.preconditioner_passes;
         self.outer_iterations += other.outer_iterations;
     }

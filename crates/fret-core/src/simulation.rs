@@ -1,5 +1,6 @@
 //! The journey of a run: stages, increments, records. The only room that knows all of it.
 
+use std::f64::consts::{PI, TAU};
 use std::ops::ControlFlow;
 
 use std::time::Instant;
@@ -7,7 +8,7 @@ use std::time::Instant;
 use crate::case::Stage;
 use crate::compliance::SurfaceResponse;
 use crate::history::{History, KeptFields, Residual, StepRecord};
-use crate::kernel::{Components, influence_coefficients, periodic_symbols};
+use crate::kernel::{Components, ResponseTable, influence_coefficients, periodic_symbols};
 use crate::model::field::largest;
 use crate::model::{ContactState, Control, LoadStep};
 use crate::plan::{Coupling, Plan};
@@ -167,6 +168,12 @@ impl<'a> Simulation<'a> {
             SolverSettings { scheme: case.scheme, ..SolverSettings::new(case.tolerance) },
             true,
         );
+        if !case.periodic {
+            let [longest, shortest] =
+                [plan.grid.size(), plan.grid.spacing()].map(|[x, y]| (x.max(y), x.min(y)));
+            solver =
+                solver.with_waves(ResponseTable::new(&case.bodies, TAU / longest.0, 5.0 * PI / shortest.1));
+        }
         let mut history = History {
             grid: plan.grid,
             stages: case.stages.iter().map(|stage| stage.name.clone()).collect(),

@@ -16,6 +16,7 @@ mod bessel;
 mod cells;
 #[cfg(test)]
 mod closed_form;
+mod homogeneous;
 mod panels;
 mod quadrature;
 mod radial;

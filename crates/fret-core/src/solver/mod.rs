@@ -3,13 +3,17 @@
 //! [`ContactSolver`] picks what the scene needs (pressure alone, pressure then shear, or both together), works in a box
 //! around the contact, and checks the rest of the grid once.
 
+mod active_set;
 mod alternating;
 mod contact_set;
 mod coulomb;
 mod coupled;
+mod feasible;
 mod frozen;
 mod krylov;
+mod nested;
 mod normal;
+mod normal_problem;
 mod preconditioner;
 mod region;
 mod residual;
@@ -18,6 +22,7 @@ mod rigid;
 mod scene;
 mod settings;
 mod shear;
+mod sweep;
 mod tractions;
 mod zones;
 
@@ -26,13 +31,15 @@ use ndarray::{Array2, ArrayView2};
 use crate::compliance::{SpectralCompliance, SurfaceCompliance, SurfaceResponse, Wanted};
 use crate::edge;
 use crate::history::Work;
+use crate::kernel::ResponseTable;
 use crate::model::{ContactState, Control, CoulombFriction, LoadStep, Scheme, SurfaceGrid};
 use crate::spectral::{ConvolutionError, good_length};
 
 pub use scene::{Outcome, Resultants};
 pub use settings::{Coupling, SolveError, SolverSettings, Watch};
 
-use preconditioner::Preconditioner;
+use nested::{CoarseGrids, MARGIN, Prescribed};
+use preconditioner::{Preconditioner, Waves};
 use region::Region;
 use scene::{BoxOperators, Scene, Solved, Turn};
 use tractions::{Displacements, Tractions};
@@ -63,6 +70,27 @@ struct Settled {
     load: LoadStep,
 }
 
+/// Tractions of a state on the whole grid.
+struct GridTractions {
+    pressure: Array2<f64>,
+    shear: [Array2<f64>; 2],
+}
+
+impl GridTractions {
+    fn of(state: &ContactState) -> Self {
+        Self { pressure: copied(&state.pressure), shear: [0, 1].map(|axis| copied(&state.shear[axis])) }
+    }
+}
+
+/// A copy that costs no memory while the field is zero.
+fn copied(field: &Array2<f64>) -> Array2<f64> {
+    if field.iter().all(|value| *value == 0.0) { Array2::zeros(field.dim()) } else { field.clone() }
+}
+
+/// A normal load changes much when it changes by more than this share: starting on coarse grids is then cheaper than from the
+/// pressure before.
+const LARGE_CHANGE: f64 = 0.03;
+
 /// Solves increments of one scene.
 pub struct ContactSolver<'a> {
     grid: SurfaceGrid,
@@ -75,8 +103,12 @@ pub struct ContactSolver<'a> {
     /// Normal displacement of the whole grid, to check what lies outside the box.
     outside: Option<SpectralCompliance>,
     settled: Option<Settled>,
-    /// The state before the last one and the load that led to it, for the predictor.
-    before: Option<(LoadStep, ContactState)>,
+    /// Response of the pair to waves, for the preconditioner of pressure.
+    table: Option<ResponseTable>,
+    /// Made when they are first asked for.
+    coarse: Option<CoarseGrids>,
+    /// The tractions before the last ones and the load that led to them, for the predictor.
+    before: Option<(LoadStep, GridTractions)>,
     last_load: Option<LoadStep>,
     boxed: bool,
 }
@@ -101,11 +133,20 @@ impl<'a> ContactSolver<'a> {
             settings,
             operators: None,
             outside: None,
+            table: None,
+            coarse: None,
             settled: None,
             before: None,
             last_load: None,
             boxed,
         }
+    }
+
+    /// The same solver, which also knows how the pair answers waves: for free space, where coefficients on a box do not tell a
+    /// preconditioner how a stiff coating bends.
+    #[must_use]
+    pub fn with_waves(self, table: ResponseTable) -> Self {
+        Self { table: Some(table), ..self }
     }
 
     /// Solves one increment: from `state`, which the step before returned, to the loads and motions of `load`.
@@ -120,9 +161,14 @@ impl<'a> ContactSolver<'a> {
     ) -> Result<Increment, SolveError> {
         self.check_sliding(load)?;
         let mut work = Work::default();
-        let mut region = self.region_for(state, load);
+        let mut start = self.nested_start(state, load, &mut work, watch)?;
+        let mut region = match &start {
+            Some(pressure) => self.region_around(pressure),
+            None => self.region_for(state, load),
+        };
         loop {
-            let (solved, state_after, outcome) = self.step_in(region, state, load, &mut work, watch)?;
+            let (solved, state_after, outcome) =
+                self.step_in(region, start.as_ref(), (state, load), &mut work, watch)?;
             if !self.response.is_periodic() && touches_edge(&state_after.pressure) {
                 return Err(SolveError::ContactAtEdge);
             }
@@ -137,13 +183,14 @@ impl<'a> ContactSolver<'a> {
                 let gap = self.gap_everywhere(region, &solved, &state_after, &mut work);
                 if self.overlaps_outside(region, &gap) {
                     region = Region::whole(self.grid.cells());
+                    start = start.map(|_| state_after.pressure);
                     continue;
                 }
                 let area = self.contact_area(region, &solved);
                 (gap, area)
             };
             let previous = self.last_load.replace(*load);
-            self.before = previous.map(|last| (last, state.clone()));
+            self.before = previous.map(|last| (last, GridTractions::of(state)));
             self.settled = Some(Settled {
                 region,
                 displacements: solved.displacements,
@@ -170,6 +217,55 @@ impl<'a> ContactSolver<'a> {
             }
         }
         Ok(())
+    }
+
+    /// A pressure from coarser grids: for a first contact, and where the normal load changes much.
+    fn nested_start(
+        &mut self,
+        state: &ContactState,
+        load: &LoadStep,
+        work: &mut Work,
+        watch: Watch<'_>,
+    ) -> Result<Option<Array2<f64>>, SolveError> {
+        let touched = state.pressure.iter().any(|p| *p > 0.0);
+        let far = match (load.normal, self.last_load.map(|last| last.normal)) {
+            (Control::Force(now), Some(Control::Force(then)))
+            | (Control::Motion(now), Some(Control::Motion(then))) => {
+                (now - then).abs() > LARGE_CHANGE * now.abs()
+            }
+            _ => true,
+        };
+        if touched && (!far || self.coupling == Coupling::Coupled) {
+            return Ok(None);
+        }
+        let lowest = self.undeformed.iter().copied().fold(f64::INFINITY, f64::min);
+        let prescribed = match load.normal {
+            Control::Force(force) if force > 0.0 => {
+                Prescribed { total: Some(force / self.grid.cell_area()), approach: 0.0 }
+            }
+            Control::Motion(approach) if approach > lowest => Prescribed { total: None, approach },
+            _ => return Ok(None),
+        };
+        let spacing = self.grid.spacing();
+        let grids =
+            self.coarse.get_or_insert_with(|| CoarseGrids::below(&self.response, &self.undeformed, spacing));
+        grids.pressure_above(prescribed, self.table.as_ref(), &self.settings, work, watch)
+    }
+
+    /// The box of an increment that starts from a pressure on coarser grids.
+    fn region_around(&self, pressure: &Array2<f64>) -> Region {
+        let cells = self.grid.cells();
+        if !self.boxed || self.response.is_periodic() {
+            return Region::whole(cells);
+        }
+        let loaded = |i: usize, j: usize| pressure[[i, j]] > 0.0;
+        let margin = if self.coupling == Coupling::Coupled {
+            let least = Region::around(cells, 1, |n| n, loaded);
+            (least.shape[0].max(least.shape[1]) / 12).max(MARGIN)
+        } else {
+            MARGIN
+        };
+        Region::around(cells, margin, good_length, loaded)
     }
 
     /// The box of an increment: around the contact so far and the predicted one, kept while it fits.
@@ -244,30 +340,30 @@ impl<'a> ContactSolver<'a> {
         }
         let wanted = Wanted {
             normal: true,
-            tangential: self.coupling == Coupling::Uncoupled
-                || self.settings.scheme == Scheme::Alternating,
+            tangential: self.coupling == Coupling::Uncoupled || self.settings.scheme == Scheme::Alternating,
             full: self.coupling == Coupling::Coupled,
             normal_from_all: false,
         };
         let tangential = self.coupling != Coupling::Frictionless;
+        let waves = self.table.as_ref().map(|table| Waves { table, spacing: self.grid.spacing() });
         Ok(BoxOperators {
             region,
             compliance: SpectralCompliance::new(&self.response, region.shape, wanted)?,
-            preconditioner: Preconditioner::new(&self.response, region.shape, true, tangential)?,
+            preconditioner: Preconditioner::new(&self.response, waves, region.shape, true, tangential)?,
         })
     }
 
-    /// One increment with all contact inside `region`.
+    /// One increment with all contact inside `region`, from the pressure `start` when there is one.
     fn step_in(
         &mut self,
         region: Region,
-        state: &ContactState,
-        load: &LoadStep,
+        start: Option<&Array2<f64>>,
+        (state, load): (&ContactState, &LoadStep),
         work: &mut Work,
         watch: Watch<'_>,
     ) -> Result<(Solved, ContactState, Outcome), SolveError> {
         let grid = self.grid;
-        let scene = Scene::new(
+        let mut scene = Scene::new(
             &grid,
             &self.undeformed,
             self.friction,
@@ -276,6 +372,9 @@ impl<'a> ContactSolver<'a> {
             region,
             self.response.is_periodic(),
         );
+        if let Some(pressure) = start {
+            scene = scene.starting_from(pressure);
+        }
         if scene.is_apart() {
             let solved = scene.apart();
             let (after, outcome) = scene.settle(&solved);
@@ -287,7 +386,7 @@ impl<'a> ContactSolver<'a> {
             shear: region.gather_tangential(&predicted.1),
         };
         let mut operators = self.operators_for(region).map_err(|_| SolveError::OperatorsMissing)?;
-        let start = (operators.compliance.applications, operators.preconditioner.passes);
+        let counted = (operators.compliance.applications, operators.preconditioner.passes);
         let settled = self.settled.as_ref().filter(|settled| settled.region == region);
         let displaced = settled.map(|settled| &settled.displacements);
         let unchanged = settled.is_some_and(|settled| settled.load.normal == load.normal);
@@ -298,8 +397,10 @@ impl<'a> ContactSolver<'a> {
                 scene.in_turn(tractions, displaced, turn, &mut operators, &self.settings, watch)
             }
         };
-        work.convolutions += operators.compliance.applications - start.0;
-        work.preconditioner_passes += operators.preconditioner.passes - start.1;
+        let applications = operators.compliance.applications - counted.0;
+        work.convolutions += applications;
+        work.full_grid_convolutions += applications as f64 * (region.len() as f64 / grid.len() as f64);
+        work.preconditioner_passes += operators.preconditioner.passes - counted.1;
         self.operators = Some(operators);
         let solved = solved?;
         work.outer_iterations += solved.iterations;
@@ -341,6 +442,7 @@ impl<'a> ContactSolver<'a> {
                 outside.normal(&pressure, &mut normal);
             }
             work.convolutions += 1;
+            work.full_grid_convolutions += 1.0;
             for (gap, u) in gap.iter_mut().zip(&normal) {
                 *gap += u;
             }

@@ -1,5 +1,6 @@
-//! An approximate inverse of the elastic answer by unpadded transforms on the box: the kernel made periodic with the
-//! nearest image of each offset only, inverted wave by wave; for slipping cells with the slip stiffness added.
+//! An approximate inverse of the elastic answer by unpadded transforms on the box, wave by wave: for pressure the response of
+//! the pair to waves where it is known; else the kernel made periodic with the nearest image of each offset only; for slipping
+//! cells with the slip stiffness added.
 
 use ndarray::{Array2, s};
 use pulp::Simd;
@@ -7,10 +8,14 @@ use pulp::Simd;
 use super::contact_set::ContactSet;
 use super::zones::Zones;
 use crate::compliance::SurfaceResponse;
+use crate::kernel::ResponseTable;
 use crate::model::TangentialField;
 use crate::model::each_cell::{CellRule, Reals, each_cell};
 use crate::spectral::{Block, ConvolutionError, Kernel, Parity, PeriodicProduct, Symbol, Workspace};
 
+/// A pair is stiff at the surface when the longest waves of a box meet this many times the compliance times wavenumber that
+/// the shortest ones meet: a thin coating more than about five times stiffer than what lies below.
+const STIFF_ABOVE: f64 = 4.0;
 /// Second level of slip stiffness, in units of the smallest elastic symbol.
 const STIFF_LEVEL: f64 = 30.0;
 
@@ -36,17 +41,38 @@ pub struct Preconditioner {
     packed: TangentialField,
     scaled: TangentialField,
     part: TangentialField,
+    stiff: bool,
     /// Passes so far.
     pub passes: usize,
 }
 
+/// How a pair answers waves on the cells of a box: what the coefficients, cut off at the box's sides, no longer tell.
+#[derive(Debug, Clone, Copy)]
+pub struct Waves<'a> {
+    /// The response.
+    pub table: &'a ResponseTable,
+    /// Sides of a cell [length].
+    pub spacing: [f64; 2],
+}
+
+impl Waves<'_> {
+    /// Whether long waves meet a body much softer than short ones do.
+    fn are_stiff(&self, shape: [usize; 2]) -> bool {
+        let longest = (0..2).map(|axis| shape[axis] as f64 * self.spacing[axis]).fold(0.0, f64::max);
+        let shortest = 2.0 * self.spacing[0].min(self.spacing[1]);
+        let at = |length: f64| self.table.times_k(std::f64::consts::TAU / length).zz;
+        at(longest) > STIFF_ABOVE * at(shortest)
+    }
+}
+
 impl Preconditioner {
-    /// Inverses for a box of `shape` cells; normal, tangential or both.
+    /// Inverses for a box of `shape` cells; normal, tangential or both. `waves` serves pressure in free space.
     ///
     /// # Errors
     /// When a coefficient is missing or does not cover the box.
     pub fn new(
         response: &SurfaceResponse,
+        waves: Option<Waves<'_>>,
         shape: [usize; 2],
         normal: bool,
         tangential: bool,
@@ -65,7 +91,10 @@ impl Preconditioner {
             Ok::<_, ConvolutionError>((product, workspace))
         };
         let normal = if normal {
-            let mut inverse = symbol(zz, Parity::EvenEven)?;
+            let mut inverse = match (response, waves, zz) {
+                (SurfaceResponse::FreeSpace(_), Some(waves), Some(zz)) => waves_of_cells(zz, waves, shape),
+                _ => symbol(zz, Parity::EvenEven)?,
+            };
             let least = smallest_positive(&inverse);
             inverse.mapv_inplace(|value| if value == 0.0 { 0.0 } else { 1.0 / value.max(least) });
             Some(product(&[Symbol { values: inverse.view(), parity: Parity::EvenEven }], &NORMAL)?)
@@ -96,6 +125,7 @@ impl Preconditioner {
             normal,
             shear,
             softest,
+            stiff: waves.is_some_and(|waves| waves.are_stiff(shape)),
             weights: [Vec::new(), Vec::new()],
             levels: 1,
             packed: TangentialField::default(),
@@ -103,6 +133,11 @@ impl Preconditioner {
             part: TangentialField::zeros(len),
             passes: 0,
         })
+    }
+
+    /// Whether short waves on the box meet a response much stiffer than long ones do.
+    pub fn is_stiff(&self) -> bool {
+        self.stiff
     }
 
     /// Pressures that would remove normal displacements `right`, before any restriction to a set.
@@ -196,6 +231,17 @@ impl CellRule<3, 2, 0> for AddWeighted {
         *y = *y + from_y * weight;
         []
     }
+}
+
+/// Response of cells to waves, for uniform pressure on the box the sum of the nearest images.
+fn waves_of_cells(zz: &Array2<f64>, waves: Waves<'_>, shape: [usize; 2]) -> Array2<f64> {
+    let mut symbol = waves.table.cell_response(shape, waves.spacing);
+    let times = |index: usize, count: usize| if index == 0 || 2 * index == count { 1.0 } else { 2.0 };
+    let [half_x, half_y] = [0, 1].map(|axis| (shape[axis] / 2 + 1).min(zz.shape()[axis]));
+    let near = zz.slice(s![..half_x, ..half_y]);
+    symbol[[0, 0]] =
+        near.indexed_iter().map(|((i, j), value)| times(i, shape[0]) * times(j, shape[1]) * value).sum();
+    symbol
 }
 
 /// Symbol of a kernel made periodic with the nearest image of each offset only.

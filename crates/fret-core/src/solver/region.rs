@@ -42,9 +42,17 @@ impl Region {
     /// Writes the part into a grid field that is zero elsewhere.
     pub fn scatter(&self, part: &[f64], field: &mut Array2<f64>) {
         field.fill(0.0);
-        for i in 0..self.shape[0] {
-            for j in 0..self.shape[1] {
-                field[[self.origin[0] + i, self.origin[1] + j]] = part[i * self.shape[1] + j];
+        self.place(part, field);
+    }
+
+    /// Writes what is not zero of the part into a grid field of zeros: memory that nobody wrote to costs nothing.
+    pub fn place(&self, part: &[f64], field: &mut Array2<f64>) {
+        for (i, row) in part.chunks_exact(self.shape[1]).enumerate() {
+            if row.iter().any(|value| *value != 0.0) {
+                let mut line = field.row_mut(self.origin[0] + i);
+                for (place, value) in line.iter_mut().skip(self.origin[1]).zip(row) {
+                    *place = *value;
+                }
             }
         }
     }

@@ -49,6 +49,8 @@ pub struct Scene<'a> {
     motion: [f64; 3],
     resultant: [f64; 3],
     periodic: bool,
+    /// A pressure to start from, whatever the state before.
+    start: Option<Vec<f64>>,
 }
 
 /// What an increment of pressure and shear in turn can leave out.
@@ -151,7 +153,13 @@ impl<'a> Scene<'a> {
             motion,
             resultant,
             periodic,
+            start: None,
         }
+    }
+
+    /// Starts from a pressure on the whole grid.
+    pub fn starting_from(self, pressure: &Array2<f64>) -> Self {
+        Self { start: Some(self.region.gather(pressure)), ..self }
     }
 
     /// The bodies do not touch under these loads.
@@ -189,6 +197,9 @@ impl<'a> Scene<'a> {
 
     /// A first pressure; exact at once where a scene that repeats is in full contact.
     fn first_pressure(&self, own: f64, preconditioner: &mut Preconditioner) -> Vec<f64> {
+        if let Some(start) = &self.start {
+            return start.clone();
+        }
         let task = self.normal_task();
         let full = if self.periodic { full_contact_pressure(&task, preconditioner) } else { None };
         full.unwrap_or_else(|| first_pressure(&task, own))
@@ -279,15 +290,8 @@ impl<'a> Scene<'a> {
             Scheme::Together => solve_coupled,
             Scheme::Alternating => solve_alternating,
         };
-        let solution = solve(
-            &task,
-            &mut tractions,
-            &mut displacements,
-            compliance,
-            preconditioner,
-            settings,
-            watch,
-        )?;
+        let solution =
+            solve(&task, &mut tractions, &mut displacements, compliance, preconditioner, settings, watch)?;
         Ok(Solved {
             tractions,
             displacements,
@@ -345,7 +349,7 @@ impl<'a> Scene<'a> {
             iterations = 0;
         } else {
             let usable = retract_pressure(&mut tractions.pressure, self.total);
-            if !self.touched() || !usable {
+            if self.start.is_some() || !self.touched() || !usable {
                 tractions.pressure = self.first_pressure(own.normal, preconditioner);
             }
             compliance.normal(&tractions.pressure, &mut displacements.normal);
@@ -406,11 +410,17 @@ impl<'a> Scene<'a> {
         let s = contact.packed_tangential(&solved.s);
         let zones = Zones::classify(&packed, &s, &bound, |_| false);
         let modes = self.places.modes(&contact);
-        let mut state = self.state.clone();
-        self.region.scatter(pressure, &mut state.pressure);
-        self.region.scatter(&shear.x, &mut state.shear[0]);
-        self.region.scatter(&shear.y, &mut state.shear[1]);
-        state.zone.fill(Zone::Open);
+        let mut state = ContactState::untouched(self.grid.cells());
+        self.region.place(pressure, &mut state.pressure);
+        self.region.place(&shear.x, &mut state.shear[0]);
+        self.region.place(&shear.y, &mut state.shear[1]);
+        for (slip, before) in state.slip.iter_mut().zip(&self.state.slip) {
+            if before.iter().any(|slip| *slip != 0.0) {
+                slip.assign(before);
+            }
+        }
+        (state.shift, state.twist) = (self.state.shift, self.state.twist);
+        state.dissipated_energy = self.state.dissipated_energy;
         state.approach = solved.normal.approach;
         let moved = solved.tangential.motion;
         state.shift = [state.shift[0] + moved[0], state.shift[1] + moved[1]];

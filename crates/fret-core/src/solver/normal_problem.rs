@@ -1,0 +1,166 @@
+//! The normal problem of one box: what is asked, the fields both iterations work on, and the judgement they share.
+
+use super::preconditioner::Preconditioner;
+use super::residual::NormalVerdict;
+use super::settings::{SolveError, Watch};
+use super::sweep::sweep;
+use crate::compliance::SurfaceCompliance;
+
+/// What the normal equations of one increment ask for, over the cells of a box.
+#[derive(Debug)]
+pub struct NormalTask<'a> {
+    /// Gap before deformation, with whatever else moves the surfaces at given shear [length].
+    pub undeformed: &'a [f64],
+    /// Sum of the pressures over the cells, when the force is prescribed [pressure].
+    pub total: Option<f64>,
+    /// Approach, when it is prescribed [length].
+    pub approach: f64,
+}
+
+/// How an iteration ended.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Ending {
+    /// The residual is below the tolerance; pressures are feasible and displacements are theirs.
+    Solved(NormalVerdict),
+    /// It makes no progress; pressures are feasible and displacements are theirs.
+    Stalled,
+}
+
+/// Unknowns, work fields and operators of one normal problem. Fields are flat rows of one length, made once.
+pub struct NormalProblem<'a> {
+    pub task: &'a NormalTask<'a>,
+    /// Pressure [pressure].
+    pub pressure: &'a mut [f64],
+    /// Its displacement [length].
+    pub displacement: &'a mut [f64],
+    /// Gap [length].
+    pub gap: Vec<f64>,
+    /// Cells on which pressure is unknown: 1, all others: 0.
+    pub active: Vec<f64>,
+    /// Gap on the active cells, zero elsewhere [length].
+    pub residual: Vec<f64>,
+    /// Preconditioned residual [pressure].
+    pub steepest: Vec<f64>,
+    /// Change of pressure, and its displacement.
+    pub change: Vec<f64>,
+    pub image: Vec<f64>,
+    /// The change before, and its displacement.
+    pub last_change: Vec<f64>,
+    pub last_image: Vec<f64>,
+    compliance: &'a mut dyn SurfaceCompliance,
+    preconditioner: &'a mut Preconditioner,
+    /// Influence of a cell on itself [length/pressure].
+    pub own: f64,
+    pub tolerance: f64,
+    watch: Watch<'a>,
+    /// Iterations so far.
+    pub iterations: usize,
+    /// Iterations that are allowed.
+    pub most: usize,
+    /// Least residual so far.
+    pub best: f64,
+}
+
+impl<'a> NormalProblem<'a> {
+    /// The problem from a feasible pressure with its displacement.
+    pub fn new(
+        task: &'a NormalTask<'a>,
+        [pressure, displacement]: [&'a mut [f64]; 2],
+        compliance: &'a mut dyn SurfaceCompliance,
+        preconditioner: &'a mut Preconditioner,
+        (tolerance, most): (f64, usize),
+        watch: Watch<'a>,
+    ) -> Self {
+        let field = || vec![0.0; task.undeformed.len()];
+        Self {
+            gap: field(),
+            active: field(),
+            residual: field(),
+            steepest: field(),
+            change: field(),
+            image: field(),
+            last_change: field(),
+            last_image: field(),
+            own: compliance.own().normal,
+            tolerance,
+            iterations: 0,
+            most,
+            best: f64::INFINITY,
+            task,
+            pressure,
+            displacement,
+            compliance,
+            preconditioner,
+            watch,
+        }
+    }
+
+    /// Reports a residual.
+    ///
+    /// # Errors
+    /// When somebody stopped the iteration, or it has gone on for too long.
+    pub fn hear(&mut self, residual: f64) -> Result<(), SolveError> {
+        if (self.watch)(self.iterations, residual).is_break() {
+            return Err(SolveError::Stopped);
+        }
+        self.best = self.best.min(residual);
+        if self.iterations >= self.most {
+            return Err(SolveError::NotConverged { reached: self.best, iterations: self.iterations });
+        }
+        Ok(())
+    }
+
+    /// `image` becomes the displacement of `change`.
+    pub fn convolve_change(&mut self) {
+        self.iterations += 1;
+        self.compliance.normal(&self.change, &mut self.image);
+    }
+
+    /// `displacement` becomes that of `pressure`.
+    pub fn convolve_pressure(&mut self) {
+        self.iterations += 1;
+        self.compliance.normal(self.pressure, self.displacement);
+    }
+
+    /// `steepest` becomes the preconditioned residual, on all cells.
+    pub fn precondition(&mut self) {
+        self.preconditioner.normal(&self.residual, &mut self.steepest);
+    }
+
+    /// Height `u + g0` into `gap`; the approach (mean height of the loaded cells under a force) and the mean displacement under
+    /// the load. `None` when no cell is loaded.
+    pub fn measure(&mut self) -> (f64, Option<f64>) {
+        let ([heights, count, work, load], []) = sweep(
+            [&mut self.gap],
+            [&*self.displacement, self.task.undeformed, &*self.pressure],
+            |[_], [u, g, p]| {
+                let height = u + g;
+                let loaded = f64::from(u8::from(p != 0.0));
+                ([height], [loaded * height, loaded, p * u, p], [])
+            },
+        );
+        let approach = match self.task.total {
+            Some(_) if count > 0.0 => heights / count,
+            _ => self.task.approach,
+        };
+        (approach, (load > 0.0).then(|| (work / load).abs()))
+    }
+
+    /// Adds `share` of the change to pressures and displacements; rounding leaves no tension.
+    pub fn advance(&mut self, share: f64) {
+        sweep(
+            [&mut *self.pressure, &mut *self.displacement],
+            [&self.change, &self.image],
+            move |[p, u], [change, image]| {
+                let p = p + share * change;
+                ([if p > 0.0 { p } else { 0.0 }, u + share * image], [], [])
+            },
+        );
+    }
+
+    /// What was changed becomes what was changed last.
+    pub fn remember(&mut self) {
+        std::mem::swap(&mut self.change, &mut self.last_change);
+        std::mem::swap(&mut self.image, &mut self.last_image);
+    }
+}
