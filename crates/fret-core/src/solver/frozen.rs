@@ -121,9 +121,13 @@ impl Frozen<'_> {
         memory.spread.clear();
         memory.step.clear(len);
         memory.residual.clear(len);
+        // Tangential equations are weighted so that shear counts in units of the pressure that carries it.
+        let weight = 1.0 / largest(&self.packed.friction).max(f64::MIN_POSITIVE);
         let [normal, x, y] = memory.residual.parts_mut();
-        for (to, from) in [(&mut *normal, gap), (&mut *x, &s.x[..]), (&mut *y, &s.y[..])] {
-            add_scaled(to, -1.0, from);
+        for (to, factor, from) in
+            [(&mut *normal, 1.0, gap), (&mut *x, weight, &s.x[..]), (&mut *y, weight, &s.y[..])]
+        {
+            add_scaled(to, -factor, from);
         }
         self.remove_mean(normal);
         rigid.keep_free([x, y]);
@@ -132,7 +136,14 @@ impl Frozen<'_> {
         for depth in 0..self.most {
             let KrylovMemory { directions, residual, step, spread, answer } = memory;
             let direction = directions.open(len);
-            self.precondition(residual, &rigid, preconditioner, spread, answer, &mut direction.along);
+            self.precondition(
+                residual,
+                weight,
+                &rigid,
+                preconditioner,
+                (spread, answer),
+                &mut direction.along,
+            );
             if depth == 0 {
                 first_size = self.size_of(&direction.along);
             }
@@ -141,7 +152,7 @@ impl Frozen<'_> {
             self.contact.place(x, &mut spread.shear.x);
             self.contact.place(y, &mut spread.shear.y);
             compliance.full(&spread.pressure, &spread.shear, &mut answer.normal, &mut answer.tangential);
-            self.image_of(&direction.along, answer, &rigid, &mut direction.image);
+            self.image_of(&direction.along, answer, weight, &rigid, &mut direction.image);
             let Some(left_over) = directions.descend(residual, step) else { break };
             let cut = self.cut_of(step);
             let left = first_size * left_over / start;
@@ -163,10 +174,10 @@ impl Frozen<'_> {
     fn precondition(
         &self,
         residual: &Triple,
+        weight: f64,
         rigid: &RigidProjector<'_>,
         preconditioner: &mut Preconditioner,
-        spread: &mut Tractions,
-        answer: &mut Displacements,
+        (spread, answer): (&mut Tractions, &mut Displacements),
         along: &mut Triple,
     ) {
         let [normal, x, y] = residual.parts();
@@ -188,7 +199,7 @@ impl Frozen<'_> {
             &self.packed.friction,
             p,
         ];
-        let resultant = each_cell(&FreeAndFollow, read, [qx, qy]);
+        let resultant = each_cell(&FreeAndFollow { unweight: 1.0 / weight }, read, [&mut *qx, &mut *qy]);
         let amounts = rigid.amounts(resultant);
         each_cell(&Follow(amounts), read, [qx, qy]);
     }
@@ -198,6 +209,7 @@ impl Frozen<'_> {
         &self,
         along: &Triple,
         answer: &Displacements,
+        weight: f64,
         rigid: &RigidProjector<'_>,
         image: &mut Triple,
     ) {
@@ -220,7 +232,7 @@ impl Frozen<'_> {
             qx,
             qy,
         ];
-        let resultant = each_cell(&FreeAndStiff, read, [&mut *x, &mut *y]);
+        let resultant = each_cell(&FreeAndStiff { weight }, read, [&mut *x, &mut *y]);
         rigid.remove_resultant([x, y], resultant);
     }
 
@@ -265,8 +277,10 @@ impl CellRule<0, 1, 0> for Less {
     }
 }
 
-/// Keeps the free part of shear; sums the resultants of it and of the shear that follows pressure.
-struct FreeAndFollow;
+/// Keeps the free part of shear, without its weight; sums the resultants of it and of the shear that follows pressure.
+struct FreeAndFollow {
+    unweight: f64,
+}
 
 impl CellRule<8, 2, 3> for FreeAndFollow {
     #[inline(always)]
@@ -275,7 +289,7 @@ impl CellRule<8, 2, 3> for FreeAndFollow {
         [stick, slip, along_x, along_y, around_x, around_y, friction, p]: [Reals<S>; 8],
         [x, y]: &mut [Reals<S>; 2],
     ) -> [Reals<S>; 3] {
-        [*x, *y] = free_part([*x, *y], stick, slip, [along_x, along_y]);
+        [*x, *y] = free_part([*x * self.unweight, *y * self.unweight], stick, slip, [along_x, along_y]);
         let follow = friction * p;
         let both = [*x + follow * along_x, *y + follow * along_y];
         [both[0], both[1], both[0] * around_x + both[1] * around_y]
@@ -302,8 +316,11 @@ impl CellRule<8, 2, 0> for Follow {
     }
 }
 
-/// Keeps the free part of a displacement and adds the slip stiffness times the turning shear; sums its resultants.
-struct FreeAndStiff;
+/// Keeps the free part of a displacement, adds the slip stiffness times the turning shear, and weights it; sums its
+/// resultants.
+struct FreeAndStiff {
+    weight: f64,
+}
 
 impl CellRule<9, 2, 3> for FreeAndStiff {
     #[inline(always)]
@@ -313,8 +330,8 @@ impl CellRule<9, 2, 3> for FreeAndStiff {
         [x, y]: &mut [Reals<S>; 2],
     ) -> [Reals<S>; 3] {
         let turn = slip * (along_x * *y - along_y * *x + stiffness * (along_x * qy - along_y * qx));
-        *x = stick * *x - along_y * turn;
-        *y = stick * *y + along_x * turn;
+        *x = (stick * *x - along_y * turn) * self.weight;
+        *y = (stick * *y + along_x * turn) * self.weight;
         [*x, *y, *x * around_x + *y * around_y]
     }
 }

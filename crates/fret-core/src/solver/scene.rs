@@ -25,6 +25,8 @@ use crate::model::{
 
 /// Residual to which the frictionless start of a coupled contact is solved.
 const ROUGH: f64 = 1e-2;
+/// Changes of the zones that pressure and shear are given together before they are solved in turn.
+const TOGETHER_AT_MOST: usize = 60;
 
 /// The operators of a box.
 pub struct BoxOperators {
@@ -286,12 +288,42 @@ impl<'a> Scene<'a> {
             motion: self.motion,
             resultant: self.resultant,
         };
-        let solve = match settings.scheme {
-            Scheme::Together => solve_coupled,
-            Scheme::Alternating => solve_alternating,
+        let start = tractions.clone();
+        let together = SolverSettings { most_outer_iterations: TOGETHER_AT_MOST, ..*settings };
+        let mut solution = match settings.scheme {
+            Scheme::Alternating => Err(SolveError::NotConverged { reached: f64::INFINITY, iterations: 0 }),
+            Scheme::Together => solve_coupled(
+                &task,
+                &mut tractions,
+                &mut displacements,
+                compliance,
+                preconditioner,
+                &together,
+                watch,
+            ),
         };
-        let solution =
-            solve(&task, &mut tractions, &mut displacements, compliance, preconditioner, settings, watch)?;
+        if let Err(SolveError::NotConverged { iterations, .. }) = solution {
+            // Zones that keep changing together may settle in turn.
+            if iterations > 0 {
+                tractions = start;
+                compliance.full(
+                    &tractions.pressure,
+                    &tractions.shear,
+                    &mut displacements.normal,
+                    &mut displacements.tangential,
+                );
+            }
+            solution = solve_alternating(
+                &task,
+                &mut tractions,
+                &mut displacements,
+                compliance,
+                preconditioner,
+                settings,
+                watch,
+            );
+        }
+        let solution = solution?;
         Ok(Solved {
             tractions,
             displacements,
