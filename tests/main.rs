@@ -13,6 +13,7 @@ mod coefficient_tables;
 mod coupled_friction;
 mod fretting_cycles;
 mod invariants;
+mod normal_counts;
 mod periodic;
 mod sliding;
 mod two_bodies;
