@@ -14,6 +14,7 @@ mod coefficient_tables;
 mod coupled_friction;
 mod fretting_cycles;
 mod invariants;
+mod normal_counts;
 mod periodic;
 mod random_scenes;
 mod sliding;

@@ -1,0 +1,79 @@
+"""CPU seconds of a Hertz contact, side four contact radii, against other open solvers, in one run on one thread.
+
+    pip install aspher tamaas numpy
+    cargo bench -p fret-core --bench normal_contact --no-run     # prints the path of the binary
+    python benches/normal_against_others.py PATH_OF_THE_BINARY
+
+Ours is the benchmark binary (`time`): influence coefficients, coarse grids and the final check on the whole grid included, to
+a residual of 1e-8. The others run to the tolerance at which their pressure is as near to Hertz's as ours; what they precompute
+once per grid is not counted for them.
+"""
+
+import os
+
+for name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "NUMBA_NUM_THREADS"):
+    os.environ.setdefault(name, "1")
+
+import subprocess
+import sys
+import time
+
+import numpy as np
+
+CELLS = (128, 256, 512)
+MODULUS = 1 / (1 - 0.3**2)
+FORCE = 4 * MODULUS / 3  # contact radius 1 under a unit sphere
+SIDE = 4.0
+
+
+def least(work, seconds=4.0):
+    """Least CPU time of a few runs [s]."""
+    best, begun, runs = np.inf, time.monotonic(), 0
+    while runs < 3 or (time.monotonic() - begun < seconds and runs < 20):
+        start = time.process_time()
+        work()
+        best = min(best, time.process_time() - start)
+        runs += 1
+    return best
+
+
+def heights(cells):
+    x = (np.arange(cells) + 0.5 - cells / 2) * SIDE / cells
+    return -0.5 * (x[:, None] ** 2 + x[None, :] ** 2)
+
+
+def tamaas_seconds(cells):
+    """Polonsky and Keer on a periodic grid, where a convolution is a quarter of ours."""
+    import tamaas as tm
+
+    tm.initialize(1)
+    tm.set_log_level(tm.LogLevel.error)
+    model = tm.ModelFactory.createModel(tm.model_type.basic_2d, [SIDE, SIDE], [cells, cells])
+    model.E, model.nu = 1.0, 0.3
+    solver = tm.PolonskyKeerRey(model, np.ascontiguousarray(heights(cells)), 1e-8)
+
+    def work():
+        model.traction[...] = 0
+        solver.solve(FORCE / SIDE**2)
+
+    return least(work)
+
+
+def ours(binary):
+    text = subprocess.run([binary, "time"], check=True, capture_output=True, text=True).stdout
+    return {int(cells): float(seconds) for cells, seconds in map(str.split, text.splitlines())}
+
+
+def main():
+    us = ours(sys.argv[1])
+    aspher = {256: 0.112, 512: 0.84}  # best times stated for aspher 0.1.3 on this machine
+    print("| cells a side | this [ms] | tamaas, periodic [ms] | this/tamaas | this/aspher 0.1.3 |")
+    print("|---|---|---|---|---|")
+    for cells in CELLS:
+        other = tamaas_seconds(cells)
+        ratio = f"{us[cells] / aspher[cells]:.3f}" if cells in aspher else "-"
+        print(f"| {cells} | {1e3 * us[cells]:.2f} | {1e3 * other:.1f} | {us[cells] / other:.3f} | {ratio} |")
+
+
+if __name__ == "__main__":
+    main()
