@@ -73,8 +73,8 @@ pub struct RunArguments {
     /// Write into a folder even when it holds other things; only files of `fret` are replaced
     #[arg(long)]
     pub force: bool,
-    /// Go on where a run was interrupted (not built yet)
-    #[arg(long, hide = true)]
+    /// Go on where a run was broken off; start where there is none, do nothing where it is solved
+    #[arg(long, conflicts_with = "force")]
     pub resume: bool,
 }
 

@@ -7,7 +7,7 @@ use fret_core::case::CaseError;
 use fret_core::simulation::RunError;
 use serde_json::{Value, json};
 
-/// Exit code of a refused case or call.
+/// Exit code of a refused case or call, also where only the run finds out: a contact that grows to the edge of the grid.
 pub const REFUSED: u8 = 1;
 /// Exit code of a numerical failure, and of a file that could not be written.
 pub const FAILED: u8 = 2;
@@ -71,6 +71,7 @@ impl Failure {
     pub fn code(&self) -> u8 {
         match self {
             Self::Case(_) | Self::Call(..) => REFUSED,
+            Self::Unsolved(error) if asks_for_another_case(error) => REFUSED,
             Self::Unsolved(_) | Self::Unwritten(_) | Self::Defect(_) => FAILED,
             Self::Interrupted(_) => INTERRUPTED,
         }
@@ -80,6 +81,7 @@ impl Failure {
     pub fn status(&self) -> &'static str {
         match self {
             Self::Case(_) | Self::Call(..) => "refused",
+            Self::Unsolved(error) if asks_for_another_case(error) => "refused",
             Self::Unsolved(_) | Self::Unwritten(_) | Self::Defect(_) => "failed",
             Self::Interrupted(_) => "interrupted",
         }
@@ -127,6 +129,11 @@ impl Failure {
         }
         value
     }
+}
+
+/// Whether the equations went well but the case leaves what can be computed: a plan that had known would have refused it.
+fn asks_for_another_case(error: &RunError) -> bool {
+    matches!(error, RunError::ContactAtEdge { .. } | RunError::AboveSliding { .. })
 }
 
 impl From<CaseError> for Failure {

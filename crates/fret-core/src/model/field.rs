@@ -1,5 +1,7 @@
 //! Fields on the cells of a box as flat rows, index `i * ny + j`: sums and inner products in a fixed order.
 
+use serde::{Deserialize, Serialize};
+
 /// Partial sums of a long sum: fixed, so that the bits never depend on the machine's mood.
 const LANES: usize = 8;
 
@@ -51,7 +53,7 @@ pub fn largest(a: &[f64]) -> f64 {
 }
 
 /// A tangential field: x and y components.
-#[derive(Debug, Clone, Default, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct TangentialField {
     /// Component along x.
     pub x: Vec<f64>,

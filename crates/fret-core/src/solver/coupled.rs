@@ -2,6 +2,8 @@
 //! the frozen problem (not symmetric, since slipping shear follows pressure) is solved by generalised conjugate residuals
 //! with a flexible preconditioner, resultants held exactly; then back to feasible tractions, until all laws hold.
 
+use serde::{Deserialize, Serialize};
+
 use super::preconditioner::Preconditioner;
 use super::residual::{NormalVerdict, TangentialTask, TangentialVerdict, judge_normal};
 use super::retraction::{retract_pressure, retract_shear};
@@ -80,7 +82,7 @@ pub struct CoupledSolution {
 }
 
 /// Displacements of a box [length].
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Displacements {
     /// Normal.
     pub normal: Vec<f64>,

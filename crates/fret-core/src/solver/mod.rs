@@ -4,6 +4,7 @@
 //! around the contact, and checks the rest of the grid once.
 
 mod coupled;
+mod memory;
 mod normal;
 mod preconditioner;
 mod region;
@@ -23,10 +24,12 @@ use crate::history::Work;
 use crate::model::{ContactState, Control, CoulombFriction, LoadStep, SurfaceGrid};
 use crate::spectral::{ConvolutionError, good_length};
 
+pub use memory::SolverMemory;
 pub use scene::{Outcome, Resultants};
 pub use settings::{Coupling, SolveError, SolverSettings, Watch};
 
-use coupled::{Displacements, Tractions};
+use coupled::Tractions;
+use memory::Settled;
 use preconditioner::Preconditioner;
 use region::Region;
 use scene::{BoxOperators, Scene, Solved, Turn};
@@ -48,15 +51,6 @@ pub struct Increment {
     pub work: Work,
 }
 
-/// Displacements of the last state in its box, and its gap on the whole grid.
-struct Settled {
-    region: Region,
-    displacements: Displacements,
-    gap: Array2<f64>,
-    contact_area: f64,
-    load: LoadStep,
-}
-
 /// Solves increments of one scene.
 pub struct ContactSolver<'a> {
     grid: SurfaceGrid,
@@ -68,10 +62,7 @@ pub struct ContactSolver<'a> {
     operators: Option<BoxOperators>,
     /// Normal displacement of the whole grid, to check what lies outside the box.
     outside: Option<SpectralCompliance>,
-    settled: Option<Settled>,
-    /// The state before the last one and the load that led to it, for the predictor.
-    before: Option<(LoadStep, ContactState)>,
-    last_load: Option<LoadStep>,
+    memory: SolverMemory,
     boxed: bool,
 }
 
@@ -95,11 +86,19 @@ impl<'a> ContactSolver<'a> {
             settings,
             operators: None,
             outside: None,
-            settled: None,
-            before: None,
-            last_load: None,
+            memory: SolverMemory::default(),
             boxed,
         }
+    }
+
+    /// What is remembered of the increments solved so far.
+    pub fn memory(&self) -> &SolverMemory {
+        &self.memory
+    }
+
+    /// Goes on with the memory of another solver of the same scene: the next increments have the bits they would have there.
+    pub fn remember(&mut self, memory: SolverMemory) {
+        self.memory = memory;
     }
 
     /// Solves one increment: from `state`, which the step before returned, to the loads and motions of `load`.
@@ -120,7 +119,7 @@ impl<'a> ContactSolver<'a> {
             if !self.response.is_periodic() && touches_edge(&state_after.pressure) {
                 return Err(SolveError::ContactAtEdge);
             }
-            let kept = self.settled.take().filter(|settled| {
+            let kept = self.memory.settled.take().filter(|settled| {
                 self.coupling != Coupling::Coupled
                     && settled.region == region
                     && settled.load.normal == load.normal
@@ -136,9 +135,9 @@ impl<'a> ContactSolver<'a> {
                 let area = self.contact_area(region, &solved);
                 (gap, area)
             };
-            let previous = self.last_load.replace(*load);
-            self.before = previous.map(|last| (last, state.clone()));
-            self.settled = Some(Settled {
+            let previous = self.memory.last_load.replace(*load);
+            self.memory.before = previous.map(|last| (last, state.clone()));
+            self.memory.settled = Some(Settled {
                 region,
                 displacements: solved.displacements,
                 gap: gap.clone(),
@@ -179,9 +178,8 @@ impl<'a> ContactSolver<'a> {
         let least = Region::around(cells, 1, |n| n, in_contact);
         let extent = least.shape[0].max(least.shape[1]);
         let wanted = Region::around(cells, (extent / 12).max(3), good_length, in_contact);
-        match &self.operators {
-            Some(operators) => {
-                let now = operators.region;
+        match self.memory.region {
+            Some(now) => {
                 let fits = (0..2).all(|axis| {
                     now.origin[axis] <= least.origin[axis]
                         && least.origin[axis] + least.shape[axis] <= now.origin[axis] + now.shape[axis]
@@ -195,7 +193,7 @@ impl<'a> ContactSolver<'a> {
     /// Tractions extrapolated linearly in the load while it keeps its direction.
     fn predicted(&self, state: &ContactState, load: &LoadStep) -> (Array2<f64>, [Array2<f64>; 2]) {
         let share = self.continuation(load);
-        match (&self.before, share) {
+        match (&self.memory.before, share) {
             (Some((_, before)), Some(share)) => {
                 let extrapolate = |now: &Array2<f64>, then: &Array2<f64>| now + &((now - then) * share);
                 (
@@ -212,7 +210,9 @@ impl<'a> ContactSolver<'a> {
 
     /// Ratio of this load increment to the last one when it goes on in the same direction.
     fn continuation(&self, load: &LoadStep) -> Option<f64> {
-        let (Some((first, _)), Some(second)) = (&self.before, &self.last_load) else { return None };
+        let (Some((first, _)), Some(second)) = (&self.memory.before, &self.memory.last_load) else {
+            return None;
+        };
         let (older, newer) = (change(first, second)?, change(second, load)?);
         let mut product = 0.0;
         let (mut old_square, mut new_square) = (0.0, 0.0);
@@ -281,7 +281,7 @@ impl<'a> ContactSolver<'a> {
         };
         let mut operators = self.operators_for(region).map_err(|_| SolveError::OperatorsMissing)?;
         let start = (operators.compliance.applications, operators.preconditioner.passes);
-        let settled = self.settled.as_ref().filter(|settled| settled.region == region);
+        let settled = self.memory.settled.as_ref().filter(|settled| settled.region == region);
         let displaced = settled.map(|settled| &settled.displacements);
         let unchanged = settled.is_some_and(|settled| settled.load.normal == load.normal);
         let solved = match self.coupling {
@@ -294,6 +294,7 @@ impl<'a> ContactSolver<'a> {
         work.convolutions += operators.compliance.applications - start.0;
         work.preconditioner_passes += operators.preconditioner.passes - start.1;
         self.operators = Some(operators);
+        self.memory.region = Some(region);
         let solved = solved?;
         work.outer_iterations += solved.iterations;
         let (after, outcome) = scene.settle(&solved);

@@ -1,6 +1,7 @@
 //! One increment seen inside one box: everything the equations need, gathered; solved; and put back on the grid.
 
 use ndarray::Array2;
+use serde::{Deserialize, Serialize};
 
 use super::coupled::{CoupledTask, Displacements, Tractions, solve_coupled};
 use super::normal::{NormalTask, first_pressure, full_contact_pressure, solve_normal};
@@ -71,7 +72,7 @@ pub struct Solved {
 }
 
 /// Sums of the tractions.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct Resultants {
     /// Normal force [force].
     pub normal: f64,
