@@ -1,10 +1,11 @@
-//! `checkpoint/`: where an unfinished run stands. `latest` is written after every increment and survives the end of the process
-//! at any moment; `synced` is written now and then, waits for the disk, and survives a power failure. `lock` tells that a run is
-//! alive. The folder is gone when the run is solved.
+//! `checkpoint/`: where an unfinished run stands. `even` and `odd` are written over in turn after every increment, so that one
+//! of them is whole however the process ends; that costs a copy in memory. `synced` is replaced now and then, waits for the
+//! disk, and survives a power failure. `lock` tells that a run is alive. The folder is gone when the run is solved.
 //!
-//! A file is a line of text, a checksum, a length, a head, and the waypoint of the core.
+//! A file is a line of text, a checksum, a length, a head, the waypoint of the core, and whatever an older one left behind that.
 
 use std::fs::{self, File, TryLockError};
+use std::io::{Seek, Write};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
@@ -12,13 +13,14 @@ use fret_core::checkpoint::{Checkpoint, Waypoint};
 use fret_core::plan::Plan;
 use serde::{Deserialize, Serialize};
 
-use super::whole_file::{write_swiftly, write_whole};
+use super::whole_file::write_whole;
 use crate::failure::{Failure, Unwritten};
 use crate::tally::Tally;
 
-const LATEST: &str = "latest";
+const TURNS: [&str; 2] = ["even", "odd"];
 const SYNCED: &str = "synced";
 const LOCK: &str = "lock";
+const NAMES: [&str; 3] = [TURNS[0], TURNS[1], SYNCED];
 const FIRST_LINE: &[u8] = b"fretting checkpoint\n";
 /// Bytes of the checksum and the length.
 const FRAME: usize = 4 + 8;
@@ -54,7 +56,7 @@ pub struct Stored {
 pub enum Found {
     /// No checkpoint: no increment was finished.
     Nothing,
-    /// One to go on from; why a newer one was not used, if there is one.
+    /// One to go on from; why newer ones were not used, where more than the increment in progress is lost by that.
     Stored(Box<Stored>, Option<String>),
     /// Only files that cannot be used, and why.
     Unusable(String),
@@ -67,6 +69,7 @@ pub struct CheckpointFolder {
     /// Held while this lives.
     _lock: File,
     bytes: Vec<u8>,
+    turns: [Option<File>; 2],
     synced_at: Option<Instant>,
     sync_took: Duration,
 }
@@ -84,54 +87,54 @@ impl CheckpointFolder {
                 "wait for it, or choose another folder with --out DIR".to_owned(),
             )),
             // Where files cannot be locked there is no protection, but no reason to refuse either.
-            Ok(()) | Err(TryLockError::Error(_)) => {
-                Ok(Self { path, _lock: lock, bytes: Vec::new(), synced_at: None, sync_took: Duration::ZERO })
-            }
+            Ok(()) | Err(TryLockError::Error(_)) => Ok(Self {
+                path,
+                _lock: lock,
+                bytes: Vec::new(),
+                turns: [None, None],
+                synced_at: None,
+                sync_took: Duration::ZERO,
+            }),
         }
     }
 
     /// Whether unfinished work may be in the folder below the results at `path`.
     pub fn is_below(results: &Path) -> bool {
-        [LATEST, SYNCED].iter().any(|name| results.join("checkpoint").join(name).exists())
+        NAMES.iter().any(|name| results.join("checkpoint").join(name).exists())
     }
 
     /// The newest usable checkpoint of `plan`, whose question has this digest.
     pub fn newest(&self, plan: &Plan, question: &str) -> Found {
         let mut complaints = Vec::new();
-        let mut newest: Option<Stored> = None;
-        for name in [LATEST, SYNCED] {
+        let mut newest: Option<(&str, Stored)> = None;
+        for name in NAMES {
             let path = self.path.join(name);
-            let bytes = match fs::read(&path) {
+            let read = match fs::read(&path) {
                 Err(error) if error.kind() == std::io::ErrorKind::NotFound => continue,
-                Err(error) => {
-                    complaints.push(format!("{}: {error}", path.display()));
-                    continue;
-                }
-                Ok(bytes) => bytes,
+                Err(error) => Err(error.to_string()),
+                Ok(bytes) => unpacked(&bytes, plan, question),
             };
-            match unpacked(&bytes, plan, question) {
+            let solved = newest.as_ref().map(|(_, stored)| stored.checkpoint.solved());
+            match read {
                 Err(why) => complaints.push(format!("{}: {why}", path.display())),
-                Ok(stored)
-                    if newest
-                        .as_ref()
-                        .is_none_or(|other| other.checkpoint.solved() < stored.checkpoint.solved()) =>
-                {
-                    newest = Some(stored);
-                }
+                Ok(stored) if solved < Some(stored.checkpoint.solved()) => newest = Some((name, stored)),
                 Ok(_) => {}
             }
         }
-        let complaint = (!complaints.is_empty()).then(|| complaints.join("; "));
-        match (newest, complaint) {
-            (Some(stored), complaint) => Found::Stored(Box::new(stored), complaint),
-            (None, Some(complaint)) => Found::Unusable(complaint),
-            (None, None) => Found::Nothing,
+        match newest {
+            // Of the two that are written in turn, one may be torn: that is how a killed run looks.
+            Some((name, stored)) => Found::Stored(
+                Box::new(stored),
+                (name == SYNCED && !complaints.is_empty()).then(|| complaints.join("; ")),
+            ),
+            None if complaints.is_empty() => Found::Nothing,
+            None => Found::Unusable(complaints.join("; ")),
         }
     }
 
     /// Forgets what is stored: a run starts from the beginning.
     pub fn clear(&self) -> Result<(), Unwritten> {
-        for name in [LATEST, SYNCED] {
+        for name in NAMES {
             let path = self.path.join(name);
             match fs::remove_file(&path) {
                 Err(error) if error.kind() != std::io::ErrorKind::NotFound => {
@@ -159,13 +162,22 @@ impl CheckpointFolder {
             self.sync_took = started.elapsed();
             self.synced_at = Some(Instant::now());
         }
-        Ok(write_swiftly(&self.path.join(LATEST), &self.bytes)?)
+        Ok(self.write_turn(waypoint.solved() % 2)?)
+    }
+
+    fn write_turn(&mut self, turn: usize) -> Result<(), Unwritten> {
+        let path = self.path.join(TURNS[turn]);
+        let open = || File::options().write(true).create(true).truncate(false).open(&path);
+        let mut file = self.turns[turn].take().map_or_else(open, Ok).map_err(Unwritten::at(&path))?;
+        file.rewind().and_then(|()| file.write_all(&self.bytes)).map_err(Unwritten::at(&path))?;
+        self.turns[turn] = Some(file);
+        Ok(())
     }
 
     /// The run is solved: nothing is left to go on from.
     pub fn remove(self) {
-        let Self { path, _lock: lock, .. } = self;
-        drop(lock);
+        let Self { path, _lock: lock, turns, .. } = self;
+        drop((lock, turns));
         // The results are whole; what stays behind by a failure here is only litter.
         let _ = fs::remove_dir_all(path);
     }
@@ -191,9 +203,8 @@ fn unpacked(bytes: &[u8], plan: &Plan, question: &str) -> Result<Stored, String>
     let frame = bytes.strip_prefix(FIRST_LINE).ok_or("not a checkpoint, or a damaged one")?;
     let (checksum, frame) = frame.split_first_chunk::<4>().ok_or("damaged: it ends early")?;
     let (length, body) = frame.split_first_chunk::<8>().ok_or("damaged: it ends early")?;
-    if u64::from_le_bytes(*length) != body.len() as u64 {
-        return Err("damaged: it has not the length it had when it was written".to_owned());
-    }
+    let length = usize::try_from(u64::from_le_bytes(*length)).unwrap_or(usize::MAX);
+    let body = body.get(..length).ok_or("damaged: it ends early")?;
     if u32::from_le_bytes(*checksum) != crc32fast::hash(body) {
         return Err("damaged: its checksum does not fit".to_owned());
     }

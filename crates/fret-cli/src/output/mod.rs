@@ -79,12 +79,7 @@ impl ResultFolder {
         if path.exists() && !path.is_dir() {
             return refuse("a file, not a folder for results", other_folder.to_owned());
         }
-        let holds_nothing = match fs::read_dir(path) {
-            Ok(mut entries) => entries.next().is_none(),
-            // Not there, or not to be looked into: the attempt to write will tell.
-            Err(_) => true,
-        };
-        if holds_nothing {
+        if holds_nothing(path) {
             return Ok(Standing::Free);
         }
         let Some(earlier) = fs::read(path.join(RECORD)).ok() else {
@@ -152,7 +147,8 @@ impl ResultFolder {
             ))
         };
         let (stored, passed_over) = match checkpoints.newest(plan, &question) {
-            Found::Nothing if HistoryTable::lines(&path.join(HISTORY)) > 1 => {
+            // A kill between the first line and the first checkpoint leaves the head and one line.
+            Found::Nothing if HistoryTable::lines(&path.join(HISTORY)) > 2 => {
                 return spoilt("its checkpoint is gone".to_owned());
             }
             Found::Nothing => return Ok(None),
@@ -221,6 +217,20 @@ pub struct Taken {
     pub stored: Stored,
     /// Why a newer checkpoint could not be used, if there was one.
     pub passed_over: Option<String>,
+}
+
+/// Whether a folder is empty, apart from what a run that is killed in its first moment leaves behind.
+fn holds_nothing(path: &Path) -> bool {
+    let is_litter = |name: &str| name == "run.json.part" || name == "checkpoint";
+    match fs::read_dir(path) {
+        Ok(mut entries) => {
+            !CheckpointFolder::is_below(path)
+                && entries
+                    .all(|entry| entry.is_ok_and(|entry| entry.file_name().to_str().is_some_and(is_litter)))
+        }
+        // Not there, or not to be looked into: the attempt to write will tell.
+        Err(_) => true,
+    }
 }
 
 fn remove_earlier_fields(path: &Path) -> Result<(), Unwritten> {

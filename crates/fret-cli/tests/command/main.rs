@@ -4,6 +4,7 @@
 
 mod answered;
 mod bench;
+mod broken_off;
 mod refused;
 mod solved;
 mod unwritten;
