@@ -31,6 +31,21 @@ pub enum Failure {
     Defect(String),
 }
 
+/// A failure on its way to the user.
+#[derive(Debug)]
+pub struct Told {
+    /// What went wrong.
+    pub failure: Failure,
+    /// Whether an answer in JSON, with more than the failure, has told it already.
+    pub in_json: bool,
+}
+
+impl<F: Into<Failure>> From<F> for Told {
+    fn from(failure: F) -> Self {
+        Self { failure: failure.into(), in_json: false }
+    }
+}
+
 /// A file or stream that could not be written.
 #[derive(Debug)]
 pub struct Unwritten {
@@ -64,7 +79,10 @@ impl std::fmt::Display for Unwritten {
 impl Failure {
     /// A verb or an option that has a name but no code.
     pub fn not_built(what: &str) -> Self {
-        Self::Call(format!("{what}: not built yet"), "built are: run, check, plan, schema".to_owned())
+        Self::Call(
+            format!("{what}: not built yet"),
+            "built are: run, check, plan, report, export, schema".to_owned(),
+        )
     }
 
     /// The exit code.

@@ -14,21 +14,13 @@ use crate::terminal;
 
 /// Plans a case and tells the plan.
 pub fn plan(path: &Path, as_json: bool) -> Result<(), Failure> {
-    let planned = CaseFile::read(path).and_then(|case_file| case_file.planned());
-    let answer = match (&planned, as_json) {
-        (Ok(plan), false) => table(plan),
-        (Ok(plan), true) => {
-            let mut value = resolved(plan);
-            value["status"] = json!("planned");
-            format!("{value:#}")
-        }
-        (Err(_), false) => String::new(),
-        (Err(error), true) => format!("{:#}", Failure::from(error.clone()).to_json()),
-    };
-    if !answer.is_empty() {
-        terminal::answer(&answer)?;
+    let plan = CaseFile::read(path)?.planned()?;
+    if as_json {
+        let mut value = resolved(&plan);
+        value["status"] = json!("planned");
+        return terminal::answer(&format!("{value:#}"));
     }
-    planned.map(|_| ()).map_err(Failure::from)
+    terminal::answer(&table(&plan))
 }
 
 fn table(plan: &Plan) -> String {

@@ -17,7 +17,7 @@ use serde_json::{Value, json};
 use crate::arguments::RunArguments;
 use crate::case_file::CaseFile;
 use crate::commands::plan::left_out;
-use crate::failure::Failure;
+use crate::failure::{Failure, Told};
 use crate::figures::counted;
 use crate::interrupt;
 use crate::output::{ResultFolder, RunRecord, Standing, Stored, Wish};
@@ -27,21 +27,20 @@ use crate::tally::Tally;
 use crate::terminal;
 
 /// Solves a case.
-pub fn run(arguments: &RunArguments) -> Result<(), Failure> {
+pub fn run(arguments: &RunArguments, as_json: bool) -> Result<(), Told> {
     let begun = prepared(arguments).and_then(|preparation| {
         interrupt::listen();
         let beginning = preparation.begun(arguments.quiet)?;
         Ok((preparation, beginning))
     });
     match begun {
-        Ok((preparation, Beginning::Nothing(record))) => preparation.solved_before(&record, arguments),
-        Ok((preparation, Beginning::At(departure))) => preparation.solved(*departure, arguments),
-        Err(failure) => {
-            if arguments.json {
-                terminal::answer(&format!("{:#}", failure.to_json()))?;
-            }
-            Err(failure)
+        Ok((preparation, Beginning::Nothing(record))) => {
+            Ok(preparation.solved_before(&record, arguments.quiet, as_json)?)
         }
+        Ok((preparation, Beginning::At(departure))) => {
+            preparation.solved(*departure, arguments.quiet, as_json)
+        }
+        Err(failure) => Err(failure.into()),
     }
 }
 
@@ -144,10 +143,10 @@ impl Preparation {
     }
 
     /// Tells that the run was solved before; computes and writes nothing.
-    fn solved_before(&self, record: &Value, arguments: &RunArguments) -> Result<(), Failure> {
+    fn solved_before(&self, record: &Value, quiet: bool, as_json: bool) -> Result<(), Failure> {
         let shown = self.folder.display().to_string();
         let message = format!("{shown}: solved already, nothing is left to do");
-        if arguments.json {
+        if as_json {
             let answer = json!({
                 "status": "solved",
                 "message": message,
@@ -156,13 +155,13 @@ impl Preparation {
                 "results": shown,
             });
             terminal::answer(&format!("{answer:#}"))?;
-        } else if !arguments.quiet {
+        } else if !quiet {
             terminal::answer(&message)?;
         }
         Ok(())
     }
 
-    fn solved(&self, departure: Departure, arguments: &RunArguments) -> Result<(), Failure> {
+    fn solved(&self, departure: Departure, quiet: bool, as_json: bool) -> Result<(), Told> {
         let title = if self.plan.case.title.is_empty() {
             self.case_file.stem().display().to_string()
         } else {
@@ -171,7 +170,7 @@ impl Preparation {
         let Departure { folder, tally, from, wall_s } = departure;
         let mut witness = Witness {
             folder,
-            progress: Progress::new(arguments.quiet, &title, self.plan.increments, tally.solved),
+            progress: Progress::new(quiet, &title, self.plan.increments, tally.solved),
             tally,
             clock: Clock { started: Instant::now(), before_s: wall_s },
             failure: None,
@@ -185,15 +184,15 @@ impl Preparation {
         let failure = failure.or_else(|| closed.err().map(Failure::from));
         let summary =
             Summary { plan: &self.plan, tally: &tally, folder: &self.folder, wall_s, threads: self.threads };
-        if arguments.json {
+        if as_json {
             terminal::answer(&format!("{:#}", summary.to_json(failure.as_ref())))?;
-        } else if failure.is_none() && !arguments.quiet {
+        } else if failure.is_none() && !quiet {
             terminal::answer(&summary.table())?;
         }
         if matches!(failure, Some(Failure::Unwritten(_))) && tally.solved > 0 {
             terminal::say(&format!("{}; once it can be written, --resume goes on", self.kept(&tally)));
         }
-        failure.map_or(Ok(()), Err)
+        failure.map_or(Ok(()), |failure| Err(Told { failure, in_json: as_json }))
     }
 
     fn followed_by(&self, from: Checkpoint, witness: &mut Witness) -> Result<(), Failure> {

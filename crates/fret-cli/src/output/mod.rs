@@ -26,7 +26,7 @@ use checkpoint_folder::{CheckpointFolder, Found, Head};
 use field_store::FieldStore;
 use history_table::HistoryTable;
 pub use run_record::{RunRecord, resolved};
-use whole_file::write_whole;
+pub use whole_file::write_whole;
 
 const CASE: &str = "case.toml";
 const RECORD: &str = "run.json";
