@@ -3,6 +3,7 @@
 mod arguments;
 mod case_file;
 mod commands;
+mod defect;
 mod export;
 mod failure;
 mod figures;
@@ -15,6 +16,7 @@ mod summary;
 mod tally;
 mod terminal;
 
+use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::process::ExitCode;
 
 use clap::Parser;
@@ -28,7 +30,10 @@ fn main() -> ExitCode {
         Ok(arguments) => arguments,
         Err(error) => return asked_for_help_or_mistaken(&error),
     };
-    match dispatch(&arguments) {
+    defect::listen();
+    let outcome = catch_unwind(AssertUnwindSafe(|| dispatch(&arguments)))
+        .unwrap_or_else(|panic| Err(Failure::Defect(defect::words_of(panic.as_ref())).into()));
+    match outcome {
         Ok(()) => ExitCode::SUCCESS,
         Err(Told { failure, in_json }) => {
             if arguments.json && !in_json {

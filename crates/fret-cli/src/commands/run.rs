@@ -1,6 +1,5 @@
 //! `fret run`: from a case file to a folder of results, with a face for the time between.
 
-use std::any::Any;
 use std::num::NonZero;
 use std::ops::ControlFlow;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -17,6 +16,7 @@ use serde_json::{Value, json};
 use crate::arguments::RunArguments;
 use crate::case_file::CaseFile;
 use crate::commands::plan::left_out;
+use crate::defect;
 use crate::failure::{Failure, Told};
 use crate::figures::counted;
 use crate::interrupt;
@@ -204,7 +204,7 @@ impl Preparation {
                 Err(Failure::Interrupted(format!("{kept}; --resume goes on from there")))
             }
             Ok(Err(error)) => Err(Failure::Unsolved(error)),
-            Err(panic) => Err(Failure::Defect(words_of(panic.as_ref()))),
+            Err(panic) => Err(Failure::Defect(defect::words_of(panic.as_ref()))),
         }
     }
 
@@ -212,11 +212,6 @@ impl Preparation {
         let (solved, all) = (tally.solved, self.plan.increments);
         format!("{solved} of {all} increments are solved and kept in {}", self.folder.display())
     }
-}
-
-fn words_of(panic: &(dyn Any + Send)) -> String {
-    let literal = panic.downcast_ref::<&str>().map(|words| (*words).to_owned());
-    literal.or_else(|| panic.downcast_ref::<String>().cloned()).unwrap_or_else(|| "no words".to_owned())
 }
 
 /// Time of the whole run, that before it was broken off included.

@@ -15,6 +15,17 @@ use crate::results::Results;
 /// Archives of more bytes need the wider form of the format.
 const WIDE: usize = 1 << 31;
 
+/// Columns of the history that count.
+const COUNTS: [&str; 7] = [
+    "increment",
+    "stage",
+    "convolutions",
+    "preconditioner_passes",
+    "outer_iterations",
+    "contact_cells",
+    "stick_cells",
+];
+
 /// Writes the results as a `.npz` file.
 pub fn write(results: &Results, path: &Path) -> Result<Vec<PathBuf>, Failure> {
     let fields = &results.fields;
@@ -40,7 +51,12 @@ pub fn write(results: &Results, path: &Path) -> Result<Vec<PathBuf>, Failure> {
             }
         }
         for (name, values) in results.table.columns() {
-            archive.array(name, "<f8", &[values.len()], &bytes(values))?;
+            if COUNTS.contains(&name) {
+                let counts: Vec<u8> = values.iter().flat_map(|&count| (count as i64).to_le_bytes()).collect();
+                archive.array(name, "<i8", &[values.len()], &counts)?;
+            } else {
+                archive.array(name, "<f8", &[values.len()], &bytes(values))?;
+            }
         }
         let regimes = results.table.regimes();
         let letters = regimes.iter().map(String::len).max().unwrap_or(0).max(1);

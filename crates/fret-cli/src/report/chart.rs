@@ -73,12 +73,14 @@ impl Chart {
         if let Some((level, name)) = &self.level {
             let height = frame.y_of(*level);
             let (from, to) = (LEFT, WIDTH - RIGHT);
+            let above = height - 5.0;
+            let beside = if above > TOP + 10.0 { above } else { height + 15.0 };
             let _ = writeln!(svg, "<path class=\"level\" d=\"M{from} {height:.1}H{to}\"/>");
             let _ = writeln!(
                 svg,
                 "<text class=\"note\" x=\"{:.1}\" y=\"{:.1}\" text-anchor=\"end\">{}</text>",
                 to - 4.0,
-                height - 5.0,
+                beside,
                 escaped(name)
             );
         }

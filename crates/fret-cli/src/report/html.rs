@@ -22,23 +22,22 @@ pub fn escaped(text: &str) -> String {
 
 /// A number as it is printed.
 pub fn number(value: f64) -> String {
-    let shown = figure(value);
-    match shown.split_once('e') {
-        Some((digits, exponent)) => {
-            let power = exponent.parse().map_or_else(|_| exponent.to_owned(), superscript);
-            format!("{digits} · 10{power}").replace('-', "−")
-        }
-        None => shown.replace('-', "−"),
-    }
+    printed(&figure(value))
+}
+
+/// A number whose size alone matters.
+pub fn short(value: f64) -> String {
+    printed(&format!("{value:.1e}"))
 }
 
 /// A number as it was typed: as few digits as say it.
 pub fn given(value: f64) -> String {
-    let shown = if (1e-3..1e5).contains(&value.abs()) || value == 0.0 {
-        format!("{value}")
-    } else {
-        format!("{value:e}")
-    };
+    let is_plain = (1e-3..1e5).contains(&value.abs()) || value == 0.0;
+    printed(&if is_plain { format!("{value}") } else { format!("{value:e}") })
+}
+
+/// Digits with a power of ten in place of an `e`, and a true minus.
+fn printed(shown: &str) -> String {
     match shown.split_once('e') {
         Some((digits, exponent)) => {
             let power = exponent.parse().map_or_else(|_| exponent.to_owned(), superscript);

@@ -5,8 +5,6 @@ use std::fmt::Write;
 use super::html::escaped;
 use crate::results::Field;
 
-/// Side of the longer edge of a map in the units of its drawing.
-const SIDE: f64 = 200.0;
 /// Cells around the contact that are shown.
 const MARGIN: usize = 2;
 
@@ -41,31 +39,27 @@ impl Window {
     }
 }
 
-/// A map of zones, x to the right and y upwards, cells of `spacing`.
+/// A map of zones, x to the right and y upwards, cells of `spacing`. Drawn in cells, so that neighbours share their edges.
 pub fn zones(field: &Field, window: Window, spacing: [f64; 2], what: &str) -> String {
-    let sides = [0, 1].map(|axis| window.cells[axis] as f64 * spacing[axis]);
-    let unit = SIDE / sides[0].max(sides[1]);
-    let [width, height] = sides.map(|side| side * unit);
-    let [cell_x, cell_y] = spacing.map(|side| side * unit);
+    let [width, height] = window.cells;
+    let ratio = width as f64 * spacing[0] / (height as f64 * spacing[1]);
     let mut svg = format!(
-        "<svg viewBox=\"0 0 {width:.1} {height:.1}\" role=\"img\" aria-label=\"{}\" shape-rendering=\"crispEdges\">\
-         <rect class=\"open\" width=\"{width:.1}\" height=\"{height:.1}\"/>\n",
+        "<svg viewBox=\"0 0 {width} {height}\" preserveAspectRatio=\"none\" style=\"aspect-ratio:{ratio:.4}\" role=\"img\" \
+         aria-label=\"{}\" shape-rendering=\"crispEdges\"><rect class=\"open\" width=\"{width}\" height=\"{height}\"/>\n",
         escaped(what)
     );
     for (zone, class) in [(1.0, "stick"), (2.0, "slip")] {
         let mut path = String::new();
-        for j in 0..window.cells[1] {
+        for j in 0..height {
             let is_zone = |i: usize| field.at(window.first[0] + i, window.first[1] + j) == zone;
             let mut i = 0;
-            while i < window.cells[0] {
+            while i < width {
                 let start = i;
-                while i < window.cells[0] && is_zone(i) {
+                while i < width && is_zone(i) {
                     i += 1;
                 }
                 if i > start {
-                    let (x, y) = (start as f64 * cell_x, height - (j + 1) as f64 * cell_y);
-                    let run = (i - start) as f64 * cell_x;
-                    let _ = write!(path, "M{x:.2} {y:.2}h{run:.2}v{cell_y:.2}h{:.2}z", -run);
+                    let _ = write!(path, "M{start} {}h{1}v1h-{1}z", height - 1 - j, i - start);
                 }
                 i += 1;
             }
@@ -75,4 +69,27 @@ pub fn zones(field: &Field, window: Window, spacing: [f64; 2], what: &str) -> St
         }
     }
     svg + "</svg>"
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_map_stands_upright_and_joins_cells_of_a_row() {
+        // Two columns (x), three rows (y): slip at the bottom, stick above on the right.
+        let field = Field { cells: [2, 3], values: vec![2.0, 0.0, 0.0, 2.0, 1.0, 0.0] };
+        let window = Window { first: [0; 2], cells: [2, 3] };
+        let svg = zones(&field, window, [1.0, 1.0], "");
+        assert!(svg.contains("<path class=\"slip\" d=\"M0 2h2v1h-2z\"/>"), "{svg}");
+        assert!(svg.contains("<path class=\"stick\" d=\"M1 1h1v1h-1z\"/>"), "{svg}");
+    }
+
+    #[test]
+    fn a_window_holds_every_contact_with_a_margin() {
+        let mut field = Field { cells: [20, 20], values: vec![0.0; 400] };
+        field.values[5 * 20 + 9] = 1.0;
+        field.values[7 * 20 + 19] = 2.0;
+        assert_eq!(Window::around(&[field]), Some(Window { first: [3, 7], cells: [7, 13] }));
+    }
 }

@@ -5,6 +5,8 @@
 mod answered;
 mod bench;
 mod broken_off;
+mod hostile;
 mod refused;
+mod shown;
 mod solved;
 mod unwritten;

@@ -139,8 +139,6 @@ fn verbs_that_are_not_built_yet_are_refused_by_name() {
         &["study", "case.toml", "--cells", "32"][..],
         &["extremes"],
         &["stress", "results"],
-        &["report", "results", "--help"],
-        &["export", "results", "--npz"],
         &["sweep", "sweep.toml"],
     ] {
         let answer = bench.fret(arguments);

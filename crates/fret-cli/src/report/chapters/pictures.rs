@@ -14,6 +14,8 @@ const MOST_SECTIONS: usize = 4;
 const MOST_MAPS: usize = 18;
 /// Colours of the page.
 const COLOURS: usize = 6;
+/// Curves that differ by less than this share of the largest one, on the average, look the same.
+const SEEN: f64 = 0.02;
 /// Points of a closed form along a section.
 const FINE: usize = 400;
 
@@ -97,7 +99,39 @@ pub fn fretting_loop(scene: &Scene<'_>) -> String {
         logarithmic: false,
         level: None,
     };
-    chapter("Fretting loop", &side_by_side(&figure_of(&chart.svg(), &caption)))
+    let figures = figure_of(&chart.svg(), &caption) + &stick_share(scene);
+    chapter("Fretting loop", &side_by_side(&figures))
+}
+
+/// How much of the contact sticks.
+fn stick_share(scene: &Scene<'_>) -> String {
+    let table = &scene.results.table;
+    let shares: Vec<f64> =
+        table.column("stick_area").iter().zip(table.column("contact_area")).map(|(s, c)| s / c).collect();
+    let number = table.column("increment");
+    let mut curves = vec![line(pairs(number, &shares), "computed", 0)];
+    let mut caption = "Share of the contact area that sticks.".to_owned();
+    if let Some(form) = &scene.tangential_form {
+        let exact: Vec<f64> = (0..table.rows())
+            .map(|row| {
+                let (after, force) = (form.after(row), table.at("normal_force", row));
+                let pressed = scene.normal_form.and_then(|form| form.under(force));
+                after.zip(pressed).map_or(f64::NAN, |(after, pressed)| {
+                    std::f64::consts::PI * after.stick_radius().powi(2) / pressed.area()
+                })
+            })
+            .collect();
+        curves.push(Curve { stroke: Stroke::Dashed, ..line(pairs(number, &exact), "closed form", 1) });
+        caption += " Dashed: the closed form. What is computed counts whole cells, and what slipped within an increment.";
+    }
+    let chart = Chart {
+        what: "share of the contact that sticks over the increments".to_owned(),
+        axes: ["increment".to_owned(), "stick".to_owned()],
+        curves,
+        logarithmic: false,
+        level: None,
+    };
+    figure_of(&chart.svg(), &caption)
 }
 
 /// A line of cells through the middle of the grid.
@@ -140,7 +174,7 @@ impl Section {
 }
 
 /// The part of a section where any of the curves is not zero, with a margin.
-fn seen(along: &[f64], curves: &[Vec<f64>]) -> [usize; 2] {
+fn seen(along: &[f64], curves: &[&[f64]]) -> [usize; 2] {
     let is_seen = |k: &usize| curves.iter().any(|values| values[*k] != 0.0);
     let (first, last) = ((0..along.len()).find(is_seen), (0..along.len()).rev().find(is_seen));
     match (first, last) {
@@ -156,13 +190,12 @@ fn seen(along: &[f64], curves: &[Vec<f64>]) -> [usize; 2] {
 pub fn sections(scene: &Scene<'_>) -> Result<String, Failure> {
     let fields = &scene.results.fields;
     let section = Section::of(scene);
-    let chosen = scene.telling(MOST_SECTIONS);
     let mut figures = String::new();
-    if fields.has("pressure") && !chosen.is_empty() {
-        figures += &pressure_section(scene, &section, &chosen)?;
+    if fields.has("pressure") && !fields.steps.is_empty() {
+        figures += &pressure_section(scene, &section)?;
     }
-    if let Some(direction) = scene.direction.filter(|_| fields.has("shear_x") && !chosen.is_empty()) {
-        figures += &shear_section(scene, &section, &chosen, direction)?;
+    if let Some(direction) = scene.direction.filter(|_| fields.has("shear_x") && !fields.steps.is_empty()) {
+        figures += &shear_section(scene, &section, direction)?;
     }
     if figures.is_empty() {
         return Ok(String::new());
@@ -170,36 +203,74 @@ pub fn sections(scene: &Scene<'_>) -> Result<String, Failure> {
     Ok(chapter("Sections through the contact", &side_by_side(&figures)))
 }
 
-fn pressure_section(scene: &Scene<'_>, section: &Section, chosen: &[usize]) -> Result<String, Failure> {
-    let fields = &scene.results.fields;
-    let mut values = Vec::new();
-    for &position in chosen {
-        values.push(section.values(&fields.field("pressure", position)?));
+/// Of the candidates, in this order, those whose values differ from zero and from each other so that it can be seen.
+fn distinct(
+    candidates: Vec<usize>,
+    mut values_of: impl FnMut(usize) -> Result<Vec<f64>, Failure>,
+) -> Result<Vec<(usize, Vec<f64>)>, Failure> {
+    let mut read = Vec::new();
+    for position in candidates {
+        read.push((position, values_of(position)?));
     }
+    let sum = |values: &[f64]| values.iter().map(|value| value.abs()).sum::<f64>();
+    let largest = read.iter().map(|(_, values)| sum(values)).fold(0.0, f64::max);
+    let are_alike = |one: &[f64], other: &[f64]| {
+        one.iter().zip(other).map(|(a, b)| (a - b).abs()).sum::<f64>() <= SEEN * largest
+    };
+    let mut chosen: Vec<(usize, Vec<f64>)> = Vec::new();
+    for (position, values) in read {
+        let is_nothing = sum(&values) <= SEEN * largest;
+        let is_new = chosen.iter().all(|(_, other)| !are_alike(&values, other));
+        if chosen.len() < MOST_SECTIONS && is_new && !is_nothing {
+            chosen.push((position, values));
+        }
+    }
+    chosen.sort_by_key(|(position, _)| *position);
+    Ok(chosen)
+}
+
+/// The curves of a section: computed values, and the closed form over them where there is one.
+fn section_curves(
+    scene: &Scene<'_>,
+    section: &Section,
+    chosen: &[(usize, Vec<f64>)],
+    form: impl Fn(usize) -> Option<Box<dyn Fn(f64, f64) -> f64>>,
+) -> Vec<Curve> {
+    let values: Vec<&[f64]> = chosen.iter().map(|(_, values)| values.as_slice()).collect();
     let [first, last] = seen(&section.along, &values);
     let ends = [section.along[first], section.along[last]];
     let mut curves = Vec::new();
-    let mut has_form = false;
-    for (number, (&position, values)) in chosen.iter().zip(&values).enumerate() {
-        let step = fields.steps[position];
-        let force = scene.results.table.at("normal_force", step);
-        if let Some(pressed) = scene.normal_form.and_then(|form| form.under(force)) {
+    for (number, (position, values)) in chosen.iter().enumerate() {
+        let step = scene.results.fields.steps[*position];
+        let colour = number % COLOURS;
+        let exact = form(step);
+        if let Some(exact) = &exact {
             let points = section.fine(ends).map(|s| {
                 let [x, y] = section.point(s);
-                [s, pressed.pressure(x, y)]
+                [s, exact(x, y)]
             });
-            curves.push(Curve {
-                points: points.collect(),
-                name: None,
-                colour: number % COLOURS,
-                stroke: Stroke::Dashed,
-            });
-            has_form = true;
+            curves.push(Curve { points: points.collect(), name: None, colour, stroke: Stroke::Dashed });
         }
-        let stroke = if has_form { Stroke::Dots } else { Stroke::Line };
+        let stroke = if exact.is_some() { Stroke::Dots } else { Stroke::Line };
         let points = pairs(&section.along[first..=last], &values[first..=last]);
-        curves.push(Curve { stroke, ..line(points, &scene.called(step), number % COLOURS) });
+        curves.push(Curve { stroke, ..line(points, &scene.called(step), colour) });
     }
+    curves
+}
+
+fn pressure_section(scene: &Scene<'_>, section: &Section) -> Result<String, Failure> {
+    let fields = &scene.results.fields;
+    let force = |step: usize| scene.results.table.at("normal_force", step);
+    // The heaviest load first: it sets the scale.
+    let mut candidates = scene.telling(2 * MOST_SECTIONS);
+    candidates.sort_by(|a, b| force(fields.steps[*b]).total_cmp(&force(fields.steps[*a])));
+    let chosen = distinct(candidates, |position| Ok(section.values(&fields.field("pressure", position)?)))?;
+    let form = |step: usize| {
+        let pressed = scene.normal_form?.under(force(step))?;
+        Some(Box::new(move |x: f64, y: f64| pressed.pressure(x, y)) as Box<dyn Fn(f64, f64) -> f64>)
+    };
+    let curves = section_curves(scene, section, &chosen, form);
+    let has_form = curves.iter().any(|curve| curve.stroke == Stroke::Dashed);
     let chart = Chart {
         what: "pressure along a line through the contact".to_owned(),
         axes: [section.name().to_owned(), "pressure".to_owned()],
@@ -215,43 +286,20 @@ fn pressure_section(scene: &Scene<'_>, section: &Section, chosen: &[usize]) -> R
     Ok(figure_of(&chart.svg(), caption))
 }
 
-fn shear_section(
-    scene: &Scene<'_>,
-    section: &Section,
-    chosen: &[usize],
-    [cosine, sine]: [f64; 2],
-) -> Result<String, Failure> {
+fn shear_section(scene: &Scene<'_>, section: &Section, direction: [f64; 2]) -> Result<String, Failure> {
     let fields = &scene.results.fields;
-    let mut values = Vec::new();
-    for &position in chosen {
+    let [cosine, sine] = direction;
+    let chosen = distinct(pushed_most(scene), |position| {
         let x = section.values(&fields.field("shear_x", position)?);
         let y = section.values(&fields.field("shear_y", position)?);
-        values.push(x.iter().zip(&y).map(|(x, y)| cosine * x + sine * y).collect::<Vec<f64>>());
-    }
-    let [first, last] = seen(&section.along, &values);
-    let ends = [section.along[first], section.along[last]];
-    let mut curves = Vec::new();
-    let mut any_form = false;
-    for (number, (&position, values)) in chosen.iter().zip(&values).enumerate() {
-        let step = fields.steps[position];
-        let after = scene.tangential_form.as_ref().and_then(|form| form.after(step));
-        if let Some(after) = after {
-            let points = section.fine(ends).map(|s| {
-                let [x, y] = section.point(s);
-                [s, after.shear(x.hypot(y))]
-            });
-            curves.push(Curve {
-                points: points.collect(),
-                name: None,
-                colour: number % COLOURS,
-                stroke: Stroke::Dashed,
-            });
-            any_form = true;
-        }
-        let stroke = if after.is_some() { Stroke::Dots } else { Stroke::Line };
-        let points = pairs(&section.along[first..=last], &values[first..=last]);
-        curves.push(Curve { stroke, ..line(points, &scene.called(step), number % COLOURS) });
-    }
+        Ok(x.iter().zip(&y).map(|(x, y)| cosine * x + sine * y).collect())
+    })?;
+    let form = |step: usize| {
+        let after = scene.tangential_form.as_ref()?.after(step)?.clone();
+        Some(Box::new(move |x: f64, y: f64| after.shear(x.hypot(y))) as Box<dyn Fn(f64, f64) -> f64>)
+    };
+    let curves = section_curves(scene, section, &chosen, form);
+    let has_form = curves.iter().any(|curve| curve.stroke == Stroke::Dashed);
     let chart = Chart {
         what: "shear along a line through the contact".to_owned(),
         axes: [section.name().to_owned(), "shear".to_owned()],
@@ -259,12 +307,35 @@ fn shear_section(
         logarithmic: false,
         level: None,
     };
-    let caption = if any_form {
+    let caption = if has_form {
         "Shear along the push: dots cell by cell, dashed the closed form (Cattaneo, Mindlin and Deresiewicz)."
     } else {
         "Shear along the push."
     };
     Ok(figure_of(&chart.svg(), caption))
+}
+
+/// Kept increments of the last cycle, or of the whole history where there is none: the strongest push to either side first,
+/// then the last, then the others evenly.
+fn pushed_most(scene: &Scene<'_>) -> Vec<usize> {
+    let steps = &scene.results.fields.steps;
+    let [first, end] = scene.cycles().last().map_or([0, usize::MAX], |cycle| cycle.span);
+    let mut inside: Vec<usize> =
+        (0..steps.len()).filter(|&position| (first..end).contains(&steps[position])).collect();
+    if inside.is_empty() {
+        inside = (0..steps.len()).collect();
+    }
+    let push = |position: &usize| scene.tangential[steps[*position]];
+    let by_push = |a: &&usize, b: &&usize| push(a).total_cmp(&push(b));
+    let mut ordered: Vec<usize> =
+        [inside.iter().max_by(by_push), inside.iter().min_by(by_push), inside.last()]
+            .into_iter()
+            .flatten()
+            .copied()
+            .collect();
+    let parts = 2 * MOST_SECTIONS;
+    ordered.extend((0..parts).map(|part| inside[part * (inside.len() - 1) / (parts - 1)]));
+    ordered
 }
 
 /// Stick and slip through the history.

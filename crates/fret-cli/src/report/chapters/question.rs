@@ -4,7 +4,7 @@ use serde_json::Value;
 
 use super::chapter;
 use crate::figures::{counted, duration};
-use crate::report::html::{escaped, given, number, pairs, percent};
+use crate::report::html::{escaped, given, number, pairs, percent, short};
 use crate::report::scene::Scene;
 
 /// Title, how the run ended, and its most telling numbers.
@@ -64,7 +64,7 @@ fn cards(scene: &Scene<'_>) -> String {
         ));
         cards.push(("energy dissipated", number(table.at("dissipated_energy", last))));
     }
-    cards.push(("largest residual", format!("{:.1e}", largest("residual")).replace('-', "−")));
+    cards.push(("largest residual", short(largest("residual"))));
     let cards: String =
         cards.iter().map(|(name, value)| format!("<div><dt>{name}</dt><dd>{value}</dd></div>")).collect();
     format!("<dl class=\"cards\">{cards}</dl>\n")
