@@ -82,11 +82,12 @@ fn extent(values: impl Iterator<Item = f64>) -> [f64; 2] {
     if low <= high { [low, high] } else { [0.0, 1.0] }
 }
 
-/// The next larger of 1, 2, 5 times a power of ten.
+/// The nearest of 1, 2, 5 and 10 times a power of ten.
 fn round_step(step: f64) -> f64 {
     let power = 10_f64.powf(step.log10().floor());
     let digit = step / power;
-    power * [1.0, 2.0, 5.0].into_iter().find(|round| digit <= round * (1.0 + 1e-9)).unwrap_or(10.0)
+    let round = [(1.5, 1.0), (3.5, 2.0), (7.5, 5.0)].into_iter().find(|(end, _)| digit < *end);
+    power * round.map_or(10.0, |(_, round)| round)
 }
 
 /// A whole number in raised digits.
@@ -114,10 +115,10 @@ mod tests {
         let axis = Axis::linear([-2.1e-7, 2.1e-7].into_iter(), 4);
         assert_eq!((words(&axis), axis.exponent), (vec!["−200", "−100", "0", "100", "200"], -9));
         let axis = Axis::linear([0.0, 2.74e9].into_iter(), 5);
-        assert_eq!((words(&axis), axis.exponent), (vec!["0", "1", "2"], 9));
+        assert_eq!((words(&axis), axis.exponent), (vec!["0.0", "0.5", "1.0", "1.5", "2.0", "2.5"], 9));
         assert_eq!(axis.named("pressure"), "pressure / 10⁹");
         let axis = Axis::linear([0.0, 0.31].into_iter(), 3);
-        assert_eq!(words(&axis), ["0.0", "0.2"]);
+        assert_eq!(words(&axis), ["0.0", "0.1", "0.2", "0.3"]);
     }
 
     #[test]
