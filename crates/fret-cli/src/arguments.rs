@@ -10,9 +10,12 @@ use clap::{Args, Parser, Subcommand};
 #[command(
     name = "fret",
     version,
-    after_help = "Exit codes: 0 solved, 1 refused, 2 failed (numerically, or a file could not be written), 130 interrupted."
+    after_help = "Exit codes: 0 solved, 1 refused (also a contact that grows to the edge of its grid), 2 failed (numerically, or a file could not be written), 130 interrupted and resumable."
 )]
 pub struct Arguments {
+    /// Answer in JSON, mistakes too, with nothing else on standard output
+    #[arg(long, global = true)]
+    pub json: bool,
     /// What to do.
     #[command(subcommand)]
     pub verb: Verb,
@@ -32,12 +35,19 @@ pub enum Verb {
     Plan {
         /// The case file (TOML)
         case: PathBuf,
-        /// Answer in JSON
-        #[arg(long)]
-        json: bool,
     },
     /// Print the JSON Schema of the case file
     Schema,
+    /// Show a run in one page: loops, sections, stick and slip, energy, convergence; a browser opens it, no network
+    Report {
+        /// The folder of the results
+        results: PathBuf,
+        /// The page [default: report.html in that folder]
+        #[arg(long, value_name = "FILE")]
+        out: Option<PathBuf>,
+    },
+    /// Write the results of a run for other programs
+    Export(ExportArguments),
     #[command(hide = true, disable_help_flag = true)]
     Study(Unbuilt),
     #[command(hide = true, disable_help_flag = true)]
@@ -45,16 +55,11 @@ pub enum Verb {
     #[command(hide = true, disable_help_flag = true)]
     Stress(Unbuilt),
     #[command(hide = true, disable_help_flag = true)]
-    Report(Unbuilt),
-    #[command(hide = true, disable_help_flag = true)]
-    Export(Unbuilt),
-    #[command(hide = true, disable_help_flag = true)]
     Sweep(Unbuilt),
 }
 
 /// How to solve a case.
 #[derive(Debug, Args)]
-#[expect(clippy::struct_excessive_bools, reason = "one for each switch that can be typed")]
 pub struct RunArguments {
     /// The case file (TOML)
     pub case: PathBuf,
@@ -67,15 +72,32 @@ pub struct RunArguments {
     /// Say nothing but errors
     #[arg(long)]
     pub quiet: bool,
-    /// Answer in JSON, with nothing else on standard output
-    #[arg(long)]
-    pub json: bool,
     /// Write into a folder even when it holds other things; only files of `fret` are replaced
     #[arg(long)]
     pub force: bool,
-    /// Go on where a run was interrupted (not built yet)
-    #[arg(long, hide = true)]
+    /// Go on where a run was broken off; start where there is none, do nothing where it is solved
+    #[arg(long, conflicts_with = "force")]
     pub resume: bool,
+}
+
+/// What to write of a run, in which form.
+#[derive(Debug, Args)]
+#[command(group = clap::ArgGroup::new("form").required(true).multiple(true))]
+pub struct ExportArguments {
+    /// The folder of the results
+    pub results: PathBuf,
+    /// One file for numpy.load
+    #[arg(long, group = "form")]
+    pub npz: bool,
+    /// The history and a file a kept increment, a row a cell
+    #[arg(long, group = "form")]
+    pub csv: bool,
+    /// A .vti image a kept increment and a .pvd list, for ParaView and pyvista
+    #[arg(long, group = "form")]
+    pub vtk: bool,
+    /// The file (npz) or folder (csv, vtk) to write [default: export.npz, csv, vtk in the folder of the results]
+    #[arg(long, value_name = "PATH")]
+    pub out: Option<PathBuf>,
 }
 
 /// Arguments of a verb that is not built yet: anything.

@@ -7,7 +7,7 @@ use fret_core::case::CaseError;
 use fret_core::simulation::RunError;
 use serde_json::{Value, json};
 
-/// Exit code of a refused case or call.
+/// Exit code of a refused case or call, also where only the run finds out: a contact that grows to the edge of the grid.
 pub const REFUSED: u8 = 1;
 /// Exit code of a numerical failure, and of a file that could not be written.
 pub const FAILED: u8 = 2;
@@ -29,6 +29,21 @@ pub enum Failure {
     Unwritten(Unwritten),
     /// A mistake in the program itself.
     Defect(String),
+}
+
+/// A failure on its way to the user.
+#[derive(Debug)]
+pub struct Told {
+    /// What went wrong.
+    pub failure: Failure,
+    /// Whether an answer in JSON, with more than the failure, has told it already.
+    pub in_json: bool,
+}
+
+impl<F: Into<Failure>> From<F> for Told {
+    fn from(failure: F) -> Self {
+        Self { failure: failure.into(), in_json: false }
+    }
 }
 
 /// A file or stream that could not be written.
@@ -64,13 +79,17 @@ impl std::fmt::Display for Unwritten {
 impl Failure {
     /// A verb or an option that has a name but no code.
     pub fn not_built(what: &str) -> Self {
-        Self::Call(format!("{what}: not built yet"), "built are: run, check, plan, schema".to_owned())
+        Self::Call(
+            format!("{what}: not built yet"),
+            "built are: run, check, plan, report, export, schema".to_owned(),
+        )
     }
 
     /// The exit code.
     pub fn code(&self) -> u8 {
         match self {
             Self::Case(_) | Self::Call(..) => REFUSED,
+            Self::Unsolved(error) if asks_for_another_case(error) => REFUSED,
             Self::Unsolved(_) | Self::Unwritten(_) | Self::Defect(_) => FAILED,
             Self::Interrupted(_) => INTERRUPTED,
         }
@@ -80,6 +99,7 @@ impl Failure {
     pub fn status(&self) -> &'static str {
         match self {
             Self::Case(_) | Self::Call(..) => "refused",
+            Self::Unsolved(error) if asks_for_another_case(error) => "refused",
             Self::Unsolved(_) | Self::Unwritten(_) | Self::Defect(_) => "failed",
             Self::Interrupted(_) => "interrupted",
         }
@@ -127,6 +147,11 @@ impl Failure {
         }
         value
     }
+}
+
+/// Whether the equations went well but the case leaves what can be computed: a plan that had known would have refused it.
+fn asks_for_another_case(error: &RunError) -> bool {
+    matches!(error, RunError::ContactAtEdge { .. } | RunError::AboveSliding { .. })
 }
 
 impl From<CaseError> for Failure {

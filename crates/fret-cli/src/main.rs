@@ -3,58 +3,74 @@
 mod arguments;
 mod case_file;
 mod commands;
+mod defect;
+mod export;
 mod failure;
 mod figures;
 mod interrupt;
 mod output;
 mod progress;
+mod report;
+mod results;
 mod summary;
 mod tally;
 mod terminal;
 
+use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::process::ExitCode;
 
 use clap::Parser;
 use clap::error::ErrorKind;
 
 use arguments::{Arguments, Verb};
-use failure::Failure;
+use failure::{Failure, Told};
 
 fn main() -> ExitCode {
     let arguments = match Arguments::try_parse() {
         Ok(arguments) => arguments,
         Err(error) => return asked_for_help_or_mistaken(&error),
     };
-    match dispatch(&arguments.verb) {
+    defect::listen();
+    let outcome = catch_unwind(AssertUnwindSafe(|| dispatch(&arguments)))
+        .unwrap_or_else(|panic| Err(Failure::Defect(defect::words_of(panic.as_ref())).into()));
+    match outcome {
         Ok(()) => ExitCode::SUCCESS,
-        Err(failure) => {
+        Err(Told { failure, in_json }) => {
+            if arguments.json && !in_json {
+                // A reader that cannot be told is told by the exit code.
+                let _ = terminal::answer(&format!("{:#}", failure.to_json()));
+            }
             terminal::say(&failure.render(terminal::errors_in_colour()));
             ExitCode::from(failure.code())
         }
     }
 }
 
-fn dispatch(verb: &Verb) -> Result<(), Failure> {
-    match verb {
-        Verb::Run(arguments) => commands::run::run(arguments),
-        Verb::Check { case } => commands::check::check(case),
-        Verb::Plan { case, json } => commands::plan::plan(case, *json),
+fn dispatch(arguments: &Arguments) -> Result<(), Told> {
+    let as_json = arguments.json;
+    match &arguments.verb {
+        Verb::Run(arguments) => return commands::run::run(arguments, as_json),
+        Verb::Check { case } => commands::check::check(case, as_json),
+        Verb::Plan { case } => commands::plan::plan(case, as_json),
         Verb::Schema => commands::schema::schema(),
+        Verb::Report { results, out } => commands::report::report(results, out.as_deref(), as_json),
+        Verb::Export(arguments) => commands::export::export(arguments, as_json),
         Verb::Study(_) => Err(Failure::not_built("fret study")),
         Verb::Extremes(_) => Err(Failure::not_built("fret extremes")),
         Verb::Stress(_) => Err(Failure::not_built("fret stress")),
-        Verb::Report(_) => Err(Failure::not_built("fret report")),
-        Verb::Export(_) => Err(Failure::not_built("fret export")),
         Verb::Sweep(_) => Err(Failure::not_built("fret sweep")),
-    }
+    }?;
+    Ok(())
 }
 
 /// Help and version are answers; anything else clap objects to is a refusal, for which clap's own exit code 2 is taken.
 fn asked_for_help_or_mistaken(error: &clap::Error) -> ExitCode {
+    let is_answer = matches!(error.kind(), ErrorKind::DisplayHelp | ErrorKind::DisplayVersion);
+    if !is_answer && std::env::args_os().any(|argument| argument == "--json") {
+        let failure = Failure::Call(error.to_string().trim_end().to_owned(), String::new());
+        let _ = terminal::answer(&format!("{:#}", failure.to_json()));
+    }
     // A stream that is closed cannot be told so.
     let _ = error.print();
-    match error.kind() {
-        ErrorKind::DisplayHelp | ErrorKind::DisplayVersion => ExitCode::SUCCESS,
-        _ => ExitCode::from(failure::REFUSED),
-    }
+    if is_answer { ExitCode::SUCCESS } else { ExitCode::from(failure::REFUSED) }
 }

@@ -24,6 +24,8 @@ const TITLE_LETTERS: usize = 24;
 pub struct Progress {
     face: Face,
     increments: usize,
+    /// Increments that were solved before this run went on.
+    solved_before: usize,
     started: Instant,
     last_shown: Instant,
     tenths: usize,
@@ -38,15 +40,18 @@ enum Face {
 
 impl Progress {
     /// The face that fits: quiet when asked for, live for a terminal, plain otherwise.
-    pub fn new(quiet: bool, title: &str, increments: usize) -> Self {
+    pub fn new(quiet: bool, title: &str, increments: usize, solved_before: usize) -> Self {
         let face = match (quiet, terminal::is_watched()) {
             (true, _) => Face::Quiet,
             (false, true) => Face::Live(live_bar(title, increments)),
             (false, false) => Face::Plain,
         };
         let now = Instant::now();
-        let progress = Self { face, increments, started: now, last_shown: now, tenths: 0 };
+        let tenths = solved_before * 10 / increments.max(1);
+        let progress = Self { face, increments, solved_before, started: now, last_shown: now, tenths };
         if let Face::Live(bar) = &progress.face {
+            bar.set_position(solved_before as u64);
+            bar.reset_eta();
             bar.set_message("preparing the operators");
             bar.enable_steady_tick(Duration::from_millis(120));
         }
@@ -124,7 +129,8 @@ impl Progress {
 
     fn time(&self, solved: usize) -> String {
         let elapsed = self.started.elapsed().as_secs_f64();
-        let left = elapsed * self.increments.saturating_sub(solved) as f64 / solved.max(1) as f64;
+        let done = solved.saturating_sub(self.solved_before).max(1);
+        let left = elapsed * self.increments.saturating_sub(solved) as f64 / done as f64;
         if solved < self.increments {
             format!("{}, about {} left", duration(elapsed), duration(left))
         } else {

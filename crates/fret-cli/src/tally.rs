@@ -3,9 +3,10 @@
 use fret_core::case::Course;
 use fret_core::history::{StepRecord, Work};
 use fret_core::plan::Plan;
+use serde::{Deserialize, Serialize};
 
 /// A stage of the history, as increments of the whole.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct StageSpan {
     /// Its name.
     pub name: String,
@@ -33,7 +34,7 @@ pub fn stage_spans(plan: &Plan) -> Vec<StageSpan> {
 }
 
 /// Energy dissipated in one full cycle.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct CycleEnergy {
     /// Number of the stage, from 0.
     pub stage: usize,
@@ -44,7 +45,7 @@ pub struct CycleEnergy {
 }
 
 /// What a run has come to.
-#[derive(Debug)]
+#[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct Tally {
     /// The stages.
     pub stages: Vec<StageSpan>,

@@ -2,6 +2,7 @@
 
 pub mod analytic;
 pub mod case;
+pub mod checkpoint;
 pub mod compliance;
 mod edge;
 pub mod history;

@@ -6,13 +6,14 @@ use std::ops::ControlFlow;
 use std::time::Instant;
 
 use crate::case::Stage;
+use crate::checkpoint::{Checkpoint, Waypoint};
 use crate::compliance::SurfaceResponse;
 use crate::history::{History, KeptFields, Residual, StepRecord};
 use crate::kernel::{Components, ResponseTable, influence_coefficients, periodic_symbols};
+use crate::model::ContactState;
 use crate::model::field::largest;
-use crate::model::{ContactState, Control, LoadStep};
 use crate::plan::{Coupling, Plan};
-use crate::solver::{ContactSolver, Increment, Resultants, SolveError, SolverSettings};
+use crate::solver::{ContactSolver, Increment, SolveError, SolverSettings};
 use crate::stepping::StageSteps;
 
 /// Where an increment's iteration stands.
@@ -33,6 +34,12 @@ pub trait Observer {
     /// An iteration was done. `Break` stops the run.
     fn iterated(&mut self, iteration: &Iteration) -> ControlFlow<()> {
         let _ = iteration;
+        ControlFlow::Continue(())
+    }
+
+    /// An increment is solved and heard of: where the run stands now, for those who store it. `Break` stops the run after it.
+    fn reached(&mut self, waypoint: &Waypoint<'_>) -> ControlFlow<()> {
+        let _ = waypoint;
         ControlFlow::Continue(())
     }
 
@@ -136,6 +143,76 @@ impl<'a> Simulation<'a> {
     /// # Errors
     /// When an increment cannot be solved, or the observer stops the run.
     pub fn run(&self, observer: &mut dyn Observer) -> Result<History, RunError> {
+        self.resume(Checkpoint::start(self.plan), observer)
+    }
+
+    /// Runs what is left of the history after a checkpoint of this plan, with the bits of an unbroken run. The history that is
+    /// returned holds the increments solved here.
+    ///
+    /// # Errors
+    /// As [`Simulation::run`].
+    pub fn resume(&self, from: Checkpoint, observer: &mut dyn Observer) -> Result<History, RunError> {
+        let plan = self.plan;
+        let case = &plan.case;
+        let Checkpoint { mut place, state, memory } = from;
+        let mut solver = self.solver();
+        solver.remember(memory);
+        let mut history = History {
+            grid: plan.grid,
+            stages: case.stages.iter().map(|stage| stage.name.clone()).collect(),
+            steps: Vec::with_capacity(plan.increments - place.solved.min(plan.increments)),
+            fields: Vec::new(),
+            state,
+        };
+        for (number, stage) in case.stages.iter().enumerate().skip(place.stage) {
+            let steps = if place.solved_of_stage == 0 {
+                StageSteps::new(stage, &place.held, &history.state, &place.resultants)
+            } else {
+                StageSteps::from_start(stage, place.stage_start)
+            };
+            place.stage = number;
+            place.stage_start = steps.start();
+            for k in place.solved_of_stage + 1..=stage.increments_in_all() {
+                let increment = place.solved;
+                let load = steps.at(k);
+                let started = Instant::now();
+                let mut watch = |iteration: usize, residual: f64| {
+                    observer.iterated(&Iteration {
+                        increment,
+                        iteration,
+                        residual,
+                        tolerance: case.tolerance,
+                    })
+                };
+                let solved = solver
+                    .step(&history.state, &load, &mut watch)
+                    .map_err(|error| run_error(&error, increment, stage, case.tolerance))?;
+                let record = record(&solved, increment, number, started.elapsed().as_secs_f64());
+                let kept = case.keeps(number, k).then(|| kept(&solved, increment, &case.output.fields));
+                place.resultants = solved.outcome.resultants;
+                place.held = load;
+                place.solved += 1;
+                place.solved_of_stage = k;
+                history.state = solved.state;
+                let heard = observer.solved(&record, &history.state, kept.as_ref());
+                history.steps.push(record);
+                history.fields.extend(kept);
+                let stored = observer.reached(&Waypoint {
+                    place: &place,
+                    state: &history.state,
+                    memory: solver.memory(),
+                });
+                if heard.is_break() || stored.is_break() {
+                    return Err(RunError::Interrupted { increment: place.solved });
+                }
+            }
+            place.solved_of_stage = 0;
+        }
+        Ok(history)
+    }
+
+    /// The solver with its operators.
+    fn solver(&self) -> ContactSolver<'a> {
         let plan = self.plan;
         let case = &plan.case;
         let wanted = match plan.coupling {
@@ -159,7 +236,7 @@ impl<'a> Simulation<'a> {
                 wanted,
             ))
         };
-        let mut solver = ContactSolver::new(
+        let solver = ContactSolver::new(
             plan.grid,
             case.profile.gap(&plan.grid),
             &case.friction,
@@ -168,57 +245,11 @@ impl<'a> Simulation<'a> {
             SolverSettings { scheme: case.scheme, ..SolverSettings::new(case.tolerance) },
             true,
         );
-        if !case.periodic {
-            let [longest, shortest] =
-                [plan.grid.size(), plan.grid.spacing()].map(|[x, y]| (x.max(y), x.min(y)));
-            solver =
-                solver.with_waves(ResponseTable::new(&case.bodies, TAU / longest.0, 5.0 * PI / shortest.1));
+        if case.periodic {
+            return solver;
         }
-        let mut history = History {
-            grid: plan.grid,
-            stages: case.stages.iter().map(|stage| stage.name.clone()).collect(),
-            steps: Vec::with_capacity(plan.increments),
-            fields: Vec::new(),
-            state: ContactState::untouched(case.cells),
-        };
-        let mut held = LoadStep {
-            normal: Control::Force(0.0),
-            tangential: [Control::Force(0.0); 2],
-            twist: Control::Motion(0.0),
-        };
-        let mut resultants = Resultants { normal: 0.0, tangential: [0.0; 2], moment: 0.0 };
-        let mut increment = 0;
-        for (number, stage) in case.stages.iter().enumerate() {
-            let steps = StageSteps::new(stage, &held, &history.state, &resultants);
-            for k in 1..=stage.increments_in_all() {
-                let load = steps.at(k);
-                let started = Instant::now();
-                let mut watch = |iteration: usize, residual: f64| {
-                    observer.iterated(&Iteration {
-                        increment,
-                        iteration,
-                        residual,
-                        tolerance: case.tolerance,
-                    })
-                };
-                let solved = solver
-                    .step(&history.state, &load, &mut watch)
-                    .map_err(|error| run_error(&error, increment, stage, case.tolerance))?;
-                let record = record(&solved, increment, number, started.elapsed().as_secs_f64());
-                let kept = case.keeps(number, k).then(|| kept(&solved, increment, &case.output.fields));
-                resultants = solved.outcome.resultants;
-                held = load;
-                history.state = solved.state;
-                let go_on = observer.solved(&record, &history.state, kept.as_ref());
-                history.steps.push(record);
-                history.fields.extend(kept);
-                increment += 1;
-                if go_on.is_break() {
-                    return Err(RunError::Interrupted { increment });
-                }
-            }
-        }
-        Ok(history)
+        let [longest, shortest] = [plan.grid.size(), plan.grid.spacing()].map(|[x, y]| (x.max(y), x.min(y)));
+        solver.with_waves(ResponseTable::new(&case.bodies, TAU / longest.0, 5.0 * PI / shortest.1))
     }
 }
 

@@ -8,7 +8,6 @@ use crate::solver::Resultants;
 #[derive(Debug, Clone)]
 pub struct StageSteps<'a> {
     stage: &'a Stage,
-    held: LoadStep,
     start: LoadStep,
 }
 
@@ -39,12 +38,22 @@ impl<'a> StageSteps<'a> {
         if let Some(control) = &stage.twist {
             start.twist = begin(control, held.twist, resultants.moment, state.twist);
         }
-        Self { stage, held: start, start }
+        Self::from_start(stage, start)
+    }
+
+    /// Steps of a stage whose controls start at `start`.
+    pub fn from_start(stage: &'a Stage, start: LoadStep) -> Self {
+        Self { stage, start }
+    }
+
+    /// The controls where the stage starts.
+    pub fn start(&self) -> LoadStep {
+        self.start
     }
 
     /// What is prescribed at the end of increment `k` of the stage, `1 <= k <= increments_in_all`.
     pub fn at(&self, k: usize) -> LoadStep {
-        let mut load = self.held;
+        let mut load = self.start;
         if let Some(control) = &self.stage.normal {
             load.normal = self.value(control, self.start.normal, k);
         }

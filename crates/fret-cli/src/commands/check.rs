@@ -2,6 +2,8 @@
 
 use std::path::Path;
 
+use serde_json::json;
+
 use crate::case_file::CaseFile;
 use crate::commands::plan::{cells, stages};
 use crate::failure::Failure;
@@ -9,9 +11,19 @@ use crate::figures::counted;
 use crate::terminal;
 
 /// Judges a case.
-pub fn check(path: &Path) -> Result<(), Failure> {
+pub fn check(path: &Path, as_json: bool) -> Result<(), Failure> {
     let case_file = CaseFile::read(path)?;
     let plan = case_file.planned()?;
+    if as_json {
+        let answer = json!({
+            "status": "good",
+            "case": case_file.name(),
+            "cells": plan.grid.cells(),
+            "size": plan.grid.size(),
+            "increments": plan.increments,
+        });
+        return terminal::answer(&format!("{answer:#}"));
+    }
     terminal::answer(&format!(
         "{}: good\n  {}\n  {}: {}",
         case_file.name(),

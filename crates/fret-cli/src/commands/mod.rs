@@ -1,6 +1,8 @@
 //! The verbs of `fret`, one room each.
 
 pub mod check;
+pub mod export;
 pub mod plan;
+pub mod report;
 pub mod run;
 pub mod schema;

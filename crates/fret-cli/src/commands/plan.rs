@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use fret_core::case::Course;
+use fret_core::model::Body;
 use fret_core::plan::{Coupling, Plan};
 use serde_json::json;
 
@@ -14,21 +15,13 @@ use crate::terminal;
 
 /// Plans a case and tells the plan.
 pub fn plan(path: &Path, as_json: bool) -> Result<(), Failure> {
-    let planned = CaseFile::read(path).and_then(|case_file| case_file.planned());
-    let answer = match (&planned, as_json) {
-        (Ok(plan), false) => table(plan),
-        (Ok(plan), true) => {
-            let mut value = resolved(plan);
-            value["status"] = json!("planned");
-            format!("{value:#}")
-        }
-        (Err(_), false) => String::new(),
-        (Err(error), true) => format!("{:#}", Failure::from(error.clone()).to_json()),
-    };
-    if !answer.is_empty() {
-        terminal::answer(&answer)?;
+    let plan = CaseFile::read(path)?.planned()?;
+    if as_json {
+        let mut value = resolved(&plan);
+        value["status"] = json!("planned");
+        return terminal::answer(&format!("{value:#}"));
     }
-    planned.map(|_| ()).map_err(Failure::from)
+    terminal::answer(&table(&plan))
 }
 
 fn table(plan: &Plan) -> String {
@@ -42,11 +35,19 @@ fn table(plan: &Plan) -> String {
         "{title}\n\n\
          solved     {coupling}\n\
          grid       {}\n\
+         iterated   {}\n\
+         layers     {}\n\
          history    {}: {}\n\
          residual   at most {:e} in every increment\n\
          memory     about {}\n\
          work       about {}\n\n{}",
         cells(plan),
+        if plan.case.periodic {
+            "on the whole grid: the scene repeats"
+        } else {
+            "in a box around the contact where that is smaller than the grid, the rest checked once an increment"
+        },
+        layers(plan),
         counted(plan.increments, "increment"),
         stages(plan),
         plan.case.tolerance,
@@ -78,6 +79,21 @@ pub fn cells(plan: &Plan) -> String {
         figure(width),
         figure(depth)
     )
+}
+
+/// How many uniform layers stand for the coatings: of a graded one as many as its gradient asks for.
+fn layers(plan: &Plan) -> String {
+    let bodies = [("upper", plan.case.bodies.upper()), ("lower", plan.case.bodies.lower())];
+    let layered: Vec<String> = bodies
+        .into_iter()
+        .filter_map(|(name, body)| match body {
+            Body::Elastic(half_space) if !half_space.coatings().is_empty() => {
+                Some(format!("{} on the {name} body", counted(half_space.coatings().len(), "uniform layer")))
+            }
+            _ => None,
+        })
+        .collect();
+    if layered.is_empty() { "none".to_owned() } else { layered.join(", ") }
 }
 
 /// The stages in a line.

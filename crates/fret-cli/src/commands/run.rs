@@ -1,44 +1,46 @@
 //! `fret run`: from a case file to a folder of results, with a face for the time between.
 
-use std::any::Any;
 use std::num::NonZero;
 use std::ops::ControlFlow;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
+use fret_core::checkpoint::{Checkpoint, Waypoint};
 use fret_core::history::{KeptFields, StepRecord};
 use fret_core::model::ContactState;
 use fret_core::plan::Plan;
 use fret_core::simulation::{Iteration, Observer, RunError, Simulation};
+use serde_json::{Value, json};
 
 use crate::arguments::RunArguments;
 use crate::case_file::CaseFile;
 use crate::commands::plan::left_out;
-use crate::failure::{Failure, Unwritten};
+use crate::defect;
+use crate::failure::{Failure, Told};
 use crate::figures::counted;
 use crate::interrupt;
-use crate::output::{ResultFolder, RunRecord, Standing};
+use crate::output::{ResultFolder, RunRecord, Standing, Stored, Wish};
 use crate::progress::Progress;
 use crate::summary::Summary;
 use crate::tally::Tally;
 use crate::terminal;
 
 /// Solves a case.
-pub fn run(arguments: &RunArguments) -> Result<(), Failure> {
+pub fn run(arguments: &RunArguments, as_json: bool) -> Result<(), Told> {
     let begun = prepared(arguments).and_then(|preparation| {
         interrupt::listen();
-        let folder = preparation.opened()?;
-        Ok((preparation, folder))
+        let beginning = preparation.begun(arguments.quiet)?;
+        Ok((preparation, beginning))
     });
     match begun {
-        Ok((preparation, folder)) => preparation.solved(folder, arguments),
-        Err(failure) => {
-            if arguments.json {
-                terminal::answer(&format!("{:#}", failure.to_json()))?;
-            }
-            Err(failure)
+        Ok((preparation, Beginning::Nothing(record))) => {
+            Ok(preparation.solved_before(&record, arguments.quiet, as_json)?)
         }
+        Ok((preparation, Beginning::At(departure))) => {
+            preparation.solved(*departure, arguments.quiet, as_json)
+        }
+        Err(failure) => Err(failure.into()),
     }
 }
 
@@ -47,21 +49,38 @@ struct Preparation {
     case_file: CaseFile,
     plan: Plan,
     folder: PathBuf,
+    standing: Standing,
     threads: usize,
     pool: rayon::ThreadPool,
 }
 
+/// Where a run begins.
+enum Beginning {
+    /// There is nothing to do: the record of the run that was solved before.
+    Nothing(Value),
+    /// At the start of the history, or in its middle.
+    At(Box<Departure>),
+}
+
+/// A run about to go, or to go on.
+struct Departure {
+    folder: ResultFolder,
+    tally: Tally,
+    from: Checkpoint,
+    /// Time spent before [s].
+    wall_s: f64,
+}
+
 fn prepared(arguments: &RunArguments) -> Result<Preparation, Failure> {
-    if arguments.resume {
-        return Err(Failure::Call(
-            "--resume: not built yet".to_owned(),
-            "without it the run starts from the beginning".to_owned(),
-        ));
-    }
     let case_file = CaseFile::read(&arguments.case)?;
     let plan = case_file.planned()?;
     let folder = arguments.out.clone().unwrap_or_else(|| Path::new("results").join(case_file.stem()));
-    let standing = ResultFolder::standing(&folder, &case_file, arguments.force)?;
+    let wish = match (arguments.resume, arguments.force) {
+        (true, _) => Wish::Resume,
+        (false, true) => Wish::Force,
+        (false, false) => Wish::Start,
+    };
+    let standing = ResultFolder::standing(&folder, &case_file, &plan, wish)?;
     let threads = arguments.threads.map_or_else(available_threads, usize::from);
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().map_err(|error| {
         Failure::Call(
@@ -69,86 +88,142 @@ fn prepared(arguments: &RunArguments) -> Result<Preparation, Failure> {
             "--threads with a smaller number".to_owned(),
         )
     })?;
-    if !arguments.quiet {
-        announce(&plan, &folder, standing);
+    if !arguments.quiet && !matches!(standing, Standing::Solved(_)) {
+        announce(&plan, &folder, &standing);
     }
-    Ok(Preparation { case_file, plan, folder, threads, pool })
+    Ok(Preparation { case_file, plan, folder, standing, threads, pool })
 }
 
 fn available_threads() -> usize {
     std::thread::available_parallelism().map_or(1, NonZero::get)
 }
 
-fn announce(plan: &Plan, folder: &Path, standing: Standing) {
+fn announce(plan: &Plan, folder: &Path, standing: &Standing) {
     if !plan.left_out.is_empty() {
         terminal::say(&left_out(plan));
     }
+    let shown = folder.display();
     match standing {
-        Standing::Free => {}
+        Standing::Free | Standing::Unfinished | Standing::Solved(_) => {}
         Standing::SameCase => {
-            terminal::say(&format!("{}: the earlier results of this case are replaced", folder.display()));
+            terminal::say(&format!("{shown}: the earlier results of this case are replaced"));
         }
-        Standing::Forced => {
-            terminal::say(&format!("{}: written into as it is, by --force", folder.display()));
-        }
+        Standing::Forced => terminal::say(&format!("{shown}: written into as it is, by --force")),
     }
 }
 
 impl Preparation {
-    fn opened(&self) -> Result<ResultFolder, Unwritten> {
-        let record = RunRecord::new(&self.case_file, &self.plan, self.threads);
-        ResultFolder::open(&self.folder, &self.case_file, &self.plan, record)
+    fn begun(&self, quiet: bool) -> Result<Beginning, Failure> {
+        let record = || RunRecord::new(&self.case_file, &self.plan, self.threads);
+        if let Standing::Solved(record) = &self.standing {
+            return Ok(Beginning::Nothing(record.clone()));
+        }
+        if self.standing == Standing::Unfinished
+            && let Some(taken) = ResultFolder::reopen(&self.folder, &self.plan, record())?
+        {
+            let Stored { head, checkpoint } = taken.stored;
+            if !quiet {
+                if let Some(why) = &taken.passed_over {
+                    terminal::say(&format!("an older checkpoint is taken: {why}"));
+                }
+                terminal::say(&format!(
+                    "{}: going on after increment {} of {}",
+                    self.folder.display(),
+                    checkpoint.solved(),
+                    self.plan.increments
+                ));
+            }
+            let (tally, wall_s) = (head.tally, head.wall_s);
+            let departure = Departure { folder: taken.folder, tally, from: checkpoint, wall_s };
+            return Ok(Beginning::At(Box::new(departure)));
+        }
+        let folder = ResultFolder::open(&self.folder, &self.case_file, &self.plan, record())?;
+        let (tally, from) = (Tally::new(&self.plan), Checkpoint::start(&self.plan));
+        Ok(Beginning::At(Box::new(Departure { folder, tally, from, wall_s: 0.0 })))
     }
 
-    fn solved(&self, folder: ResultFolder, arguments: &RunArguments) -> Result<(), Failure> {
-        let started = Instant::now();
+    /// Tells that the run was solved before; computes and writes nothing.
+    fn solved_before(&self, record: &Value, quiet: bool, as_json: bool) -> Result<(), Failure> {
+        let shown = self.folder.display().to_string();
+        let message = format!("{shown}: solved already, nothing is left to do");
+        if as_json {
+            let answer = json!({
+                "status": "solved",
+                "message": message,
+                "increments": self.plan.increments,
+                "totals": record["totals"],
+                "results": shown,
+            });
+            terminal::answer(&format!("{answer:#}"))?;
+        } else if !quiet {
+            terminal::answer(&message)?;
+        }
+        Ok(())
+    }
+
+    fn solved(&self, departure: Departure, quiet: bool, as_json: bool) -> Result<(), Told> {
         let title = if self.plan.case.title.is_empty() {
             self.case_file.stem().display().to_string()
         } else {
             self.plan.case.title.clone()
         };
+        let Departure { folder, tally, from, wall_s } = departure;
         let mut witness = Witness {
             folder,
-            progress: Progress::new(arguments.quiet, &title, self.plan.increments),
-            tally: Tally::new(&self.plan),
-            unwritten: None,
+            progress: Progress::new(quiet, &title, self.plan.increments, tally.solved),
+            tally,
+            clock: Clock { started: Instant::now(), before_s: wall_s },
+            failure: None,
         };
-        let outcome = self.followed_by(&mut witness);
-        let Witness { folder, progress, tally, unwritten } = witness;
+        let outcome = self.followed_by(from, &mut witness);
+        let Witness { folder, progress, tally, clock, failure } = witness;
         progress.end();
-        let wall_s = started.elapsed().as_secs_f64();
-        let failure = unwritten.map(Failure::from).or_else(|| outcome.err());
+        let wall_s = clock.read();
+        let failure = failure.or_else(|| outcome.err());
         let closed = folder.close(&tally, wall_s, failure.as_ref());
         let failure = failure.or_else(|| closed.err().map(Failure::from));
         let summary =
             Summary { plan: &self.plan, tally: &tally, folder: &self.folder, wall_s, threads: self.threads };
-        if arguments.json {
+        if as_json {
             terminal::answer(&format!("{:#}", summary.to_json(failure.as_ref())))?;
-        } else if failure.is_none() && !arguments.quiet {
+        } else if failure.is_none() && !quiet {
             terminal::answer(&summary.table())?;
         }
-        failure.map_or(Ok(()), Err)
+        if matches!(failure, Some(Failure::Unwritten(_))) && tally.solved > 0 {
+            terminal::say(&format!("{}; once it can be written, --resume goes on", self.kept(&tally)));
+        }
+        failure.map_or(Ok(()), |failure| Err(Told { failure, in_json: as_json }))
     }
 
-    fn followed_by(&self, witness: &mut Witness) -> Result<(), Failure> {
-        let journey = || Simulation::new(&self.plan).run(witness).map(|_| ());
+    fn followed_by(&self, from: Checkpoint, witness: &mut Witness) -> Result<(), Failure> {
+        let journey = || Simulation::new(&self.plan).resume(from, witness).map(|_| ());
         match catch_unwind(AssertUnwindSafe(|| self.pool.install(journey))) {
             Ok(Ok(())) => Ok(()),
-            Ok(Err(RunError::Interrupted { .. })) => Err(Failure::Interrupted(format!(
-                "{} of {} increments are solved and kept in {}",
-                witness.tally.solved,
-                self.plan.increments,
-                self.folder.display()
-            ))),
+            Ok(Err(RunError::Interrupted { .. })) => {
+                let kept = self.kept(&witness.tally);
+                Err(Failure::Interrupted(format!("{kept}; --resume goes on from there")))
+            }
             Ok(Err(error)) => Err(Failure::Unsolved(error)),
-            Err(panic) => Err(Failure::Defect(words_of(panic.as_ref()))),
+            Err(panic) => Err(Failure::Defect(defect::words_of(panic.as_ref()))),
         }
+    }
+
+    fn kept(&self, tally: &Tally) -> String {
+        let (solved, all) = (tally.solved, self.plan.increments);
+        format!("{solved} of {all} increments are solved and kept in {}", self.folder.display())
     }
 }
 
-fn words_of(panic: &(dyn Any + Send)) -> String {
-    let literal = panic.downcast_ref::<&str>().map(|words| (*words).to_owned());
-    literal.or_else(|| panic.downcast_ref::<String>().cloned()).unwrap_or_else(|| "no words".to_owned())
+/// Time of the whole run, that before it was broken off included.
+struct Clock {
+    started: Instant,
+    before_s: f64,
+}
+
+impl Clock {
+    fn read(&self) -> f64 {
+        self.before_s + self.started.elapsed().as_secs_f64()
+    }
 }
 
 /// Hears about the run: counts it, shows it, writes it down, and stops it when asked to or when it cannot be written down.
@@ -156,7 +231,21 @@ struct Witness {
     folder: ResultFolder,
     progress: Progress,
     tally: Tally,
-    unwritten: Option<Unwritten>,
+    clock: Clock,
+    failure: Option<Failure>,
+}
+
+impl Witness {
+    /// Goes on after a good writing; remembers why after a bad one.
+    fn after<E: Into<Failure>>(&mut self, writing: Result<(), E>) -> ControlFlow<()> {
+        match writing {
+            Ok(()) => ControlFlow::Continue(()),
+            Err(error) => {
+                self.failure = Some(error.into());
+                ControlFlow::Break(())
+            }
+        }
+    }
 }
 
 impl Observer for Witness {
@@ -171,13 +260,19 @@ impl Observer for Witness {
         _: &ContactState,
         kept: Option<&KeptFields>,
     ) -> ControlFlow<()> {
-        if let Err(unwritten) = self.folder.keep(record, kept) {
-            self.unwritten = Some(unwritten);
-            return ControlFlow::Break(());
-        }
+        let writing = self.folder.keep(record, kept);
+        self.after(writing)?;
         self.tally.add(record);
         self.progress.solved(record, &self.tally);
         go_on()
+    }
+
+    fn reached(&mut self, waypoint: &Waypoint<'_>) -> ControlFlow<()> {
+        if self.failure.is_some() {
+            return ControlFlow::Break(());
+        }
+        let writing = self.folder.reached(waypoint, &self.tally, self.clock.read());
+        self.after(writing)
     }
 }
 

@@ -75,13 +75,7 @@ const FIELD_ARRAYS: [FieldArray; 7] = [
 impl FieldStore {
     /// A store of the plan's final shape, without any field yet.
     pub fn create(path: &Path, plan: &Plan) -> Result<Self, Unwritten> {
-        let asked = |array: &&FieldArray| plan.case.output.fields.iter().any(|name| name == array.asked_as);
-        let store = Self {
-            path: path.to_owned(),
-            cells: plan.grid.cells(),
-            arrays: FIELD_ARRAYS.iter().filter(asked).collect(),
-            steps: plan.case.kept_increments(),
-        };
+        let store = Self::of(path, plan);
         let group = json!({
             "zarr_format": 3,
             "node_type": "group",
@@ -95,6 +89,50 @@ impl FieldStore {
         }
         store.write_metadata()?;
         Ok(store)
+    }
+
+    /// The store of a broken-off run, cut back to what its first `solved` increments kept.
+    pub fn reopen(path: &Path, plan: &Plan, solved: usize) -> Result<Self, Unwritten> {
+        let store = Self::of(path, plan);
+        for (step, _) in store.steps.iter().enumerate().filter(|&(_, &increment)| increment >= solved) {
+            for array in &store.arrays {
+                let chunk = path.join(array.name).join("c").join(step.to_string());
+                match fs::remove_dir_all(&chunk) {
+                    Err(error) if error.kind() != std::io::ErrorKind::NotFound => {
+                        return Err(Unwritten::at(&chunk)(error));
+                    }
+                    _ => {}
+                }
+            }
+        }
+        Ok(store)
+    }
+
+    /// The first file that should be in the store at `path` after `solved` increments and is not, or not of its size.
+    pub fn missing(path: &Path, plan: &Plan, solved: usize) -> Option<PathBuf> {
+        let store = Self::of(path, plan);
+        let cells = store.cells[0] * store.cells[1];
+        let kept = store.steps.iter().take_while(|&&increment| increment < solved).count();
+        let chunks = store.arrays.iter().flat_map(|array| {
+            let bytes = if array.name == "zone" { cells } else { 8 * cells };
+            (0..kept).map(move |step| (format!("{}/c/{step}/0/0", array.name), Some(bytes as u64)))
+        });
+        let metadata = store.arrays.iter().map(|array| (format!("{}/zarr.json", array.name), None));
+        metadata.chain(chunks).map(|(key, bytes)| (path.join(key), bytes)).find_map(|(file, bytes)| {
+            let is_there = fs::metadata(&file)
+                .is_ok_and(|found| found.is_file() && bytes.is_none_or(|bytes| found.len() == bytes));
+            (!is_there).then_some(file)
+        })
+    }
+
+    fn of(path: &Path, plan: &Plan) -> Self {
+        let asked = |array: &&FieldArray| plan.case.output.fields.iter().any(|name| name == array.asked_as);
+        Self {
+            path: path.to_owned(),
+            cells: plan.grid.cells(),
+            arrays: FIELD_ARRAYS.iter().filter(asked).collect(),
+            steps: plan.case.kept_increments(),
+        }
     }
 
     /// Writes the fields of one increment.

@@ -1,7 +1,7 @@
 //! `history.csv`: a line an increment, on disk as soon as the increment is solved.
 
 use std::fs::File;
-use std::io::Write;
+use std::io::{Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
 use fret_core::history::{Regime, StepRecord};
@@ -40,25 +40,66 @@ const COLUMNS: [&str; 23] = [
 pub struct HistoryTable {
     path: PathBuf,
     file: File,
+    bytes: u64,
 }
 
 impl HistoryTable {
     /// A table with its head; an earlier one is gone.
     pub fn create(path: &Path) -> Result<Self, Unwritten> {
-        let mut file = File::create(path).map_err(Unwritten::at(path))?;
-        file.write_all(format!("{}\n", COLUMNS.join(",")).as_bytes()).map_err(Unwritten::at(path))?;
-        Ok(Self { path: path.to_owned(), file })
+        let file = File::create(path).map_err(Unwritten::at(path))?;
+        let mut table = Self { path: path.to_owned(), file, bytes: 0 };
+        table.append(&head())?;
+        Ok(table)
+    }
+
+    /// The table of a broken-off run, cut back to its first `bytes`.
+    pub fn reopen(path: &Path, bytes: u64) -> Result<Self, Unwritten> {
+        let mut file = File::options().write(true).open(path).map_err(Unwritten::at(path))?;
+        file.set_len(bytes).and_then(|()| file.seek(SeekFrom::End(0))).map_err(Unwritten::at(path))?;
+        Ok(Self { path: path.to_owned(), file, bytes })
+    }
+
+    /// Whether the first `bytes` of the table at `path` are its head and so many lines.
+    pub fn holds(path: &Path, bytes: u64, lines: usize) -> bool {
+        std::fs::read(path).is_ok_and(|text| {
+            let whole = usize::try_from(bytes).ok().and_then(|bytes| text.get(..bytes));
+            whole.is_some_and(|text| {
+                text.starts_with(head().as_bytes())
+                    && text.ends_with(b"\n")
+                    && text.iter().filter(|&&byte| byte == b'\n').count() == lines + 1
+            })
+        })
+    }
+
+    /// Lines of the table at `path`, its head among them; none where there is no table.
+    pub fn lines(path: &Path) -> usize {
+        std::fs::read(path).map_or(0, |text| text.iter().filter(|&&byte| byte == b'\n').count())
+    }
+
+    /// Bytes written so far.
+    pub fn bytes(&self) -> u64 {
+        self.bytes
     }
 
     /// Adds an increment: one write a line, so that a killed process leaves whole lines.
     pub fn add(&mut self, record: &StepRecord) -> Result<(), Unwritten> {
-        self.file.write_all(line(record).as_bytes()).map_err(Unwritten::at(&self.path))
+        self.append(&line(record))
     }
 
     /// Waits until the table is on the disk.
-    pub fn close(self) -> Result<(), Unwritten> {
+    pub fn settle(&self) -> Result<(), Unwritten> {
         self.file.sync_all().map_err(Unwritten::at(&self.path))
     }
+
+    fn append(&mut self, text: &str) -> Result<(), Unwritten> {
+        self.file.write_all(text.as_bytes()).map_err(Unwritten::at(&self.path))?;
+        self.bytes += text.len() as u64;
+        Ok(())
+    }
+}
+
+fn head() -> String {
+    COLUMNS.join(",") + "\n"
 }
 
 fn line(record: &StepRecord) -> String {

@@ -1,8 +1,10 @@
-//! The result folder: the only place of the command that writes files.
+//! The result folder: the only place of the command that writes results.
 //!
 //! `case.toml` (verbatim copy), `run.json` (how it was computed and how it ended), `history.csv` (a line an increment),
-//! `fields.zarr` (kept fields). An increment's line is written after its fields: whatever has a line is complete.
+//! `fields.zarr` (kept fields), and `checkpoint` while the run is not solved. An increment's fields are written first, then its
+//! line, then the checkpoint: what the checkpoint counts is complete, what lies beyond it is cut off when the run goes on.
 
+mod checkpoint_folder;
 mod field_store;
 mod history_table;
 mod run_record;
@@ -11,16 +13,20 @@ mod whole_file;
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use fret_core::checkpoint::Waypoint;
 use fret_core::history::{KeptFields, StepRecord};
 use fret_core::plan::Plan;
+use serde_json::Value;
 
 use crate::case_file::CaseFile;
 use crate::failure::{Failure, Unwritten};
 use crate::tally::Tally;
+pub use checkpoint_folder::Stored;
+use checkpoint_folder::{CheckpointFolder, Found, Head};
 use field_store::FieldStore;
 use history_table::HistoryTable;
 pub use run_record::{RunRecord, resolved};
-use whole_file::write_whole;
+pub use whole_file::write_whole;
 
 const CASE: &str = "case.toml";
 const RECORD: &str = "run.json";
@@ -28,80 +34,147 @@ const HISTORY: &str = "history.csv";
 const FIELDS: &str = "fields.zarr";
 
 /// What lies where the results shall go.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq)]
 pub enum Standing {
     /// Nothing that matters.
     Free,
-    /// Earlier results of the same case.
+    /// Earlier results of the same case, to be replaced.
     SameCase,
     /// Something else, which the user wants written into.
     Forced,
+    /// A run of the same case that is not solved, to go on with.
+    Unfinished,
+    /// The same case, solved; its record.
+    Solved(Value),
+}
+
+/// What a run shall do with what it finds in its folder.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Wish {
+    /// Start from the beginning; replace nothing that was not asked to be replaced.
+    Start,
+    /// Start from the beginning, whatever is there.
+    Force,
+    /// Go on where an earlier run was broken off.
+    Resume,
 }
 
 /// A folder a run writes into while it goes.
 #[derive(Debug)]
 pub struct ResultFolder {
     path: PathBuf,
+    question: String,
     record: RunRecord,
     history: HistoryTable,
     fields: FieldStore,
+    checkpoints: CheckpointFolder,
 }
 
 impl ResultFolder {
     /// What lies at `path`, and whether results of this case may go there. Writes nothing.
-    pub fn standing(path: &Path, case_file: &CaseFile, force: bool) -> Result<Standing, Failure> {
+    pub fn standing(path: &Path, case_file: &CaseFile, plan: &Plan, wish: Wish) -> Result<Standing, Failure> {
         let shown = path.display();
         let other_folder = "choose another folder with --out DIR";
+        let refuse = |what: &str, help: String| Err(Failure::Call(format!("{shown}: {what}"), help));
         if path.exists() && !path.is_dir() {
-            return Err(Failure::Call(
-                format!("{shown}: a file, not a folder for results"),
-                other_folder.to_owned(),
-            ));
+            return refuse("a file, not a folder for results", other_folder.to_owned());
         }
-        let holds_nothing = match fs::read_dir(path) {
-            Ok(mut entries) => entries.next().is_none(),
-            // Not there, or not to be looked into: the attempt to write will tell.
-            Err(_) => true,
-        };
-        if holds_nothing {
+        if holds_nothing(path) {
             return Ok(Standing::Free);
         }
-        let earlier = fs::read(path.join(RECORD)).ok();
+        let Some(earlier) = fs::read(path.join(RECORD)).ok() else {
+            return match wish {
+                Wish::Force => Ok(Standing::Forced),
+                Wish::Start | Wish::Resume => refuse(
+                    "holds files that are no results of fret",
+                    format!("{other_folder}, or write beside them with --force"),
+                ),
+            };
+        };
+        let record: Value = serde_json::from_slice(&earlier).unwrap_or(Value::Null);
+        let is_same_question = record["question_fnv1a64"] == run_record::question(plan);
+        let is_solved = record["status"] == "solved";
+        let is_broken_off = is_same_question && !is_solved && CheckpointFolder::is_below(path);
         let same_text = || fs::read(path.join(CASE)).is_ok_and(|text| text == case_file.text.as_bytes());
-        match earlier {
-            Some(record) if run_record::is_of_case(&record, case_file) || same_text() => {
-                Ok(Standing::SameCase)
-            }
-            _ if force => Ok(Standing::Forced),
-            Some(_) => Err(Failure::Call(
-                format!("{shown}: holds the results of another case"),
+        match wish {
+            Wish::Resume if !is_same_question => refuse(
+                "holds the results of another case, or of a case that has been changed since",
+                format!("{other_folder}; nothing was touched"),
+            ),
+            Wish::Resume if is_solved => Ok(Standing::Solved(record)),
+            Wish::Resume => Ok(Standing::Unfinished),
+            Wish::Start if is_broken_off && record["status"] != "failed" => refuse(
+                "holds an unfinished run of this case",
+                "go on with --resume, or start from the beginning with --force".to_owned(),
+            ),
+            _ if run_record::is_of_case(&record, case_file) || same_text() => Ok(Standing::SameCase),
+            Wish::Force => Ok(Standing::Forced),
+            Wish::Start => refuse(
+                "holds the results of another case",
                 format!("{other_folder}, or replace them with --force"),
-            )),
-            None => Err(Failure::Call(
-                format!("{shown}: holds files that are no results of fret"),
-                format!("{other_folder}, or write beside them with --force"),
-            )),
+            ),
         }
     }
 
     /// Makes the folder ready for a run: earlier results are gone afterwards, other files are left alone.
-    pub fn open(
-        path: &Path,
-        case_file: &CaseFile,
-        plan: &Plan,
-        record: RunRecord,
-    ) -> Result<Self, Unwritten> {
+    pub fn open(path: &Path, case_file: &CaseFile, plan: &Plan, record: RunRecord) -> Result<Self, Failure> {
         fs::create_dir_all(path).map_err(Unwritten::at(path))?;
-        // First the record, so that a kill in between never leaves an old record beside new numbers.
+        let checkpoints = CheckpointFolder::take(path)?;
+        // First the record and the checkpoint, so that a kill in between never leaves old ones beside new numbers.
         write_whole(&path.join(RECORD), &record.running())?;
+        checkpoints.clear()?;
         remove_earlier_fields(&path.join(FIELDS))?;
         write_whole(&path.join(CASE), case_file.text.as_bytes())?;
         Ok(Self {
             history: HistoryTable::create(&path.join(HISTORY))?,
             fields: FieldStore::create(&path.join(FIELDS), plan)?,
             path: path.to_owned(),
+            question: run_record::question(plan),
             record,
+            checkpoints,
         })
+    }
+
+    /// Takes up the unfinished run in the folder; `None` where it had not solved any increment. What lies beyond the checkpoint
+    /// is cut off, but only once everything has been found in order.
+    pub fn reopen(path: &Path, plan: &Plan, record: RunRecord) -> Result<Option<Taken>, Failure> {
+        let checkpoints = CheckpointFolder::take(path)?;
+        let question = run_record::question(plan);
+        let spoilt = |why: String| {
+            Err(Failure::Call(
+                format!("{}: its run cannot be taken up again: {why}", path.display()),
+                "nothing was touched; --force starts from the beginning, --out DIR elsewhere".to_owned(),
+            ))
+        };
+        let (stored, passed_over) = match checkpoints.newest(plan, &question) {
+            // A kill between the first line and the first checkpoint leaves the head and one line.
+            Found::Nothing if HistoryTable::lines(&path.join(HISTORY)) > 2 => {
+                return spoilt("its checkpoint is gone".to_owned());
+            }
+            Found::Nothing => return Ok(None),
+            Found::Unusable(why) => return spoilt(why),
+            Found::Stored(stored, passed_over) => (*stored, passed_over),
+        };
+        let (table, bytes) = (path.join(HISTORY), stored.head.history_bytes);
+        let solved = stored.checkpoint.solved();
+        if solved != stored.head.tally.solved || !HistoryTable::holds(&table, bytes, solved) {
+            return spoilt(format!("{}: not the {solved} lines of the checkpoint", table.display()));
+        }
+        if let Some(file) = FieldStore::missing(&path.join(FIELDS), plan, solved) {
+            return spoilt(format!("{}: missing, or not whole", file.display()));
+        }
+        let earlier = fs::read(path.join(RECORD)).ok().and_then(|bytes| serde_json::from_slice(&bytes).ok());
+        let record = record.continuing(&earlier.unwrap_or(Value::Null));
+        write_whole(&path.join(RECORD), &record.running())?;
+        let folder = Self {
+            history: HistoryTable::reopen(&table, bytes)?,
+            fields: FieldStore::reopen(&path.join(FIELDS), plan, solved)?,
+            path: path.to_owned(),
+            question,
+            record,
+            checkpoints,
+        };
+        Ok(Some(Taken { folder, stored, passed_over }))
     }
 
     /// Writes down a solved increment: first its kept fields, then its line.
@@ -112,10 +185,51 @@ impl ResultFolder {
         self.history.add(record)
     }
 
+    /// Writes down where the run stands, after everything about it has been kept.
+    pub fn reached(&mut self, waypoint: &Waypoint<'_>, tally: &Tally, wall_s: f64) -> Result<(), Failure> {
+        let head = Head {
+            version: env!("CARGO_PKG_VERSION").to_owned(),
+            question: self.question.clone(),
+            history_bytes: self.history.bytes(),
+            tally: tally.clone(),
+            wall_s,
+        };
+        self.checkpoints.store(&head, waypoint, || self.history.settle())
+    }
+
     /// Writes down how the run ended.
     pub fn close(self, tally: &Tally, wall_s: f64, failure: Option<&Failure>) -> Result<(), Unwritten> {
-        self.history.close()?;
-        write_whole(&self.path.join(RECORD), &self.record.ended(tally, wall_s, failure))
+        self.history.settle()?;
+        write_whole(&self.path.join(RECORD), &self.record.ended(tally, wall_s, failure))?;
+        if failure.is_none() {
+            self.checkpoints.remove();
+        }
+        Ok(())
+    }
+}
+
+/// An unfinished run, taken up again.
+#[derive(Debug)]
+pub struct Taken {
+    /// Its folder, ready for the next increment.
+    pub folder: ResultFolder,
+    /// Where it stands.
+    pub stored: Stored,
+    /// Why a newer checkpoint could not be used, if there was one.
+    pub passed_over: Option<String>,
+}
+
+/// Whether a folder is empty, apart from what a run that is killed in its first moment leaves behind.
+fn holds_nothing(path: &Path) -> bool {
+    let is_litter = |name: &str| name == "run.json.part" || name == "checkpoint";
+    match fs::read_dir(path) {
+        Ok(mut entries) => {
+            !CheckpointFolder::is_below(path)
+                && entries
+                    .all(|entry| entry.is_ok_and(|entry| entry.file_name().to_str().is_some_and(is_litter)))
+        }
+        // Not there, or not to be looked into: the attempt to write will tell.
+        Err(_) => true,
     }
 }
 

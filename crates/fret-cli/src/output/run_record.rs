@@ -26,6 +26,7 @@ impl RunRecord {
             "program": "fretting",
             "version": env!("CARGO_PKG_VERSION"),
             "started_unix_s": started,
+            "resumed": 0,
             "threads": threads,
             "tolerance": plan.case.tolerance,
             "case_file": {
@@ -33,8 +34,17 @@ impl RunRecord {
                 "fnv1a64": fnv1a64(case_file.text.as_bytes()),
                 "path_fnv1a64": path_hash(&case_file.path),
             },
+            "question_fnv1a64": question(plan),
             "plan": resolved(plan),
         }))
+    }
+
+    /// The record of a run that goes on where the one recorded as `earlier` was broken off.
+    #[must_use]
+    pub fn continuing(mut self, earlier: &Value) -> Self {
+        self.0["started_unix_s"] = earlier["started_unix_s"].clone();
+        self.0["resumed"] = json!(earlier["resumed"].as_u64().unwrap_or(0) + 1);
+        self
     }
 
     /// As it stands while the run goes; as it stays when the run is killed.
@@ -74,10 +84,15 @@ pub fn resolved(plan: &Plan) -> Value {
     serde_json::to_value(plan).unwrap_or(Value::Null)
 }
 
+/// A digest of what is asked, as it was understood: the same for texts that differ in words and order only.
+pub fn question(plan: &Plan) -> String {
+    let asked = json!({ "case": plan.case, "grid": plan.grid, "coupling": plan.coupling });
+    fnv1a64(asked.to_string().as_bytes())
+}
+
 /// Whether a record was made from the file that `case_file` was read from.
-pub fn is_of_case(record: &[u8], case_file: &CaseFile) -> bool {
-    serde_json::from_slice::<Value>(record)
-        .is_ok_and(|record| record["case_file"]["path_fnv1a64"] == path_hash(&case_file.path))
+pub fn is_of_case(record: &Value, case_file: &CaseFile) -> bool {
+    record["case_file"]["path_fnv1a64"] == path_hash(&case_file.path)
 }
 
 /// A case file's place, told apart from others without telling a reader of the results where the user's files lie.

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use crate::failure::Unwritten;
 
-/// Writes a file. A reader, and a kill at any moment, finds the old content or the new one, never a part.
+/// Writes a file. A reader, a kill and a power failure at any moment find the old content or the new one, never a part.
 pub fn write_whole(path: &Path, content: &[u8]) -> Result<(), Unwritten> {
     let part = part_of(path);
     File::create(&part)

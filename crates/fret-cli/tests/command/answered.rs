@@ -30,6 +30,19 @@ fn a_plan_says_what_is_left_out_and_why() {
 }
 
 #[test]
+fn a_plan_counts_the_layers_of_a_graded_coating_and_tells_of_the_box() {
+    let bench = Bench::new("plan-layers");
+    let coating = "coatings = [{ thickness = 20e-6, poisson = 0.3, gradient = { young = [400e9, 210e9], law = \"linear\", \
+                   layers = 12 } }]\nsubstrate =";
+    let answer =
+        bench.file("case.toml", &SPHERE.replace("substrate =", coating)).fret(&["plan", "case.toml"]);
+    assert_eq!(answer.code, Some(0), "{}", answer.err);
+    for words in ["12 uniform layers on the lower body", "in a box around the contact"] {
+        assert!(answer.out.contains(words), "expected {words:?}: {}", answer.out);
+    }
+}
+
+#[test]
 fn a_plan_in_json_carries_the_case_as_it_was_understood() {
     let bench = Bench::new("plan-json");
     let answer = bench.file("case.toml", SPHERE).fret(&["plan", "case.toml", "--json"]);

@@ -4,6 +4,9 @@
 
 mod answered;
 mod bench;
+mod broken_off;
+mod hostile;
 mod refused;
+mod shown;
 mod solved;
 mod unwritten;

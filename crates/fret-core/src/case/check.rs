@@ -16,6 +16,10 @@ use crate::model::{CoulombFriction, Scheme};
 const MOST_CELLS: usize = 1 << 14;
 /// Cells of the whole grid, at the most.
 const MOST_CELLS_IN_ALL: usize = 1 << 26;
+/// Lengths above this, and below its inverse, have powers that are no numbers any more.
+const HUGE: f64 = 1e100;
+/// Length over width of a cell, at the most.
+const LONGEST_CELL: f64 = 1e6;
 /// Residual asked for when the case does not say.
 const TOLERANCE: f64 = 1e-8;
 
@@ -23,7 +27,7 @@ const TOLERANCE: f64 = 1e-8;
 pub(super) fn case(file: CaseFile, name: &str, text: &str) -> Result<Case, Vec<Mistake>> {
     let mut judge = Judge::default();
     let cells = cells(&mut judge, &file.grid.cells);
-    let size = size(&mut judge, &file.grid.size);
+    let size = size(&mut judge, &file.grid.size, cells);
     let bodies = bodies(&mut judge, &file.upper, &file.lower);
     let profile = profile(&mut judge, &file.profile);
     let friction = file
@@ -97,18 +101,34 @@ fn cells(judge: &mut Judge, given: &Spanned<[usize; 2]>) -> Option<[usize; 2]> {
     Some(cells)
 }
 
-fn size(judge: &mut Judge, given: &Spanned<SizeFile>) -> Option<GridSize> {
+fn size(judge: &mut Judge, given: &Spanned<SizeFile>, cells: Option<[usize; 2]>) -> Option<GridSize> {
     match *given.get_ref() {
         SizeFile::Auto => Some(GridSize::Auto),
-        SizeFile::Given(sides) if sides.iter().all(|side| side.is_finite() && *side > 0.0) => {
+        SizeFile::Given(sides) if cells.is_some_and(|cells| are_needles(sides, cells)) => judge.refuse(
+            given.span(),
+            format!("grid.size = {sides:?}: the cells are more than {LONGEST_CELL:e} times as long as wide"),
+            "cells that are about square serve best",
+        ),
+        SizeFile::Given(sides) if sides.iter().all(|side| (1.0 / HUGE..=HUGE).contains(side)) => {
             Some(GridSize::Given(sides))
         }
+        SizeFile::Given(sides) if sides.iter().all(|side| side.is_finite() && *side > 0.0) => judge.refuse(
+            given.span(),
+            format!("grid.size = {sides:?}: each side must lie between {:e} and {HUGE:e}", 1.0 / HUGE),
+            "choose units in which the numbers are nearer to 1: their squares must be numbers too",
+        ),
         SizeFile::Given(sides) => judge.refuse(
             given.span(),
             format!("grid.size = {sides:?}: both must be positive finite lengths"),
             "or size = \"auto\"",
         ),
     }
+}
+
+/// Whether cells are too long to compute with.
+fn are_needles(sides: [f64; 2], cells: [usize; 2]) -> bool {
+    let [dx, dy] = [sides[0] / cells[0] as f64, sides[1] / cells[1] as f64];
+    dx.max(dy) > LONGEST_CELL * dx.min(dy)
 }
 
 fn friction(judge: &mut Judge, given: &FrictionFile) -> Option<CoulombFriction> {

@@ -1,6 +1,7 @@
 //! Fields on the cells of a box as flat rows, index `i * ny + j`: sums and inner products in a fixed order.
 
 use pulp::Simd;
+use serde::{Deserialize, Serialize};
 
 use super::each_cell::{CellRule, Reals, each_cell};
 
@@ -75,7 +76,7 @@ pub fn largest(a: &[f64]) -> f64 {
 }
 
 /// A tangential field: x and y components.
-#[derive(Debug, Clone, Default, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct TangentialField {
     /// Component along x.
     pub x: Vec<f64>,

@@ -51,4 +51,14 @@ impl ContactState {
             dissipated_energy: 0.0,
         }
     }
+    /// Whether this can be a state on a grid of `cells`: every field of its shape, every number finite.
+    pub fn is_sound(&self, cells: [usize; 2]) -> bool {
+        let [qx, qy] = &self.shear;
+        let [sx, sy] = &self.slip;
+        let motions = [self.approach, self.shift[0], self.shift[1], self.twist, self.dissipated_energy];
+        let field = |field: &Array2<f64>| field.dim() == cells.into() && field.iter().all(|v| v.is_finite());
+        [&self.pressure, qx, qy, sx, sy].into_iter().all(field)
+            && self.zone.dim() == cells.into()
+            && motions.iter().all(|motion| motion.is_finite())
+    }
 }

@@ -11,6 +11,7 @@ mod coupled;
 mod feasible;
 mod frozen;
 mod krylov;
+mod memory;
 mod nested;
 mod normal;
 mod normal_problem;
@@ -35,14 +36,16 @@ use crate::kernel::ResponseTable;
 use crate::model::{ContactState, Control, CoulombFriction, LoadStep, Scheme, SurfaceGrid};
 use crate::spectral::{ConvolutionError, good_length};
 
+pub use memory::SolverMemory;
 pub use scene::{Outcome, Resultants};
 pub use settings::{Coupling, SolveError, SolverSettings, Watch};
 
+use memory::{GridTractions, Settled};
 use nested::{CoarseGrids, MARGIN, Prescribed};
 use preconditioner::{Preconditioner, Waves};
 use region::Region;
 use scene::{BoxOperators, Scene, Solved, Turn};
-use tractions::{Displacements, Tractions};
+use tractions::Tractions;
 
 /// A solved increment.
 #[derive(Debug)]
@@ -61,32 +64,6 @@ pub struct Increment {
     pub work: Work,
 }
 
-/// Displacements of the last state in its box, and its gap on the whole grid.
-struct Settled {
-    region: Region,
-    displacements: Displacements,
-    gap: Array2<f64>,
-    contact_area: f64,
-    load: LoadStep,
-}
-
-/// Tractions of a state on the whole grid.
-struct GridTractions {
-    pressure: Array2<f64>,
-    shear: [Array2<f64>; 2],
-}
-
-impl GridTractions {
-    fn of(state: &ContactState) -> Self {
-        Self { pressure: copied(&state.pressure), shear: [0, 1].map(|axis| copied(&state.shear[axis])) }
-    }
-}
-
-/// A copy that costs no memory while the field is zero.
-fn copied(field: &Array2<f64>) -> Array2<f64> {
-    if field.iter().all(|value| *value == 0.0) { Array2::zeros(field.dim()) } else { field.clone() }
-}
-
 /// A normal load changes much when it changes by more than this share: starting on coarse grids is then cheaper than from the
 /// pressure before.
 const LARGE_CHANGE: f64 = 0.03;
@@ -102,14 +79,11 @@ pub struct ContactSolver<'a> {
     operators: Option<BoxOperators>,
     /// Normal displacement of the whole grid, to check what lies outside the box.
     outside: Option<SpectralCompliance>,
-    settled: Option<Settled>,
     /// Response of the pair to waves, for the preconditioner of pressure.
     table: Option<ResponseTable>,
     /// Made when they are first asked for.
     coarse: Option<CoarseGrids>,
-    /// The tractions before the last ones and the load that led to them, for the predictor.
-    before: Option<(LoadStep, GridTractions)>,
-    last_load: Option<LoadStep>,
+    memory: SolverMemory,
     boxed: bool,
 }
 
@@ -135,9 +109,7 @@ impl<'a> ContactSolver<'a> {
             outside: None,
             table: None,
             coarse: None,
-            settled: None,
-            before: None,
-            last_load: None,
+            memory: SolverMemory::default(),
             boxed,
         }
     }
@@ -147,6 +119,16 @@ impl<'a> ContactSolver<'a> {
     #[must_use]
     pub fn with_waves(self, table: ResponseTable) -> Self {
         Self { table: Some(table), ..self }
+    }
+
+    /// What is remembered of the increments solved so far.
+    pub fn memory(&self) -> &SolverMemory {
+        &self.memory
+    }
+
+    /// Goes on with the memory of another solver of the same scene: the next increments have the bits they would have there.
+    pub fn remember(&mut self, memory: SolverMemory) {
+        self.memory = memory;
     }
 
     /// Solves one increment: from `state`, which the step before returned, to the loads and motions of `load`.
@@ -172,7 +154,7 @@ impl<'a> ContactSolver<'a> {
             if !self.response.is_periodic() && touches_edge(&state_after.pressure) {
                 return Err(SolveError::ContactAtEdge);
             }
-            let kept = self.settled.take().filter(|settled| {
+            let kept = self.memory.settled.take().filter(|settled| {
                 self.coupling != Coupling::Coupled
                     && settled.region == region
                     && settled.load.normal == load.normal
@@ -189,9 +171,9 @@ impl<'a> ContactSolver<'a> {
                 let area = self.contact_area(region, &solved);
                 (gap, area)
             };
-            let previous = self.last_load.replace(*load);
-            self.before = previous.map(|last| (last, GridTractions::of(state)));
-            self.settled = Some(Settled {
+            let previous = self.memory.last_load.replace(*load);
+            self.memory.before = previous.map(|last| (last, GridTractions::of(state)));
+            self.memory.settled = Some(Settled {
                 region,
                 displacements: solved.displacements,
                 gap: gap.clone(),
@@ -228,7 +210,7 @@ impl<'a> ContactSolver<'a> {
         watch: Watch<'_>,
     ) -> Result<Option<Array2<f64>>, SolveError> {
         let touched = state.pressure.iter().any(|p| *p > 0.0);
-        let far = match (load.normal, self.last_load.map(|last| last.normal)) {
+        let far = match (load.normal, self.memory.last_load.map(|last| last.normal)) {
             (Control::Force(now), Some(Control::Force(then)))
             | (Control::Motion(now), Some(Control::Motion(then))) => {
                 (now - then).abs() > LARGE_CHANGE * now.abs()
@@ -281,9 +263,8 @@ impl<'a> ContactSolver<'a> {
         let least = Region::around(cells, 1, |n| n, in_contact);
         let extent = least.shape[0].max(least.shape[1]);
         let wanted = Region::around(cells, (extent / 12).max(3), good_length, in_contact);
-        match &self.operators {
-            Some(operators) => {
-                let now = operators.region;
+        match self.memory.region {
+            Some(now) => {
                 let fits = (0..2).all(|axis| {
                     now.origin[axis] <= least.origin[axis]
                         && least.origin[axis] + least.shape[axis] <= now.origin[axis] + now.shape[axis]
@@ -297,7 +278,7 @@ impl<'a> ContactSolver<'a> {
     /// Tractions extrapolated linearly in the load while it keeps its direction.
     fn predicted(&self, state: &ContactState, load: &LoadStep) -> (Array2<f64>, [Array2<f64>; 2]) {
         let share = self.continuation(load);
-        match (&self.before, share) {
+        match (&self.memory.before, share) {
             (Some((_, before)), Some(share)) => {
                 let extrapolate = |now: &Array2<f64>, then: &Array2<f64>| now + &((now - then) * share);
                 (
@@ -314,7 +295,9 @@ impl<'a> ContactSolver<'a> {
 
     /// Ratio of this load increment to the last one when it goes on in the same direction.
     fn continuation(&self, load: &LoadStep) -> Option<f64> {
-        let (Some((first, _)), Some(second)) = (&self.before, &self.last_load) else { return None };
+        let (Some((first, _)), Some(second)) = (&self.memory.before, &self.memory.last_load) else {
+            return None;
+        };
         let (older, newer) = (change(first, second)?, change(second, load)?);
         let mut product = 0.0;
         let (mut old_square, mut new_square) = (0.0, 0.0);
@@ -387,7 +370,7 @@ impl<'a> ContactSolver<'a> {
         };
         let mut operators = self.operators_for(region).map_err(|_| SolveError::OperatorsMissing)?;
         let counted = (operators.compliance.applications, operators.preconditioner.passes);
-        let settled = self.settled.as_ref().filter(|settled| settled.region == region);
+        let settled = self.memory.settled.as_ref().filter(|settled| settled.region == region);
         let displaced = settled.map(|settled| &settled.displacements);
         let unchanged = settled.is_some_and(|settled| settled.load.normal == load.normal);
         let solved = match self.coupling {
@@ -402,6 +385,7 @@ impl<'a> ContactSolver<'a> {
         work.full_grid_convolutions += applications as f64 * (region.len() as f64 / grid.len() as f64);
         work.preconditioner_passes += operators.preconditioner.passes - counted.1;
         self.operators = Some(operators);
+        self.memory.region = Some(region);
         let solved = solved?;
         work.outer_iterations += solved.iterations;
         let (after, outcome) = scene.settle(&solved);

@@ -1,11 +1,12 @@
 //! The box around the contact: where the iteration works, and how fields pass between it and the whole grid.
 
 use ndarray::Array2;
+use serde::{Deserialize, Serialize};
 
 use crate::model::field::TangentialField;
 
 /// A rectangular part of the grid.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Region {
     /// First cell.
     pub origin: [usize; 2],
@@ -17,6 +18,14 @@ impl Region {
     /// The whole grid.
     pub fn whole(cells: [usize; 2]) -> Self {
         Self { origin: [0, 0], shape: cells }
+    }
+
+    /// Whether this is a part of a grid of `cells`.
+    pub fn lies_within(&self, cells: [usize; 2]) -> bool {
+        (0..2).all(|axis| {
+            self.shape[axis] > 0
+                && self.origin[axis].checked_add(self.shape[axis]).is_some_and(|end| end <= cells[axis])
+        })
     }
 
     /// Number of cells.

@@ -1,6 +1,7 @@
 //! One increment seen inside one box: everything the equations need, gathered; solved; and put back on the grid.
 
 use ndarray::Array2;
+use serde::{Deserialize, Serialize};
 
 use super::alternating::solve_alternating;
 use super::contact_set::ContactSet;
@@ -81,7 +82,7 @@ pub struct Solved {
 }
 
 /// Sums of the tractions.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct Resultants {
     /// Normal force [force].
     pub normal: f64,

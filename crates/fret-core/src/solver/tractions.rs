@@ -1,6 +1,7 @@
 //! Pressure and shear of a box, and the displacements they cause.
 
 use pulp::Simd;
+use serde::{Deserialize, Serialize};
 
 use crate::model::TangentialField;
 use crate::model::each_cell::{CellRule, Reals, each_cell};
@@ -41,7 +42,7 @@ impl Tractions {
 }
 
 /// Displacements of a box [length].
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Displacements {
     /// Normal.
     pub normal: Vec<f64>,

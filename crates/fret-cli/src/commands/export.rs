@@ -1,0 +1,75 @@
+//! `fret export`: the results of a run in forms that other programs read.
+
+use std::path::{Path, PathBuf};
+
+use serde_json::json;
+
+use crate::arguments::ExportArguments;
+use crate::export::{csv, npz, vtk};
+use crate::failure::Failure;
+use crate::figures::counted;
+use crate::results::Results;
+use crate::terminal;
+
+type Writing = fn(&Results, &Path) -> Result<Vec<PathBuf>, Failure>;
+
+/// Writes what is asked for, and tells which files were written.
+pub fn export(arguments: &ExportArguments, as_json: bool) -> Result<(), Failure> {
+    let forms: [(bool, &str, Writing); 3] = [
+        (arguments.npz, "export.npz", npz::write),
+        (arguments.csv, "csv", csv::write),
+        (arguments.vtk, "vtk", vtk::write),
+    ];
+    let asked: Vec<(&str, Writing)> =
+        forms.into_iter().filter(|(asked, _, _)| *asked).map(|(_, name, write)| (name, write)).collect();
+    if arguments.out.is_some() && asked.len() > 1 {
+        return Err(Failure::Call(
+            "--out names one place, and several forms are asked for".to_owned(),
+            "ask for one form at a time, or leave --out away".to_owned(),
+        ));
+    }
+    let results = Results::read(&arguments.results)?;
+    let mut files = Vec::new();
+    for (name, write) in asked {
+        let path = arguments.out.clone().unwrap_or_else(|| arguments.results.join(name));
+        fits(&path, name.ends_with(".npz"))?;
+        files.extend(write(&results, &path)?);
+    }
+    let steps = counted(results.fields.steps.len(), "kept increment");
+    if as_json {
+        let answer = json!({
+            "status": "exported",
+            "files": files,
+            "increments": results.table.rows(),
+            "kept_increments": results.fields.steps,
+        });
+        return terminal::answer(&format!("{answer:#}"));
+    }
+    let first = files.first().map_or(String::new(), |file| file.display().to_string());
+    let more = match files.len() {
+        0 | 1 => String::new(),
+        count => format!(" and {} more", count - 1),
+    };
+    terminal::answer(&format!(
+        "{first}{more}: {} of history, {steps}",
+        counted(results.table.rows(), "increment")
+    ))
+}
+
+/// Refuses a place that holds something an export would not have written.
+fn fits(path: &Path, is_file: bool) -> Result<(), Failure> {
+    let shown = path.display();
+    let refuse = |what: &str| {
+        Err(Failure::Call(format!("{shown}: {what}"), "choose another place with --out PATH".to_owned()))
+    };
+    if is_file && path.is_dir() {
+        return refuse("a folder, where the export is one file");
+    }
+    if is_file && path.exists() && path.extension().is_none_or(|extension| extension != "npz") {
+        return refuse("a file that is there already and is no .npz file");
+    }
+    if !is_file && path.exists() && !path.is_dir() {
+        return refuse("a file, where the export is a folder");
+    }
+    Ok(())
+}

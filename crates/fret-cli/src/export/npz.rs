@@ -1,0 +1,118 @@
+//! `--npz`: one file for `numpy.load`: `x`, `y`, `step`, every kept field with shape `(step, x, y)`, every column of the history.
+//!
+//! Formats: <https://numpy.org/doc/stable/reference/generated/numpy.lib.format.html>, in a zip archive without compression.
+
+use std::io::{Seek, Write};
+use std::path::{Path, PathBuf};
+
+use zip::write::SimpleFileOptions;
+use zip::{CompressionMethod, ZipWriter};
+
+use super::written;
+use crate::failure::{Failure, Unwritten};
+use crate::results::Results;
+
+/// Archives of more bytes need the wider form of the format.
+const WIDE: usize = 1 << 31;
+
+/// Columns of the history that count.
+const COUNTS: [&str; 7] = [
+    "increment",
+    "stage",
+    "convolutions",
+    "preconditioner_passes",
+    "outer_iterations",
+    "contact_cells",
+    "stick_cells",
+];
+
+/// Writes the results as a `.npz` file.
+pub fn write(results: &Results, path: &Path) -> Result<Vec<PathBuf>, Failure> {
+    let fields = &results.fields;
+    let [nx, ny] = fields.cells();
+    written(path, |writer| {
+        let mut archive = Archive { zip: ZipWriter::new(writer), path };
+        let steps: Vec<u8> = fields.steps.iter().flat_map(|&step| (step as i64).to_le_bytes()).collect();
+        archive.array("x", "<f8", &[nx], &bytes(&fields.x))?;
+        archive.array("y", "<f8", &[ny], &bytes(&fields.y))?;
+        archive.array("step", "<i8", &[fields.steps.len()], &steps)?;
+        for name in &fields.names {
+            let (kind, width) = if *name == "zone" { ("|u1", 1) } else { ("<f8", 8) };
+            let shape = [fields.steps.len(), nx, ny];
+            archive.begin(name, kind, &shape, width * shape.iter().product::<usize>())?;
+            for position in 0..fields.steps.len() {
+                let values = fields.field(name, position)?.values;
+                let content = if width == 1 {
+                    values.iter().map(|&value| value as u8).collect()
+                } else {
+                    bytes(&values)
+                };
+                archive.append(&content)?;
+            }
+        }
+        for (name, values) in results.table.columns() {
+            if COUNTS.contains(&name) {
+                let counts: Vec<u8> = values.iter().flat_map(|&count| (count as i64).to_le_bytes()).collect();
+                archive.array(name, "<i8", &[values.len()], &counts)?;
+            } else {
+                archive.array(name, "<f8", &[values.len()], &bytes(values))?;
+            }
+        }
+        let regimes = results.table.regimes();
+        let letters = regimes.iter().map(String::len).max().unwrap_or(0).max(1);
+        let mut words = Vec::with_capacity(4 * letters * regimes.len());
+        for word in regimes {
+            let padded = word.chars().chain(std::iter::repeat('\0')).take(letters);
+            words.extend(padded.flat_map(|letter| u32::from(letter).to_le_bytes()));
+        }
+        archive.array("regime", &format!("<U{letters}"), &[regimes.len()], &words)?;
+        archive.zip.finish().map_err(|error| unwritten(path, error))?;
+        Ok(())
+    })?;
+    Ok(vec![path.to_owned()])
+}
+
+/// An archive while it is filled.
+struct Archive<'a, W: Write + Seek> {
+    zip: ZipWriter<W>,
+    path: &'a Path,
+}
+
+impl<W: Write + Seek> Archive<'_, W> {
+    fn array(&mut self, name: &str, kind: &str, shape: &[usize], content: &[u8]) -> Result<(), Failure> {
+        self.begin(name, kind, shape, content.len())?;
+        self.append(content)
+    }
+
+    fn begin(&mut self, name: &str, kind: &str, shape: &[usize], bytes: usize) -> Result<(), Failure> {
+        let options = SimpleFileOptions::default()
+            .compression_method(CompressionMethod::Stored)
+            .large_file(bytes >= WIDE);
+        self.zip.start_file(format!("{name}.npy"), options).map_err(|error| unwritten(self.path, error))?;
+        self.append(&header(kind, shape))
+    }
+
+    fn append(&mut self, content: &[u8]) -> Result<(), Failure> {
+        self.zip.write_all(content).map_err(|error| Unwritten::at(self.path)(error).into())
+    }
+}
+
+fn unwritten(path: &Path, error: zip::result::ZipError) -> Failure {
+    Unwritten::at(path)(std::io::Error::other(error)).into()
+}
+
+/// The head of an array in C order, version 1.0, padded to a multiple of 64 bytes.
+fn header(kind: &str, shape: &[usize]) -> Vec<u8> {
+    let sides: String = shape.iter().map(|side| format!("{side}, ")).collect();
+    let words = format!("{{'descr': '{kind}', 'fortran_order': False, 'shape': ({}), }}", sides.trim_end());
+    let before = 6 + 2 + 2;
+    let padded = (before + words.len() + 1).next_multiple_of(64) - before;
+    let mut head = b"\x93NUMPY\x01\x00".to_vec();
+    head.extend_from_slice(&u16::try_from(padded).unwrap_or(u16::MAX).to_le_bytes());
+    head.extend_from_slice(format!("{words:<width$}\n", width = padded - 1).as_bytes());
+    head
+}
+
+fn bytes(values: &[f64]) -> Vec<u8> {
+    values.iter().flat_map(|value| value.to_le_bytes()).collect()
+}

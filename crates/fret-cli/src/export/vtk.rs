@@ -1,0 +1,113 @@
+//! `--vtk`: for ParaView and pyvista: a `.vti` image of cells for each kept increment, and `history.pvd` that lists them in time.
+//!
+//! Shear and slip are vectors, everything else is a scalar; time is the number of the increment. Format:
+//! <https://docs.vtk.org/en/latest/vtk_file_formats/vtkxml_file_format.html>, data appended raw.
+
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+use super::{folder, written};
+use crate::failure::{Failure, Unwritten};
+use crate::results::{Field, Fields, Results};
+
+/// Writes the results as VTK files into a folder; the files, the list of them first.
+pub fn write(results: &Results, path: &Path) -> Result<Vec<PathBuf>, Failure> {
+    folder(path)?;
+    let fields = &results.fields;
+    let list = path.join("history.pvd");
+    let mut files = vec![list.clone()];
+    let mut entries = String::new();
+    for (position, &step) in fields.steps.iter().enumerate() {
+        let name = format!("fields_{step:06}.vti");
+        let file = path.join(&name);
+        image(fields, position, &file)?;
+        entries += &format!("    <DataSet timestep=\"{step}\" part=\"0\" file=\"{name}\"/>\n");
+        files.push(file);
+    }
+    let text = format!(
+        "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\" byte_order=\"LittleEndian\">\n  \
+         <Collection>\n{entries}  </Collection>\n</VTKFile>\n"
+    );
+    written(&list, |writer| {
+        writer.write_all(text.as_bytes()).map_err(|error| Unwritten::at(&list)(error).into())
+    })?;
+    Ok(files)
+}
+
+/// An array of the image.
+struct Array {
+    name: &'static str,
+    kind: &'static str,
+    components: usize,
+    bytes: Vec<u8>,
+}
+
+fn image(fields: &Fields, position: usize, file: &Path) -> Result<(), Failure> {
+    let [nx, ny] = fields.cells();
+    let [dx, dy] = fields.spacing();
+    let arrays = arrays(fields, position)?;
+    let mut described = String::new();
+    let mut offset = 0;
+    for Array { name, kind, components, bytes } in &arrays {
+        described += &format!(
+            "        <DataArray type=\"{kind}\" Name=\"{name}\" NumberOfComponents=\"{components}\" \
+             format=\"appended\" offset=\"{offset}\"/>\n"
+        );
+        offset += 8 + bytes.len();
+    }
+    let scalars = arrays.first().map_or(String::new(), |array| format!(" Scalars=\"{}\"", array.name));
+    let (x, y) = (fields.x[0] - 0.5 * dx, fields.y[0] - 0.5 * dy);
+    // A flat image needs a spacing along z as well; that of the cells keeps it in scale.
+    let head = format!(
+        "<?xml version=\"1.0\"?>\n<VTKFile type=\"ImageData\" version=\"1.0\" byte_order=\"LittleEndian\" \
+         header_type=\"UInt64\">\n  <ImageData WholeExtent=\"0 {nx} 0 {ny} 0 0\" Origin=\"{x:?} {y:?} 0\" \
+         Spacing=\"{dx:?} {dy:?} {dx:?}\">\n    <Piece Extent=\"0 {nx} 0 {ny} 0 0\">\n      <CellData{scalars}>\n\
+         {described}      </CellData>\n    </Piece>\n  </ImageData>\n  <AppendedData encoding=\"raw\">\n_"
+    );
+    written(file, |writer| {
+        let mut put = |bytes: &[u8]| writer.write_all(bytes).map_err(Unwritten::at(file));
+        put(head.as_bytes())?;
+        for array in &arrays {
+            put(&(array.bytes.len() as u64).to_le_bytes())?;
+            put(&array.bytes)?;
+        }
+        put(b"\n  </AppendedData>\n</VTKFile>\n")?;
+        Ok(())
+    })
+}
+
+fn arrays(fields: &Fields, position: usize) -> Result<Vec<Array>, Failure> {
+    let mut arrays = Vec::new();
+    for &name in &fields.names {
+        let field = fields.field(name, position)?;
+        match name {
+            "shear_x" | "slip_x" => {
+                let (vector, other) =
+                    if name == "shear_x" { ("shear", "shear_y") } else { ("slip", "slip_y") };
+                let other = fields.field(other, position)?;
+                let bytes = x_fastest(&field)
+                    .zip(x_fastest(&other))
+                    .flat_map(|(x, y)| [x, y, 0.0])
+                    .flat_map(f64::to_le_bytes)
+                    .collect();
+                arrays.push(Array { name: vector, kind: "Float64", components: 3, bytes });
+            }
+            "shear_y" | "slip_y" => {}
+            "zone" => {
+                let bytes = x_fastest(&field).map(|zone| zone as u8).collect();
+                arrays.push(Array { name, kind: "UInt8", components: 1, bytes });
+            }
+            _ => {
+                let bytes = x_fastest(&field).flat_map(f64::to_le_bytes).collect();
+                arrays.push(Array { name, kind: "Float64", components: 1, bytes });
+            }
+        }
+    }
+    Ok(arrays)
+}
+
+/// The cells in the order of VTK.
+fn x_fastest(field: &Field) -> impl Iterator<Item = f64> + '_ {
+    let [nx, ny] = field.cells;
+    (0..ny).flat_map(move |j| (0..nx).map(move |i| field.at(i, j)))
+}

@@ -1,0 +1,225 @@
+//! `checkpoint/`: where an unfinished run stands. `even` and `odd` are written over in turn after every increment, so that one
+//! of them is whole however the process ends; that costs a copy in memory. `synced` is replaced now and then, waits for the
+//! disk, and survives a power failure. `lock` tells that a run is alive. The folder is gone when the run is solved.
+//!
+//! A file is a line of text, a checksum, a length, a head, the waypoint of the core, and whatever an older one left behind that.
+
+use std::fs::{self, File, TryLockError};
+use std::io::{Seek, Write};
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
+
+use fret_core::checkpoint::{Checkpoint, Waypoint};
+use fret_core::plan::Plan;
+use serde::{Deserialize, Serialize};
+
+use super::whole_file::write_whole;
+use crate::failure::{Failure, Unwritten};
+use crate::tally::Tally;
+
+const TURNS: [&str; 2] = ["even", "odd"];
+const SYNCED: &str = "synced";
+const LOCK: &str = "lock";
+const NAMES: [&str; 3] = [TURNS[0], TURNS[1], SYNCED];
+const FIRST_LINE: &[u8] = b"fretting checkpoint\n";
+/// Bytes of the checksum and the length.
+const FRAME: usize = 4 + 8;
+/// Waiting for the disk takes no more than this share of the run.
+const SYNC_SHARE: u32 = 100;
+
+/// What the command needs to know besides the waypoint.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+pub struct Head {
+    /// Version of the program.
+    pub version: String,
+    /// Digest of the question.
+    pub question: String,
+    /// Bytes of the history table that belong to the waypoint.
+    pub history_bytes: u64,
+    /// What the run has come to.
+    pub tally: Tally,
+    /// Time spent so far [s].
+    pub wall_s: f64,
+}
+
+/// A stored waypoint, read back.
+#[derive(Debug)]
+pub struct Stored {
+    /// What the command needs.
+    pub head: Head,
+    /// What the core needs.
+    pub checkpoint: Checkpoint,
+}
+
+/// What the folder holds.
+#[derive(Debug)]
+pub enum Found {
+    /// No checkpoint: no increment was finished.
+    Nothing,
+    /// One to go on from; why newer ones were not used, where more than the increment in progress is lost by that.
+    Stored(Box<Stored>, Option<String>),
+    /// Only files that cannot be used, and why.
+    Unusable(String),
+}
+
+/// The folder while a run writes into it. Nobody else does.
+#[derive(Debug)]
+pub struct CheckpointFolder {
+    path: PathBuf,
+    /// Held while this lives.
+    _lock: File,
+    bytes: Vec<u8>,
+    turns: [Option<File>; 2],
+    synced_at: Option<Instant>,
+    sync_took: Duration,
+}
+
+impl CheckpointFolder {
+    /// Takes the folder below the results at `path`; refused while another run holds it.
+    pub fn take(results: &Path) -> Result<Self, Failure> {
+        let path = results.join("checkpoint");
+        fs::create_dir_all(&path).map_err(Unwritten::at(&path))?;
+        let name = path.join(LOCK);
+        let lock = File::create(&name).map_err(Unwritten::at(&name))?;
+        match lock.try_lock() {
+            Err(TryLockError::WouldBlock) => Err(Failure::Call(
+                format!("{}: another run is writing into it at this moment", results.display()),
+                "wait for it, or choose another folder with --out DIR".to_owned(),
+            )),
+            // Where files cannot be locked there is no protection, but no reason to refuse either.
+            Ok(()) | Err(TryLockError::Error(_)) => Ok(Self {
+                path,
+                _lock: lock,
+                bytes: Vec::new(),
+                turns: [None, None],
+                synced_at: None,
+                sync_took: Duration::ZERO,
+            }),
+        }
+    }
+
+    /// Whether unfinished work may be in the folder below the results at `path`.
+    pub fn is_below(results: &Path) -> bool {
+        NAMES.iter().any(|name| results.join("checkpoint").join(name).exists())
+    }
+
+    /// The newest usable checkpoint of `plan`, whose question has this digest.
+    pub fn newest(&self, plan: &Plan, question: &str) -> Found {
+        let mut complaints = Vec::new();
+        let mut newest: Option<(&str, Stored)> = None;
+        for name in NAMES {
+            let path = self.path.join(name);
+            let read = match fs::read(&path) {
+                Err(error) if error.kind() == std::io::ErrorKind::NotFound => continue,
+                Err(error) => Err(error.to_string()),
+                Ok(bytes) => unpacked(&bytes, plan, question),
+            };
+            let solved = newest.as_ref().map(|(_, stored)| stored.checkpoint.solved());
+            match read {
+                Err(why) => complaints.push(format!("{}: {why}", path.display())),
+                Ok(stored) if solved < Some(stored.checkpoint.solved()) => newest = Some((name, stored)),
+                Ok(_) => {}
+            }
+        }
+        match newest {
+            // Of the two that are written in turn, one may be torn: that is how a killed run looks.
+            Some((name, stored)) => Found::Stored(
+                Box::new(stored),
+                (name == SYNCED && !complaints.is_empty()).then(|| complaints.join("; ")),
+            ),
+            None if complaints.is_empty() => Found::Nothing,
+            None => Found::Unusable(complaints.join("; ")),
+        }
+    }
+
+    /// Forgets what is stored: a run starts from the beginning.
+    pub fn clear(&self) -> Result<(), Unwritten> {
+        for name in NAMES {
+            let path = self.path.join(name);
+            match fs::remove_file(&path) {
+                Err(error) if error.kind() != std::io::ErrorKind::NotFound => {
+                    return Err(Unwritten::at(&path)(error));
+                }
+                _ => {}
+            }
+        }
+        Ok(())
+    }
+
+    /// Stores where the run stands. `settle` brings to the disk what the checkpoint relies on.
+    pub fn store(
+        &mut self,
+        head: &Head,
+        waypoint: &Waypoint<'_>,
+        settle: impl FnOnce() -> Result<(), Unwritten>,
+    ) -> Result<(), Failure> {
+        pack(&mut self.bytes, head, waypoint)?;
+        let is_due = self.synced_at.is_none_or(|then| then.elapsed() >= self.sync_took * SYNC_SHARE);
+        if is_due {
+            let started = Instant::now();
+            settle()?;
+            write_whole(&self.path.join(SYNCED), &self.bytes)?;
+            self.sync_took = started.elapsed();
+            self.synced_at = Some(Instant::now());
+        }
+        Ok(self.write_turn(waypoint.solved() % 2)?)
+    }
+
+    fn write_turn(&mut self, turn: usize) -> Result<(), Unwritten> {
+        let path = self.path.join(TURNS[turn]);
+        let open = || File::options().write(true).create(true).truncate(false).open(&path);
+        let mut file = self.turns[turn].take().map_or_else(open, Ok).map_err(Unwritten::at(&path))?;
+        file.rewind().and_then(|()| file.write_all(&self.bytes)).map_err(Unwritten::at(&path))?;
+        self.turns[turn] = Some(file);
+        Ok(())
+    }
+
+    /// The run is solved: nothing is left to go on from.
+    pub fn remove(self) {
+        let Self { path, _lock: lock, turns, .. } = self;
+        drop((lock, turns));
+        // The results are whole; what stays behind by a failure here is only litter.
+        let _ = fs::remove_dir_all(path);
+    }
+}
+
+fn pack(bytes: &mut Vec<u8>, head: &Head, waypoint: &Waypoint<'_>) -> Result<(), Failure> {
+    let unpackable = |what: String| Failure::Defect(format!("a checkpoint has no bytes: {what}"));
+    let mut room = std::mem::take(bytes);
+    room.clear();
+    room.extend_from_slice(FIRST_LINE);
+    room.extend_from_slice(&[0; FRAME]);
+    let room = postcard::to_extend(head, room).map_err(|error| unpackable(error.to_string()))?;
+    *bytes = waypoint.write(room).map_err(|error| unpackable(error.to_string()))?;
+    let body = FIRST_LINE.len() + FRAME;
+    let checksum = crc32fast::hash(&bytes[body..]).to_le_bytes();
+    let length = ((bytes.len() - body) as u64).to_le_bytes();
+    bytes[FIRST_LINE.len()..][..4].copy_from_slice(&checksum);
+    bytes[FIRST_LINE.len() + 4..][..8].copy_from_slice(&length);
+    Ok(())
+}
+
+fn unpacked(bytes: &[u8], plan: &Plan, question: &str) -> Result<Stored, String> {
+    let frame = bytes.strip_prefix(FIRST_LINE).ok_or("not a checkpoint, or a damaged one")?;
+    let (checksum, frame) = frame.split_first_chunk::<4>().ok_or("damaged: it ends early")?;
+    let (length, body) = frame.split_first_chunk::<8>().ok_or("damaged: it ends early")?;
+    let length = usize::try_from(u64::from_le_bytes(*length)).unwrap_or(usize::MAX);
+    let body = body.get(..length).ok_or("damaged: it ends early")?;
+    if u32::from_le_bytes(*checksum) != crc32fast::hash(body) {
+        return Err("damaged: its checksum does not fit".to_owned());
+    }
+    let (head, waypoint) =
+        postcard::take_from_bytes::<Head>(body).map_err(|_| "written by another version of fret")?;
+    if head.version != env!("CARGO_PKG_VERSION") {
+        return Err(format!(
+            "written by fret {}, which may compute other last digits than this one, {}",
+            head.version,
+            env!("CARGO_PKG_VERSION")
+        ));
+    }
+    if head.question != question {
+        return Err("written for another case".to_owned());
+    }
+    let checkpoint = Checkpoint::read(waypoint, plan).map_err(|error| error.to_string())?;
+    Ok(Stored { head, checkpoint })
+}

@@ -1,0 +1,65 @@
+//! What to cite: the works whose methods and formulas stand behind this very page.
+
+use super::closed_form::Pressed;
+use super::html::escaped;
+use super::scene::Scene;
+
+const LAYERS: &str = "T. C. O'Sullivan, R. B. King: Sliding contact stress field due to a spherical indenter on a layered \
+                      elastic half-space. J. Tribol. 110 (1988) 235–240.";
+const COATED: &str = "S. Spinu: Numerical analysis of elastic contact between coated bodies. Advances in Tribology (2018). \
+                      doi 10.1155/2018/6498503.";
+const LOVE: &str = "A. E. H. Love: The stress produced in a semi-infinite solid by pressure on part of the boundary. Phil. \
+                    Trans. R. Soc. A 228 (1929) 377–420.";
+const GRADIENTS: &str = "I. A. Polonsky, L. M. Keer: A numerical method for solving rough contact problems based on the \
+                         multi-level multi-summation and conjugate gradient techniques. Wear 231 (1999) 206–219.";
+const CONVOLUTION: &str = "S. Liu, Q. Wang, G. Liu: A versatile method of discrete convolution and FFT (DC-FFT) for contact \
+                           analyses. Wear 243 (2000) 101–111.";
+const FRETTING: &str = "L. Gallego, D. Nélias, S. Deyber: A fast and efficient contact algorithm for fretting problems \
+                        applied to fretting modes I, II and III. Wear 268 (2010) 208–222.";
+const HERTZ: &str =
+    "H. Hertz: Ueber die Berührung fester elastischer Körper. J. reine angew. Math. 92 (1881) 156–171.";
+const CATTANEO: &str =
+    "C. Cattaneo: Sul contatto di due corpi elastici. Rend. Accad. Naz. Lincei 27 (1938) 342, 434, 474.";
+const MINDLIN: &str =
+    "R. D. Mindlin: Compliance of elastic bodies in contact. J. Appl. Mech. 16 (1949) 259–268.";
+const DERESIEWICZ: &str = "R. D. Mindlin, H. Deresiewicz: Elastic spheres in contact under varying oblique forces. J. Appl. \
+                           Mech. 20 (1953) 327–344.";
+const JOHNSON: &str = "K. L. Johnson: Contact Mechanics. Cambridge University Press (1985).";
+
+/// The chapter.
+pub fn chapter(scene: &Scene<'_>) -> String {
+    let coated = ["upper", "lower"].iter().any(|body| {
+        scene
+            .results
+            .planned::<Vec<serde_json::Value>>(&format!("/case/bodies/{body}/elastic/coatings"))
+            .is_some_and(|coatings| !coatings.is_empty())
+    });
+    let periodic = scene.results.planned::<bool>("/case/periodic") == Some(true);
+    let pressed = scene.normal_form.and_then(|form| form.under(1.0));
+    let partial_slip = scene.tangential_form.is_some();
+    let works = [
+        (coated, COATED),
+        (coated, LAYERS),
+        (!coated && !periodic, LOVE),
+        (!periodic, CONVOLUTION),
+        (true, GRADIENTS),
+        (scene.direction.is_some(), FRETTING),
+        (matches!(pressed, Some(Pressed::Sphere(_) | Pressed::Ellipsoid(_))), HERTZ),
+        (partial_slip, CATTANEO),
+        (partial_slip, MINDLIN),
+        (partial_slip && !scene.cycles().is_empty(), DERESIEWICZ),
+        (pressed.is_some(), JOHNSON),
+    ];
+    let items: Vec<String> = works
+        .iter()
+        .filter(|(is_used, _)| *is_used)
+        .map(|(_, work)| format!("<li>{}</li>", escaped(work)))
+        .collect();
+    let version = scene.results.record["version"].as_str().unwrap_or_default();
+    format!(
+        "<section><h2>To cite</h2><p>The program, fretting {}, with its file <code>CITATION.cff</code>; and the works that \
+         this page builds on:</p><ul class=\"works\">{}</ul></section>\n",
+        escaped(version),
+        items.concat()
+    )
+}

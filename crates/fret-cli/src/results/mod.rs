@@ -1,0 +1,81 @@
+//! Results of a run, read back from their folder: finished ones, and what there is of others. Nothing is written here.
+
+mod fields;
+mod table;
+
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+
+use serde_json::Value;
+
+use crate::failure::Failure;
+pub use fields::{Field, Fields};
+pub use table::Table;
+
+/// A result folder that could be read.
+#[derive(Debug)]
+pub struct Results {
+    /// Where it lies.
+    pub path: PathBuf,
+    /// `run.json`.
+    pub record: Value,
+    /// `history.csv`: a row an increment.
+    pub table: Table,
+    /// `fields.zarr`.
+    pub fields: Fields,
+}
+
+impl Results {
+    /// Reads a result folder: record and table whole, fields when they are asked for.
+    pub fn read(path: &Path) -> Result<Self, Failure> {
+        if !path.is_dir() {
+            let what = if path.exists() { "a file, not a folder of results" } else { "no such folder" };
+            return Err(unusable(path, what));
+        }
+        let record = path.join("run.json");
+        let text = match fs::read(&record) {
+            Err(error) if error.kind() == io::ErrorKind::NotFound => {
+                return Err(unusable(path, "not a folder of results: it has no run.json"));
+            }
+            read => read.map_err(|error| unusable(&record, &format!("cannot be read: {error}")))?,
+        };
+        let record: Value = serde_json::from_slice(&text)
+            .map_err(|error| unusable(&record, &format!("not what a run writes: {error}")))?;
+        if record["program"] != "fretting" || record["format"] != 1 {
+            return Err(unusable(path, "results of another program, or of another version of the format"));
+        }
+        let table = Table::read(&path.join("history.csv"))?;
+        let fields = Fields::read(&path.join("fields.zarr"), table.rows())?;
+        Ok(Self { path: path.to_owned(), record, table, fields })
+    }
+
+    /// The title of the case, or the name of the folder.
+    pub fn title(&self) -> String {
+        match self.record["plan"]["case"]["title"].as_str() {
+            Some(title) if !title.is_empty() => title.to_owned(),
+            _ => self
+                .path
+                .file_name()
+                .map_or_else(|| self.path.display().to_string(), |name| name.to_string_lossy().into_owned()),
+        }
+    }
+
+    /// A part of the plan, when it is there and has the form that is asked for.
+    pub fn planned<T: serde::de::DeserializeOwned>(&self, pointer: &str) -> Option<T> {
+        self.record["plan"].pointer(pointer).and_then(|value| T::deserialize(value).ok())
+    }
+
+    /// Names of the stages.
+    pub fn stages(&self) -> Vec<String> {
+        let stages = self.record["plan"]["case"]["stages"].as_array();
+        let name = |stage: &Value| stage["name"].as_str().unwrap_or_default().to_owned();
+        stages.map_or_else(Vec::new, |stages| stages.iter().map(name).collect())
+    }
+}
+
+/// Something that is no result of a run, or not a whole one.
+fn unusable(path: &Path, what: &str) -> Failure {
+    let help = "name the folder that `fret run CASE --out DIR` wrote";
+    Failure::Call(format!("{}: {what}", path.display()), help.to_owned())
+}

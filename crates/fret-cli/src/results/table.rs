@@ -1,0 +1,79 @@
+//! `history.csv`, read back: columns of numbers by name.
+
+use std::fs;
+use std::path::Path;
+
+use super::unusable;
+use crate::failure::Failure;
+
+/// The one column of words.
+const REGIME: &str = "regime";
+
+/// A table of numbers, a row an increment.
+#[derive(Debug)]
+pub struct Table {
+    /// The table as it was written, whole lines only.
+    pub text: String,
+    columns: Vec<(String, Vec<f64>)>,
+    regimes: Vec<String>,
+    rows: usize,
+}
+
+impl Table {
+    /// Reads a table. A last line that a kill has torn is left away.
+    pub fn read(path: &Path) -> Result<Self, Failure> {
+        let text =
+            fs::read_to_string(path).map_err(|error| unusable(path, &format!("cannot be read: {error}")))?;
+        let text = text.rsplit_once('\n').map_or("", |(whole, _)| whole).to_owned() + "\n";
+        let mut lines = text.lines();
+        let names: Vec<&str> = lines.next().unwrap_or_default().split(',').collect();
+        let mut table = Self { text: String::new(), columns: Vec::new(), regimes: Vec::new(), rows: 0 };
+        table.columns.extend(names.iter().map(|&name| (name.to_owned(), Vec::new())));
+        for (number, line) in lines.enumerate() {
+            let torn = || unusable(path, &format!("line {} is not a row of the table", number + 2));
+            let cells: Vec<&str> = line.split(',').collect();
+            if cells.len() != names.len() {
+                return Err(torn());
+            }
+            for (cell, (name, column)) in cells.iter().zip(&mut table.columns) {
+                if name == REGIME {
+                    table.regimes.push((*cell).to_owned());
+                } else {
+                    column.push(cell.parse().map_err(|_| torn())?);
+                }
+            }
+            table.rows += 1;
+        }
+        table.columns.retain(|(name, _)| name != REGIME);
+        let needed = ["increment", "stage", "normal_force", "tangential_force_x", "shift_x", "residual"];
+        match needed.iter().find(|needed| !names.contains(needed)) {
+            Some(needed) => Err(unusable(path, &format!("has no column {needed:?}"))),
+            None => Ok(Self { text, ..table }),
+        }
+    }
+
+    /// Number of increments.
+    pub fn rows(&self) -> usize {
+        self.rows
+    }
+
+    /// A column; no rows when there is none of this name.
+    pub fn column(&self, name: &str) -> &[f64] {
+        self.columns.iter().find(|(column, _)| column == name).map_or(&[], |(_, values)| values)
+    }
+
+    /// A value; not a number when there is none.
+    pub fn at(&self, name: &str, row: usize) -> f64 {
+        self.column(name).get(row).copied().unwrap_or(f64::NAN)
+    }
+
+    /// All columns of numbers, in the order of the file.
+    pub fn columns(&self) -> impl Iterator<Item = (&str, &[f64])> {
+        self.columns.iter().map(|(name, values)| (name.as_str(), values.as_slice()))
+    }
+
+    /// What the contact did in each increment.
+    pub fn regimes(&self) -> &[String] {
+        &self.regimes
+    }
+}

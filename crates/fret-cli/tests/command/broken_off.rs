@@ -1,0 +1,376 @@
+//! Runs that are broken off, in every way a run can be, and taken up again: the results are those of an unbroken run, bit for
+//! bit (only the times differ); where that is impossible the run is refused and nothing is touched.
+
+use std::collections::BTreeMap;
+use std::path::Path;
+use std::time::{Duration, Instant};
+
+use serde_json::Value;
+
+use crate::bench::{Answer, Bench, SPHERE};
+
+/// Coated, so that pressure and shear act on each other; with every kind of control, and changes from one to another.
+const COATED: &str = r#"
+[grid]
+cells = [20, 24]
+size = [200e-6, 240e-6]
+
+[upper]
+rigid = true
+
+[lower]
+coatings = [{ thickness = 20e-6, young = 400e9, poisson = 0.25 }]
+substrate = { young = 210e9, poisson = 0.3 }
+
+[profile.ellipsoid]
+radius_x = 8e-3
+radius_y = 12e-3
+
+[friction]
+coefficient = 0.2
+
+[[load]]
+normal_force = 1.0
+increments = 8
+ramp = "cubic"
+
+[[load]]
+tangential_force = [0.1, 0.05]
+cycles = 2
+increments = 12
+
+[[load]]
+shift = [40e-9, 0.0]
+increments = 10
+
+[[load]]
+approach = 60e-9
+twist = 1e-4
+increments = 6
+
+[[load]]
+normal_force = 0.2
+increments = 6
+
+[output]
+fields = ["pressure", "shear", "slip", "gap", "zone"]
+every = 3
+"#;
+
+/// The small sphere with a longer history: pressure first, then shear.
+fn long_sphere() -> String {
+    SPHERE.replace("increments = 3\n", "increments = 20\n").replace("increments = 8\n", "increments = 40\n")
+}
+
+/// Pressure alone, up and down again.
+fn frictionless() -> String {
+    let head = SPHERE.split("[[load]]").next().unwrap().replace("0.1", "0.0");
+    format!(
+        "{head}[[load]]\nnormal_force = 1.0\nincrements = 60\n[[load]]\nnormal_force = 0.1\nincrements = 40\n\
+         [output]\nfields = [\"pressure\", \"gap\"]\nevery = 7\n"
+    )
+}
+
+/// All files of a folder, by their names below it.
+fn files(folder: &Path) -> BTreeMap<String, Vec<u8>> {
+    fn walk(folder: &Path, below: &str, found: &mut BTreeMap<String, Vec<u8>>) {
+        for entry in std::fs::read_dir(folder).unwrap() {
+            let entry = entry.unwrap();
+            let name = format!("{below}{}", entry.file_name().to_string_lossy());
+            if entry.path().is_dir() {
+                walk(&entry.path(), &format!("{name}/"), found);
+            } else {
+                found.insert(name, std::fs::read(entry.path()).unwrap());
+            }
+        }
+    }
+    let mut found = BTreeMap::new();
+    walk(folder, "", &mut found);
+    found
+}
+
+/// What a run found: the table without its column of times, and every file of the field store.
+fn findings(results: &Path) -> BTreeMap<String, Vec<u8>> {
+    let table = std::fs::read_to_string(results.join("history.csv")).unwrap();
+    let place = table.lines().next().unwrap().split(',').position(|column| column == "wall_s").unwrap();
+    let timeless = table.lines().map(|line| {
+        let cells = line.split(',').enumerate().filter(|(column, _)| *column != place);
+        cells.map(|(_, cell)| cell).collect::<Vec<_>>().join(",")
+    });
+    let mut found = files(&results.join("fields.zarr"));
+    found.insert("history.csv".to_owned(), timeless.collect::<Vec<_>>().join("\n").into_bytes());
+    found
+}
+
+fn assert_same(bench: &Bench, one: &str, other: &str) {
+    let [one, other] = [one, other].map(|name| findings(&bench.folder.join(name)));
+    assert_eq!(one.keys().collect::<Vec<_>>(), other.keys().collect::<Vec<_>>());
+    for (name, content) in &one {
+        assert!(other[name] == *content, "{name} differs");
+    }
+}
+
+/// Solves a case without a break, into `whole`; the time that took.
+fn solve_whole(bench: &Bench, case: &str) -> Duration {
+    let started = Instant::now();
+    let answer = bench.file("case.toml", case).fret(&["run", "case.toml", "--out", "whole", "--quiet"]);
+    assert_eq!(answer.code, Some(0), "{}", answer.err);
+    started.elapsed()
+}
+
+/// Starts a run into `broken` and ends it by a signal as soon as its table has so many lines.
+fn break_off(bench: &Bench, lines: usize, signal: &str) -> Answer {
+    let table = bench.folder.join("broken/history.csv");
+    let run = bench.command(&["run", "case.toml", "--out", "broken", "--quiet"]).spawn().unwrap();
+    let patience = Instant::now();
+    let written = || std::fs::read_to_string(&table).map_or(0, |text| text.lines().count());
+    while written() < lines && patience.elapsed().as_secs() < 60 {
+        std::thread::sleep(Duration::from_millis(2));
+    }
+    let sent = std::process::Command::new("kill").args([signal, &run.id().to_string()]).status().unwrap();
+    assert!(sent.success());
+    Answer::from(run.wait_with_output().unwrap())
+}
+
+fn resume(bench: &Bench) -> Answer {
+    bench.fret(&["run", "case.toml", "--out", "broken", "--resume"])
+}
+
+/// A history that is long enough to be broken off before its end, and its unbroken results in `whole`.
+fn long_bench(test: &str) -> Bench {
+    let bench = Bench::new(test);
+    solve_whole(&bench, &long_sphere().replace("cycles = 2", "cycles = 12"));
+    bench
+}
+
+/// Kills runs at moments drawn by a seeded generator until enough kills hit a living run, resuming in between.
+fn killed_at_random(test: &str, case: &str, kills_wanted: usize, mut seed: u64) {
+    let bench = Bench::new(test);
+    let time = solve_whole(&bench, case);
+    let broken = bench.folder.join("broken");
+    let (mut kills, mut solved) = (0, 0);
+    let patience = Instant::now();
+    while kills < kills_wanted || solved == 0 {
+        assert!(patience.elapsed().as_secs() < 300, "{kills} kills, {solved} runs solved");
+        // Marsaglia's xorshift.
+        seed ^= seed << 13;
+        seed ^= seed >> 7;
+        seed ^= seed << 17;
+        let threads = if seed & 1 == 0 { "1" } else { "2" };
+        let arguments = ["run", "case.toml", "--out", "broken", "--resume", "--quiet", "--threads", threads];
+        let mut run = bench.command(&arguments).spawn().unwrap();
+        // Between nothing and nearly the whole: at the start, among the increments, while files are written.
+        std::thread::sleep(time.mul_f64(0.9 * (seed >> 11) as f64 / (1_u64 << 53) as f64));
+        run.kill().unwrap();
+        let status = run.wait().unwrap();
+        if status.success() {
+            assert_same(&bench, "whole", "broken");
+            std::fs::remove_dir_all(&broken).unwrap();
+            solved += 1;
+        } else {
+            assert_eq!(status.code(), None, "neither killed nor solved: {}", resume(&bench).err);
+            kills += 1;
+        }
+        if kills == kills_wanted && broken.exists() {
+            let answer = resume(&bench);
+            assert_eq!(answer.code, Some(0), "{}", answer.err);
+            assert_same(&bench, "whole", "broken");
+            solved += 1;
+        }
+    }
+}
+
+#[test]
+fn a_coated_run_killed_twenty_times_ends_as_if_nothing_had_been() {
+    killed_at_random("killed-coated", COATED, 20, 0x9e37_79b9_7f4a_7c15);
+}
+
+#[test]
+fn a_run_of_pressure_then_shear_killed_twenty_times_ends_as_if_nothing_had_been() {
+    killed_at_random("killed-sphere", &long_sphere(), 20, 0xbf58_476d_1ce4_e5b9);
+}
+
+#[test]
+fn a_frictionless_run_killed_twenty_times_ends_as_if_nothing_had_been() {
+    killed_at_random("killed-frictionless", &frictionless(), 20, 0x94d0_49bb_1331_11eb);
+}
+
+#[cfg(unix)]
+#[test]
+fn an_interrupted_run_says_how_to_go_on_and_does() {
+    let bench = long_bench("resumed");
+    let interrupted = break_off(&bench, 30, "-INT");
+    assert_eq!(interrupted.code, Some(130), "{}", interrupted.err);
+    let again = bench.fret(&["run", "case.toml", "--out", "broken"]);
+    assert_eq!(again.code, Some(1), "hours of work are not thrown away unasked: {}", again.err);
+    assert!(again.err.contains("--resume") && again.err.contains("--force"), "{}", again.err);
+    let answer = resume(&bench);
+    assert_eq!(answer.code, Some(0), "{}", answer.err);
+    assert!(answer.err.contains("going on after increment"), "{}", answer.err);
+    assert_same(&bench, "whole", "broken");
+    let record: Value = serde_json::from_str(&bench.text("broken/run.json")).unwrap();
+    assert_eq!((&record["status"], &record["resumed"]), (&"solved".into(), &1.into()));
+    let whole: Value = serde_json::from_str(&bench.text("whole/run.json")).unwrap();
+    for total in ["increments", "convolutions", "dissipated_energy", "largest_residual"] {
+        assert_eq!(record["totals"][total], whole["totals"][total], "{total}");
+    }
+    assert!(!bench.folder.join("broken/checkpoint").exists());
+}
+
+#[cfg(unix)]
+#[test]
+fn torn_and_damaged_checkpoints_are_told_from_whole_ones() {
+    let bench = long_bench("damaged");
+    break_off(&bench, 40, "-KILL");
+    let newest = |name: &str| bench.folder.join("broken/checkpoint").join(name);
+
+    // Torn in the middle of a write, as by a kill: the other one serves.
+    let odd = std::fs::read(newest("odd")).unwrap();
+    std::fs::write(newest("odd"), &odd[..odd.len() / 2]).unwrap();
+    // A single flipped bit is found as well, whatever it stood for.
+    let mut even = std::fs::read(newest("even")).unwrap();
+    let middle = even.len() / 2;
+    even[middle] ^= 0x10;
+    std::fs::write(newest("even"), &even).unwrap();
+    let synced = std::fs::read(newest("synced")).unwrap();
+    std::fs::write(newest("synced"), b"fretting checkpoint\nnot really").unwrap();
+
+    let before = files(&bench.folder.join("broken"));
+    let refused = resume(&bench);
+    assert_eq!(refused.code, Some(1), "{}", refused.err);
+    for words in ["damaged", "even", "odd", "synced", "--force"] {
+        assert!(refused.err.contains(words), "expected {words:?}: {}", refused.err);
+    }
+    assert!(files(&bench.folder.join("broken")) == before, "a refusal touches nothing");
+
+    // What a power failure leaves: only the one that waited for the disk, and fields beyond it.
+    std::fs::write(newest("synced"), synced).unwrap();
+    let answer = resume(&bench);
+    assert_eq!(answer.code, Some(0), "{}", answer.err);
+    assert!(answer.err.contains("an older checkpoint is taken"), "{}", answer.err);
+    assert_same(&bench, "whole", "broken");
+}
+
+#[cfg(unix)]
+#[test]
+fn results_that_miss_a_part_are_not_gone_on_with() {
+    let bench = long_bench("missing");
+    break_off(&bench, 60, "-KILL");
+    for (part, word) in
+        [("broken/fields.zarr/pressure/c/1/0/0", "pressure"), ("broken/history.csv", "history")]
+    {
+        let path = bench.folder.join(part);
+        let content = std::fs::read(&path).unwrap();
+        std::fs::write(&path, &content[..content.len() / 3]).unwrap();
+        let before = files(&bench.folder.join("broken"));
+        let refused = resume(&bench);
+        assert_eq!(refused.code, Some(1), "{}", refused.err);
+        assert!(refused.err.contains(word) && refused.err.contains("nothing was touched"), "{}", refused.err);
+        assert!(files(&bench.folder.join("broken")) == before);
+        std::fs::write(&path, content).unwrap();
+    }
+    assert_eq!(resume(&bench).code, Some(0));
+    assert_same(&bench, "whole", "broken");
+}
+
+#[test]
+fn a_solved_run_is_left_as_it_is() {
+    let bench = Bench::new("solved-already");
+    solve_whole(&bench, SPHERE);
+    let before = files(&bench.folder);
+    let answer = bench.fret(&["run", "case.toml", "--out", "whole", "--resume", "--json"]);
+    assert_eq!(answer.code, Some(0), "{}", answer.err);
+    let told: Value = serde_json::from_str(&answer.out).unwrap();
+    assert_eq!(told["status"], "solved");
+    assert!(told["message"].as_str().unwrap().contains("solved already"), "{}", answer.out);
+    assert!(files(&bench.folder) == before);
+}
+
+#[test]
+fn a_case_that_was_changed_is_not_gone_on_with() {
+    let bench = Bench::new("changed");
+    solve_whole(&bench, SPHERE);
+    bench.file("case.toml", &SPHERE.replace("coefficient = 0.1", "coefficient = 0.11"));
+    let before = files(&bench.folder);
+    let refused = bench.fret(&["run", "case.toml", "--out", "whole", "--resume"]);
+    assert_eq!(refused.code, Some(1), "{}", refused.err);
+    assert!(refused.err.contains("another case"), "{}", refused.err);
+    assert!(files(&bench.folder) == before);
+
+    // Comments and order are no change.
+    bench.file("case.toml", &format!("# the same\n{SPHERE}"));
+    let same = bench.fret(&["run", "case.toml", "--out", "whole", "--resume"]);
+    assert_eq!(same.code, Some(0), "{}", same.err);
+}
+
+#[test]
+fn there_is_nothing_to_go_on_with_in_an_empty_folder_so_the_run_starts() {
+    let bench = Bench::new("resume-nothing");
+    solve_whole(&bench, SPHERE);
+    assert_eq!(resume(&bench).code, Some(0));
+    assert_same(&bench, "whole", "broken");
+}
+
+#[cfg(unix)]
+#[test]
+fn two_runs_do_not_write_into_one_folder() {
+    let bench = Bench::new("two-runs");
+    let endless = long_sphere().replace("cycles = 2", "cycles = 100000");
+    bench.file("case.toml", &endless);
+    let mut first = bench.command(&["run", "case.toml", "--out", "broken", "--quiet"]).spawn().unwrap();
+    let patience = Instant::now();
+    while !bench.folder.join("broken/checkpoint/even").exists() && patience.elapsed().as_secs() < 60 {
+        std::thread::sleep(Duration::from_millis(5));
+    }
+    for wish in ["--resume", "--force"] {
+        let second = bench.fret(&["run", "case.toml", "--out", "broken", wish]);
+        assert_eq!(second.code, Some(1), "{}", second.err);
+        assert!(second.err.contains("another run is writing"), "{}", second.err);
+    }
+    first.kill().unwrap();
+    first.wait().unwrap();
+    assert!(bench.text("broken/history.csv").lines().count() > 1);
+}
+
+/// No file may grow beyond a limit of the system: the writing fails as on a full disk. Then there is room again.
+#[cfg(unix)]
+#[test]
+fn a_full_disk_ends_a_run_and_with_room_it_goes_on() {
+    let bench = Bench::new("full");
+    solve_whole(&bench, &long_sphere());
+    // The first checkpoint, without a state before it, has room in 100 half-kilobytes; the second one has not.
+    let limited = format!(
+        "trap '' XFSZ; ulimit -f 100; exec '{}' run case.toml --out broken --quiet",
+        env!("CARGO_BIN_EXE_fret")
+    );
+    let mut shell = std::process::Command::new("sh");
+    let answer = Answer::from(shell.args(["-c", &limited]).current_dir(&bench.folder).output().unwrap());
+    assert_eq!(answer.code, Some(2), "{}", answer.err);
+    assert!(answer.err.contains("cannot be written"), "{}", answer.err);
+    assert!(answer.err.contains("--resume goes on"), "{}", answer.err);
+    let answer = resume(&bench);
+    assert_eq!(answer.code, Some(0), "{}", answer.err);
+    assert!(answer.err.contains("going on after increment"), "{}", answer.err);
+    assert_same(&bench, "whole", "broken");
+}
+
+#[cfg(unix)]
+#[test]
+fn a_folder_without_permission_is_refused_by_name() {
+    use std::os::unix::fs::PermissionsExt;
+    let bench = Bench::new("read-only");
+    let locked = bench.folder.join("locked");
+    std::fs::create_dir(&locked).unwrap();
+    std::fs::set_permissions(&locked, std::fs::Permissions::from_mode(0o555)).unwrap();
+    // The system's administrator may write everywhere: then there is nothing to be seen here.
+    if std::fs::write(locked.join("probe"), "").is_ok() {
+        return;
+    }
+    bench.file("case.toml", SPHERE);
+    for wish in ["--quiet", "--resume"] {
+        let answer = bench.fret(&["run", "case.toml", "--out", "locked", wish]);
+        assert_eq!(answer.code, Some(2), "{}", answer.err);
+        assert!(answer.err.contains("no permission"), "{}", answer.err);
+    }
+    std::fs::set_permissions(&locked, std::fs::Permissions::from_mode(0o755)).unwrap();
+}

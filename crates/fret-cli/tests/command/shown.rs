@@ -1,0 +1,214 @@
+//! `report` and `export`: what a run found, for people and for other programs. Judged against the raw files of the result folder.
+
+use serde_json::Value;
+
+use crate::bench::{Bench, SPHERE};
+
+/// The small sphere, solved, with every field.
+fn solved(test: &str) -> Bench {
+    let bench = Bench::new(test);
+    let all = SPHERE
+        .replace("\"zone\"]", "\"slip\", \"gap\", \"zone\"]")
+        .replace("poisson = 0.3", "poisson = 0.5")
+        .replace("a small sphere", "a small <sphere> & \\\"more\\\"");
+    let answer = bench.file("case.toml", &all).fret(&["run", "case.toml", "--out", "run", "--quiet"]);
+    assert_eq!(answer.code, Some(0), "{}", answer.err);
+    bench
+}
+
+fn raw(bench: &Bench, array: &str, place: usize) -> Vec<u8> {
+    std::fs::read(bench.folder.join(format!("run/fields.zarr/{array}/c/{place}/0/0"))).unwrap()
+}
+
+fn floats(bytes: &[u8]) -> Vec<f64> {
+    bytes.chunks_exact(8).map(|eight| f64::from_le_bytes(eight.try_into().unwrap())).collect()
+}
+
+#[test]
+fn the_page_stands_alone_and_is_well_formed() {
+    let bench = solved("report");
+    let answer = bench.fret(&["report", "run"]);
+    assert_eq!(answer.code, Some(0), "{}", answer.err);
+    assert_eq!(answer.out.trim(), "run/report.html");
+    let page = bench.text("run/report.html");
+    for outside in ["http", "src=", "href=", "@import", "url(", "<script"] {
+        assert!(!page.contains(outside), "the page reaches outside: {outside}");
+    }
+    for chapter in [
+        "Fretting loop",
+        "Sections through the contact",
+        "Stick and slip",
+        "Dissipated energy",
+        "Against the closed form",
+        "Convergence",
+        "What was left out",
+        "To cite",
+        "Hertz",
+        "prefers-color-scheme: dark",
+        "@media print",
+    ] {
+        assert!(page.contains(chapter), "the page lacks {chapter:?}");
+    }
+    assert!(page.contains("a small &lt;sphere&gt; &amp; &quot;more&quot;"), "the title is text, not tags");
+    assert!(!page.contains("NaN") && !page.contains(">inf"), "every number is one");
+    assert_balanced(&page);
+}
+
+/// Every tag that opens closes again, in order.
+fn assert_balanced(page: &str) {
+    let mut open: Vec<&str> = Vec::new();
+    for part in page.split('<').skip(1) {
+        let (tag, _) = part.split_once('>').unwrap();
+        let name = tag.split([' ', '\n', '/']).find(|word| !word.is_empty()).unwrap_or("");
+        if tag.starts_with('/') {
+            assert_eq!(open.pop(), Some(name));
+        } else if !(tag.ends_with('/') || tag.starts_with('!') || name == "meta") {
+            open.push(name);
+        }
+    }
+    assert!(open.is_empty(), "{open:?}");
+}
+
+/// Hertz: the middle of the grid is a corner of cells of 10e-6, so the largest pressure of a cell stands 7.1e-6 beside the peak:
+/// sqrt(1 - (7.1 / 30)^2) of it, 2.8 % less; the coarse grid may add half a percent.
+#[test]
+fn the_page_compares_with_the_closed_form() {
+    let bench = solved("report-closed");
+    assert_eq!(bench.fret(&["report", "run", "--out", "page.html"]).code, Some(0));
+    let page = bench.text("page.html");
+    let row = page.split("<td>largest pressure</td>").nth(1).unwrap();
+    let cells: Vec<&str> = row.split("</td>").take(3).map(|cell| cell.trim_start_matches("<td>")).collect();
+    // 6 W E*^2 / (pi^3 R^2), cube root, with E* = E / (1 - 0.25): 5.3334e8.
+    assert_eq!(cells[1], "5.3334 · 10⁸");
+    let off: f64 = cells[2].replace('−', "-").trim_end_matches(" %").parse().unwrap();
+    assert!((-3.3..-2.3).contains(&off), "{off} %");
+}
+
+#[test]
+fn a_run_that_is_not_solved_is_shown_as_far_as_it_came() {
+    let bench = solved("report-part");
+    let record = bench.text("run/run.json").replace("\"status\": \"solved\"", "\"status\": \"interrupted\"");
+    bench.file("run/run.json", &record);
+    let table = bench.text("run/history.csv");
+    let lines: Vec<&str> = table.lines().collect();
+    // Ten increments and a torn line.
+    bench.file("run/history.csv", &format!("{}\n10,1,1.0,8.9", lines[..11].join("\n")));
+    let answer = bench.fret(&["report", "run", "--json"]);
+    assert_eq!(answer.code, Some(0), "{}", answer.err);
+    let told: Value = serde_json::from_str(&answer.out).unwrap();
+    assert_eq!((&told["status"], &told["increments"]), (&"reported".into(), &10.into()));
+    assert!(bench.text("run/report.html").contains("Not the whole history: interrupted"));
+}
+
+#[test]
+fn an_npz_holds_the_bits_of_the_store() {
+    let bench = solved("npz");
+    let answer = bench.fret(&["export", "run", "--npz", "--out", "run.npz"]);
+    assert_eq!(answer.code, Some(0), "{}", answer.err);
+    let archive = std::fs::read(bench.folder.join("run.npz")).unwrap();
+    // Stored without compression: every field must stand in it as it is, in the order of the steps.
+    for name in ["pressure", "shear_x", "slip_y", "gap", "zone"] {
+        let whole: Vec<u8> = (0..5).flat_map(|place| raw(&bench, name, place)).collect();
+        let found = archive.windows(whole.len()).any(|window| window == whole);
+        assert!(found, "{name}");
+        let head = format!("'shape': (5, 24, 24,)");
+        assert!(archive.windows(head.len()).filter(|window| *window == head.as_bytes()).count() >= 5);
+    }
+    assert_eq!(&archive[..4], b"PK\x03\x04");
+}
+
+#[test]
+fn a_vtk_image_holds_the_fields_with_x_fastest() {
+    let bench = solved("vtk");
+    let answer = bench.fret(&["export", "run", "--vtk", "--out", "images", "--json"]);
+    assert_eq!(answer.code, Some(0), "{}", answer.err);
+    let told: Value = serde_json::from_str(&answer.out).unwrap();
+    assert_eq!(told["files"].as_array().map(Vec::len), Some(6), "a list and five images");
+    let list = bench.text("images/history.pvd");
+    assert!(list.contains("timestep=\"18\"") && list.contains("file=\"fields_000018.vti\""), "{list}");
+    let image = std::fs::read(bench.folder.join("images/fields_000018.vti")).unwrap();
+    let start = image.windows(2).position(|window| window == b"\n_").unwrap() + 2;
+    let length = u64::from_le_bytes(image[start..start + 8].try_into().unwrap());
+    assert_eq!(length, 8 * 24 * 24);
+    let pressure = floats(&image[start + 8..][..8 * 24 * 24]);
+    let stored = floats(&raw(&bench, "pressure", 4));
+    for i in 0..24 {
+        for j in 0..24 {
+            assert_eq!(pressure[j * 24 + i].to_bits(), stored[i * 24 + j].to_bits());
+        }
+    }
+}
+
+#[test]
+fn csv_reads_back_as_the_same_numbers() {
+    let bench = solved("csv");
+    assert_eq!(bench.fret(&["export", "run", "--csv"]).code, Some(0));
+    assert_eq!(bench.text("run/csv/history.csv"), bench.text("run/history.csv"));
+    let text = bench.text("run/csv/fields_000018.csv");
+    assert_eq!(text.lines().next(), Some("x,y,pressure,shear_x,shear_y,slip_x,slip_y,gap,zone"));
+    assert_eq!(text.lines().count(), 1 + 24 * 24);
+    let (pressure, zone) = (floats(&raw(&bench, "pressure", 4)), raw(&bench, "zone", 4));
+    for (cell, line) in text.lines().skip(1).enumerate() {
+        let cells: Vec<&str> = line.split(',').collect();
+        assert_eq!(cells[2].parse(), Ok(pressure[cell]));
+        assert_eq!(cells[8].parse(), Ok(zone[cell]));
+    }
+}
+
+#[test]
+fn what_is_no_result_is_refused_and_nothing_is_written() {
+    let bench = solved("no-results");
+    bench.file("note.txt", "mine");
+    std::fs::create_dir(bench.folder.join("empty")).unwrap();
+    let before = bench.names();
+    for (arguments, words) in [
+        (&["report", "nowhere"][..], "no such folder"),
+        (&["report", "note.txt"], "a file, not a folder"),
+        (&["report", "empty"], "it has no run.json"),
+        (&["report", "run", "--out", "empty"], "a folder"),
+        (&["report", "run", "--out", "note.txt"], "no .html file"),
+        (&["export", "nowhere", "--npz"], "no such folder"),
+        (&["export", "run"], "--npz"),
+        (&["export", "run", "--npz", "--out", "empty"], "a folder"),
+        (&["export", "run", "--npz", "--out", "note.txt"], "no .npz file"),
+        (&["export", "run", "--vtk", "--out", "note.txt"], "a file, where the export is a folder"),
+        (&["export", "run", "--vtk", "--csv", "--out", "both"], "one form at a time"),
+    ] {
+        let answer = bench.fret(arguments);
+        assert_eq!(answer.code, Some(1), "{arguments:?}: {}", answer.err);
+        assert!(answer.err.contains(words), "{arguments:?}: expected {words:?}: {}", answer.err);
+        let told = bench.fret(&[arguments, &["--json"]].concat());
+        let told: Value = serde_json::from_str(&told.out).unwrap();
+        assert_eq!(told["status"], "refused", "{arguments:?}");
+    }
+    assert_eq!(bench.names(), before);
+    assert_eq!(bench.text("note.txt"), "mine");
+    assert_eq!(bench.fret(&["export", "run", "--csv", "--out", "note.txt/below"]).code, Some(2));
+}
+
+#[test]
+fn results_that_were_tampered_with_are_refused_without_a_fall() {
+    let bench = solved("tampered");
+    for (file, content, words) in [
+        ("run.json", "{}", "another program"),
+        ("run.json", "[[[[", "not what a run writes"),
+        ("history.csv", "increment,stage\n0", "no column"),
+        ("history.csv", "", "no column"),
+        ("fields.zarr/pressure/zarr.json", "{\"shape\": [5, 1000000000, 1000000000]}", "not an array"),
+        ("fields.zarr/pressure/c/4/0/0", "short", "bytes where the grid asks for"),
+        ("fields.zarr/x/c/0", "", "no grid"),
+        ("fields.zarr/step/c/0", "\u{0}\u{0}\u{0}\u{0}\u{0}\u{0}\u{0}\u{0}", "pressure/c/0"),
+    ] {
+        let path = bench.folder.join("run").join(file);
+        let good = std::fs::read(&path).unwrap();
+        std::fs::write(&path, content).unwrap();
+        let answer = bench.fret(&["export", "run", "--npz"]);
+        // One step number less is no harm: the fields that are named are exported.
+        if file != "fields.zarr/step/c/0" {
+            assert_eq!(answer.code, Some(1), "{file}: {}", answer.err);
+            assert!(answer.err.contains(words), "{file}: expected {words:?}: {}", answer.err);
+        }
+        assert!(!answer.err.contains("panicked"), "{}", answer.err);
+        std::fs::write(&path, good).unwrap();
+    }
+}

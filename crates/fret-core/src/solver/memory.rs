@@ -1,0 +1,73 @@
+//! What a solver remembers from one increment to the next, apart from the state it is handed.
+//!
+//! Operators and workspaces are no memory: they follow from the scene and from the box named here. A new field here is stored
+//! with a run and comes back with it; whatever can change later bits has to stand here.
+
+use ndarray::Array2;
+use serde::{Deserialize, Serialize};
+
+use super::region::Region;
+use super::tractions::Displacements;
+use crate::model::{ContactState, LoadStep};
+
+/// All that later increments depend on besides the last state.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+pub struct SolverMemory {
+    /// The box of the last operators.
+    pub(super) region: Option<Region>,
+    /// What the last increment settled.
+    pub(super) settled: Option<Settled>,
+    /// The tractions before the last ones and the load that led to them, for the predictor.
+    pub(super) before: Option<(LoadStep, GridTractions)>,
+    /// The load that led to the last state.
+    pub(super) last_load: Option<LoadStep>,
+}
+
+/// Tractions of a state on the whole grid.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub(super) struct GridTractions {
+    pub pressure: Array2<f64>,
+    pub shear: [Array2<f64>; 2],
+}
+
+impl GridTractions {
+    /// Those of a state.
+    pub fn of(state: &ContactState) -> Self {
+        Self { pressure: copied(&state.pressure), shear: [0, 1].map(|axis| copied(&state.shear[axis])) }
+    }
+
+    fn fits(&self, cells: [usize; 2]) -> bool {
+        [&self.pressure, &self.shear[0], &self.shear[1]].iter().all(|field| field.dim() == cells.into())
+    }
+}
+
+/// A copy that costs no memory while the field is zero.
+fn copied(field: &Array2<f64>) -> Array2<f64> {
+    if field.iter().all(|value| *value == 0.0) { Array2::zeros(field.dim()) } else { field.clone() }
+}
+
+/// Displacements of the last state in its box, and its gap on the whole grid.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub(super) struct Settled {
+    pub region: Region,
+    pub displacements: Displacements,
+    pub gap: Array2<f64>,
+    pub contact_area: f64,
+    pub load: LoadStep,
+}
+
+impl SolverMemory {
+    /// Whether this can be the memory of a solver on a grid of `cells`: sizes agree and boxes lie inside.
+    pub fn fits(&self, cells: [usize; 2]) -> bool {
+        let settled_fits = |settled: &Settled| {
+            let len = settled.region.len();
+            let Displacements { normal, tangential } = &settled.displacements;
+            settled.region.lies_within(cells)
+                && [normal.len(), tangential.x.len(), tangential.y.len()] == [len; 3]
+                && settled.gap.dim() == cells.into()
+        };
+        self.region.is_none_or(|region| region.lies_within(cells))
+            && self.settled.as_ref().is_none_or(settled_fits)
+            && self.before.as_ref().is_none_or(|(_, tractions)| tractions.fits(cells))
+    }
+}

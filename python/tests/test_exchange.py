@@ -1,0 +1,84 @@
+"""What ``fret export`` writes, opened by the programs it is written for."""
+
+import os
+import shutil
+import subprocess
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+CASE = """
+[grid]
+cells = [16, 20]
+size = [240e-6, 300e-6]
+[upper]
+rigid = true
+[lower]
+substrate = { young = 210e9, poisson = 0.3 }
+[profile.sphere]
+radius = 10e-3
+[friction]
+coefficient = 0.1
+[[load]]
+normal_force = 1.0
+increments = 3
+[[load]]
+tangential_force = [0.05, 0.0]
+increments = 4
+[output]
+every = 2
+"""
+
+
+def command() -> str:
+    """The command as it is installed, or as it was built beside these tests."""
+    root = Path(__file__).parents[2]
+    target = Path(os.environ.get("CARGO_TARGET_DIR", root / "target"))
+    found = shutil.which("fret") or shutil.which("fret", path=target / "release")
+    return found or pytest.skip("the command fret is not built")
+
+
+@pytest.fixture(scope="module")
+def results(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("exchange")
+    (folder / "case.toml").write_text(CASE)
+    fret = command()
+    subprocess.run([fret, "run", "case.toml", "--out", "run", "--quiet"], cwd=folder, check=True)
+    subprocess.run([fret, "export", "run", "--npz", "--vtk", "--csv"], cwd=folder, check=True, capture_output=True)
+    return folder / "run"
+
+
+def test_numpy_opens_the_npz(results):
+    arrays = np.load(results / "export.npz")
+    assert arrays["pressure"].shape == (4, 16, 20)
+    assert arrays["step"].tolist() == [1, 2, 4, 6]
+    assert arrays["regime"].tolist()[-1] == "partial_slip"
+    # The pressure carries the force: to the tolerance of the solver.
+    force = arrays["pressure"].sum(axis=(1, 2)) * 15e-6**2
+    np.testing.assert_allclose(force, arrays["normal_force"][arrays["step"]], rtol=1e-7)
+
+
+def test_xarray_opens_the_store_itself(results):
+    xarray = pytest.importorskip("xarray")
+    pytest.importorskip("zarr")
+    arrays = np.load(results / "export.npz")
+    data = xarray.open_zarr(results / "fields.zarr", consolidated=False)
+    for name in data.data_vars:
+        np.testing.assert_array_equal(data[name].values, arrays[name])
+
+
+def test_pyvista_opens_the_images(results):
+    pyvista = pytest.importorskip("pyvista")
+    arrays = np.load(results / "export.npz")
+    reader = pyvista.get_reader(str(results / "vtk" / "history.pvd"))
+    assert reader.time_values == arrays["step"].tolist()
+    for place, time in enumerate(reader.time_values):
+        reader.set_active_time_value(time)
+        image = reader.read()[0]
+        field = np.asarray(image.cell_data["pressure"]).reshape(20, 16).T
+        np.testing.assert_array_equal(field, arrays["pressure"][place])
+        shear = np.asarray(image.cell_data["shear"])[:, 0].reshape(20, 16).T
+        np.testing.assert_array_equal(shear, arrays["shear_x"][place])
+    centres = image.cell_centers().points
+    np.testing.assert_allclose(np.unique(centres[:, 1].round(12)), arrays["y"], atol=1e-11)
