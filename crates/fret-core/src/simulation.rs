@@ -182,6 +182,9 @@ impl<'a> Simulation<'a> {
         let mut resultants = Resultants { normal: 0.0, tangential: [0.0; 2], moment: 0.0 };
         let mut increment = 0;
         for (number, stage) in case.stages.iter().enumerate() {
+            if let Some(friction) = &stage.friction {
+                solver.rub_with(friction);
+            }
             let steps = StageSteps::new(stage, &held, &history.state, &resultants);
             for k in 1..=stage.increments_in_all() {
                 let load = steps.at(k);

@@ -102,6 +102,11 @@ impl<'a> ContactSolver<'a> {
         }
     }
 
+    /// Another law of friction from the next increment on.
+    pub fn rub_with(&mut self, friction: &'a CoulombFriction) {
+        self.friction = friction;
+    }
+
     /// Solves one increment: from `state`, which the step before returned, to the loads and motions of `load`.
     ///
     /// # Errors
