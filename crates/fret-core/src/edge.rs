@@ -8,8 +8,10 @@ const OFFSET: f64 = 0.024;
 
 /// Contact area in units of one cell, from pressure and gap on a grid (or a box of it). Good to about 0.05 cells along the
 /// perimeter for smooth contacts; a contact without an edge inside the grid is counted by cells.
-pub fn contact_cells(pressure: &ArrayView2<'_, f64>, gap: &ArrayView2<'_, f64>) -> f64 {
+/// Where the gap is wider than `beyond`, a body has ended, at the border of the cell.
+pub fn contact_cells(pressure: &ArrayView2<'_, f64>, gap: &ArrayView2<'_, f64>, beyond: f64) -> f64 {
     let (nx, ny) = pressure.dim();
+    let ended = |i: usize, j: usize| gap[[i, j]] > beyond;
     let inside = |i: usize, j: usize| pressure[[i, j]] > 0.0;
     let counted = pressure.iter().filter(|p| **p > 0.0).count() as f64;
     let square = |i: usize, j: usize| pressure[[i, j]].powi(2);
@@ -18,7 +20,8 @@ pub fn contact_cells(pressure: &ArrayView2<'_, f64>, gap: &ArrayView2<'_, f64>) 
     let mut falls = Vec::new();
     let mut crossing = |cells: [[usize; 2]; 4]| {
         let [a, b, c, d] = cells.map(|[i, j]| (i, j));
-        if inside(a.0, a.1) && inside(b.0, b.1) && !inside(c.0, c.1) && !inside(d.0, d.1) {
+        let open = |cell: (usize, usize)| !inside(cell.0, cell.1) && !ended(cell.0, cell.1);
+        if inside(a.0, a.1) && inside(b.0, b.1) && open(c) && open(d) {
             rises.push((square(a.0, a.1) - square(b.0, b.1)).abs());
             falls.push((outer(d.0, d.1) - outer(c.0, c.1)).abs());
         }
@@ -40,17 +43,23 @@ pub fn contact_cells(pressure: &ArrayView2<'_, f64>, gap: &ArrayView2<'_, f64>) 
         return counted;
     }
     let kappa = rise / fall;
-    let level = |i: isize, j: isize| {
+    let at = |i: usize, j: usize| if inside(i, j) { square(i, j) } else { -kappa * outer(i, j) };
+    // Beyond the end of a body the level function goes on as at the cell `here`: it has no edge of its own there.
+    let level = |i: isize, j: isize, here: (usize, usize)| {
         let i = i.clamp(0, nx as isize - 1) as usize;
         let j = j.clamp(0, ny as isize - 1) as usize;
-        if inside(i, j) { square(i, j) } else { -kappa * outer(i, j) }
+        if ended(i, j) { at(here.0, here.1) } else { at(i, j) }
     };
     let mut area = 0.0;
     for i in 0..nx as isize {
         for j in 0..ny as isize {
+            let here = (i as usize, j as usize);
+            if ended(here.0, here.1) {
+                continue;
+            }
             let near: Vec<f64> = (-1..=1)
                 .flat_map(|a| (-1..=1).map(move |b| (a, b)))
-                .map(|(a, b)| level(i + a, j + b))
+                .map(|(a, b)| level(i + a, j + b, here))
                 .collect();
             if near.iter().all(|value| *value > 0.0) {
                 area += 1.0;

@@ -20,7 +20,7 @@ use ndarray::{Array2, ArrayView2};
 use crate::compliance::{SpectralCompliance, SurfaceCompliance, SurfaceResponse, Wanted};
 use crate::edge;
 use crate::history::Work;
-use crate::model::{ContactState, Control, CoulombFriction, LoadStep, SurfaceGrid};
+use crate::model::{BEYOND_THE_BODY, ContactState, Control, CoulombFriction, LoadStep, SurfaceGrid};
 use crate::spectral::{ConvolutionError, good_length};
 
 pub use scene::{Outcome, Resultants};
@@ -356,7 +356,11 @@ impl<'a> ContactSolver<'a> {
     fn contact_area(&self, region: Region, solved: &Solved) -> f64 {
         let view = |field| ArrayView2::from_shape(region.shape, field);
         match (view(solved.tractions.pressure.as_slice()), view(solved.gap.as_slice())) {
-            (Ok(pressure), Ok(gap)) => edge::contact_cells(&pressure, &gap) * self.grid.cell_area(),
+            (Ok(pressure), Ok(gap)) => {
+                let [width, depth] = self.grid.size();
+                let beyond = 0.5 * BEYOND_THE_BODY * width.hypot(depth);
+                edge::contact_cells(&pressure, &gap, beyond) * self.grid.cell_area()
+            }
             _ => 0.0,
         }
     }
