@@ -121,7 +121,9 @@ impl<'a> ContactSolver<'a> {
         let mut work = Work::default();
         let mut region = self.region_for(state, load);
         loop {
-            let (solved, state_after, outcome) = self.step_in(region, state, load, &mut work, watch)?;
+            let (solved, state_after, outcome) = self
+                .step_in(region, state, load, &mut work, watch)
+                .map_err(|error| self.explained(error, state, load))?;
             if !self.response.is_periodic() && touches_edge(&state_after.pressure) {
                 return Err(SolveError::ContactAtEdge);
             }
@@ -169,6 +171,22 @@ impl<'a> ContactSolver<'a> {
             }
         }
         Ok(())
+    }
+
+    /// A map carries what its coefficients times the pressure sum to, which is known from the pressure before: an increment that
+    /// asks for more has no equilibrium, and did not converge for that reason.
+    fn explained(&self, error: SolveError, state: &ContactState, load: &LoadStep) -> SolveError {
+        let (SolveError::NotConverged { .. }, CoulombFriction::Map(map), Control::Force(normal)) =
+            (&error, self.friction, load.normal)
+        else {
+            return error;
+        };
+        let part = |control| if let Control::Force(force) = control { force } else { 0.0 };
+        let asked = part(load.tangential[0]).hypot(part(load.tangential[1]));
+        let pressed: f64 = state.pressure.iter().sum();
+        let carried: f64 = map.iter().zip(&state.pressure).map(|(mu, p)| mu * p).sum();
+        let bound = carried / pressed * normal;
+        if asked > bound { SolveError::AboveSliding { asked, bound } } else { error }
     }
 
     /// The box of an increment: around the contact so far and the predicted one, kept while it fits.
