@@ -208,6 +208,8 @@ def finite_cylinder():
     ratio = [length / line.half_width for length in lengths]
     right.loglog(ratio, np.abs(off), "o-", ms=4, label="middle against the plane solution under its own line force")
     right.loglog(ratio, abs(off[0]) * (ratio[0] / np.array(ratio)) ** 2, "k:", lw=0.8, label="square of half-width over length")
+    right.set_xticks(ratio, [f"{value:.0f}" for value in ratio])
+    right.minorticks_off()
     right.set(xlabel="length over half-width", ylabel="largest pressure, relative")
     right.legend(fontsize=7)
     right.grid(alpha=0.3)
@@ -248,7 +250,7 @@ def rough():
         p, q = history.field("pressure"), np.array(scene["pressure"])
         field(left, history, np.where(p > 0, p, np.nan), "pressure / E")
         off = np.abs(p - q) / q.max()
-        field(right, history, np.log10(np.maximum(off, 1e-16)), "log10 of the difference to ContactMechanics", cmap="magma")
+        field(right, history, np.log10(np.maximum(off, 1e-16)), "log10, off ContactMechanics", cmap="magma")
         save(figure, f"rough_{name}")
 
 
@@ -302,7 +304,7 @@ def patches():
         field(left, history, np.hypot(qx, qy) / largest, "shear over the largest pressure")
         left.quiver(history.x, history.y, qx.T, qy.T, color="w", width=0.004)
         off = np.hypot(qx - expected[0], qy - expected[1]) / largest
-        field(right, history, np.log10(np.maximum(off, 1e-17)), "log10 of the difference to the dense solution", cmap="magma")
+        field(right, history, np.log10(np.maximum(off, 1e-17)), "log10, off the dense solution", cmap="magma")
         save(figure, f"friction_{name}")
 
 
