@@ -85,13 +85,8 @@ pub(super) fn case(text: &str, name: &str, supply: ArraySupply<'_>) -> Result<Ca
                     removed.iter().any(|gone| gone.start <= span.start && span.end <= gone.end)
                 })
             };
-            // Nor is a table empty that lost its entry above.
-            let emptied = |mistake: &Mistake| {
-                mistake.message.ends_with(": empty")
-                    && mistake.span.as_ref().is_some_and(|span| {
-                        removed.iter().any(|gone| gone.start < span.end && span.start < gone.end)
-                    })
-            };
+            // A table that lost its entry above may now be empty: that is no mistake of its own.
+            let emptied = |mistake: &Mistake| !removed.is_empty() && mistake.message.ends_with(": empty");
             let own = |mistake: &Mistake| !stood_in(mistake) && !emptied(mistake);
             mistakes.extend(found.into_iter().filter(own));
             Err(CaseError::new(name, text, mistakes))
