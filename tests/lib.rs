@@ -2,10 +2,11 @@
 
 use std::fmt::Write;
 
-use fret_core::case::Case;
+use fret_core::case::{ArraySource, Case};
 use fret_core::history::History;
 use fret_core::plan::Plan;
 use fret_core::simulation::{RunError, Silent, Simulation};
+use ndarray::Array2;
 
 /// A sphere of radius 100 pressed so that a Hertz contact on a half-space of modulus `E = 1`, `nu = poisson` under it has
 /// radius 1: the numbers of most scenes here.
@@ -155,4 +156,29 @@ pub fn keeping(every: usize) -> String {
 /// Observed order of convergence from errors on grids refined by two.
 pub fn observed_order(coarse: f64, fine: f64) -> f64 {
     (coarse / fine).abs().log2()
+}
+
+/// Runs a case text whose arrays are handed over: `{ array = n }` in the text stands for the n-th.
+///
+/// # Panics
+/// When it is refused or not solved, or an increment misses its residual.
+pub fn solved_with(text: &str, arrays: &[Array2<f64>]) -> History {
+    let supply = |source: ArraySource<'_>| match source {
+        ArraySource::Handed(number) => Ok(arrays[number].clone()),
+        ArraySource::File(name) => Err(format!("no file {name} here")),
+    };
+    let case = Case::from_toml_with(text, "case.toml", &supply).unwrap_or_else(|error| panic!("{error}"));
+    let plan = Plan::new(case).unwrap_or_else(|error| panic!("{error}"));
+    let history = Simulation::new(&plan).run(&mut Silent).unwrap_or_else(|error| panic!("{error}"));
+    assert!(history.largest_residual() <= 1e-8, "residual {:e}", history.largest_residual());
+    history
+}
+
+/// A frictionless contact of a rigid body on a half-space of `E = 1`, `nu = 0.3`, pressed once; all fields are kept.
+pub fn pressed_on_half_space(cells: [usize; 2], size: &str, profile: &str, load: &str) -> String {
+    format!(
+        "[grid]\ncells = {cells:?}\n{size}\n[upper]\nrigid = true\n[lower]\nsubstrate = {{ young = 1.0, poisson = 0.3 }}\n\
+         {profile}\n[[load]]\n{load}\nincrements = 1\n{}",
+        keeping(1)
+    )
 }

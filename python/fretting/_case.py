@@ -5,15 +5,22 @@ import math
 import os
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import TypeAlias
+from typing import Any, TypeAlias
 
 import numpy as np
+import numpy.typing as npt
 
 from fretting import _core
+from fretting._arrays import Reals
 from fretting.errors import CaseError
 
 CaseLike: TypeAlias = str | os.PathLike[str] | Mapping[str, object]
-"""A case: path of a TOML file, TOML text, or a mapping of the same structure."""
+"""A case: path of a TOML file, TOML text, or a mapping of the same structure.
+
+In a mapping, NumPy arrays stand where heights or coefficients of friction are wanted for every cell:
+``{"heights": {"values": array}}``, ``{"friction": {"map": array}}``, and ``friction`` of a stage. Relative names of files
+start at the folder of the case file; at the current folder for a text or a mapping.
+"""
 
 Json: TypeAlias = bool | int | float | str | list["Json"] | dict[str, "Json"] | None
 
@@ -34,17 +41,18 @@ def read(case: CaseLike) -> _core.Case:
         When the file cannot be read.
     """
     if isinstance(case, Mapping):
-        text = json.dumps(_plain(case, ""), allow_nan=False)
-        return _core.Case.from_json(text, "case")
+        arrays: list[Reals] = []
+        text = json.dumps(_plain(case, "", arrays), allow_nan=False)
+        return _core.Case.from_json(text, "case", Path(), arrays)
     if isinstance(case, str) and not _is_path(case):
-        return _core.Case.from_toml(case, "case")
+        return _core.Case.from_toml(case, "case", Path())
     if isinstance(case, str | os.PathLike):
         path = Path(case)
         try:
             text = path.read_text(encoding="utf-8")
         except UnicodeDecodeError as error:
             raise _refusal(str(path), f"not readable as UTF-8 text: {error.reason} at byte {error.start}") from None
-        return _core.Case.from_toml(text, str(path))
+        return _core.Case.from_toml(text, str(path), path.parent)
     raise TypeError(f"case: expected a path, TOML text or a dict, found {type(case).__name__}")
 
 
@@ -59,10 +67,17 @@ def _is_path(text: str) -> bool:
         return False
 
 
-def _plain(value: object, place: str) -> Json:
-    """Turn a value of a case into what JSON can say; NumPy scalars and arrays become numbers and lists."""
+def _plain(value: object, place: str, arrays: list[Reals]) -> Json:
+    """Turn a value of a case into what JSON can say.
+
+    NumPy scalars and arrays become numbers and lists; arrays for every cell are put aside into `arrays`, and their number
+    stands in their place.
+    """
+    if isinstance(value, np.ndarray) and place.endswith((".values", ".map", ".friction")) and value.ndim > 0:
+        arrays.append(_field(value, place))
+        return {"array": len(arrays) - 1}
     if isinstance(value, np.generic | np.ndarray):
-        return _plain(value.tolist(), place)
+        return _plain(value.tolist(), place, arrays)
     if value is None or isinstance(value, bool | int | str):
         return value
     if isinstance(value, float):
@@ -75,10 +90,22 @@ def _plain(value: object, place: str) -> Json:
         for key in value:
             if not isinstance(key, str):
                 raise _refusal("case", f"{place or 'the case'} has the key {key!r}: keys are words")
-        return {key: _plain(item, f"{place}.{key}" if place else key) for key, item in value.items()}
+        return {key: _plain(item, f"{place}.{key}" if place else key, arrays) for key, item in value.items()}
     if isinstance(value, Sequence) and not isinstance(value, bytes | bytearray):
-        return [_plain(item, f"{place}[{index}]") for index, item in enumerate(value)]
+        return [_plain(item, f"{place}[{index}]", arrays) for index, item in enumerate(value)]
     raise _refusal("case", f"{place}: {type(value).__name__} is not a number, a word, a list or a table")
+
+
+def _field(values: npt.NDArray[Any], place: str) -> Reals:
+    """Turn an array with a number for every cell into doubles; whether they are of use is the core's to say."""
+    if np.ma.is_masked(values):
+        count = int(np.ma.count_masked(values))
+        raise _refusal("case", f"{place}: {count} masked values: cells without a measurement must be filled in before")
+    if values.dtype.kind not in "fiu":
+        raise _refusal("case", f"{place}: an array of {values.dtype}: must be real numbers")
+    if values.ndim != 2:
+        raise _refusal("case", f"{place}: an array of shape {values.shape}: must have two dimensions")
+    return np.ascontiguousarray(np.ma.getdata(values), dtype=np.float64)
 
 
 def _refusal(name: str, message: str) -> CaseError:

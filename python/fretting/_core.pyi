@@ -1,4 +1,5 @@
 from collections.abc import Callable
+from pathlib import Path
 from typing import Any, final
 
 import numpy as np
@@ -32,9 +33,9 @@ __version__: str
 @final
 class Case:
     @staticmethod
-    def from_toml(text: str, name: str) -> Case: ...
+    def from_toml(text: str, name: str, folder: Path) -> Case: ...
     @staticmethod
-    def from_json(text: str, name: str) -> Case: ...
+    def from_json(text: str, name: str, folder: Path, arrays: list[npt.NDArray[np.float64]]) -> Case: ...
 
 @final
 class History:

@@ -7,6 +7,8 @@ use std::path::{Path, PathBuf};
 use fret_core::case::{Case, CaseError};
 use fret_core::plan::Plan;
 
+use crate::array_file::array;
+
 /// Bytes read at the most: one more than the core takes, so that an endless stream is refused and not read.
 const MOST_BYTES: u64 = (4 << 20) + 1;
 
@@ -46,7 +48,8 @@ impl CaseFile {
 
     /// The case, read and planned.
     pub fn planned(&self) -> Result<Plan, CaseError> {
-        Plan::new(Case::from_toml(&self.text, &self.name())?)
+        let folder = self.path.parent().unwrap_or(Path::new(""));
+        Plan::new(Case::from_toml_with(&self.text, &self.name(), &|source| array(folder, source))?)
     }
 }
 

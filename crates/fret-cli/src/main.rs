@@ -1,6 +1,7 @@
 //! The command `fret`: parse, dispatch, exit code. The verbs live in `commands`, the physics in `fret-core`.
 
 mod arguments;
+mod array_file;
 mod case_file;
 mod commands;
 mod defect;

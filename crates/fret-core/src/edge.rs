@@ -11,8 +11,12 @@ const NEAR: usize = 2;
 
 /// One function for both sides of the edge: `p^2` where there is pressure, `-kappa gap^(2/3)` outside; kappa makes the median
 /// slopes of both along grid lines across the edge equal. Farther out than two cells it is just negative. `None` when no grid
-/// line crosses an edge.
-pub fn level_function(pressure: &ArrayView2<'_, f64>, gap: &ArrayView2<'_, f64>) -> Option<Array2<f64>> {
+/// line crosses an edge. Cells with a gap wider than `beyond`, where a body has ended, tell nothing about the edge.
+pub fn level_function(
+    pressure: &ArrayView2<'_, f64>,
+    gap: &ArrayView2<'_, f64>,
+    beyond: f64,
+) -> Option<Array2<f64>> {
     let (nx, ny) = pressure.dim();
     let inside = |i: usize, j: usize| pressure[[i, j]] > 0.0;
     let near = spread(&pressure.mapv(|p| p > 0.0));
@@ -20,7 +24,7 @@ pub fn level_function(pressure: &ArrayView2<'_, f64>, gap: &ArrayView2<'_, f64>)
     for ((i, j), value) in level.indexed_iter_mut() {
         *value = if inside(i, j) {
             pressure[[i, j]].powi(2)
-        } else if near[[i, j]] {
+        } else if near[[i, j]] && gap[[i, j]] <= beyond {
             -libm::cbrt(gap[[i, j]].max(0.0).powi(2))
         } else {
             f64::NEG_INFINITY
@@ -30,7 +34,8 @@ pub fn level_function(pressure: &ArrayView2<'_, f64>, gap: &ArrayView2<'_, f64>)
     let mut falls = Vec::new();
     let mut crossing = |cells: [[usize; 2]; 4]| {
         let [a, b, c, d] = cells;
-        if level[a] > 0.0 && level[b] > 0.0 && level[c] <= 0.0 && level[d] <= 0.0 {
+        let open = |cell: [usize; 2]| level[cell] <= 0.0 && level[cell] > f64::NEG_INFINITY;
+        if level[a] > 0.0 && level[b] > 0.0 && open(c) && open(d) {
             rises.push((level[a] - level[b]).abs());
             falls.push((level[d] - level[c]).abs());
         }
@@ -93,19 +98,25 @@ fn spread(marked: &Array2<bool>) -> Array2<bool> {
 
 /// Contact area in units of one cell, from pressure and gap on a grid (or a box of it). Good to about 0.05 cells along the
 /// perimeter for smooth contacts; a contact without an edge inside the grid is counted by cells.
-pub fn contact_cells(pressure: &ArrayView2<'_, f64>, gap: &ArrayView2<'_, f64>) -> f64 {
+/// Where the gap is wider than `beyond`, a body has ended, at the border of the cell.
+pub fn contact_cells(pressure: &ArrayView2<'_, f64>, gap: &ArrayView2<'_, f64>, beyond: f64) -> f64 {
     let (nx, ny) = pressure.dim();
-    let Some(level) = level_function(pressure, gap) else {
+    let Some(level) = level_function(pressure, gap, beyond) else {
         return pressure.iter().filter(|p| **p > 0.0).count() as f64;
     };
     let mut area = 0.0;
     for i in 0..nx {
         let rows = [i.saturating_sub(1), i, (i + 1).min(nx - 1)];
         for j in 0..ny {
+            if gap[[i, j]] > beyond {
+                continue;
+            }
             let columns = [j.saturating_sub(1), j, (j + 1).min(ny - 1)];
             let mut near = [0.0; 9];
             for (place, value) in near.iter_mut().enumerate() {
-                *value = level[[rows[place / 3], columns[place % 3]]];
+                let at = [rows[place / 3], columns[place % 3]];
+                // Beyond the end of a body the level function goes on as here: it has no edge of its own there.
+                *value = if gap[at] > beyond { level[[i, j]] } else { level[at] };
             }
             if near.iter().all(|value| *value > 0.0) {
                 area += 1.0;

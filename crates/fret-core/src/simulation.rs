@@ -164,7 +164,15 @@ impl<'a> Simulation<'a> {
             fields: Vec::new(),
             state,
         };
+        if let Some(friction) =
+            case.stages.iter().take(place.stage).rev().find_map(|stage| stage.friction.as_ref())
+        {
+            solver.rub_with(friction);
+        }
         for (number, stage) in case.stages.iter().enumerate().skip(place.stage) {
+            if let Some(friction) = &stage.friction {
+                solver.rub_with(friction);
+            }
             let steps = if place.solved_of_stage == 0 {
                 StageSteps::new(stage, &place.held, &history.state, &place.resultants)
             } else {

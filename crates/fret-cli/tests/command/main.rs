@@ -9,4 +9,5 @@ mod hostile;
 mod refused;
 mod shown;
 mod solved;
+mod surfaces;
 mod unwritten;

@@ -2,14 +2,16 @@
 
 use toml::Spanned;
 
+use super::arrays::{ArraySupply, Desk};
 use super::bodies::bodies;
-use super::file::{CaseFile, FrictionFile, OutputFile, SizeFile};
+use super::file::{CaseFile, OutputFile, SizeFile};
+use super::friction::{friction, of_stages};
 use super::judge::Judge;
 use super::refusal::Mistake;
 use super::repeating::repeats;
 use super::shape::profile;
 use super::stages::{sliding, stages};
-use super::{Case, FIELD_NAMES, GridSize, Origin, Output};
+use super::{Case, FIELD_NAMES, GridSize, Origin, Output, Stage};
 use crate::model::{CoulombFriction, Scheme};
 
 /// Cells along one side of the grid, at the most.
@@ -24,21 +26,35 @@ const LONGEST_CELL: f64 = 1e6;
 const TOLERANCE: f64 = 1e-8;
 
 /// The case of a file, or everything that is wrong with it.
-pub(super) fn case(file: CaseFile, name: &str, text: &str) -> Result<Case, Vec<Mistake>> {
+pub(super) fn case(
+    file: CaseFile,
+    name: &str,
+    text: &str,
+    supply: ArraySupply<'_>,
+) -> Result<Case, Vec<Mistake>> {
     let mut judge = Judge::default();
     let cells = cells(&mut judge, &file.grid.cells);
     let size = size(&mut judge, &file.grid.size, cells);
     let bodies = bodies(&mut judge, &file.upper, &file.lower);
-    let profile = profile(&mut judge, &file.profile);
-    let friction = file
-        .friction
-        .as_ref()
-        .map_or(Some(CoulombFriction::Uniform(0.0)), |friction| self::friction(&mut judge, friction));
-    let frictionless = friction.as_ref().is_some_and(CoulombFriction::is_frictionless);
-    let stages = stages(&mut judge, &file.load, frictionless);
+    let desk = Desk { cells, supply };
+    let profile = profile(&mut judge, &file, desk);
+    let friction = friction(&mut judge, file.friction.as_ref(), desk);
+    let changes = of_stages(&mut judge, file.load.get_ref(), desk);
+    let laws = friction.as_ref().zip(changes.as_ref()).map(|(first, changes)| in_force(first, changes));
+    let stages = stages(&mut judge, &file.load, laws.as_deref());
+    let stages = stages.zip(changes.as_ref()).map(|(stages, changes)| with_friction(stages, changes));
     let periodic = repeats(&mut judge, &file.grid, size, &file.load, profile.as_ref());
-    if let Some(friction) = &friction {
-        sliding(&mut judge, friction, &file.load);
+    let mapped = friction.iter().chain(changes.iter().flatten().flatten()).any(CoulombFriction::is_map);
+    let has_arrays = mapped || profile.as_ref().is_some_and(|profile| !profile.heights.is_empty());
+    if let (true, Some(GridSize::Auto), false) = (has_arrays, size, periodic) {
+        judge.refuse::<()>(
+            file.grid.size.span(),
+            "grid.size = \"auto\" with heights or a friction map: their cells have a size, which is for you to say",
+            "size = [x, y]",
+        );
+    }
+    if let Some(laws) = &laws {
+        sliding(&mut judge, laws, &file.load);
     }
     let tolerance = match file.solver.as_ref().and_then(|solver| solver.tolerance.as_ref()) {
         None => Some(TOLERANCE),
@@ -131,19 +147,24 @@ fn are_needles(sides: [f64; 2], cells: [usize; 2]) -> bool {
     dx.max(dy) > LONGEST_CELL * dx.min(dy)
 }
 
-fn friction(judge: &mut Judge, given: &FrictionFile) -> Option<CoulombFriction> {
-    match (&given.coefficient, &given.map) {
-        (_, Some(map)) => judge.refuse(
-            map.span(),
-            "friction.map: a friction map is not built yet",
-            "one coefficient for the whole surface: friction.coefficient = ...",
-        ),
-        (Some(coefficient), None) => match CoulombFriction::uniform(*coefficient.get_ref()) {
-            Ok(friction) => Some(friction),
-            Err(error) => judge.refuse(coefficient.span(), format!("friction.coefficient: {error}"), ""),
-        },
-        (None, None) => Some(CoulombFriction::Uniform(0.0)),
-    }
+/// The law of friction in force in each stage.
+fn in_force<'a>(
+    first: &'a CoulombFriction,
+    changes: &'a [Option<CoulombFriction>],
+) -> Vec<&'a CoulombFriction> {
+    let mut now = first;
+    changes
+        .iter()
+        .map(|change| {
+            now = change.as_ref().unwrap_or(now);
+            now
+        })
+        .collect()
+}
+
+fn with_friction(stages: Vec<Stage>, changes: &[Option<CoulombFriction>]) -> Vec<Stage> {
+    let with = |(stage, friction): (Stage, &Option<_>)| Stage { friction: friction.clone(), ..stage };
+    stages.into_iter().zip(changes).map(with).collect()
 }
 
 fn output(judge: &mut Judge, given: Option<&OutputFile>) -> Option<Output> {

@@ -5,6 +5,7 @@ use serde::Deserialize;
 use serde::de::{self, SeqAccess, Visitor};
 use toml::Spanned;
 
+use super::surface_file::{CoefficientFile, FrictionFile, ProfileFile};
 use crate::model::Scheme;
 
 /// A fretting contact: bodies, first gap, friction, and a loading history. Any consistent system of units.
@@ -22,9 +23,9 @@ pub(super) struct CaseFile {
     /// The body below; z points into it.
     #[schemars(with = "BodyFile")]
     pub lower: Spanned<BodyFile>,
-    /// Undeformed gap: zero at first touch.
-    #[schemars(with = "ProfileFile")]
-    pub profile: Spanned<ProfileFile>,
+    /// Undeformed gap: zero at first touch. The bodies' own profiles are added.
+    #[schemars(with = "Option<ProfileFile>")]
+    pub profile: Option<Spanned<ProfileFile>>,
     /// Dry friction. Without it the contact is frictionless.
     pub friction: Option<FrictionFile>,
     /// Stages of the loading history, in order.
@@ -120,6 +121,9 @@ pub(super) struct BodyFile {
     /// What the coatings are bonded to when there is no substrate: "rigid".
     #[schemars(with = "Option<BaseFile>")]
     pub base: Option<Spanned<BaseFile>>,
+    /// Shape of this body's surface: its distance from the plane of first touch.
+    #[schemars(with = "Option<ProfileFile>")]
+    pub profile: Option<Spanned<ProfileFile>>,
 }
 
 /// The one foundation that is not a substrate.
@@ -188,76 +192,6 @@ pub(super) struct MaterialFile {
     pub poisson: Spanned<f64>,
 }
 
-/// Shape of the undeformed gap.
-#[derive(Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub(super) enum ProfileFile {
-    /// A sphere, as the paraboloid r^2 / (2 R).
-    Sphere(SphereFile),
-    /// A paraboloid with two radii of curvature.
-    Ellipsoid(EllipsoidFile),
-    /// A cylinder (not built yet).
-    Cylinder(#[schemars(with = "serde_json::Value")] de::IgnoredAny),
-    /// A flat punch with rounded edges (not built yet).
-    RoundedPunch(#[schemars(with = "serde_json::Value")] de::IgnoredAny),
-    /// A flat punch (not built yet).
-    FlatPunch(#[schemars(with = "serde_json::Value")] de::IgnoredAny),
-    /// A cone (not built yet).
-    Cone(#[schemars(with = "serde_json::Value")] de::IgnoredAny),
-    /// A sinusoidal surface amplitude (1 - cos(2 pi x / Lx) cos(2 pi y / Ly)).
-    Wave(WaveFile),
-    /// Measured heights from a file (not built yet).
-    Heights(#[schemars(with = "serde_json::Value")] de::IgnoredAny),
-}
-
-/// A sphere.
-#[derive(Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub(super) struct SphereFile {
-    /// Radius [length], positive.
-    #[schemars(with = "f64")]
-    pub radius: Spanned<f64>,
-}
-
-/// An ellipsoid.
-#[derive(Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub(super) struct EllipsoidFile {
-    /// Radius of curvature in the x-z plane [length], positive.
-    #[schemars(with = "f64")]
-    pub radius_x: Spanned<f64>,
-    /// Radius of curvature in the y-z plane [length], positive.
-    #[schemars(with = "f64")]
-    pub radius_y: Spanned<f64>,
-}
-
-/// A sinusoidal surface.
-#[derive(Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub(super) struct WaveFile {
-    /// Half of the height from valley to crest [length], positive.
-    #[schemars(with = "f64")]
-    pub amplitude: Spanned<f64>,
-    /// Wavelength along x [length]; straight along x when not given.
-    #[schemars(with = "Option<f64>")]
-    pub wavelength_x: Option<Spanned<f64>>,
-    /// Wavelength along y [length]; straight along y when not given.
-    #[schemars(with = "Option<f64>")]
-    pub wavelength_y: Option<Spanned<f64>>,
-}
-
-/// Coulomb's law of friction.
-#[derive(Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub(super) struct FrictionFile {
-    /// Coefficient, zero or positive.
-    #[schemars(with = "Option<f64>")]
-    pub coefficient: Option<Spanned<f64>>,
-    /// A file with a coefficient for every cell (not built yet).
-    #[schemars(with = "Option<String>")]
-    pub map: Option<Spanned<String>>,
-}
-
 /// A stage of the loading history. Controls not named stay as they were.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -291,6 +225,9 @@ pub(super) struct StageFile {
     /// Number of cycles 0, +amplitude, -amplitude, 0 about the values before the stage.
     #[schemars(with = "Option<usize>")]
     pub cycles: Option<Spanned<usize>>,
+    /// Friction from this stage on: a coefficient, or a coefficient for every cell (a file, or rows of numbers).
+    #[schemars(with = "Option<CoefficientFile>")]
+    pub friction: Option<Spanned<CoefficientFile>>,
 }
 
 /// How a ramp runs.

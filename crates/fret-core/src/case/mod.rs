@@ -1,21 +1,27 @@
 //! The written question: a case, checked. Read from TOML text (`read`), judged all at once (`check`), refused with places (`refusal`).
 
+mod arrays;
 mod bodies;
 mod check;
 mod coating;
 mod file;
+mod friction;
 mod judge;
+mod numbers;
 mod read;
 mod refusal;
 mod repeating;
 mod shape;
 mod stages;
+mod surface_file;
 
 use serde::Serialize;
 
 use crate::model::{ContactPair, CoulombFriction, Profile, Scheme};
 
+pub use arrays::{ArraySource, ArraySupply};
 pub use file::schema;
+pub use numbers::{NumbersError, numbers};
 pub use refusal::{CaseError, Mistake};
 
 /// Fields that can be kept, by the names of the case file.
@@ -36,7 +42,7 @@ pub struct Case {
     pub bodies: ContactPair,
     /// Undeformed gap.
     pub profile: Profile,
-    /// Friction law.
+    /// Friction law at the start; stages may change it.
     pub friction: CoulombFriction,
     /// Loading history.
     pub stages: Vec<Stage>,
@@ -84,6 +90,9 @@ pub struct Stage {
     pub increments: usize,
     /// How the stage runs through its increments.
     pub course: Course,
+    /// Friction from this stage on; as before when not given.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub friction: Option<CoulombFriction>,
 }
 
 /// The value a control reaches at the end of a ramp, or its amplitude in a cycle.
@@ -138,7 +147,15 @@ impl Case {
     /// # Errors
     /// With every mistake found, each with its place and a way out.
     pub fn from_toml(text: &str, name: &str) -> Result<Self, CaseError> {
-        read::case(text, name)
+        Self::from_toml_with(text, name, &arrays::nothing)
+    }
+
+    /// As [`Case::from_toml`], for a case that names files: `supply` gives their arrays.
+    ///
+    /// # Errors
+    /// As [`Case::from_toml`]; also when an array is not to be had, or does not fit.
+    pub fn from_toml_with(text: &str, name: &str, supply: ArraySupply<'_>) -> Result<Self, CaseError> {
+        read::case(text, name, supply)
     }
 
     /// Reads and checks a case given as JSON text of the same structure; messages show it as TOML.
@@ -146,13 +163,28 @@ impl Case {
     /// # Errors
     /// As [`Case::from_toml`]; also when the text is not a JSON object.
     pub fn from_json(text: &str, name: &str) -> Result<Self, CaseError> {
+        Self::from_json_with(text, name, &arrays::nothing)
+    }
+
+    /// As [`Case::from_json`], for a case that names files or arrays: `supply` gives them. The n-th array handed over stands in
+    /// the case as `{ "array": n }`.
+    ///
+    /// # Errors
+    /// As [`Case::from_json`]; also when an array is not to be had, or does not fit.
+    pub fn from_json_with(text: &str, name: &str, supply: ArraySupply<'_>) -> Result<Self, CaseError> {
         let refuse = |message: String| CaseError::plain(name, message);
         let value: serde_json::Value =
             serde_json::from_str(text).map_err(|error| refuse(format!("not readable as JSON: {error}")))?;
         let table = toml::Table::try_from(without_null(value))
             .map_err(|error| refuse(format!("not a case: {error}")))?;
         let text = toml::to_string(&table).map_err(|error| refuse(format!("not a case: {error}")))?;
-        Self::from_toml(&text, name)
+        Self::from_toml_with(&text, name, supply)
+    }
+
+    /// Whether there is no friction anywhere in the whole history.
+    pub fn is_frictionless(&self) -> bool {
+        let changes = self.stages.iter().filter_map(|stage| stage.friction.as_ref());
+        std::iter::once(&self.friction).chain(changes).all(CoulombFriction::is_frictionless)
     }
 
     /// Refuses the case for its grid's side lengths.

@@ -6,6 +6,7 @@ use serde::Deserialize;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue, Deserializer};
 
+use super::arrays::ArraySupply;
 use super::refusal::{CaseError, Mistake};
 use super::{Case, check, file::CaseFile};
 
@@ -18,7 +19,7 @@ const DEEPEST: usize = 16;
 /// Longer texts are not cases.
 const LONGEST: usize = 4 << 20;
 
-pub(super) fn case(text: &str, name: &str) -> Result<Case, CaseError> {
+pub(super) fn case(text: &str, name: &str, supply: ArraySupply<'_>) -> Result<Case, CaseError> {
     if text.len() > LONGEST {
         return Err(CaseError::plain(
             name,
@@ -83,7 +84,7 @@ pub(super) fn case(text: &str, name: &str) -> Result<Case, CaseError> {
         // What stands for a whole table would be judged together with the rest.
         return Err(CaseError::new(name, text, mistakes));
     }
-    match check::case(file, name, text) {
+    match check::case(file, name, text, supply) {
         Ok(case) if mistakes.is_empty() => Ok(case),
         Ok(_) => Err(CaseError::new(name, text, mistakes)),
         Err(found) => {
@@ -93,7 +94,10 @@ pub(super) fn case(text: &str, name: &str) -> Result<Case, CaseError> {
                     removed.iter().any(|gone| gone.start <= span.start && span.end <= gone.end)
                 })
             };
-            mistakes.extend(found.into_iter().filter(|mistake| !stood_in(mistake)));
+            // A table that lost its entry above may now be empty: that is no mistake of its own.
+            let emptied = |mistake: &Mistake| !removed.is_empty() && mistake.message.ends_with(": empty");
+            let own = |mistake: &Mistake| !stood_in(mistake) && !emptied(mistake);
+            mistakes.extend(found.into_iter().filter(own));
             Err(CaseError::new(name, text, mistakes))
         }
     }
@@ -201,6 +205,8 @@ fn stand_in(message: &str) -> Option<DeValue<'static>> {
         "x = 4"
     } else if message.ends_with("expected a boolean") {
         "x = false"
+    } else if message.ends_with("rows of numbers") {
+        "x = []"
     } else if message.ends_with("expected a string") {
         "x = ''"
     } else {

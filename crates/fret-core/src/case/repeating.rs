@@ -5,7 +5,7 @@ use toml::Spanned;
 use super::GridSize;
 use super::file::{GridFile, StageFile};
 use super::judge::Judge;
-use crate::model::Profile;
+use crate::model::{Profile, Shape};
 
 /// Whether the scene repeats; refuses what has no meaning then.
 pub(super) fn repeats(
@@ -16,14 +16,10 @@ pub(super) fn repeats(
     profile: Option<&Profile>,
 ) -> bool {
     let periodic = grid.periodic.as_ref().is_some_and(|periodic| *periodic.get_ref());
-    if let (false, Some(Profile::Wave { .. })) = (periodic, profile) {
-        judge.refuse::<()>(
-            grid.cells.span(),
-            "profile.wave: a wave repeats, the scene does not",
-            "grid.periodic = true",
-        );
-    }
     if !periodic {
+        if let Some(profile) = profile {
+            endless(judge, grid, profile);
+        }
         return false;
     }
     match (size, profile) {
@@ -34,16 +30,10 @@ pub(super) fn repeats(
                 "size = [x, y]",
             );
         }
-        (Some(GridSize::Given(sides)), Some(Profile::Wave { wavelengths, .. })) => {
-            for (side, wavelength) in sides.into_iter().zip(wavelengths) {
-                let Some(wavelength) = wavelength else { continue };
-                let waves = side / wavelength;
-                if (waves - waves.round()).abs() > 1e-9 * waves || waves.round() < 1.0 {
-                    judge.refuse::<()>(
-                        grid.size.span(),
-                        format!("grid.size: {side:?} holds {waves:.6} waves of length {wavelength:?}"),
-                        "a scene that repeats holds whole waves",
-                    );
+        (Some(GridSize::Given(sides)), Some(profile)) => {
+            for shape in &profile.shapes {
+                if let Shape::Wave { wavelengths, .. } = shape {
+                    whole_waves(judge, grid, sides, wavelengths);
                 }
             }
         }
@@ -68,4 +58,39 @@ pub(super) fn repeats(
         }
     }
     true
+}
+
+/// Refuses, in free space, what has no end.
+fn endless(judge: &mut Judge, grid: &GridFile, profile: &Profile) {
+    if profile.shapes.iter().any(|shape| matches!(shape, Shape::Wave { .. })) {
+        judge.refuse::<()>(
+            grid.cells.span(),
+            "profile.wave: a wave repeats, the scene does not",
+            "grid.periodic = true",
+        );
+        return;
+    }
+    for (axis, name) in ["x", "y"].into_iter().enumerate() {
+        if profile.is_straight_along(axis) {
+            judge.refuse::<()>(
+                grid.cells.span(),
+                format!("profile: without an end along {name}, in a scene that does not repeat"),
+                "a cylinder's length = ..., or grid.periodic = true with a period many contact widths wide",
+            );
+        }
+    }
+}
+
+fn whole_waves(judge: &mut Judge, grid: &GridFile, sides: [f64; 2], wavelengths: &[Option<f64>; 2]) {
+    for (side, wavelength) in sides.into_iter().zip(wavelengths) {
+        let Some(wavelength) = wavelength else { continue };
+        let waves = side / wavelength;
+        if (waves - waves.round()).abs() > 1e-9 * waves || waves.round() < 1.0 {
+            judge.refuse::<()>(
+                grid.size.span(),
+                format!("grid.size: {side:?} holds {waves:.6} waves of length {wavelength:?}"),
+                "a scene that repeats holds whole waves",
+            );
+        }
+    }
 }

@@ -14,7 +14,7 @@ const MOST_INCREMENTS: usize = 10_000_000;
 pub(super) fn stages(
     judge: &mut Judge,
     list: &Spanned<Vec<Spanned<StageFile>>>,
-    frictionless: bool,
+    friction: Option<&[&CoulombFriction]>,
 ) -> Option<Vec<Stage>> {
     if list.get_ref().is_empty() {
         return judge.refuse(
@@ -25,6 +25,7 @@ pub(super) fn stages(
     }
     let mut checked = Vec::new();
     for (index, given) in list.get_ref().iter().enumerate() {
+        let frictionless = friction.is_some_and(|laws| laws[index].is_frictionless());
         checked.push(stage(judge, index, given, frictionless));
     }
     let stages: Vec<Stage> = checked.into_iter().collect::<Option<_>>()?;
@@ -103,11 +104,12 @@ fn stage(judge: &mut Judge, index: usize, given: &Spanned<StageFile>, frictionle
             "[friction] coefficient = ..., or leave the tangential load out",
         );
     }
-    if normal.is_none() && tangential.is_none() && twist.is_none() && judge.mistakes.len() == before {
+    let says_nothing = normal.is_none() && tangential.is_none() && twist.is_none() && file.friction.is_none();
+    if says_nothing && judge.mistakes.len() == before {
         judge.refuse::<()>(
             given.span(),
             format!("{place}: nothing is prescribed"),
-            "normal_force, approach, tangential_force, shift, twist_moment or twist",
+            "normal_force, approach, tangential_force, shift, twist_moment, twist or friction",
         );
     }
     (judge.mistakes.len() == before).then(|| Stage {
@@ -117,6 +119,7 @@ fn stage(judge: &mut Judge, index: usize, given: &Spanned<StageFile>, frictionle
         twist,
         increments,
         course: course.unwrap_or(Course::Linear),
+        friction: None,
     })
 }
 
@@ -216,10 +219,10 @@ fn tangential_control(judge: &mut Judge, place: &str, file: &StageFile) -> Optio
     Some(value.get_ref().map(control))
 }
 
-/// Forces that Coulomb's law cannot carry are refused before anything is computed, as far as the forces are given.
+/// Forces that Coulomb's law, which is given for each stage, cannot carry are refused before anything is computed, as far as the forces are given.
 pub(super) fn sliding(
     judge: &mut Judge,
-    friction: &CoulombFriction,
+    friction: &[&CoulombFriction],
     list: &Spanned<Vec<Spanned<StageFile>>>,
 ) {
     let mut normal = None;
@@ -249,8 +252,9 @@ pub(super) fn sliding(
             held = *tangential.get_ref();
             held[0].hypot(held[1])
         };
-        let bound = friction.largest() * force;
-        if reached > bound * (1.0 + 1e-12) && friction.largest() > 0.0 {
+        let largest = friction[index].largest();
+        let bound = largest * force;
+        if reached > bound * (1.0 + 1e-12) && largest > 0.0 {
             judge.refuse::<()>(
                 tangential.span(),
                 format!("load[{index}].tangential_force reaches {reached:e}: friction carries at most mu W = {bound:e}"),

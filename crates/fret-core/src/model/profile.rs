@@ -1,87 +1,102 @@
 //! The undeformed gap between the bodies: zero at first touch, positive elsewhere.
 
 use ndarray::Array2;
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 use super::grid::SurfaceGrid;
+use super::heights::Heights;
+use super::shape::Shape;
+
+/// Gap where one of the bodies has ended, in diagonals of the grid: finite, so that sums stay numbers, and out of reach.
+pub const BEYOND_THE_BODY: f64 = 1e6;
 
 /// Why a profile was refused.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 pub enum ProfileError {
-    /// A radius that is not a positive finite length.
-    #[error("{name} = {value}: must be a positive finite length")]
+    /// A length that is not positive and finite.
+    #[error("{name} = {value}: must be positive and finite")]
+    Length {
+        /// Which length.
+        name: &'static str,
+        /// What was given.
+        value: f64,
+    },
+    /// A radius of curvature that is zero or not finite.
+    #[error("{name} = {value}: must be a finite length, and not zero")]
     Radius {
         /// Which radius.
         name: &'static str,
         /// What was given.
         value: f64,
     },
+    /// A height that is not finite.
+    #[error("height [{}, {}] = {value}: must be finite", at[0], at[1])]
+    Height {
+        /// Its cell.
+        at: [usize; 2],
+        /// What was given.
+        value: f64,
+    },
 }
 
-/// Shape of the undeformed gap.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Profile {
-    /// Paraboloid `r^2 / (2 R)`, the half-space model's own order of a sphere.
-    Sphere {
-        /// Radius R [length].
-        radius: f64,
-    },
-    /// Paraboloid `x^2 / (2 Rx) + y^2 / (2 Ry)`.
-    Ellipsoid {
-        /// Radius of curvature in the x-z plane [length].
-        radius_x: f64,
-        /// Radius of curvature in the y-z plane [length].
-        radius_y: f64,
-    },
-    /// A sinusoidal surface `amplitude (1 - cos(2 pi x / Lx) cos(2 pi y / Ly))`.
-    Wave {
-        /// Amplitude [length]: half of the height from valley to crest.
-        amplitude: f64,
-        /// Wavelengths along x and y [length]; `None`: straight along that axis.
-        wavelengths: [Option<f64>; 2],
-    },
+/// The undeformed gap: the sum of the shapes and the heights of both bodies.
+#[derive(Debug, Clone, PartialEq, Default, Serialize)]
+pub struct Profile {
+    /// Shapes by formula, each zero at the middle of the grid.
+    pub shapes: Vec<Shape>,
+    /// Surfaces by heights.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub heights: Vec<Heights>,
+}
+
+impl From<Shape> for Profile {
+    fn from(shape: Shape) -> Self {
+        Self { shapes: vec![shape], heights: Vec::new() }
+    }
 }
 
 impl Profile {
-    /// The profile itself when its lengths are usable.
+    /// Gap of the shapes alone at a point [length]; infinite where there is no body.
+    pub fn gap_of_shapes_at(&self, x: f64, y: f64) -> f64 {
+        self.shapes.iter().map(|shape| shape.gap_at(x, y)).sum()
+    }
+
+    /// Undeformed gap at the cell centres [length], shape `(nx, ny)`. With heights it is counted from the cell that touches
+    /// first. Where a body has ended it is [`BEYOND_THE_BODY`] diagonals of the grid.
     ///
-    /// # Errors
-    /// When a radius is not a positive finite length.
-    pub fn checked(self) -> Result<Self, ProfileError> {
-        let lengths = match self {
-            Self::Sphere { radius } => [("radius", radius), ("radius", radius)],
-            Self::Ellipsoid { radius_x, radius_y } => [("radius_x", radius_x), ("radius_y", radius_y)],
-            Self::Wave { amplitude, wavelengths: [x, y] } => {
-                let shortest = x.unwrap_or(amplitude).min(y.unwrap_or(amplitude));
-                [("amplitude", amplitude), ("wavelength", shortest)]
-            }
-        };
-        for (name, value) in lengths {
-            if !(value.is_finite() && value > 0.0) {
-                return Err(ProfileError::Radius { name, value });
-            }
-        }
-        Ok(self)
-    }
-
-    /// Undeformed gap at a point [length].
-    pub fn gap_at(&self, x: f64, y: f64) -> f64 {
-        match *self {
-            Self::Sphere { radius } => (x * x + y * y) / (2.0 * radius),
-            Self::Ellipsoid { radius_x, radius_y } => x * x / (2.0 * radius_x) + y * y / (2.0 * radius_y),
-            Self::Wave { amplitude, wavelengths } => {
-                let wave = |along: f64, length: Option<f64>| {
-                    length.map_or(1.0, |length| (std::f64::consts::TAU * along / length).cos())
-                };
-                amplitude * (1.0 - wave(x, wavelengths[0]) * wave(y, wavelengths[1]))
-            }
-        }
-    }
-
-    /// Undeformed gap at the cell centres [length], shape `(nx, ny)`.
+    /// Heights of another shape than the grid's are left out; a checked case has none.
     pub fn gap(&self, grid: &SurfaceGrid) -> Array2<f64> {
-        let [nx, ny] = grid.cells();
-        Array2::from_shape_fn((nx, ny), |(i, j)| self.gap_at(grid.centre(0, i), grid.centre(1, j)))
+        let cells = grid.cells();
+        let [width, depth] = grid.size();
+        let beyond = BEYOND_THE_BODY * width.hypot(depth);
+        let mut gap = Array2::from_shape_fn(cells, |(i, j)| {
+            self.gap_of_shapes_at(grid.centre(0, i), grid.centre(1, j))
+        });
+        let fitting = || self.heights.iter().filter(|heights| heights.cells() == cells);
+        for heights in fitting() {
+            gap += heights.depths();
+        }
+        if fitting().next().is_some() {
+            let first = gap.iter().copied().fold(f64::INFINITY, f64::min);
+            if first.is_finite() {
+                gap -= first;
+            }
+        }
+        gap.mapv_inplace(|gap| gap.min(beyond));
+        gap
+    }
+
+    /// Sum of the curvatures of its paraboloids along x and y [1/length].
+    pub fn curvatures(&self) -> [f64; 2] {
+        let curved = self.shapes.iter().filter_map(Shape::curvatures);
+        curved.fold([0.0; 2], |sum, part| [sum[0] + part[0], sum[1] + part[1]])
+    }
+
+    /// Whether the gap is the same everywhere along an axis (0: x, 1: y).
+    pub fn is_straight_along(&self, axis: usize) -> bool {
+        let balanced = self.curvatures()[axis] == 0.0;
+        let straight =
+            |shape: &Shape| shape.is_straight_along(axis) || (balanced && shape.curvatures().is_some());
+        self.heights.is_empty() && self.shapes.iter().all(straight)
     }
 }

@@ -6,7 +6,7 @@ use crate::case::{Case, StageControl};
 use crate::compliance::SurfaceResponse;
 use crate::kernel::{Components, influence_coefficients};
 use crate::model::{
-    Base, Body, ContactState, Control, CoulombFriction, ElasticMaterial, LoadStep, Profile, SurfaceGrid,
+    Axis, Base, Body, ContactState, Control, CoulombFriction, ElasticMaterial, LoadStep, Shape, SurfaceGrid,
 };
 use crate::solver::{ContactSolver, Coupling, SolveError, SolverSettings};
 
@@ -31,6 +31,9 @@ enum Extent {
 /// Whether the contact certainly reaches beyond a grid of side lengths `size`: judged on a coarse grid half as large again,
 /// which sees the edge of contact up to one of its cells.
 pub fn reaches_beyond(case: &Case, size: [f64; 2]) -> bool {
+    if !case.profile.heights.is_empty() {
+        return false; // heights stand on the cells of the grid alone: the run will tell
+    }
     let wider = size.map(|side| 1.5 * side);
     match contact_extent(case, wider) {
         Extent::Beyond => true,
@@ -59,7 +62,7 @@ fn contact_extent(case: &Case, size: [f64; 2]) -> Extent {
 
 /// Side lengths such that the contact fits with a margin; `None` when no contact was found.
 pub fn automatic_size(case: &Case) -> Option<[f64; 2]> {
-    let mut size = [3.0 * first_guess(case)?; 2];
+    let mut size = first_guess(case)?.map(|half| 3.0 * half);
     for _ in 0..60 {
         match contact_extent(case, size) {
             Extent::Beyond => size = size.map(|side| 2.0 * side),
@@ -131,31 +134,63 @@ fn extent_under(case: &Case, size: [f64; 2], normal: Control) -> Extent {
     if solved.outcome.contact_cells == 0 { Extent::Nothing } else { Extent::Inside([width(0), width(1)]) }
 }
 
-/// Order of the contact radius [length]: Hertz with the stiffest material of each body.
-fn first_guess(case: &Case) -> Option<f64> {
-    let radius = match case.profile {
-        Profile::Sphere { radius } => radius,
-        Profile::Ellipsoid { radius_x, radius_y } => (radius_x * radius_y).sqrt(),
-        Profile::Wave { .. } => return None,
-    };
-    let compliance = |body: &Body| match body {
-        Body::Rigid => 0.0,
-        Body::Elastic(half_space) => {
-            let of = |material: &ElasticMaterial| (1.0 - material.poisson().powi(2)) / material.young();
-            let base = match half_space.base() {
-                Base::Elastic(material) => of(material),
-                Base::Rigid => f64::INFINITY,
-            };
-            half_space.coatings().iter().map(|coating| of(coating.material())).fold(base, f64::min)
-        }
-    };
+/// Order of the contact's half-widths along x and y [length], with the stiffest material of each body. Each shape of a sum opens
+/// the gap, so that the narrowest decides.
+fn first_guess(case: &Case) -> Option<[f64; 2]> {
     let compliance = compliance(case.bodies.upper()) + compliance(case.bodies.lower());
+    let [x, y] = case.profile.curvatures();
+    let round = (x > 0.0 && y > 0.0).then(|| Shape::Sphere { radius: (x * y).sqrt().recip() });
+    let others = case.profile.shapes.iter().copied().filter(|shape| shape.curvatures().is_none());
+    let shapes: Vec<Shape> = round.into_iter().chain(others).collect();
+    let under = |load: Control| {
+        let guesses = shapes.iter().map(|shape| half_widths(shape, load, compliance));
+        guesses.fold([f64::INFINITY; 2], |least, guess| [least[0].min(guess[0]), least[1].min(guess[1])])
+    };
     heaviest_loads(case)
         .into_iter()
-        .map(|load| match load {
-            Control::Force(force) => (0.75 * force * radius * compliance).cbrt(),
-            Control::Motion(approach) => (radius * approach).sqrt(),
-        })
-        .reduce(f64::max)
-        .filter(|guess| guess.is_finite() && *guess > 0.0)
+        .map(under)
+        .reduce(|a, b| [a[0].max(b[0]), a[1].max(b[1])])
+        .filter(|guess| guess.iter().all(|half| half.is_finite() && *half > 0.0))
+}
+
+/// Half-widths of the contact of a shape alone [length]: closed forms, or their order; infinite where nothing ends it.
+fn half_widths(shape: &Shape, load: Control, compliance: f64) -> [f64; 2] {
+    use std::f64::consts::PI;
+    let hertz = |radius: f64| match load {
+        Control::Force(force) => (0.75 * force * radius * compliance).cbrt(),
+        Control::Motion(approach) => (radius * approach).sqrt(),
+    };
+    match *shape {
+        Shape::Sphere { radius } => [hertz(radius); 2],
+        Shape::Cylinder { radius, axis, length: Some(length) } => {
+            let across = match load {
+                Control::Force(force) => (4.0 * force / length * radius * compliance / PI).sqrt(),
+                Control::Motion(approach) => (radius * approach).sqrt(),
+            };
+            match axis {
+                Axis::X => [length / 2.0, across],
+                Axis::Y => [across, length / 2.0],
+            }
+        }
+        Shape::RoundedPunch { flat_radius, edge_radius } => [flat_radius + hertz(edge_radius); 2],
+        Shape::FlatPunch { radius } => [radius; 2],
+        Shape::Cone { slope } => match load {
+            Control::Force(force) => [(2.0 * force * compliance / (PI * slope)).sqrt(); 2],
+            Control::Motion(approach) => [2.0 * approach / (PI * slope); 2],
+        },
+        Shape::Ellipsoid { .. } | Shape::Cylinder { length: None, .. } | Shape::Wave { .. } => {
+            [f64::INFINITY; 2]
+        }
+    }
+}
+
+/// Compliance `(1 - nu^2) / E` of a body's stiffest material [1/pressure].
+fn compliance(body: &Body) -> f64 {
+    let Body::Elastic(half_space) = body else { return 0.0 };
+    let of = |material: &ElasticMaterial| (1.0 - material.poisson().powi(2)) / material.young();
+    let base = match half_space.base() {
+        Base::Elastic(material) => of(material),
+        Base::Rigid => f64::INFINITY,
+    };
+    half_space.coatings().iter().map(|coating| of(coating.material())).fold(base, f64::min)
 }

@@ -47,7 +47,7 @@ impl Plan {
     /// When the contact would not fit into the grid.
     pub fn new(case: Case) -> Result<Self, CaseError> {
         let response = PairResponse::new(&case.bodies);
-        let frictionless = case.friction.is_frictionless();
+        let frictionless = case.is_frictionless();
         let uncoupled = response.is_uncoupled();
         let coupling = match (frictionless, uncoupled) {
             (true, _) => Coupling::Frictionless,
@@ -64,6 +64,11 @@ impl Plan {
         let spacing = [size[0] / case.cells[0] as f64, size[1] / case.cells[1] as f64];
         let grid =
             SurfaceGrid::new(case.cells, spacing).map_err(|error| case.refuse_size(error.to_string(), ""))?;
+        if !has_a_body(&case, &grid) {
+            let message =
+                format!("grid.size = {size:?}: no cell centre lies on the body, which ends between them");
+            return Err(case.refuse_size(message, "more cells, or a smaller grid"));
+        }
         if matches!(case.size, GridSize::Given(_)) && !case.periodic && reaches_beyond(&case, size) {
             let message = format!(
                 "grid.size = {size:?}: the contact under the heaviest load reaches the edge of the grid"
@@ -86,6 +91,13 @@ impl Plan {
             increments,
         })
     }
+}
+
+/// Whether both bodies are there in any cell.
+fn has_a_body(case: &Case, grid: &SurfaceGrid) -> bool {
+    let centres = [0, 1].map(|axis| grid.centres(axis));
+    let there = |x: f64| centres[1].iter().any(|y| case.profile.gap_of_shapes_at(x, *y).is_finite());
+    centres[0].iter().any(|x| there(*x))
 }
 
 /// Memory of a run at the most [bytes]: of the process, of the operators and fields of the solver, of the kept fields.

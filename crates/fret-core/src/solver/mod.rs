@@ -33,7 +33,7 @@ use crate::compliance::{SpectralCompliance, SurfaceCompliance, SurfaceResponse, 
 use crate::edge;
 use crate::history::Work;
 use crate::kernel::ResponseTable;
-use crate::model::{ContactState, Control, CoulombFriction, LoadStep, Scheme, SurfaceGrid};
+use crate::model::{BEYOND_THE_BODY, ContactState, Control, CoulombFriction, LoadStep, Scheme, SurfaceGrid};
 use crate::spectral::{ConvolutionError, good_length};
 
 pub use memory::SolverMemory;
@@ -131,6 +131,11 @@ impl<'a> ContactSolver<'a> {
         self.memory = memory;
     }
 
+    /// Another law of friction from the next increment on.
+    pub fn rub_with(&mut self, friction: &'a CoulombFriction) {
+        self.friction = friction;
+    }
+
     /// Solves one increment: from `state`, which the step before returned, to the loads and motions of `load`.
     ///
     /// # Errors
@@ -149,8 +154,9 @@ impl<'a> ContactSolver<'a> {
             None => self.region_for(state, load),
         };
         loop {
-            let (solved, state_after, outcome) =
-                self.step_in(region, start.as_ref(), (state, load), &mut work, watch)?;
+            let (solved, state_after, outcome) = self
+                .step_in(region, start.as_ref(), (state, load), &mut work, watch)
+                .map_err(|error| self.explained(error, state, load))?;
             if !self.response.is_periodic() && touches_edge(&state_after.pressure) {
                 return Err(SolveError::ContactAtEdge);
             }
@@ -248,6 +254,22 @@ impl<'a> ContactSolver<'a> {
             MARGIN
         };
         Region::around(cells, margin, good_length, loaded)
+    }
+
+    /// A map carries what its coefficients times the pressure sum to, which is known from the pressure before: an increment that
+    /// asks for more has no equilibrium, and did not converge for that reason.
+    fn explained(&self, error: SolveError, state: &ContactState, load: &LoadStep) -> SolveError {
+        let (SolveError::NotConverged { .. }, CoulombFriction::Map(map), Control::Force(normal)) =
+            (&error, self.friction, load.normal)
+        else {
+            return error;
+        };
+        let part = |control| if let Control::Force(force) = control { force } else { 0.0 };
+        let asked = part(load.tangential[0]).hypot(part(load.tangential[1]));
+        let pressed: f64 = state.pressure.iter().sum();
+        let carried: f64 = map.iter().zip(&state.pressure).map(|(mu, p)| mu * p).sum();
+        let bound = carried / pressed * normal;
+        if asked > bound { SolveError::AboveSliding { asked, bound } } else { error }
     }
 
     /// The box of an increment: around the contact so far and the predicted one, kept while it fits.
@@ -444,7 +466,11 @@ impl<'a> ContactSolver<'a> {
     fn contact_area(&self, region: Region, solved: &Solved) -> f64 {
         let view = |field| ArrayView2::from_shape(region.shape, field);
         match (view(solved.tractions.pressure.as_slice()), view(solved.gap.as_slice())) {
-            (Ok(pressure), Ok(gap)) => edge::contact_cells(&pressure, &gap) * self.grid.cell_area(),
+            (Ok(pressure), Ok(gap)) => {
+                let [width, depth] = self.grid.size();
+                let beyond = 0.5 * BEYOND_THE_BODY * width.hypot(depth);
+                edge::contact_cells(&pressure, &gap, beyond) * self.grid.cell_area()
+            }
             _ => 0.0,
         }
     }

@@ -217,7 +217,8 @@ impl SolvedLevel {
     /// Pressure on a grid twice as fine, of `cells` and with the sum that goes with `total` here.
     fn carried(&self, cells: [usize; 2], total: Option<f64>) -> Option<Array2<f64>> {
         let view = |field| ArrayView2::from_shape(self.region.shape, field).ok();
-        let level = level_function(&view(self.pressure.as_slice())?, &view(self.gap.as_slice())?)?;
+        let level =
+            level_function(&view(self.pressure.as_slice())?, &view(self.gap.as_slice())?, f64::INFINITY)?;
         let fine = Region {
             origin: self.region.origin.map(|first| 2 * first),
             shape: [0, 1].map(|axis| {

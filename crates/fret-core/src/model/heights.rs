@@ -1,0 +1,129 @@
+//! Heights of a measured or synthetic surface, one for every cell.
+
+use std::sync::Arc;
+
+use ndarray::Array2;
+use serde::{Serialize, Serializer};
+
+use super::profile::ProfileError;
+
+/// What is taken off heights before they are used.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Detrend {
+    /// Nothing.
+    None,
+    /// Their mean. The gap does not notice: it is counted from first touch.
+    Mean,
+    /// The plane of least squares.
+    Plane,
+}
+
+/// A surface given by its heights, as a part of the gap.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Heights {
+    source: String,
+    depths: Arc<Array2<f64>>,
+}
+
+impl Heights {
+    /// Surface of heights [length] at the cell centres, shape `(nx, ny)`, positive towards the other body: its highest point
+    /// touches first. `source` names where they came from.
+    ///
+    /// # Errors
+    /// When a height is not finite.
+    pub fn new(source: &str, mut heights: Array2<f64>, detrend: Detrend) -> Result<Self, ProfileError> {
+        if let Some((at, value)) = heights.indexed_iter().find(|(_, value)| !value.is_finite()) {
+            return Err(ProfileError::Height { at: [at.0, at.1], value: *value });
+        }
+        match detrend {
+            Detrend::None => {}
+            Detrend::Mean => {
+                let mean = heights.sum() / heights.len() as f64;
+                heights -= mean;
+            }
+            Detrend::Plane => take_off_plane(&mut heights),
+        }
+        let highest = heights.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        heights.mapv_inplace(|height| highest - height);
+        Ok(Self { source: source.to_owned(), depths: Arc::new(heights) })
+    }
+
+    /// Depth of every cell below the highest point [length], shape `(nx, ny)`.
+    pub fn depths(&self) -> &Array2<f64> {
+        &self.depths
+    }
+
+    /// Number of cells `[nx, ny]`.
+    pub fn cells(&self) -> [usize; 2] {
+        let (nx, ny) = self.depths.dim();
+        [nx, ny]
+    }
+
+    /// Root mean square of the heights about their mean [length].
+    pub fn rms(&self) -> f64 {
+        let count = self.depths.len() as f64;
+        let mean = self.depths.sum() / count;
+        (self.depths.iter().map(|depth| (depth - mean).powi(2)).sum::<f64>() / count).sqrt()
+    }
+}
+
+/// A record of a run holds what tells the heights apart, not the heights.
+impl Serialize for Heights {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        #[derive(Serialize)]
+        struct Summary<'a> {
+            source: &'a str,
+            cells: [usize; 2],
+            rms: f64,
+            valley: f64,
+            fnv1a64: String,
+        }
+        let valley = self.depths.iter().copied().fold(0.0, f64::max);
+        let fnv1a64 = fingerprint(&self.depths);
+        Summary { source: &self.source, cells: self.cells(), rms: self.rms(), valley, fnv1a64 }
+            .serialize(serializer)
+    }
+}
+
+/// Hash FNV-1a of the bits of an array, in hexadecimal digits: tells arrays apart, is no protection.
+pub(super) fn fingerprint(array: &Array2<f64>) -> String {
+    let bytes = array.iter().flat_map(|value| value.to_bits().to_le_bytes());
+    let hash = bytes.fold(0xcbf2_9ce4_8422_2325_u64, |hash, byte| {
+        (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3)
+    });
+    format!("{hash:016x}")
+}
+
+/// On a uniform grid centred on its middle, the normal equations of the plane are diagonal.
+fn take_off_plane(heights: &mut Array2<f64>) {
+    let (nx, ny) = heights.dim();
+    let place = |index: usize, cells: usize| index as f64 - (cells as f64 - 1.0) / 2.0;
+    let mean = heights.sum() / heights.len() as f64;
+    let (mut rise, mut square) = ([0.0; 2], [0.0; 2]);
+    for ((i, j), height) in heights.indexed_iter() {
+        let at = [place(i, nx), place(j, ny)];
+        for axis in 0..2 {
+            rise[axis] += at[axis] * (height - mean);
+            square[axis] += at[axis] * at[axis];
+        }
+    }
+    let slope = [0, 1].map(|axis| if square[axis] > 0.0 { rise[axis] / square[axis] } else { 0.0 });
+    for ((i, j), height) in heights.indexed_iter_mut() {
+        *height -= mean + slope[0] * place(i, nx) + slope[1] * place(j, ny);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_tilted_plane_is_flat_without_its_plane() {
+        let tilted = Array2::from_shape_fn((7, 4), |(i, j)| 3.0 + 0.5 * i as f64 - 2.0 * j as f64);
+        let flat = Heights::new("tilted", tilted.clone(), Detrend::Plane).unwrap();
+        assert!(flat.depths().iter().all(|depth| depth.abs() < 1e-14), "{flat:?}"); // rounding
+        let kept = Heights::new("tilted", tilted, Detrend::Mean).unwrap();
+        assert_eq!(kept.depths()[[6, 0]], 0.0); // the highest corner
+        assert_eq!(kept.depths()[[0, 3]], 9.0);
+    }
+}

@@ -1,0 +1,163 @@
+//! Shapes that can be written down: each a gap over the surface, zero where it touches first.
+
+use serde::Serialize;
+
+use super::profile::ProfileError;
+
+/// A direction in the surface.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Axis {
+    /// Along x.
+    X,
+    /// Along y.
+    Y,
+}
+
+/// One part of the undeformed gap. A negative radius of a sphere, an ellipsoid or a cylinder is that of a hollow.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Shape {
+    /// Paraboloid `r^2 / (2 R)`, the half-space model's own order of a sphere.
+    Sphere {
+        /// Radius R [length].
+        radius: f64,
+    },
+    /// Paraboloid `x^2 / (2 Rx) + y^2 / (2 Ry)`.
+    Ellipsoid {
+        /// Radius of curvature in the x-z plane [length].
+        radius_x: f64,
+        /// Radius of curvature in the y-z plane [length].
+        radius_y: f64,
+    },
+    /// Parabola `s^2 / (2 R)` across its axis; with a length, cut off square at both ends.
+    Cylinder {
+        /// Radius R [length].
+        radius: f64,
+        /// Direction of its axis.
+        axis: Axis,
+        /// Length along the axis [length]; `None`: without ends.
+        length: Option<f64>,
+    },
+    /// Flat within the flat radius b, `(r - b)^2 / (2 R)` beyond.
+    RoundedPunch {
+        /// Radius b of the flat [length].
+        flat_radius: f64,
+        /// Radius R of the rounding [length].
+        edge_radius: f64,
+    },
+    /// A flat circular end; no body beyond its radius.
+    FlatPunch {
+        /// Radius [length].
+        radius: f64,
+    },
+    /// A blunt cone `slope r`.
+    Cone {
+        /// Slope of its side against the surface [-].
+        slope: f64,
+    },
+    /// A sinusoidal surface `amplitude (1 - cos(2 pi x / Lx) cos(2 pi y / Ly))`.
+    Wave {
+        /// Amplitude [length]: half of the height from valley to crest.
+        amplitude: f64,
+        /// Wavelengths along x and y [length]; `None`: straight along that axis.
+        wavelengths: [Option<f64>; 2],
+    },
+}
+
+impl Shape {
+    /// The shape itself when its lengths are usable.
+    ///
+    /// # Errors
+    /// When a length is not positive and finite, or a radius of curvature is zero or not finite.
+    pub fn checked(self) -> Result<Self, ProfileError> {
+        let curved = |name: &'static str, value: f64| {
+            let usable = value.is_finite() && value != 0.0 && value.recip().is_finite();
+            if usable { Ok(()) } else { Err(ProfileError::Radius { name, value }) }
+        };
+        let positive = |name: &'static str, value: f64| {
+            let usable = value.is_finite() && value > 0.0;
+            if usable { Ok(()) } else { Err(ProfileError::Length { name, value }) }
+        };
+        match self {
+            Self::Sphere { radius } => curved("radius", radius)?,
+            Self::Ellipsoid { radius_x, radius_y } => {
+                curved("radius_x", radius_x)?;
+                curved("radius_y", radius_y)?;
+            }
+            Self::Cylinder { radius, length, .. } => {
+                curved("radius", radius)?;
+                length.map_or(Ok(()), |length| positive("length", length))?;
+            }
+            Self::RoundedPunch { flat_radius, edge_radius } => {
+                positive("flat_radius", flat_radius)?;
+                positive("edge_radius", edge_radius)?;
+            }
+            Self::FlatPunch { radius } => positive("radius", radius)?,
+            Self::Cone { slope } => positive("slope", slope)?,
+            Self::Wave { amplitude, wavelengths: [x, y] } => {
+                positive("amplitude", amplitude)?;
+                positive("wavelength_x", x.unwrap_or(amplitude))?;
+                positive("wavelength_y", y.unwrap_or(amplitude))?;
+            }
+        }
+        Ok(self)
+    }
+
+    /// Undeformed gap at a point [length]; infinite where there is no body.
+    pub fn gap_at(&self, x: f64, y: f64) -> f64 {
+        match *self {
+            Self::Sphere { radius } => (x * x + y * y) / (2.0 * radius),
+            Self::Ellipsoid { radius_x, radius_y } => x * x / (2.0 * radius_x) + y * y / (2.0 * radius_y),
+            Self::Cylinder { radius, axis, length } => {
+                let (along, across) = match axis {
+                    Axis::X => (x, y),
+                    Axis::Y => (y, x),
+                };
+                match length {
+                    Some(length) if 2.0 * along.abs() > length => f64::INFINITY,
+                    _ => across * across / (2.0 * radius),
+                }
+            }
+            Self::RoundedPunch { flat_radius, edge_radius } => {
+                (x.hypot(y) - flat_radius).max(0.0).powi(2) / (2.0 * edge_radius)
+            }
+            Self::FlatPunch { radius } => {
+                if x.hypot(y) > radius {
+                    f64::INFINITY
+                } else {
+                    0.0
+                }
+            }
+            Self::Cone { slope } => slope * x.hypot(y),
+            Self::Wave { amplitude, wavelengths } => {
+                let wave = |along: f64, length: Option<f64>| {
+                    length.map_or(1.0, |length| (std::f64::consts::TAU * along / length).cos())
+                };
+                amplitude * (1.0 - wave(x, wavelengths[0]) * wave(y, wavelengths[1]))
+            }
+        }
+    }
+
+    /// Curvatures along x and y of a paraboloid [1/length]; `None` for other shapes.
+    pub fn curvatures(&self) -> Option<[f64; 2]> {
+        match *self {
+            Self::Sphere { radius } => Some([radius.recip(); 2]),
+            Self::Ellipsoid { radius_x, radius_y } => Some([radius_x.recip(), radius_y.recip()]),
+            Self::Cylinder { radius, axis, length: None } => match axis {
+                Axis::X => Some([0.0, radius.recip()]),
+                Axis::Y => Some([radius.recip(), 0.0]),
+            },
+            _ => None,
+        }
+    }
+
+    /// Whether the gap is the same everywhere along an axis (0: x, 1: y).
+    pub fn is_straight_along(&self, axis: usize) -> bool {
+        match self {
+            Self::Cylinder { axis: own, length: None, .. } => *own == [Axis::X, Axis::Y][axis],
+            Self::Wave { wavelengths, .. } => wavelengths[axis].is_none(),
+            _ => false,
+        }
+    }
+}
