@@ -15,4 +15,5 @@ mod fretting_cycles;
 mod invariants;
 mod periodic;
 mod sliding;
+mod subsurface;
 mod two_bodies;
