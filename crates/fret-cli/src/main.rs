@@ -42,7 +42,7 @@ fn dispatch(verb: &Verb) -> Result<(), Failure> {
         Verb::Schema => commands::schema::schema(),
         Verb::Study(_) => Err(Failure::not_built("fret study")),
         Verb::Extremes(_) => Err(Failure::not_built("fret extremes")),
-        Verb::Stress(_) => Err(Failure::not_built("fret stress")),
+        Verb::Stress(arguments) => commands::stress::stress(arguments),
         Verb::Report(_) => Err(Failure::not_built("fret report")),
         Verb::Export(_) => Err(Failure::not_built("fret export")),
         Verb::Sweep(_) => Err(Failure::not_built("fret sweep")),

@@ -15,6 +15,7 @@ use fret_core::simulation::{Iteration, Observer, RunError, Simulation};
 use crate::arguments::RunArguments;
 use crate::case_file::CaseFile;
 use crate::commands::plan::left_out;
+use crate::commands::stress::after_run;
 use crate::failure::{Failure, Unwritten};
 use crate::figures::counted;
 use crate::interrupt;
@@ -75,7 +76,7 @@ fn prepared(arguments: &RunArguments) -> Result<Preparation, Failure> {
     Ok(Preparation { case_file, plan, folder, threads, pool })
 }
 
-fn available_threads() -> usize {
+pub fn available_threads() -> usize {
     std::thread::available_parallelism().map_or(1, NonZero::get)
 }
 
@@ -127,7 +128,13 @@ impl Preparation {
         } else if failure.is_none() && !arguments.quiet {
             terminal::answer(&summary.table())?;
         }
-        failure.map_or(Ok(()), Err)
+        match failure {
+            Some(failure) => Err(failure),
+            None if self.plan.case.stress.is_some() => {
+                self.pool.install(|| after_run(&self.folder, arguments.quiet || arguments.json))
+            }
+            None => Ok(()),
+        }
     }
 
     fn followed_by(&self, witness: &mut Witness) -> Result<(), Failure> {

@@ -4,8 +4,11 @@
 //! `fields.zarr` (kept fields). An increment's line is written after its fields: whatever has a line is complete.
 
 mod field_store;
+pub mod finished_run;
 mod history_table;
 mod run_record;
+pub mod section;
+pub mod vtk;
 mod whole_file;
 
 use std::fs;
@@ -20,7 +23,7 @@ use crate::tally::Tally;
 use field_store::FieldStore;
 use history_table::HistoryTable;
 pub use run_record::{RunRecord, resolved};
-use whole_file::write_whole;
+pub use whole_file::write_whole;
 
 const CASE: &str = "case.toml";
 const RECORD: &str = "run.json";

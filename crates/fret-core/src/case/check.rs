@@ -9,6 +9,7 @@ use super::refusal::Mistake;
 use super::repeating::repeats;
 use super::shape::profile;
 use super::stages::{sliding, stages};
+use super::stress::stress;
 use super::{Case, FIELD_NAMES, GridSize, Origin, Output};
 use crate::model::CoulombFriction;
 
@@ -46,6 +47,8 @@ pub(super) fn case(file: CaseFile, name: &str, text: &str) -> Result<Case, Vec<M
         ),
     };
     let output = output(&mut judge, file.output.as_ref());
+    let stress =
+        stress(&mut judge, file.stress.as_ref(), bodies.as_ref(), output.as_ref(), frictionless);
     match (cells, size, bodies, profile, friction, stages, tolerance, output) {
         (
             Some(cells),
@@ -67,6 +70,7 @@ pub(super) fn case(file: CaseFile, name: &str, text: &str) -> Result<Case, Vec<M
             stages,
             tolerance,
             output,
+            stress,
             origin: Origin { name: name.to_owned(), text: text.to_owned(), size: file.grid.size.span() },
         }),
         _ => Err(judge.mistakes),

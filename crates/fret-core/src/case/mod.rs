@@ -10,6 +10,7 @@ mod refusal;
 mod repeating;
 mod shape;
 mod stages;
+mod stress;
 
 use serde::Serialize;
 
@@ -17,6 +18,7 @@ use crate::model::{ContactPair, CoulombFriction, Profile};
 
 pub use file::schema;
 pub use refusal::{CaseError, Mistake};
+pub use stress::{FatigueRequest, Side, StressRequest};
 
 /// Fields that can be kept, by the names of the case file.
 pub const FIELD_NAMES: [&str; 5] = ["pressure", "shear", "slip", "gap", "zone"];
@@ -44,6 +46,8 @@ pub struct Case {
     pub tolerance: f64,
     /// What is kept.
     pub output: Output,
+    /// What is asked about stresses under the surface.
+    pub stress: Option<StressRequest>,
     /// Where the case was written, for messages.
     #[serde(skip)]
     pub(crate) origin: Origin,

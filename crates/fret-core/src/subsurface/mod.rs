@@ -8,9 +8,11 @@ pub mod depths;
 pub mod fatigue;
 pub mod largest;
 pub mod operator;
+pub mod survey;
 pub mod tensor;
 
 pub use depths::{DepthError, DepthPoint, automatic_depths, depth_points};
 pub use largest::{Largest, Measure};
 pub use operator::{DepthOperator, Tractions};
+pub use survey::{LoadedSurface, survey};
 pub use tensor::{Principal, StressField, StressTensor};
