@@ -62,9 +62,10 @@ fn cells_agree_with_an_independent_integration_over_waves() {
     let table: Table = serde_json::from_str(&std::fs::read_to_string(path).unwrap()).unwrap();
     let cells = [9, 9];
     let mut worst_of_all = 0.0_f64;
-    for rows in table.rows.chunk_by(|a, b| {
-        (a.depth, a.layer, a.sides, &a.layers) == (b.depth, b.layer, b.sides, &b.layers)
-    }) {
+    for rows in table
+        .rows
+        .chunk_by(|a, b| (a.depth, a.layer, a.sides, &a.layers) == (b.depth, b.layer, b.sides, &b.layers))
+    {
         let first = &rows[0];
         let half_space = body(&first.layers, first.substrate);
         let grid = SurfaceGrid::new(cells, first.sides).unwrap();
@@ -167,8 +168,7 @@ fn axis_stresses_under_hertz_pressure_on_a_coating() {
         for (ratio, middle, above, below) in rows {
             let half_space = body(&[(ratio, 0.3, 1.0)], Some((1.0, 0.3)));
             let at = |depth: f64, layer: usize| {
-                let field =
-                    stress(&half_space, DepthPoint { depth, layer }, &grid, false, &pressure, None);
+                let field = stress(&half_space, DepthPoint { depth, layer }, &grid, false, &pressure, None);
                 [on_axis(&field.components[2]), on_axis(&field.components[0])]
             };
             let (found_middle, found_above, found_below) = (at(0.5, 0), at(1.0, 0), at(1.0, 1));
@@ -304,12 +304,58 @@ fn a_periodic_scene_carries_its_mean_and_meets_free_space_in_wide_periods() {
         assert!((sum(&repeating.components[4]) + mean).abs() < 1e-13);
         let middle = cells / 2;
         let found = [0, 2, 4].map(|component| {
-            (repeating.components[component][[middle, middle]] - alone.components[component][[middle, middle]])
-                .abs()
+            (repeating.components[component][[middle, middle]]
+                - alone.components[component][[middle, middle]])
+            .abs()
         });
         differences.push(found.iter().fold(0.0_f64, |worst, error| worst.max(*error)));
     }
     println!("periodic against free space, periods 3.2 and 6.4: {differences:?}");
     // the images' far field falls with the square of the period
     assert!(differences[1] < 0.3 * differences[0] && differences[1] < 2e-2, "{differences:?}");
+}
+
+/// A loaded cell against the nine cells that tile it: another table, another disc, other Gauss orders. Contact radius 1 is
+/// ten small cells.
+#[test]
+fn a_cell_answers_like_the_cells_that_tile_it_at_every_contrast_and_depth() {
+    let coarse = SurfaceGrid::new([8, 8], [0.3; 2]).unwrap();
+    let fine = SurfaceGrid::new([24, 24], [0.1; 2]).unwrap();
+    let load = |n: usize, from: usize, count: usize| {
+        Array2::from_shape_fn((n, n), |(i, j)| {
+            let within = |index: usize| (from..from + count).contains(&index);
+            if within(i) && within(j) { 1.0 } else { 0.0 }
+        })
+    };
+    let (one, nine) = (load(8, 2, 1), load(24, 6, 3));
+    println!("largest difference over the largest stress there, thickness 1:");
+    println!("contrast \\ depth    0        0.01     0.1      0.9      1 below  1.1      10       100");
+    for contrast in [1e-4, 1e-2, 0.5, 2.0, 1e2, 1e4] {
+        let half_space = body(&[(contrast, 0.25, 1.0)], Some((1.0, 0.35)));
+        let mut line = format!("{contrast:<16e}");
+        for (depth, layer) in
+            [(0.0, 0), (0.01, 0), (0.1, 0), (0.9, 0), (1.0, 1), (1.1, 1), (10.0, 1), (100.0, 1)]
+        {
+            let point = DepthPoint { depth, layer };
+            let by = |grid: &SurfaceGrid, load: &Array2<f64>| {
+                stress(&half_space, point, grid, false, load, Some([load, load]))
+            };
+            let (whole, parts) = (by(&coarse, &one), by(&fine, &nine));
+            let (mut worst, mut largest) = (0.0_f64, 0.0_f64);
+            for component in 0..6 {
+                for i in 0..8 {
+                    for j in 0..8 {
+                        let found = whole.components[component][[i, j]];
+                        let sum = parts.components[component][[3 * i + 1, 3 * j + 1]];
+                        worst = worst.max((found - sum).abs());
+                        largest = largest.max(found.abs());
+                    }
+                }
+            }
+            line += &format!("  {:.1e}", worst / largest);
+            // of the traction on the cell
+            assert!(worst < 1e-10, "contrast {contrast:e} depth {depth}: {worst:e} of {largest:e}");
+        }
+        println!("{line}");
+    }
 }

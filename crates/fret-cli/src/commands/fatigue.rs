@@ -170,10 +170,17 @@ impl<'a> Fatigue<'a> {
         }
         if let Some(ruiz) = &self.ruiz {
             for (part, name) in ["ruiz_f1", "ruiz_f2"].into_iter().enumerate() {
-                let most = (0..ruiz.len()).max_by(|&a, &b| ruiz[a][part].total_cmp(&ruiz[b][part])).unwrap_or(0);
+                let most =
+                    (0..ruiz.len()).max_by(|&a, &b| ruiz[a][part].total_cmp(&ruiz[b][part])).unwrap_or(0);
                 let value = ruiz[most][part];
                 parameters.insert(name.to_owned(), json!({ "largest": value, "x": x[most], "depth": 0.0 }));
-                let _ = writeln!(table, "  {:<20} {:<12} at x {:<12} surface", name.replace('_', " "), figure(value), figure(x[most]));
+                let _ = writeln!(
+                    table,
+                    "  {:<20} {:<12} at x {:<12} surface",
+                    name.replace('_', " "),
+                    figure(value),
+                    figure(x[most])
+                );
             }
         }
         let pictures = self

@@ -29,6 +29,8 @@ use crate::terminal;
 
 /// Depths chosen by `--auto`.
 const AUTOMATIC: usize = 64;
+/// More sections than this are not drawn.
+const MOST_SECTIONS: usize = 12;
 /// Names of the fields of a volume.
 const VOLUME_FIELDS: [&str; 8] = ["xx", "yy", "zz", "xy", "xz", "yz", "von_mises", "tension"];
 
@@ -243,10 +245,7 @@ impl<'a> Sheet<'a> {
             surfaces,
             interfaces,
             largest: Vec::new(),
-            by_depth: format!(
-                "increment,depth,layer,{}\n",
-                Measure::ALL.map(Measure::name).join(",")
-            ),
+            by_depth: format!("increment,depth,layer,{}\n", Measure::ALL.map(Measure::name).join(",")),
             row,
             sections: vec![Vec::new(); surfaces.len()],
             fatigue,
@@ -297,7 +296,8 @@ impl<'a> Sheet<'a> {
                 })
             })
             .collect();
-        let fatigue = self.fatigue.take().map(|fatigue| fatigue.finished(&centres[0].to_vec(), &self.interfaces));
+        let fatigue =
+            self.fatigue.take().map(|fatigue| fatigue.finished(&centres[0].to_vec(), &self.interfaces));
         let record = json!({
             "status": "computed",
             "body": self.request.body.name(),
@@ -325,32 +325,54 @@ impl<'a> Sheet<'a> {
         }
     }
 
-    /// Sections of the last increment and of the one with the largest von Mises stress, and of what fatigue shows.
-    fn draw(&self, place: &Path, x: &[f64], fatigue: Option<&[(String, Vec<Vec<f64>>)]>) -> Result<(), Failure> {
+    /// Sections of the increments (of many: of the last and of the one with the largest von Mises stress), and of what fatigue
+    /// shows.
+    fn draw(
+        &self,
+        place: &Path,
+        x: &[f64],
+        fatigue: Option<&[(String, Vec<Vec<f64>>)]>,
+    ) -> Result<(), Failure> {
         let depths: Vec<f64> = self.points.iter().map(|point| point.depth).collect();
         if !depths.windows(2).all(|pair| pair[0] <= pair[1]) || depths.first() == depths.last() {
             return Ok(()); // no section without rising depths
         }
         let worst = self.largest.iter().find(|found| found.measure == Measure::VonMises);
-        let mut shown: Vec<usize> = vec![self.surfaces.len() - 1];
-        if let Some(worst) = worst {
-            shown.extend(self.surfaces.iter().position(|surface| surface.increment == worst.increment));
-        }
-        shown.dedup();
-        let title = if self.run.title.is_empty() { "contact" } else { &self.run.title };
-        for index in shown {
+        let last = self.surfaces.len() - 1;
+        let is_shown = |index: usize| {
             let increment = self.surfaces[index].increment;
-            let quantity = format!("von Mises stress, increment {increment}, {} body", self.request.body.name());
-            let values = &self.sections[index];
-            let section =
-                Section { title, quantity: &quantity, x, depths: &depths, values, interfaces: &self.interfaces };
+            last < MOST_SECTIONS || index == last || worst.is_some_and(|worst| worst.increment == increment)
+        };
+        let title = if self.run.title.is_empty() { "contact" } else { &self.run.title };
+        let high = self.sections.iter().flatten().flatten().copied().fold(0.0, f64::max);
+        for index in (0..=last).filter(|&index| is_shown(index)) {
+            let increment = self.surfaces[index].increment;
+            let quantity =
+                format!("von Mises stress, increment {increment}, {} body", self.request.body.name());
+            let section = Section {
+                title,
+                quantity: &quantity,
+                x,
+                depths: &depths,
+                values: &self.sections[index],
+                interfaces: &self.interfaces,
+                range: Some([0.0, high]),
+            };
             let name = format!("von_mises-{increment:05}.svg");
             write_whole(&place.join(name), section.svg().as_bytes())?;
         }
         for (name, values) in fatigue.unwrap_or_default() {
-            let quantity = format!("{}, last cycle, {} body", name.replace('_', " "), self.request.body.name());
-            let section =
-                Section { title, quantity: &quantity, x, depths: &depths, values, interfaces: &self.interfaces };
+            let quantity =
+                format!("{}, last cycle, {} body", name.replace('_', " "), self.request.body.name());
+            let section = Section {
+                title,
+                quantity: &quantity,
+                x,
+                depths: &depths,
+                values,
+                interfaces: &self.interfaces,
+                range: None,
+            };
             write_whole(&place.join(format!("{name}.svg")), section.svg().as_bytes())?;
         }
         Ok(())

@@ -16,6 +16,8 @@ pub struct Section<'a> {
     pub values: &'a [Vec<f64>],
     /// Depths of interfaces.
     pub interfaces: &'a [f64],
+    /// Values of the lowest and the highest colour; those of the section when not given.
+    pub range: Option<[f64; 2]>,
 }
 
 /// Colours from low to high (viridis, sampled).
@@ -40,7 +42,8 @@ impl Section<'_> {
         let height = ((bottom - top) * scale).clamp(120.0, 900.0);
         let down = if bottom > top { height / (bottom - top) } else { 1.0 };
         let finite = || self.values.iter().flatten().copied().filter(|value| value.is_finite());
-        let (low, high) = (finite().fold(f64::INFINITY, f64::min), finite().fold(f64::NEG_INFINITY, f64::max));
+        let own = [finite().fold(f64::INFINITY, f64::min), finite().fold(f64::NEG_INFINITY, f64::max)];
+        let [low, high] = self.range.unwrap_or(own);
         let band = |value: f64| {
             let share = if high > low { (value - low) / (high - low) } else { 0.0 };
             ((share * COLOURS.len() as f64) as usize).min(COLOURS.len() - 1)
@@ -163,6 +166,7 @@ mod tests {
             depths: &[0.0, 2.0],
             values: &values,
             interfaces: &[1.0],
+            range: None,
         };
         let svg = section.svg();
         assert!(svg.contains("a &lt; b &amp; c"));

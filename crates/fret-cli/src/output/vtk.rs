@@ -41,7 +41,15 @@ impl Volume {
         let part = PathBuf::from(part);
         let cells = grid.cells();
         let (file, start) = begin(&part, grid, depths, names).map_err(Unwritten::at(path))?;
-        Ok(Self { path: path.to_owned(), part, file, start, cells, depths: depths.len(), names: names.to_vec() })
+        Ok(Self {
+            path: path.to_owned(),
+            part,
+            file,
+            start,
+            cells,
+            depths: depths.len(),
+            names: names.to_vec(),
+        })
     }
 
     /// Writes one field at one depth; `value` by cell.
@@ -90,19 +98,16 @@ fn header(cells: [usize; 2], depths: usize) -> u64 {
     (cells[0] * cells[1] * depths * 4) as u64
 }
 
-fn begin(
-    part: &Path,
-    grid: &SurfaceGrid,
-    depths: &[f64],
-    names: &[&'static str],
-) -> io::Result<(File, u64)> {
+fn begin(part: &Path, grid: &SurfaceGrid, depths: &[f64], names: &[&'static str]) -> io::Result<(File, u64)> {
     let [nx, ny] = grid.cells();
     let extent = format!("0 {} 0 {} 0 {}", nx - 1, ny - 1, depths.len() - 1);
     let bytes = header([nx, ny], depths.len());
     let mut text = String::from(
         "<?xml version=\"1.0\"?>\n<VTKFile type=\"RectilinearGrid\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">\n",
     );
-    text += &format!("  <RectilinearGrid WholeExtent=\"{extent}\">\n    <Piece Extent=\"{extent}\">\n      <PointData>\n");
+    text += &format!(
+        "  <RectilinearGrid WholeExtent=\"{extent}\">\n    <Piece Extent=\"{extent}\">\n      <PointData>\n"
+    );
     for (number, name) in names.iter().enumerate() {
         let offset = number as u64 * (8 + bytes);
         text += &format!(
@@ -118,7 +123,8 @@ fn begin(
             numbers.join(" ")
         );
     }
-    text += "      </Coordinates>\n    </Piece>\n  </RectilinearGrid>\n  <AppendedData encoding=\"raw\">\n    _";
+    text +=
+        "      </Coordinates>\n    </Piece>\n  </RectilinearGrid>\n  <AppendedData encoding=\"raw\">\n    _";
     let mut file = File::create(part)?;
     file.write_all(text.as_bytes())?;
     let start = text.len() as u64;

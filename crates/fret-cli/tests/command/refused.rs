@@ -138,7 +138,6 @@ fn verbs_that_are_not_built_yet_are_refused_by_name() {
     for arguments in [
         &["study", "case.toml", "--cells", "32"][..],
         &["extremes"],
-        &["stress", "results"],
         &["report", "results", "--help"],
         &["export", "results", "--npz"],
         &["sweep", "sweep.toml"],

@@ -47,8 +47,7 @@ pub(super) fn case(file: CaseFile, name: &str, text: &str) -> Result<Case, Vec<M
         ),
     };
     let output = output(&mut judge, file.output.as_ref());
-    let stress =
-        stress(&mut judge, file.stress.as_ref(), bodies.as_ref(), output.as_ref(), frictionless);
+    let stress = stress(&mut judge, file.stress.as_ref(), bodies.as_ref(), output.as_ref(), frictionless);
     match (cells, size, bodies, profile, friction, stages, tolerance, output) {
         (
             Some(cells),

@@ -27,13 +27,7 @@ pub struct StressRequest {
 
 impl Default for StressRequest {
     fn default() -> Self {
-        Self {
-            depths: None,
-            body: Side::Lower,
-            every: 1,
-            volume: false,
-            fatigue: FatigueRequest::default(),
-        }
+        Self { depths: None, body: Side::Lower, every: 1, volume: false, fatigue: FatigueRequest::default() }
     }
 }
 
@@ -94,7 +88,11 @@ pub(super) fn stress(
         if number.is_finite() && number > 0.0 {
             return Some(number);
         }
-        judge.refuse(value.span(), format!("stress.{name} = {number:?}: must be a positive finite {what}"), "")
+        judge.refuse(
+            value.span(),
+            format!("stress.{name} = {number:?}: must be a positive finite {what}"),
+            "",
+        )
     };
     let torsion = positive(file.torsion_limit.as_ref(), "torsion_limit", "stress");
     let tension = positive(file.tension_limit.as_ref(), "tension_limit", "stress");
@@ -110,13 +108,11 @@ pub(super) fn stress(
     let sensitivity = match &file.normal_stress_sensitivity {
         None => 1.0,
         Some(given) if given.get_ref().is_finite() && *given.get_ref() >= 0.0 => *given.get_ref(),
-        Some(given) => {
-            judge.refuse::<f64>(
-                given.span(),
-                format!("stress.normal_stress_sensitivity = {:?}: must be zero or positive", given.get_ref()),
-                "0.3 to 1 for most metals",
-            )?
-        }
+        Some(given) => judge.refuse::<f64>(
+            given.span(),
+            format!("stress.normal_stress_sensitivity = {:?}: must be zero or positive", given.get_ref()),
+            "0.3 to 1 for most metals",
+        )?,
     };
     let every = match &file.every {
         None => 1,
@@ -149,7 +145,11 @@ pub(super) fn stress(
                 if let Some(half_space) = half_space
                     && let Err(error) = depth_points(half_space, list)
                 {
-                    judge.refuse::<()>(depths.span(), format!("stress.depths: {error}"), "or depths = \"auto\"");
+                    judge.refuse::<()>(
+                        depths.span(),
+                        format!("stress.depths: {error}"),
+                        "or depths = \"auto\"",
+                    );
                 }
                 Some(list.clone())
             }

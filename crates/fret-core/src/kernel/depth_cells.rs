@@ -78,7 +78,8 @@ impl<const N: usize> DepthCells<'_, N> {
                 self.add_rectangle(half, sum);
             }
         } else {
-            let rules = [self.quadrature.rule(distance / sides[0]), self.quadrature.rule(distance / sides[1])];
+            let rules =
+                [self.quadrature.rule(distance / sides[0]), self.quadrature.rule(distance / sides[1])];
             self.add_gauss_points(rectangle, rules, sum);
         }
     }
@@ -242,14 +243,7 @@ pub(crate) fn stress_coefficients(
 
 /// xx, yy, zz, xy, xz, yz.
 fn from_pressure([normal, mean, difference, shear]: &Moments) -> [f64; 6] {
-    [
-        mean[0] - difference[0],
-        mean[0] + difference[0],
-        -normal[0],
-        -2.0 * difference[1],
-        shear[0],
-        shear[1],
-    ]
+    [mean[0] - difference[0], mean[0] + difference[0], -normal[0], -2.0 * difference[1], shear[0], shear[1]]
 }
 
 fn from_shear(load: Load, stress: &Moments, traction: &Moments) -> [f64; 6] {

@@ -125,7 +125,8 @@ impl DepthResponse {
         };
         let mut carry = Carry::none();
         for layer in below.iter().rev() {
-            compliance = LayerMatrices::new(&layer.constants, k * layer.thickness).lift(&compliance, &mut carry);
+            compliance =
+                LayerMatrices::new(&layer.constants, k * layer.thickness).lift(&compliance, &mut carry);
         }
         let at_depth = compliance;
         let mut descent = Descent::none();

@@ -25,14 +25,8 @@ pub enum Measure {
 
 impl Measure {
     /// All of them.
-    pub const ALL: [Self; 6] = [
-        Self::VonMises,
-        Self::Tresca,
-        Self::Tension,
-        Self::Hydrostatic,
-        Self::InterfaceShear,
-        Self::Peel,
-    ];
+    pub const ALL: [Self; 6] =
+        [Self::VonMises, Self::Tresca, Self::Tension, Self::Hydrostatic, Self::InterfaceShear, Self::Peel];
 
     /// The number itself [pressure].
     pub fn of(self, stress: &StressTensor) -> f64 {
@@ -82,7 +76,13 @@ pub struct Largest {
 
 /// Updates a list of largest values, one a measure, with the stress at one depth in one increment. Of equal values the first
 /// found stays.
-pub fn look(found: &mut Vec<Largest>, field: &StressField, point: DepthPoint, is_interface: bool, increment: usize) {
+pub fn look(
+    found: &mut Vec<Largest>,
+    field: &StressField,
+    point: DepthPoint,
+    is_interface: bool,
+    increment: usize,
+) {
     for measure in Measure::ALL {
         if measure.at_interfaces_only() && !is_interface {
             continue;

@@ -41,8 +41,9 @@ const fn block(output: usize, input: usize, kernel: usize) -> Block {
 
 /// Parity of a component from pressure; shear turns the one along its own axis.
 fn parity(component: usize, load: usize) -> Parity {
-    let [mut x, mut y] = [[false, false], [false, false], [false, false], [true, true], [true, false], [false, true]]
-        [component];
+    let [mut x, mut y] =
+        [[false, false], [false, false], [false, false], [true, true], [true, false], [false, true]]
+            [component];
     if load == 1 {
         x = !x;
     }
@@ -176,6 +177,7 @@ fn product(
 fn apply(product: &mut Product, input: &[Vec<f64>], output: &mut [Array2<f64>]) {
     let input: Vec<&[f64]> = input.iter().map(Vec::as_slice).collect();
     // fields made by `zeros` are contiguous
-    let mut output: Vec<&mut [f64]> = output.iter_mut().map(|field| field.as_slice_mut().unwrap_or_default()).collect();
+    let mut output: Vec<&mut [f64]> =
+        output.iter_mut().map(|field| field.as_slice_mut().unwrap_or_default()).collect();
     product.apply(&input, &mut output);
 }

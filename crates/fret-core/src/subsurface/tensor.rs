@@ -90,10 +90,7 @@ impl StressTensor {
         }
         let mut order = [0, 1, 2];
         order.sort_by(|&i, &j| a[j][j].total_cmp(&a[i][i]));
-        Principal {
-            values: order.map(|i| a[i][i]),
-            directions: order.map(|i| [v[0][i], v[1][i], v[2][i]]),
-        }
+        Principal { values: order.map(|i| a[i][i]), directions: order.map(|i| [v[0][i], v[1][i], v[2][i]]) }
     }
 }
 
@@ -130,7 +127,9 @@ mod tests {
         let tension = StressTensor([7.0, 0.0, 0.0, 0.0, 0.0, 0.0]);
         assert_eq!((tension.von_mises(), tension.tresca(), tension.hydrostatic()), (7.0, 7.0, 7.0 / 3.0));
         let shear = StressTensor([0.0, 0.0, 0.0, 0.0, 2.0, 0.0]);
-        assert!((shear.von_mises() - 2.0 * 3.0_f64.sqrt()).abs() < 1e-15 && (shear.tresca() - 4.0).abs() < 1e-15);
+        assert!(
+            (shear.von_mises() - 2.0 * 3.0_f64.sqrt()).abs() < 1e-15 && (shear.tresca() - 4.0).abs() < 1e-15
+        );
         let principal = shear.principal();
         assert!((principal.values[0] - 2.0).abs() < 1e-15 && principal.values[1].abs() < 1e-15);
         let [x, y, z] = principal.directions[0];

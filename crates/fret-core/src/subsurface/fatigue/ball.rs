@@ -88,7 +88,8 @@ fn smallest(points: &mut [Point], end: usize, boundary: &Boundary, scale: f64) -
 /// Centre of the smallest ball around points.
 pub(super) fn centre(points: &[Point]) -> Point {
     let Some(first) = points.first() else { return [0.0; DIMENSIONS] };
-    let scale = points.iter().map(|point| dot(&minus(point, first), &minus(point, first))).fold(0.0, f64::max);
+    let scale =
+        points.iter().map(|point| dot(&minus(point, first), &minus(point, first))).fold(0.0, f64::max);
     if scale == 0.0 {
         return *first;
     }

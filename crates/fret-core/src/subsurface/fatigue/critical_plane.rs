@@ -111,8 +111,16 @@ fn largest_over_planes(mut parameter: impl FnMut([f64; 3], f64) -> f64) -> Criti
         let [polar, turn] = best.1;
         let sine = polar.to_radians().sin().abs().max(0.05);
         let before = best.0;
-        for (a, b) in [(1.0, 0.0), (-1.0, 0.0), (0.0, 1.0), (0.0, -1.0), (0.7, 0.7), (0.7, -0.7), (-0.7, 0.7), (-0.7, -0.7)]
-        {
+        for (a, b) in [
+            (1.0, 0.0),
+            (-1.0, 0.0),
+            (0.0, 1.0),
+            (0.0, -1.0),
+            (0.7, 0.7),
+            (0.7, -0.7),
+            (-0.7, 0.7),
+            (-0.7, -0.7),
+        ] {
             consider([polar + a * step, turn + b * step / sine], &mut best);
         }
         if best.0 == before {
@@ -156,7 +164,8 @@ mod tests {
         for n in 0..200_000 {
             let t = std::f64::consts::PI * f64::from(n) / 200_000.0;
             let tension = s * 1.3 * (2.0 * t).sin().abs() / 210e3 * (1.0 + k * s * t.cos().powi(2) / limit);
-            let torsion = tau * (2.0 * t).cos().abs() / shear * (1.0 + k * tau * (2.0 * t).sin().abs() / limit);
+            let torsion =
+                tau * (2.0 * t).cos().abs() / shear * (1.0 + k * tau * (2.0 * t).sin().abs() / limit);
             expected = [expected[0].max(tension), expected[1].max(torsion)];
         }
         let found = [
@@ -170,7 +179,10 @@ mod tests {
 
     #[test]
     fn compression_alone_gives_no_smith_watson_topper() {
-        let cycle = [StressTensor([-100.0, -100.0, -300.0, 0.0, 0.0, 0.0]), StressTensor([-10.0, -10.0, -30.0, 0.0, 0.0, 0.0])];
+        let cycle = [
+            StressTensor([-100.0, -100.0, -300.0, 0.0, 0.0, 0.0]),
+            StressTensor([-10.0, -10.0, -30.0, 0.0, 0.0, 0.0]),
+        ];
         assert_eq!(smith_watson_topper(&cycle, &steel()).value, 0.0);
     }
 }

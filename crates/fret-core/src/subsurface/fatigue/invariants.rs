@@ -114,7 +114,9 @@ mod tests {
     #[test]
     fn a_mean_torsion_does_no_harm_and_coordinates_keep_the_tensor() {
         let load = cycle([0.0, 0.0, 0.0, 500.0, 0.0, 0.0], [0.0, 0.0, 0.0, 90.0, 0.0, 0.0]);
-        assert!((crossland(&load, &LIMITS) - 0.5).abs() < 1e-12 && (dang_van(&load, &LIMITS) - 0.5).abs() < 1e-12);
+        assert!(
+            (crossland(&load, &LIMITS) - 0.5).abs() < 1e-12 && (dang_van(&load, &LIMITS) - 0.5).abs() < 1e-12
+        );
         let stress = StressTensor([1.0, -2.0, 5.0, 0.3, -0.7, 2.0]);
         let back = tensor_of(&deviator_point(&stress));
         for (found, exact) in back.0.iter().zip(stress.deviator().0) {
