@@ -99,7 +99,7 @@ fn cells_agree_with_an_independent_integration_over_waves() {
 /// cells, less a twelfth of their second differences.
 fn hertz(cells: usize, spacing: f64) -> Array2<f64> {
     let n = cells;
-    let fine = 16;
+    let fine = 64;
     let centre = |i: usize| (i as f64 - (n as f64 - 1.0) / 2.0) * spacing;
     let mean = Array2::from_shape_fn((n, n), |(i, j)| {
         let (x, y) = (centre(i), centre(j));
@@ -226,32 +226,46 @@ fn surface_stresses_of_the_sliding_sphere() {
     // r <= a, z = 0: sxx = -(pi/8)(4 + nu) q0 x/a, syy = -(3 pi nu/8) q0 x/a, sxy = -(pi/8)(2 - nu) q0 y/a
     let nu = 0.3;
     let half_space = body(&[], Some((1.0, nu)));
-    let mut errors = Vec::new();
-    for cells in [64_usize, 128] {
+    let by_cells = |cells: usize| {
         let spacing = 2.2 / cells as f64;
         let grid = SurfaceGrid::new([cells; 2], [spacing; 2]).unwrap();
         let shear = hertz(cells, spacing);
         let zero = Array2::zeros((cells, cells));
         let point = DepthPoint { depth: 0.0, layer: 0 };
         let field = stress(&half_space, point, &grid, false, &zero, Some([&shear, &zero]));
-        let mut worst = 0.0_f64;
-        for i in 0..cells {
-            for j in 0..cells {
-                let (x, y) = (grid.centre(0, i), grid.centre(1, j));
-                assert!(field.components[2][[i, j]].abs() < 1e-13);
-                assert!((field.components[4][[i, j]] + shear[[i, j]]).abs() < 1e-13);
-                if x.hypot(y) < 0.8 {
-                    let [xx, yy, _, xy, ..] = field.at(i, j).0;
-                    worst = worst.max((xx + PI / 8.0 * (4.0 + nu) * x).abs());
-                    worst = worst.max((yy + 3.0 * PI * nu / 8.0 * x).abs());
-                    worst = worst.max((xy + PI / 8.0 * (2.0 - nu) * y).abs());
+        assert!(field.components[2].iter().all(|zz| zz.abs() < 1e-13));
+        assert!(field.components[4].iter().zip(&shear).all(|(xz, q)| (xz + q).abs() < 1e-13));
+        (grid, field)
+    };
+    // a third of the cell: every centre of the coarse grid is one of the fine grid
+    let ((grid, coarse), (_, fine)) = (by_cells(44), by_cells(132));
+    let mut worst = [0.0_f64; 3];
+    for i in 0..44 {
+        for j in 0..44 {
+            let (x, y) = (grid.centre(0, i), grid.centre(1, j));
+            if x.hypot(y) > 0.7 {
+                continue;
+            }
+            let exact = [
+                (0, -PI / 8.0 * (4.0 + nu) * x),
+                (1, -3.0 * PI * nu / 8.0 * x),
+                (3, -PI / 8.0 * (2.0 - nu) * y),
+            ];
+            for (component, exact) in exact {
+                let one = coarse.components[component][[i, j]];
+                let third = fine.components[component][[3 * i + 1, 3 * j + 1]];
+                // in the surface itself the slope of the traction within the cell is felt: first order in the cell
+                let limit = 1.5 * third - 0.5 * one;
+                for (worst, found) in worst.iter_mut().zip([one, third, limit]) {
+                    *worst = worst.max((found - exact).abs());
                 }
             }
         }
-        errors.push(worst);
     }
-    println!("surface stresses of the sliding sphere, r < 0.8 a, 64 and 128 cells: {errors:?} of q0");
-    assert!(errors[1] < 2e-3 && errors[1] < 0.6 * errors[0], "{errors:?}");
+    println!(
+        "surface stresses of the sliding sphere, r < 0.7 a, 44 and 132 cells, extrapolated: {worst:?} of q0"
+    );
+    assert!(worst[1] < 0.4 * worst[0] && worst[2] < 2e-3, "{worst:?}");
 }
 
 #[test]

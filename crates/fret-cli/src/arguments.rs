@@ -85,7 +85,13 @@ pub struct StressArguments {
     /// The folder of a finished run
     pub folder: PathBuf,
     /// Depths under the surface of the body, in the units of the case [default: those of the case, or --auto]
-    #[arg(long, value_name = "Z,...", value_delimiter = ',', num_args = 1.., allow_negative_numbers = true, conflicts_with = "auto")]
+    #[arg(
+        long,
+        value_name = "Z,...",
+        value_delimiter = ',',
+        allow_hyphen_values = true,
+        conflicts_with = "auto"
+    )]
     pub depths: Vec<f64>,
     /// Choose depths: denser toward the surface and the interfaces
     #[arg(long)]

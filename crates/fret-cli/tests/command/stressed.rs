@@ -29,7 +29,8 @@ fn a_finished_run_tells_its_stresses_without_solving_again() {
     let radius = f64::cbrt(0.75 * 10e-3 / modulus);
     let peak = 1.5 / (std::f64::consts::PI * radius * radius);
     let ratio = largest["value"].as_f64().unwrap() / peak;
-    assert!((0.58..0.64).contains(&ratio), "{ratio}"); // shallow grid, depth a little below the place of the largest
+    // at 0.63 radii by Hertz's axis stresses; three cells a radius leave some percent
+    assert!((ratio - 0.60).abs() < 0.05, "{ratio}");
     assert_eq!(bench.text("out/history.csv"), before);
     let volume = std::fs::read(bench.folder.join("out/stress/volume-00018.vtr")).unwrap();
     // eight fields of 24 x 24 x 3 numbers of four bytes, each after its length
