@@ -20,5 +20,6 @@ mod periodic;
 mod random_scenes;
 mod rough_surfaces;
 mod sliding;
+mod subsurface;
 mod surfaces;
 mod two_bodies;

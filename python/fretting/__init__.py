@@ -26,6 +26,7 @@ from fretting.history import History
 from fretting.kernels import Convolution, frequency_response, influence_coefficients
 from fretting.planning import Plan, plan
 from fretting.simulation import run
+from fretting.stress import subsurface_stress
 
 __all__ = [
     "CaseError",
@@ -41,10 +42,11 @@ __all__ = [
     "influence_coefficients",
     "plan",
     "run",
+    "subsurface_stress",
 ]
 
 
 def __getattr__(name: str) -> NoReturn:
-    if name in ("sweep", "subsurface_stress", "plot"):
+    if name in ("sweep", "plot"):
         raise AttributeError(f"fretting.{name} is not built yet")
     raise AttributeError(f"module 'fretting' has no attribute {name!r}")

@@ -24,6 +24,7 @@ __all__ = [
     "mindlin_deresiewicz_at",
     "plan",
     "run",
+    "subsurface_stress",
     "torsion",
     "westergaard",
 ]
@@ -41,6 +42,9 @@ class Case:
 class History:
     def steps(self) -> dict[str, npt.NDArray[Any] | list[str]]: ...
     def stages(self) -> list[str]: ...
+    def bodies(self) -> str: ...
+    def spacing(self) -> list[float]: ...
+    def periodic(self) -> bool: ...
     def centres(self, axis: int) -> npt.NDArray[np.float64]: ...
     def kept_steps(self) -> list[int]: ...
     def kept_fields(self, increment: int) -> list[str]: ...
@@ -66,6 +70,15 @@ def influence_coefficients(
     cells: tuple[int, int],
     spacing: tuple[float, float],
 ) -> dict[str, npt.NDArray[np.float64]]: ...
+
+def subsurface_stress(
+    bodies: tuple[str, bool],
+    spacing: tuple[float, float],
+    periodic: bool,
+    tractions: tuple[npt.NDArray[np.float64], tuple[npt.NDArray[np.float64], npt.NDArray[np.float64]] | None],
+    depths: list[float],
+    threads: int | None,
+) -> dict[str, npt.NDArray[Any]]: ...
 
 @final
 class Solution:

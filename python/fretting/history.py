@@ -101,6 +101,9 @@ class History:
     stages: list[str]
 
     _kept: _Kept
+    _bodies: str
+    _spacing: tuple[float, float]
+    _periodic: bool
 
     def __init__(self, answer: _core.History) -> None:
         self._kept = answer
@@ -108,6 +111,10 @@ class History:
         self.x = answer.centres(0)
         self.y = answer.centres(1)
         self.stages = answer.stages()
+        self._bodies = answer.bodies()
+        dx, dy = answer.spacing()
+        self._spacing = (dx, dy)
+        self._periodic = answer.periodic()
 
     def __getstate__(self) -> dict[str, Any]:
         """Everything as plain arrays."""

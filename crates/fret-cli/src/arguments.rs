@@ -52,8 +52,8 @@ pub enum Verb {
     Study(Unbuilt),
     #[command(hide = true, disable_help_flag = true)]
     Extremes(Unbuilt),
-    #[command(hide = true, disable_help_flag = true)]
-    Stress(Unbuilt),
+    /// Stresses under the surface, from the tractions of a finished run
+    Stress(StressArguments),
     #[command(hide = true, disable_help_flag = true)]
     Sweep(Unbuilt),
 }
@@ -98,6 +98,41 @@ pub struct ExportArguments {
     /// The file (npz) or folder (csv, vtk) to write [default: export.npz, csv, vtk in the folder of the results]
     #[arg(long, value_name = "PATH")]
     pub out: Option<PathBuf>,
+}
+
+/// Which stresses.
+#[derive(Debug, Args)]
+#[expect(clippy::struct_excessive_bools, reason = "one for each switch that can be typed")]
+pub struct StressArguments {
+    /// The folder of a finished run
+    pub folder: PathBuf,
+    /// Depths under the surface of the body, in the units of the case [default: those of the case, or --auto]
+    #[arg(
+        long,
+        value_name = "Z,...",
+        value_delimiter = ',',
+        allow_hyphen_values = true,
+        conflicts_with = "auto"
+    )]
+    pub depths: Vec<f64>,
+    /// Choose depths: denser toward the surface and the interfaces
+    #[arg(long)]
+    pub auto: bool,
+    /// Look at every N-th kept increment, and the last [default: all]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    pub every: Option<u32>,
+    /// The body: upper or lower
+    #[arg(long, value_name = "BODY", value_parser = ["upper", "lower"])]
+    pub body: Option<String>,
+    /// Write a volume for ParaView of the last increment looked at
+    #[arg(long)]
+    pub volume: bool,
+    /// Threads to compute with [default: all the machine has]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    pub threads: Option<u16>,
+    /// Say nothing but errors
+    #[arg(long)]
+    pub quiet: bool,
 }
 
 /// Arguments of a verb that is not built yet: anything.

@@ -58,7 +58,7 @@ fn dispatch(arguments: &Arguments) -> Result<(), Told> {
         Verb::Export(arguments) => commands::export::export(arguments, as_json),
         Verb::Study(_) => Err(Failure::not_built("fret study")),
         Verb::Extremes(_) => Err(Failure::not_built("fret extremes")),
-        Verb::Stress(_) => Err(Failure::not_built("fret stress")),
+        Verb::Stress(arguments) => commands::stress::stress(arguments, as_json),
         Verb::Sweep(_) => Err(Failure::not_built("fret sweep")),
     }?;
     Ok(())

@@ -4,7 +4,7 @@
 #[cfg(test)]
 mod conformance;
 mod direct;
-mod product;
+pub(crate) mod product;
 
 use ndarray::Array2;
 

@@ -3,7 +3,7 @@
 use ndarray::Array2;
 use serde::{Deserialize, Serialize};
 
-use crate::model::{ContactState, SurfaceGrid, Zone};
+use crate::model::{ContactPair, ContactState, SurfaceGrid, Zone};
 
 /// How well an increment satisfies its equations; all parts dimensionless and relative.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
@@ -128,6 +128,10 @@ pub struct KeptFields {
 pub struct History {
     /// The grid the fields live on.
     pub grid: SurfaceGrid,
+    /// The two bodies.
+    pub bodies: ContactPair,
+    /// Whether the scene repeats in x and y.
+    pub periodic: bool,
     /// Names of the stages.
     pub stages: Vec<String>,
     /// One record an increment.

@@ -13,3 +13,4 @@ pub mod simulation;
 pub mod solver;
 pub mod spectral;
 mod stepping;
+pub mod subsurface;

@@ -159,6 +159,8 @@ impl<'a> Simulation<'a> {
         solver.remember(memory);
         let mut history = History {
             grid: plan.grid,
+            bodies: case.bodies.clone(),
+            periodic: case.periodic,
             stages: case.stages.iter().map(|stage| stage.name.clone()).collect(),
             steps: Vec::with_capacity(plan.increments - place.solved.min(plan.increments)),
             fields: Vec::new(),

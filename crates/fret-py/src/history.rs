@@ -90,6 +90,21 @@ impl History {
         self.0.stages.clone()
     }
 
+    /// The two bodies as JSON.
+    fn bodies(&self) -> PyResult<String> {
+        serde_json::to_string(&self.0.bodies).map_err(crate::error::bad_value)
+    }
+
+    /// Sides of a cell [length].
+    fn spacing(&self) -> [f64; 2] {
+        self.0.grid.spacing()
+    }
+
+    /// Whether the scene repeats in x and y.
+    fn periodic(&self) -> bool {
+        self.0.periodic
+    }
+
     /// Coordinates of the cell centres along axis 0 or 1 [length].
     fn centres<'py>(&self, py: Python<'py>, axis: usize) -> PyResult<Bound<'py, PyArray1<f64>>> {
         if axis > 1 {

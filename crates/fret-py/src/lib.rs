@@ -11,6 +11,7 @@ mod history;
 mod kernels;
 mod plan;
 mod simulation;
+mod subsurface;
 mod threads;
 
 /// Conversion between Python and fret-core; use the names of `fretting`.
@@ -33,6 +34,8 @@ mod _core {
     use crate::plan::plan;
     #[pymodule_export]
     use crate::simulation::run;
+    #[pymodule_export]
+    use crate::subsurface::subsurface_stress;
 
     #[pymodule_init]
     fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {

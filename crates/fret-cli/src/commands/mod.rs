@@ -2,7 +2,9 @@
 
 pub mod check;
 pub mod export;
+mod fatigue;
 pub mod plan;
 pub mod report;
 pub mod run;
 pub mod schema;
+pub mod stress;

@@ -16,6 +16,7 @@ use serde_json::{Value, json};
 use crate::arguments::RunArguments;
 use crate::case_file::CaseFile;
 use crate::commands::plan::left_out;
+use crate::commands::stress::after_run;
 use crate::defect;
 use crate::failure::{Failure, Told};
 use crate::figures::counted;
@@ -94,7 +95,7 @@ fn prepared(arguments: &RunArguments) -> Result<Preparation, Failure> {
     Ok(Preparation { case_file, plan, folder, standing, threads, pool })
 }
 
-fn available_threads() -> usize {
+pub fn available_threads() -> usize {
     std::thread::available_parallelism().map_or(1, NonZero::get)
 }
 
@@ -192,6 +193,10 @@ impl Preparation {
         if matches!(failure, Some(Failure::Unwritten(_))) && tally.solved > 0 {
             terminal::say(&format!("{}; once it can be written, --resume goes on", self.kept(&tally)));
         }
+        let failure = failure.or_else(|| {
+            self.plan.case.stress.as_ref()?;
+            self.pool.install(|| after_run(&self.folder, quiet || as_json)).err()
+        });
         failure.map_or(Ok(()), |failure| Err(Told { failure, in_json: as_json }))
     }
 

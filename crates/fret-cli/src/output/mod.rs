@@ -6,8 +6,11 @@
 
 mod checkpoint_folder;
 mod field_store;
+pub mod finished_run;
 mod history_table;
 mod run_record;
+pub mod section;
+pub mod vtk;
 mod whole_file;
 
 use std::fs;

@@ -9,5 +9,6 @@ mod hostile;
 mod refused;
 mod shown;
 mod solved;
+mod stressed;
 mod surfaces;
 mod unwritten;

@@ -11,6 +11,7 @@ use super::refusal::Mistake;
 use super::repeating::repeats;
 use super::shape::profile;
 use super::stages::{sliding, stages};
+use super::stress::stress;
 use super::{Case, FIELD_NAMES, GridSize, Origin, Output, Stage};
 use crate::model::{CoulombFriction, Scheme};
 
@@ -66,6 +67,8 @@ pub(super) fn case(
         ),
     };
     let output = output(&mut judge, file.output.as_ref());
+    let frictionless = laws.as_ref().is_some_and(|laws| laws.iter().all(|law| law.is_frictionless()));
+    let stress = stress(&mut judge, file.stress.as_ref(), bodies.as_ref(), output.as_ref(), frictionless);
     match (cells, size, bodies, profile, friction, stages, tolerance, output) {
         (
             Some(cells),
@@ -92,6 +95,7 @@ pub(super) fn case(
                 .and_then(|solver| solver.scheme.as_ref())
                 .map_or(Scheme::default(), |scheme| *scheme.get_ref()),
             output,
+            stress,
             origin: Origin { name: name.to_owned(), text: text.to_owned(), size: file.grid.size.span() },
         }),
         _ => Err(judge.mistakes),

@@ -35,6 +35,9 @@ pub(super) struct CaseFile {
     pub solver: Option<SolverFile>,
     /// What is kept.
     pub output: Option<OutputFile>,
+    /// Stresses under the surface, made from the kept tractions after the run.
+    #[schemars(with = "Option<StressFile>")]
+    pub stress: Option<Spanned<StressFile>>,
 }
 
 /// The mesh of the potential contact area, centred on the first point of touch.
@@ -263,6 +266,90 @@ pub(super) struct OutputFile {
     /// Fields of every so many increments are kept, and of the last of each stage; only of the last when not given.
     #[schemars(with = "Option<usize>")]
     pub every: Option<Spanned<usize>>,
+}
+
+/// Stresses under the surface of one body, and what fatigue is judged by.
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(super) struct StressFile {
+    /// Depths under the surface of the body [length], or "auto": denser toward the surface and the interfaces.
+    #[schemars(with = "Option<DepthsSchema>")]
+    pub depths: Option<Spanned<DepthsFile>>,
+    /// The body; "lower" when not given.
+    #[schemars(with = "Option<SideFile>")]
+    pub body: Option<Spanned<SideFile>>,
+    /// Every so many kept increments are looked at, and the last; all when not given.
+    #[schemars(with = "Option<usize>")]
+    pub every: Option<Spanned<usize>>,
+    /// Whether volumes for ParaView are written; not when not given.
+    pub volume: Option<bool>,
+    /// Amplitude endured in fully reversed torsion [pressure], for Crossland and Dang Van.
+    #[schemars(with = "Option<f64>")]
+    pub torsion_limit: Option<Spanned<f64>>,
+    /// Amplitude endured in fully reversed tension or bending [pressure], for Crossland and Dang Van.
+    #[schemars(with = "Option<f64>")]
+    pub tension_limit: Option<Spanned<f64>>,
+    /// Yield strength [pressure], for Fatemi and Socie.
+    #[schemars(with = "Option<f64>")]
+    pub yield_strength: Option<Spanned<f64>>,
+    /// Weight of the normal stress in Fatemi and Socie's parameter; 1 when not given.
+    #[schemars(with = "Option<f64>")]
+    pub normal_stress_sensitivity: Option<Spanned<f64>>,
+    /// Distance from the surface down over which fatigue parameters are averaged [length].
+    #[schemars(with = "Option<f64>")]
+    pub critical_distance: Option<Spanned<f64>>,
+}
+
+/// One of the two bodies.
+#[derive(Debug, Clone, Copy, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub(super) enum SideFile {
+    /// The body above.
+    Upper,
+    /// The body below.
+    Lower,
+}
+
+/// Depths, or the word "auto".
+#[derive(Debug, Clone)]
+pub(super) enum DepthsFile {
+    Given(Vec<f64>),
+    Auto,
+}
+
+#[derive(JsonSchema)]
+#[serde(untagged)]
+#[expect(dead_code, reason = "stands for DepthsFile in the schema")]
+enum DepthsSchema {
+    Given(Vec<f64>),
+    Auto(AutoWord),
+}
+
+impl<'de> Deserialize<'de> for DepthsFile {
+    fn deserialize<D: de::Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct DepthsVisitor;
+        impl<'de> Visitor<'de> for DepthsVisitor {
+            type Value = DepthsFile;
+            fn expecting(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+                formatter.write_str("a list of depths or \"auto\"")
+            }
+            fn visit_str<E: de::Error>(self, word: &str) -> Result<DepthsFile, E> {
+                if word == "auto" {
+                    Ok(DepthsFile::Auto)
+                } else {
+                    Err(E::invalid_value(de::Unexpected::Str(word), &self))
+                }
+            }
+            fn visit_seq<A: SeqAccess<'de>>(self, mut sequence: A) -> Result<DepthsFile, A::Error> {
+                let mut depths = Vec::new();
+                while let Some(depth) = sequence.next_element::<f64>()? {
+                    depths.push(depth);
+                }
+                Ok(DepthsFile::Given(depths))
+            }
+        }
+        deserializer.deserialize_any(DepthsVisitor)
+    }
 }
 
 /// JSON Schema of the case file.

@@ -13,6 +13,7 @@ mod refusal;
 mod repeating;
 mod shape;
 mod stages;
+mod stress;
 mod surface_file;
 
 use serde::Serialize;
@@ -23,6 +24,7 @@ pub use arrays::{ArraySource, ArraySupply};
 pub use file::schema;
 pub use numbers::{NumbersError, numbers};
 pub use refusal::{CaseError, Mistake};
+pub use stress::{FatigueRequest, Side, StressRequest};
 
 /// Fields that can be kept, by the names of the case file.
 pub const FIELD_NAMES: [&str; 5] = ["pressure", "shear", "slip", "gap", "zone"];
@@ -52,6 +54,8 @@ pub struct Case {
     pub scheme: Scheme,
     /// What is kept.
     pub output: Output,
+    /// What is asked about stresses under the surface.
+    pub stress: Option<StressRequest>,
     /// Where the case was written, for messages.
     #[serde(skip)]
     pub(crate) origin: Origin,

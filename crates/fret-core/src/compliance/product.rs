@@ -3,7 +3,7 @@
 use crate::spectral::{Convolution, PeriodicProduct, Workspace};
 
 /// A planned product and its workspace.
-pub(super) enum Product {
+pub(crate) enum Product {
     /// Zero padded: the scene stands alone.
     FreeSpace(Convolution, Workspace),
     /// The scene repeats.

@@ -1,4 +1,4 @@
-//! Bessel functions of order 0, 1, 2: J of a real argument, Hankel functions H = J + iY on a ray of the upper half-plane.
+//! Bessel functions of order 0 to 3: J of a real argument, Hankel functions H = J + iY on a ray of the upper half-plane.
 
 use super::complex::{Complex, Wavenumber};
 use std::f64::consts::{FRAC_1_PI, FRAC_PI_2};
@@ -6,22 +6,22 @@ use std::f64::consts::{FRAC_1_PI, FRAC_PI_2};
 /// Euler's constant.
 const EULER_GAMMA: f64 = 0.577_215_664_901_532_9;
 
-/// `[J_0, J_1, J_2](x)`, `x >= 0`.
-pub(crate) fn bessel_j(x: f64) -> [f64; 3] {
+/// `[J_0, J_1, J_2, J_3](x)`, `x >= 0`.
+pub(crate) fn bessel_j(x: f64) -> [f64; 4] {
     if x < 1.0 {
-        // its own series: the recurrence for J_2 would cancel
+        // their own series: the recurrence would cancel
         let q = -0.25 * x * x;
         let j = |order: usize| power_series(order, Complex::new(q, 0.0)).re;
         let half = 0.5 * x;
-        [j(0), half * j(1), half * half * j(2)]
+        [j(0), half * j(1), half * half * j(2), half * half * half * j(3)]
     } else {
-        [libm::j0(x), libm::j1(x), libm::jn(2, x)]
+        [libm::j0(x), libm::j1(x), libm::jn(2, x), libm::jn(3, x)]
     }
 }
 
 /// `sum_k q^k / (k! (k + order)!)`, `|q| <= 1/4`.
 fn power_series(order: usize, q: Complex) -> Complex {
-    let mut term = Complex::real(if order == 2 { 0.5 } else { 1.0 });
+    let mut term = Complex::real([1.0, 1.0, 0.5, 1.0 / 6.0][order]);
     let mut sum = term;
     for k in 1..=SERIES_TERMS {
         term = term * q * (1.0 / (k as f64 * (k + order) as f64));
@@ -33,20 +33,20 @@ fn power_series(order: usize, q: Complex) -> Complex {
 /// `4^-10 / (10!)^2 = 7e-20`.
 const SERIES_TERMS: usize = 10;
 
-/// Hankel functions of the first kind `[H_0, H_1, H_2](z)` at `z = modulus exp(i angle)`, `0 < angle < pi/2`, without
+/// Hankel functions of the first kind `[H_0, H_1, H_2, H_3](z)` at `z = modulus exp(i angle)`, `0 < angle < pi/2`, without
 /// overflow; they decay like `exp(-modulus sin(angle))`. Relative error about 2e-14.
-pub(crate) fn hankel(modulus: f64, angle: f64) -> [Complex; 3] {
+pub(crate) fn hankel(modulus: f64, angle: f64) -> [Complex; 4] {
     if modulus < 1.0 { hankel_series(modulus, angle) } else { hankel_integral(modulus, angle) }
 }
 
 /// Power series (Abramowitz & Stegun 9.1.10, 9.1.11), `|z| <= 1`.
-fn hankel_series(modulus: f64, angle: f64) -> [Complex; 3] {
+fn hankel_series(modulus: f64, angle: f64) -> [Complex; 4] {
     let z = Complex::polar(modulus, angle);
     let half = z * 0.5;
     let q = -(half * half);
     let log_half = Complex::new(libm::log(0.5 * modulus), angle);
     let (mut power, mut factorial) = (Complex::one(), 1.0);
-    let mut result = [Complex::zero(); 3];
+    let mut result = [Complex::zero(); 4];
     for (order, value) in result.iter_mut().enumerate() {
         if order > 0 {
             power = power * half;
@@ -65,7 +65,8 @@ fn hankel_series(modulus: f64, angle: f64) -> [Complex; 3] {
         let poles = match order {
             0 => Complex::zero(),
             1 => Complex::one() / half,
-            _ => Complex::one() / (half * half) + Complex::one(),
+            2 => Complex::one() / (half * half) + Complex::one(),
+            _ => Complex::real(2.0) / (half * half * half) + Complex::one() / half + half * 0.5,
         };
         let y = (log_half * j * 2.0 - power * sum - poles) * FRAC_1_PI;
         *value = j + Complex::new(-y.im, y.re);
@@ -74,8 +75,8 @@ fn hankel_series(modulus: f64, angle: f64) -> [Complex; 3] {
 }
 
 /// `K_n(w) = Int_0^inf exp(-w cosh t) cosh(n t) dt`, `w = -i z`, along `t = tau + i beta tanh(tau)`, on which the exponent
-/// becomes real far out; trapezoidal rule. Then `H_0 = 2/(pi i) K_0`, `H_1 = -(2/pi) K_1` and `H_2` by recurrence.
-fn hankel_integral(modulus: f64, angle: f64) -> [Complex; 3] {
+/// becomes real far out; trapezoidal rule. Then `H_0 = 2/(pi i) K_0`, `H_1 = -(2/pi) K_1` and the others by recurrence.
+fn hankel_integral(modulus: f64, angle: f64) -> [Complex; 4] {
     let z = Complex::polar(modulus, angle);
     let w = Complex::new(z.im, -z.re);
     let beta = FRAC_PI_2 - angle;
@@ -97,7 +98,8 @@ fn hankel_integral(modulus: f64, angle: f64) -> [Complex; 3] {
     let [k0, k1] = sums.map(|sum| sum * decay);
     let h0 = Complex::new(k0.im, -k0.re);
     let h1 = -k1;
-    [h0, h1, h1 * 2.0 / z - h0]
+    let h2 = h1 * 2.0 / z - h0;
+    [h0, h1, h2, h2 * 4.0 / z - h1]
 }
 
 #[cfg(test)]
@@ -110,8 +112,8 @@ mod tests {
         for x in [0.01, 0.3, 0.9, 0.999_999] {
             let h = hankel(x, 1e-15);
             let j = bessel_j(x);
-            let y = [libm::y0(x), libm::y1(x), libm::yn(2, x)];
-            for n in 0..3 {
+            let y = [libm::y0(x), libm::y1(x), libm::yn(2, x), libm::yn(3, x)];
+            for n in 0..4 {
                 let exact = Complex::new(j[n], y[n]);
                 let error = (h[n] - exact).modulus() / exact.modulus();
                 assert!(error < 1e-14, "H_{n}({x}): {error:.1e}"); // a few roundings of series and library
@@ -125,7 +127,7 @@ mod tests {
             for modulus in [0.7, 1.0, 1.3] {
                 let series = hankel_series(modulus, angle.to_radians());
                 let integral = hankel_integral(modulus, angle.to_radians());
-                for n in 0..3 {
+                for n in 0..4 {
                     let error = (series[n] - integral[n]).modulus() / series[n].modulus();
                     assert!(error < 2e-14, "H_{n}, {modulus} at {angle} degrees: {error:.1e}"); // error of the integral
                 }
@@ -149,7 +151,7 @@ mod tests {
                 }
                 sum
             };
-            let [h0, h1, _] = hankel(modulus, angle);
+            let [h0, h1, ..] = hankel(modulus, angle);
             let wronskian = j(1) * h0 - j(0) * h1;
             let exact = Complex::new(0.0, 2.0 * FRAC_1_PI) / z;
             let error = (wronskian - exact).modulus() / exact.modulus();
@@ -188,7 +190,7 @@ mod tests {
     fn bessel_series_meets_the_library() {
         let below = bessel_j(1.0 - 1e-13);
         let above = bessel_j(1.0);
-        for n in 0..3 {
+        for n in 0..4 {
             assert!((below[n] - above[n]).abs() < 3e-13); // slope times 1e-13, and two roundings
         }
     }

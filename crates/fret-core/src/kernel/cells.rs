@@ -21,8 +21,8 @@ pub(crate) struct CellResponse {
 #[derive(Clone, Debug)]
 pub(crate) struct CellQuadrature {
     rules: [(f64, GaussRule); 7],
-    polar_angle: GaussRule,
-    polar_radius: GaussRule,
+    pub(super) polar_angle: GaussRule,
+    pub(super) polar_radius: GaussRule,
 }
 
 /// A rectangle seen from the point whose displacement is asked.
@@ -33,7 +33,7 @@ struct Rectangle {
 }
 
 /// Largest number of points in one direction.
-const MOST_POINTS: usize = 11;
+pub(super) const MOST_POINTS: usize = 11;
 
 impl CellQuadrature {
     pub(crate) fn new() -> Self {
@@ -53,7 +53,8 @@ impl CellQuadrature {
         }
     }
 
-    fn rule(&self, distance_over_side: f64) -> &[(f64, f64)] {
+    /// The rule for a rectangle whose distance is so many times its side.
+    pub(super) fn rule(&self, distance_over_side: f64) -> &[(f64, f64)] {
         let index = self.rules[..6].iter().position(|(limit, _)| distance_over_side < *limit).unwrap_or(6);
         &self.rules[index].1.points
     }

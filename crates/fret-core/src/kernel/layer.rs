@@ -56,6 +56,11 @@ impl LayerConstants {
         }
     }
 
+    /// Poisson's ratio.
+    pub(crate) fn poisson(&self) -> f64 {
+        self.nu
+    }
+
     /// Shear modulus \[pressure\].
     pub(crate) fn shear_modulus(&self) -> f64 {
         self.mu
@@ -90,6 +95,43 @@ impl<T: Wavenumber> Compliance<T> {
     }
 }
 
+/// Traction at one depth per traction at a lesser one.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Descent<T> {
+    /// In the plane of wavevector and depth.
+    pub in_plane: Matrix<T>,
+    /// Across that plane.
+    pub across: T,
+}
+
+impl<T: Wavenumber> Descent<T> {
+    /// No way down.
+    pub(crate) fn none() -> Self {
+        let (one, zero) = (T::one(), T::zero());
+        Self { in_plane: Matrix { rr: one, rz: zero, zr: zero, zz: one }, across: one }
+    }
+
+    /// Nothing arrives.
+    pub(crate) fn opaque() -> Self {
+        let zero = T::zero();
+        Self { in_plane: Matrix { rr: zero, rz: zero, zr: zero, zz: zero }, across: zero }
+    }
+
+    /// First `first`, then this one.
+    pub(crate) fn after(self, first: Self) -> Self {
+        let (a, b) = (self.in_plane, first.in_plane);
+        Self {
+            in_plane: Matrix {
+                rr: a.rr * b.rr + a.rz * b.zr,
+                rz: a.rr * b.rz + a.rz * b.zz,
+                zr: a.zr * b.rr + a.zz * b.zr,
+                zz: a.zr * b.rz + a.zz * b.zz,
+            },
+            across: self.across * first.across,
+        }
+    }
+}
+
 /// Rounding errors of a sum of thin layers' increments, kept for the next increment.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Carry<T> {
@@ -120,6 +162,8 @@ pub(crate) struct LayerMatrices<T> {
     e_m1: Matrix<T>,
     /// `tanh(k h)`
     pub tanh: T,
+    /// `1 / cosh(k h)`
+    sech: T,
     mu: f64,
     thin: bool,
 }
@@ -226,6 +270,7 @@ impl<T: Wavenumber> LayerMatrices<T> {
             det_z: scale_z * (1.0 / c0) * ss_minus_xx,
             e_m1,
             tanh: sb / cb,
+            sech: t / cb,
             mu,
             thin,
         }
@@ -253,6 +298,28 @@ impl<T: Wavenumber> LayerMatrices<T> {
             - self.f.rz * above_f.rz * 2.0
             + below.determinant * per_n * self.det_e * self.det_e;
         Compliance { in_plane: top, determinant, tt: self.lift_across(below.tt, &mut carry.tt) }
+    }
+
+    /// Traction at the bottom of the layer per traction at its top, over the given compliance: `(1 + Z C)^-1 E^T`.
+    pub(crate) fn descend(&self, below: &Compliance<T>) -> Descent<T> {
+        let (c, z, e) = (below.in_plane, self.z, self.e);
+        let zc = Matrix {
+            rr: z.rr * c.rr + z.rz * c.rz,
+            rz: z.rr * c.rz + z.rz * c.zz,
+            zr: z.rz * c.rr + z.zz * c.rz,
+            zz: z.rz * c.rz + z.zz * c.zz,
+        };
+        let per_n = T::one() / (T::one() + z.contracted(c) + self.det_z * below.determinant);
+        let (one_zz, one_rr) = (T::one() + zc.zz, T::one() + zc.rr);
+        Descent {
+            in_plane: Matrix {
+                rr: (one_zz * e.rr - zc.rz * e.rz) * per_n,
+                rz: (one_zz * e.zr - zc.rz * e.zz) * per_n,
+                zr: (one_rr * e.rz - zc.zr * e.rr) * per_n,
+                zz: (one_rr * e.zz - zc.zr * e.zr) * per_n,
+            },
+            across: self.sech / (T::one() + below.tt * self.tanh * self.mu),
+        }
     }
 
     /// A thin layer adds its small increment with a compensated sum, so that thousands of them add no rounding errors.

@@ -9,6 +9,10 @@ pub mod sampled;
 pub mod sublayers;
 
 pub(crate) mod complex;
+pub(crate) mod depth_cells;
+pub(crate) mod depth_periodic;
+pub(crate) mod depth_radial;
+pub(crate) mod depth_response;
 pub(crate) mod layer;
 pub(crate) mod matrix;
 

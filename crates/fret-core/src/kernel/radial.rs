@@ -33,14 +33,14 @@ const ORDER: [usize; 4] = [0, 0, 2, 1];
 
 /// The path may turn as far as `k C(k)` has no pole: 60 degrees for a plate on a half-space, 45 on springs, 30 with
 /// incompressible interlayers (the least angle found). Half of that leaves room on both sides.
-const ANGLE: f64 = 15.0;
+pub(super) const ANGLE: f64 = 15.0;
 /// Lattice points per e-fold: the error is `exp(-2 pi angle steps)` of the kernel's scale, e^-52.
-const STEPS_PER_E_FOLD: u32 = 32;
+pub(super) const STEPS_PER_E_FOLD: u32 = 32;
 /// The lattice ends where the arguments of the Bessel functions are `exp(-75)`.
-const LEAST_LOG: i32 = -75;
+pub(super) const LEAST_LOG: i32 = -75;
 /// Points on either side in the interpolation between lattice radii: enough for kernels that fall like `exp(-20 r/r_0)`, as
 /// they do on a rigid base.
-const REACH: usize = 12;
+pub(super) const REACH: usize = 12;
 
 /// Weights of the transform. They depend on no case.
 #[derive(Clone, Debug)]
@@ -275,7 +275,7 @@ const BARYCENTRIC: [f64; 2 * REACH] = {
 };
 
 /// Lagrange interpolation with the lattice points around a position.
-fn interpolated(lattice: &[Lanes], position: f64) -> Lanes {
+pub(super) fn interpolated(lattice: &[Lanes], position: f64) -> Lanes {
     let below = position.floor();
     let start = below as usize + 1 - REACH;
     let within = position - below + (REACH - 1) as f64;

@@ -1,0 +1,135 @@
+//! A result folder read back: the bodies, the grid, and the kept fields of any increment.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use fret_core::case::StressRequest;
+use fret_core::model::{ContactPair, SurfaceGrid};
+use ndarray::Array2;
+use serde::de::DeserializeOwned;
+use serde_json::Value;
+
+use super::{FIELDS, RECORD};
+use crate::failure::Failure;
+
+/// A finished run on disk.
+#[derive(Debug)]
+pub struct FinishedRun {
+    fields: PathBuf,
+    /// Its title.
+    pub title: String,
+    /// The two bodies.
+    pub bodies: ContactPair,
+    /// The grid.
+    pub grid: SurfaceGrid,
+    /// Whether the scene repeats.
+    pub periodic: bool,
+    /// Whether there is no friction, and so no shear.
+    pub frictionless: bool,
+    /// What its case asks about stresses.
+    pub stress: Option<StressRequest>,
+    /// First and last increment of the last cycle, from 0; of the whole last stage where it has no cycles. The first is the
+    /// state the cycle starts from, where there is one.
+    pub last_cycle: [usize; 2],
+    /// Whether the last stage has cycles.
+    pub cyclic: bool,
+    /// Increments whose fields are kept.
+    pub steps: Vec<usize>,
+}
+
+impl FinishedRun {
+    /// Reads a folder's record.
+    ///
+    /// # Errors
+    /// When it is no result folder, or its run is not finished, or it keeps no field.
+    pub fn open(folder: &Path) -> Result<Self, Failure> {
+        let shown = folder.display();
+        let refuse = |what: String, help: &str| Failure::Call(format!("{shown}: {what}"), help.to_owned());
+        let no_results = "give a folder that `fret run` has written";
+        if !folder.is_dir() {
+            return Err(refuse("no such folder".to_owned(), no_results));
+        }
+        let text = fs::read_to_string(folder.join(RECORD))
+            .map_err(|_| refuse(format!("holds no {RECORD}: no results of fret"), no_results))?;
+        let record: Value = serde_json::from_str(&text)
+            .map_err(|error| refuse(format!("{RECORD} is not readable: {error}"), "run the case again"))?;
+        match record["status"].as_str() {
+            Some("solved") => {}
+            other => {
+                return Err(refuse(
+                    format!("the run is not finished (status: {})", other.unwrap_or("unknown")),
+                    "run the case to its end",
+                ));
+            }
+        }
+        let plan = &record["plan"];
+        let broken = |what: &str| refuse(format!("{RECORD} does not tell {what}"), "run the case again");
+        let (last_cycle, cyclic) =
+            last_cycle(&plan["case"]["stages"]).ok_or_else(|| broken("the stages of the run"))?;
+        let fields = folder.join(FIELDS);
+        let steps = coordinate(&fields.join("step/c/0"))
+            .ok_or_else(|| refuse(format!("holds no {FIELDS}: no fields were kept"), no_results))?;
+        Ok(Self {
+            fields,
+            title: plan["case"]["title"].as_str().unwrap_or_default().to_owned(),
+            bodies: part(&plan["case"]["bodies"]).ok_or_else(|| broken("the bodies"))?,
+            grid: part(&plan["grid"]).ok_or_else(|| broken("the grid"))?,
+            periodic: plan["case"]["periodic"].as_bool().unwrap_or(false),
+            frictionless: plan["coupling"] == "frictionless",
+            stress: part(&plan["case"]["stress"]),
+            last_cycle,
+            cyclic,
+            steps,
+        })
+    }
+
+    /// A kept field of an increment; `None` when it was not kept.
+    ///
+    /// # Errors
+    /// When its file has the wrong length or holds a number that is not finite.
+    pub fn field(&self, name: &str, increment: usize) -> Result<Option<Array2<f64>>, Failure> {
+        let Ok(position) = self.steps.binary_search(&increment) else { return Ok(None) };
+        let path = self.fields.join(name).join(format!("c/{position}/0/0"));
+        let Ok(bytes) = fs::read(&path) else { return Ok(None) };
+        let [nx, ny] = self.grid.cells();
+        let values: Vec<f64> = numbers(&bytes).map(f64::from_le_bytes).collect();
+        let damaged = |what: &str| {
+            Failure::Call(format!("{}: {what}", path.display()), "run the case again".to_owned())
+        };
+        if let Some(place) = values.iter().position(|value| !value.is_finite()) {
+            return Err(damaged(&format!("value {} is not finite", place)));
+        }
+        match Array2::from_shape_vec((nx, ny), values) {
+            Ok(field) if bytes.len() == 8 * nx * ny => Ok(Some(field)),
+            _ => Err(damaged(&format!("{} bytes, not those of {nx} x {ny} numbers", bytes.len()))),
+        }
+    }
+}
+
+fn part<T: DeserializeOwned>(value: &Value) -> Option<T> {
+    T::deserialize(value).ok()
+}
+
+fn numbers(bytes: &[u8]) -> impl Iterator<Item = [u8; 8]> + '_ {
+    bytes.chunks_exact(8).map(|chunk| std::array::from_fn(|n| chunk[n]))
+}
+
+fn coordinate(path: &Path) -> Option<Vec<usize>> {
+    let bytes = fs::read(path).ok()?;
+    Some(numbers(&bytes).map(|bytes| i64::from_le_bytes(bytes) as usize).collect())
+}
+
+/// Increments of the last cycle, and whether it is one.
+fn last_cycle(stages: &Value) -> Option<([usize; 2], bool)> {
+    let stages = stages.as_array()?;
+    let mut before = 0;
+    let mut found = None;
+    for stage in stages {
+        let per_cycle = stage["increments"].as_u64()? as usize;
+        let cycles = stage["course"]["cycles"].as_u64().map(|cycles| cycles as usize);
+        let end = before + per_cycle * cycles.unwrap_or(1);
+        found = Some(([(end - per_cycle).saturating_sub(1), end - 1], cycles.is_some()));
+        before = end;
+    }
+    found
+}

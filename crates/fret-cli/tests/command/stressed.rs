@@ -1,0 +1,112 @@
+//! `fret stress`: what it writes from a finished run, and how it refuses.
+
+use serde_json::Value;
+
+use crate::bench::{Bench, SPHERE};
+
+fn with_stress(table: &str) -> String {
+    let kept = SPHERE.replace("[\"pressure\", \"shear\", \"zone\"]", "[\"pressure\", \"shear\", \"slip\"]");
+    format!("{}\n[stress]\n{table}\n", kept.replace("every = 5", "every = 2"))
+}
+
+#[test]
+fn a_finished_run_tells_its_stresses_without_solving_again() {
+    let bench = Bench::new("stress-of-a-run");
+    bench.file("case.toml", SPHERE);
+    assert_eq!(bench.fret(&["run", "case.toml", "--out", "out", "--quiet"]).code, Some(0));
+    let before = bench.text("out/history.csv");
+    let answer = bench.fret(&["stress", "out", "--depths", "0,20e-6,40e-6", "--volume", "--json"]);
+    assert_eq!(answer.code, Some(0), "{}", answer.err);
+    let record: Value = serde_json::from_str(&answer.out).unwrap();
+    let file: Value = serde_json::from_str(&bench.text("out/stress/stress.json")).unwrap();
+    assert_eq!(record, file);
+    assert_eq!(record["depths"].as_array().unwrap().len(), 3);
+    // Hertz: the largest von Mises stress lies under the surface, near 0.48 contact radii (15e-6 here), and is 0.62 p0
+    let largest = &record["largest"][0];
+    assert_eq!(largest["measure"], "von_mises");
+    assert_eq!(largest["depth"], 20e-6);
+    let modulus = 210e9 / (1.0 - 0.09);
+    let radius = f64::cbrt(0.75 * 10e-3 / modulus);
+    let peak = 1.5 / (std::f64::consts::PI * radius * radius);
+    let ratio = largest["value"].as_f64().unwrap() / peak;
+    // at 0.63 radii by Hertz's axis stresses; three cells a radius leave some percent
+    assert!((ratio - 0.60).abs() < 0.05, "{ratio}");
+    assert_eq!(bench.text("out/history.csv"), before);
+    let volume = std::fs::read(bench.folder.join("out/stress/volume-00018.vtr")).unwrap();
+    // eight fields of 24 x 24 x 3 numbers of four bytes, each after its length
+    let start = volume.windows(5).position(|window| window == b"\n    _").unwrap() + 5;
+    let bytes = 24 * 24 * 3 * 4;
+    assert_eq!(volume[start..start + 8], (bytes as u64).to_le_bytes());
+    assert_eq!(volume.len() - start, 8 * (8 + bytes) + "\n  </AppendedData>\n</VTKFile>\n".len());
+    let svg = std::fs::read_dir(bench.folder.join("out/stress")).unwrap().filter(|entry| {
+        entry.as_ref().unwrap().path().extension().is_some_and(|extension| extension == "svg")
+    });
+    assert!(svg.count() >= 1);
+    let lines = bench.text("out/stress/depths.csv");
+    assert_eq!(lines.lines().count(), 1 + 3 * record["increments"].as_array().unwrap().len());
+}
+
+#[test]
+fn a_case_with_a_stress_table_is_followed_by_stresses_and_fatigue() {
+    let bench = Bench::new("stress-in-the-case");
+    let table =
+        "torsion_limit = 180e6\ntension_limit = 290e6\nyield_strength = 700e6\ncritical_distance = 10e-6";
+    bench.file("case.toml", &with_stress(table));
+    let answer = bench.fret(&["run", "case.toml", "--out", "out"]);
+    assert_eq!(answer.code, Some(0), "{}", answer.err);
+    for word in
+        ["von mises", "fatemi socie", "dang van", "crossland", "smith watson topper", "ruiz f1", "mean"]
+    {
+        assert!(answer.out.contains(word), "{word}: {}", answer.out);
+    }
+    let record: Value = serde_json::from_str(&bench.text("out/stress/stress.json")).unwrap();
+    let parameters = &record["fatigue"]["parameters"];
+    for name in ["smith_watson_topper", "fatemi_socie", "crossland", "dang_van"] {
+        assert!(parameters[name]["largest"].as_f64().unwrap() > 0.0, "{name}");
+        assert!(parameters[name]["largest_mean"]["value"].as_f64().is_some(), "{name}");
+    }
+    assert!(parameters["ruiz_f1"]["largest"].as_f64().unwrap() > 0.0);
+    // every second kept increment, and the last
+    let answer = bench.fret(&["stress", "out", "--every", "3", "--json", "--auto"]);
+    let record: Value = serde_json::from_str(&answer.out).unwrap();
+    assert_eq!(record["increments"].as_array().unwrap().last().unwrap(), 18);
+}
+
+#[test]
+fn what_cannot_be_told_is_refused_with_a_way_out() {
+    let bench = Bench::new("stress-refused");
+    bench.file("case.toml", &SPHERE.replace("[\"pressure\", \"shear\", \"zone\"]", "[\"zone\"]"));
+    assert_eq!(bench.fret(&["run", "case.toml", "--out", "bare", "--quiet"]).code, Some(0));
+    bench.file("good.toml", SPHERE);
+    assert_eq!(bench.fret(&["run", "good.toml", "--out", "good", "--quiet"]).code, Some(0));
+    for (arguments, words) in [
+        (&["stress", "bare"][..], "holds no tractions"),
+        (&["stress", "nowhere"], "no such folder"),
+        (&["stress", "."], "no results of fret"),
+        (&["stress", "good", "--depths", "-1e-6"], "above the surface"),
+        (&["stress", "good", "--depths", "nan"], "must be a finite length"),
+        (&["stress", "good", "--body", "upper"], "the upper body is rigid"),
+    ] {
+        let answer = bench.fret(arguments);
+        assert_eq!(answer.code, Some(1), "{arguments:?}: {}", answer.out);
+        assert!(answer.err.contains(words), "{arguments:?}: {}", answer.err);
+        assert!(answer.err.contains("help"), "{}", answer.err);
+    }
+    let on_rigid = with_stress("depths = [0.0, 3e-6]\nyield_strength = -1.0\nbody = \"upper\"\nevery = 0")
+        .replace(
+            "substrate = { young = 210e9, poisson = 0.3 }",
+            "coatings = [{ thickness = 2e-6, young = 1e9, poisson = 0.3 }]\nbase = \"rigid\"",
+        );
+    bench.file("rigid.toml", &on_rigid);
+    let answer = bench.fret(&["check", "rigid.toml"]);
+    assert_eq!(answer.code, Some(1));
+    for words in ["stress.every = 0", "yield_strength = -1.0"] {
+        assert!(answer.err.contains(words), "{}", answer.err);
+    }
+    bench.file(
+        "deep.toml",
+        &on_rigid.replace("every = 0", "").replace("-1.0", "1e8").replace("body = \"upper\"", ""),
+    );
+    let answer = bench.fret(&["check", "deep.toml"]);
+    assert!(answer.err.contains("lies in the rigid base"), "{}", answer.err);
+}

@@ -1,0 +1,176 @@
+//! The judgement of what is asked about stresses under the surface.
+
+use serde::{Deserialize, Serialize};
+use toml::Spanned;
+
+use super::Output;
+use super::file::{DepthsFile, SideFile, StressFile};
+use super::judge::Judge;
+use crate::model::{Body, ContactPair};
+use crate::subsurface::depth_points;
+use crate::subsurface::fatigue::Endurance;
+
+/// What is asked about stresses under the surface.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct StressRequest {
+    /// Depths under the surface of the body [length]; `None`: chosen.
+    pub depths: Option<Vec<f64>>,
+    /// The body.
+    pub body: Side,
+    /// Every so many kept increments are looked at, and the last.
+    pub every: usize,
+    /// Whether volumes are written.
+    pub volume: bool,
+    /// What fatigue is judged by.
+    pub fatigue: FatigueRequest,
+}
+
+impl Default for StressRequest {
+    fn default() -> Self {
+        Self { depths: None, body: Side::Lower, every: 1, volume: false, fatigue: FatigueRequest::default() }
+    }
+}
+
+/// Constants of the material for fatigue; parameters without their constants are left out.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+pub struct FatigueRequest {
+    /// Fatigue limits, for Crossland and Dang Van.
+    pub endurance: Option<Endurance>,
+    /// Yield strength [pressure], for Fatemi and Socie.
+    pub yield_strength: Option<f64>,
+    /// Weight k of the normal stress in Fatemi and Socie's parameter [-].
+    pub normal_stress_sensitivity: f64,
+    /// Distance over which parameters are averaged from the surface down [length].
+    pub critical_distance: Option<f64>,
+}
+
+/// One of the two bodies.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Side {
+    /// The body above.
+    Upper,
+    /// The body below.
+    Lower,
+}
+
+impl Side {
+    /// The body of a pair.
+    pub fn of(self, pair: &ContactPair) -> &Body {
+        match self {
+            Self::Upper => pair.upper(),
+            Self::Lower => pair.lower(),
+        }
+    }
+
+    /// Its name.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Upper => "upper",
+            Self::Lower => "lower",
+        }
+    }
+}
+
+/// The request of a case; `None` when there is none, or when it was refused.
+pub(super) fn stress(
+    judge: &mut Judge,
+    given: Option<&Spanned<StressFile>>,
+    bodies: Option<&ContactPair>,
+    output: Option<&Output>,
+    frictionless: bool,
+) -> Option<StressRequest> {
+    let table = given?;
+    let file = table.get_ref();
+    let mut positive = |value: Option<&Spanned<f64>>, name: &str, what: &str| -> Option<f64> {
+        let value = value?;
+        let number = *value.get_ref();
+        if number.is_finite() && number > 0.0 {
+            return Some(number);
+        }
+        judge.refuse(
+            value.span(),
+            format!("stress.{name} = {number:?}: must be a positive finite {what}"),
+            "",
+        )
+    };
+    let torsion = positive(file.torsion_limit.as_ref(), "torsion_limit", "stress");
+    let tension = positive(file.tension_limit.as_ref(), "tension_limit", "stress");
+    let yield_strength = positive(file.yield_strength.as_ref(), "yield_strength", "stress");
+    let critical_distance = positive(file.critical_distance.as_ref(), "critical_distance", "length");
+    if file.torsion_limit.is_some() != file.tension_limit.is_some() {
+        judge.refuse::<()>(
+            table.span(),
+            "stress: torsion_limit and tension_limit belong together",
+            "Crossland's and Dang Van's criteria need both fatigue limits",
+        );
+    }
+    let sensitivity = match &file.normal_stress_sensitivity {
+        None => 1.0,
+        Some(given) if given.get_ref().is_finite() && *given.get_ref() >= 0.0 => *given.get_ref(),
+        Some(given) => judge.refuse::<f64>(
+            given.span(),
+            format!("stress.normal_stress_sensitivity = {:?}: must be zero or positive", given.get_ref()),
+            "0.3 to 1 for most metals",
+        )?,
+    };
+    let every = match &file.every {
+        None => 1,
+        Some(every) if *every.get_ref() >= 1 => *every.get_ref(),
+        Some(every) => judge.refuse(every.span(), "stress.every = 0: must be at least 1", "")?,
+    };
+    let body = file.body.as_ref().map_or(Side::Lower, |side| match side.get_ref() {
+        SideFile::Upper => Side::Upper,
+        SideFile::Lower => Side::Lower,
+    });
+    let place = file.body.as_ref().map_or_else(|| table.span(), Spanned::span);
+    let half_space = match bodies.map(|pair| body.of(pair)) {
+        Some(Body::Rigid) => {
+            let other = if body == Side::Lower { "upper" } else { "lower" };
+            judge.refuse::<()>(
+                place,
+                format!("stress: the {} body is rigid: there is no stress in it", body.name()),
+                &format!("body = \"{other}\""),
+            );
+            None
+        }
+        Some(Body::Elastic(half_space)) => Some(half_space),
+        None => None,
+    };
+    let depths = match &file.depths {
+        None => None,
+        Some(depths) => match depths.get_ref() {
+            DepthsFile::Auto => None,
+            DepthsFile::Given(list) => {
+                if let Some(half_space) = half_space
+                    && let Err(error) = depth_points(half_space, list)
+                {
+                    judge.refuse::<()>(
+                        depths.span(),
+                        format!("stress.depths: {error}"),
+                        "or depths = \"auto\"",
+                    );
+                }
+                Some(list.clone())
+            }
+        },
+    };
+    if let Some(output) = output {
+        let keeps = |name: &str| output.fields.iter().any(|field| field == name);
+        if !keeps("pressure") || !(frictionless || keeps("shear")) {
+            judge.refuse::<()>(
+                table.span(),
+                "stress: the tractions are not kept, from which stresses are made",
+                "output.fields = [\"pressure\", \"shear\", ...]",
+            );
+        }
+    }
+    let endurance = torsion.zip(tension).map(|(torsion, tension)| Endurance { torsion, tension });
+    let fatigue = FatigueRequest {
+        endurance,
+        yield_strength,
+        normal_stress_sensitivity: sensitivity,
+        critical_distance,
+    };
+    Some(StressRequest { depths, body, every, volume: file.volume.unwrap_or(false), fatigue })
+}

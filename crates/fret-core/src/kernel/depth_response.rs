@@ -1,0 +1,313 @@
+//! How a point at depth answers a traction wave at the surface: stress and displacement at one wavenumber.
+//!
+//! The stack is cut at the depth. The compliance of what lies below the cut and of every cut above is carried upward in hybrid
+//! layer matrices, and with it the traction that arrives at the depth: `t_bottom = (1 + Z C)^-1 E^T t_top`, layer by layer. `E`
+//! carries `exp(-k h)`, so every wave decays from where it starts and nothing grows; `I + Z C` is never near singular.
+
+use super::complex::Wavenumber;
+use super::layer::{Carry, Compliance, Descent, LayerConstants, LayerMatrices, OPAQUE};
+use crate::model::{Base, HalfSpace};
+
+/// Relative distance from an interface that is rounding of a sum of thicknesses.
+const ROUNDING: f64 = 1e-9;
+
+#[derive(Clone, Copy, Debug)]
+struct Layer {
+    constants: LayerConstants,
+    thickness: f64,
+}
+
+/// A layered half-space cut at a depth, seen from one layer.
+#[derive(Clone, Debug)]
+pub(crate) struct DepthResponse {
+    depth: f64,
+    /// From the surface down to the depth.
+    above: Vec<Layer>,
+    /// From the depth down.
+    below: Vec<Layer>,
+    base: Option<LayerConstants>,
+    /// Of the layer the point lies in.
+    constants: LayerConstants,
+    /// Longest length in the half-space, see `FrequencyResponse::longest_length`.
+    longest: f64,
+}
+
+/// Stress and displacement at depth per unit traction wave at the surface, in the frame of the wavevector.
+///
+/// With `q_x = i Q`, `p = P`: `sigma_zz = -(normal . (Q, P))`, `sigma_xz = -i (shear . (Q, P))`, `sigma_xx = along . (Q, P)`,
+/// `sigma_yy = across . (Q, P)`, `k u_x = i (tangential . (Q, P))`, `k u_z = depthwise . (Q, P)`; and per `q_y`:
+/// `sigma_yz = -twist_shear`, `sigma_xy = i in_plane_shear`, `k u_y = sideways`. Pairs are `[per Q, per P]`.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct DepthTransfer<T> {
+    pub normal: [T; 2],
+    pub shear: [T; 2],
+    pub along: [T; 2],
+    pub across: [T; 2],
+    pub tangential: [T; 2],
+    pub depthwise: [T; 2],
+    pub twist_shear: T,
+    pub in_plane_shear: T,
+    pub sideways: T,
+}
+
+impl DepthResponse {
+    /// Cuts a half-space at `depth` \[length\] and looks from layer `layer` (0 at the surface; the number of coatings: the
+    /// substrate), in or at the faces of which the depth must lie.
+    pub(crate) fn new(half_space: &HalfSpace, layer: usize, depth: f64) -> Self {
+        let layers: Vec<Layer> = half_space
+            .coatings()
+            .iter()
+            .map(|coating| Layer {
+                constants: LayerConstants::new(coating.material()),
+                thickness: coating.thickness(),
+            })
+            .collect();
+        let base = match half_space.base() {
+            Base::Elastic(material) => Some(LayerConstants::new(material)),
+            Base::Rigid => None,
+        };
+        let layer = if base.is_none() { layer.min(layers.len() - 1) } else { layer.min(layers.len()) };
+        let top: f64 = layers[..layer].iter().map(|layer| layer.thickness).sum();
+        let mut within = (depth - top).max(0.0);
+        if let Some(own) = layers.get(layer)
+            && (own.thickness - within).abs() <= ROUNDING * depth
+        {
+            within = own.thickness;
+        } else if within <= ROUNDING * depth {
+            within = 0.0;
+        }
+        let mut above = layers[..layer].to_vec();
+        let mut below = Vec::new();
+        let constants = match (layers.get(layer), base) {
+            (Some(own), _) => {
+                below.push(Layer { thickness: (own.thickness - within).max(0.0), ..*own });
+                below.extend_from_slice(&layers[layer + 1..]);
+                own.constants
+            }
+            (None, Some(substrate)) => substrate,
+            (None, None) => unreachable!("a rigid base always carries a coating"),
+        };
+        above.push(Layer { constants, thickness: within });
+        above.retain(|layer| layer.thickness > 0.0);
+        below.retain(|layer| layer.thickness > 0.0);
+        let moduli = || {
+            let layers = layers.iter().map(|layer| layer.constants.shear_modulus());
+            layers.chain(base.iter().map(LayerConstants::shear_modulus))
+        };
+        let contrast = moduli().fold(0.0, f64::max) / moduli().fold(f64::INFINITY, f64::min);
+        let thickness: f64 = layers.iter().map(|layer| layer.thickness).sum();
+        Self { depth, above, below, base, constants, longest: depth.max(thickness * contrast) }
+    }
+
+    /// Depth of the point \[length\].
+    pub(crate) fn depth(&self) -> f64 {
+        self.depth
+    }
+
+    /// Poisson's ratio where the point lies.
+    pub(crate) fn poisson(&self) -> f64 {
+        self.constants.poisson()
+    }
+
+    /// The longest length of the problem \[length\].
+    pub(crate) fn longest_length(&self) -> f64 {
+        self.longest
+    }
+
+    /// Response at a real or complex wavenumber.
+    pub(crate) fn at<T: Wavenumber>(&self, k: T) -> DepthTransfer<T> {
+        let is_opaque = |layer: &Layer| (k * layer.thickness).real_part() > OPAQUE;
+        let opaque = self.below.iter().position(is_opaque);
+        let (mut compliance, below) = match (opaque, &self.base) {
+            (Some(index), _) => (self.below[index].constants.half_space(), &self.below[..index]),
+            (None, Some(base)) => (base.half_space(), &self.below[..]),
+            (None, None) => (Compliance::rigid(), &self.below[..]),
+        };
+        let mut carry = Carry::none();
+        for layer in below.iter().rev() {
+            compliance =
+                LayerMatrices::new(&layer.constants, k * layer.thickness).lift(&compliance, &mut carry);
+        }
+        let at_depth = compliance;
+        let mut descent = Descent::none();
+        for layer in self.above.iter().rev() {
+            if is_opaque(layer) {
+                descent = Descent::opaque();
+                break;
+            }
+            let matrices = LayerMatrices::new(&layer.constants, k * layer.thickness);
+            descent = descent.after(matrices.descend(&compliance));
+            compliance = matrices.lift(&compliance, &mut carry);
+        }
+        self.transfer(&at_depth, &descent)
+    }
+
+    fn transfer<T: Wavenumber>(&self, below: &Compliance<T>, descent: &Descent<T>) -> DepthTransfer<T> {
+        let (nu, mu) = (self.constants.poisson(), self.constants.shear_modulus());
+        let (c, t) = (below.in_plane, descent.in_plane);
+        let shear = [t.rr, t.rz];
+        let normal = [t.zr, t.zz];
+        let tangential = [0, 1].map(|n| c.rr * shear[n] + c.rz * normal[n]);
+        let depthwise = [0, 1].map(|n| c.rz * shear[n] + c.zz * normal[n]);
+        // Hooke's law with the stretch along the wave given and the normal traction: finite at nu = 1/2
+        let along =
+            [0, 1].map(|n| -(tangential[n] * (2.0 * mu / (1.0 - nu)) + normal[n] * (nu / (1.0 - nu))));
+        let across = [0, 1].map(|n| (along[n] - normal[n]) * nu);
+        let sideways = below.tt * descent.across;
+        DepthTransfer {
+            normal,
+            shear,
+            along,
+            across,
+            tangential,
+            depthwise,
+            twist_shear: descent.across,
+            in_plane_shear: sideways * mu,
+            sideways,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::frequency_response::FrequencyResponse;
+    use super::super::samples::{Random, stack};
+    use super::*;
+
+    /// What both sides of an interface share: tractions and displacements.
+    fn shared(transfer: &DepthTransfer<f64>) -> [f64; 10] {
+        let DepthTransfer { normal, shear, tangential, depthwise, twist_shear, sideways, .. } = *transfer;
+        [
+            normal[0],
+            normal[1],
+            shear[0],
+            shear[1],
+            tangential[0],
+            tangential[1],
+            depthwise[0],
+            depthwise[1],
+            twist_shear,
+            sideways,
+        ]
+    }
+
+    #[test]
+    fn at_the_surface_the_traction_is_the_load_and_the_displacement_the_compliance() {
+        let mut random = Random::seeded(21);
+        for case in 0..50 {
+            let half_space = random.half_space(4, 1e4, case % 2 == 0);
+            let k = random.log_uniform(1e-6, 1e3);
+            let found = DepthResponse::new(&half_space, 0, 0.0).at(k);
+            let surface = FrequencyResponse::new(&half_space).times_k(k);
+            assert_eq!((found.normal, found.shear), ([0.0, 1.0], [1.0, 0.0]));
+            let pairs = [
+                (found.tangential[0], surface.rr),
+                (found.tangential[1], surface.rz),
+                (found.depthwise[0], surface.rz),
+                (found.depthwise[1], surface.zz),
+                (found.sideways, surface.tt),
+            ];
+            let size = (surface.rr * surface.zz).sqrt();
+            for (found, exact) in pairs {
+                assert!((found - exact).abs() < 1e-13 * exact.abs().max(size), "{half_space:?} {k}");
+            }
+        }
+    }
+
+    #[test]
+    fn published_values_of_the_bilayer_at_depth() {
+        // E1/E2 = 2, h = k = 1, nu = 0.3: surface displacement of the closed form at depth, nine digits
+        let found = DepthResponse::new(&stack(&[(2.0, 0.3, 1.0)], Some((1.0, 0.3))), 0, 0.0).at(1.0);
+        assert!((found.depthwise[1] - 1.346_452_02).abs() < 1e-8);
+        assert!((found.tangential[1] - 0.448_645_923).abs() < 1e-8);
+        assert!((found.tangential[0] - 1.010_106_58).abs() < 1e-8);
+    }
+
+    #[test]
+    fn a_half_space_follows_boussinesq_and_cerruti() {
+        // waves in a half-space: P: n = (1 + kz) e, s = -kz e, a = (kz - 1) e; Q: n = kz e, s = (1 - kz) e, a = (kz - 2) e;
+        // across: e (Johnson 1985, Contact Mechanics, chapter 13; e = exp(-kz)); any nu
+        let half_space = stack(&[], Some((2.6, 0.3)));
+        for kz in [1e-3, 0.3, 2.0, 30.0] {
+            let (z, k) = (0.7, kz / 0.7);
+            let found = DepthResponse::new(&half_space, 0, z).at(k);
+            let e = libm::exp(-kz);
+            let expected = [
+                (found.normal[1], (1.0 + kz) * e),
+                (found.normal[0], kz * e),
+                (found.shear[1], -kz * e),
+                (found.shear[0], (1.0 - kz) * e),
+                (found.along[1], (kz - 1.0) * e),
+                (found.along[0], (kz - 2.0) * e),
+                (found.twist_shear, e),
+                (found.in_plane_shear, e),
+            ];
+            for (lane, (found, exact)) in expected.into_iter().enumerate() {
+                assert!((found - exact).abs() < 1e-14 * (1.0 + kz) * e, "kz {kz}, {lane}: {found} {exact}");
+            }
+        }
+    }
+
+    #[test]
+    fn both_sides_of_an_interface_share_traction_and_displacement() {
+        let mut random = Random::seeded(22);
+        for case in 0..200 {
+            let half_space = random.half_space(4, 1e8, case % 3 == 0);
+            let k = random.log_uniform(1e-6, 60.0);
+            let mut depth = 0.0;
+            let sides = half_space.coatings().len() - usize::from(case % 3 == 0);
+            for layer in 0..sides {
+                depth += half_space.coatings()[layer].thickness();
+                let upper = shared(&DepthResponse::new(&half_space, layer, depth).at(k));
+                let lower = shared(&DepthResponse::new(&half_space, layer + 1, depth).at(k));
+                // each pair of one load, over its larger one: single components pass through zero
+                for pair in [[0, 2], [1, 3], [4, 6], [5, 7], [8, 8], [9, 9]] {
+                    let size = upper[pair[0]].abs().max(upper[pair[1]].abs());
+                    for n in pair {
+                        assert!((upper[n] - lower[n]).abs() <= 1e-12 * size + 1e-300, "{half_space:?} {k}");
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn equilibrium_holds_at_depth() {
+        // in these terms: normal' = k shear, shear' = k along, twist_shear' = -k in_plane_shear
+        let mut random = Random::seeded(23);
+        for case in 0..100 {
+            let half_space = random.half_space(3, 1e4, case % 2 == 0);
+            let layer = random.whole(0, half_space.coatings().len() - 1);
+            let top: f64 = half_space.coatings()[..layer].iter().map(|c| c.thickness()).sum();
+            let h = half_space.coatings()[layer].thickness();
+            let z = top + h * (0.2 + 0.6 * random.uniform());
+            let k = random.log_uniform(1e-2, 20.0);
+            let step = 0.02 * h.min(1.0 / k);
+            let at = |depth: f64| DepthResponse::new(&half_space, layer, depth).at(k);
+            // eighth-order central difference: truncation (0.02)^8, rounding over the step
+            let weights = [4.0 / 5.0, -1.0 / 5.0, 4.0 / 105.0, -1.0 / 280.0];
+            let slope = |of: &dyn Fn(&DepthTransfer<f64>) -> f64| {
+                let pairs = weights.iter().zip(1..).map(|(weight, n)| {
+                    let away = f64::from(n) * step;
+                    weight * (of(&at(z + away)) - of(&at(z - away)))
+                });
+                pairs.sum::<f64>() / (step * k)
+            };
+            let here = at(z);
+            for n in 0..2 {
+                let size =
+                    here.normal[n].abs() + here.shear[n].abs() + here.along[n].abs() + here.across[n].abs();
+                let normal = slope(&|t| t.normal[n]) - here.shear[n];
+                let shear = slope(&|t| t.shear[n]) - here.along[n];
+                // rounding over a step that is a fiftieth of the layer or of the wave
+                let tolerance = 1e-10 * size * (1.0 + 1.0 / (k * h));
+                assert!(
+                    normal.abs() < tolerance && shear.abs() < tolerance,
+                    "{half_space:?} k {k}: {normal:e} {shear:e} of {size:e}"
+                );
+            }
+            let twist = slope(&|t| t.twist_shear) + here.in_plane_shear;
+            assert!(twist.abs() < 1e-10 * (here.twist_shear + here.in_plane_shear) * (1.0 + 1.0 / (k * h)));
+        }
+    }
+}

@@ -1,0 +1,109 @@
+//! The largest of each number over depths, cells and increments, with its place.
+
+use serde::Serialize;
+
+use super::depths::DepthPoint;
+use super::tensor::{StressField, StressTensor};
+
+/// What is looked for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Measure {
+    /// Von Mises equivalent stress.
+    VonMises,
+    /// Tresca equivalent stress.
+    Tresca,
+    /// Largest tensile principal stress: where coatings crack.
+    Tension,
+    /// Largest hydrostatic tension.
+    Hydrostatic,
+    /// At interfaces alone: shear traction.
+    InterfaceShear,
+    /// At interfaces alone: tension across the interface, which peels the coating off.
+    Peel,
+}
+
+impl Measure {
+    /// All of them.
+    pub const ALL: [Self; 6] =
+        [Self::VonMises, Self::Tresca, Self::Tension, Self::Hydrostatic, Self::InterfaceShear, Self::Peel];
+
+    /// The number itself [pressure].
+    pub fn of(self, stress: &StressTensor) -> f64 {
+        let [_, _, zz, _, xz, yz] = stress.0;
+        match self {
+            Self::VonMises => stress.von_mises(),
+            Self::Tresca => stress.tresca(),
+            Self::Tension => stress.principal().values[0],
+            Self::Hydrostatic => stress.hydrostatic(),
+            Self::InterfaceShear => xz.hypot(yz),
+            Self::Peel => zz,
+        }
+    }
+
+    /// Whether it has its meaning at interfaces alone.
+    pub fn at_interfaces_only(self) -> bool {
+        matches!(self, Self::InterfaceShear | Self::Peel)
+    }
+
+    /// What it is called.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::VonMises => "von_mises",
+            Self::Tresca => "tresca",
+            Self::Tension => "tension",
+            Self::Hydrostatic => "hydrostatic",
+            Self::InterfaceShear => "interface_shear",
+            Self::Peel => "peel",
+        }
+    }
+}
+
+/// The largest value found so far, and where.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Largest {
+    /// Which number.
+    pub measure: Measure,
+    /// Its value [pressure].
+    pub value: f64,
+    /// The increment, from 0.
+    pub increment: usize,
+    /// Cell `[i, j]`.
+    pub cell: [usize; 2],
+    /// Depth and layer.
+    pub point: DepthPoint,
+}
+
+/// Updates a list of largest values, one a measure, with the stress at one depth in one increment. Of equal values the first
+/// found stays.
+pub fn look(
+    found: &mut Vec<Largest>,
+    field: &StressField,
+    point: DepthPoint,
+    is_interface: bool,
+    increment: usize,
+) {
+    for measure in Measure::ALL {
+        if measure.at_interfaces_only() && !is_interface {
+            continue;
+        }
+        let mut best: Option<(f64, [usize; 2])> = None;
+        let shape = field.components[0].dim();
+        for i in 0..shape.0 {
+            for j in 0..shape.1 {
+                let value = measure.of(&field.at(i, j));
+                if best.is_none_or(|(most, _)| value > most) {
+                    best = Some((value, [i, j]));
+                }
+            }
+        }
+        let Some((value, cell)) = best else { continue };
+        match found.iter_mut().find(|largest| largest.measure == measure) {
+            Some(largest) if value > largest.value => {
+                *largest = Largest { measure, value, increment, cell, point };
+            }
+            Some(_) => {}
+            None => found.push(Largest { measure, value, increment, cell, point }),
+        }
+    }
+}

@@ -1,0 +1,18 @@
+//! What happens under the surface: stress and displacement at depth from the tractions of a contact, what engineers judge
+//! them by, and how a load cycle wears the material out.
+//!
+//! Axes: x and y of the contact, z INTO the body in question, from its own surface. Tension is positive. The shear given is
+//! what acts on the body: on the lower body the contact's shear, on the upper one minus it.
+
+pub mod depths;
+pub mod fatigue;
+pub mod largest;
+pub mod operator;
+pub mod survey;
+pub mod tensor;
+
+pub use depths::{DepthError, DepthPoint, automatic_depths, depth_points};
+pub use largest::{Largest, Measure};
+pub use operator::{DepthOperator, Tractions};
+pub use survey::{LoadedSurface, survey};
+pub use tensor::{Principal, StressField, StressTensor};

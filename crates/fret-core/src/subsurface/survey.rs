@@ -1,0 +1,54 @@
+//! A walk through a body: depth by depth, at each depth through all increments, so that kernels are made once a depth and
+//! memory holds one depth at a time.
+
+use ndarray::Array2;
+
+use super::depths::DepthPoint;
+use super::operator::{DepthOperator, Tractions};
+use super::tensor::StressField;
+use crate::model::{HalfSpace, SurfaceGrid};
+use crate::spectral::ConvolutionError;
+
+/// What acts on the surface of the body in one increment, shape `(nx, ny)`.
+#[derive(Debug, Clone)]
+pub struct LoadedSurface {
+    /// The increment, from 0.
+    pub increment: usize,
+    /// Pressure [pressure].
+    pub pressure: Array2<f64>,
+    /// Shear acting on the body in question, x and y [pressure].
+    pub shear: Option<[Array2<f64>; 2]>,
+    /// Accumulated slip, x and y [length].
+    pub slip: Option<[Array2<f64>; 2]>,
+}
+
+/// Stress at all points under all surfaces: `visit(point, surface, field)` with their indices, points outermost. `visit`
+/// returns whether to go on.
+///
+/// # Errors
+/// When a kernel is not finite: with moduli or lengths of extreme magnitude.
+pub fn survey(
+    half_space: &HalfSpace,
+    grid: &SurfaceGrid,
+    periodic: bool,
+    points: &[DepthPoint],
+    surfaces: &[LoadedSurface],
+    mut visit: impl FnMut(usize, usize, &StressField) -> bool,
+) -> Result<(), ConvolutionError> {
+    let with_shear = surfaces.iter().any(|surface| surface.shear.is_some());
+    let none = Array2::zeros((grid.cells()[0], grid.cells()[1]));
+    for (number, &point) in points.iter().enumerate() {
+        let mut operator = DepthOperator::new(half_space, point, grid, periodic, with_shear, false)?;
+        for (index, surface) in surfaces.iter().enumerate() {
+            let shear = with_shear.then(|| match &surface.shear {
+                Some([x, y]) => [x.view(), y.view()],
+                None => [none.view(), none.view()],
+            });
+            let field = operator.stress(&Tractions { pressure: surface.pressure.view(), shear });
+            if !visit(number, index, &field) {
+                return Ok(());
+            }
+        }
+    }
+    Ok(())
+}

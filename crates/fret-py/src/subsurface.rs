@@ -1,0 +1,70 @@
+//! Stress under the surface of one body of a pair, from tractions.
+
+use fret_core::case::Side;
+use fret_core::model::{Body, ContactPair, SurfaceGrid};
+use fret_core::subsurface::{LoadedSurface, StressTensor, depth_points, survey};
+use ndarray::{Array2, Array3, Axis};
+use numpy::{IntoPyArray, PyReadonlyArray2};
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::{Bound, PyDictMethods, PyResult, Python, pyfunction};
+use pyo3::types::PyDict;
+
+use crate::error::bad_value;
+use crate::threads::on_pool;
+
+const COMPONENTS: [&str; 6] = ["xx", "yy", "zz", "xy", "xz", "yz"];
+
+/// Tractions: pressure, and shear on the lower body along x and y.
+type TractionArrays<'py> =
+    (PyReadonlyArray2<'py, f64>, Option<(PyReadonlyArray2<'py, f64>, PyReadonlyArray2<'py, f64>)>);
+
+/// Stress at depths: arrays xx, yy, zz, xy, xz, yz, von_mises of shape (nz, nx, ny); depth and layer of shape (nz,).
+#[pyfunction]
+pub fn subsurface_stress<'py>(
+    py: Python<'py>,
+    bodies: (&str, bool),
+    spacing: [f64; 2],
+    periodic: bool,
+    tractions: TractionArrays<'py>,
+    depths: Vec<f64>,
+    threads: Option<usize>,
+) -> PyResult<Bound<'py, PyDict>> {
+    let (text, upper) = bodies;
+    let pair: ContactPair = serde_json::from_str(text).map_err(bad_value)?;
+    let side = if upper { Side::Upper } else { Side::Lower };
+    let Body::Elastic(half_space) = side.of(&pair) else {
+        let message = format!("the {} body is rigid: there is no stress in it", side.name());
+        return Err(PyValueError::new_err(message));
+    };
+    let points = depth_points(half_space, &depths).map_err(bad_value)?;
+    let sign = if upper { -1.0 } else { 1.0 };
+    let pressure: Array2<f64> = tractions.0.as_array().to_owned();
+    let shear = tractions.1.map(|(x, y)| [x, y].map(|component| component.as_array().to_owned() * sign));
+    let shape = pressure.dim();
+    if shear.as_ref().is_some_and(|shear| shear.iter().any(|component| component.dim() != shape)) {
+        return Err(PyValueError::new_err(format!("shear of another shape than the pressure, {shape:?}")));
+    }
+    let grid = SurfaceGrid::new([shape.0, shape.1], spacing).map_err(bad_value)?;
+    let surface = LoadedSurface { increment: 0, pressure, shear, slip: None };
+    let mut stress: [Array3<f64>; 7] =
+        std::array::from_fn(|_| Array3::zeros((points.len(), shape.0, shape.1)));
+    on_pool(py, threads, || {
+        survey(half_space, &grid, periodic, &points, &[surface], |point, _, field| {
+            for (component, values) in field.components.iter().enumerate() {
+                stress[component].index_axis_mut(Axis(0), point).assign(values);
+            }
+            stress[6].index_axis_mut(Axis(0), point).assign(&field.map(StressTensor::von_mises));
+            true
+        })
+    })?
+    .map_err(bad_value)?;
+    let items = PyDict::new(py);
+    for (name, values) in COMPONENTS.into_iter().chain(["von_mises"]).zip(stress) {
+        items.set_item(name, values.into_pyarray(py))?;
+    }
+    let depths: Vec<f64> = points.iter().map(|point| point.depth).collect();
+    let layers: Vec<i64> = points.iter().map(|point| point.layer as i64).collect();
+    items.set_item("depth", depths.into_pyarray(py))?;
+    items.set_item("layer", layers.into_pyarray(py))?;
+    Ok(items)
+}
