@@ -19,15 +19,18 @@ lower body, compression is positive.
 
 from typing import NoReturn
 
-from fretting import analytic
+from fretting import analytic, plot
 from fretting._core import __version__
+from fretting._points import Axis
 from fretting.errors import CaseError, FrettingError, Mistake, RunError
 from fretting.history import History
 from fretting.kernels import Convolution, frequency_response, influence_coefficients
 from fretting.planning import Plan, plan
 from fretting.simulation import run
+from fretting.sweeping import sweep
 
 __all__ = [
+    "Axis",
     "CaseError",
     "Convolution",
     "FrettingError",
@@ -40,11 +43,13 @@ __all__ = [
     "frequency_response",
     "influence_coefficients",
     "plan",
+    "plot",
     "run",
+    "sweep",
 ]
 
 
 def __getattr__(name: str) -> NoReturn:
-    if name in ("sweep", "subsurface_stress", "plot"):
+    if name == "subsurface_stress":
         raise AttributeError(f"fretting.{name} is not built yet")
     raise AttributeError(f"module 'fretting' has no attribute {name!r}")

@@ -34,17 +34,21 @@ def read(case: CaseLike) -> _core.Case:
         When the file cannot be read.
     """
     if isinstance(case, Mapping):
-        text = json.dumps(_plain(case, ""), allow_nan=False)
+        text = json.dumps(plain(case, ""), allow_nan=False)
         return _core.Case.from_json(text, "case")
+    return _core.Case.from_toml(*text_of(case))
+
+
+def text_of(case: str | os.PathLike[str]) -> tuple[str, str]:
+    """Return the TOML text of a case that is no mapping, and the name that stands in messages."""
     if isinstance(case, str) and not _is_path(case):
-        return _core.Case.from_toml(case, "case")
+        return case, "case"
     if isinstance(case, str | os.PathLike):
         path = Path(case)
         try:
-            text = path.read_text(encoding="utf-8")
+            return path.read_text(encoding="utf-8"), str(path)
         except UnicodeDecodeError as error:
             raise _refusal(str(path), f"not readable as UTF-8 text: {error.reason} at byte {error.start}") from None
-        return _core.Case.from_toml(text, str(path))
     raise TypeError(f"case: expected a path, TOML text or a dict, found {type(case).__name__}")
 
 
@@ -59,10 +63,10 @@ def _is_path(text: str) -> bool:
         return False
 
 
-def _plain(value: object, place: str) -> Json:
+def plain(value: object, place: str) -> Json:
     """Turn a value of a case into what JSON can say; NumPy scalars and arrays become numbers and lists."""
     if isinstance(value, np.generic | np.ndarray):
-        return _plain(value.tolist(), place)
+        return plain(value.tolist(), place)
     if value is None or isinstance(value, bool | int | str):
         return value
     if isinstance(value, float):
@@ -75,9 +79,9 @@ def _plain(value: object, place: str) -> Json:
         for key in value:
             if not isinstance(key, str):
                 raise _refusal("case", f"{place or 'the case'} has the key {key!r}: keys are words")
-        return {key: _plain(item, f"{place}.{key}" if place else key) for key, item in value.items()}
+        return {key: plain(item, f"{place}.{key}" if place else key) for key, item in value.items()}
     if isinstance(value, Sequence) and not isinstance(value, bytes | bytearray):
-        return [_plain(item, f"{place}[{index}]") for index, item in enumerate(value)]
+        return [plain(item, f"{place}[{index}]") for index, item in enumerate(value)]
     raise _refusal("case", f"{place}: {type(value).__name__} is not a number, a word, a list or a table")
 
 

@@ -63,9 +63,9 @@ pub fn step_items<'py>(py: Python<'py>, step: &StepRecord) -> PyResult<Bound<'py
     Ok(items)
 }
 
-/// All of a run.
+/// All of a run, and the increments of a cycle of each stage that has cycles.
 #[pyclass(frozen, module = "fretting._core")]
-pub struct History(pub history::History);
+pub struct History(pub history::History, pub Vec<Option<usize>>);
 
 #[pymethods]
 impl History {
@@ -88,6 +88,11 @@ impl History {
     /// Names of the stages.
     fn stages(&self) -> Vec<String> {
         self.0.stages.clone()
+    }
+
+    /// Increments of one cycle of each stage; `None` of a stage without cycles.
+    fn cycle_lengths(&self) -> Vec<Option<usize>> {
+        self.1.clone()
     }
 
     /// Coordinates of the cell centres along axis 0 or 1 [length].

@@ -1,4 +1,6 @@
 //! The command `fret`: parse, dispatch, exit code. The verbs live in `commands`, the physics in `fret-core`.
+//!
+//! A library, so that the program `fret` and the one that comes with the Python wheel are the same to the letter.
 
 mod arguments;
 mod case_file;
@@ -12,7 +14,7 @@ mod summary;
 mod tally;
 mod terminal;
 
-use std::process::ExitCode;
+use std::ffi::OsString;
 
 use clap::Parser;
 use clap::error::ErrorKind;
@@ -20,16 +22,18 @@ use clap::error::ErrorKind;
 use arguments::{Arguments, Verb};
 use failure::Failure;
 
-fn main() -> ExitCode {
-    let arguments = match Arguments::try_parse() {
+/// Does what the words of a command line ask for, the first being the program's name; answers go to the process's own
+/// streams. Gives the exit code: 0 solved, 1 refused, 2 failed, 130 interrupted.
+pub fn command_line(words: impl IntoIterator<Item = OsString>) -> u8 {
+    let arguments = match Arguments::try_parse_from(words) {
         Ok(arguments) => arguments,
         Err(error) => return asked_for_help_or_mistaken(&error),
     };
     match dispatch(&arguments.verb) {
-        Ok(()) => ExitCode::SUCCESS,
+        Ok(()) => 0,
         Err(failure) => {
             terminal::say(&failure.render(terminal::errors_in_colour()));
-            ExitCode::from(failure.code())
+            failure.code()
         }
     }
 }
@@ -50,11 +54,11 @@ fn dispatch(verb: &Verb) -> Result<(), Failure> {
 }
 
 /// Help and version are answers; anything else clap objects to is a refusal, for which clap's own exit code 2 is taken.
-fn asked_for_help_or_mistaken(error: &clap::Error) -> ExitCode {
+fn asked_for_help_or_mistaken(error: &clap::Error) -> u8 {
     // A stream that is closed cannot be told so.
     let _ = error.print();
     match error.kind() {
-        ErrorKind::DisplayHelp | ErrorKind::DisplayVersion => ExitCode::SUCCESS,
-        _ => ExitCode::from(failure::REFUSED),
+        ErrorKind::DisplayHelp | ErrorKind::DisplayVersion => 0,
+        _ => failure::REFUSED,
     }
 }
