@@ -12,6 +12,7 @@ import numpy.typing as npt
 
 from fretting import _case
 from fretting.errors import CaseError
+from fretting.history import MEANING
 
 Table: TypeAlias = dict[str, Any]
 Key: TypeAlias = str | tuple[str, ...]
@@ -72,12 +73,15 @@ def dimensions(axes: Axes) -> list[Dimension]:
     for dimension in found:
         if not dimension.changes:
             raise ValueError(f"axis {dimension.name!r} has no values")
-        if sum(name == dimension.name for name in names) > 2 or dimension.name in RESERVED:
-            raise ValueError(f"axis {dimension.name!r}: the name is taken")
+        for name in {dimension.name, *dimension.coordinates}:
+            if name in RESERVED or name.startswith("cycle_"):
+                raise ValueError(f"axis {name!r}: a variable of the answer is called so; choose another name")
+        if sum(name == dimension.name for name in names) > 2:
+            raise ValueError(f"axis {dimension.name!r} is there twice")
     return found
 
 
-RESERVED = {"step", "stage", "status", "error"}
+RESERVED = {"step", "status", "error", *MEANING}
 """Names that the answer of a sweep needs itself."""
 
 
