@@ -257,7 +257,7 @@ def regime_map(
     edges = [_edges(np.asarray(dataset[name].values, dtype=np.float64), name) for name in (x, y)]
     axes.pcolormesh(*edges, codes, cmap=colours, vmin=-0.5, vmax=len(REGIMES) - 0.5, edgecolors="white", lw=0.4)
     axes.set(xlabel=x, ylabel=y)
-    _colour_legend(axes, [entry for number, entry in enumerate(REGIMES) if (codes == number).any()])
+    _colour_legend(axes, [entry for number, entry in enumerate(REGIMES) if (codes == number).any()], "upper left")
     return axes
 
 
@@ -365,8 +365,8 @@ def _edges(centres: Reals, name: str) -> Reals:
     return np.exp(edges) if by_factors else edges
 
 
-def _colour_legend(axes: Any, entries: Sequence[tuple[str, str]]) -> None:  # noqa: ANN401
+def _colour_legend(axes: Any, entries: Sequence[tuple[str, str]], place: str = "upper right") -> None:  # noqa: ANN401
     from matplotlib.patches import Patch
 
     patches = [Patch(facecolor=colour, edgecolor="0.6", label=word.replace("_", " ")) for word, colour in entries]
-    axes.legend(handles=patches, loc="upper right", fontsize="small", framealpha=0.9)
+    axes.legend(handles=patches, loc=place, fontsize="small", framealpha=0.9)

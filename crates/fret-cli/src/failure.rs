@@ -64,7 +64,7 @@ impl std::fmt::Display for Unwritten {
 impl Failure {
     /// A verb or an option that has a name but no code.
     pub fn not_built(what: &str) -> Self {
-        Self::Call(format!("{what}: not built yet"), "built are: run, check, plan, schema".to_owned())
+        Self::Call(format!("{what}: not built yet"), "built are: run, check, plan, schema, sweep".to_owned())
     }
 
     /// The exit code.

@@ -11,6 +11,7 @@ mod interrupt;
 mod output;
 mod progress;
 mod summary;
+mod sweep;
 mod tally;
 mod terminal;
 
@@ -49,7 +50,7 @@ fn dispatch(verb: &Verb) -> Result<(), Failure> {
         Verb::Stress(_) => Err(Failure::not_built("fret stress")),
         Verb::Report(_) => Err(Failure::not_built("fret report")),
         Verb::Export(_) => Err(Failure::not_built("fret export")),
-        Verb::Sweep(_) => Err(Failure::not_built("fret sweep")),
+        Verb::Sweep(arguments) => commands::sweep::sweep(arguments),
     }
 }
 

@@ -4,3 +4,4 @@ pub mod check;
 pub mod plan;
 pub mod run;
 pub mod schema;
+pub mod sweep;

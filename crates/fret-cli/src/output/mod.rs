@@ -19,8 +19,8 @@ use crate::failure::{Failure, Unwritten};
 use crate::tally::Tally;
 use field_store::FieldStore;
 use history_table::HistoryTable;
-pub use run_record::{RunRecord, resolved};
-use whole_file::write_whole;
+pub use run_record::{RunRecord, fnv1a64, resolved};
+pub use whole_file::write_whole;
 
 const CASE: &str = "case.toml";
 const RECORD: &str = "run.json";

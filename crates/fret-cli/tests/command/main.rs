@@ -6,4 +6,5 @@ mod answered;
 mod bench;
 mod refused;
 mod solved;
+mod swept;
 mod unwritten;

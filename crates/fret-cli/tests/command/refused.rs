@@ -141,7 +141,6 @@ fn verbs_that_are_not_built_yet_are_refused_by_name() {
         &["stress", "results"],
         &["report", "results", "--help"],
         &["export", "results", "--npz"],
-        &["sweep", "sweep.toml"],
         &["run", "case.toml", "--resume"],
     ] {
         let answer = bench.fret(arguments);

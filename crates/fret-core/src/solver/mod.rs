@@ -169,12 +169,7 @@ impl<'a> ContactSolver<'a> {
         Err(SolveError::NotConverged { reached, iterations: self.settings.most_outer_iterations })
     }
 
-    fn check_friction_carries(
-        &self,
-        load: &LoadStep,
-        normal: f64,
-        tolerance: f64,
-    ) -> Result<(), SolveError> {
+    fn check_friction_carries(&self, load: &LoadStep, normal: f64, tolerance: f64) -> Result<(), SolveError> {
         let [x, y] = load.tangential.map(|control| match control {
             Control::Force(force) => force,
             Control::Motion(_) => 0.0,
