@@ -12,11 +12,11 @@ from typing import Any
 ROOT = Path(__file__).resolve().parents[2]
 HEAD = """# Every key of a case
 
-<!-- Written by docs/site/case_format.py from examples/fret.schema.json: edit the comments in the case reader instead. -->
+<!-- Written by docs/site/case_format.py from examples/fret.schema.json: edit the comments of the case reader. -->
 
-A case is a TOML file, or the same structure as a Python dict. Any consistent system of units. `fret check CASE` finds all
-mistakes at once; `fret schema` prints this page as a JSON Schema, with which editors complete and check a case: put
-`#:schema ./fret.schema.json` into its first line.
+A case is a TOML file, or the same structure as a Python dict. Any consistent system of units. `fret check CASE` finds
+all mistakes at once; `fret schema` prints this page as a JSON Schema, with which editors complete and check a case:
+put `#:schema ./fret.schema.json` into its first line.
 """
 
 
@@ -36,7 +36,8 @@ def page(schema: dict[str, Any]) -> str:
         entries = {**definition.get("properties", {})}
         for choice in definition.get("oneOf", []):
             entries.update(choice.get("properties", {}))
-        todo = [(f"{key}.{inner}", n) for inner, value in entries.items() for n in _tables(_dict(value), definitions)] + todo
+        inner = [(f"{key}.{name}", n) for name, value in entries.items() for n in _tables(_dict(value), definitions)]
+        todo = inner + todo
     return "\n".join(parts)
 
 
@@ -88,7 +89,8 @@ def _tables(value: dict[str, Any], definitions: dict[str, Any]) -> list[str]:
         if "properties" in node or any("properties" in choice for choice in node.get("oneOf", [])):
             found.append(name)
         else:
-            found += _tables({key: item for key, item in node.items() if key in ("anyOf", "oneOf", "items")}, definitions)
+            inner = {key: item for key, item in node.items() if key in ("anyOf", "oneOf", "items")}
+            found += _tables(inner, definitions)
     return found
 
 

@@ -1,4 +1,4 @@
-"""What the site does beyond mkdocs: pages nobody listed, links to files outside the pages, formulas without a network."""
+"""What the site does beyond mkdocs: pages nobody listed, links out of the pages, formulas without a network."""
 
 import html
 import re

@@ -37,7 +37,8 @@ class Axis:
     """Called with a copy of the case (a dict, the caller's to change) and a value."""
 
 
-Axes: TypeAlias = Mapping[Key, Sequence[Any] | npt.NDArray[Any] | Axis] | Sequence[Mapping[str, Any]]
+Values: TypeAlias = Sequence[Any] | npt.NDArray[Any] | Axis
+Axes: TypeAlias = Mapping[Any, Values] | Sequence[Mapping[str, Any]]
 """Values of each axis by the key of the case that takes them, or a list of points."""
 
 

@@ -39,7 +39,13 @@ def cycles(steps: Columns, lengths: Sequence[int | None]) -> Columns:
         for number in range(len(rows) // length)
     ]
     answers = [_cycle(steps, stage, number, rows) for stage, number, rows in spans]
-    types = {"stage": np.int64, "cycle": np.int64, "first": np.int64, "last": np.int64, "regime": np.dtype("<U12")}
+    types: dict[str, Any] = {
+        "stage": np.int64,
+        "cycle": np.int64,
+        "first": np.int64,
+        "last": np.int64,
+        "regime": np.dtype("<U12"),
+    }
     return {
         name: np.asarray([answer[name] for answer in answers], dtype=types.get(name, np.float64)) for name in MEANING
     }

@@ -270,7 +270,7 @@ class History:
         return plot.animation(self, field, along, stage)
 
     def _facts(self) -> list[tuple[str, str]]:
-        """What a person wants to know first."""
+        """Return what a person wants to know first."""
         nx, ny = self.shape
         facts = [("stages", ", ".join(self.stages)), ("increments", str(len(self))), ("cells", f"{nx} x {ny}")]
         if not len(self):

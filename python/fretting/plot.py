@@ -273,10 +273,10 @@ def html_table(title: str, facts: Sequence[tuple[str, str]]) -> str:
 
 def _pyplot() -> Any:  # noqa: ANN401 - a module
     try:
-        from matplotlib import pyplot
+        from matplotlib import pyplot as plt
     except ImportError as error:
         raise ImportError("pictures need matplotlib: pip install 'fretting[plot]'") from error
-    return pyplot
+    return plt
 
 
 def _own_axes(axes: "Axes | None") -> Any:  # noqa: ANN401 - matplotlib's own stubs change with its version
@@ -315,7 +315,8 @@ def _stage_number(history: "History", stage: int | str) -> int:
 def _along(values: Reals, along: Direction, across: Reals, at: float) -> Reals:
     rows = values if along == "y" else values.T
     if len(across) == 1:
-        return rows[0]
+        only: Reals = rows[0]
+        return only
     place = np.clip((at - across[0]) / (across[1] - across[0]), 0.0, len(across) - 1.0)
     below = min(int(place), len(across) - 2)
     share = place - below
@@ -362,7 +363,8 @@ def _edges(centres: Reals, name: str) -> Reals:
     lattice = np.log(centres) if by_factors else centres
     middle = 0.5 * (lattice[1:] + lattice[:-1])
     edges = np.concatenate([[2 * lattice[0] - middle[0]], middle, [2 * lattice[-1] - middle[-1]]])
-    return np.exp(edges) if by_factors else edges
+    answer: Reals = np.exp(edges) if by_factors else edges
+    return answer
 
 
 def _colour_legend(axes: Any, entries: Sequence[tuple[str, str]], place: str = "upper right") -> None:  # noqa: ANN401

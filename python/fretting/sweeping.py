@@ -5,7 +5,6 @@ import os
 import tomllib
 from collections.abc import Callable, Iterator, Mapping
 from concurrent.futures import BrokenExecutor, Executor, Future, as_completed
-from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypeAlias
 
 import numpy as np
@@ -213,7 +212,7 @@ def _solved(
         for point, task in zip(asked, tasks, strict=True):
             try:
                 yield point, _solve(task), True
-            except Exception as error:  # noqa: BLE001 - whatever it is belongs to this point alone
+            except Exception as error:  # whatever it is belongs to this point alone
                 yield point, _surprise(error), False
         return
     futures: dict[Future[Table], Point] = {
@@ -225,7 +224,7 @@ def _solved(
                 yield futures[future], future.result(), True
             except BrokenExecutor:
                 raise
-            except Exception as error:  # noqa: BLE001
+            except Exception as error:
                 yield futures[future], _surprise(error), False
     finally:
         for future in futures:
@@ -267,7 +266,7 @@ class _Teller:
 def _dataset(
     found: list[Dimension], answers: dict[tuple[int, ...], Table], keep: Keep, attributes: dict[str, Any]
 ) -> "xarray.Dataset":
-    xarray = _import_xarray()
+    module = _import_xarray()
     names = tuple(dimension.name for dimension in found)
     shape = tuple(len(dimension.changes) for dimension in found)
     variables: dict[str, Any] = {}
@@ -285,7 +284,10 @@ def _dataset(
         for place, answer in answers.items():
             column = answer["steps"].get(name)
             if column is not None:
-                table[place if extra is None else (*place, slice(len(column)))] = column[0] if extra is None else column
+                if extra is None:
+                    table[place] = column[0]
+                else:
+                    table[place][: len(column)] = column
         dims = names if extra is None else (*names, extra)
         variables[name] = (dims, table, {"long_name": MEANING[name]})
     for name in _all_names(answers, "cycle"):
@@ -305,7 +307,8 @@ def _dataset(
             coordinates[label] = (dimension.name, entries)
     if extra and length:
         coordinates[extra] = (extra, np.arange(length))
-    return xarray.Dataset(variables, coords=coordinates, attrs=attributes)
+    dataset: xarray.Dataset = module.Dataset(variables, coords=coordinates, attrs=attributes)
+    return dataset
 
 
 def _all_names(answers: dict[tuple[int, ...], Table], part: str) -> list[str]:

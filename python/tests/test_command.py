@@ -49,7 +49,7 @@ def test_it_solves_refuses_and_says_so_in_its_exit_code(tmp_path: Path) -> None:
     assert (tmp_path / "results" / "case" / "history.csv").exists()
     refused = fret("check", "bad.toml", folder=tmp_path)
     assert refused.returncode == 1
-    assert "bad.toml:12:14" in refused.stderr
+    assert "bad.toml:13:14" in refused.stderr
     assert fret("no-such-verb", folder=tmp_path).returncode == 1
 
 

@@ -64,7 +64,7 @@ def test_numbers_that_are_not_finite_are_refused_with_their_place(name: str, bad
 
 @pytest.mark.parametrize("dtype", [complex, str, object, "datetime64[s]", bool])
 @pytest.mark.parametrize("name", CALLS)
-def test_what_is_no_real_number_is_refused(name: str, dtype: Any) -> None:
+def test_what_is_no_real_number_is_refused(name: str, dtype: str | type) -> None:
     call, values = CALLS[name]
     with pytest.raises(TypeError, match="expected real numbers, found"):
         call(np.zeros(values.shape, dtype=dtype))
@@ -88,9 +88,9 @@ def test_any_shape_of_points_is_kept(shape: tuple[int, ...]) -> None:
 
 @pytest.mark.parametrize("shape", [(0, 0), (0, 4), (4, 0), (4,), (2, 2, 2), ()])
 def test_kernels_and_fields_of_other_shapes_are_refused(shape: tuple[int, ...]) -> None:
-    with pytest.raises(ValueError, match="shape|cell|dimensions"):
+    with pytest.raises(ValueError, match=r"shape|cell|dimensions"):
         fretting.Convolution(np.zeros(shape))
-    with pytest.raises(ValueError, match="shape|dimensions"):
+    with pytest.raises(ValueError, match=r"shape|dimensions"):
         fretting.Convolution(KERNEL)(np.zeros(shape))
 
 
@@ -124,7 +124,7 @@ def test_arrays_far_larger_than_memory_are_refused_before_memory_is_asked_for() 
     ],
 )
 def test_numbers_out_of_their_range_are_refused(call: Callable[[], Any]) -> None:
-    with pytest.raises(ValueError, match="."):
+    with pytest.raises(ValueError, match=r"."):
         call()
 
 
@@ -140,7 +140,7 @@ def test_numbers_out_of_their_range_are_refused(call: Callable[[], Any]) -> None
         (float("inf"), "must be finite"),
     ],
 )
-def test_hostile_values_in_a_case_are_refused(fretting_case: dict[str, Any], value: Any, words: str) -> None:
+def test_hostile_values_in_a_case_are_refused(fretting_case: dict[str, Any], value: object, words: str) -> None:
     fretting_case["load"][1]["tangential_force"] = value
     with pytest.raises(fretting.CaseError) as refused:
         fretting.plan(fretting_case)
@@ -149,7 +149,6 @@ def test_hostile_values_in_a_case_are_refused(fretting_case: dict[str, Any], val
 
 def test_arrays_in_a_case_may_have_any_layout(fretting_case: dict[str, Any]) -> None:
     plain = fretting.plan(fretting_case)
-    fretting_case["load"][1]["tangential_force"] = np.array([9.0, 0.0, 9.0, 2.4])[::-3][::-1][::-1].astype(">f4").round(1)
     fretting_case["load"][1]["tangential_force"] = np.array([0.0, 2.4])[::-1]
     fretting_case["grid"]["cells"] = np.array([48, 48], dtype=np.uint16)
     assert dict(fretting.plan(fretting_case)) == dict(plain)

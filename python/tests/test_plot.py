@@ -28,7 +28,7 @@ def test_a_loop_shows_force_over_shift_with_the_state_it_starts_from(history: fr
     shift, force = history.plot_loop().lines[0].get_data()
     np.testing.assert_array_equal(shift, history.steps["shift_x"])
     np.testing.assert_array_equal(force, history.steps["tangential_force_x"])
-    assert len(history.plot_loop(stage="indent").lines[0].get_xdata()) == 1
+    assert np.size(history.plot_loop(stage="indent").lines[0].get_xdata()) == 1
     with pytest.raises(ValueError, match="no stage is called 'rub'; stages are: indent, fretting"):
         history.plot_loop(stage="rub")
     with pytest.raises(ValueError, match="along = 'z'"):
@@ -39,10 +39,10 @@ def test_a_section_passes_between_the_middle_rows(history: fretting.History) -> 
     x, pressure = history.plot_section("pressure").lines[0].get_data()
     field = history.field("pressure")
     np.testing.assert_array_equal(x, history.x)
-    np.testing.assert_allclose(pressure, 0.5 * (field[:, 7] + field[:, 8]), rtol=1e-12)
+    np.testing.assert_allclose(np.asarray(pressure), 0.5 * (field[:, 7] + field[:, 8]), rtol=1e-12)
     y, row = history.plot_section("pressure", along="y", at=history.x[3]).lines[0].get_data()
     np.testing.assert_array_equal(y, history.y)
-    np.testing.assert_allclose(row, field[3], atol=1e-9 * field.max())
+    np.testing.assert_allclose(np.asarray(row), field[3], atol=1e-9 * field.max())
     with pytest.raises(ValueError, match="outside the grid"):
         history.plot_section("pressure", at=1.0)
 
@@ -54,7 +54,9 @@ def test_maps_have_x_to_the_right_and_y_upwards(history: fretting.History) -> No
     np.testing.assert_allclose(image.get_extent(), [-150e-6, 150e-6, -150e-6, 150e-6], rtol=1e-12)
     zones = history.plot_zones(step=2)
     np.testing.assert_array_equal(zones.images[0].get_array(), history.field("zone", 2).T)
-    words = {text.get_text() for text in zones.get_legend().get_texts()}
+    legend = zones.get_legend()
+    assert legend is not None
+    words = {text.get_text() for text in legend.get_texts()}
     assert words == {("open", "stick", "slip")[zone] for zone in np.unique(history.field("zone", 2))}
 
 
@@ -64,7 +66,7 @@ def test_an_animation_has_a_picture_of_every_kept_increment(history: fretting.Hi
     from PIL import Image
 
     with Image.open(tmp_path / "loop.gif") as animation:
-        assert animation.n_frames == len([step for step in history.kept_steps if step >= 0])
+        assert getattr(animation, "n_frames", 1) == len([step for step in history.kept_steps if step >= 0])
 
 
 def test_a_fretting_map_colours_each_point_by_its_regime(fretting_case: dict[str, Any]) -> None:
