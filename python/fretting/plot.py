@@ -116,6 +116,7 @@ def section(
     lengths = [name for name in names if name.startswith(("slip", "gap"))]
     label = "[length]" if len(lengths) == len(names) else "" if lengths else "traction [pressure]"
     axes.set(xlabel=f"{along} [length]", ylabel=label)
+    axes.ticklabel_format(scilimits=(-2, 3))
     axes.legend(frameon=False)
     return axes
 
@@ -340,6 +341,7 @@ def _image(
         values.T, origin="lower", extent=edges, cmap=colours, vmin=low, vmax=high, interpolation="nearest"
     )
     axes.set(xlabel="x [length]", ylabel="y [length]")
+    axes.ticklabel_format(scilimits=(-2, 3))
     return image
 
 

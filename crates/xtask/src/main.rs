@@ -114,12 +114,16 @@ fn check() -> Vec<Step> {
 }
 
 fn docs() -> Vec<Step> {
-    let mut steps = vec![cargo(&["doc", "--workspace", "--no-deps", "--locked"]).with("RUSTDOCFLAGS", "--deny warnings")];
+    let mut steps =
+        vec![cargo(&["doc", "--workspace", "--no-deps", "--locked"]).with("RUSTDOCFLAGS", "--deny warnings")];
     steps.extend(venv());
-    let tools = ["-m", "pip", "install", "--quiet", "mkdocs-material", "mkdocstrings[python]", "latex2mathml"];
+    let tools =
+        ["-m", "pip", "install", "--quiet", "mkdocs-material", "mkdocstrings[python]", "latex2mathml"];
     steps.push(python("documentation tools", &tools));
     // The theme's makers announce the next mkdocs on every build.
-    steps.push(python("site", &["-m", "mkdocs", "build", "--strict", "--quiet"]).with("NO_MKDOCS_2_WARNING", "1"));
+    steps.push(
+        python("site", &["-m", "mkdocs", "build", "--strict", "--quiet"]).with("NO_MKDOCS_2_WARNING", "1"),
+    );
     steps
 }
 
