@@ -164,6 +164,6 @@ def test_run_refuses_like_plan() -> None:
 
 
 def test_what_is_not_built_says_so() -> None:
-    for name in ("sweep", "subsurface_stress"):
+    for name in ("subsurface_stress",):
         with pytest.raises(AttributeError, match=f"{name} is not built yet"):
             getattr(fretting, name)

@@ -82,8 +82,8 @@ def test_snippets_run_in_their_order(page: Path, tmp_path: Path, monkeypatch: py
             check_toml(text, tmp_path)
         else:
             run_shell(text, tmp_path)
-    if "matplotlib" in sys.modules:
-        sys.modules["matplotlib"].pyplot.close("all")
+    if "matplotlib.pyplot" in sys.modules:
+        sys.modules["matplotlib.pyplot"].close("all")
 
 
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.relative_to(ROOT).as_posix())
