@@ -33,3 +33,32 @@ fn coated_contacts_slide_at_mu_w_and_not_below() {
         assert!(far > 0.9999 && far <= 1.0 + 1e-9, "E1/E2 = {ratio}: {far}");
     }
 }
+
+#[test]
+fn a_force_that_a_prescribed_approach_cannot_carry_is_refused_and_not_answered_by_sliding() {
+    // Hertz: an approach d of a paraboloid of radius R presses with 4/3 E* sqrt(R) d^1.5; friction carries mu times that.
+    // Apart it carries nothing. Bodies that couple, and those that do not.
+    let (radius, approach, friction) = (10e-3_f64, 1e-6_f64, 0.2);
+    for (upper, modulus) in [
+        ("rigid = true", 210e9 / (1.0 - 0.09)),
+        ("substrate = { young = 210e9, poisson = 0.3 }", 210e9 / (2.0 * (1.0 - 0.09))),
+    ] {
+        let carried = friction * 4.0 / 3.0 * modulus * radius.sqrt() * approach.powf(1.5);
+        let text = |approach: f64, force: f64| {
+            format!(
+                "grid = {{ cells = [24, 24], size = [300e-6, 300e-6] }}\nfriction.coefficient = {friction}\n\
+                 profile.sphere.radius = {radius:e}\n[upper]\n{upper}\n[lower]\n\
+                 substrate = {{ young = 210e9, poisson = 0.3 }}\n[[load]]\napproach = {approach:e}\nincrements = 1\n\
+                 [[load]]\ntangential_force = [{force:e}, 0.0]\nincrements = 2\n"
+            )
+        };
+        // On 24 cells the force is Hertz's within a few per cent.
+        assert!(run(&text(approach, 0.9 * carried)).is_ok(), "{upper}");
+        for (approach, force) in [(approach, 1.1 * carried), (1e-3 * approach, carried), (-approach, carried)]
+        {
+            let Err(refusal) = run(&text(approach, force)) else { panic!("{upper}: carried") };
+            let refusal = refusal.to_string();
+            assert!(refusal.contains("above mu W") || refusal.contains("not solved"), "{upper}: {refusal}");
+        }
+    }
+}

@@ -17,18 +17,20 @@ Any consistent system of units. Fields have shape (nx, ny), index ``[i, j]`` at 
 lower body, compression is positive.
 """
 
-from typing import NoReturn
 
-from fretting import analytic
+from fretting import analytic, plot
 from fretting._core import __version__
+from fretting._points import Axis
 from fretting.errors import CaseError, FrettingError, Mistake, RunError
 from fretting.history import History
 from fretting.kernels import Convolution, frequency_response, influence_coefficients
 from fretting.planning import Plan, plan
 from fretting.simulation import run
 from fretting.stress import subsurface_stress
+from fretting.sweeping import sweep
 
 __all__ = [
+    "Axis",
     "CaseError",
     "Convolution",
     "FrettingError",
@@ -41,12 +43,8 @@ __all__ = [
     "frequency_response",
     "influence_coefficients",
     "plan",
+    "plot",
     "run",
     "subsurface_stress",
+    "sweep",
 ]
-
-
-def __getattr__(name: str) -> NoReturn:
-    if name in ("sweep", "plot"):
-        raise AttributeError(f"fretting.{name} is not built yet")
-    raise AttributeError(f"module 'fretting' has no attribute {name!r}")

@@ -19,12 +19,31 @@ def real_array(name: str, values: npt.ArrayLike, dimensions: int | None = None) 
         When the number of dimensions is another one, or a value is not finite.
     """
     given = np.asarray(values)
+    if isinstance(values, np.ma.MaskedArray) and np.ma.is_masked(values):
+        raise ValueError(f"{name}: has masked values; what is under a mask is no number")
     if given.dtype.kind not in "fiu":
         raise TypeError(f"{name}: expected real numbers, found an array of {given.dtype}")
     if dimensions is not None and given.ndim != dimensions:
         raise ValueError(f"{name} of shape {given.shape}: must have {dimensions} dimensions")
-    array: Reals = np.asarray(given, dtype=np.float64, order="C")
+    array: Reals = np.require(given, np.float64, ["C_CONTIGUOUS", "ALIGNED"])
     if not np.isfinite(array).all():
         place = tuple(int(index) for index in np.argwhere(~np.isfinite(array))[0])
         raise ValueError(f"{name}: value {array[place]} at {list(place)} is not finite")
     return array
+
+
+def room_for(what: str, reals: int) -> None:
+    """Refuse what would not fit into memory, before any of it is asked for.
+
+    Raises
+    ------
+    MemoryError
+        When the system would not give room for so many real numbers at once.
+    """
+    try:
+        if reals < 1 << 60:
+            np.empty(reals)  # never touched, so it costs nothing
+            return
+    except MemoryError:
+        pass
+    raise MemoryError(f"{what}: needs about {reals * 8 / 2**30:.3g} GiB at once")

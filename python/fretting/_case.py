@@ -42,17 +42,21 @@ def read(case: CaseLike) -> _core.Case:
     """
     if isinstance(case, Mapping):
         arrays: list[Reals] = []
-        text = json.dumps(_plain(case, "", arrays), allow_nan=False)
+        text = json.dumps(plain(case, "", arrays), allow_nan=False)
         return _core.Case.from_json(text, "case", Path(), arrays)
+    return _core.Case.from_toml(*text_of(case))
+
+
+def text_of(case: str | os.PathLike[str]) -> tuple[str, str, Path]:
+    """Return the TOML text of a case that is no mapping, the name that stands in messages, and the folder of its files."""
     if isinstance(case, str) and not _is_path(case):
-        return _core.Case.from_toml(case, "case", Path())
+        return case, "case", Path()
     if isinstance(case, str | os.PathLike):
         path = Path(case)
         try:
-            text = path.read_text(encoding="utf-8")
+            return path.read_text(encoding="utf-8"), str(path), path.parent
         except UnicodeDecodeError as error:
             raise _refusal(str(path), f"not readable as UTF-8 text: {error.reason} at byte {error.start}") from None
-        return _core.Case.from_toml(text, str(path), path.parent)
     raise TypeError(f"case: expected a path, TOML text or a dict, found {type(case).__name__}")
 
 
@@ -67,17 +71,22 @@ def _is_path(text: str) -> bool:
         return False
 
 
-def _plain(value: object, place: str, arrays: list[Reals]) -> Json:
+def plain(value: object, place: str, arrays: list[Reals] | None = None) -> Json:
     """Turn a value of a case into what JSON can say.
 
-    NumPy scalars and arrays become numbers and lists; arrays for every cell are put aside into `arrays`, and their number
-    stands in their place.
+    NumPy scalars and arrays become numbers and lists; with a list `arrays`, those for every cell are put aside into it, and
+    their number stands in their place.
     """
-    if isinstance(value, np.ndarray) and place.endswith((".values", ".map", ".friction")) and value.ndim > 0:
+    if (
+        arrays is not None
+        and isinstance(value, np.ndarray)
+        and place.endswith((".values", ".map", ".friction"))
+        and value.ndim > 0
+    ):
         arrays.append(_field(value, place))
         return {"array": len(arrays) - 1}
     if isinstance(value, np.generic | np.ndarray):
-        return _plain(value.tolist(), place, arrays)
+        return plain(value.tolist(), place, arrays)
     if value is None or isinstance(value, bool | int | str):
         return value
     if isinstance(value, float):
@@ -90,9 +99,9 @@ def _plain(value: object, place: str, arrays: list[Reals]) -> Json:
         for key in value:
             if not isinstance(key, str):
                 raise _refusal("case", f"{place or 'the case'} has the key {key!r}: keys are words")
-        return {key: _plain(item, f"{place}.{key}" if place else key, arrays) for key, item in value.items()}
+        return {key: plain(item, f"{place}.{key}" if place else key, arrays) for key, item in value.items()}
     if isinstance(value, Sequence) and not isinstance(value, bytes | bytearray):
-        return [_plain(item, f"{place}[{index}]", arrays) for index, item in enumerate(value)]
+        return [plain(item, f"{place}[{index}]", arrays) for index, item in enumerate(value)]
     raise _refusal("case", f"{place}: {type(value).__name__} is not a number, a word, a list or a table")
 
 

@@ -6,13 +6,47 @@ from types import TracebackType
 from typing import Any, Self
 
 
-class ProgressLine:
+class _Line:
     """Writes to stderr: one line rewritten in place on a terminal, otherwise a line every few seconds."""
 
     def __init__(self) -> None:
         self._terminal = sys.stderr.isatty()
         self._patience = 0.1 if self._terminal else 5.0
         self._start = self._last = time.monotonic()
+
+    def due(self, done: int, count: int) -> float | None:
+        """Return the seconds that are left when it is time to tell, else nothing."""
+        now = time.monotonic()
+        if done < count and now - self._last < self._patience:
+            return None
+        self._last = now
+        return (now - self._start) / done * (count - done)
+
+    def write(self, text: str) -> None:
+        """Write the line."""
+        sys.stderr.write(f"\r{text}\x1b[K" if self._terminal else f"{text}\n")
+        sys.stderr.flush()
+
+    def end(self) -> None:
+        """Leave the line."""
+        if self._terminal:
+            sys.stderr.write("\n")
+            sys.stderr.flush()
+
+
+class PointLine(_Line):
+    """Tells how far a sweep is."""
+
+    def __call__(self, news: dict[str, Any]) -> None:
+        """Tell about a point, unless the last one was told just now."""
+        left = self.due(news["done"], news["points"])
+        if left is not None:
+            failed = f"  {news['failed']} failed" if news["failed"] else ""
+            self.write(f"point {news['done']}/{news['points']}{failed}  {left:.0f} s left")
+
+
+class ProgressLine(_Line):
+    """Tells how far a run is."""
 
     def __enter__(self) -> Self:
         """Start the clock."""
@@ -21,23 +55,13 @@ class ProgressLine:
     def __call__(self, step: dict[str, Any], increments: int) -> None:
         """Tell about a step, unless the last one was told just now."""
         done = step["increment"] + 1
-        now = time.monotonic()
-        if done < increments and now - self._last < self._patience:
-            return
-        self._last = now
-        left = (now - self._start) / done * (increments - done)
-        text = (
-            f"increment {done}/{increments}  {step['regime'].replace('_', ' ')}  residual {step['residual']:.1e}  "
-            f"{left:.0f} s left"
-        )
-        end = "" if self._terminal else "\n"
-        sys.stderr.write(f"\r{text}\x1b[K{end}" if self._terminal else f"{text}{end}")
-        sys.stderr.flush()
+        left = self.due(done, increments)
+        if left is not None:
+            regime = step["regime"].replace("_", " ")
+            self.write(f"increment {done}/{increments}  {regime}  residual {step['residual']:.1e}  {left:.0f} s left")
 
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
         """Leave the line."""
-        if self._terminal:
-            sys.stderr.write("\n")
-            sys.stderr.flush()
+        self.end()

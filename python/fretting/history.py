@@ -5,16 +5,19 @@ from typing import TYPE_CHECKING, Any, Literal, Protocol, Self, get_args
 import numpy as np
 import numpy.typing as npt
 
-from fretting import _core
+from fretting import _core, plot
 from fretting._arrays import Reals
+from fretting.cycles import Columns, cycles
 
 if TYPE_CHECKING:
     import xarray
+    from matplotlib.animation import FuncAnimation
+    from matplotlib.axes import Axes
 
 FieldName = Literal["pressure", "shear_x", "shear_y", "slip_x", "slip_y", "gap", "zone"]
 FIELD_NAMES: tuple[str, ...] = get_args(FieldName)
 
-_MEANING = {
+MEANING = {
     "pressure": "contact pressure, compression positive [pressure]",
     "shear_x": "shear traction on the lower body along x [pressure]",
     "shear_y": "shear traction on the lower body along y [pressure]",
@@ -104,6 +107,7 @@ class History:
     _bodies: str
     _spacing: tuple[float, float]
     _periodic: bool
+    _cycle_lengths: list[int | None]
 
     def __init__(self, answer: _core.History) -> None:
         self._kept = answer
@@ -115,6 +119,7 @@ class History:
         dx, dy = answer.spacing()
         self._spacing = (dx, dy)
         self._periodic = answer.periodic()
+        self._cycle_lengths = answer.cycle_lengths()
 
     def __getstate__(self) -> dict[str, Any]:
         """Everything as plain arrays."""
@@ -206,7 +211,7 @@ class History:
         chosen = np.arange(len(self)) if steps == "all" else np.asarray(kept, dtype=np.int64)
         row = {int(increment): position for position, increment in enumerate(chosen)}
         variables: dict[str, Any] = {
-            name: ("step", column[chosen], {"long_name": _MEANING[name]})
+            name: ("step", column[chosen], {"long_name": MEANING[name]})
             for name, column in self.steps.items()
             if name != "increment"
         }
@@ -218,28 +223,91 @@ class History:
             stack: npt.NDArray[Any] = np.full((len(chosen), *self.shape), fill, dtype=dtype)
             for increment in holders:
                 stack[row[increment]] = self._kept.field(name, increment)
-            variables[name] = (("step", "x", "y"), stack, {"long_name": _MEANING[name]})
+            variables[name] = (("step", "x", "y"), stack, {"long_name": MEANING[name]})
         coordinates = {
-            "step": ("step", chosen, {"long_name": _MEANING["increment"]}),
+            "step": ("step", chosen, {"long_name": MEANING["increment"]}),
             "x": ("x", self.x, {"long_name": "cell centres along x [length]"}),
             "y": ("y", self.y, {"long_name": "cell centres along y [length]"}),
         }
         return xarray.Dataset(variables, coords=coordinates, attrs={"stages": self.stages})
 
+    def cycles(self) -> Columns:
+        """Return what each full fretting cycle came to.
+
+        Returns
+        -------
+        dict of str to ndarray
+            One entry a full cycle, in order: ``stage`` and ``cycle`` (from 1, in its stage), ``first`` and ``last``
+            increment, ``energy`` (work of friction in the cycle [force x length]), ``force_amplitude`` and
+            ``shift_amplitude`` (half the span), ``energy_ratio`` (energy over 4 times their product: 0 without slip,
+            towards 1 in gross slip), ``least_stick_share``, ``regime`` (``"gross_slip"`` when any increment slips
+            fully, else ``"partial_slip"`` when any slips, else ``"full_stick"``). Empty without stages in cycles.
+        """
+        return cycles(self.steps, self._cycle_lengths)
+
+    def plot_loop(
+        self, along: Literal["x", "y"] = "x", stage: int | str | None = None, axes: "Axes | None" = None
+    ) -> "Axes":
+        """Draw tangential force over shift: see :func:`fretting.plot.loop`."""
+        return plot.loop(self, along, stage, axes)
+
+    def plot_section(
+        self,
+        fields: FieldName | tuple[FieldName, ...] = ("pressure", "shear_x"),
+        step: int = -1,
+        along: Literal["x", "y"] = "x",
+        at: float = 0.0,
+        axes: "Axes | None" = None,
+    ) -> "Axes":
+        """Draw fields along a line through the grid: see :func:`fretting.plot.section`."""
+        return plot.section(self, fields, step, along, at, axes)
+
+    def plot_field(self, name: FieldName = "pressure", step: int = -1, axes: "Axes | None" = None) -> "Axes":
+        """Draw a field as a map: see :func:`fretting.plot.field`."""
+        return plot.field(self, name, step, axes)
+
+    def plot_zones(self, step: int = -1, axes: "Axes | None" = None) -> "Axes":
+        """Draw where the contact sticks and slips: see :func:`fretting.plot.zones`."""
+        return plot.zones(self, step, axes)
+
+    def animate_loop(
+        self, field: FieldName = "zone", along: Literal["x", "y"] = "x", stage: int | str | None = None
+    ) -> "FuncAnimation":
+        """Animate the loop beside a field: see :func:`fretting.plot.animation`."""
+        return plot.animation(self, field, along, stage)
+
+    def _facts(self) -> list[tuple[str, str]]:
+        """Return what a person wants to know first."""
+        nx, ny = self.shape
+        facts = [("stages", ", ".join(self.stages)), ("increments", str(len(self))), ("cells", f"{nx} x {ny}")]
+        if not len(self):
+            return facts
+        last = {name: column[-1] for name, column in self.steps.items()}
+        facts += [
+            ("regime at the end", last["regime"].replace("_", " ")),
+            ("normal force", f"{last['normal_force']:.6g}"),
+            ("max pressure", f"{last['max_pressure']:.6g}"),
+            ("contact area", f"{last['contact_area']:.6g}"),
+            ("dissipated energy", f"{last['dissipated_energy']:.6g}"),
+            ("worst residual", f"{self.steps['residual'].max():.1e}"),
+        ]
+        done = self.cycles()
+        if len(done["cycle"]):
+            ratio, regime = done["energy_ratio"][-1], done["regime"][-1]
+            facts.append((f"last of {len(done['cycle'])} cycles", f"{regime.replace('_', ' ')}, ratio {ratio:.3g}"))
+        kept = self.kept_steps
+        fields = ", ".join(self._kept.kept_fields(kept[-1])) if kept else "none"
+        return [*facts, (f"fields of {len(kept)} increments", fields)]
+
     def __repr__(self) -> str:
         """Sizes, the last step, and what is kept."""
         nx, ny = self.shape
-        lines = [f"History: {len(self)} increments, {nx} x {ny} cells, stages: {', '.join(self.stages)}"]
-        if len(self):
-            last = {name: column[-1] for name, column in self.steps.items()}
-            lines += [
-                f"  last: {last['regime'].replace('_', ' ')}, normal force {last['normal_force']:.6g}, "
-                f"max pressure {last['max_pressure']:.6g}, dissipated {last['dissipated_energy']:.6g}",
-                f"  worst residual {self.steps['residual'].max():.1e}",
-                f"  fields kept of {len(self.kept_steps)} increments: "
-                f"{', '.join(self._kept.kept_fields(self.kept_steps[-1])) if self.kept_steps else 'none'}",
-            ]
-        return "\n".join(lines)
+        head = f"History: {len(self)} increments, {nx} x {ny} cells, stages: {', '.join(self.stages)}"
+        return "\n".join([head, *(f"  {name}: {value}" for name, value in self._facts()[3:])])
+
+    def _repr_html_(self) -> str:
+        """Return the same as a table, for notebooks."""
+        return plot.html_table("fretting.History", self._facts())
 
 
 def _listed(steps: list[int]) -> str:

@@ -7,7 +7,7 @@ import numpy as np
 import numpy.typing as npt
 
 from fretting import _core
-from fretting._arrays import Reals, real_array
+from fretting._arrays import Reals, real_array, room_for
 
 Parity: TypeAlias = Literal["even-even", "odd-even", "even-odd", "odd-odd"]
 
@@ -95,6 +95,7 @@ def influence_coefficients(
         raise ValueError(f"cells = {(nx, ny)}: each side needs at least one cell")
     if not (np.isfinite([dx, dy]).all() and dx > 0.0 and dy > 0.0):
         raise ValueError(f"spacing = {(dx, dy)}: must be positive finite lengths")
+    room_for(f"cells = {(nx, ny)}", 18 * nx * ny)  # six tables, and the work on them
     return _core.influence_coefficients(_coatings(coatings), _substrate(substrate), (nx, ny), (dx, dy))
 
 
@@ -120,7 +121,9 @@ class Convolution:
     """
 
     def __init__(self, values: npt.ArrayLike, parity: Parity = "even-even") -> None:
-        self._product = _core.Convolution(real_array("values", values, dimensions=2), parity)
+        kernel = real_array("values", values, dimensions=2)
+        room_for(f"values of shape {kernel.shape}", 8 * kernel.size)  # the transformed kernel, and the work on a field
+        self._product = _core.Convolution(kernel, parity)
         self._parity = parity
 
     @property

@@ -4,7 +4,7 @@ import json
 from collections.abc import Iterator, Mapping
 from typing import Any, TypedDict
 
-from fretting import _case, _core
+from fretting import _case, _core, plot
 
 
 class LeftOut(TypedDict):
@@ -55,6 +55,19 @@ class Plan(Mapping[str, Any]):
         ]
         lines += [f"  left out: {entry['what']} ({entry['why']})" for entry in self.left_out]
         return "\n".join(lines)
+
+    def _repr_html_(self) -> str:
+        """Return the same as a table, for notebooks."""
+        (nx, ny), (dx, dy) = self["grid"]["cells"], self["grid"]["spacing"]
+        facts = [
+            ("cells", f"{nx} x {ny} of {dx:.4g} x {dy:.4g}"),
+            ("increments", str(self["increments"])),
+            ("coupling", str(self["coupling"])),
+            ("convolutions expected", str(self["convolutions_expected"])),
+            ("memory at the most", f"{self['memory_bytes'] / 2**20:.1f} MiB"),
+        ]
+        facts += [(f"left out: {entry['what']}", entry["why"]) for entry in self.left_out]
+        return plot.html_table("fretting.Plan", facts)
 
 
 def plan(case: _case.CaseLike) -> Plan:

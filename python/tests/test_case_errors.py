@@ -161,9 +161,3 @@ def test_exceptions_have_one_base_and_survive_pickling() -> None:
 def test_run_refuses_like_plan() -> None:
     with pytest.raises(fretting.CaseError, match="raduis"):
         fretting.run(GOOD.replace("radius =", "raduis ="))
-
-
-def test_what_is_not_built_says_so() -> None:
-    for name in ("sweep", "plot"):
-        with pytest.raises(AttributeError, match=f"{name} is not built yet"):
-            getattr(fretting, name)

@@ -54,8 +54,8 @@ pub enum Verb {
     Extremes(Unbuilt),
     /// Stresses under the surface, from the tractions of a finished run
     Stress(StressArguments),
-    #[command(hide = true, disable_help_flag = true)]
-    Sweep(Unbuilt),
+    /// Solve many cases: a base case, and keys of it with lists of values
+    Sweep(SweepArguments),
 }
 
 /// How to solve a case.
@@ -128,6 +128,22 @@ pub struct StressArguments {
     #[arg(long)]
     pub volume: bool,
     /// Threads to compute with [default: all the machine has]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    pub threads: Option<u16>,
+    /// Say nothing but errors
+    #[arg(long)]
+    pub quiet: bool,
+}
+
+/// How to solve many cases.
+#[derive(Debug, Args)]
+pub struct SweepArguments {
+    /// The sweep file (TOML): base = "case.toml", and [axes] with "key.of.the.case" = [values]
+    pub sweep: PathBuf,
+    /// Folder for the results; points finished there are not solved again [default: results/ and the name of the sweep]
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+    /// Threads to compute with, one a point [default: all the machine has]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub threads: Option<u16>,
     /// Say nothing but errors

@@ -5,8 +5,9 @@ use std::path::{Path, PathBuf};
 
 use fret_core::case::{self, ArraySource, numbers};
 use ndarray::Array2;
-use numpy::PyReadonlyArray2;
-use pyo3::prelude::{PyResult, pyclass, pymethods};
+use numpy::{PyArray2, PyReadonlyArray2, ToPyArray};
+use pyo3::IntoPyObject;
+use pyo3::prelude::{Bound, PyAny, PyAnyMethods, PyResult, Python, pyclass, pymethods};
 
 use crate::error::refused;
 
@@ -15,15 +16,26 @@ const MOST_BYTES: u64 = 1 << 30;
 
 /// A case that has passed every check.
 #[pyclass(frozen, module = "fretting._core")]
-pub struct Case(pub case::Case);
+pub struct Case(pub case::Case, Source);
+
+/// What a case was read from: TOML, or JSON with the arrays it names by number.
+struct Source {
+    text: String,
+    name: String,
+    folder: PathBuf,
+    arrays: Option<Vec<Array2<f64>>>,
+}
 
 #[pymethods]
 impl Case {
     /// Case from TOML text; `name` stands in messages. Relative names of files start at `folder`.
     #[staticmethod]
     fn from_toml(text: &str, name: &str, folder: PathBuf) -> PyResult<Self> {
-        let supply = |source: ArraySource<'_>| array(&folder, &[], source);
-        case::Case::from_toml_with(text, name, &supply).map(Self).map_err(|error| refused(&error))
+        let case = {
+            let supply = |source: ArraySource<'_>| array(&folder, &[], source);
+            case::Case::from_toml_with(text, name, &supply).map_err(|error| refused(&error))?
+        };
+        Ok(Self(case, Source { text: text.to_owned(), name: name.to_owned(), folder, arrays: None }))
     }
 
     /// Case from JSON text of the same structure, with the arrays that it names by number; messages show it as TOML.
@@ -34,22 +46,36 @@ impl Case {
         folder: PathBuf,
         arrays: Vec<PyReadonlyArray2<'_, f64>>,
     ) -> PyResult<Self> {
-        let supply = |source: ArraySource<'_>| array(&folder, &arrays, source);
-        case::Case::from_json_with(text, name, &supply).map(Self).map_err(|error| refused(&error))
+        let arrays: Vec<Array2<f64>> = arrays.iter().map(|array| array.as_array().to_owned()).collect();
+        let case = {
+            let supply = |source: ArraySource<'_>| array(&folder, &arrays, source);
+            case::Case::from_json_with(text, name, &supply).map_err(|error| refused(&error))?
+        };
+        Ok(Self(case, Source { text: text.to_owned(), name: name.to_owned(), folder, arrays: Some(arrays) }))
+    }
+
+    /// Pickled as what it was read from.
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyAny>)> {
+        let Source { text, name, folder, arrays } = &self.1;
+        let class = py.get_type::<Self>();
+        let folder = folder.as_path();
+        Ok(match arrays {
+            None => (class.getattr("from_toml")?, (text, name, folder).into_pyobject(py)?.into_any()),
+            Some(arrays) => {
+                let arrays: Vec<Bound<'py, PyArray2<f64>>> =
+                    arrays.iter().map(|array| array.to_pyarray(py)).collect();
+                (class.getattr("from_json")?, (text, name, folder, arrays).into_pyobject(py)?.into_any())
+            }
+        })
     }
 }
 
 /// The array of a file, or one that was handed over. Only ordinary files are read, so that nothing waits on a pipe.
-fn array(
-    folder: &Path,
-    arrays: &[PyReadonlyArray2<'_, f64>],
-    source: ArraySource<'_>,
-) -> Result<Array2<f64>, String> {
+fn array(folder: &Path, arrays: &[Array2<f64>], source: ArraySource<'_>) -> Result<Array2<f64>, String> {
     let name = match source {
         ArraySource::File(name) => name,
         ArraySource::Handed(number) => {
-            let array = arrays.get(number).ok_or_else(|| format!("no array {number} was handed over"))?;
-            return Ok(array.as_array().to_owned());
+            return arrays.get(number).cloned().ok_or_else(|| format!("no array {number} was handed over"));
         }
     };
     let path = folder.join(name);

@@ -6,6 +6,7 @@
 
 mod analytic;
 mod case;
+mod command;
 mod error;
 mod history;
 mod kernels;
@@ -26,6 +27,8 @@ mod _core {
     };
     #[pymodule_export]
     use crate::case::Case;
+    #[pymodule_export]
+    use crate::command::command_line;
     #[pymodule_export]
     use crate::history::History;
     #[pymodule_export]

@@ -1,7 +1,7 @@
 //! The worker threads: an own pool, remembered with the process it belongs to, since threads do not survive a fork.
 
 use std::process;
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, Mutex, TryLockError};
 
 use pyo3::exceptions::{PyRuntimeError, PyValueError};
 use pyo3::prelude::{PyErr, PyResult, Python};
@@ -9,40 +9,49 @@ use rayon::{ThreadPool, ThreadPoolBuilder};
 
 struct Remembered {
     process: u32,
-    threads: usize,
     pool: Arc<ThreadPool>,
 }
 
-static POOL: Mutex<Option<Remembered>> = Mutex::new(None);
+static ALL_CORES: Mutex<Option<Remembered>> = Mutex::new(None);
 
-/// A pool of so many threads; of all cores when `None`.
+/// A pool of so many threads, the caller's own, so that runs beside each other have theirs each; one of all cores, which
+/// all callers share, when `None`.
 pub fn pool(threads: Option<usize>) -> PyResult<Arc<ThreadPool>> {
-    if threads == Some(0) {
-        return Err(PyValueError::new_err("threads = 0: must be at least 1, or None for all cores"));
+    match threads {
+        Some(0) => Err(PyValueError::new_err("threads = 0: must be at least 1, or None for all cores")),
+        Some(threads) => built(threads),
+        None => all_cores(),
     }
-    let threads = threads.unwrap_or(0); // rayon's word for all cores
+}
+
+fn all_cores() -> PyResult<Arc<ThreadPool>> {
     let process = process::id();
-    let mut remembered = POOL.lock().unwrap_or_else(PoisonError::into_inner);
+    let mut remembered = match ALL_CORES.try_lock() {
+        Ok(remembered) => remembered,
+        Err(TryLockError::Poisoned(poisoned)) => poisoned.into_inner(),
+        // Another thread is at it now, or was when this process was forked, and then for ever: never wait here.
+        Err(TryLockError::WouldBlock) => return built(0),
+    };
     if let Some(known) = remembered.as_ref()
         && known.process == process
-        && known.threads == threads
     {
         return Ok(Arc::clone(&known.pool));
     }
+    let pool = built(0)?; // rayon's word for all cores
+    if let Some(last) = remembered.replace(Remembered { process, pool: Arc::clone(&pool) }) {
+        // Its threads stayed in the parent process: nobody is there to be told to end.
+        std::mem::forget(last);
+    }
+    Ok(pool)
+}
+
+fn built(threads: usize) -> PyResult<Arc<ThreadPool>> {
     let pool = ThreadPoolBuilder::new()
         .num_threads(threads)
         .thread_name(|index| format!("fretting-{index}"))
         .build()
         .map_err(|error| PyRuntimeError::new_err(format!("no worker threads: {error}")))?;
-    let pool = Arc::new(pool);
-    let last = remembered.replace(Remembered { process, threads, pool: Arc::clone(&pool) });
-    if let Some(last) = last
-        && last.process != process
-    {
-        // Its threads stayed in the parent process: nobody is there to be told to end.
-        std::mem::forget(last);
-    }
-    Ok(pool)
+    Ok(Arc::new(pool))
 }
 
 /// Does `work` on the pool, without the interpreter.

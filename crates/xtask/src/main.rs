@@ -11,7 +11,7 @@ usage: cargo xtask CHORE
   test    all tests: Rust in release mode, then the Python package, built and installed into target/venv
   check   format, clippy, documentation: warnings are errors
   bench   the benchmarks
-  docs    the Rust documentation, into target/doc
+  docs    the site, into target/site, and the Rust documentation, into target/doc: warnings are errors
   wheel   the Python wheel, into target/wheels";
 
 fn main() -> ExitCode {
@@ -20,7 +20,7 @@ fn main() -> ExitCode {
         ["test"] => ("test", test()),
         ["check"] => ("check", check()),
         ["bench"] => ("bench", vec![cargo(&["bench", "--workspace", "--locked"])]),
-        ["docs"] => ("docs", vec![cargo(&["doc", "--workspace", "--no-deps", "--locked"])]),
+        ["docs"] => ("docs", docs()),
         ["wheel"] => ("wheel", wheel()),
         _ => {
             eprintln!("{USAGE}");
@@ -100,7 +100,7 @@ impl Step {
 fn test() -> Vec<Step> {
     let mut steps = vec![cargo(&["test", "--release", "--workspace", "--locked"]).called("Rust tests")];
     steps.extend(venv());
-    steps.push(python("Python build", &["-m", "pip", "install", "--quiet", ".", "pytest", "mypy", "xarray"]));
+    steps.push(python("Python build", &["-m", "pip", "install", "--quiet", ".[all]", "pytest", "mypy"]));
     steps.push(python("Python tests", &["-m", "pytest", "python/tests"]));
     steps
 }
@@ -111,6 +111,20 @@ fn check() -> Vec<Step> {
         cargo(&["clippy", "--workspace", "--all-targets", "--locked", "--", "--deny", "warnings"]),
         cargo(&["doc", "--workspace", "--no-deps", "--locked"]).with("RUSTDOCFLAGS", "--deny warnings"),
     ]
+}
+
+fn docs() -> Vec<Step> {
+    let mut steps =
+        vec![cargo(&["doc", "--workspace", "--no-deps", "--locked"]).with("RUSTDOCFLAGS", "--deny warnings")];
+    steps.extend(venv());
+    let tools =
+        ["-m", "pip", "install", "--quiet", "mkdocs-material", "mkdocstrings[python]", "latex2mathml"];
+    steps.push(python("documentation tools", &tools));
+    // The theme's makers announce the next mkdocs on every build.
+    steps.push(
+        python("site", &["-m", "mkdocs", "build", "--strict", "--quiet"]).with("NO_MKDOCS_2_WARNING", "1"),
+    );
+    steps
 }
 
 fn wheel() -> Vec<Step> {

@@ -8,3 +8,4 @@ pub mod report;
 pub mod run;
 pub mod schema;
 pub mod stress;
+pub mod sweep;

@@ -28,7 +28,7 @@ pub use checkpoint_folder::Stored;
 use checkpoint_folder::{CheckpointFolder, Found, Head};
 use field_store::FieldStore;
 use history_table::HistoryTable;
-pub use run_record::{RunRecord, resolved};
+pub use run_record::{RunRecord, fnv1a64, resolved};
 pub use whole_file::write_whole;
 
 const CASE: &str = "case.toml";

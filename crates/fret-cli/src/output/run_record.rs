@@ -102,7 +102,7 @@ fn path_hash(path: &Path) -> String {
 }
 
 /// Fowler, Noll and Vo's hash FNV-1a of 64 bits, in hexadecimal digits: tells texts apart, is no protection.
-fn fnv1a64(bytes: &[u8]) -> String {
+pub fn fnv1a64(bytes: &[u8]) -> String {
     let hash = bytes.iter().fold(0xcbf2_9ce4_8422_2325_u64, |hash, &byte| {
         (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3)
     });

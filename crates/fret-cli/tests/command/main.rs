@@ -11,4 +11,5 @@ mod shown;
 mod solved;
 mod stressed;
 mod surfaces;
+mod swept;
 mod unwritten;

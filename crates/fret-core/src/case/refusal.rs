@@ -24,7 +24,8 @@ pub struct CaseError {
 }
 
 impl CaseError {
-    pub(super) fn new(name: &str, text: &str, mut mistakes: Vec<Mistake>) -> Self {
+    /// A refusal of a text, with its mistakes.
+    pub fn new(name: &str, text: &str, mut mistakes: Vec<Mistake>) -> Self {
         mistakes.sort_by_key(|mistake| mistake.span.as_ref().map_or(usize::MAX, |span| span.start));
         Self { name: name.to_owned(), text: text.to_owned(), mistakes }
     }

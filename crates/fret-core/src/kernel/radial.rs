@@ -60,7 +60,8 @@ pub(crate) struct HankelLattice {
 }
 
 impl HankelLattice {
-    /// The lattice of the method, made once per process.
+    /// The lattice of the method, made once per process. By one thread: a worker that waited for others in here could be
+    /// given another run meanwhile, which would wait for this very lattice.
     pub(crate) fn standard() -> &'static Self {
         static STANDARD: OnceLock<HankelLattice> = OnceLock::new();
         STANDARD.get_or_init(|| Self::new(ANGLE, STEPS_PER_E_FOLD))
@@ -77,7 +78,6 @@ impl HankelLattice {
         let last_ray = (steps * libm::log(44.0 / libm::sin(angle))).ceil() as i32;
         let scale = step / TAU;
         let (real, disc_real) = (lowest..last_real + 1)
-            .into_par_iter()
             .map(|m| {
                 let x = libm::exp(f64::from(m) * step);
                 let j = bessel_j(x).map(|j| scale * j * libm::exp(-x * x));
@@ -85,7 +85,6 @@ impl HankelLattice {
             })
             .unzip();
         let (ray, disc_ray) = (lowest..last_ray + 1)
-            .into_par_iter()
             .map(|m| {
                 let x = libm::exp(f64::from(m) * step);
                 let z = Complex::polar(x, angle);

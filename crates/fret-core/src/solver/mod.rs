@@ -157,6 +157,7 @@ impl<'a> ContactSolver<'a> {
             let (solved, state_after, outcome) = self
                 .step_in(region, start.as_ref(), (state, load), &mut work, watch)
                 .map_err(|error| self.explained(error, state, load))?;
+            self.check_equilibrium(load, &outcome)?;
             if !self.response.is_periodic() && touches_edge(&state_after.pressure) {
                 return Err(SolveError::ContactAtEdge);
             }
@@ -193,16 +194,31 @@ impl<'a> ContactSolver<'a> {
     }
 
     fn check_sliding(&self, load: &LoadStep) -> Result<(), SolveError> {
-        if let (Control::Force(normal), [x, y]) = (load.normal, load.tangential) {
-            let part = |control| match control {
-                Control::Force(force) => force,
-                Control::Motion(_) => 0.0,
-            };
-            let asked = part(x).hypot(part(y));
-            let bound = self.friction.largest() * normal.max(0.0);
-            if asked > bound * (1.0 + 1e-12) {
-                return Err(SolveError::AboveSliding { asked, bound });
-            }
+        match load.normal {
+            Control::Force(normal) => self.check_friction_carries(load, normal, 1e-12),
+            Control::Motion(_) => Ok(()), // what force it makes is known afterwards
+        }
+    }
+
+    /// Whether the forces asked for are those of the solution: with a prescribed approach they may be more than friction carries.
+    fn check_equilibrium(&self, load: &LoadStep, outcome: &Outcome) -> Result<(), SolveError> {
+        self.check_friction_carries(load, outcome.resultants.normal, self.settings.tolerance)?;
+        let reached = outcome.residual.equilibrium;
+        if reached <= self.settings.tolerance {
+            return Ok(());
+        }
+        Err(SolveError::NotConverged { reached, iterations: self.settings.most_outer_iterations })
+    }
+
+    fn check_friction_carries(&self, load: &LoadStep, normal: f64, tolerance: f64) -> Result<(), SolveError> {
+        let [x, y] = load.tangential.map(|control| match control {
+            Control::Force(force) => force,
+            Control::Motion(_) => 0.0,
+        });
+        let asked = x.hypot(y);
+        let bound = self.friction.largest() * normal.max(0.0);
+        if asked > bound * (1.0 + tolerance) {
+            return Err(SolveError::AboveSliding { asked, bound });
         }
         Ok(())
     }

@@ -1,4 +1,6 @@
 //! The command `fret`: parse, dispatch, exit code. The verbs live in `commands`, the physics in `fret-core`.
+//!
+//! A library, so that the program `fret` and the one that comes with the Python wheel are the same to the letter.
 
 mod arguments;
 mod array_file;
@@ -14,11 +16,12 @@ mod progress;
 mod report;
 mod results;
 mod summary;
+mod sweep;
 mod tally;
 mod terminal;
 
+use std::ffi::OsString;
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::process::ExitCode;
 
 use clap::Parser;
 use clap::error::ErrorKind;
@@ -26,8 +29,10 @@ use clap::error::ErrorKind;
 use arguments::{Arguments, Verb};
 use failure::{Failure, Told};
 
-fn main() -> ExitCode {
-    let arguments = match Arguments::try_parse() {
+/// Does what the words of a command line ask for, the first being the program's name; answers go to the process's own
+/// streams. Gives the exit code: 0 solved, 1 refused, 2 failed, 130 interrupted.
+pub fn command_line(words: impl IntoIterator<Item = OsString>) -> u8 {
+    let arguments = match Arguments::try_parse_from(words) {
         Ok(arguments) => arguments,
         Err(error) => return asked_for_help_or_mistaken(&error),
     };
@@ -35,14 +40,14 @@ fn main() -> ExitCode {
     let outcome = catch_unwind(AssertUnwindSafe(|| dispatch(&arguments)))
         .unwrap_or_else(|panic| Err(Failure::Defect(defect::words_of(panic.as_ref())).into()));
     match outcome {
-        Ok(()) => ExitCode::SUCCESS,
+        Ok(()) => 0,
         Err(Told { failure, in_json }) => {
             if arguments.json && !in_json {
                 // A reader that cannot be told is told by the exit code.
                 let _ = terminal::answer(&format!("{:#}", failure.to_json()));
             }
             terminal::say(&failure.render(terminal::errors_in_colour()));
-            ExitCode::from(failure.code())
+            failure.code()
         }
     }
 }
@@ -59,13 +64,13 @@ fn dispatch(arguments: &Arguments) -> Result<(), Told> {
         Verb::Study(_) => Err(Failure::not_built("fret study")),
         Verb::Extremes(_) => Err(Failure::not_built("fret extremes")),
         Verb::Stress(arguments) => commands::stress::stress(arguments, as_json),
-        Verb::Sweep(_) => Err(Failure::not_built("fret sweep")),
+        Verb::Sweep(arguments) => commands::sweep::sweep(arguments, as_json),
     }?;
     Ok(())
 }
 
 /// Help and version are answers; anything else clap objects to is a refusal, for which clap's own exit code 2 is taken.
-fn asked_for_help_or_mistaken(error: &clap::Error) -> ExitCode {
+fn asked_for_help_or_mistaken(error: &clap::Error) -> u8 {
     let is_answer = matches!(error.kind(), ErrorKind::DisplayHelp | ErrorKind::DisplayVersion);
     if !is_answer && std::env::args_os().any(|argument| argument == "--json") {
         let failure = Failure::Call(error.to_string().trim_end().to_owned(), String::new());
@@ -73,5 +78,5 @@ fn asked_for_help_or_mistaken(error: &clap::Error) -> ExitCode {
     }
     // A stream that is closed cannot be told so.
     let _ = error.print();
-    if is_answer { ExitCode::SUCCESS } else { ExitCode::from(failure::REFUSED) }
+    if is_answer { 0 } else { failure::REFUSED }
 }

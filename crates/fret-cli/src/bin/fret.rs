@@ -1,0 +1,7 @@
+//! The command `fret`, as a program of its own.
+
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    ExitCode::from(fret_cli::command_line(std::env::args_os()))
+}

@@ -1,0 +1,200 @@
+//! `fret sweep`: many cases on the cores of one machine; finished points are not solved again.
+
+use std::num::NonZero;
+use std::ops::ControlFlow;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::path::Path;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Mutex, PoisonError};
+use std::time::Instant;
+
+use fret_core::history::{KeptFields, StepRecord};
+use fret_core::model::ContactState;
+use fret_core::simulation::{Iteration, Observer, RunError, Simulation};
+use serde_json::json;
+
+use crate::arguments::SweepArguments;
+use crate::failure::{Failure, Unwritten};
+use crate::figures::{counted, duration};
+use crate::interrupt;
+use crate::sweep::{Answer, Question, SweepFolder};
+use crate::terminal;
+
+/// Solves all points of a sweep.
+pub fn sweep(arguments: &SweepArguments, as_json: bool) -> Result<(), Failure> {
+    let question = Question::read(&arguments.sweep)?;
+    let text = std::fs::read_to_string(&arguments.sweep).map_err(Unwritten::at(&arguments.sweep))?;
+    let stem = arguments.sweep.file_stem().unwrap_or_else(|| "sweep".as_ref());
+    let path = arguments.out.clone().unwrap_or_else(|| Path::new("results").join(stem));
+    let folder = SweepFolder::open(&path, &text)?;
+    interrupt::listen();
+    let all = std::thread::available_parallelism().map_or(1, NonZero::get);
+    let threads = arguments.threads.map_or(all, usize::from);
+    let known: Vec<Option<Answer>> = question.points.iter().map(|point| folder.finished(point)).collect();
+    let board = Board::new(&question, known, arguments.quiet);
+    board.announce(threads);
+    let failure = board.work(&folder, threads);
+    let summary = folder.summarise(&question, &board.answers());
+    if let Some(failure) = failure {
+        return Err(failure);
+    }
+    let summary = summary?;
+    let counts = board.counts();
+    if as_json {
+        terminal::answer(&format!(
+            "{:#}",
+            json!({
+                "status": if counts.unsolved == 0 { "solved" } else { "some points not solved" },
+                "points": question.points.len(),
+                "solved": counts.solved,
+                "unsolved": counts.unsolved,
+                "solved_before": board.before,
+                "summary": summary.display().to_string(),
+            })
+        ))?;
+    } else if !arguments.quiet {
+        terminal::answer(&format!(
+            "{} solved, {} not, {} found finished\nsummary    {}",
+            counts.solved,
+            counts.unsolved,
+            board.before,
+            summary.display()
+        ))?;
+    }
+    Ok(())
+}
+
+/// How many points came to what.
+struct Counts {
+    solved: usize,
+    unsolved: usize,
+}
+
+/// What the workers share: the points, the next of them, the answers.
+struct Board<'a> {
+    question: &'a Question,
+    open: Vec<usize>,
+    next: AtomicUsize,
+    answers: Mutex<Vec<Option<Answer>>>,
+    ended: Mutex<Option<Failure>>,
+    before: usize,
+    quiet: bool,
+    started: Instant,
+}
+
+impl<'a> Board<'a> {
+    fn new(question: &'a Question, known: Vec<Option<Answer>>, quiet: bool) -> Self {
+        let open: Vec<usize> = (0..known.len()).filter(|&number| known[number].is_none()).collect();
+        Self {
+            question,
+            before: known.len() - open.len(),
+            open,
+            next: AtomicUsize::new(0),
+            answers: Mutex::new(known),
+            ended: Mutex::new(None),
+            quiet,
+            started: Instant::now(),
+        }
+    }
+
+    fn announce(&self, threads: usize) {
+        if !self.quiet {
+            let found = if self.before > 0 {
+                format!(", {} of them finished before", self.before)
+            } else {
+                String::new()
+            };
+            let points = counted(self.question.points.len(), "point");
+            terminal::say(&format!("{points}{found}, on {}", counted(threads, "thread")));
+        }
+    }
+
+    /// Solves what is open: a point a thread, all threads for the points when there are fewer.
+    fn work(&self, folder: &SweepFolder, threads: usize) -> Option<Failure> {
+        let workers = threads.min(self.open.len()).max(1);
+        let each = threads / workers;
+        std::thread::scope(|scope| {
+            for _ in 0..workers {
+                scope.spawn(|| {
+                    if let Err(failure) = self.solve_points(folder, each) {
+                        self.next.store(self.open.len(), Ordering::Relaxed); // nobody begins another one
+                        self.ended.lock().unwrap_or_else(PoisonError::into_inner).get_or_insert(failure);
+                    }
+                });
+            }
+        });
+        self.ended.lock().unwrap_or_else(PoisonError::into_inner).take()
+    }
+
+    fn solve_points(&self, folder: &SweepFolder, threads: usize) -> Result<(), Failure> {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().map_err(|error| {
+            Failure::Call(error.to_string(), "--threads with a smaller number".to_owned())
+        })?;
+        while let Some(&number) = self.open.get(self.next.fetch_add(1, Ordering::Relaxed)) {
+            let point = &self.question.points[number];
+            let solve = || -> Result<Answer, Failure> {
+                let plan = point.case_file.planned()?;
+                let history = Simulation::new(&plan).run(&mut Listener).map_err(|error| match error {
+                    RunError::Interrupted { .. } => Failure::Interrupted(String::new()),
+                    error => Failure::Unsolved(error),
+                })?;
+                Ok(Answer::solved(&plan, &history.steps))
+            };
+            let answer = match catch_unwind(AssertUnwindSafe(|| pool.install(solve))) {
+                Ok(Ok(answer)) => answer,
+                Ok(Err(Failure::Interrupted(_))) => {
+                    return Err(Failure::Interrupted(
+                        "finished points are kept; the same call goes on with the others".to_owned(),
+                    ));
+                }
+                Ok(Err(failure)) => Answer::unsolved(&failure),
+                Err(_) => Answer::unsolved(&Failure::Defect(format!("point {number} ended in a panic"))),
+            };
+            folder.keep(&self.question.keys, point, &answer)?;
+            self.tell(number, answer);
+        }
+        Ok(())
+    }
+
+    fn tell(&self, number: usize, answer: Answer) {
+        let status = answer.status().to_owned();
+        let mut answers = self.answers.lock().unwrap_or_else(PoisonError::into_inner);
+        answers[number] = Some(answer);
+        let done = answers.iter().flatten().count();
+        if self.quiet {
+            return;
+        }
+        let (all, new) = (answers.len(), done - self.before);
+        let left = self.started.elapsed().as_secs_f64() * (all - done) as f64 / new as f64;
+        let values = self.question.keys.iter().zip(&self.question.points[number].values);
+        let place: Vec<String> = values.map(|(key, value)| format!("{key} = {value}")).collect();
+        let width = all.to_string().len();
+        let time = if done < all { format!("about {} left", duration(left)) } else { String::new() };
+        terminal::say(
+            format!("point {done:>width$}/{all}  {status}  {}  {time}", place.join(", ")).trim_end(),
+        );
+    }
+
+    fn answers(&self) -> Vec<Option<Answer>> {
+        self.answers.lock().unwrap_or_else(PoisonError::into_inner).clone()
+    }
+
+    fn counts(&self) -> Counts {
+        let answers = self.answers();
+        let solved = answers.iter().flatten().filter(|answer| answer.status() == "solved").count();
+        Counts { solved, unsolved: answers.iter().flatten().count() - solved }
+    }
+}
+
+/// Stops a point when somebody asks to.
+struct Listener;
+
+impl Observer for Listener {
+    fn iterated(&mut self, _: &Iteration) -> ControlFlow<()> {
+        if interrupt::is_asked() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    }
+
+    fn solved(&mut self, _: &StepRecord, _: &ContactState, _: Option<&KeptFields>) -> ControlFlow<()> {
+        if interrupt::is_asked() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    }
+}

@@ -1,0 +1,166 @@
+//! The folder of a sweep: `sweep.toml` (verbatim copy), `points/HASH.json` (a finished point, known by the hash of its
+//! case, of the files it names and of the version), `summary.csv` (a line a point).
+
+use std::fmt::Write;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use serde_json::{Value, json};
+
+use crate::failure::{Failure, Unwritten};
+use crate::output::{fnv1a64, write_whole};
+use crate::sweep::{Answer, Point, Question};
+
+/// Version of the folder's format.
+const FORMAT: u32 = 1;
+const SWEEP: &str = "sweep.toml";
+const POINTS: &str = "points";
+const SUMMARY: &str = "summary.csv";
+
+/// Columns of the summary after the keys: the last increment.
+const END: [&str; 12] = [
+    "normal_force",
+    "approach",
+    "max_pressure",
+    "max_shear",
+    "contact_area",
+    "stick_area",
+    "dissipated_energy",
+    "regime",
+    "tangential_force_x",
+    "tangential_force_y",
+    "shift_x",
+    "shift_y",
+];
+/// Columns of the last full cycle.
+const CYCLE: [&str; 6] =
+    ["energy", "force_amplitude", "shift_amplitude", "energy_ratio", "least_stick_share", "regime"];
+
+/// The folder of a sweep.
+#[derive(Debug)]
+pub struct SweepFolder {
+    path: PathBuf,
+}
+
+impl SweepFolder {
+    /// Makes the folder ready; finished points in it stay.
+    ///
+    /// # Errors
+    /// When the folder holds something else, or cannot be written.
+    pub fn open(path: &Path, sweep: &str) -> Result<Self, Failure> {
+        let holds_something = fs::read_dir(path).is_ok_and(|mut entries| entries.next().is_some());
+        if path.exists() && !path.is_dir() || holds_something && !path.join(SWEEP).exists() {
+            return Err(Failure::Call(
+                format!("{}: holds files that are no sweep of fret", path.display()),
+                "choose another folder with --out DIR".to_owned(),
+            ));
+        }
+        let points = path.join(POINTS);
+        fs::create_dir_all(&points).map_err(Unwritten::at(&points))?;
+        write_whole(&path.join(SWEEP), sweep.as_bytes())?;
+        Ok(Self { path: path.to_owned() })
+    }
+
+    /// The answer of a finished point; a file that cannot be read is no answer.
+    pub fn finished(&self, point: &Point) -> Option<Answer> {
+        let text = fs::read(self.place(point)).ok()?;
+        let answer: Value = serde_json::from_slice(&text).ok()?;
+        (answer["format"] == FORMAT && answer["status"].is_string()).then_some(Answer(answer))
+    }
+
+    /// Writes a finished point down, whole or not at all.
+    ///
+    /// # Errors
+    /// When the file cannot be written.
+    pub fn keep(&self, keys: &[String], point: &Point, answer: &Answer) -> Result<(), Unwritten> {
+        let mut value = answer.0.clone();
+        value["format"] = json!(FORMAT);
+        value["version"] = json!(env!("CARGO_PKG_VERSION"));
+        value["values"] =
+            keys.iter().zip(&point.values).map(|(key, value)| (key.clone(), json!(value))).collect();
+        value["case"] = json!(point.case_file.text);
+        write_whole(&self.place(point), format!("{value:#}\n").as_bytes())
+    }
+
+    /// Writes the summary of what is finished.
+    ///
+    /// # Errors
+    /// When the file cannot be written.
+    pub fn summarise(&self, question: &Question, answers: &[Option<Answer>]) -> Result<PathBuf, Unwritten> {
+        let cycle = CYCLE.iter().map(|name| format!("cycle_{name}"));
+        let head = ["point".to_owned()].into_iter().chain(question.keys.iter().cloned());
+        let head = head.chain(["status".to_owned()]).chain(END.map(str::to_owned)).chain(cycle);
+        let mut text =
+            head.chain(["message".to_owned()]).map(|cell| quoted(&cell)).collect::<Vec<_>>().join(",") + "\n";
+        for (number, (point, answer)) in question.points.iter().zip(answers).enumerate() {
+            let Some(Answer(answer)) = answer else { continue };
+            let _ = write!(text, "{number}");
+            for value in point.values.iter().map(|value| json!(value)) {
+                let _ = write!(text, ",{}", cell(&value));
+            }
+            let _ = write!(text, ",{}", cell(&answer["status"]));
+            for name in END {
+                let value = match name
+                    .strip_suffix("_x")
+                    .map(|stem| (stem, 0))
+                    .or(name.strip_suffix("_y").map(|stem| (stem, 1)))
+                {
+                    Some((stem, axis)) => &answer["end"][stem][axis],
+                    None => &answer["end"][name],
+                };
+                let _ = write!(text, ",{}", cell(value));
+            }
+            for name in CYCLE {
+                let _ = write!(text, ",{}", cell(&answer["cycle"][name]));
+            }
+            let _ = writeln!(text, ",{}", cell(&answer["message"]));
+        }
+        let path = self.path.join(SUMMARY);
+        write_whole(&path, text.as_bytes())?;
+        Ok(path)
+    }
+
+    fn place(&self, point: &Point) -> PathBuf {
+        let mut known_by = format!("{}\n{}\n", env!("CARGO_PKG_VERSION"), point.case_file.text).into_bytes();
+        let folder = point.case_file.path.parent().unwrap_or_else(|| Path::new(""));
+        for name in files_named(&point.case_file.text) {
+            known_by.extend(fs::read(folder.join(name)).unwrap_or_default());
+        }
+        self.path.join(POINTS).join(format!("{}.json", fnv1a64(&known_by)))
+    }
+}
+
+/// Names of files in a case: words under `file` and `map`.
+fn files_named(text: &str) -> Vec<String> {
+    fn look(value: &toml::Value, key: &str, found: &mut Vec<String>) {
+        match value {
+            toml::Value::Table(table) => table.iter().for_each(|(key, value)| look(value, key, found)),
+            toml::Value::Array(items) => items.iter().for_each(|item| look(item, key, found)),
+            toml::Value::String(name) if matches!(key, "file" | "map") => found.push(name.clone()),
+            _ => {}
+        }
+    }
+    let mut found = Vec::new();
+    if let Ok(table) = text.parse::<toml::Table>() {
+        look(&toml::Value::Table(table), "", &mut found);
+    }
+    found
+}
+
+/// A value in a line of comma-separated ones; nothing where there is none.
+fn cell(value: &Value) -> String {
+    match value {
+        Value::Null => String::new(),
+        Value::String(text) => quoted(text),
+        Value::Number(_) | Value::Bool(_) => value.to_string(),
+        other => quoted(&other.to_string()),
+    }
+}
+
+fn quoted(text: &str) -> String {
+    if text.contains([',', '"', '\n', '\r']) {
+        format!("\"{}\"", text.replace('"', "\"\""))
+    } else {
+        text.to_owned()
+    }
+}

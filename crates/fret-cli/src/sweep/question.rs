@@ -1,0 +1,257 @@
+//! The sweep file: `base`, a case file beside it or a table; `[axes]`, values of keys of the case, all combined; or
+//! `[[point]]`, values of keys that change together.
+
+use std::ops::Range;
+use std::path::{Path, PathBuf};
+
+use fret_core::case::{CaseError, Mistake};
+use toml::de::{DeTable, DeValue};
+use toml::{Spanned, Table, Value};
+
+use crate::case_file::CaseFile;
+use crate::sweep::key::put;
+
+/// Points of a sweep at the most.
+const MOST_POINTS: usize = 1_000_000;
+
+/// A sweep that can be begun.
+#[derive(Debug)]
+pub struct Question {
+    /// The keys that change, in the order of the file.
+    pub keys: Vec<String>,
+    /// The points, the last axis fastest.
+    pub points: Vec<Point>,
+}
+
+/// One point of a sweep.
+#[derive(Debug)]
+pub struct Point {
+    /// Its values, one a key.
+    pub values: Vec<Value>,
+    /// Its case, as a file that lies beside the base case.
+    pub case_file: CaseFile,
+}
+
+/// Values of keys that change together: the keys, and rows of their values.
+struct Axis {
+    keys: Vec<String>,
+    rows: Vec<Vec<Value>>,
+    span: Range<usize>,
+}
+
+impl Question {
+    /// Reads a sweep file.
+    ///
+    /// # Errors
+    /// With every mistake found, each with its place.
+    pub fn read(path: &Path) -> Result<Self, CaseError> {
+        let file = CaseFile::read(path)?;
+        Reader { file: &file, mistakes: Vec::new() }.question()
+    }
+}
+
+struct Reader<'a> {
+    file: &'a CaseFile,
+    mistakes: Vec<Mistake>,
+}
+
+impl Reader<'_> {
+    fn question(mut self) -> Result<Question, CaseError> {
+        let text = &self.file.text;
+        let table = match DeTable::parse(text) {
+            Ok(table) => table.into_inner(),
+            Err(error) => {
+                self.refuse(error.span(), error.message().trim(), None);
+                return Err(self.refusal());
+            }
+        };
+        let mut base = None;
+        let mut axes = Vec::new();
+        for (name, value) in &table {
+            match name.get_ref().as_ref() {
+                "base" => base = self.base(value),
+                "axes" => self.axes(value, "", &mut axes),
+                "point" => axes.extend(self.points(value)),
+                other => self.refuse(
+                    Some(name.span()),
+                    &format!("unknown key `{other}`, expected `base`, `axes` or `point`"),
+                    None,
+                ),
+            }
+        }
+        axes.sort_by_key(|axis| axis.span.start);
+        let nothing = Some("[axes]\n\"friction.coefficient\" = [0.1, 0.2]");
+        if base.is_none() && self.mistakes.is_empty() {
+            self.refuse(None, "no base case", Some("base = \"case.toml\", or a table [base]"));
+        }
+        if axes.is_empty() && self.mistakes.is_empty() {
+            self.refuse(None, "nothing changes: no [axes] and no [[point]]", nothing);
+        }
+        let count = axes.iter().try_fold(1_usize, |count, axis| count.checked_mul(axis.rows.len()));
+        if count.is_none_or(|count| count > MOST_POINTS) {
+            self.refuse(None, &format!("more than {MOST_POINTS} points"), None);
+        }
+        let Some((base, folder)) = base.filter(|_| self.mistakes.is_empty()) else {
+            return Err(self.refusal());
+        };
+        let points = self.combined(&base, &folder, &axes);
+        if self.mistakes.is_empty() {
+            Ok(Question { keys: axes.into_iter().flat_map(|axis| axis.keys).collect(), points })
+        } else {
+            Err(self.refusal())
+        }
+    }
+
+    /// The base case, and the folder that its files lie in.
+    fn base(&mut self, value: &Spanned<DeValue<'_>>) -> Option<(Table, PathBuf)> {
+        let here = self.file.path.parent().unwrap_or_else(|| Path::new("")).to_owned();
+        match value.get_ref() {
+            DeValue::String(name) => {
+                let path = here.join(name.as_ref());
+                let read = CaseFile::read(&path).map_err(|error| error.to_string());
+                match read.and_then(|file| {
+                    file.text.parse::<Table>().map_err(|error| format!("{}: {error}", file.name()))
+                }) {
+                    Ok(table) => Some((table, path.parent().map_or(here, Path::to_owned))),
+                    Err(error) => {
+                        self.refuse(Some(value.span()), error.trim_start_matches("error: ").trim(), None);
+                        None
+                    }
+                }
+            }
+            DeValue::Table(_) => match self.plain(value) {
+                Value::Table(table) => Some((table, here)),
+                _ => None,
+            },
+            _ => {
+                self.refuse(Some(value.span()), "base: must be the name of a case file, or a table", None);
+                None
+            }
+        }
+    }
+
+    /// Axes of a table; tables in it are parts of dotted keys.
+    fn axes(&mut self, value: &Spanned<DeValue<'_>>, before: &str, axes: &mut Vec<Axis>) {
+        let DeValue::Table(table) = value.get_ref() else {
+            self.refuse(Some(value.span()), "axes: must be a table of lists", None);
+            return;
+        };
+        for (name, value) in table {
+            let key = format!("{before}{}", name.get_ref());
+            match value.get_ref() {
+                DeValue::Table(_) => self.axes(value, &format!("{key}."), axes),
+                DeValue::Array(items) if !items.is_empty() => {
+                    let rows = items.iter().map(|item| vec![self.plain(item)]).collect();
+                    axes.push(Axis { keys: vec![key], rows, span: value.span() });
+                }
+                _ => self.refuse(
+                    Some(value.span()),
+                    &format!("axes: `{key}` must be a list of at least one value"),
+                    Some(&format!("\"{key}\" = [...]")),
+                ),
+            }
+        }
+    }
+
+    fn points(&mut self, value: &Spanned<DeValue<'_>>) -> Option<Axis> {
+        let Value::Array(points) = self.plain(value) else {
+            self.refuse(Some(value.span()), "point: must be a list of tables, [[point]]", None);
+            return None;
+        };
+        let tables: Vec<Table> = points.iter().filter_map(Value::as_table).map(flattened).collect();
+        let keys: Vec<String> = tables.first().map_or_else(Vec::new, |first| first.keys().cloned().collect());
+        let alike = tables.iter().all(|table| table.keys().eq(keys.iter()));
+        if keys.is_empty() || tables.len() < points.len() || !alike {
+            self.refuse(
+                Some(value.span()),
+                "point: every [[point]] must have the same keys, at least one",
+                None,
+            );
+            return None;
+        }
+        let rows = tables.iter().map(|table| table.values().cloned().collect()).collect();
+        Some(Axis { keys, rows, span: value.span() })
+    }
+
+    /// All points, the last axis fastest.
+    fn combined(&mut self, base: &Table, folder: &Path, axes: &[Axis]) -> Vec<Point> {
+        let count: usize = axes.iter().map(|axis| axis.rows.len()).product();
+        let mut points = Vec::with_capacity(count);
+        for number in 0..count {
+            let mut case = base.clone();
+            let mut values = Vec::new();
+            let mut others = count;
+            for axis in axes {
+                others /= axis.rows.len();
+                let row = &axis.rows[number / others % axis.rows.len()];
+                for (key, value) in axis.keys.iter().zip(row) {
+                    if let Err(nowhere) = put(&mut case, key, value) {
+                        self.refuse(Some(axis.span.clone()), &format!("{key}: {nowhere}"), None);
+                        return points; // every point would say so again
+                    }
+                    values.push(value.clone());
+                }
+            }
+            match toml::to_string(&case) {
+                Ok(text) => {
+                    let path = folder.join(format!("point {number}"));
+                    points.push(Point { values, case_file: CaseFile { path, text } });
+                }
+                Err(error) => self.refuse(None, &error.to_string(), None),
+            }
+        }
+        points
+    }
+
+    /// A value without its place.
+    fn plain(&mut self, value: &Spanned<DeValue<'_>>) -> Value {
+        match value.get_ref() {
+            DeValue::String(text) => Value::String(text.to_string()),
+            DeValue::Boolean(truth) => Value::Boolean(*truth),
+            DeValue::Array(items) => Value::Array(items.iter().map(|item| self.plain(item)).collect()),
+            DeValue::Table(table) => Value::Table(
+                table.iter().map(|(name, value)| (name.get_ref().to_string(), self.plain(value))).collect(),
+            ),
+            DeValue::Datetime(moment) => Value::Datetime(*moment),
+            DeValue::Integer(_) | DeValue::Float(_) => self.number(value),
+        }
+    }
+
+    fn number(&mut self, value: &Spanned<DeValue<'_>>) -> Value {
+        // As the text has it: its own reader knows all forms of numbers.
+        let text = self.file.text.get(value.span()).unwrap_or_default();
+        match format!("number = {text}").parse::<Table>() {
+            Ok(mut table) => table.remove("number").unwrap_or(Value::Boolean(false)),
+            Err(error) => {
+                self.refuse(Some(value.span()), error.message().trim(), None);
+                Value::Boolean(false)
+            }
+        }
+    }
+
+    fn refuse(&mut self, span: Option<Range<usize>>, message: &str, help: Option<&str>) {
+        self.mistakes.push(Mistake { message: message.to_owned(), help: help.map(str::to_owned), span });
+    }
+
+    fn refusal(self) -> CaseError {
+        CaseError::new(&self.file.name(), &self.file.text, self.mistakes)
+    }
+}
+
+/// A table whose tables have become dotted keys.
+fn flattened(table: &Table) -> Table {
+    let mut flat = Table::new();
+    for (name, value) in table {
+        match value {
+            Value::Table(inner) => {
+                flat.extend(
+                    flattened(inner).into_iter().map(|(rest, value)| (format!("{name}.{rest}"), value)),
+                );
+            }
+            _ => {
+                flat.insert(name.clone(), value.clone());
+            }
+        }
+    }
+    flat
+}

@@ -1,0 +1,110 @@
+//! Many cases: every point as alone, failures recorded, finished points not solved again.
+
+use serde_json::Value;
+
+use crate::bench::{Bench, SPHERE};
+
+const SWEEP: &str = r#"base = "case.toml"
+
+[axes]
+"friction.coefficient" = [0.1, -0.1, 0.2]
+"load.fretting.tangential_force.0" = [0.05, 0.08]
+"#;
+
+/// The rows of a summary by the names of its columns; no cell of these tests holds a comma but the message, the last.
+fn column(summary: &str, name: &str) -> Vec<String> {
+    let place = summary.lines().next().unwrap().split(',').position(|column| column == name).unwrap();
+    let rows =
+        summary.lines().skip(1).filter(|line| line.starts_with(|letter: char| letter.is_ascii_digit()));
+    rows.filter_map(|line| line.split(',').nth(place).map(str::to_owned)).collect()
+}
+
+#[test]
+fn a_sweep_solves_every_point_as_it_is_solved_alone_and_records_failures() {
+    let bench = Bench::new("sweep");
+    let answer = bench.file("case.toml", SPHERE).file("many.toml", SWEEP).fret(&[
+        "sweep",
+        "many.toml",
+        "--threads",
+        "2",
+    ]);
+    assert_eq!(answer.code, Some(0), "{}", answer.err);
+    assert!(answer.out.contains("4 solved, 2 not, 0 found finished"), "{}", answer.out);
+    let summary = bench.text("results/many/summary.csv");
+    assert_eq!(column(&summary, "status"), ["solved", "solved", "refused", "refused", "solved", "solved"]);
+    assert_eq!(column(&summary, "friction.coefficient"), ["0.1", "0.1", "-0.1", "-0.1", "0.2", "0.2"]);
+    assert!(summary.contains("friction coefficient -0.1: must be zero or positive"), "{summary}");
+
+    // Point 5 alone: the same bits.
+    let alone =
+        SPHERE.replace("coefficient = 0.1", "coefficient = 0.2").replace("[0.05, 0.0]", "[0.08, 0.0]");
+    assert_eq!(bench.file("alone.toml", &alone).fret(&["run", "alone.toml", "--quiet"]).code, Some(0));
+    let history = bench.text("results/alone/history.csv");
+    let energies = column(&history, "dissipated_energy");
+    assert_eq!(column(&summary, "dissipated_energy")[5], energies[energies.len() - 1]);
+    let cycle: f64 = column(&summary, "cycle_energy")[5].parse().unwrap();
+    let [after, before] = [1, 9].map(|back| energies[energies.len() - back].parse::<f64>().unwrap());
+    assert_eq!(cycle, after - before, "the last cycle has 8 increments");
+
+    let again = bench.fret(&["sweep", "many.toml", "--json"]);
+    assert_eq!(again.code, Some(0), "{}", again.err);
+    let said: Value = serde_json::from_str(&again.out).unwrap();
+    assert_eq!((&said["solved_before"], &said["points"]), (&Value::from(6), &Value::from(6)));
+    assert_eq!(bench.text("results/many/summary.csv"), summary);
+    // A changed base case, and a damaged file of a point, are solved anew.
+    bench.file("case.toml", &SPHERE.replace("10e-3", "12e-3"));
+    assert!(bench.fret(&["sweep", "many.toml"]).out.contains("0 found finished"));
+}
+
+#[test]
+fn a_damaged_point_is_solved_again() {
+    let bench = Bench::new("sweep-damaged");
+    bench
+        .file("case.toml", SPHERE)
+        .file("many.toml", "base = 'case.toml'\naxes.friction.coefficient = [0.1, 0.2]\n");
+    assert_eq!(bench.fret(&["sweep", "many.toml", "--quiet"]).code, Some(0));
+    let summary = bench.text("results/many/summary.csv");
+    let point = std::fs::read_dir(bench.folder.join("results/many/points")).unwrap().next().unwrap().unwrap();
+    std::fs::write(point.path(), "{ \"format\": 1, \"sta").unwrap();
+    let answer = bench.fret(&["sweep", "many.toml"]);
+    assert!(answer.out.contains("1 found finished"), "{}", answer.out);
+    assert_eq!(bench.text("results/many/summary.csv"), summary);
+}
+
+#[test]
+fn points_may_be_listed() {
+    let bench = Bench::new("sweep-listed");
+    let listed = "base = 'case.toml'\n[[point]]\nfriction.coefficient = 0.1\nload.0.normal_force = 1.0\n\
+                  [[point]]\nfriction.coefficient = 0.2\nload.0.normal_force = 2.0\n";
+    let answer = bench.file("case.toml", SPHERE).file("many.toml", listed).fret(&["sweep", "many.toml"]);
+    assert_eq!(answer.code, Some(0), "{}", answer.err);
+    let forces = column(&bench.text("results/many/summary.csv"), "normal_force");
+    for (force, asked) in forces.iter().zip([1.0, 2.0]) {
+        assert!((force.parse::<f64>().unwrap() - asked).abs() < 1e-8 * asked, "{forces:?}"); // the case's tolerance
+    }
+}
+
+#[test]
+fn mistakes_in_a_sweep_are_refused_with_their_places() {
+    let bench = Bench::new("sweep-refused");
+    bench.file("case.toml", SPHERE).file("results.txt", "mine");
+    for (text, words) in [
+        ("base = 'case.toml'", "nothing changes"),
+        ("[axes]\n'friction.coefficient' = [0.1]", "no base case"),
+        ("base = 'case.toml'\n[axes]\n'load.9.normal_force' = [0.1]", "many.toml:3:25"),
+        ("base = 'case.toml'\n[axes]\n'friction.coefficient' = 0.1", "must be a list of at least one value"),
+        ("base = 'cas.toml'\n[axes]\nx = [0.1]", "many.toml:1:8"),
+        ("base = 'case.toml'\naxis.x = [0.1]", "unknown key `axis`"),
+        ("base = 'case.toml'\n[axes\nx = [0.1]", "many.toml:2"),
+        ("base = 'case.toml'\n[[point]]\nx = 1\n[[point]]\ny = 1", "the same keys"),
+    ] {
+        let answer = bench.file("many.toml", text).fret(&["sweep", "many.toml"]);
+        assert_eq!(answer.code, Some(1), "{text}: {}", answer.err);
+        assert!(answer.err.contains(words), "{text}: {}", answer.err);
+    }
+    let good = "base = 'case.toml'\naxes.friction.coefficient = [0.1]";
+    let answer = bench.file("many.toml", good).fret(&["sweep", "many.toml", "--out", "."]);
+    assert_eq!(answer.code, Some(1));
+    assert!(answer.err.contains("holds files that are no sweep"), "{}", answer.err);
+    assert!(!bench.folder.join("results").exists(), "nothing was written");
+}

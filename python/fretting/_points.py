@@ -1,0 +1,208 @@
+"""The points of a sweep: which key of the case takes which value."""
+
+import copy
+import itertools
+import json
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any, TypeAlias
+
+import numpy as np
+import numpy.typing as npt
+
+from fretting import _case
+from fretting.errors import CaseError
+from fretting.history import MEANING
+
+Table: TypeAlias = dict[str, Any]
+Key: TypeAlias = str | tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class Axis:
+    """An axis of a sweep that changes a case by a function of yours.
+
+    Examples
+    --------
+    >>> import fretting
+    >>> def amplitude(case, share):
+    ...     limit = case["friction"]["coefficient"] * case["load"][0]["normal_force"]
+    ...     case["load"][1]["tangential_force"] = [share * limit, 0.0]
+    >>> axes = {"amplitude": fretting.Axis([0.2, 0.5, 0.9], amplitude)}
+    """
+
+    values: Sequence[Any]
+    """The values, one a point of the axis."""
+    apply: Callable[[Table, Any], object]
+    """Called with a copy of the case (a dict, the caller's to change) and a value."""
+
+
+Values: TypeAlias = Sequence[Any] | npt.NDArray[Any] | Axis
+Axes: TypeAlias = Mapping[Any, Values] | Sequence[Mapping[str, Any]]
+"""Values of each axis by the key of the case that takes them, or a list of points."""
+
+
+@dataclass(frozen=True)
+class Dimension:
+    """An axis, understood: what a dimension of the answer is called, and how each of its points changes the case."""
+
+    name: str
+    coordinates: dict[str, list[Any]]
+    changes: list[Callable[[Table], object]]
+
+
+@dataclass(frozen=True)
+class Point:
+    """A point of the sweep: its place in the answer, its name in messages, its case."""
+
+    place: tuple[int, ...]
+    name: str
+    case: Table
+
+
+def dimensions(axes: Axes) -> list[Dimension]:
+    """Understand the axes of a sweep."""
+    if isinstance(axes, Mapping):
+        found = [_dimension(key, values) for key, values in axes.items()]
+    elif isinstance(axes, Sequence) and not isinstance(axes, str):
+        found = [_list_of_points(axes)]
+    else:
+        raise TypeError(f"axes: expected a mapping or a list of mappings, found {type(axes).__name__}")
+    if not found:
+        raise ValueError("axes: a sweep needs at least one axis")
+    names = [name for dimension in found for name in (dimension.name, *dimension.coordinates)]
+    for dimension in found:
+        if not dimension.changes:
+            raise ValueError(f"axis {dimension.name!r} has no values")
+        for name in {dimension.name, *dimension.coordinates}:
+            if name in RESERVED or name.startswith("cycle_"):
+                raise ValueError(f"axis {name!r}: a variable of the answer is called so; choose another name")
+        if sum(name == dimension.name for name in names) > 2:
+            raise ValueError(f"axis {dimension.name!r} is there twice")
+    return found
+
+
+RESERVED = {"step", "status", "error", *MEANING}
+"""Names that the answer of a sweep needs itself."""
+
+
+def points(base: Table, found: Sequence[Dimension]) -> Iterable[Point]:
+    """All points, the last axis fastest."""
+    for place in itertools.product(*(range(len(dimension.changes)) for dimension in found)):
+        case = copy.deepcopy(base)
+        for dimension, index in zip(found, place, strict=True):
+            dimension.changes[index](case)
+        words = [
+            f"{key} = {_shown(values[index])}"
+            for dimension, index in zip(found, place, strict=True)
+            for key, values in dimension.coordinates.items()
+        ]
+        yield Point(place, ", ".join(words), case)
+
+
+def _dimension(key: Key, given: object) -> Dimension:
+    if isinstance(given, Axis):
+        if not isinstance(key, str):
+            raise TypeError(f"axis {key!r}: an Axis has one name")
+        values = _values(key, given.values)
+        return Dimension(key, {key: values}, [_by_function(given.apply, value) for value in values])
+    if isinstance(key, str):
+        values = _values(key, given)
+        return Dimension(key, {key: values}, [_by_keys([key], [value]) for value in values])
+    if not (isinstance(key, tuple) and len(key) > 1 and all(isinstance(part, str) for part in key)):
+        raise TypeError(f"axis {key!r}: expected a dotted key of the case, or a tuple of at least two")
+    rows = _values(", ".join(key), given)
+    for index, row in enumerate(rows):
+        if not isinstance(row, Sequence) or isinstance(row, str) or len(row) != len(key):
+            raise ValueError(f"axis {', '.join(key)}: value {index} must hold {len(key)} values, found {row!r}")
+    columns = {part: [row[number] for row in rows] for number, part in enumerate(key)}
+    return Dimension(", ".join(key), columns, [_by_keys(key, row) for row in rows])
+
+
+def _list_of_points(rows: Sequence[Mapping[str, Any]]) -> Dimension:
+    if not all(isinstance(row, Mapping) for row in rows):
+        raise TypeError("axes: in a list of points every point is a mapping from keys of the case to values")
+    if not rows:
+        raise ValueError("axes: the list of points is empty")
+    keys = list(rows[0])
+    for index, row in enumerate(rows):
+        if set(row) != set(keys) or not keys:
+            raise ValueError(f"axes: point {index} has the keys {sorted(row)}: must have those of point 0, {keys}")
+    plain = [[_plain(key, row[key]) for key in keys] for row in rows]
+    columns = {key: [row[number] for row in plain] for number, key in enumerate(keys)}
+    return Dimension("point", columns, [_by_keys(keys, row) for row in plain])
+
+
+def _values(name: str, given: object) -> list[Any]:
+    if isinstance(given, np.ndarray):
+        given = given.tolist()
+    if isinstance(given, str | bytes | Mapping) or not isinstance(given, Iterable):
+        raise TypeError(f"axis {name!r}: expected a list of values, found {type(given).__name__}")
+    return [_plain(f"{name}[{index}]", value) for index, value in enumerate(given)]
+
+
+def _plain(name: str, value: object) -> Any:  # noqa: ANN401 - whatever a case may hold
+    return _case.plain(value, name)
+
+
+def _by_function(apply: Callable[[Table, Any], object], value: object) -> Callable[[Table], object]:
+    return lambda case: apply(case, copy.deepcopy(value))
+
+
+def _by_keys(keys: Sequence[str], values: Sequence[Any]) -> Callable[[Table], object]:
+    def change(case: Table) -> None:
+        for key, value in zip(keys, values, strict=True):
+            put(case, key, copy.deepcopy(value))
+
+    return change
+
+
+def put(case: Table, key: str, value: object) -> None:
+    """Give the value to the entry of a case that a dotted key names.
+
+    Parts of the key are names of tables, numbers of a list's entries from 0 (negative: from the end), or, in a list of
+    tables, the ``name`` of one (a stage). Tables that are not there are made; entries of lists are not.
+    """
+    parts = key.split(".")
+    here: Any = case
+    for depth, part in enumerate(parts):
+        last = depth == len(parts) - 1
+        place = ".".join(parts[:depth]) or "the case"
+        if isinstance(here, dict):
+            if last:
+                here[part] = value
+            else:
+                here = here.setdefault(part, {})
+        elif isinstance(here, list):
+            index = _entry(here, part, key, place)
+            if last:
+                here[index] = value
+            else:
+                here = here[index]
+        else:
+            raise refusal(f"axis {key!r}: {place} is {here!r}, which has no entry {part!r}")
+
+
+def _entry(items: list[Any], part: str, key: str, place: str) -> int:
+    names = [item.get("name") if isinstance(item, dict) else None for item in items]
+    if part in names:
+        return names.index(part)
+    try:
+        index = int(part)
+    except ValueError:
+        known = ", ".join(repr(name) for name in names if name) or "none has a name"
+        raise refusal(
+            f"axis {key!r}: no entry of {place} is called {part!r} ({known}); a number from 0 serves as well"
+        ) from None
+    if not -len(items) <= index < len(items):
+        raise refusal(f"axis {key!r}: {place} has {len(items)} entries, from 0; there is no {index}")
+    return index
+
+
+def refusal(message: str) -> CaseError:
+    """Refuse the sweep itself."""
+    return CaseError(f"error: sweep: {message}", [(None, None, message, None)])
+
+
+def _shown(value: object) -> str:
+    return json.dumps(value) if not isinstance(value, float) else f"{value:.6g}"

@@ -1,0 +1,116 @@
+"""Where a sweep keeps its finished points, so that one that was stopped goes on where it was."""
+
+import hashlib
+import json
+import os
+import warnings
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+from fretting._core import __version__
+from fretting._points import Table
+
+FORMAT = 1
+"""Version of the folder's format."""
+
+
+_NAMES_A_FILE = ("file", "map", "friction", "table")
+"""Keys of a case whose words are names of files."""
+
+
+class SweepFolder:
+    """A folder: ``sweep.json`` says what was swept, ``points/HASH.json`` is a finished point.
+
+    A point is known by the hash of its whole case, of the files the case names, of what is kept of it, and of the
+    version of the library: whatever changes, changes the name, and the point is solved anew.
+    """
+
+    def __init__(self, path: str | os.PathLike[str], base: Table, settings: dict[str, Any]) -> None:
+        self.path = Path(path)
+        self._settings = {"version": __version__, **settings}
+        record = self.path / "sweep.json"
+        if self.path.exists() and not self.path.is_dir():
+            raise FileExistsError(f"{self.path}: a file, not a folder for a sweep")
+        if not record.exists() and self.path.is_dir() and any(self.path.iterdir()):
+            raise FileExistsError(f"{self.path}: holds files that are no sweep; choose another folder")
+        fingerprint = _hash([base, _contents(base)])
+        before = _read(record)
+        if before and before.get("base") not in (None, fingerprint):
+            warnings.warn(f"{self.path}: the base case has changed since the last sweep", UserWarning, stacklevel=4)
+        (self.path / "points").mkdir(parents=True, exist_ok=True)
+        write_whole(record, {"format": FORMAT, "program": "fretting", "base": fingerprint, **self._settings})
+
+    def finished(self, case: Table) -> Table | None:
+        """Return the answer of a finished point; a file that cannot be read is no answer."""
+        answer = _read(self._place(case))
+        return answer if answer and answer.get("format") == FORMAT and "status" in answer else None
+
+    def keep(self, case: Table, answer: Table) -> None:
+        """Write a finished point down: whole or not at all."""
+        write_whole(self._place(case), {"format": FORMAT, "case": case, **answer})
+
+    def _place(self, case: Table) -> Path:
+        return self.path / "points" / f"{_hash([case, _contents(case), self._settings])}.json"
+
+
+def write_whole(path: Path, content: Table) -> None:
+    """Write a file so that a kill at any moment leaves the old content or the new one."""
+    part = path.with_name(f"{path.name}.{os.getpid()}.part")
+    try:
+        with part.open("w", encoding="utf-8") as file:
+            json.dump(content, file, allow_nan=False)
+            file.flush()
+            os.fsync(file.fileno())
+        part.replace(path)
+    except BaseException:
+        part.unlink(missing_ok=True)
+        raise
+
+
+def _read(path: Path) -> Table | None:
+    try:
+        content = json.loads(path.read_text(encoding="utf-8"))
+    except (OSError, ValueError):
+        return None
+    return content if isinstance(content, dict) else None
+
+
+def _hash(content: object) -> str:
+    text = json.dumps(content, sort_keys=True, allow_nan=False)
+    return hashlib.sha256(text.encode()).hexdigest()[:32]
+
+
+def _contents(case: Table) -> dict[str, str]:
+    """Hashes of the files that a case names."""
+    found = {}
+    for name in _file_names(case):
+        try:
+            found[name] = hashlib.sha256(Path(name).read_bytes()).hexdigest()
+        except (OSError, ValueError):
+            continue  # not there: the judgement of the case will say so
+    return found
+
+
+def _file_names(value: object, key: str = "") -> Iterator[str]:
+    if isinstance(value, dict):
+        for name, item in value.items():
+            yield from _file_names(item, name)
+    elif isinstance(value, list):
+        for item in value:
+            yield from _file_names(item, key)
+    elif isinstance(value, str) and key in _NAMES_A_FILE:
+        yield value
+
+
+def with_files_in(case: Table, folder: Path) -> Table:
+    """Return a case whose names of files start at `folder` as one that can be read from anywhere."""
+    return {key: _moved(value, key, folder) for key, value in case.items()}
+
+
+def _moved(value: Any, key: str, folder: Path) -> Any:  # noqa: ANN401 - whatever a case may hold
+    if isinstance(value, dict):
+        return {name: _moved(item, name, folder) for name, item in value.items()}
+    if isinstance(value, list):
+        return [_moved(item, key, folder) for item in value]
+    return str((folder / value).resolve()) if isinstance(value, str) and key in _NAMES_A_FILE else value

@@ -1,0 +1,376 @@
+"""Pictures of histories and sweeps; needs matplotlib (``pip install fretting[plot]``).
+
+Every function draws into `axes`, or into a figure of its own when none are given, and returns the axes. Units are those
+of the case, whatever they are: labels say length, force, pressure.
+"""
+
+import html
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any, Literal
+
+import numpy as np
+import numpy.typing as npt
+
+from fretting._arrays import Reals
+
+if TYPE_CHECKING:
+    import xarray
+    from matplotlib.animation import FuncAnimation
+    from matplotlib.axes import Axes
+    from matplotlib.image import AxesImage
+
+    from fretting.history import History
+
+__all__ = ["animation", "field", "loop", "regime_map", "section", "zones"]
+
+Direction = Literal["x", "y"]
+
+ZONES = (("open", "#f2f2f2"), ("stick", "#2a6f97"), ("slip", "#f4a259"))
+"""Names and colours of the zones 0, 1, 2."""
+REGIMES = (
+    ("apart", "#f2f2f2"), ("frictionless", "#d9d9d9"), ("full_stick", "#2a6f97"), ("partial_slip", "#a8c686"),
+    ("gross_slip", "#f4a259"),
+)  # fmt: skip
+"""Names and colours of the regimes, from less to more slip."""
+
+_LABELS = {
+    "pressure": "pressure",
+    "shear_x": "shear along x",
+    "shear_y": "shear along y",
+    "slip_x": "accumulated slip along x [length]",
+    "slip_y": "accumulated slip along y [length]",
+    "gap": "gap [length]",
+    "zone": "zone",
+}
+
+
+def loop(
+    history: "History", along: Direction = "x", stage: int | str | None = None, axes: "Axes | None" = None
+) -> "Axes":
+    """Draw tangential force over shift.
+
+    Parameters
+    ----------
+    history : History
+        A history.
+    along : {"x", "y"}
+        Which component.
+    stage : int or str, optional
+        Number or name of a stage. Without: from the first stage in cycles on, or everything when there is none.
+    axes : matplotlib Axes, optional
+        Where to draw.
+
+    Returns
+    -------
+    matplotlib Axes
+    """
+    _component(along)
+    rows = _loop_rows(history, stage)
+    axes = _own_axes(axes)
+    axes.plot(history.steps[f"shift_{along}"][rows], history.steps[f"tangential_force_{along}"][rows], lw=1.4)
+    axes.axhline(0.0, color="0.8", lw=0.8, zorder=0)
+    axes.axvline(0.0, color="0.8", lw=0.8, zorder=0)
+    axes.set(xlabel=f"shift along {along} [length]", ylabel=f"tangential force along {along} [force]")
+    return axes
+
+
+def section(
+    history: "History",
+    fields: str | Sequence[str] = ("pressure", "shear_x"),
+    step: int = -1,
+    along: Direction = "x",
+    at: float = 0.0,
+    axes: "Axes | None" = None,
+) -> "Axes":
+    """Draw fields along a line through the grid.
+
+    Parameters
+    ----------
+    history : History
+        A history.
+    fields : str or sequence of str
+        Names of kept fields, of one kind each picture: tractions, or lengths.
+    step : int
+        Number of the increment, from 0; negative from the end.
+    along : {"x", "y"}
+        Direction of the line.
+    at : float
+        Where the line crosses the other axis [length]. Between two rows of cells the values are interpolated.
+    axes : matplotlib Axes, optional
+        Where to draw.
+
+    Returns
+    -------
+    matplotlib Axes
+    """
+    _component(along)
+    names = [fields] if isinstance(fields, str) else list(fields)
+    here, across = (history.x, history.y) if along == "x" else (history.y, history.x)
+    half = 0.5 * (across[1] - across[0]) if len(across) > 1 else np.inf
+    if not across[0] - half <= at <= across[-1] + half:
+        raise ValueError(f"at = {at}: outside the grid, which reaches from {across[0] - half} to {across[-1] + half}")
+    values = {name: _along(history.field(name, step), along, across, at) for name in names}  # type: ignore[arg-type]
+    axes = _own_axes(axes)
+    for name, line in values.items():
+        axes.plot(here, line, lw=1.4, label=_LABELS[name])
+    lengths = [name for name in names if name.startswith(("slip", "gap"))]
+    label = "[length]" if len(lengths) == len(names) else "" if lengths else "traction [pressure]"
+    axes.set(xlabel=f"{along} [length]", ylabel=label)
+    axes.ticklabel_format(scilimits=(-2, 3))
+    axes.legend(frameon=False)
+    return axes
+
+
+def field(history: "History", name: str = "pressure", step: int = -1, axes: "Axes | None" = None) -> "Axes":
+    """Draw a kept field as a map, with a bar of its values.
+
+    Parameters
+    ----------
+    history : History
+        A history.
+    name : str
+        Name of the field; ``"zone"`` is drawn as by :func:`zones`.
+    step : int
+        Number of the increment, from 0; negative from the end.
+    axes : matplotlib Axes, optional
+        Where to draw.
+
+    Returns
+    -------
+    matplotlib Axes
+    """
+    if name == "zone":
+        return zones(history, step, axes)
+    values = history.field(name, step)  # type: ignore[arg-type]
+    axes = _own_axes(axes)
+    image = _image(history, values, axes)
+    unit = "" if "[" in _LABELS[name] else " [pressure]"
+    axes.figure.colorbar(image, ax=axes, label=_LABELS[name] + unit)
+    return axes
+
+
+def zones(history: "History", step: int = -1, axes: "Axes | None" = None) -> "Axes":
+    """Draw where the surfaces are apart, stick and slip.
+
+    Parameters
+    ----------
+    history : History
+        A history whose ``zone`` is kept.
+    step : int
+        Number of the increment, from 0; negative from the end.
+    axes : matplotlib Axes, optional
+        Where to draw.
+
+    Returns
+    -------
+    matplotlib Axes
+    """
+    values = history.field("zone", step)
+    axes = _own_axes(axes)
+    _image(history, values, axes, ZONES)
+    _colour_legend(axes, [entry for number, entry in enumerate(ZONES) if (values == number).any()])
+    return axes
+
+
+def animation(
+    history: "History",
+    name: str = "zone",
+    along: Direction = "x",
+    stage: int | str | None = None,
+    interval: int = 80,
+) -> "FuncAnimation":
+    """Animate the loop beside a kept field, over the increments whose fields are kept.
+
+    Parameters
+    ----------
+    history : History
+        A history; ``[output] every`` of the case decides how many pictures there are.
+    name : str
+        Name of the field.
+    along : {"x", "y"}
+        Component of the loop.
+    stage : int or str, optional
+        As for :func:`loop`.
+    interval : int
+        Time between pictures [ms].
+
+    Returns
+    -------
+    matplotlib FuncAnimation
+        ``.save("loop.gif", writer="pillow")`` writes it, ``.to_jshtml()`` shows it in a notebook. Keep a reference.
+    """
+    plt = _pyplot()
+    from matplotlib.animation import FuncAnimation
+
+    chosen = set(_loop_rows(history, stage).tolist())
+    steps = [step for step in history.kept_steps if step in chosen]
+    if not steps:
+        raise ValueError("no fields of these increments are kept ([output] every = ... keeps more)")
+    figure, (left, right) = plt.subplots(1, 2, figsize=(8.4, 3.8), layout="constrained")
+    loop(history, along, stage, left)
+    (dot,) = left.plot([], [], "o", color="#c1121f")
+    frames = [history.field(name, step) for step in steps]  # type: ignore[arg-type]
+    if name == "zone":
+        image = _image(history, frames[0], right, ZONES)
+        _colour_legend(right, ZONES)
+    else:
+        image = _image(history, frames[0], right, limits=_limits(np.stack(frames)))
+        unit = "" if "[" in _LABELS[name] else " [pressure]"
+        figure.colorbar(image, ax=right, label=_LABELS[name] + unit)
+
+    def draw(number: int) -> list[Any]:
+        step = steps[number]
+        dot.set_data([history.steps[f"shift_{along}"][step]], [history.steps[f"tangential_force_{along}"][step]])
+        image.set_data(frames[number].T)
+        right.set_title(f"increment {step}", fontsize="medium")
+        return [dot, image]
+
+    return FuncAnimation(figure, draw, frames=len(steps), interval=interval)
+
+
+def regime_map(
+    dataset: "xarray.Dataset", x: str, y: str, variable: str = "cycle_regime", axes: "Axes | None" = None
+) -> "Axes":
+    """Draw a fretting map: the regime over two axes of a sweep.
+
+    Parameters
+    ----------
+    dataset : xarray.Dataset
+        Answer of :func:`fretting.sweep`, reduced to the two axes (``dataset.sel(...)``).
+    x, y : str
+        Names of the axes; their values are numbers, in ascending or descending order.
+    variable : str
+        A variable of regimes: ``"cycle_regime"`` or ``"regime"``.
+    axes : matplotlib Axes, optional
+        Where to draw. Points that were not solved stay white.
+
+    Returns
+    -------
+    matplotlib Axes
+    """
+    data = dataset[variable].transpose(y, x)
+    words = [name for name, _ in REGIMES]
+    codes = np.asarray([[words.index(w) if w in words else np.nan for w in row] for row in data.values.tolist()])
+    axes = _own_axes(axes)
+    from matplotlib.colors import ListedColormap
+
+    colours = ListedColormap([colour for _, colour in REGIMES])
+    edges = [_edges(np.asarray(dataset[name].values, dtype=np.float64), name) for name in (x, y)]
+    axes.pcolormesh(*edges, codes, cmap=colours, vmin=-0.5, vmax=len(REGIMES) - 0.5, edgecolors="white", lw=0.4)
+    axes.set(xlabel=x, ylabel=y)
+    _colour_legend(axes, [entry for number, entry in enumerate(REGIMES) if (codes == number).any()], "upper left")
+    return axes
+
+
+def html_table(title: str, facts: Sequence[tuple[str, str]]) -> str:
+    """Return names and values as a table of HTML."""
+    rows = "".join(
+        f"<tr><th style='text-align:left'>{html.escape(name)}</th>"
+        f"<td style='text-align:left'>{html.escape(value)}</td></tr>"
+        for name, value in facts
+    )
+    return f"<div><strong>{html.escape(title)}</strong><table>{rows}</table></div>"
+
+
+def _pyplot() -> Any:  # noqa: ANN401 - a module
+    try:
+        from matplotlib import pyplot as plt
+    except ImportError as error:
+        raise ImportError("pictures need matplotlib: pip install 'fretting[plot]'") from error
+    return plt
+
+
+def _own_axes(axes: "Axes | None") -> Any:  # noqa: ANN401 - matplotlib's own stubs change with its version
+    if axes is not None:
+        return axes
+    return _pyplot().subplots(figsize=(5.2, 4.0), layout="constrained")[1]
+
+
+def _component(along: str) -> None:
+    if along not in ("x", "y"):
+        raise ValueError(f"along = {along!r}: must be 'x' or 'y'")
+
+
+def _loop_rows(history: "History", stage: int | str | None) -> npt.NDArray[np.int64]:
+    """Rows of a loop, with the state it starts from."""
+    column = history.steps["stage"]
+    if stage is None:
+        in_cycles = history.cycles()["stage"]
+        rows = np.flatnonzero(column >= in_cycles[0]) if len(in_cycles) else np.arange(len(history))
+    else:
+        rows = np.flatnonzero(column == _stage_number(history, stage))
+    return np.concatenate([rows[:1] - 1, rows]) if rows[0] > 0 else rows
+
+
+def _stage_number(history: "History", stage: int | str) -> int:
+    count = len(history.stages)
+    if isinstance(stage, str):
+        if stage not in history.stages:
+            raise ValueError(f"no stage is called {stage!r}; stages are: {', '.join(history.stages)}")
+        return history.stages.index(stage)
+    if not -count <= stage < count:
+        raise IndexError(f"stage {stage}: the history has {count} stages")
+    return stage % count
+
+
+def _along(values: Reals, along: Direction, across: Reals, at: float) -> Reals:
+    rows = values if along == "y" else values.T
+    if len(across) == 1:
+        only: Reals = rows[0]
+        return only
+    place = np.clip((at - across[0]) / (across[1] - across[0]), 0.0, len(across) - 1.0)
+    below = min(int(place), len(across) - 2)
+    share = place - below
+    line: Reals = (1.0 - share) * rows[below] + share * rows[below + 1]
+    return line
+
+
+def _image(
+    history: "History",
+    values: npt.NDArray[Any],
+    axes: Any,  # noqa: ANN401
+    words: Sequence[tuple[str, str]] | None = None,
+    limits: tuple[float, float] | None = None,
+) -> "AxesImage":
+    from matplotlib.colors import ListedColormap
+
+    edges = (*_ends(history.x), *_ends(history.y))
+    low, high = (-0.5, len(words) - 0.5) if words else limits or _limits(values)
+    colours = ListedColormap([c for _, c in words]) if words else "RdBu_r" if low < 0.0 else "viridis"
+    image: AxesImage = axes.imshow(
+        values.T, origin="lower", extent=edges, cmap=colours, vmin=low, vmax=high, interpolation="nearest"
+    )
+    axes.set(xlabel="x [length]", ylabel="y [length]")
+    axes.ticklabel_format(scilimits=(-2, 3))
+    return image
+
+
+def _limits(values: npt.NDArray[Any]) -> tuple[float, float]:
+    """Limits of the colours: about zero where the field has both signs."""
+    low, high = float(values.min()), float(values.max())
+    largest = max(abs(low), abs(high))
+    return (-largest, largest) if low < -1e-9 * largest else (0.0, high)
+
+
+def _ends(centres: Reals) -> tuple[float, float]:
+    half = 0.5 * (centres[1] - centres[0]) if len(centres) > 1 else 0.5
+    return float(centres[0] - half), float(centres[-1] + half)
+
+
+def _edges(centres: Reals, name: str) -> Reals:
+    """Borders between values, half-way; half-way of their logarithms where they grow by factors."""
+    if len(centres) < 2 or not (np.all(np.diff(centres) > 0) or np.all(np.diff(centres) < 0)):
+        raise ValueError(f"{name}: a map needs at least two values, ascending or descending")
+    by_factors = centres.min() > 0.0 and np.ptp(np.diff(np.log(centres))) < np.ptp(np.diff(centres)) / centres.mean()
+    lattice = np.log(centres) if by_factors else centres
+    middle = 0.5 * (lattice[1:] + lattice[:-1])
+    edges = np.concatenate([[2 * lattice[0] - middle[0]], middle, [2 * lattice[-1] - middle[-1]]])
+    answer: Reals = np.exp(edges) if by_factors else edges
+    return answer
+
+
+def _colour_legend(axes: Any, entries: Sequence[tuple[str, str]], place: str = "upper right") -> None:  # noqa: ANN401
+    from matplotlib.patches import Patch
+
+    patches = [Patch(facecolor=colour, edgecolor="0.6", label=word.replace("_", " ")) for word, colour in entries]
+    axes.legend(handles=patches, loc=place, fontsize="small", framealpha=0.9)

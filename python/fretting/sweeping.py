@@ -1,0 +1,355 @@
+"""Many cases: a base case, and axes along which it changes."""
+
+import json
+import os
+import tomllib
+from collections.abc import Callable, Iterator, Mapping
+from concurrent.futures import BrokenExecutor, Executor, Future, as_completed
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypeAlias
+
+import numpy as np
+import numpy.typing as npt
+
+from fretting import _case, _core, cycles
+from fretting._points import RESERVED, Axes, Dimension, Point, Table, dimensions, points
+from fretting._progress import PointLine
+from fretting._sweep_folder import SweepFolder, with_files_in
+from fretting.errors import CaseError, RunError
+from fretting.history import MEANING, History
+
+if TYPE_CHECKING:
+    import xarray
+
+Keep: TypeAlias = Literal["last", "stages", "all"]
+Measure: TypeAlias = Callable[[History], Mapping[str, Any]]
+Told: TypeAlias = Callable[[dict[str, Any]], object]
+
+_LENGTH = {"last": None, "stages": "stage", "all": "step"}
+"""Dimension, beside the axes, that the numbers of a history have."""
+
+
+def sweep(
+    base_case: _case.CaseLike,
+    axes: Axes,
+    executor: Executor | None = None,
+    *,
+    keep: Keep = "last",
+    measure: Measure | None = None,
+    folder: str | os.PathLike[str] | None = None,
+    threads: int | None = None,
+    progress: bool | Told = False,
+) -> "xarray.Dataset":
+    """Solve a case at all points of a grid of its parameters.
+
+    Parameters
+    ----------
+    base_case : path, str or mapping
+        As for :func:`fretting.run`.
+    axes : mapping or list of mappings
+        A mapping from keys of the case to values gives their Cartesian product. A key is dotted
+        (``"friction.coefficient"``); entries of lists go by number or, stages, by name (``"load.1.shift"``,
+        ``"load.indent.normal_force"``, ``"load.1.tangential_force.0"``). A tuple of keys with tuples of values makes
+        several keys change together; a name with an :class:`Axis` changes the case by a function. A list of mappings
+        from keys to values is a list of points, along one dimension ``point``.
+    executor : concurrent.futures.Executor, optional
+        Where the points are solved: threads, processes, a dask client's ``get_executor()``, ``MPIPoolExecutor``. In
+        the calling thread, one after the other, when not given.
+    keep : {"last", "stages", "all"}
+        Which increments the answer has: the last of the history, the last of every stage (dimension ``stage``), or all
+        (dimension ``step``).
+    measure : callable, optional
+        Called with the :class:`History` of every solved point, where it was solved; the numbers and arrays of the
+        mapping it returns become variables. An executor of processes needs a function that can be pickled.
+    folder : path, optional
+        Where finished points are written down, each as soon as it is solved; points found there are not solved again.
+        A point that changed in any way (another base case, a file it names, `keep`, the version) is another point.
+    threads : int, optional
+        Threads of one solve. Without: 1 with an executor, all cores without one. Results do not depend on it.
+    progress : bool or callable
+        ``True`` writes a line to stderr. A callable is called after every point with a dict: ``done``, ``points``,
+        ``failed``, ``name`` and ``status`` of the point.
+
+    Returns
+    -------
+    xarray.Dataset
+        One dimension an axis, named by its key; axes whose values are no plain numbers or words count from 0, their
+        values stand as text in ``NAME_values``. Variables: the names of ``History.steps``; those of the last full cycle
+        as ``cycle_energy``, ``cycle_energy_ratio``, ``cycle_regime`` and so on (see :meth:`History.cycles`); ``status``
+        (``"solved"``, ``"refused"``, ``"failed"``) and ``error``, the message of a point that was not solved. Numbers
+        of such points are NaN, counts -1, words empty. The attribute ``solved_before`` counts points found in `folder`.
+
+    Raises
+    ------
+    CaseError
+        When an axis names what the case cannot have, or every point is refused: then the sweep itself is mistaken.
+    ImportError
+        When xarray is not installed (``pip install fretting[xarray]``).
+    concurrent.futures.BrokenExecutor
+        When the executor itself breaks down. What is finished stands in `folder`.
+
+    Examples
+    --------
+    >>> import fretting
+    >>> case = {
+    ...     "grid": {"cells": [16, 16], "size": "auto"},
+    ...     "upper": {"rigid": True},
+    ...     "lower": {"substrate": {"young": 210e9, "poisson": 0.3}},
+    ...     "profile": {"sphere": {"radius": 10e-3}},
+    ...     "load": [{"normal_force": 10.0, "increments": 1}],
+    ... }
+    >>> answer = fretting.sweep(case, {"load.0.normal_force": [5.0, 10.0], "lower.substrate.poisson": [0.2, 0.3, 0.4]})
+    >>> answer["approach"].dims, answer["approach"].shape
+    (('load.0.normal_force', 'lower.substrate.poisson'), (2, 3))
+    """
+    _import_xarray()
+    if keep not in _LENGTH:
+        raise ValueError(f"keep = {keep!r}: must be one of {', '.join(_LENGTH)}")
+    if threads is not None and (not isinstance(threads, int) or threads < 1):
+        raise ValueError(f"threads = {threads!r}: must be a whole number from 1, or None")
+    base = _as_table(base_case)
+    found = dimensions(axes)
+    asked = list(points(base, found))
+    settings = {"keep": keep, "measure": None if measure is None else _name_of(measure)}
+    store = None if folder is None else SweepFolder(folder, base, settings)
+    answers: dict[tuple[int, ...], Table] = {}
+    if store:
+        for point in asked:
+            before = store.finished(point.case)
+            if before:
+                answers[point.place] = before
+    solved_before = len(answers)
+    threads = threads or (None if executor is None else 1)
+    with _Teller(progress, len(asked), answers.values()) as tell:
+        open_points = [point for point in asked if point.place not in answers]
+        for point, answer, lasting in _solved(open_points, executor, threads, keep, measure):
+            if store and lasting:
+                store.keep(point.case, answer)
+            answers[point.place] = answer
+            tell(point, answer)
+    if all(answer["status"] == "refused" for answer in answers.values()):
+        first = answers[asked[0].place]
+        raise CaseError(f"all {len(asked)} points of the sweep are refused; the first:\n{first['error']}",
+                        [tuple(mistake) for mistake in first["mistakes"]])  # fmt: skip
+    return _dataset(found, answers, keep, {"solved_before": solved_before})
+
+
+def _as_table(case: _case.CaseLike) -> Table:
+    """Return the base case as a dict; it need not be a whole case yet."""
+    if isinstance(case, Mapping):
+        table = _case.plain(case, "")
+        assert isinstance(table, dict)
+        return table
+    text, name, folder = _case.text_of(case)
+    try:
+        table = tomllib.loads(text)
+    except tomllib.TOMLDecodeError:
+        _core.Case.from_toml(text, name, folder)  # the core says it with the place
+        raise
+    return with_files_in(table, folder)
+
+
+def _name_of(measure: Measure) -> str:
+    return f"{getattr(measure, '__module__', '')}.{getattr(measure, '__qualname__', type(measure).__qualname__)}"
+
+
+class _Task(NamedTuple):
+    """What a worker needs to know."""
+
+    text: str
+    name: str
+    threads: int | None
+    keep: Keep
+    measure: Measure | None
+
+
+def _solve(task: _Task) -> Table:
+    """Solve one point, wherever this is called; only what a person can do something about is caught."""
+    nothing: Table = {"steps": {}, "cycle": {}, "measured": {}, "mistakes": []}
+    try:
+        history = History(_core.run(_core.Case.from_json(task.text, task.name, Path(), []), task.threads, None))
+    except CaseError as error:
+        return {**nothing, "status": "refused", "error": str(error), "mistakes": [list(m) for m in error.mistakes]}
+    except RunError as error:
+        return {**nothing, "status": "failed", "error": str(error)}
+    rows = _rows(history, task.keep)
+    cycles_of_it = history.cycles()
+    measured = {} if task.measure is None else dict(task.measure(history))
+    return {
+        **nothing,
+        "status": "solved",
+        "error": "",
+        "steps": {name: column[rows].tolist() for name, column in history.steps.items()},
+        "cycle": {name: column[-1].item() for name, column in cycles_of_it.items() if len(column)},
+        "measured": {name: _measured(name, value) for name, value in measured.items()},
+    }
+
+
+def _rows(history: History, keep: Keep) -> npt.NDArray[np.int64]:
+    if keep == "all":
+        return np.arange(len(history))
+    if keep == "last":
+        return np.asarray([len(history) - 1])
+    stage = history.steps["stage"]
+    return np.flatnonzero(np.append(stage[1:] != stage[:-1], True))
+
+
+def _measured(name: str, value: object) -> Any:  # noqa: ANN401 - a number or nested lists
+    if name in MEANING or name.startswith("cycle_") or name in RESERVED:
+        raise ValueError(f"measure: the name {name!r} is taken")
+    array = np.asarray(value)
+    if array.dtype.kind not in "fiub":
+        raise TypeError(f"measure: {name} is no number and no array of numbers, but {type(value).__name__}")
+    if not np.isfinite(array).all():
+        raise ValueError(f"measure: {name} is not finite everywhere")
+    return array.astype(np.float64).tolist()
+
+
+def _solved(
+    asked: list[Point], executor: Executor | None, threads: int | None, keep: Keep, measure: Measure | None
+) -> Iterator[tuple[Point, Table, bool]]:
+    """Answers as they come, and whether each would be the same another time."""
+    tasks = [_Task(json.dumps(point.case), point.name, threads, keep, measure) for point in asked]
+    if executor is None:
+        for point, task in zip(asked, tasks, strict=True):
+            try:
+                yield point, _solve(task), True
+            except Exception as error:  # whatever it is belongs to this point alone
+                yield point, _surprise(error), False
+        return
+    futures: dict[Future[Table], Point] = {
+        executor.submit(_solve, task): point for point, task in zip(asked, tasks, strict=True)
+    }
+    try:
+        for future in as_completed(futures):
+            try:
+                yield futures[future], future.result(), True
+            except BrokenExecutor:
+                raise
+            except Exception as error:
+                yield futures[future], _surprise(error), False
+    finally:
+        for future in futures:
+            future.cancel()
+
+
+def _surprise(error: Exception) -> Table:
+    text = f"{type(error).__name__}: {error}"
+    return {"status": "failed", "error": text, "steps": {}, "cycle": {}, "measured": {}, "mistakes": []}
+
+
+class _Teller:
+    """Tells about every point."""
+
+    def __init__(self, progress: bool | Told, count: int, before: Any) -> None:  # noqa: ANN401 - a view
+        if not isinstance(progress, bool) and not callable(progress):
+            raise TypeError(f"progress: expected a bool or a callable, found {type(progress).__name__}")
+        self._line = PointLine() if progress is True else None
+        self._told: Told | None = progress if callable(progress) else self._line
+        self._count = count
+        statuses = [answer["status"] for answer in before]
+        self._done, self._failed = len(statuses), sum(status != "solved" for status in statuses)
+
+    def __enter__(self) -> "_Teller":
+        return self
+
+    def __call__(self, point: Point, answer: Table) -> None:
+        self._done += 1
+        self._failed += answer["status"] != "solved"
+        if self._told:
+            news = {"done": self._done, "points": self._count, "failed": self._failed}
+            self._told({**news, "name": point.name, "status": answer["status"]})
+
+    def __exit__(self, *_: object) -> None:
+        if self._line:
+            self._line.end()
+
+
+def _dataset(
+    found: list[Dimension], answers: dict[tuple[int, ...], Table], keep: Keep, attributes: dict[str, Any]
+) -> "xarray.Dataset":
+    module = _import_xarray()
+    names = tuple(dimension.name for dimension in found)
+    shape = tuple(len(dimension.changes) for dimension in found)
+    variables: dict[str, Any] = {}
+    for name, fill in (("status", "not solved"), ("error", "")):
+        column = np.full(shape, fill, dtype=object)
+        for place, answer in answers.items():
+            column[place] = answer[name]
+        variables[name] = (names, column.astype(str))
+    extra = _LENGTH[keep]
+    length = max((len(answer["steps"].get("increment", ())) for answer in answers.values()), default=0)
+    for name in _all_names(answers, "steps"):
+        if name == extra:
+            continue
+        table = _filled(shape if extra is None else (*shape, length), _sample(answers, "steps", name))
+        for place, answer in answers.items():
+            column = answer["steps"].get(name)
+            if column is not None:
+                if extra is None:
+                    table[place] = column[0]
+                else:
+                    table[place][: len(column)] = column
+        dims = names if extra is None else (*names, extra)
+        variables[name] = (dims, table, {"long_name": MEANING[name]})
+    for name in _all_names(answers, "cycle"):
+        table = _filled(shape, _sample(answers, "cycle", name))
+        for place, answer in answers.items():
+            if name in answer["cycle"]:
+                table[place] = answer["cycle"][name]
+        variables[f"cycle_{name}"] = (names, table, {"long_name": f"last full cycle: {cycles.MEANING[name]}"})
+    for name in _all_names(answers, "measured"):
+        variables[name] = _measured_variable(name, names, shape, answers)
+    coordinates: dict[str, Any] = {}
+    for dimension in found:
+        for key, values in dimension.coordinates.items():
+            plain = all(isinstance(value, int | float | str) for value in values)
+            label = key if plain else f"{key}_values"
+            entries = np.asarray(values if plain else [json.dumps(value) for value in values])
+            coordinates[label] = (dimension.name, entries)
+    if extra and length:
+        coordinates[extra] = (extra, np.arange(length))
+    dataset: xarray.Dataset = module.Dataset(variables, coords=coordinates, attrs=attributes)
+    return dataset
+
+
+def _all_names(answers: dict[tuple[int, ...], Table], part: str) -> list[str]:
+    return list(dict.fromkeys(name for answer in answers.values() for name in answer[part]))
+
+
+def _sample(answers: dict[tuple[int, ...], Table], part: str, name: str) -> Any:  # noqa: ANN401
+    value = next(answer[part][name] for answer in answers.values() if name in answer[part])
+    return value[0] if isinstance(value, list) else value
+
+
+def _filled(shape: tuple[int, ...], sample: object) -> npt.NDArray[Any]:
+    """Return an array of nothing, of the kind of the sample."""
+    if isinstance(sample, str):
+        return np.full(shape, "", dtype="<U12")
+    if isinstance(sample, int):
+        return np.full(shape, -1, dtype=np.int64)
+    return np.full(shape, np.nan)
+
+
+def _measured_variable(
+    name: str, names: tuple[str, ...], shape: tuple[int, ...], answers: dict[tuple[int, ...], Table]
+) -> Any:  # noqa: ANN401
+    if name in names:
+        raise ValueError(f"measure: the name {name!r} is taken by an axis")
+    values = {place: np.asarray(a["measured"][name]) for place, a in answers.items() if name in a["measured"]}
+    shapes = {value.shape for value in values.values()}
+    if len(shapes) > 1:
+        raise ValueError(f"measure: {name} has different shapes at different points: {sorted(shapes)}")
+    inner = shapes.pop()
+    table = np.full((*shape, *inner), np.nan)
+    for place, value in values.items():
+        table[place] = value
+    return (*names, *(f"{name}_{number}" for number in range(len(inner)))), table
+
+
+def _import_xarray() -> Any:  # noqa: ANN401 - a module
+    try:
+        import xarray
+    except ImportError as error:
+        raise ImportError("a sweep answers with an xarray.Dataset: pip install 'fretting[xarray]'") from error
+    return xarray

@@ -1,0 +1,116 @@
+"""What the pages show runs as it stands there, and the site builds without a warning."""
+
+import re
+import shlex
+import shutil
+import subprocess
+import sys
+import tomllib
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+import fretting
+
+ROOT = Path(__file__).resolve().parents[2]
+PAGES = sorted([ROOT / "README.md", *(ROOT / "docs").rglob("*.md")])
+BLOCK = re.compile(r"^```(\w+)[^\n]*\n(.*?)^```$", re.MULTILINE | re.DOTALL)
+
+NOT_RUN = ("pip ", "cargo xtask", "python docs/site", "mpiexec")
+"""Beginnings of shell lines that are for a person: they install, or are run by other tests."""
+
+
+def blocks(page: Path) -> list[tuple[str, str]]:
+    return BLOCK.findall(page.read_text(encoding="utf-8"))
+
+
+def whole_case(shown: str) -> dict[str, Any]:
+    """Put what a page shows of a case into a scene that has the rest."""
+    scene = tomllib.loads("""
+        grid = { cells = [24, 24], size = [240e-6, 240e-6] }
+        upper = { rigid = true }
+        lower = { substrate = { young = 210e9, poisson = 0.3 } }
+        profile = { sphere = { radius = 10e-3 } }
+        friction = { coefficient = 0.2 }
+        load = [{ normal_force = 1.0, increments = 1 }]
+    """)
+    return {**scene, **tomllib.loads(shown)}
+
+
+def run_shell(text: str, folder: Path) -> None:
+    for line in text.splitlines():
+        command = line.split("#")[0].strip().replace("cargo run --release -- ", "fret ")
+        if not command or command.startswith(NOT_RUN):
+            continue
+        assert command.startswith("fret "), f"a page shows a command that no test knows: {command}"
+        # The examples are long; that each is a good case is what a page promises, and other tests solve smaller ones.
+        command = command.replace("fret run examples/", "fret plan examples/")
+        words = [sys.executable, "-m", "fretting", *shlex.split(command)[1:]]
+        if "CASE" in words or "DIR" in words:
+            continue
+        done = subprocess.run(words, capture_output=True, text=True, timeout=120, check=False, cwd=folder)
+        assert done.returncode == 0, f"{command}\n{done.stderr}"
+
+
+def check_toml(text: str, folder: Path) -> None:
+    named = re.match(r"# ([\w.-]+\.toml)\n", text)
+    if named:
+        (folder / named[1]).write_text(text)
+    if "base" in tomllib.loads(text) and "axes" in tomllib.loads(text):
+        return  # a sweep, which a command of the page solves
+    fretting.plan(whole_case(text))
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.relative_to(ROOT).as_posix())
+def test_snippets_run_in_their_order(page: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    found = [(language, text) for language, text in blocks(page) if language in ("python", "toml", "sh", "bash")]
+    if not found:
+        pytest.skip("shows nothing to run")
+    if any("plot" in text or "savefig" in text for _, text in found):
+        matplotlib = pytest.importorskip("matplotlib")
+        matplotlib.use("Agg")
+    if any("sweep(" in text or "xarray" in text for _, text in found):
+        pytest.importorskip("xarray")
+    shutil.copytree(ROOT / "examples", tmp_path / "examples")
+    monkeypatch.chdir(tmp_path)
+    names: dict[str, object] = {"__name__": "page"}
+    for number, (language, text) in enumerate(found, 1):
+        if language == "python":
+            exec(compile(text, f"{page.name}, snippet {number}", "exec"), names)
+        elif language == "toml":
+            check_toml(text, tmp_path)
+        else:
+            run_shell(text, tmp_path)
+    if "matplotlib.pyplot" in sys.modules:
+        sys.modules["matplotlib.pyplot"].close("all")
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.relative_to(ROOT).as_posix())
+def test_links_lead_somewhere(page: Path) -> None:
+    text = re.sub(r"```.*?```", "", page.read_text(encoding="utf-8"), flags=re.DOTALL)
+    for target in re.findall(r"\]\(([^)\s#]+)", text):
+        if not re.match(r"[a-z]+:", target):
+            assert (page.parent / target).exists(), target
+
+
+def test_the_page_of_keys_is_that_of_the_schema(tmp_path: Path) -> None:
+    copy = tmp_path / "docs" / "site"
+    copy.mkdir(parents=True)
+    shutil.copy(ROOT / "docs" / "site" / "case_format.py", copy)
+    shutil.copytree(ROOT / "examples", tmp_path / "examples")
+    subprocess.run([sys.executable, copy / "case_format.py"], check=True, timeout=60)
+    written = (tmp_path / "docs" / "case-format.md").read_text(encoding="utf-8")
+    assert written == (ROOT / "docs" / "case-format.md").read_text(encoding="utf-8"), "run docs/site/case_format.py"
+
+
+def test_the_site_builds_without_a_warning(tmp_path: Path) -> None:
+    for module in ("material", "mkdocstrings", "latex2mathml"):
+        pytest.importorskip(module)
+    done = subprocess.run(
+        [sys.executable, "-m", "mkdocs", "build", "--strict", "--quiet", "--site-dir", tmp_path / "site"],
+        capture_output=True, text=True, timeout=120, check=False, cwd=ROOT,
+        env={"NO_MKDOCS_2_WARNING": "1", "PATH": ""},
+    )  # fmt: skip
+    assert (done.returncode, done.stdout.strip()) == (0, ""), done.stdout + done.stderr
+    assert "contact_area" in (tmp_path / "site" / "api" / "python.html").read_text(encoding="utf-8")
