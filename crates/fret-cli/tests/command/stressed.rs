@@ -34,7 +34,7 @@ fn a_finished_run_tells_its_stresses_without_solving_again() {
     assert_eq!(bench.text("out/history.csv"), before);
     let volume = std::fs::read(bench.folder.join("out/stress/volume-00018.vtr")).unwrap();
     // eight fields of 24 x 24 x 3 numbers of four bytes, each after its length
-    let start = volume.windows(5).position(|window| window == b"\n    _").unwrap() + 5;
+    let start = volume.windows(7).position(|window| window == b">\n    _").unwrap() + 7;
     let bytes = 24 * 24 * 3 * 4;
     assert_eq!(volume[start..start + 8], (bytes as u64).to_le_bytes());
     assert_eq!(volume.len() - start, 8 * (8 + bytes) + "\n  </AppendedData>\n</VTKFile>\n".len());
