@@ -129,3 +129,94 @@ impl Checkpoint {
             && self.memory.fits(cells)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use std::ops::ControlFlow;
+
+    use super::{Checkpoint, CheckpointError, Waypoint};
+    use crate::case::Case;
+    use crate::history::StepRecord;
+    use crate::plan::Plan;
+    use crate::simulation::{Observer, Silent, Simulation};
+
+    /// Coated and rubbed in two directions, with controls that change their kind.
+    const CASE: &str = r#"
+        [grid]
+        cells = [14, 12]
+        size = [210e-6, 180e-6]
+        [upper]
+        rigid = true
+        [lower]
+        coatings = [{ thickness = 20e-6, young = 400e9, poisson = 0.25 }]
+        substrate = { young = 210e9, poisson = 0.3 }
+        [profile.sphere]
+        radius = 10e-3
+        [friction]
+        coefficient = 0.2
+        [[load]]
+        normal_force = 1.0
+        increments = 4
+        [[load]]
+        tangential_force = [0.1, 0.05]
+        cycles = 1
+        increments = 8
+        [[load]]
+        shift = [30e-9, 0.0]
+        increments = 3
+        [output]
+        fields = []
+    "#;
+
+    fn plan(case: &str) -> Plan {
+        Plan::new(Case::from_toml(case, "case").unwrap()).unwrap()
+    }
+
+    /// Keeps the bytes of every waypoint.
+    struct Keeper(Vec<Vec<u8>>);
+
+    impl Observer for Keeper {
+        fn reached(&mut self, waypoint: &Waypoint<'_>) -> ControlFlow<()> {
+            self.0.push(waypoint.write(Vec::new()).unwrap());
+            ControlFlow::Continue(())
+        }
+    }
+
+    fn timeless(steps: &[StepRecord]) -> Vec<StepRecord> {
+        steps.iter().map(|step| StepRecord { wall_s: 0.0, ..step.clone() }).collect()
+    }
+
+    #[test]
+    fn a_run_taken_up_after_any_increment_has_the_bits_of_the_unbroken_one() {
+        let plan = plan(CASE);
+        let simulation = Simulation::new(&plan);
+        let mut keeper = Keeper(Vec::new());
+        let whole = simulation.run(&mut keeper).unwrap();
+        assert_eq!(keeper.0.len(), 15);
+        for (increment, bytes) in keeper.0.iter().enumerate() {
+            let checkpoint = Checkpoint::read(bytes, &plan).unwrap();
+            assert_eq!(checkpoint.solved(), increment + 1);
+            let rest = simulation.resume(checkpoint, &mut Silent).unwrap();
+            assert_eq!(timeless(&rest.steps), timeless(&whole.steps[increment + 1..]));
+            assert_eq!(rest.state, whole.state);
+        }
+    }
+
+    #[test]
+    fn bytes_that_are_no_checkpoint_of_the_plan_are_refused() {
+        let plan = plan(CASE);
+        let mut keeper = Keeper(Vec::new());
+        Simulation::new(&plan).run(&mut keeper).unwrap();
+        let bytes = &keeper.0[5];
+        for length in [0, 1, bytes.len() / 2, bytes.len() - 1] {
+            assert!(matches!(Checkpoint::read(&bytes[..length], &plan), Err(CheckpointError::Damaged(_))));
+        }
+        let mut newer = bytes.clone();
+        newer[0] = 9;
+        assert_eq!(Checkpoint::read(&newer, &plan), Err(CheckpointError::Format { found: 9 }));
+        for other in [CASE.replace("[14, 12]", "[12, 14]"), CASE.replace("increments = 4", "increments = 3")]
+        {
+            assert_eq!(Checkpoint::read(bytes, &self::plan(&other)), Err(CheckpointError::Foreign));
+        }
+    }
+}
