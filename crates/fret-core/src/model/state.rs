@@ -39,11 +39,12 @@ pub struct ContactState {
 impl ContactState {
     /// Bodies that have not touched yet.
     pub fn untouched(cells: [usize; 2]) -> Self {
-        let zero = Array2::zeros(cells);
+        // Each made anew, not copied: zeros that nobody wrote to take no memory.
+        let zero = || Array2::zeros(cells);
         Self {
-            pressure: zero.clone(),
-            shear: [zero.clone(), zero.clone()],
-            slip: [zero.clone(), zero],
+            pressure: zero(),
+            shear: [zero(), zero()],
+            slip: [zero(), zero()],
             zone: Array2::from_elem(cells, Zone::Open),
             approach: 0.0,
             shift: [0.0; 2],

@@ -28,7 +28,7 @@ const SHIFT: f64 = 0.05;
 const SHIFT_STIFF: f64 = 0.15;
 /// Cells kept free around the predicted contact.
 pub const MARGIN: usize = 2;
-/// A periodic contact that fills more of its coarsest grid starts from the pressure of full contact.
+/// A periodic scene starts from the pressure of full contact where that is positive on more of the coarsest grid than this.
 const NEARLY_FULL: f64 = 0.9;
 
 /// One coarse grid.
@@ -91,6 +91,9 @@ impl CoarseGrids {
         work: &mut Work,
         watch: Watch<'_>,
     ) -> Result<Option<Array2<f64>>, SolveError> {
+        if self.levels.last().is_some_and(|coarsest| coarsest.is_nearly_full(prescribed.total, self.cells)) {
+            return Ok(None);
+        }
         let mut start: Option<Array2<f64>> = None;
         for (index, level) in self.levels.iter().enumerate().rev() {
             let total = prescribed.total.map(|total| total * 0.25_f64.powi(index as i32 + 1));
@@ -105,9 +108,6 @@ impl CoarseGrids {
             work.convolutions += solved.convolutions;
             work.preconditioner_passes += solved.passes;
             work.full_grid_convolutions += solved.cell_convolutions / (self.cells[0] * self.cells[1]) as f64;
-            if solved.is_nearly_full(level) {
-                return Ok(None);
-            }
             let Some(carried) = solved.carried(above, total) else { return Ok(None) };
             start = Some(carried);
         }
@@ -130,6 +130,21 @@ struct SolvedLevel {
 impl Level {
     fn cells(&self) -> [usize; 2] {
         self.undeformed.dim().into()
+    }
+
+    /// Whether a scene that repeats is in contact nearly everywhere, judged by the pressure that closes all gaps. `total`: sum of
+    /// the pressures over the finest grid's `cells`.
+    fn is_nearly_full(&self, total: Option<f64>, cells: [usize; 2]) -> bool {
+        let (true, Some(total)) = (self.response.is_periodic(), total) else { return false };
+        let mean = total / (cells[0] * cells[1]) as f64;
+        let Ok(mut inverse) = Preconditioner::new(&self.response, None, self.cells(), true, false) else {
+            return false;
+        };
+        let undeformed = Region::whole(self.cells()).gather(&self.undeformed);
+        let mut removed = vec![0.0; undeformed.len()];
+        inverse.normal(&undeformed, &mut removed);
+        let loaded = removed.iter().filter(|part| mean > **part).count();
+        loaded as f64 > NEARLY_FULL * removed.len() as f64
     }
 
     /// Solves the level in a box; on the whole grid when the contact outgrows the box.
@@ -209,11 +224,6 @@ fn touches_box(region: Region, cells: [usize; 2], pressure: &[f64]) -> bool {
 }
 
 impl SolvedLevel {
-    fn is_nearly_full(&self, level: &Level) -> bool {
-        let loaded = self.pressure.iter().filter(|p| **p > 0.0).count();
-        level.response.is_periodic() && loaded as f64 > NEARLY_FULL * self.pressure.len() as f64
-    }
-
     /// Pressure on a grid twice as fine, of `cells` and with the sum that goes with `total` here.
     fn carried(&self, cells: [usize; 2], total: Option<f64>) -> Option<Array2<f64>> {
         let view = |field| ArrayView2::from_shape(self.region.shape, field).ok();
