@@ -13,4 +13,5 @@ pub mod simulation;
 pub mod solver;
 pub mod spectral;
 mod stepping;
+pub mod study;
 pub mod subsurface;

@@ -1,0 +1,117 @@
+//! What a ladder teaches: which rungs are worth their time, and what to choose for an accuracy.
+
+use serde::Serialize;
+
+use super::errors::{Errors, Form};
+use super::ladder::{Kind, Ladder, Place};
+use super::rung::Rung;
+use super::truth::Truth;
+
+/// Cells and increments for an accuracy of every headline number.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Advice {
+    /// The accuracy, relative.
+    pub accuracy: f64,
+    /// Cells along x; `None`: no number of them was seen to lead there.
+    pub cells: Option<usize>,
+    /// Increments of a stage or a cycle; `None`: no number of them was seen to lead there.
+    pub increments: Option<usize>,
+    /// Whether one of them lies beyond the ladder and is concluded from its order.
+    pub concluded: bool,
+}
+
+/// Numbers of cells and increments whose errors each take half of `accuracy`. Cells are judged by the truth, increments by
+/// their own limit at the most cells, so that the error of the cells does not hide in it.
+pub fn advice<'a>(
+    ladder: &Ladder,
+    rung: &impl Fn(Place) -> Option<&'a Rung>,
+    judged: &impl Fn(Place) -> Option<Errors>,
+    accuracy: f64,
+) -> Advice {
+    let cells_line = ladder.line(Kind::Cells);
+    let increments_line = ladder.line(Kind::Increments);
+    let worst = |place: Place| judged(place).and_then(|errors| errors.worst(Form::Between));
+    let alone = limit_of_increments(ladder, rung);
+    let by_increments = |place: Place| {
+        super::errors::errors(alone.as_ref()?, rung(place)?, None).worst(Form::Between)
+    };
+    let (cells, beyond_cells) = choose(
+        &cells_line.iter().map(|[i, ..]| ladder.cells[*i][0]).collect::<Vec<_>>(),
+        &cells_line.iter().map(|place| worst(*place)).collect::<Vec<_>>(),
+        accuracy / 2.0,
+    );
+    let (increments, beyond_increments) = choose(
+        &increments_line.iter().map(|[_, j, _]| largest(&ladder.increments[*j])).collect::<Vec<_>>(),
+        &increments_line.iter().map(|place| by_increments(*place)).collect::<Vec<_>>(),
+        accuracy / 2.0,
+    );
+    Advice { accuracy, cells, increments, concluded: beyond_cells || beyond_increments }
+}
+
+fn largest(counts: &[usize]) -> usize {
+    counts.iter().copied().max().unwrap_or(1)
+}
+
+/// The limit along the increments alone, at the most cells.
+fn limit_of_increments<'a>(ladder: &Ladder, rung: &impl Fn(Place) -> Option<&'a Rung>) -> Option<Truth> {
+    let [i, _, k] = ladder.finest();
+    let alone = Ladder {
+        cells: vec![ladder.cells[i]],
+        increments: ladder.increments.clone(),
+        tolerances: vec![ladder.tolerances[k]],
+    };
+    Truth::limit(&alone, &|[_, j, _]: Place| rung([i, j, k]))
+}
+
+/// The smallest count from which on the errors stay within a bound; concluded from the order of the last two where the ladder
+/// does not reach it.
+fn choose(counts: &[usize], errors: &[Option<f64>], bound: f64) -> (Option<usize>, bool) {
+    let within = |error: &Option<f64>| error.is_some_and(|error| error <= bound);
+    let good = errors.iter().rev().take_while(|error| within(error)).count();
+    if good > 0 {
+        return (Some(counts[counts.len() - good]), false);
+    }
+    let [.., (n0, Some(e0)), (n1, Some(e1))] =
+        counts.iter().zip(errors.iter().copied()).collect::<Vec<_>>()[..]
+    else {
+        return (None, false);
+    };
+    let order = (e0 / e1).ln() / (*n1 as f64 / *n0 as f64).ln();
+    if !(order.is_finite() && order > 0.2) {
+        return (None, false);
+    }
+    let wanted = *n1 as f64 * (e1 / bound).powf(order.min(2.0).recip());
+    (wanted.is_finite().then(|| (wanted / 8.0).ceil() as usize * 8), true)
+}
+
+/// Which of some rungs are efficient: none is both quicker and closer. Points are time and error.
+pub fn frontier(points: &[(f64, Option<f64>)]) -> Vec<bool> {
+    let is_beaten = |(time, error): (f64, f64)| {
+        points.iter().any(|(other_time, other)| {
+            other.is_some_and(|other| {
+                *other_time <= time && other <= error && (*other_time < time || other < error)
+            })
+        })
+    };
+    points.iter().map(|(time, error)| error.is_some_and(|error| !is_beaten((*time, error)))).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{choose, frontier};
+
+    #[test]
+    fn the_frontier_holds_what_nothing_beats() {
+        let points = [(1.0, Some(0.1)), (2.0, Some(0.2)), (3.0, Some(0.01)), (3.0, Some(0.02)), (4.0, None)];
+        assert_eq!(frontier(&points), [true, false, true, false, false]);
+    }
+
+    #[test]
+    fn counts_are_chosen_from_the_ladder_and_concluded_beyond_it() {
+        let counts = [16, 32, 64];
+        let errors = [Some(0.04), Some(0.01), Some(0.0025)];
+        assert_eq!(choose(&counts, &errors, 0.01), (Some(32), false));
+        assert_eq!(choose(&counts, &errors, 0.0025 / 4.0), (Some(128), true)); // second order
+        assert_eq!(choose(&counts, &[Some(0.01), Some(0.001), Some(0.02)], 0.01), (None, false));
+    }
+}

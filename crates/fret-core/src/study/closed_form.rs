@@ -1,0 +1,280 @@
+//! Which closed form speaks about a scene, recognised from its plan, and what it says at the end of each stage.
+//!
+//! Normal: spheres, ellipsoids, rounded and flat punches, cones on homogeneous bodies that are frictionless or do not couple. Tangential: Cattaneo and Mindlin with Masing's
+//! memory, for spheres under a steady normal force, one coefficient of friction, forces along one line, and like bodies with a
+//! Poisson's ratio of zero: with any other the form neglects the slip across the force, and is no measure of a hundredth of a
+//! percent.
+
+use std::f64::consts::PI;
+
+use super::headline::Quantity;
+use crate::analytic::{Cone, EffectiveModuli, FlatPunch, Hertz, HertzEllipse, RoundedPunch, TangentialHistory};
+use crate::case::{Course, Stage, StageControl};
+use crate::model::{Body, CoulombFriction, ElasticMaterial, Shape};
+use crate::plan::{Coupling, Plan};
+
+/// What a closed form says of one stage's end; `None` where it says nothing.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Said([Option<[f64; 2]>; 6]);
+
+impl Said {
+    /// A headline number, scalars first.
+    pub fn of(&self, quantity: Quantity) -> Option<[f64; 2]> {
+        self.0[quantity as usize]
+    }
+
+    fn say(&mut self, quantity: Quantity, value: f64) {
+        self.0[quantity as usize] = Some([value, 0.0]);
+    }
+}
+
+/// The contact of a shape without friction.
+#[derive(Debug, Clone, Copy)]
+enum Pressed {
+    Sphere(Hertz),
+    Ellipsoid(HertzEllipse),
+    Rounded(RoundedPunch),
+    Flat(FlatPunch),
+    Cone(Cone),
+}
+
+/// Exact answers to a scene.
+#[derive(Debug, Clone)]
+pub struct ClosedForm {
+    name: &'static str,
+    ends: Vec<Said>,
+    last: Option<Pressed>,
+    /// Shear at the end: the history and the direction of the force.
+    shear: Option<(TangentialHistory, [f64; 2])>,
+}
+
+impl ClosedForm {
+    /// The closed form of a plan, where it has one.
+    pub fn of(plan: &Plan) -> Option<Self> {
+        let case = &plan.case;
+        if case.periodic || plan.coupling == Coupling::Coupled {
+            return None;
+        }
+        let moduli = moduli(plan)?;
+        let mut force = None;
+        let mut pressed = Vec::new();
+        for stage in &case.stages {
+            force = stage.normal.or(force);
+            pressed.push(pressed_by(plan, force?, moduli.normal)?);
+        }
+        let mut ends: Vec<Said> = pressed.iter().map(Pressed::says).collect();
+        let shear = if case.is_frictionless() || !has_tangential(&case.stages) {
+            none_tangential(&mut ends);
+            None
+        } else {
+            tangential(plan, &pressed, moduli.shear, &mut ends)
+        };
+        let name = match (&pressed.last()?, shear.is_some()) {
+            (Pressed::Sphere(_), true) => "Hertz; Cattaneo and Mindlin",
+            (Pressed::Sphere(_) | Pressed::Ellipsoid(_), _) => "Hertz",
+            (Pressed::Rounded(_), _) => "rounded punch",
+            (Pressed::Flat(_), _) => "flat punch",
+            (Pressed::Cone(_), _) => "cone",
+        };
+        Some(Self { name, ends, last: pressed.last().copied(), shear })
+    }
+
+    /// Its name.
+    pub fn name(&self) -> &'static str {
+        self.name
+    }
+
+    /// What it says at the end of each stage.
+    pub fn ends(&self) -> &[Said] {
+        &self.ends
+    }
+
+    /// Pressure at a point at the end of the history [pressure].
+    pub fn pressure(&self, x: f64, y: f64) -> f64 {
+        let r = x.hypot(y);
+        match &self.last {
+            Some(Pressed::Sphere(hertz)) => hertz.pressure(r),
+            Some(Pressed::Ellipsoid(hertz)) => hertz.pressure(x, y),
+            Some(Pressed::Rounded(punch)) => punch.pressure(r),
+            Some(Pressed::Flat(punch)) => punch.pressure(r),
+            Some(Pressed::Cone(cone)) => cone.pressure(r),
+            None => 0.0,
+        }
+    }
+
+    /// Whether it knows the shear.
+    pub fn knows_shear(&self) -> bool {
+        self.shear.is_some()
+    }
+
+    /// Shear at a point at the end of the history, x and y [pressure]; zero where it does not know it.
+    pub fn shear(&self, x: f64, y: f64) -> [f64; 2] {
+        self.shear.as_ref().map_or([0.0; 2], |(history, direction)| {
+            let along = history.shear(x.hypot(y));
+            direction.map(|part| part * along)
+        })
+    }
+}
+
+impl Pressed {
+    fn says(&self) -> Said {
+        let mut said = Said::default();
+        let (peak, approach, area) = match self {
+            Self::Sphere(form) => (Some(form.peak_pressure), form.approach, disc(form.contact_radius)),
+            Self::Ellipsoid(form) => {
+                (Some(form.peak_pressure), form.approach, PI * form.semi_axes[0] * form.semi_axes[1])
+            }
+            // The largest pressure of a rounded punch lies near its edge, in no closed form; those of an edge and a tip are infinite.
+            Self::Rounded(form) => (None, form.approach, disc(form.contact_radius)),
+            Self::Flat(form) => (None, form.approach, disc(form.contact_radius)),
+            Self::Cone(form) => (None, form.approach, disc(form.contact_radius)),
+        };
+        if let Some(peak) = peak {
+            said.say(Quantity::MaxPressure, peak);
+        }
+        said.say(Quantity::Approach, approach);
+        said.say(Quantity::ContactArea, area);
+        said
+    }
+}
+
+fn disc(radius: f64) -> f64 {
+    PI * radius * radius
+}
+
+fn moduli(plan: &Plan) -> Option<EffectiveModuli> {
+    let material = |body: &Body| match body {
+        Body::Rigid => Some(None),
+        Body::Elastic(half_space) => half_space.single_material().map(|material| Some(*material)),
+    };
+    let bodies = &plan.case.bodies;
+    match (material(bodies.upper())?, material(bodies.lower())?) {
+        (None, Some(one)) | (Some(one), None) => Some(EffectiveModuli::rigid_on(&one)),
+        (Some(upper), Some(lower)) => Some(EffectiveModuli::of_pair(&upper, &lower)),
+        (None, None) => None,
+    }
+}
+
+fn pressed_by(plan: &Plan, control: StageControl, modulus: f64) -> Option<Pressed> {
+    let profile = &plan.case.profile;
+    if !profile.heights.is_empty() {
+        return None;
+    }
+    if profile.shapes.iter().all(|shape| shape.curvatures().is_some()) {
+        let [x, y] = profile.curvatures();
+        if !(x > 0.0 && y > 0.0) {
+            return None;
+        }
+        let is_round = (x - y).abs() <= 1e-15 * x;
+        return match control {
+            StageControl::Force(force) if is_round => {
+                Hertz::sphere(x.recip(), force, modulus).ok().map(Pressed::Sphere)
+            }
+            StageControl::Motion(approach) if is_round => {
+                Hertz::sphere_at_approach(x.recip(), approach, modulus).ok().map(Pressed::Sphere)
+            }
+            StageControl::Force(force) => {
+                HertzEllipse::ellipsoid([x.recip(), y.recip()], force, modulus).ok().map(Pressed::Ellipsoid)
+            }
+            StageControl::Motion(_) => None,
+        };
+    }
+    let (StageControl::Force(force), [shape]) = (control, profile.shapes.as_slice()) else { return None };
+    match *shape {
+        Shape::RoundedPunch { flat_radius, edge_radius } => {
+            RoundedPunch::new(flat_radius, edge_radius, force, modulus).ok().map(Pressed::Rounded)
+        }
+        Shape::FlatPunch { radius } => FlatPunch::new(radius, force, modulus).ok().map(Pressed::Flat),
+        Shape::Cone { slope } => Cone::new(slope, force, modulus).ok().map(Pressed::Cone),
+        _ => None,
+    }
+}
+
+fn has_tangential(stages: &[Stage]) -> bool {
+    stages.iter().any(Stage::is_tangential)
+}
+
+/// Without any tangential cause nothing slips and nothing is lost.
+fn none_tangential(ends: &mut [Said]) {
+    for said in ends {
+        said.say(Quantity::Shift, 0.0);
+        said.say(Quantity::DissipatedEnergy, 0.0);
+    }
+}
+
+/// Follows the tangential force through the stages and adds what is known; gives the history at the end.
+fn tangential(
+    plan: &Plan,
+    pressed: &[Pressed],
+    shear_modulus: f64,
+    ends: &mut [Said],
+) -> Option<(TangentialHistory, [f64; 2])> {
+    let case = &plan.case;
+    let CoulombFriction::Uniform(friction) = case.friction else { return None };
+    let stages = &case.stages;
+    let first = stages.iter().position(Stage::is_tangential)?;
+    let steady = stages[first..].iter().all(|stage| stage.normal.is_none());
+    let changes = stages.iter().any(|stage| stage.friction.is_some() || stage.twist.is_some());
+    if !steady || changes || !without_poisson(plan) {
+        return None;
+    }
+    let Some(Pressed::Sphere(hertz)) = pressed.get(first) else { return None };
+    let targets: Vec<Option<[f64; 2]>> = stages.iter().map(force_of).collect::<Option<_>>()?;
+    let largest = targets.iter().flatten().fold([0.0; 2], |most: [f64; 2], force| {
+        if force[0].hypot(force[1]) > most[0].hypot(most[1]) { *force } else { most }
+    });
+    let size = largest[0].hypot(largest[1]);
+    if size == 0.0 {
+        return None;
+    }
+    let direction = largest.map(|part| part / size);
+    let across = |force: &[f64; 2]| (force[0] * direction[1] - force[1] * direction[0]).abs();
+    if targets.iter().flatten().any(|force| across(force) > 1e-12 * size) {
+        return None;
+    }
+    let mut history = TangentialHistory::new(hertz, friction, shear_modulus).ok()?;
+    let mut said = ends.to_vec();
+    for ((stage, target), said) in stages.iter().zip(&targets).zip(&mut said) {
+        if let Some(force) = target {
+            let along = force[0] * direction[0] + force[1] * direction[1];
+            let start = history.tangential_force();
+            let path = match stage.course {
+                Course::Linear | Course::Cubic => vec![along],
+                Course::Cycles(cycles) => [start + along, start - along, start].repeat(cycles),
+            };
+            for force in path {
+                // Where all of the contact slides the shift is no matter of the force.
+                if force.abs() >= friction * hertz.force * (1.0 - 1e-9) {
+                    return None;
+                }
+                history.push(force).ok()?;
+            }
+            said.say(Quantity::StickArea, disc(history.stick_radius()));
+        }
+        said.0[Quantity::Shift as usize] = Some(direction.map(|part| part * history.shift()));
+        said.say(Quantity::DissipatedEnergy, history.dissipated_energy());
+    }
+    ends.copy_from_slice(&said);
+    Some((history, direction))
+}
+
+/// The tangential force a stage goes to, when it has one; `None` for a prescribed shift.
+#[expect(clippy::option_option, reason = "no closed form, and a stage without tangential control, are two things")]
+fn force_of(stage: &Stage) -> Option<Option<[f64; 2]>> {
+    match stage.tangential {
+        None => Some(None),
+        Some([StageControl::Force(x), StageControl::Force(y)]) => Some(Some([x, y])),
+        Some(_) => None,
+    }
+}
+
+/// Whether Poisson's ratio vanishes in both bodies.
+fn without_poisson(plan: &Plan) -> bool {
+    let bodies = &plan.case.bodies;
+    [bodies.upper(), bodies.lower()].into_iter().all(|body| match body {
+        Body::Rigid => true,
+        Body::Elastic(half_space) => {
+            half_space.single_material().map(ElasticMaterial::poisson) == Some(0.0)
+        }
+    })
+}

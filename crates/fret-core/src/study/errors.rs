@@ -1,0 +1,136 @@
+//! Errors of a rung, all relative.
+
+use serde::Serialize;
+
+use super::headline::{Headline, Quantity};
+use super::rung::Rung;
+use super::truth::Truth;
+
+/// Share below which a motion or an energy is none.
+const NOTHING: f64 = 1e-9;
+
+/// How a headline number is read.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Form {
+    /// As the cells have it.
+    Plain,
+    /// Between the cells.
+    Between,
+    /// Between the cells, pressure and approach extrapolated with the next coarser grid.
+    Extrapolated,
+}
+
+impl Form {
+    /// All forms.
+    pub const ALL: [Self; 3] = [Self::Plain, Self::Between, Self::Extrapolated];
+}
+
+/// Errors of a rung: of each headline number the largest at the end of any stage, relative to the largest reference value of all
+/// ends (the stick area: to the contact area); of the fields the mean square over the cells at the end of the history.
+/// `None` where nothing is known or nothing happens.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Errors {
+    /// As the cells have the numbers.
+    pub plain: [Option<f64>; 6],
+    /// Read between the cells.
+    pub between: [Option<f64>; 6],
+    /// Extrapolated with the coarser rung, when there is one.
+    pub extrapolated: [Option<f64>; 6],
+    /// Pressure.
+    pub pressure: Option<f64>,
+    /// Shear.
+    pub shear: Option<f64>,
+}
+
+impl Errors {
+    /// Errors of a form.
+    pub fn of(&self, form: Form) -> &[Option<f64>; 6] {
+        match form {
+            Form::Plain => &self.plain,
+            Form::Between => &self.between,
+            Form::Extrapolated => &self.extrapolated,
+        }
+    }
+
+    /// The worst headline number of a form.
+    pub fn worst(&self, form: Form) -> Option<f64> {
+        self.of(form).iter().flatten().copied().reduce(f64::max)
+    }
+}
+
+/// Errors of a rung; `coarser` is the rung of half the cells, when there is one.
+pub fn errors(truth: &Truth, rung: &Rung, coarser: Option<&Rung>) -> Errors {
+    let judged = |reading: &dyn Fn(usize, Quantity) -> [f64; 2]| {
+        Quantity::ALL.map(|quantity| error(truth, quantity, rung.ends.len(), reading))
+    };
+    let extrapolated = coarser.map_or([None; 6], |coarser| {
+        judged(&|end, quantity| match coarser.ends.get(end) {
+            Some(coarse) => extrapolated(&rung.ends[end], coarse, quantity),
+            None => rung.ends[end].between(quantity),
+        })
+    });
+    Errors {
+        plain: judged(&|end, quantity| rung.ends[end].plain(quantity)),
+        between: judged(&|end, quantity| rung.ends[end].between(quantity)),
+        extrapolated,
+        pressure: truth.error_of_pressure(rung),
+        shear: truth.error_of_shear(rung),
+    }
+}
+
+/// A headline number with its error of second order taken off; only pressure and approach have one of a known order and sign.
+pub(super) fn extrapolated(fine: &Headline, coarse: &Headline, quantity: Quantity) -> [f64; 2] {
+    let value = fine.between(quantity);
+    let factor = coarse.cell_area / fine.cell_area - 1.0;
+    match quantity {
+        Quantity::MaxPressure | Quantity::Approach if factor > 0.0 => {
+            let other = coarse.between(quantity);
+            [0, 1].map(|axis| value[axis] + (value[axis] - other[axis]) / factor)
+        }
+        _ => value,
+    }
+}
+
+fn error(
+    truth: &Truth,
+    quantity: Quantity,
+    ends: usize,
+    reading: &dyn Fn(usize, Quantity) -> [f64; 2],
+) -> Option<f64> {
+    let exact = truth.of(quantity);
+    let scale_from = if quantity == Quantity::StickArea { truth.of(Quantity::ContactArea) } else { exact };
+    let largest = |values: &[Option<[f64; 2]>]| {
+        values.iter().flatten().map(|[x, y]| x.hypot(*y)).reduce(f64::max)
+    };
+    let scale = largest(scale_from)?;
+    // Beside these a shift or an energy is none: what rounding leaves of a symmetric scene.
+    let beside = match quantity {
+        Quantity::Shift => largest(truth.of(Quantity::Approach)),
+        Quantity::DissipatedEnergy => largest(truth.of(Quantity::Approach))
+            .zip(largest(truth.of(Quantity::MaxPressure)))
+            .zip(largest(truth.of(Quantity::ContactArea)))
+            .map(|((approach, peak), area)| approach * peak * area),
+        _ => None,
+    };
+    if scale <= NOTHING * beside.unwrap_or(0.0) {
+        return None;
+    }
+    let apart = |end: usize| {
+        let [x, y] = (*exact.get(end)?)?;
+        let [a, b] = reading(end, quantity);
+        Some((a - x).hypot(b - y) / scale)
+    };
+    (0..ends).filter_map(apart).reduce(f64::max)
+}
+
+/// Order each rung of a line shows against the one before: `ln(e0/e1) / ln(n1/n0)`; the first has none.
+pub fn orders(counts: &[f64], errors: &[Option<f64>]) -> Vec<Option<f64>> {
+    (0..counts.len())
+        .map(|k| {
+            let before = k.checked_sub(1)?;
+            let (e0, e1) = (errors[before]?, errors[k]?);
+            (e0 > 0.0 && e1 > 0.0).then(|| (e0 / e1).ln() / (counts[k] / counts[before]).ln())
+        })
+        .collect()
+}

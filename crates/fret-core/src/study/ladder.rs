@@ -1,0 +1,166 @@
+//! A ladder of resolutions: each kind of refinement alone with the others at their finest, and cells and increments together.
+
+use serde::Serialize;
+
+use super::variation::{Variation, fewest};
+use crate::plan::Plan;
+
+/// What is refined along a line of rungs.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Kind {
+    /// Cells, at the most increments and the least tolerance.
+    Cells,
+    /// Increments, at the most cells and the least tolerance.
+    Increments,
+    /// Cells and increments, each a step at a time.
+    Together,
+    /// Tolerance, at the most cells and increments.
+    Tolerance,
+}
+
+impl Kind {
+    /// All kinds, in the order of tables.
+    pub const ALL: [Self; 4] = [Self::Cells, Self::Increments, Self::Together, Self::Tolerance];
+}
+
+/// Why a ladder was refused.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum LadderError {
+    /// A number of cells that is too small.
+    #[error("--cells {0}: at least 4")]
+    Cells(usize),
+    /// A number of increments that a stage cannot have.
+    #[error("--increments {0}: stage {1:?} needs at least {2}")]
+    Increments(usize, String, usize),
+    /// A tolerance out of range.
+    #[error("--tolerances {0}: must lie between 1e-14 and 0.1")]
+    Tolerance(f64),
+    /// A grid that cannot be halved.
+    #[error("{0} cells a side are too few to be halved; at least {1}")]
+    TooCoarse(usize, usize),
+    /// Surfaces or friction given cell by cell.
+    #[error("{0} are given for every cell of one grid, and another grid has other cells")]
+    EachCell(&'static str),
+}
+
+/// Place of a rung: numbers of its cells, increments and tolerance in the lists of the ladder.
+pub type Place = [usize; 3];
+
+/// Resolutions, each list from coarse to fine; the last of each make the finest rung.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Ladder {
+    /// Cells `[nx, ny]`.
+    pub cells: Vec<[usize; 2]>,
+    /// Increments of each stage, or of one of its cycles.
+    pub increments: Vec<Vec<usize>>,
+    /// Tolerances, the largest first.
+    pub tolerances: Vec<f64>,
+}
+
+impl Ladder {
+    /// A ladder for a plan. `cells` counts along x, the other side follows; `increments` holds for every stage, or one cycle of
+    /// it. What is empty stays as the plan has it.
+    ///
+    /// # Errors
+    /// When the scene has no such resolution.
+    pub fn new(
+        plan: &Plan,
+        cells: &[usize],
+        increments: &[usize],
+        tolerances: &[f64],
+    ) -> Result<Self, LadderError> {
+        let own = Variation::of(plan);
+        if !cells.is_empty() {
+            only_one_grid(plan)?;
+        }
+        if let Some(few) = cells.iter().find(|count| **count < 4) {
+            return Err(LadderError::Cells(*few));
+        }
+        for count in increments {
+            if let Some(stage) = plan.case.stages.iter().find(|stage| fewest(stage) > *count) {
+                return Err(LadderError::Increments(*count, stage.name.clone(), fewest(stage)));
+            }
+        }
+        if let Some(bad) = tolerances.iter().find(|tolerance| !(1e-14..=0.1).contains(*tolerance)) {
+            return Err(LadderError::Tolerance(*bad));
+        }
+        let [nx, ny] = own.cells;
+        let across = |count: usize| ((count * ny) as f64 / nx as f64).round().max(1.0) as usize;
+        let mut cells: Vec<_> = cells.iter().map(|count| [*count, across(*count)]).collect();
+        let mut increments: Vec<_> =
+            increments.iter().map(|count| vec![*count; plan.case.stages.len()]).collect();
+        let mut tolerances = tolerances.to_vec();
+        if cells.is_empty() {
+            cells.push(own.cells);
+        }
+        if increments.is_empty() {
+            increments.push(own.increments);
+        }
+        if tolerances.is_empty() {
+            tolerances.push(own.tolerance);
+        }
+        cells.sort_unstable();
+        cells.dedup();
+        increments.sort_unstable();
+        increments.dedup();
+        tolerances.sort_by(|a, b| b.total_cmp(a));
+        tolerances.dedup();
+        Ok(Self { cells, increments, tolerances })
+    }
+
+    /// Place of the finest rung.
+    pub fn finest(&self) -> Place {
+        [self.cells.len() - 1, self.increments.len() - 1, self.tolerances.len() - 1]
+    }
+
+    /// Places of the rungs of a kind, from coarse to fine; empty when the ladder has no two of them.
+    pub fn line(&self, kind: Kind) -> Vec<Place> {
+        let [i, j, k] = self.finest();
+        let line: Vec<Place> = match kind {
+            Kind::Cells => (0..=i).map(|i| [i, j, k]).collect(),
+            Kind::Increments => (0..=j).map(|j| [i, j, k]).collect(),
+            Kind::Tolerance => (0..=k).map(|k| [i, j, k]).collect(),
+            Kind::Together => (0..=i.min(j)).rev().map(|down| [i - down, j - down, k]).collect(),
+        };
+        if line.len() > 1 { line } else { Vec::new() }
+    }
+
+    /// All places, each once, the cheap ones first.
+    pub fn places(&self) -> Vec<Place> {
+        let mut places: Vec<Place> = Kind::ALL.iter().flat_map(|kind| self.line(*kind)).collect();
+        places.push(self.finest());
+        let cost = |[i, j, k]: &Place| {
+            let [nx, ny] = self.cells[*i];
+            (nx * ny * self.increments[*j].iter().sum::<usize>(), *k)
+        };
+        places.sort_by_key(|place| (cost(place), *place));
+        places.dedup();
+        places
+    }
+
+    /// Resolution at a place.
+    pub fn at(&self, [i, j, k]: Place) -> Variation {
+        Variation {
+            cells: self.cells[i],
+            increments: self.increments[j].clone(),
+            tolerance: self.tolerances[k],
+        }
+    }
+}
+
+/// Whether a scene can be put on another grid.
+///
+/// # Errors
+/// When heights or friction are given for every cell.
+pub(super) fn only_one_grid(plan: &Plan) -> Result<(), LadderError> {
+    let case = &plan.case;
+    if !case.profile.heights.is_empty() {
+        return Err(LadderError::EachCell("heights"));
+    }
+    let mut laws = case.stages.iter().filter_map(|stage| stage.friction.as_ref());
+    if case.friction.is_map() || laws.any(crate::model::CoulombFriction::is_map) {
+        return Err(LadderError::EachCell("friction coefficients"));
+    }
+    Ok(())
+}

@@ -1,0 +1,58 @@
+//! Where a line of rungs is heading: Richardson's extrapolation (1911) with the order the last three rungs show.
+
+/// Bounds on a plausible order.
+const ORDERS: [f64; 2] = [0.5, 4.0];
+
+/// What is still missing from the last of `values` at resolutions `counts` (both from coarse to fine): `limit - last`. The order
+/// is that of the last three when they shrink from one side, `assumed` when there are only two, and nothing is added where
+/// they do not shrink.
+pub fn still_missing(counts: &[f64], values: &[f64], assumed: f64) -> f64 {
+    let n = counts.len().min(values.len());
+    if n < 2 {
+        return 0.0;
+    }
+    let step = values[n - 1] - values[n - 2];
+    let ratio = counts[n - 1] / counts[n - 2];
+    let order = if n == 2 { Some(assumed) } else { shown_order(&counts[n - 3..n], &values[n - 3..n]) };
+    match order {
+        Some(order) if ratio > 1.0 => step / (ratio.powf(order) - 1.0),
+        _ => 0.0,
+    }
+}
+
+/// The order three values show; none when they do not shrink from one side. Exact where both ratios are alike.
+fn shown_order(counts: &[f64], values: &[f64]) -> Option<f64> {
+    let (before, last) = (values[1] - values[0], values[2] - values[1]);
+    if last == 0.0 || before * last <= 0.0 || before.abs() <= last.abs() {
+        return None;
+    }
+    let ratio = (counts[2] / counts[0]).sqrt();
+    let order = (before / last).ln() / ratio.ln();
+    (order >= ORDERS[0]).then_some(order.min(ORDERS[1]))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::still_missing;
+
+    #[test]
+    fn the_limit_of_a_pure_power_is_exact() {
+        for order in [0.5_f64, 1.0, 1.5, 2.0] {
+            let counts = [8.0_f64, 16.0, 32.0];
+            let values = counts.map(|n| 3.0 + 5.0 * n.powf(-order));
+            let limit = values[2] + still_missing(&counts, &values, 1.0);
+            assert!((limit - 3.0).abs() < 1e-12, "{order}: {limit}");
+            let two = values[2] + still_missing(&counts[1..], &values[1..], order);
+            assert!((two - 3.0).abs() < 1e-12, "{order}: {two}");
+        }
+    }
+
+    #[test]
+    fn what_does_not_shrink_is_left_alone() {
+        let counts = [8.0, 16.0, 32.0];
+        for values in [[1.0, 2.0, 1.5], [1.0, 2.0, 4.0], [1.0, 1.0, 1.0]] {
+            assert_eq!(still_missing(&counts, &values, 2.0), 0.0);
+        }
+        assert_eq!(still_missing(&counts[..1], &[1.0], 2.0), 0.0);
+    }
+}

@@ -1,0 +1,89 @@
+//! The top of the pressure between the cells.
+
+use ndarray::ArrayView2;
+
+/// Largest pressure [pressure] as the top of the quadratic of least squares through `p^2` in the largest cell and its eight
+/// neighbours. For smooth contacts it falls with the cell squared and from one side, which the largest cell does not: that
+/// depends on where the peak falls between the cells. The largest cell where a neighbour is open or missing, or where the
+/// quadratic has no top within a cell of it: edges, rims, points.
+pub fn peak_pressure(pressure: &ArrayView2<'_, f64>) -> f64 {
+    let Some((at, largest)) = largest_cell(pressure) else { return 0.0 };
+    top(pressure, at).map_or(largest, f64::sqrt)
+}
+
+/// The first of the largest cells, and its pressure.
+fn largest_cell(pressure: &ArrayView2<'_, f64>) -> Option<([usize; 2], f64)> {
+    let mut found: Option<([usize; 2], f64)> = None;
+    for ((i, j), p) in pressure.indexed_iter() {
+        if *p > found.map_or(0.0, |(_, largest)| largest) {
+            found = Some(([i, j], *p));
+        }
+    }
+    found
+}
+
+/// Top of the quadratic through `p^2` around a cell.
+fn top(pressure: &ArrayView2<'_, f64>, [i, j]: [usize; 2]) -> Option<f64> {
+    let (nx, ny) = pressure.dim();
+    if i == 0 || j == 0 || i + 1 >= nx || j + 1 >= ny {
+        return None;
+    }
+    // Sums of p^2 times 1, x, y, x^2, y^2, x y over the nine cells, x and y in cells from the middle one.
+    let mut sums = [0.0; 6];
+    for a in 0..3 {
+        for b in 0..3 {
+            let p = pressure[[i + a - 1, j + b - 1]];
+            if p <= 0.0 {
+                return None;
+            }
+            let (x, y, square) = (a as f64 - 1.0, b as f64 - 1.0, p * p);
+            for (sum, weight) in sums.iter_mut().zip([1.0, x, y, x * x, y * y, x * y]) {
+                *sum += weight * square;
+            }
+        }
+    }
+    let [one, x, y, xx, yy, xy] = sums;
+    // c + g . r + (1/2) r . H r of least squares on the nine points.
+    let centre = (5.0 * one - 3.0 * (xx + yy)) / 9.0;
+    let (gx, gy) = (x / 6.0, y / 6.0);
+    let (hx, hy, hxy) = (xx - 2.0 / 3.0 * one, yy - 2.0 / 3.0 * one, xy / 4.0);
+    let determinant = hx * hy - hxy * hxy;
+    if !(hx < 0.0 && determinant > 0.0) {
+        return None;
+    }
+    let (u, v) = ((hxy * gy - hy * gx) / determinant, (hxy * gx - hx * gy) / determinant);
+    (u.abs() <= 1.0 && v.abs() <= 1.0).then(|| centre + 0.5 * (gx * u + gy * v))
+}
+
+#[cfg(test)]
+mod tests {
+    use ndarray::Array2;
+
+    use super::peak_pressure;
+
+    /// Hertz's p^2 is a quadratic: its top is found to rounding wherever it lies, turned and stretched.
+    #[test]
+    fn the_top_of_a_quadratic_is_met_wherever_it_lies() {
+        for (x0, y0) in [(0.0, 0.0), (0.5, 0.5), (0.3, -0.45), (-0.2, 0.1)] {
+            let pressure = Array2::from_shape_fn((9, 9), |(i, j)| {
+                let (x, y) = (i as f64 - 4.0 - x0, j as f64 - 4.0 - y0);
+                (7.0 - 0.1 * x * x - 0.05 * y * y + 0.04 * x * y).max(0.0).sqrt()
+            });
+            assert!((peak_pressure(&pressure.view()) / 7.0_f64.sqrt() - 1.0).abs() < 1e-14, "{x0} {y0}");
+        }
+    }
+
+    #[test]
+    fn without_a_top_inside_the_largest_cell_stands() {
+        let rim = Array2::from_shape_fn((5, 5), |(i, _)| if i < 3 { 1.0 + i as f64 } else { 0.0 });
+        assert_eq!(peak_pressure(&rim.view()), 3.0);
+        let mut alone = Array2::zeros((5, 5));
+        assert_eq!(peak_pressure(&alone.view()), 0.0);
+        alone[[0, 2]] = 2.0;
+        assert_eq!(peak_pressure(&alone.view()), 2.0);
+        let saddle = Array2::from_shape_fn((5, 5), |(i, j)| {
+            (10.0 - (i as f64 - 2.0).powi(2) + (j as f64 - 2.0).powi(2)).sqrt()
+        });
+        assert_eq!(peak_pressure(&saddle.view()), 14.0_f64.sqrt());
+    }
+}

@@ -1,0 +1,204 @@
+//! What the rungs of a ladder are measured by: a closed form where it speaks, numbers from elsewhere, the limit of the ladder, or
+//! its finest rung.
+
+use ndarray::Array2;
+use serde::Serialize;
+
+use super::closed_form::ClosedForm;
+use super::headline::{Headline, Quantity};
+use super::ladder::{Kind, Ladder, Place};
+use super::limit::still_missing;
+use super::means;
+use super::rung::Rung;
+use crate::model::SurfaceGrid;
+
+/// Where a reference comes from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Source {
+    /// A closed form.
+    ClosedForm,
+    /// Numbers from elsewhere.
+    Given,
+    /// What the ladder is heading for.
+    Limit,
+    /// The finest rung.
+    Finest,
+}
+
+/// Reference values.
+#[derive(Debug, Clone)]
+pub struct Truth {
+    /// For each headline number its values at the end of each stage, and where they come from; `None` where nothing is known.
+    numbers: [(Vec<Option<[f64; 2]>>, Source); 6],
+    form: Option<ClosedForm>,
+    finest: Option<Fields>,
+}
+
+#[derive(Debug, Clone)]
+struct Fields {
+    grid: SurfaceGrid,
+    pressure: Array2<f64>,
+    shear: [Array2<f64>; 2],
+}
+
+impl Truth {
+    /// A closed form alone.
+    pub fn closed(form: ClosedForm) -> Self {
+        let of = |quantity: Quantity| {
+            let values = form.ends().iter().map(|said| said.of(quantity)).collect();
+            (values, Source::ClosedForm)
+        };
+        Self { numbers: Quantity::ALL.map(of), form: Some(form), finest: None }
+    }
+
+    /// The finest rung of a solved ladder.
+    pub fn finest(finest: &Rung) -> Self {
+        let of = |quantity: Quantity| {
+            (finest.ends.iter().map(|end| Some(end.between(quantity))).collect(), Source::Finest)
+        };
+        Self { numbers: Quantity::ALL.map(of), form: None, finest: Some(Fields::of(finest)) }
+    }
+
+    /// The limit a solved ladder is heading for; for the fields, its finest rung. `rung` gives the rung at a place.
+    pub fn limit<'a>(ladder: &Ladder, rung: &impl Fn(Place) -> Option<&'a Rung>) -> Option<Self> {
+        let finest = rung(ladder.finest())?;
+        let mut truth = Self::finest(finest);
+        let lines = [Kind::Cells, Kind::Increments].map(|kind| {
+            let places = ladder.line(kind);
+            let count = |[i, j, _]: &Place| match kind {
+                Kind::Cells => ladder.cells[*i][0] as f64,
+                _ => ladder.increments[*j].iter().sum::<usize>() as f64,
+            };
+            let counts: Vec<f64> = places.iter().map(count).collect();
+            let rungs: Vec<&Rung> = places.iter().filter_map(|place| rung(*place)).collect();
+            (kind, counts, rungs)
+        });
+        for (quantity, (values, source)) in Quantity::ALL.iter().zip(&mut truth.numbers) {
+            for (end, value) in values.iter_mut().enumerate() {
+                let Some(value) = value else { continue };
+                for (kind, counts, rungs) in &lines {
+                    let order = assumed_order(*quantity, *kind);
+                    for (axis, part) in value.iter_mut().enumerate() {
+                        let along: Vec<f64> = rungs
+                            .iter()
+                            .filter_map(|rung| rung.ends.get(end))
+                            .map(|end: &Headline| end.between(*quantity)[axis])
+                            .collect();
+                        *part += still_missing(counts, &along, order);
+                    }
+                }
+            }
+            *source = Source::Limit;
+        }
+        Some(truth)
+    }
+
+    /// This truth where it says something, another one elsewhere.
+    #[must_use]
+    pub fn or(mut self, other: Self) -> Self {
+        for (own, other) in self.numbers.iter_mut().zip(other.numbers) {
+            if own.0.iter().all(Option::is_none) {
+                *own = other;
+            }
+        }
+        self.finest = self.finest.or(other.finest);
+        self.form = self.form.or(other.form);
+        self
+    }
+
+    /// This truth with numbers from elsewhere for the end of the history.
+    #[must_use]
+    pub fn with(mut self, quantity: Quantity, value: [f64; 2]) -> Self {
+        let (values, source) = &mut self.numbers[quantity as usize];
+        values.fill(None);
+        if let Some(last) = values.last_mut() {
+            *last = Some(value);
+        }
+        *source = Source::Given;
+        self
+    }
+
+    /// Nothing, for a history of so many stages.
+    pub fn nothing(stages: usize) -> Self {
+        Self {
+            numbers: std::array::from_fn(|_| (vec![None; stages], Source::Given)),
+            form: None,
+            finest: None,
+        }
+    }
+
+    /// Values of a headline number at the end of each stage, scalars first.
+    pub fn of(&self, quantity: Quantity) -> &[Option<[f64; 2]>] {
+        &self.numbers[quantity as usize].0
+    }
+
+    /// Where a headline number comes from; `None` where nothing is known of it.
+    pub fn source(&self, quantity: Quantity) -> Option<Source> {
+        let (values, source) = &self.numbers[quantity as usize];
+        values.iter().any(Option::is_some).then_some(*source)
+    }
+
+    /// The closed form behind it.
+    pub fn form(&self) -> Option<&ClosedForm> {
+        self.form.as_ref()
+    }
+
+    /// Relative error of a rung's pressure in the mean square, at the end of the history.
+    pub fn error_of_pressure(&self, rung: &Rung) -> Option<f64> {
+        let exact = if let Some(form) = &self.form {
+            means::of_formula(&|x, y| form.pressure(x, y), &rung.grid)
+        } else {
+            let fields = self.finest.as_ref().filter(|fields| fields.grid != rung.grid || !self.is_own(rung))?;
+            means::of_field(&fields.pressure, &fields.grid, &rung.grid)
+        };
+        relative([(&rung.pressure, &exact)])
+    }
+
+    /// The same for the shear.
+    pub fn error_of_shear(&self, rung: &Rung) -> Option<f64> {
+        let exact: [Array2<f64>; 2] = match (&self.form, &self.finest) {
+            (Some(form), _) if form.knows_shear() => {
+                [0, 1].map(|axis| means::of_formula(&|x, y| form.shear(x, y)[axis], &rung.grid))
+            }
+            (_, Some(fields)) if fields.grid != rung.grid || !self.is_own(rung) => {
+                [0, 1].map(|axis| means::of_field(&fields.shear[axis], &fields.grid, &rung.grid))
+            }
+            _ => return None,
+        };
+        relative([(&rung.shear[0], &exact[0]), (&rung.shear[1], &exact[1])])
+    }
+
+    /// Whether the fields are this rung's own.
+    fn is_own(&self, rung: &Rung) -> bool {
+        self.finest
+            .as_ref()
+            .is_some_and(|fields| fields.pressure == rung.pressure && fields.shear == rung.shear)
+    }
+}
+
+impl Fields {
+    fn of(rung: &Rung) -> Self {
+        Self { grid: rung.grid, pressure: rung.pressure.clone(), shear: rung.shear.clone() }
+    }
+}
+
+/// Order when only two rungs are there: pressure and approach fall with the cell squared, all else is taken to fall evenly.
+fn assumed_order(quantity: Quantity, kind: Kind) -> f64 {
+    match (quantity, kind) {
+        (Quantity::MaxPressure | Quantity::Approach, Kind::Cells) => 2.0,
+        _ => 1.0,
+    }
+}
+
+/// `|a - b| / |b|` over the cells of all pairs; `None` where there is nothing to compare with.
+fn relative<const N: usize>(pairs: [(&Array2<f64>, &Array2<f64>); N]) -> Option<f64> {
+    let (mut apart, mut size) = (0.0, 0.0);
+    for (a, b) in pairs {
+        for (a, b) in a.iter().zip(b) {
+            apart += (a - b).powi(2);
+            size += b * b;
+        }
+    }
+    (size > 0.0).then(|| f64::sqrt(apart / size))
+}
