@@ -98,7 +98,7 @@ fn several_mistakes_are_all_shown_each_at_its_place() {
 #[test]
 fn every_table_that_is_missing_is_named() {
     let answer = refused("missing-tables", "title = \"bare\"\n[upper]\nrigid = true\n");
-    for table in ["grid", "lower", "profile", "load"] {
+    for table in ["grid", "lower", "load"] {
         assert_eq!(answer.err.matches(&format!("missing field `{table}`")).count(), 1, "{}", answer.err);
     }
     assert!(!answer.err.contains("`upper`"), "{}", answer.err);

@@ -144,7 +144,7 @@ fn every_bad_shape_is_one_clear_message_at_its_place() {
         (lower("[lower.profile.sphere]\nradius = 0.0"), "14:10", vec!["lower.profile.sphere", "not zero"]),
         (
             lower("[lower.profile.sphere]\nradius = -0.01\n[upper.profile.sphere]\nradius = 0.02"),
-            ":",
+            "15:8",
             vec!["must open away from the middle", "hollow"],
         ),
         (

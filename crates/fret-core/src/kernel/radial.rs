@@ -77,14 +77,14 @@ impl HankelLattice {
         let last_real = (steps * libm::log(6.1)).ceil() as i32;
         let last_ray = (steps * libm::log(44.0 / libm::sin(angle))).ceil() as i32;
         let scale = step / TAU;
-        let (real, disc_real) = (lowest..last_real + 1)
+        let (real, disc_real) = (lowest..=last_real)
             .map(|m| {
                 let x = libm::exp(f64::from(m) * step);
                 let j = bessel_j(x).map(|j| scale * j * libm::exp(-x * x));
                 (ORDER.map(|order| x * j[order]), j[1])
             })
             .unzip();
-        let (ray, disc_ray) = (lowest..last_ray + 1)
+        let (ray, disc_ray) = (lowest..=last_ray)
             .map(|m| {
                 let x = libm::exp(f64::from(m) * step);
                 let z = Complex::polar(x, angle);

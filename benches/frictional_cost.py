@@ -1,0 +1,122 @@
+"""Cost of frictional contacts in convolutions of scipy, measured in one run on one thread.
+
+The unit is one zero-padded real convolution of the same grid by scipy.fft (rfft2, product, irfft2), timed beside each
+scene. CPU time of the process counts, planning and influence coefficients included; best of a few runs against the best
+unit. Run: ``python benches/frictional_cost.py [--long]`` with the wheel, numpy and scipy installed.
+"""
+
+import argparse
+import time
+
+import numpy as np
+import scipy.fft
+
+import fretting
+
+MATERIAL = {"young": 1.0, "poisson": 0.3}
+RADIUS = 100.0
+HALF_SPACE = 1.0 / (1.0 - 0.3**2)
+
+
+def unit(n: int, repeats: int) -> float:
+    """Best CPU time of a scipy convolution of n x n cells [s]."""
+    field = np.random.default_rng(1).random((n, n))
+    kernel = scipy.fft.rfft2(np.random.default_rng(2).random((2 * n, 2 * n)))
+    best = np.inf
+    for _ in range(repeats):
+        start = time.process_time()
+        scipy.fft.irfft2(scipy.fft.rfft2(field, (2 * n, 2 * n)) * kernel)[:n, :n]
+        best = min(best, time.process_time() - start)
+    return best
+
+
+def sphere(cells: int, size: float, bodies: dict, friction: float, load: list) -> dict:
+    """A sphere whose contact radius on one homogeneous body of modulus 1, nu 0.3 would be 1 under its force."""
+    return {
+        "grid": {"cells": [cells, cells], "size": [size, size]},
+        **bodies,
+        "profile": {"sphere": {"radius": RADIUS}},
+        "friction": {"coefficient": friction},
+        "load": load,
+        "output": {"fields": ["pressure"]},
+    }
+
+
+RIGID_ON_HALF_SPACE = {"upper": {"rigid": True}, "lower": {"substrate": MATERIAL}}
+IDENTICAL = {"upper": {"substrate": {"young": 2.0, "poisson": 0.3}}, "lower": {"substrate": {"young": 2.0, "poisson": 0.3}}}
+COATED = {
+    "upper": {"rigid": True},
+    "lower": {"coatings": [{"thickness": 1.0, "young": 2.0, "poisson": 0.3}], "substrate": MATERIAL},
+}
+FORCE = 4.0 * HALF_SPACE / (3.0 * RADIUS)
+
+
+def scenes(long: bool) -> list[tuple[str, int, dict, str]]:
+    """Name, cells, case, bound that is asked for."""
+    pull = 0.75 * 0.1 * FORCE
+
+    def loop(steps: int) -> list:
+        force = [pull, 0.0]
+        back = [-pull, 0.0]
+        return [
+            {"tangential_force": force, "increments": steps // 5},
+            {"tangential_force": back, "increments": 2 * steps // 5},
+            {"tangential_force": force, "increments": 2 * steps // 5},
+        ]
+
+    press = {"normal_force": FORCE, "increments": 1}
+    found = [
+        ("Cattaneo-Mindlin, nu 0.3, one step", 256,
+         sphere(256, 2.2, IDENTICAL, 0.1, [press, {"tangential_force": [pull, 0.0], "increments": 1}]), "45"),
+        ("loop of 40 steps", 128, sphere(128, 2.2, IDENTICAL, 0.1, [press, *loop(40)]), "350"),
+    ]  # fmt: skip
+    for mu in (0.1, 0.3):
+        stages = [
+            {"normal_force": FORCE, "increments": 20, "ramp": "cubic"},
+            {"tangential_force": [0.75 * mu * FORCE, 0.0], "increments": 10},
+        ]
+        found.append((f"coupled 20 + 10, mu {mu}", 128, sphere(128, 2.2, RIGID_ON_HALF_SPACE, mu, stages), "500"))
+    for n in (64, 128, 256, 512):
+        stages = [
+            {"normal_force": FORCE, "increments": 4, "ramp": "cubic"},
+            {"tangential_force": [pull, 0.0], "increments": 4},
+        ]
+        found.append(("coupled 4 + 4, mu 0.1", n, sphere(n, 2.2, RIGID_ON_HALF_SPACE, 0.1, stages), ""))
+    if long:
+        stages = [
+            {"normal_force": FORCE, "increments": 100},
+            {"tangential_force": [0.75 * 0.1 * FORCE, 0.0], "increments": 300, "cycles": 1},
+        ]
+        found.append(("figure 3: E1/E2 = 2, 100 + 300", 128, sphere(128, 1.98, COATED, 0.1, stages), "4000"))
+    return found
+
+
+def main() -> None:
+    """Print the table."""
+    arguments = argparse.ArgumentParser(description=__doc__)
+    arguments.add_argument("--long", action="store_true", help="the 400 increments of figure 3 too")
+    print(f"{'scene':36} {'n':>4} {'CPU s':>8} {'unit ms':>8} {'units':>7} {'asked':>6} {'applications':>12} {'an increment':>12}")
+    seconds = {}
+    for name, n, case, asked in scenes(arguments.parse_args().long):
+        best, one = np.inf, np.inf
+        for _ in range(1 if "figure" in name or n == 512 else 3):
+            one = min(one, unit(n, 30 if n <= 128 else 8))
+            start = time.process_time()
+            history = fretting.run(case, threads=1)
+            best = min(best, time.process_time() - start)
+            one = min(one, unit(n, 30 if n <= 128 else 8))
+        steps = history.steps
+        applications = int(steps["convolutions"].sum())
+        seconds[name, n] = best / len(history)
+        print(
+            f"{name:36} {n:4d} {best:8.3f} {1e3 * one:8.2f} {best / one:7.0f} {asked:>6} {applications:12d}"
+            f" {applications / len(history):12.1f}",
+            flush=True,
+        )
+    times = [(n, value) for (name, n), value in seconds.items() if name.startswith("coupled 4")]
+    slope = np.polyfit(np.log([n for n, _ in times]), np.log([value for _, value in times]), 1)[0]
+    print(f"time an increment grows like n^{slope:.2f} from {times[0][0]} to {times[-1][0]}")
+
+
+if __name__ == "__main__":
+    main()
