@@ -11,7 +11,7 @@ const POINTS: usize = 12;
 pub fn of_field(field: &Array2<f64>, from: &SurfaceGrid, grid: &SurfaceGrid) -> Array2<f64> {
     let [x, y] = [0, 1].map(|axis| shares(from.cells()[axis], grid.cells()[axis]));
     let [nx, ny] = grid.cells();
-    let mut rows = Array2::zeros((nx, from.cells()[1]));
+    let mut rows: Array2<f64> = Array2::zeros((nx, from.cells()[1]));
     for (i, parts) in x.iter().enumerate() {
         for (source, share) in parts {
             for j in 0..from.cells()[1] {
@@ -19,7 +19,7 @@ pub fn of_field(field: &Array2<f64>, from: &SurfaceGrid, grid: &SurfaceGrid) -> 
             }
         }
     }
-    let mut means = Array2::zeros((nx, ny));
+    let mut means: Array2<f64> = Array2::zeros((nx, ny));
     for (j, parts) in y.iter().enumerate() {
         for (source, share) in parts {
             for i in 0..nx {
