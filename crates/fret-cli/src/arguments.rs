@@ -48,8 +48,8 @@ pub enum Verb {
     },
     /// Write the results of a run for other programs
     Export(ExportArguments),
-    #[command(hide = true, disable_help_flag = true)]
-    Study(Unbuilt),
+    /// Solve a case at many resolutions: errors, orders, times, and which grid and increments to choose
+    Study(StudyArguments),
     #[command(hide = true, disable_help_flag = true)]
     Extremes(Unbuilt),
     /// Stresses under the surface, from the tractions of a finished run
@@ -78,6 +78,35 @@ pub struct RunArguments {
     /// Go on where a run was broken off; start where there is none, do nothing where it is solved
     #[arg(long, conflicts_with = "force")]
     pub resume: bool,
+}
+
+/// Which resolutions to study, and what to measure them by.
+#[derive(Debug, Args)]
+pub struct StudyArguments {
+    /// The case file (TOML)
+    pub case: PathBuf,
+    /// Numbers of cells along x; the grid keeps its size and shape [default, without any list: the case's own, a half, a quarter]
+    #[arg(long, value_name = "N,...", value_delimiter = ',')]
+    pub cells: Vec<usize>,
+    /// Numbers of increments of every stage, or of one of its cycles [default: as for the cells]
+    #[arg(long, value_name = "N,...", value_delimiter = ',')]
+    pub increments: Vec<usize>,
+    /// Tolerances of the solver [default: that of the case]
+    #[arg(long, value_name = "E,...", value_delimiter = ',')]
+    pub tolerances: Vec<f64>,
+    /// Measure by: analytic (a closed form), finest (the finest rung), or a TOML file of numbers [default: a closed form where
+    /// the case has one, the limit of the ladder elsewhere]
+    #[arg(long, value_name = "analytic|finest|FILE")]
+    pub against: Option<String>,
+    /// Folder for the table and the picture [default: results/ and the name of the case with -study]
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+    /// Threads to compute with [default: all the machine has]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    pub threads: Option<u16>,
+    /// Say nothing but errors and the answer
+    #[arg(long)]
+    pub quiet: bool,
 }
 
 /// What to write of a run, in which form.

@@ -81,7 +81,7 @@ impl Failure {
     pub fn not_built(what: &str) -> Self {
         Self::Call(
             format!("{what}: not built yet"),
-            "built are: run, check, plan, stress, report, export, sweep, schema".to_owned(),
+            "built are: run, check, plan, study, stress, report, export, sweep, schema".to_owned(),
         )
     }
 

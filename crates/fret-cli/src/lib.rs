@@ -15,6 +15,7 @@ mod output;
 mod progress;
 mod report;
 mod results;
+mod study;
 mod summary;
 mod sweep;
 mod tally;
@@ -61,7 +62,7 @@ fn dispatch(arguments: &Arguments) -> Result<(), Told> {
         Verb::Schema => commands::schema::schema(),
         Verb::Report { results, out } => commands::report::report(results, out.as_deref(), as_json),
         Verb::Export(arguments) => commands::export::export(arguments, as_json),
-        Verb::Study(_) => Err(Failure::not_built("fret study")),
+        Verb::Study(arguments) => commands::study::study(arguments, as_json),
         Verb::Extremes(_) => Err(Failure::not_built("fret extremes")),
         Verb::Stress(arguments) => commands::stress::stress(arguments, as_json),
         Verb::Sweep(arguments) => commands::sweep::sweep(arguments, as_json),

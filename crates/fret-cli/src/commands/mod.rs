@@ -8,4 +8,5 @@ pub mod report;
 pub mod run;
 pub mod schema;
 pub mod stress;
+pub mod study;
 pub mod sweep;

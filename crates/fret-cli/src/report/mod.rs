@@ -6,10 +6,10 @@
 mod chapters;
 mod chart;
 mod closed_form;
-mod html;
+pub mod html;
 mod literature;
 mod map;
-mod scale;
+pub mod scale;
 mod scene;
 
 use crate::failure::Failure;

@@ -32,9 +32,8 @@ pub fn advice<'a>(
     let increments_line = ladder.line(Kind::Increments);
     let worst = |place: Place| judged(place).and_then(|errors| errors.worst(Form::Between));
     let alone = limit_of_increments(ladder, rung);
-    let by_increments = |place: Place| {
-        super::errors::errors(alone.as_ref()?, rung(place)?, None).worst(Form::Between)
-    };
+    let by_increments =
+        |place: Place| super::errors::errors(alone.as_ref()?, rung(place)?, None).worst(Form::Between);
     let (cells, beyond_cells) = choose(
         &cells_line.iter().map(|[i, ..]| ladder.cells[*i][0]).collect::<Vec<_>>(),
         &cells_line.iter().map(|place| worst(*place)).collect::<Vec<_>>(),

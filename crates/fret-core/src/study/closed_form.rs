@@ -8,7 +8,9 @@
 use std::f64::consts::PI;
 
 use super::headline::Quantity;
-use crate::analytic::{Cone, EffectiveModuli, FlatPunch, Hertz, HertzEllipse, RoundedPunch, TangentialHistory};
+use crate::analytic::{
+    Cone, EffectiveModuli, FlatPunch, Hertz, HertzEllipse, RoundedPunch, TangentialHistory,
+};
 use crate::case::{Course, Stage, StageControl};
 use crate::model::{Body, CoulombFriction, ElasticMaterial, Shape};
 use crate::plan::{Coupling, Plan};
@@ -259,7 +261,10 @@ fn tangential(
 }
 
 /// The tangential force a stage goes to, when it has one; `None` for a prescribed shift.
-#[expect(clippy::option_option, reason = "no closed form, and a stage without tangential control, are two things")]
+#[expect(
+    clippy::option_option,
+    reason = "no closed form, and a stage without tangential control, are two things"
+)]
 fn force_of(stage: &Stage) -> Option<Option<[f64; 2]>> {
     match stage.tangential {
         None => Some(None),
@@ -273,8 +278,6 @@ fn without_poisson(plan: &Plan) -> bool {
     let bodies = &plan.case.bodies;
     [bodies.upper(), bodies.lower()].into_iter().all(|body| match body {
         Body::Rigid => true,
-        Body::Elastic(half_space) => {
-            half_space.single_material().map(ElasticMaterial::poisson) == Some(0.0)
-        }
+        Body::Elastic(half_space) => half_space.single_material().map(ElasticMaterial::poisson) == Some(0.0),
     })
 }

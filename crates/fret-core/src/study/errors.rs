@@ -100,9 +100,8 @@ fn error(
 ) -> Option<f64> {
     let exact = truth.of(quantity);
     let scale_from = if quantity == Quantity::StickArea { truth.of(Quantity::ContactArea) } else { exact };
-    let largest = |values: &[Option<[f64; 2]>]| {
-        values.iter().flatten().map(|[x, y]| x.hypot(*y)).reduce(f64::max)
-    };
+    let largest =
+        |values: &[Option<[f64; 2]>]| values.iter().flatten().map(|[x, y]| x.hypot(*y)).reduce(f64::max);
     let scale = largest(scale_from)?;
     // Beside these a shift or an energy is none: what rounding leaves of a symmetric scene.
     let beside = match quantity {

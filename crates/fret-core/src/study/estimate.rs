@@ -66,9 +66,9 @@ pub fn error_bars(plan: &Plan, fine: &Headline, coarse: &Headline) -> Bars {
     let shapes = &plan.case.profile.shapes;
     let is_smooth =
         shapes.iter().all(|shape| shape.curvatures().is_some() || matches!(shape, Shape::Wave { .. }));
-    let ends = shapes.iter().any(|shape| {
-        matches!(shape, Shape::FlatPunch { .. } | Shape::Cylinder { length: Some(_), .. })
-    });
+    let ends = shapes
+        .iter()
+        .any(|shape| matches!(shape, Shape::FlatPunch { .. } | Shape::Cylinder { length: Some(_), .. }));
     let is_pointed = ends || shapes.iter().any(|shape| matches!(shape, Shape::Cone { .. }));
     let depends_on_path = plan.coupling == Coupling::Coupled;
     let bar = |quantity: Quantity| {
@@ -77,11 +77,9 @@ pub fn error_bars(plan: &Plan, fine: &Headline, coarse: &Headline) -> Bars {
         let plain = |share: f64| Bar { quantity, value, bar: Some(share * apart) };
         match quantity {
             Quantity::MaxPressure if is_pointed => Bar { quantity, value, bar: None },
-            Quantity::MaxPressure | Quantity::Approach if is_smooth && !depends_on_path => Bar {
-                quantity,
-                value: extrapolated(fine, coarse, quantity),
-                bar: Some(SECOND_ORDER * apart),
-            },
+            Quantity::MaxPressure | Quantity::Approach if is_smooth && !depends_on_path => {
+                Bar { quantity, value: extrapolated(fine, coarse, quantity), bar: Some(SECOND_ORDER * apart) }
+            }
             Quantity::ContactArea => {
                 let share = if ends { END_OF_A_BODY } else { EDGE };
                 Bar { quantity, value, bar: Some(share * fine.contact_edge) }

@@ -3,7 +3,10 @@
 use serde::Serialize;
 
 use super::variation::{Variation, fewest};
-use crate::plan::Plan;
+use crate::plan::{Coupling, Plan};
+
+/// Fewest cells a side of a rung that nobody asked for.
+const FEWEST_CELLS: usize = 8;
 
 /// What is refined along a line of rungs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
@@ -107,6 +110,25 @@ impl Ladder {
         tolerances.sort_by(|a, b| b.total_cmp(a));
         tolerances.dedup();
         Ok(Self { cells, increments, tolerances })
+    }
+
+    /// The plan's own resolution and two before it, each with half the cells and half the increments of the next. What cannot
+    /// be halved, or makes no difference, stays as it is.
+    pub fn halving(plan: &Plan) -> Self {
+        let own = Variation::of(plan);
+        let half = own.halved(&plan.case.stages);
+        let quarter = half.halved(&plan.case.stages);
+        let mut cells = vec![own.cells];
+        let mut increments = vec![own.increments.clone()];
+        for coarser in [half, quarter] {
+            if only_one_grid(plan).is_ok() && coarser.cells.iter().all(|count| *count >= FEWEST_CELLS) {
+                cells.insert(0, coarser.cells);
+            }
+            if plan.coupling != Coupling::Frictionless && !increments.contains(&coarser.increments) {
+                increments.insert(0, coarser.increments);
+            }
+        }
+        Self { cells, increments, tolerances: vec![own.tolerance] }
     }
 
     /// Place of the finest rung.

@@ -5,6 +5,7 @@
 //! between the cells (`Between`), and extrapolated with the next coarser grid (`Extrapolated`).
 
 mod advice;
+mod climb;
 mod closed_form;
 mod errors;
 mod estimate;
@@ -18,6 +19,7 @@ mod truth;
 mod variation;
 
 pub use advice::{Advice, advice, frontier};
+pub use climb::{Climb, Judged, Line};
 pub use closed_form::ClosedForm;
 pub use errors::{Errors, Form, errors, orders};
 pub use estimate::{Bar, Bars, companion, error_bars};

@@ -149,7 +149,8 @@ impl Truth {
         let exact = if let Some(form) = &self.form {
             means::of_formula(&|x, y| form.pressure(x, y), &rung.grid)
         } else {
-            let fields = self.finest.as_ref().filter(|fields| fields.grid != rung.grid || !self.is_own(rung))?;
+            let fields =
+                self.finest.as_ref().filter(|fields| fields.grid != rung.grid || !self.is_own(rung))?;
             means::of_field(&fields.pressure, &fields.grid, &rung.grid)
         };
         relative([(&rung.pressure, &exact)])

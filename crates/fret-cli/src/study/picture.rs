@@ -1,0 +1,189 @@
+//! The picture of a study: error over time, both logarithmic, as SVG that stands alone. On the left each kind of refinement with
+//! its worst headline number; on the right what reading the numbers between the cells, and extrapolating them, is worth.
+
+use std::fmt::Write;
+
+use fret_core::study::{Climb, Form, Kind, Line, Quantity};
+
+use crate::report::html::escaped;
+use crate::report::scale::Axis;
+use crate::study::table::kind_name;
+
+const PANEL: f64 = 470.0;
+const HEIGHT: f64 = 410.0;
+const LEFT: f64 = 62.0;
+const RIGHT: f64 = 16.0;
+const TOP: f64 = 62.0;
+const BOTTOM: f64 = 108.0;
+/// Height of a row of the legend.
+const ROW: f64 = 18.0;
+const COLOURS: [&str; 4] = ["#1f5a93", "#b4452c", "#2c7a4b", "#8a5a9e"];
+/// Numbers that can be read between the cells or extrapolated.
+const READ: [Quantity; 4] =
+    [Quantity::MaxPressure, Quantity::Approach, Quantity::ContactArea, Quantity::StickArea];
+
+/// A line of points, from coarse to fine.
+struct Curve {
+    name: String,
+    colour: &'static str,
+    /// Time [s], error, and whether nothing beats it.
+    points: Vec<([f64; 2], bool)>,
+}
+
+/// One set of axes.
+struct Panel {
+    title: String,
+    curves: Vec<Curve>,
+}
+
+/// The picture of judged lines.
+pub fn picture(title: &str, climb: &Climb, lines: &[Line]) -> String {
+    let panels: Vec<Panel> =
+        [Some(kinds(climb, lines)), readings(climb, lines)].into_iter().flatten().collect();
+    let width = PANEL * panels.len() as f64;
+    let mut svg = format!(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width} {HEIGHT}\" width=\"{width}\" height=\"{HEIGHT}\" \
+         font-family=\"system-ui, 'DejaVu Sans', sans-serif\" font-size=\"12\" fill=\"#23241f\">\n\
+         <rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n<text x=\"{LEFT}\" y=\"22\" font-size=\"15\">{}</text>\n",
+        escaped(title)
+    );
+    for (number, panel) in panels.iter().enumerate() {
+        let _ = writeln!(svg, "<g transform=\"translate({} 0)\">", PANEL * number as f64);
+        panel.draw(&mut svg);
+        svg.push_str("</g>\n");
+    }
+    svg + "</svg>\n"
+}
+
+fn kinds(climb: &Climb, lines: &[Line]) -> Panel {
+    let curve = |line: &Line| {
+        let points = line.rungs.iter().filter_map(|judged| {
+            let error = judged.errors.worst(Form::Between)?;
+            let seconds = climb.seconds(judged.place, Form::Between)?;
+            Some(([seconds, error], judged.is_efficient[Form::Between as usize]))
+        });
+        Curve {
+            name: format!("refined: {}", kind_name(line.kind)),
+            colour: COLOURS[line.kind as usize],
+            points: points.collect(),
+        }
+    };
+    Panel {
+        title: "worst headline number; ringed: the efficient frontier".to_owned(),
+        curves: lines.iter().map(curve).collect(),
+    }
+}
+
+fn readings(climb: &Climb, lines: &[Line]) -> Option<Panel> {
+    let line = lines.iter().find(|line| line.kind == Kind::Cells)?;
+    let forms = [
+        (Form::Plain, "as the cells have them"),
+        (Form::Between, "read between the cells"),
+        (Form::Extrapolated, "pressure and approach extrapolated too"),
+    ];
+    let mut curves: Vec<Curve> = forms
+        .into_iter()
+        .map(|(form, name)| {
+            let points = line.rungs.iter().filter_map(|judged| {
+                let errors = judged.errors.of(form);
+                let worst = READ.iter().filter_map(|quantity| errors[*quantity as usize]).reduce(f64::max)?;
+                Some(([climb.seconds(judged.place, form)?, worst], false))
+            });
+            Curve { name: name.to_owned(), colour: COLOURS[form as usize], points: points.collect() }
+        })
+        .collect();
+    let all: Vec<[f64; 2]> =
+        curves.iter().flat_map(|curve| curve.points.iter().map(|(point, _)| *point)).collect();
+    for (point, is_efficient) in curves.iter_mut().flat_map(|curve| &mut curve.points) {
+        *is_efficient = !all.iter().any(|other| {
+            other[0] <= point[0] && other[1] <= point[1] && (other[0] < point[0] || other[1] < point[1])
+        });
+    }
+    let title = "cells refined: worst of pressure, approach and areas".to_owned();
+    Some(Panel { title, curves })
+}
+
+impl Panel {
+    fn draw(&self, svg: &mut String) {
+        let points = || self.curves.iter().flat_map(|curve| curve.points.iter().map(|(point, _)| *point));
+        let x = Axis::logarithmic(points().map(|point| point[0]), 8);
+        let y = Axis::logarithmic(points().map(|point| point[1]), 8);
+        let (bottom, right) = (HEIGHT - BOTTOM, PANEL - RIGHT);
+        let x_of = |value: f64| LEFT + x.place(value) * (right - LEFT);
+        let y_of = |value: f64| bottom - y.place(value) * (bottom - TOP);
+        let _ = writeln!(
+            svg,
+            "<text x=\"{LEFT}\" y=\"{}\" fill=\"#6d6c64\">{}</text>",
+            TOP - 14.0,
+            escaped(&self.title)
+        );
+        for (value, word) in &x.ticks {
+            let at = x_of(*value);
+            let _ = writeln!(svg, "<path d=\"M{at:.1} {TOP}V{bottom}\" stroke=\"#e4e1d6\" fill=\"none\"/>");
+            let _ = writeln!(
+                svg,
+                "<text x=\"{at:.1}\" y=\"{}\" text-anchor=\"middle\">{word}</text>",
+                bottom + 17.0
+            );
+        }
+        for (value, word) in &y.ticks {
+            let at = y_of(*value);
+            let _ = writeln!(svg, "<path d=\"M{LEFT} {at:.1}H{right}\" stroke=\"#e4e1d6\" fill=\"none\"/>");
+            let _ = writeln!(
+                svg,
+                "<text x=\"{}\" y=\"{:.1}\" text-anchor=\"end\">{word}</text>",
+                LEFT - 7.0,
+                at + 4.0
+            );
+        }
+        let _ =
+            writeln!(svg, "<path d=\"M{LEFT} {TOP}V{bottom}H{right}\" stroke=\"#6d6c64\" fill=\"none\"/>");
+        let middle = 0.5 * (LEFT + right);
+        let _ = writeln!(
+            svg,
+            "<text x=\"{middle}\" y=\"{}\" text-anchor=\"middle\">time [s]</text>",
+            bottom + 35.0
+        );
+        let middle = 0.5 * (TOP + bottom);
+        let _ = writeln!(
+            svg,
+            "<text transform=\"translate(15 {middle}) rotate(-90)\" text-anchor=\"middle\">relative error</text>"
+        );
+        for (number, curve) in self.curves.iter().enumerate() {
+            let seen = curve.points.iter().filter(|([seconds, error], _)| *seconds > 0.0 && *error > 0.0);
+            let mut path = String::new();
+            let mut marks = String::new();
+            for ([seconds, error], is_efficient) in seen {
+                let (a, b) = (x_of(*seconds), y_of(*error));
+                let _ = write!(path, "{}{a:.1} {b:.1}", if path.is_empty() { 'M' } else { 'L' });
+                let _ = writeln!(
+                    marks,
+                    "<circle cx=\"{a:.1}\" cy=\"{b:.1}\" r=\"3\" fill=\"{}\"/>",
+                    curve.colour
+                );
+                if *is_efficient {
+                    let _ = writeln!(
+                        marks,
+                        "<circle cx=\"{a:.1}\" cy=\"{b:.1}\" r=\"7\" fill=\"none\" stroke=\"#23241f\" stroke-width=\"1.2\"/>"
+                    );
+                }
+            }
+            let _ = writeln!(
+                svg,
+                "<path d=\"{path}\" stroke=\"{}\" stroke-width=\"1.7\" fill=\"none\"/>\n{marks}",
+                curve.colour
+            );
+            let at = bottom + 52.0 + ROW * number as f64;
+            let _ = writeln!(
+                svg,
+                "<path d=\"M{LEFT} {at}h24\" stroke=\"{}\" stroke-width=\"1.7\"/><circle cx=\"{}\" cy=\"{at}\" r=\"3\" fill=\"{}\"/><text x=\"{}\" y=\"{}\">{}</text>",
+                curve.colour,
+                LEFT + 12.0,
+                curve.colour,
+                LEFT + 32.0,
+                at + 4.0,
+                escaped(&curve.name)
+            );
+        }
+    }
+}

@@ -1,0 +1,173 @@
+//! A judged ladder as a table for a person, as CSV and as JSON for programs.
+
+use std::fmt::Write;
+
+use fret_core::study::{Climb, Errors, Form, Judged, Kind, Line, Quantity, Variation};
+use serde_json::{Value, json};
+
+use crate::study::words::name;
+
+/// Width of a column of errors.
+const COLUMN: usize = 15;
+
+/// What a line refines, in words.
+pub fn kind_name(kind: Kind) -> &'static str {
+    match kind {
+        Kind::Cells => "cells",
+        Kind::Increments => "increments",
+        Kind::Together => "cells and increments together",
+        Kind::Tolerance => "tolerance",
+    }
+}
+
+/// Increments of the stages: one number where all are alike.
+fn increments(variation: &Variation) -> String {
+    let counts = &variation.increments;
+    if counts.windows(2).all(|pair| pair[0] == pair[1]) {
+        counts.first().map_or(String::new(), ToString::to_string)
+    } else {
+        counts.iter().map(ToString::to_string).collect::<Vec<_>>().join("/")
+    }
+}
+
+/// Errors with their orders in the order of the columns, fields last.
+fn columns(judged: &Judged) -> Vec<(Option<f64>, Option<f64>)> {
+    let Errors { between, pressure, shear, .. } = &judged.errors;
+    between
+        .iter()
+        .copied()
+        .zip(judged.orders)
+        .chain([*pressure, *shear].into_iter().zip(judged.field_orders))
+        .collect()
+}
+
+/// The table: a block a line of the ladder. `*` marks what no other rung beats in time and in its worst headline number.
+pub fn table(climb: &Climb, lines: &[Line]) -> String {
+    let mut names: Vec<&str> = Quantity::ALL.into_iter().map(name).collect();
+    names.extend(["pressure L2", "shear L2"]);
+    let known: Vec<usize> = (0..names.len())
+        .filter(|column| {
+            lines.iter().flat_map(|line| &line.rungs).any(|rung| columns(rung)[*column].0.is_some())
+        })
+        .collect();
+    let mut table = String::new();
+    for line in lines {
+        let _ = writeln!(table, "refined: {}", kind_name(line.kind));
+        let _ = write!(
+            table,
+            "{:<12}{:>11}{:>10}{:>10}{:>13}",
+            "  cells", "increments", "tolerance", "time [s]", "convolutions"
+        );
+        for column in &known {
+            let _ = write!(table, "{:>COLUMN$}", names[*column]);
+        }
+        table.push('\n');
+        for judged in &line.rungs {
+            let Some(rung) = climb.rung(judged.place) else { continue };
+            let [nx, ny] = rung.variation.cells;
+            let _ = write!(
+                table,
+                "{} {:<10}{:>11}{:>10.0e}{:>10.3}{:>13}",
+                if judged.is_efficient[Form::Between as usize] { '*' } else { ' ' },
+                format!("{nx} x {ny}"),
+                increments(&rung.variation),
+                rung.variation.tolerance,
+                rung.wall_s,
+                rung.work.convolutions
+            );
+            let columns = columns(judged);
+            for column in &known {
+                let (error, order) = columns[*column];
+                let error = error.map_or("-".to_owned(), |error| format!("{error:.1e}"));
+                let order = order.map_or(String::new(), |order| format!("{order:.1}"));
+                let _ = write!(table, "{error:>9} {order:>5}");
+            }
+            table.push('\n');
+        }
+        table.push('\n');
+    }
+    table.push_str("errors are relative; behind each the order it shows against the row above; * nothing is both quicker and closer");
+    table
+}
+
+/// A row a rung of every line. Errors are relative and empty where nothing is known; `_plain` as the cells have the number,
+/// `_extrapolated` with the next coarser grid; `order_` against the row before in the same line.
+pub fn csv(climb: &Climb, lines: &[Line]) -> String {
+    let mut text = String::from(
+        "refined,nx,ny,increments,tolerance,wall_s,convolutions,full_grid_convolutions,efficient,efficient_plain,efficient_extrapolated",
+    );
+    for quantity in Quantity::ALL {
+        let name = quantity.name();
+        let _ = write!(text, ",{name},{name}_plain,{name}_extrapolated,order_{name}");
+    }
+    text.push_str(",pressure_l2,order_pressure_l2,shear_l2,order_shear_l2\n");
+    let shown = |value: Option<f64>| value.map_or(String::new(), |value| format!("{value:e}"));
+    for line in lines {
+        for judged in &line.rungs {
+            let Some(rung) = climb.rung(judged.place) else { continue };
+            let [nx, ny] = rung.variation.cells;
+            let [plain, between, extrapolated] = judged.is_efficient;
+            let _ = write!(
+                text,
+                "{},{nx},{ny},{},{:e},{:e},{},{},{between},{plain},{extrapolated}",
+                kind_key(line.kind),
+                increments(&rung.variation),
+                rung.variation.tolerance,
+                rung.wall_s,
+                rung.work.convolutions,
+                rung.work.full_grid_convolutions
+            );
+            for quantity in Quantity::ALL {
+                let number = quantity as usize;
+                for form in [Form::Between, Form::Plain, Form::Extrapolated] {
+                    let _ = write!(text, ",{}", shown(judged.errors.of(form)[number]));
+                }
+                let _ = write!(text, ",{}", shown(judged.orders[number]));
+            }
+            for (error, order) in
+                [judged.errors.pressure, judged.errors.shear].into_iter().zip(judged.field_orders)
+            {
+                let _ = write!(text, ",{},{}", shown(error), shown(order));
+            }
+            text.push('\n');
+        }
+    }
+    text
+}
+
+/// A kind in files.
+fn kind_key(kind: Kind) -> String {
+    serde_json::to_value(kind).ok().and_then(|value| value.as_str().map(str::to_owned)).unwrap_or_default()
+}
+
+/// The lines for programs.
+pub fn to_json(climb: &Climb, lines: &[Line]) -> Value {
+    let numbers = |values: &[Option<f64>; 6]| {
+        let pairs = Quantity::ALL
+            .into_iter()
+            .map(|quantity| (quantity.name().to_owned(), json!(values[quantity as usize])));
+        Value::Object(pairs.collect())
+    };
+    let rung = |judged: &Judged| {
+        let rung = climb.rung(judged.place)?;
+        Some(json!({
+            "cells": rung.variation.cells,
+            "increments": rung.variation.increments,
+            "tolerance": rung.variation.tolerance,
+            "wall_s": rung.wall_s,
+            "work": rung.work,
+            "ends": rung.ends,
+            "errors": numbers(&judged.errors.between),
+            "errors_plain": numbers(&judged.errors.plain),
+            "errors_extrapolated": numbers(&judged.errors.extrapolated),
+            "orders": numbers(&judged.orders),
+            "error_of_pressure": judged.errors.pressure,
+            "error_of_shear": judged.errors.shear,
+            "order_of_pressure": judged.field_orders[0],
+            "order_of_shear": judged.field_orders[1],
+            "is_efficient": judged.is_efficient[Form::Between as usize],
+        }))
+    };
+    let line = |line: &Line| json!({ "refined": line.kind, "rungs": line.rungs.iter().filter_map(rung).collect::<Vec<_>>() });
+    lines.iter().map(line).collect()
+}

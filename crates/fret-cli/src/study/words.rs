@@ -1,0 +1,60 @@
+//! What a study says in words: what it was measured by, and what to choose.
+
+use fret_core::study::{Advice, Quantity, Source, Truth};
+
+/// A headline number in words.
+pub fn name(quantity: Quantity) -> &'static str {
+    match quantity {
+        Quantity::MaxPressure => "max pressure",
+        Quantity::Approach => "approach",
+        Quantity::ContactArea => "contact area",
+        Quantity::StickArea => "stick area",
+        Quantity::Shift => "shift",
+        Quantity::DissipatedEnergy => "energy lost",
+    }
+}
+
+/// What the errors are measured by, in a sentence a source.
+pub fn measured_by(truth: &Truth) -> String {
+    let form = truth.form().map_or("", |form| form.name());
+    let sources = [
+        (Source::ClosedForm, format!("the closed form ({form})")),
+        (Source::Given, "the numbers given".to_owned()),
+        (Source::Limit, "the limit this ladder is heading for (Richardson)".to_owned()),
+        (Source::Finest, "the finest rung".to_owned()),
+    ];
+    let said = sources.into_iter().filter_map(|(source, words)| {
+        let numbers: Vec<&str> = Quantity::ALL
+            .into_iter()
+            .filter(|quantity| truth.source(*quantity) == Some(source))
+            .map(name)
+            .collect();
+        (!numbers.is_empty()).then(|| format!("{} measured by {words}", numbers.join(", ")))
+    });
+    said.collect::<Vec<_>>().join("\n")
+}
+
+/// One sentence: what to choose for each accuracy. `cells` and `increments` tell which of them the ladder has several of, and
+/// `ny_over_nx` the shape of its grids.
+pub fn choice(advice: &[Advice], cells: bool, increments: bool, ny_over_nx: f64) -> String {
+    let each = advice.iter().map(|advice| {
+        let percent = format!("for {} % ", 100.0 * advice.accuracy);
+        let grid = advice.cells.map(|nx| {
+            let ny = (nx as f64 * ny_over_nx).round().max(1.0) as usize;
+            format!("{nx} x {ny} cells")
+        });
+        let steps = advice.increments.map(|count| format!("{count} increments a stage or cycle"));
+        let chosen: Vec<String> = [(cells, grid), (increments, steps)]
+            .into_iter()
+            .filter(|(varied, _)| *varied)
+            .map(|(_, choice)| choice.unwrap_or_else(|| "more than this ladder can tell of".to_owned()))
+            .collect();
+        let beyond = if advice.concluded { " (concluded from the order, not computed)" } else { "" };
+        format!("{percent}{}{beyond}", chosen.join(" and "))
+    });
+    if cells || increments {
+        format!("Choose {}.", each.collect::<Vec<_>>().join("; "))
+    } else {
+        "Nothing to choose: the ladder has neither two grids nor two numbers of increments.".to_owned()
+    }
+}
