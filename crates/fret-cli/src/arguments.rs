@@ -78,6 +78,9 @@ pub struct RunArguments {
     /// Go on where a run was broken off; start where there is none, do nothing where it is solved
     #[arg(long, conflicts_with = "force")]
     pub resume: bool,
+    /// Solve a coarser companion too, and give every headline number an error bar
+    #[arg(long)]
+    pub estimate_error: bool,
 }
 
 /// Which resolutions to study, and what to measure them by.

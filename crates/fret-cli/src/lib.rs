@@ -7,6 +7,7 @@ mod array_file;
 mod case_file;
 mod commands;
 mod defect;
+mod estimate;
 mod export;
 mod failure;
 mod figures;

@@ -7,6 +7,7 @@ use fret_core::history::StepRecord;
 use fret_core::plan::{Coupling, Plan};
 use serde_json::{Value, json};
 
+use crate::estimate::Estimate;
 use crate::failure::Failure;
 use crate::figures::{counted, duration, figure, figure_beside, shortened};
 use crate::tally::{CycleEnergy, Tally};
@@ -33,6 +34,8 @@ pub struct Summary<'a> {
     pub wall_s: f64,
     /// Threads computed with.
     pub threads: usize,
+    /// Error bars, where they were asked for and could be had.
+    pub estimate: Option<&'a Estimate>,
 }
 
 type Reading = fn(&StepRecord) -> String;
@@ -56,6 +59,9 @@ impl Summary<'_> {
         }
         table.push('\n');
         self.cycles(&mut table);
+        if let Some(estimate) = self.estimate {
+            let _ = writeln!(table, "{}\n", estimate.table(|stage| self.stage_name(stage).to_owned()));
+        }
         let residual =
             format!("{:.1e} (asked for {:.1e})", self.tally.largest_residual, self.plan.case.tolerance);
         for (name, value) in [
@@ -164,6 +170,7 @@ impl Summary<'_> {
             "wall_s": self.wall_s,
             "threads": self.threads,
             "results": self.folder.display().to_string(),
+            "error_bars": self.estimate.map(|estimate| estimate.to_json(|stage| self.stage_name(stage).to_owned())),
         })
     }
 

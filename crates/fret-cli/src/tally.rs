@@ -3,6 +3,7 @@
 use fret_core::case::Course;
 use fret_core::history::{StepRecord, Work};
 use fret_core::plan::Plan;
+use fret_core::study::Headline;
 use serde::{Deserialize, Serialize};
 
 /// A stage of the history, as increments of the whole.
@@ -59,6 +60,8 @@ pub struct Tally {
     pub work: Work,
     /// Largest residual of all increments.
     pub largest_residual: f64,
+    /// Headline numbers of the same increments as `stage_ends`, where they were asked for.
+    pub headlines: Vec<Headline>,
     energy_at_cycle_start: f64,
 }
 
@@ -72,6 +75,7 @@ impl Tally {
             cycle_energies: Vec::new(),
             work: Work::default(),
             largest_residual: 0.0,
+            headlines: Vec::new(),
             energy_at_cycle_start: 0.0,
         }
     }
@@ -89,6 +93,14 @@ impl Tally {
             _ => self.stage_ends.push(record.clone()),
         }
         self.count_cycle(record);
+    }
+
+    /// Remembers the headline numbers of an increment that was counted in.
+    pub fn read(&mut self, headline: Headline) {
+        match self.headlines.last_mut() {
+            Some(last) if last.stage == headline.stage => *last = headline,
+            _ => self.headlines.push(headline),
+        }
     }
 
     /// The stage an increment belongs to.

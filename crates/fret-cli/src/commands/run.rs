@@ -8,9 +8,10 @@ use std::time::Instant;
 
 use fret_core::checkpoint::{Checkpoint, Waypoint};
 use fret_core::history::{KeptFields, StepRecord};
-use fret_core::model::ContactState;
+use fret_core::model::{ContactState, SurfaceGrid};
 use fret_core::plan::Plan;
 use fret_core::simulation::{Iteration, Observer, RunError, Simulation};
+use fret_core::study::{Headline, companion};
 use serde_json::{Value, json};
 
 use crate::arguments::RunArguments;
@@ -18,10 +19,11 @@ use crate::case_file::CaseFile;
 use crate::commands::plan::left_out;
 use crate::commands::stress::after_run;
 use crate::defect;
-use crate::failure::{Failure, Told};
+use crate::estimate::Estimate;
+use crate::failure::{Failure, Told, Unwritten};
 use crate::figures::counted;
 use crate::interrupt;
-use crate::output::{ResultFolder, RunRecord, Standing, Stored, Wish};
+use crate::output::{ERROR_BARS, ResultFolder, RunRecord, Standing, Stored, Wish, write_whole};
 use crate::progress::Progress;
 use crate::summary::Summary;
 use crate::tally::Tally;
@@ -51,6 +53,8 @@ struct Preparation {
     plan: Plan,
     folder: PathBuf,
     standing: Standing,
+    /// The coarser run that error bars are read from, when they are asked for.
+    companion: Option<Plan>,
     threads: usize,
     pool: rayon::ThreadPool,
 }
@@ -81,7 +85,16 @@ fn prepared(arguments: &RunArguments) -> Result<Preparation, Failure> {
         (false, true) => Wish::Force,
         (false, false) => Wish::Start,
     };
+    let companion = arguments.estimate_error.then(|| companion(&plan)).transpose().map_err(|error| {
+        Failure::Call(format!("--estimate-error: {error}"), "the same call without it".to_owned())
+    })?;
     let standing = ResultFolder::standing(&folder, &case_file, &plan, wish)?;
+    if companion.is_some() && matches!(standing, Standing::Solved(_)) {
+        return Err(Failure::Call(
+            format!("{}: solved already, and its fields are gone: no error bars", folder.display()),
+            "with --force in place of --resume it is solved anew".to_owned(),
+        ));
+    }
     let threads = arguments.threads.map_or_else(available_threads, usize::from);
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().map_err(|error| {
         Failure::Call(
@@ -92,7 +105,7 @@ fn prepared(arguments: &RunArguments) -> Result<Preparation, Failure> {
     if !arguments.quiet && !matches!(standing, Standing::Solved(_)) {
         announce(&plan, &folder, &standing);
     }
-    Ok(Preparation { case_file, plan, folder, standing, threads, pool })
+    Ok(Preparation { case_file, plan, folder, standing, companion, threads, pool })
 }
 
 pub fn available_threads() -> usize {
@@ -174,17 +187,31 @@ impl Preparation {
             progress: Progress::new(quiet, &title, self.plan.increments, tally.solved),
             tally,
             clock: Clock { started: Instant::now(), before_s: wall_s },
+            read_on: self.companion.as_ref().map(|_| self.plan.grid),
             failure: None,
         };
         let outcome = self.followed_by(from, &mut witness);
-        let Witness { folder, progress, tally, clock, failure } = witness;
+        let Witness { folder, progress, tally, clock, failure, .. } = witness;
         progress.end();
         let wall_s = clock.read();
         let failure = failure.or_else(|| outcome.err());
         let closed = folder.close(&tally, wall_s, failure.as_ref());
         let failure = failure.or_else(|| closed.err().map(Failure::from));
-        let summary =
-            Summary { plan: &self.plan, tally: &tally, folder: &self.folder, wall_s, threads: self.threads };
+        let (estimate, failure) = match failure {
+            None => match self.estimated(&tally, quiet) {
+                Ok(estimate) => (estimate, None),
+                Err(unwritten) => (None, Some(unwritten.into())),
+            },
+            failure => (None, failure),
+        };
+        let summary = Summary {
+            plan: &self.plan,
+            tally: &tally,
+            folder: &self.folder,
+            wall_s,
+            threads: self.threads,
+            estimate: estimate.as_ref(),
+        };
         if as_json {
             terminal::answer(&format!("{:#}", summary.to_json(failure.as_ref())))?;
         } else if failure.is_none() && !quiet {
@@ -198,6 +225,25 @@ impl Preparation {
             self.pool.install(|| after_run(&self.folder, quiet || as_json)).err()
         });
         failure.map_or(Ok(()), |failure| Err(Told { failure, in_json: as_json }))
+    }
+
+    /// Error bars, when they are asked for and can be had; also as a file beside the results.
+    fn estimated(&self, tally: &Tally, quiet: bool) -> Result<Option<Estimate>, Unwritten> {
+        let Some(companion) = &self.companion else { return Ok(None) };
+        match self.pool.install(|| Estimate::new(&self.plan, companion, &tally.headlines)) {
+            Ok(estimate) => {
+                let name = |stage: usize| self.plan.case.stages[stage].name.clone();
+                let text = format!("{:#}\n", estimate.to_json(name));
+                write_whole(&self.folder.join(ERROR_BARS), text.as_bytes())?;
+                Ok(Some(estimate))
+            }
+            Err(why) => {
+                if !quiet {
+                    terminal::say(&format!("no error bars: {why}"));
+                }
+                Ok(None)
+            }
+        }
     }
 
     fn followed_by(&self, from: Checkpoint, witness: &mut Witness) -> Result<(), Failure> {
@@ -237,6 +283,8 @@ struct Witness {
     progress: Progress,
     tally: Tally,
     clock: Clock,
+    /// The grid, when headline numbers are read.
+    read_on: Option<SurfaceGrid>,
     failure: Option<Failure>,
 }
 
@@ -262,12 +310,15 @@ impl Observer for Witness {
     fn solved(
         &mut self,
         record: &StepRecord,
-        _: &ContactState,
+        state: &ContactState,
         kept: Option<&KeptFields>,
     ) -> ControlFlow<()> {
         let writing = self.folder.keep(record, kept);
         self.after(writing)?;
         self.tally.add(record);
+        if let Some(grid) = &self.read_on {
+            self.tally.read(Headline::new(grid, record, state));
+        }
         self.progress.solved(record, &self.tally);
         go_on()
     }

@@ -35,6 +35,8 @@ const CASE: &str = "case.toml";
 const RECORD: &str = "run.json";
 const HISTORY: &str = "history.csv";
 const FIELDS: &str = "fields.zarr";
+/// Error bars of the headline numbers, where they were asked for.
+pub const ERROR_BARS: &str = "error_bars.json";
 
 /// What lies where the results shall go.
 #[derive(Debug, Clone, PartialEq)]
@@ -127,6 +129,7 @@ impl ResultFolder {
         write_whole(&path.join(RECORD), &record.running())?;
         checkpoints.clear()?;
         remove_earlier_fields(&path.join(FIELDS))?;
+        remove_earlier_bars(&path.join(ERROR_BARS))?;
         write_whole(&path.join(CASE), case_file.text.as_bytes())?;
         Ok(Self {
             history: HistoryTable::create(&path.join(HISTORY))?,
@@ -233,6 +236,13 @@ fn holds_nothing(path: &Path) -> bool {
         }
         // Not there, or not to be looked into: the attempt to write will tell.
         Err(_) => true,
+    }
+}
+
+fn remove_earlier_bars(path: &Path) -> Result<(), Unwritten> {
+    match fs::remove_file(path) {
+        Err(error) if error.kind() != std::io::ErrorKind::NotFound => Err(Unwritten::at(path)(error)),
+        _ => Ok(()),
     }
 }
 

@@ -10,6 +10,7 @@ mod refused;
 mod shown;
 mod solved;
 mod stressed;
+mod studied;
 mod surfaces;
 mod swept;
 mod unwritten;

@@ -20,6 +20,9 @@ pub struct Advice {
     pub concluded: bool,
 }
 
+/// Beyond so many times the finest count nothing is concluded.
+const FARTHEST: f64 = 8.0;
+
 /// Numbers of cells and increments whose errors each take half of `accuracy`. Cells are judged by the truth, increments by
 /// their own limit at the most cells, so that the error of the cells does not hide in it.
 pub fn advice<'a>(
@@ -80,7 +83,8 @@ fn choose(counts: &[usize], errors: &[Option<f64>], bound: f64) -> (Option<usize
         return (None, false);
     }
     let wanted = *n1 as f64 * (e1 / bound).powf(order.min(2.0).recip());
-    (wanted.is_finite().then(|| (wanted / 8.0).ceil() as usize * 8), true)
+    let is_near = wanted <= FARTHEST * *n1 as f64;
+    (is_near.then(|| (wanted / 8.0).ceil() as usize * 8), is_near)
 }
 
 /// Which of some rungs are efficient: none is both quicker and closer. Points are time and error.
@@ -111,6 +115,7 @@ mod tests {
         let errors = [Some(0.04), Some(0.01), Some(0.0025)];
         assert_eq!(choose(&counts, &errors, 0.01), (Some(32), false));
         assert_eq!(choose(&counts, &errors, 0.0025 / 4.0), (Some(128), true)); // second order
+        assert_eq!(choose(&counts, &errors, 1e-7), (None, false)); // 10119 cells: too far from 64
         assert_eq!(choose(&counts, &[Some(0.01), Some(0.001), Some(0.02)], 0.01), (None, false));
     }
 }

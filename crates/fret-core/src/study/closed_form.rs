@@ -1,7 +1,7 @@
 //! Which closed form speaks about a scene, recognised from its plan, and what it says at the end of each stage.
 //!
-//! Normal: spheres, ellipsoids, rounded and flat punches, cones on homogeneous bodies that are frictionless or do not couple. Tangential: Cattaneo and Mindlin with Masing's
-//! memory, for spheres under a steady normal force, one coefficient of friction, forces along one line, and like bodies with a
+//! Normal: spheres, ellipsoids, rounded and flat punches, cones on homogeneous bodies that are frictionless or do not couple.
+//! Tangential: Cattaneo and Mindlin with Masing's memory, for spheres under a steady normal force, one coefficient of friction, forces along one line, and like bodies with a
 //! Poisson's ratio of zero: with any other the form neglects the slip across the force, and is no measure of a hundredth of a
 //! percent.
 

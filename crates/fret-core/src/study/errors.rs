@@ -115,6 +115,13 @@ fn error(
     if scale <= NOTHING * beside.unwrap_or(0.0) {
         return None;
     }
+    let never_sticks = || exact.iter().flatten().all(|[area, _]| *area == 0.0);
+    if quantity == Quantity::StickArea
+        && never_sticks()
+        && (0..ends).all(|end| reading(end, quantity)[0] == 0.0)
+    {
+        return None; // nothing sticks anywhere: no number to be wrong about
+    }
     let apart = |end: usize| {
         let [x, y] = (*exact.get(end)?)?;
         let [a, b] = reading(end, quantity);

@@ -1,4 +1,4 @@
-//! Error bars from a companion run at half the cells and half the increments.
+//! Error bars from a companion run at half the cells and half the increments (of a scene without friction: none but the ends).
 //!
 //! The numbers here were measured on smooth round scenes with closed forms, bare and coated; none is proven. A bar is meant
 //! to hold in 95 of 100 scenes. What it covers is the error of the cells and the increments, not that of the model.
@@ -8,7 +8,7 @@ use serde::Serialize;
 use super::errors::extrapolated;
 use super::headline::{Headline, Quantity};
 use super::ladder::{LadderError, only_one_grid};
-use super::variation::Variation;
+use super::variation::{Variation, fewest};
 use crate::model::Shape;
 use crate::plan::{Coupling, Plan};
 
@@ -46,19 +46,30 @@ pub struct Bars {
     pub bars: [Bar; 6],
 }
 
+impl Bars {
+    /// A number with its bar.
+    pub fn of(&self, quantity: Quantity) -> Bar {
+        self.bars[quantity as usize]
+    }
+}
+
 /// The plan of the companion: half the cells along each side, half the increments of each stage, a tolerance that is enough.
 ///
 /// # Errors
 /// When the grid is too coarse to be halved, or the scene stands on its cells.
 pub fn companion(plan: &Plan) -> Result<Plan, LadderError> {
     only_one_grid(plan)?;
-    let fewest = *plan.case.cells.iter().min().unwrap_or(&0);
-    if fewest < FEWEST_CELLS {
-        return Err(LadderError::TooCoarse(fewest, FEWEST_CELLS));
+    let least = *plan.case.cells.iter().min().unwrap_or(&0);
+    if least < FEWEST_CELLS {
+        return Err(LadderError::TooCoarse(least, FEWEST_CELLS));
     }
     let mut half = Variation::of(plan).halved(&plan.case.stages);
     half.tolerance = half.tolerance.max(TOLERANCE);
-    half.planned(plan).map_err(|_| LadderError::TooCoarse(fewest, FEWEST_CELLS))
+    if plan.coupling == Coupling::Frictionless {
+        // Without friction the way does not matter, only where it ends.
+        half.increments = plan.case.stages.iter().map(fewest).collect();
+    }
+    half.planned(plan).map_err(|_| LadderError::TooCoarse(least, FEWEST_CELLS))
 }
 
 /// Error bars at the end of a stage of `plan`, from its own headline numbers and those of its companion.

@@ -1,0 +1,155 @@
+//! Error bars of a run: a companion at half the cells and increments is solved after it, and both are compared.
+
+use std::f64::consts::PI;
+use std::fmt::Write;
+use std::ops::ControlFlow;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+
+use fret_core::history::{KeptFields, StepRecord};
+use fret_core::model::ContactState;
+use fret_core::plan::{Coupling, Plan};
+use fret_core::simulation::{Iteration, Observer};
+use fret_core::study::{Bar, Bars, Headline, Quantity, climbed, error_bars};
+use serde_json::{Value, json};
+
+use crate::defect;
+use crate::figures::{counted, duration, figure, shortened};
+use crate::interrupt;
+use crate::study::words::name;
+
+/// Stages that stand side by side in the table.
+const MOST_COLUMNS: usize = 3;
+/// Width of the names on the left, and of a column.
+const NAMES: usize = 30;
+const COLUMN: usize = 26;
+
+/// Error bars of the headline numbers of a run.
+#[derive(Debug)]
+pub struct Estimate {
+    /// At the ends of the stages that were read, in order.
+    pub bars: Vec<Bars>,
+    /// Cells of the companion.
+    cells: [usize; 2],
+    /// Its increments.
+    increments: usize,
+    /// Its time [s].
+    wall_s: f64,
+    /// Whether there is friction to speak of.
+    rubs: bool,
+}
+
+impl Estimate {
+    /// Solves the companion of a solved plan, whose own headline numbers are `headlines`, and compares. The reason where that
+    /// is not possible: the run itself is none the worse for it.
+    pub fn new(plan: &Plan, companion: &Plan, headlines: &[Headline]) -> Result<Self, String> {
+        let rung = match catch_unwind(AssertUnwindSafe(|| climbed(companion, &mut Listener))) {
+            Ok(Ok(rung)) => rung,
+            Ok(Err(error)) => return Err(format!("the coarser companion run: {error}")),
+            Err(panic) => {
+                return Err(format!("the coarser companion run: {}", defect::words_of(panic.as_ref())));
+            }
+        };
+        let coarse = |stage: usize| rung.ends.iter().find(|end| end.stage == stage);
+        let bars = headlines.iter().filter_map(|fine| Some(error_bars(plan, fine, coarse(fine.stage)?)));
+        Ok(Self {
+            bars: bars.collect(),
+            cells: rung.variation.cells,
+            increments: companion.increments,
+            wall_s: rung.wall_s,
+            rubs: plan.coupling != Coupling::Frictionless,
+        })
+    }
+
+    /// The numbers with their bars, a column a stage.
+    pub fn table(&self, stage_name: impl Fn(usize) -> String) -> String {
+        let shown = &self.bars[self.bars.len().saturating_sub(MOST_COLUMNS)..];
+        let mut table = String::from("error bars, at the end of     ");
+        for bars in shown {
+            let _ = write!(table, "{:>COLUMN$}", shortened(&stage_name(bars.stage), COLUMN - 2));
+        }
+        table.push('\n');
+        let mut row = |name: &str, cell: &dyn Fn(&Bars) -> String| {
+            let _ = write!(table, "{name:<NAMES$}");
+            for bars in shown {
+                let _ = write!(table, "{:>COLUMN$}", cell(bars));
+            }
+            table.push('\n');
+        };
+        for quantity in Quantity::ALL {
+            let scalar = |bars: &Bars| number(&bars.of(quantity), 0);
+            match quantity {
+                Quantity::StickArea | Quantity::Shift | Quantity::DissipatedEnergy if !self.rubs => {}
+                Quantity::Shift => {
+                    for (axis, direction) in ["x", "y"].into_iter().enumerate() {
+                        row(&format!("shift {direction}"), &|bars| number(&bars.of(quantity), axis));
+                    }
+                }
+                Quantity::ContactArea => {
+                    row(name(quantity), &scalar);
+                    row("radius of a circle that large", &|bars| radius(&bars.of(quantity)));
+                }
+                _ => row(name(quantity), &scalar),
+            }
+        }
+        let [nx, ny] = self.cells;
+        let _ = write!(
+            table,
+            "from a companion of {nx} x {ny} cells and {}, {}",
+            counted(self.increments, "increment"),
+            duration(self.wall_s)
+        );
+        table
+    }
+
+    /// The same for programs. A bar of null: the number has no limit.
+    pub fn to_json(&self, stage_name: impl Fn(usize) -> String) -> Value {
+        let stage = |bars: &Bars| {
+            let mut value = json!({ "stage": bars.stage, "name": stage_name(bars.stage) });
+            for Bar { quantity, value: number, bar } in &bars.bars {
+                let number = if *quantity == Quantity::Shift { json!(number) } else { json!(number[0]) };
+                value[quantity.name()] = json!({ "value": number, "error_bar": bar });
+            }
+            value
+        };
+        json!({
+            "companion": { "cells": self.cells, "increments": self.increments, "wall_s": self.wall_s },
+            "stages": self.bars.iter().map(stage).collect::<Vec<_>>(),
+        })
+    }
+}
+
+/// `value ± bar`.
+fn number(bar: &Bar, axis: usize) -> String {
+    with_bar(bar.value[axis], bar.bar)
+}
+
+/// The radius of a circle of an area, with the bar that follows from the area's.
+fn radius(area: &Bar) -> String {
+    let radius = (area.value[0] / PI).sqrt();
+    with_bar(radius, area.bar.filter(|_| radius > 0.0).map(|bar| bar / (2.0 * PI * radius)))
+}
+
+fn with_bar(value: f64, bar: Option<f64>) -> String {
+    match bar {
+        Some(0.0) => figure(value),
+        Some(bar) => format!("{} ± {bar:.1e}", figure(value)),
+        None => "no limit".to_owned(),
+    }
+}
+
+/// Stops the companion when somebody asks to.
+struct Listener;
+
+impl Observer for Listener {
+    fn iterated(&mut self, _: &Iteration) -> ControlFlow<()> {
+        go_on()
+    }
+
+    fn solved(&mut self, _: &StepRecord, _: &ContactState, _: Option<&KeptFields>) -> ControlFlow<()> {
+        go_on()
+    }
+}
+
+fn go_on() -> ControlFlow<()> {
+    if interrupt::is_asked() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+}

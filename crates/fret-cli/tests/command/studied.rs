@@ -1,0 +1,178 @@
+//! Studies of refinement and error bars: what is told, what is written, what is refused.
+
+use serde_json::Value;
+
+use crate::bench::{Bench, SPHERE};
+
+/// A rigid sphere on a half-space, no friction: Hertz knows it.
+const HERTZ: &str = r#"title = "Hertz <again>"
+grid = { cells = [32, 32], size = [2.4, 2.4] }
+upper.rigid = true
+lower.substrate = { young = 1.0, poisson = 0.3 }
+profile.sphere.radius = 100.0
+load = [{ normal_force = 0.014652014652, increments = 1 }]
+"#;
+
+#[test]
+fn a_study_finds_the_closed_form_by_itself_and_says_what_to_choose() {
+    let bench = Bench::new("study");
+    let answer =
+        bench.file("case.toml", HERTZ).fret(&["study", "case.toml", "--cells", "16,32,64", "--threads", "1"]);
+    assert_eq!(answer.code, Some(0), "{}", answer.err);
+    for words in
+        ["the closed form (Hertz)", "refined: cells", "16 x 16", "64 x 64", "Choose for 1 % ", "for 0.01 % "]
+    {
+        assert!(answer.out.contains(words), "{words}: {}", answer.out);
+    }
+    assert!(!answer.out.contains("shift"), "nothing moves sideways: {}", answer.out);
+    let csv = bench.text("results/case-study/study.csv");
+    let rows: Vec<Vec<&str>> = csv.lines().map(|line| line.split(',').collect()).collect();
+    assert_eq!(rows.len(), 4, "{csv}");
+    assert!(rows.iter().all(|row| row.len() == rows[0].len()), "{csv}");
+    let column = |name: &str| rows[0].iter().position(|column| *column == name).unwrap();
+    let errors: Vec<f64> = rows[1..].iter().map(|row| row[column("approach")].parse().unwrap()).collect();
+    // Second order, from the coarsest to the finest: sixteenfold, give and take the edge between the cells.
+    assert!((8.0..40.0).contains(&(errors[0] / errors[2])), "{errors:?}");
+    let picture = bench.text("results/case-study/study.svg");
+    assert!(
+        picture.starts_with("<svg ") && picture.contains("Hertz &lt;again&gt;") && !picture.contains("NaN")
+    );
+    let said: Value = serde_json::from_str(&bench.text("results/case-study/study.json")).unwrap();
+    assert_eq!(said["closed_form"], "Hertz");
+    assert_eq!(said["lines"][0]["rungs"].as_array().unwrap().len(), 3);
+}
+
+#[test]
+fn a_study_without_a_closed_form_takes_the_limit_of_its_ladder() {
+    let bench = Bench::new("study-limit");
+    bench.file("case.toml", &SPHERE.replace("cycles = 2", "cycles = 1"));
+    let answer = bench.fret(&[
+        "study",
+        "case.toml",
+        "--cells",
+        "8,16",
+        "--increments",
+        "4,8",
+        "--json",
+        "--quiet",
+        "--out",
+        "here",
+    ]);
+    assert_eq!((answer.code, answer.err.as_str()), (Some(0), ""));
+    let said: Value = serde_json::from_str(&answer.out).unwrap();
+    assert_eq!(
+        (&said["closed_form"], &said["measured_by"]["approach"]),
+        (&Value::Null, &Value::from("limit"))
+    );
+    let kinds: Vec<&Value> = said["lines"].as_array().unwrap().iter().map(|line| &line["refined"]).collect();
+    assert_eq!(kinds, ["cells", "increments", "together"]);
+    assert_eq!(bench.text("here/study.csv").lines().count(), 7);
+    // Against the finest rung, that rung has no error.
+    let answer = bench.fret(&[
+        "study",
+        "case.toml",
+        "--cells",
+        "8,16",
+        "--against",
+        "finest",
+        "--json",
+        "--out",
+        "here",
+    ]);
+    let said: Value = serde_json::from_str(&answer.out).unwrap();
+    assert_eq!(said["lines"][0]["rungs"][1]["errors"]["approach"], Value::from(0.0));
+}
+
+#[test]
+fn a_study_measures_by_given_numbers() {
+    let bench = Bench::new("study-given");
+    bench.file("case.toml", HERTZ).file("numbers.toml", "approach = 0.01\nmax_pressure = 0.0069960248\n");
+    let call = ["study", "case.toml", "--cells", "16,32", "--against", "numbers.toml", "--json"];
+    let answer = bench.fret(&call);
+    assert_eq!(answer.code, Some(0), "{}", answer.err);
+    let said: Value = serde_json::from_str(&answer.out).unwrap();
+    assert_eq!(
+        (&said["measured_by"]["approach"], &said["measured_by"]["contact_area"]),
+        (&Value::from("given"), &Value::Null)
+    );
+    // Both are Hertz's values, to the ten digits given.
+    for number in ["approach", "max_pressure"] {
+        let error = said["lines"][0]["rungs"][1]["errors"][number].as_f64().unwrap();
+        assert!(error < 1e-3, "{number}: {error}");
+    }
+    for (text, words) in [
+        ("approach = 0.01\nradius = 3.0", "numbers.toml:2:1"),
+        ("approach = nan", "must be a finite number"),
+        ("", "no reference number"),
+        ("approach = [", "numbers.toml:1"),
+    ] {
+        let answer = bench.file("numbers.toml", text).fret(&call);
+        assert_eq!(answer.code, Some(1), "{text}: {}", answer.err);
+        assert!(answer.err.contains(words), "{text}: {}", answer.err);
+    }
+}
+
+#[test]
+fn studies_that_cannot_be_are_refused() {
+    let bench = Bench::new("study-refused");
+    bench.file("case.toml", SPHERE);
+    for (arguments, words) in [
+        (["--cells", "2,4"], "at least 4"),
+        (["--increments", "0,8"], "needs at least 1"),
+        (["--tolerances", "1e-3,2"], "between 1e-14 and 0.1"),
+        (["--against", "analytic"], "no closed form"),
+        (["--against", "nowhere.toml"], "no such file"),
+        (["--cells", "many"], "invalid value"),
+    ] {
+        let answer = bench.fret(&[&["study", "case.toml"], &arguments[..]].concat());
+        assert_eq!(answer.code, Some(1), "{arguments:?}: {}", answer.err);
+        assert!(answer.err.contains(words), "{arguments:?}: {}", answer.err);
+    }
+    assert_eq!(bench.names(), ["case.toml"]);
+}
+
+#[test]
+fn error_bars_come_with_the_summary() {
+    let bench = Bench::new("error-bars");
+    let answer = bench.file("case.toml", HERTZ).fret(&["run", "case.toml", "--estimate-error"]);
+    assert_eq!(answer.code, Some(0), "{}", answer.err);
+    assert!(
+        answer.out.contains(" ± ") && answer.out.contains("companion of 16 x 16 cells"),
+        "{}",
+        answer.out
+    );
+    let file: Value = serde_json::from_str(&bench.text("results/case/error_bars.json")).unwrap();
+    let approach = &file["stages"][0]["approach"];
+    let (value, bar) = (approach["value"].as_f64().unwrap(), approach["error_bar"].as_f64().unwrap());
+    // Hertz: a^2 / R with a = 1 (force to 11 digits).
+    assert!((value - 0.01).abs() <= bar && bar < 1e-2 * value, "{value} {bar}");
+    let again = bench.fret(&["run", "case.toml", "--estimate-error", "--json", "--quiet"]);
+    let said: Value = serde_json::from_str(&again.out).unwrap();
+    assert_eq!(said["error_bars"]["stages"][0]["approach"], *approach, "the same bits");
+    // A run without them leaves none behind.
+    let without = bench.fret(&["run", "case.toml", "--json", "--quiet"]);
+    let said: Value = serde_json::from_str(&without.out).unwrap();
+    assert_eq!(said["error_bars"], Value::Null);
+    assert!(!bench.folder.join("results/case/error_bars.json").exists());
+}
+
+#[test]
+fn error_bars_of_a_fretting_loop_and_where_there_are_none() {
+    let bench = Bench::new("error-bars-loop");
+    let answer =
+        bench.file("case.toml", SPHERE).fret(&["run", "case.toml", "--estimate-error", "--json", "--quiet"]);
+    assert_eq!(answer.code, Some(0), "{}", answer.err);
+    let said: Value = serde_json::from_str(&answer.out).unwrap();
+    let stages = said["error_bars"]["stages"].as_array().unwrap();
+    assert_eq!(stages.len(), 2);
+    assert_eq!(said["error_bars"]["companion"]["increments"], Value::from(2 + 2 * 4));
+    let energy = &stages[1]["dissipated_energy"];
+    assert!(energy["error_bar"].as_f64().unwrap() > 0.0 && energy["value"].as_f64().unwrap() > 0.0);
+    let again = bench.fret(&["run", "case.toml", "--estimate-error", "--resume"]);
+    assert_eq!(again.code, Some(1));
+    assert!(again.err.contains("solved already"), "{}", again.err);
+    let tiny = SPHERE.replace("[24, 24]", "[8, 8]");
+    let answer = bench.file("tiny.toml", &tiny).fret(&["run", "tiny.toml", "--estimate-error"]);
+    assert_eq!(answer.code, Some(1));
+    assert!(answer.err.contains("too few to be halved") && !bench.folder.join("results/tiny").exists());
+}

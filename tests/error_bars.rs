@@ -1,0 +1,178 @@
+//! Error bars of headline numbers against true errors: closed forms, and the table of coated spheres.
+//!
+//! What a bar promises: the true value lies within it in at least 95 of 100 scenes, and it is not more than ten times as wide as
+//! such errors are. Where a number happens to be right to many digits the ratio of one bar to one error says nothing, so width
+//! is judged by the root mean square of errors in units of their bars, number by number: at least a tenth.
+
+use fret_core::case::Case;
+use fret_core::plan::Plan;
+use fret_core::simulation::Silent;
+use fret_core::study::{Bars, ClosedForm, Quantity, climbed, companion, error_bars};
+use fret_validation::Sphere;
+use serde::Deserialize;
+use std::f64::consts::PI;
+
+/// One bar beside the error it speaks of.
+struct Judged {
+    scene: String,
+    quantity: Quantity,
+    error: f64,
+    bar: f64,
+}
+
+fn planned(text: &str) -> Plan {
+    Plan::new(Case::from_toml(text, "case.toml").unwrap()).unwrap()
+}
+
+/// Error bars at the ends of all stages.
+fn bars(plan: &Plan) -> Vec<Bars> {
+    let fine = climbed(plan, &mut Silent).unwrap();
+    let coarse = climbed(&companion(plan).unwrap(), &mut Silent).unwrap();
+    fine.ends.iter().zip(&coarse.ends).map(|(fine, coarse)| error_bars(plan, fine, coarse)).collect()
+}
+
+fn judge(scene: &str, bars: &Bars, quantity: Quantity, exact: [f64; 2], all: &mut Vec<Judged>) {
+    let said = bars.of(quantity);
+    let Some(bar) = said.bar else { return };
+    let error = (said.value[0] - exact[0]).hypot(said.value[1] - exact[1]);
+    all.push(Judged { scene: scene.to_owned(), quantity, error, bar });
+}
+
+fn against_closed_form(scene: &str, text: &str, all: &mut Vec<Judged>) {
+    let plan = planned(text);
+    let form = ClosedForm::of(&plan).unwrap_or_else(|| panic!("{scene}: no closed form"));
+    for (bars, said) in bars(&plan).iter().zip(form.ends()) {
+        for quantity in Quantity::ALL {
+            let Some(exact) = said.of(quantity) else { continue };
+            // A frictionless scene has neither shift nor losses, and its bars say so exactly.
+            if exact != [0.0; 2] {
+                judge(&format!("{scene}, stage {}", bars.stage), bars, quantity, exact, all);
+            }
+        }
+    }
+}
+
+#[derive(Deserialize)]
+struct Table {
+    rows: Vec<Row>,
+}
+
+#[derive(Deserialize)]
+struct Row {
+    young_ratio: f64,
+    poisson_coating: f64,
+    poisson_substrate: f64,
+    h: f64,
+    p0: f64,
+    a: f64,
+    approach: f64,
+}
+
+fn coated(all: &mut Vec<Judged>) {
+    let table: Table = serde_json::from_str(include_str!("golden/coated_sphere.json")).unwrap();
+    let like = |row: &&Row| row.poisson_coating == 0.3 && row.poisson_substrate == 0.3;
+    for (number, row) in table.rows.iter().filter(like).enumerate() {
+        let cells = 32 + 5 * (number % 5);
+        let size = (2.3 + 0.13 * (number % 4) as f64) * row.a;
+        let sphere = Sphere { cells, size, coating: Some((row.young_ratio, row.h)), ..Sphere::default() };
+        let bars = &bars(&planned(&sphere.pressed(1.0, 1, "linear")))[0];
+        let scene = format!("coated, E1/E2 = {}, h = {}, {cells} cells", row.young_ratio, row.h);
+        // For a thin coating 4 and more times stiffer the largest pressure lies off the axis, where the table has none.
+        if !(row.h <= 0.25 && row.young_ratio >= 4.0) {
+            judge(&scene, bars, Quantity::MaxPressure, [row.p0 * sphere.peak_pressure(), 0.0], all);
+        }
+        judge(&scene, bars, Quantity::Approach, [row.approach * sphere.approach(), 0.0], all);
+        judge(&scene, bars, Quantity::ContactArea, [PI * row.a * row.a, 0.0], all);
+    }
+}
+
+fn bare(all: &mut Vec<Judged>) {
+    for (cells, size) in [(24, 2.5), (31, 2.4), (32, 2.4), (40, 3.1), (48, 2.7), (63, 2.2), (64, 4.0)] {
+        let sphere = Sphere { cells, size, ..Sphere::default() };
+        against_closed_form(&format!("sphere, {cells} cells"), &sphere.pressed(1.0, 1, "linear"), all);
+    }
+    let shape = |cells: usize, size: [f64; 2], profile: &str, force: f64| {
+        format!(
+            "[grid]\ncells = [{cells}, {cells}]\nsize = {size:?}\n[upper]\nrigid = true\n[lower]\n\
+             substrate = {{ young = 1.0, poisson = 0.3 }}\n{profile}\n[[load]]\nnormal_force = {force:e}\nincrements = 1\n"
+        )
+    };
+    for cells in [32, 45, 64] {
+        for (name, size, profile, force) in [
+            ("ellipsoid", [3.6, 1.8], "[profile.ellipsoid]\nradii = [300.0, 60.0]", 0.012),
+            ("ellipsoid", [2.2, 3.2], "[profile.ellipsoid]\nradii = [70.0, 150.0]", 0.012),
+            (
+                "rounded punch",
+                [2.6, 2.6],
+                "[profile.rounded_punch]\nflat_radius = 0.7\nedge_radius = 30.0",
+                0.02,
+            ),
+            ("cone", [2.6, 2.6], "[profile.cone]\nslope = 0.01", 0.0165),
+            ("flat punch", [2.6, 2.6], "[profile.flat_punch]\nradius = 1.0", 0.01),
+        ] {
+            against_closed_form(&format!("{name}, {cells} cells"), &shape(cells, size, profile, force), all);
+        }
+    }
+}
+
+/// Cattaneo and Mindlin, there, back, and round a loop: like bodies without Poisson's ratio, for which the form is exact.
+fn rubbed(all: &mut Vec<Judged>) {
+    for (cells, share, increments) in
+        [(24, 0.3, 4), (32, 0.5, 8), (32, 0.9, 10), (41, 0.7, 16), (48, 0.8, 10)]
+    {
+        let sphere = Sphere { cells, poisson: 0.0, identical: true, friction: 0.3, ..Sphere::default() };
+        let pressed = sphere.pressed(1.0, 1, "linear");
+        let there = sphere.pulled(&pressed, share, increments, None);
+        let back = sphere.pulled(&there, -0.5 * share, increments, None);
+        against_closed_form(&format!("rubbed to {share} in {increments}, {cells} cells"), &back, all);
+    }
+}
+
+#[test]
+fn error_bars_hold_and_are_not_much_too_wide() {
+    let mut all = Vec::new();
+    coated(&mut all);
+    bare(&mut all);
+    rubbed(&mut all);
+    let outside: Vec<&Judged> = all.iter().filter(|one| one.error > one.bar).collect();
+    for one in &outside {
+        println!(
+            "outside: {}, {}: error {:.1e}, bar {:.1e}",
+            one.scene,
+            one.quantity.name(),
+            one.error,
+            one.bar
+        );
+    }
+    for quantity in Quantity::ALL {
+        let own: Vec<&Judged> = all.iter().filter(|one| one.quantity == quantity).collect();
+        let inside = own.iter().filter(|one| one.error <= one.bar).count();
+        let ratios: Vec<f64> = own.iter().map(|one| one.error / one.bar).collect();
+        let mean = (ratios.iter().map(|ratio| ratio * ratio).sum::<f64>() / ratios.len() as f64).sqrt();
+        let least = ratios.iter().copied().fold(f64::INFINITY, f64::min);
+        let most = ratios.iter().copied().fold(0.0, f64::max);
+        println!(
+            "{}: {inside} of {} inside; error/bar {mean:.2} in the mean square, {least:.3} to {most:.2}",
+            quantity.name(),
+            own.len()
+        );
+        assert!(own.len() >= 10, "{}: {} bars are too few to judge by", quantity.name(), own.len());
+        assert!(inside as f64 >= 0.95 * own.len() as f64, "{}: {inside} of {}", quantity.name(), own.len());
+        assert!(mean >= 0.1, "{}: bars more than ten times too wide: {mean}", quantity.name());
+    }
+    assert!(outside.len() as f64 <= 0.05 * all.len() as f64, "{} of {} outside", outside.len(), all.len());
+}
+
+/// Results scale exactly with lengths and moduli, and so do their bars.
+#[test]
+fn bars_scale_with_length_and_modulus() {
+    let one = Sphere { cells: 24, ..Sphere::default() };
+    // Powers of two: the same bits but for the exponent.
+    let other = Sphere { length: 2.0_f64.powi(-20), modulus: 2.0_f64.powi(37), ..one.clone() };
+    let [a, b] = [one, other].map(|sphere| bars(&planned(&sphere.pressed(1.0, 1, "linear"))).remove(0));
+    let share = |bars: &Bars, quantity: Quantity| bars.of(quantity).bar.unwrap() / bars.of(quantity).value[0];
+    for quantity in [Quantity::MaxPressure, Quantity::Approach, Quantity::ContactArea] {
+        let (a, b) = (share(&a, quantity), share(&b, quantity));
+        assert!(a > 0.0 && (a / b - 1.0).abs() < 1e-6, "{}: {a} {b}", quantity.name());
+    }
+}
