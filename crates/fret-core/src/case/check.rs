@@ -2,6 +2,7 @@
 
 use toml::Spanned;
 
+use super::attachments::Attachments;
 use super::bodies::bodies;
 use super::file::{CaseFile, FrictionFile, OutputFile, SizeFile};
 use super::judge::Judge;
@@ -20,8 +21,13 @@ const MOST_CELLS_IN_ALL: usize = 1 << 26;
 const TOLERANCE: f64 = 1e-8;
 
 /// The case of a file, or everything that is wrong with it.
-pub(super) fn case(file: CaseFile, name: &str, text: &str) -> Result<Case, Vec<Mistake>> {
-    let mut judge = Judge::default();
+pub(super) fn case(
+    file: CaseFile,
+    name: &str,
+    text: &str,
+    attachments: &Attachments<'_>,
+) -> Result<Case, Vec<Mistake>> {
+    let mut judge = Judge { mistakes: Vec::new(), attachments };
     let cells = cells(&mut judge, &file.grid.cells);
     let size = size(&mut judge, &file.grid.size);
     let bodies = bodies(&mut judge, &file.upper, &file.lower);

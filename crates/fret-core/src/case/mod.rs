@@ -1,5 +1,6 @@
 //! The written question: a case, checked. Read from TOML text (`read`), judged all at once (`check`), refused with places (`refusal`).
 
+mod attachments;
 mod bodies;
 mod check;
 mod coating;
@@ -15,6 +16,7 @@ use serde::Serialize;
 
 use crate::model::{ContactPair, CoulombFriction, Profile};
 
+pub use attachments::{Attachments, none as no_attachments};
 pub use file::schema;
 pub use refusal::{CaseError, Mistake};
 
@@ -131,12 +133,20 @@ pub struct Output {
 }
 
 impl Case {
-    /// Reads and checks a case from TOML text. `name` stands in messages (a file name).
+    /// Reads and checks a case from TOML text that names no other files. `name` stands in messages (a file name).
     ///
     /// # Errors
     /// With every mistake found, each with its place and a way out.
     pub fn from_toml(text: &str, name: &str) -> Result<Self, CaseError> {
-        read::case(text, name)
+        Self::from_toml_with(text, name, &no_attachments)
+    }
+
+    /// As [`Case::from_toml`]; `attachments` hands in the files the case names.
+    ///
+    /// # Errors
+    /// As [`Case::from_toml`]; also when a file cannot be had or does not hold what the case says.
+    pub fn from_toml_with(text: &str, name: &str, attachments: &Attachments<'_>) -> Result<Self, CaseError> {
+        read::case(text, name, attachments)
     }
 
     /// Reads and checks a case given as JSON text of the same structure; messages show it as TOML.
@@ -144,13 +154,21 @@ impl Case {
     /// # Errors
     /// As [`Case::from_toml`]; also when the text is not a JSON object.
     pub fn from_json(text: &str, name: &str) -> Result<Self, CaseError> {
+        Self::from_json_with(text, name, &no_attachments)
+    }
+
+    /// As [`Case::from_json`]; `attachments` hands in the files the case names.
+    ///
+    /// # Errors
+    /// As [`Case::from_json`]; also when a file cannot be had or does not hold what the case says.
+    pub fn from_json_with(text: &str, name: &str, attachments: &Attachments<'_>) -> Result<Self, CaseError> {
         let refuse = |message: String| CaseError::plain(name, message);
         let value: serde_json::Value =
             serde_json::from_str(text).map_err(|error| refuse(format!("not readable as JSON: {error}")))?;
         let table = toml::Table::try_from(without_null(value))
             .map_err(|error| refuse(format!("not a case: {error}")))?;
         let text = toml::to_string(&table).map_err(|error| refuse(format!("not a case: {error}")))?;
-        Self::from_toml(&text, name)
+        Self::from_toml_with(&text, name, attachments)
     }
 
     /// Refuses the case for its grid's side lengths.
