@@ -3,7 +3,9 @@
 pub mod analytic;
 pub mod case;
 pub mod compliance;
+pub mod cycle;
 mod edge;
+mod fretting_loop;
 pub mod history;
 pub mod kernel;
 pub mod model;
@@ -12,3 +14,4 @@ pub mod simulation;
 pub mod solver;
 pub mod spectral;
 mod stepping;
+pub mod wear;

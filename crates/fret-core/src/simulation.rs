@@ -4,8 +4,12 @@ use std::ops::ControlFlow;
 
 use std::time::Instant;
 
-use crate::case::Stage;
+use ndarray::Array2;
+
+use crate::case::{Case, Stage};
 use crate::compliance::SurfaceResponse;
+use crate::cycle::CycleRecord;
+use crate::fretting_loop::{CycleEnd, FrettingLoop};
 use crate::history::{History, KeptFields, Residual, StepRecord};
 use crate::kernel::{Components, influence_coefficients, periodic_symbols};
 use crate::model::field::largest;
@@ -13,12 +17,15 @@ use crate::model::{ContactState, Control, LoadStep};
 use crate::plan::{Coupling, Plan};
 use crate::solver::{ContactSolver, Increment, Resultants, SolveError, SolverSettings};
 use crate::stepping::StageSteps;
+use crate::wear::{Wearing, WornThrough, worn};
 
 /// Where an increment's iteration stands.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Iteration {
     /// Number of the increment in the whole history, from 0.
     pub increment: usize,
+    /// Number of its stage, from 0.
+    pub stage: usize,
     /// Iteration within the increment.
     pub iteration: usize,
     /// Residual reached so far.
@@ -44,6 +51,11 @@ pub trait Observer {
     ) -> ControlFlow<()> {
         let _ = (record, state, kept);
         ControlFlow::Continue(())
+    }
+
+    /// A cycle is over; its last increment was solved just before.
+    fn cycled(&mut self, record: &CycleRecord) {
+        let _ = record;
     }
 }
 
@@ -98,6 +110,18 @@ pub enum RunError {
         /// mu W.
         bound: f64,
     },
+    /// A cycle wears the surfaces more than the grid can follow.
+    #[error(
+        "increment {increment} ({stage}): this cycle alone wears off {share:.2} of a cell's pressure; choose a smaller wear.coefficient (with more cycles), or coarser cells"
+    )]
+    WearTooFast {
+        /// Number of the cycle's last increment, from 0.
+        increment: usize,
+        /// Name of its stage.
+        stage: String,
+        /// Share of a cell's pressure that the cell's own compliance gives up.
+        share: f64,
+    },
     /// The observer stopped the run.
     #[error("interrupted at increment {increment}")]
     Interrupted {
@@ -113,6 +137,7 @@ impl RunError {
             Self::NotConverged { increment, .. }
             | Self::ContactAtEdge { increment, .. }
             | Self::AboveSliding { increment, .. }
+            | Self::WearTooFast { increment, .. }
             | Self::Interrupted { increment } => *increment,
         }
     }
@@ -158,60 +183,192 @@ impl<'a> Simulation<'a> {
                 wanted,
             ))
         };
-        let mut solver = ContactSolver::new(
-            plan.grid,
-            case.profile.gap(&plan.grid),
-            &case.friction,
-            plan.coupling,
-            response,
-            SolverSettings::new(case.tolerance),
-            true,
-        );
-        let mut history = History {
-            grid: plan.grid,
-            stages: case.stages.iter().map(|stage| stage.name.clone()).collect(),
-            steps: Vec::with_capacity(plan.increments),
-            fields: Vec::new(),
-            state: ContactState::untouched(case.cells),
+        let wearing = case.wear.map(|rule| Wearing::new(rule, case.cells, response.own_normal(case.cells)));
+        let mut state = ContactState::untouched(case.cells);
+        state.worn_depth = wearing.as_ref().map(|_| Array2::zeros(case.cells));
+        let journey = Journey {
+            plan,
+            solver: ContactSolver::new(
+                plan.grid,
+                case.profile.gap(&plan.grid),
+                &case.friction,
+                plan.coupling,
+                response,
+                SolverSettings::new(case.tolerance),
+                true,
+            ),
+            wearing,
+            history: History {
+                grid: plan.grid,
+                stages: case.stages.iter().map(|stage| stage.name.clone()).collect(),
+                steps: Vec::with_capacity(plan.increments),
+                cycles: Vec::new(),
+                worn_through: None,
+                fields: Vec::new(),
+                state,
+            },
+            held: LoadStep {
+                normal: Control::Force(0.0),
+                tangential: [Control::Force(0.0); 2],
+                twist: Control::Motion(0.0),
+            },
+            resultants: Resultants { normal: 0.0, tangential: [0.0; 2], moment: 0.0 },
+            observer,
         };
-        let mut held = LoadStep {
-            normal: Control::Force(0.0),
-            tangential: [Control::Force(0.0); 2],
-            twist: Control::Motion(0.0),
-        };
-        let mut resultants = Resultants { normal: 0.0, tangential: [0.0; 2], moment: 0.0 };
-        let mut increment = 0;
-        for (number, stage) in case.stages.iter().enumerate() {
-            let steps = StageSteps::new(stage, &held, &history.state, &resultants);
-            for k in 1..=stage.increments_in_all() {
-                let load = steps.at(k);
-                let started = Instant::now();
-                let mut watch = |iteration: usize, residual: f64| {
-                    observer.iterated(&Iteration {
-                        increment,
-                        iteration,
-                        residual,
-                        tolerance: case.tolerance,
-                    })
-                };
-                let solved = solver
-                    .step(&history.state, &load, &mut watch)
-                    .map_err(|error| run_error(&error, increment, stage, case.tolerance))?;
-                let record = record(&solved, increment, number, started.elapsed().as_secs_f64());
-                let kept = case.keeps(number, k).then(|| kept(&solved, increment, &case.output.fields));
-                resultants = solved.outcome.resultants;
-                held = load;
-                history.state = solved.state;
-                let go_on = observer.solved(&record, &history.state, kept.as_ref());
-                history.steps.push(record);
-                history.fields.extend(kept);
-                increment += 1;
-                if go_on.is_break() {
-                    return Err(RunError::Interrupted { increment });
-                }
+        journey.through_all_stages()
+    }
+}
+
+/// A run on its way.
+struct Journey<'a> {
+    plan: &'a Plan,
+    solver: ContactSolver<'a>,
+    wearing: Option<Wearing>,
+    history: History,
+    held: LoadStep,
+    resultants: Resultants,
+    observer: &'a mut dyn Observer,
+}
+
+impl<'a> Journey<'a> {
+    fn case(&self) -> &'a Case {
+        &self.plan.case
+    }
+
+    fn through_all_stages(mut self) -> Result<History, RunError> {
+        for number in 0..self.case().stages.len() {
+            self.through_stage(number)?;
+            if self.history.worn_through.is_some() {
+                break;
             }
         }
-        Ok(history)
+        Ok(self.history)
+    }
+
+    fn through_stage(&mut self, number: usize) -> Result<(), RunError> {
+        let stage = &self.case().stages[number];
+        let steps = StageSteps::new(stage, &self.held, &self.history.state, &self.resultants);
+        let all = stage.increments_in_all();
+        let mut cycles = 0;
+        let mut fretting = stage.cycles().map(|_| self.new_loop(number, 1));
+        for k in 1..=all {
+            let load = steps.at(k);
+            let may_end = k == all || stage.ends_cycle(k);
+            let may_keep = may_end || self.case().keeps(number, k);
+            let (record, mut kept) = self.increment(number, &load, may_keep)?;
+            if let Some(fretting) = &mut fretting {
+                fretting.add(&record);
+            }
+            let cycle_ends = stage.ends_cycle(k);
+            let mut ended = None;
+            if cycle_ends || (stage.cycles().is_none() && k == all) {
+                let left = stage.cycles().map_or(1, |course| course.most - cycles);
+                let stands_for = self.wear(&record, number, cycles, left)?;
+                cycles += stands_for;
+                if let (Some(fretting), Some(course)) = (&fretting, stage.cycles()) {
+                    let end = CycleEnd {
+                        stands_for,
+                        tolerance: course.until_steady,
+                        worn: worn(&self.history.state, &self.plan.grid),
+                    };
+                    ended = Some(fretting.close(&self.history.state, &self.case().friction, end));
+                }
+            }
+            let steady = ended.as_ref().is_some_and(|cycle| cycle.steady);
+            let worn_through = self.history.worn_through.is_some();
+            let enough = stage.cycles().is_some_and(|course| cycles >= course.most);
+            let last = k == all || (cycle_ends && (steady || worn_through || enough));
+            if !last && !self.case().keeps(number, k) {
+                kept = None;
+            }
+            if let (Some(kept), Some(depth)) = (&mut kept, &self.history.state.worn_depth)
+                && self.case().output.fields.iter().any(|name| name == "worn_depth")
+            {
+                kept.worn_depth = Some(depth.clone());
+            }
+            let increment = record.increment;
+            let go_on = self.observer.solved(&record, &self.history.state, kept.as_ref());
+            self.history.steps.push(record);
+            self.history.fields.extend(kept);
+            if let Some(cycle) = ended {
+                self.observer.cycled(&cycle);
+                fretting = Some(self.new_loop(number, cycle.cycle + 1));
+                self.history.cycles.push(cycle);
+            }
+            if go_on.is_break() {
+                return Err(RunError::Interrupted { increment: increment + 1 });
+            }
+            if last {
+                break;
+            }
+        }
+        Ok(())
+    }
+
+    fn new_loop(&self, stage: usize, cycle: usize) -> FrettingLoop {
+        let first = self.history.steps.len();
+        let Resultants { tangential, moment, .. } = self.resultants;
+        FrettingLoop::new((stage, cycle), first, &self.history.state, tangential, moment)
+    }
+
+    /// Solves the next increment; its fields, should they be kept.
+    fn increment(
+        &mut self,
+        number: usize,
+        load: &LoadStep,
+        may_keep: bool,
+    ) -> Result<(StepRecord, Option<KeptFields>), RunError> {
+        let case = self.case();
+        let increment = self.history.steps.len();
+        let started = Instant::now();
+        let observer = &mut *self.observer;
+        let mut watch = |iteration: usize, residual: f64| {
+            let tolerance = case.tolerance;
+            observer.iterated(&Iteration { increment, stage: number, iteration, residual, tolerance })
+        };
+        let solved = self
+            .solver
+            .step(&self.history.state, load, &mut watch)
+            .map_err(|error| run_error(&error, increment, &case.stages[number], case.tolerance))?;
+        let record = record(&solved, increment, number, started.elapsed().as_secs_f64());
+        let kept = may_keep.then(|| kept(&solved, increment, &case.output.fields));
+        if let Some(wearing) = &mut self.wearing {
+            wearing.add(&self.history.state, &solved.state);
+        }
+        self.resultants = solved.outcome.resultants;
+        self.held = *load;
+        self.history.state = solved.state;
+        Ok((record, kept))
+    }
+
+    /// Opens the gap by what has worn since the last time; the number of cycles that stands for, out of `left`.
+    fn wear(
+        &mut self,
+        record: &StepRecord,
+        stage: usize,
+        done: usize,
+        left: usize,
+    ) -> Result<usize, RunError> {
+        let (case, increment) = (self.case(), record.increment);
+        let Some(wearing) = &mut self.wearing else { return Ok(1) };
+        let block = wearing.block(&self.history.state, &case.friction, left).map_err(|too_fast| {
+            let stage = case.stages[stage].name.clone();
+            RunError::WearTooFast { increment, stage, share: too_fast.share }
+        })?;
+        if block.depth.iter().any(|depth| *depth > 0.0) {
+            self.solver.open_gap(&block.depth);
+            if let Some(worn) = &mut self.history.state.worn_depth {
+                *worn += &block.depth;
+            }
+        }
+        self.history.worn_through = block.through.map(|cell| WornThrough {
+            increment,
+            stage,
+            cycles: done + block.cycles,
+            cell,
+            place: [self.plan.grid.centre(0, cell[0]), self.plan.grid.centre(1, cell[1])],
+        });
+        Ok(block.cycles)
     }
 }
 
@@ -252,6 +409,7 @@ fn kept(solved: &Increment, increment: usize, names: &[String]) -> KeptFields {
         slip: asked("slip").then(|| state.slip.clone()),
         gap: asked("gap").then(|| solved.gap.clone()),
         zone: asked("zone").then(|| state.zone.clone()),
+        worn_depth: None,
     }
 }
 

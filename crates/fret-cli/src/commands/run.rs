@@ -7,6 +7,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
+use fret_core::cycle::CycleRecord;
 use fret_core::history::{KeptFields, StepRecord};
 use fret_core::model::ContactState;
 use fret_core::plan::Plan;
@@ -161,6 +162,9 @@ struct Witness {
 
 impl Observer for Witness {
     fn iterated(&mut self, iteration: &Iteration) -> ControlFlow<()> {
+        if self.unwritten.is_some() {
+            return ControlFlow::Break(());
+        }
         self.progress.iterated(iteration, &self.tally);
         go_on()
     }
@@ -171,6 +175,9 @@ impl Observer for Witness {
         _: &ContactState,
         kept: Option<&KeptFields>,
     ) -> ControlFlow<()> {
+        if self.unwritten.is_some() {
+            return ControlFlow::Break(());
+        }
         if let Err(unwritten) = self.folder.keep(record, kept) {
             self.unwritten = Some(unwritten);
             return ControlFlow::Break(());
@@ -179,8 +186,16 @@ impl Observer for Witness {
         self.progress.solved(record, &self.tally);
         go_on()
     }
+
+    fn cycled(&mut self, record: &CycleRecord) {
+        self.tally.add_cycle(record);
+        if let Err(unwritten) = self.folder.keep_cycle(record) {
+            self.unwritten = Some(unwritten);
+        }
+    }
 }
 
+/// Whether the run goes on.
 fn go_on() -> ControlFlow<()> {
     if interrupt::is_asked() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
 }

@@ -37,7 +37,7 @@ struct FieldArray {
 const PRESSURE: &str = "case units: pressure";
 const LENGTH: &str = "case units: length";
 
-const FIELD_ARRAYS: [FieldArray; 7] = [
+const FIELD_ARRAYS: [FieldArray; 8] = [
     FieldArray {
         name: "pressure",
         asked_as: "pressure",
@@ -70,6 +70,12 @@ const FIELD_ARRAYS: [FieldArray; 7] = [
     },
     FieldArray { name: "gap", asked_as: "gap", long_name: "gap between the surfaces", units: LENGTH },
     FieldArray { name: "zone", asked_as: "zone", long_name: "what the cell does", units: "1" },
+    FieldArray {
+        name: "worn_depth",
+        asked_as: "worn_depth",
+        long_name: "depth worn off both bodies together",
+        units: LENGTH,
+    },
 ];
 
 impl FieldStore {
@@ -80,7 +86,8 @@ impl FieldStore {
             path: path.to_owned(),
             cells: plan.grid.cells(),
             arrays: FIELD_ARRAYS.iter().filter(asked).collect(),
-            steps: plan.case.kept_increments(),
+            // A history that may end early grows its axis as it goes.
+            steps: if plan.case.is_open_ended() { Vec::new() } else { plan.case.kept_increments() },
         };
         let group = json!({
             "zarr_format": 3,
@@ -109,6 +116,7 @@ impl FieldStore {
                 "slip_x" => slip.as_ref().map(|[x, _]| numbers(x)),
                 "slip_y" => slip.as_ref().map(|[_, y]| numbers(y)),
                 "gap" => kept.gap.as_ref().map(numbers),
+                "worn_depth" => kept.worn_depth.as_ref().map(numbers),
                 _ => kept.zone.as_ref().map(zones),
             };
             if let Some(bytes) = bytes {
@@ -118,7 +126,7 @@ impl FieldStore {
         Ok(())
     }
 
-    /// Place of an increment along `step`. One that was not foreseen is added, so that no field is ever lost.
+    /// Place of an increment along `step`. One that was not foreseen is added.
     fn position(&mut self, increment: usize) -> Result<usize, Unwritten> {
         if let Ok(position) = self.steps.binary_search(&increment) {
             return Ok(position);

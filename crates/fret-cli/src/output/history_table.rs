@@ -1,9 +1,10 @@
-//! `history.csv`: a line an increment, on disk as soon as the increment is solved.
+//! `history.csv`: a line an increment; `cycles.csv`: a line a cycle. On disk as soon as it is over.
 
 use std::fs::File;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
+use fret_core::cycle::CycleRecord;
 use fret_core::history::{Regime, StepRecord};
 
 use crate::failure::Unwritten;
@@ -35,7 +36,30 @@ const COLUMNS: [&str; 23] = [
     "regime",
 ];
 
-/// The table while it grows.
+/// The columns of the cycles, in order; the names are those of `history.cycles` in Python.
+const CYCLE_COLUMNS: [&str; 19] = [
+    "stage",
+    "cycle",
+    "first_increment",
+    "last_increment",
+    "stands_for",
+    "dissipated_energy",
+    "drive",
+    "direction",
+    "force_amplitude",
+    "displacement_amplitude",
+    "opening",
+    "energy_ratio",
+    "sliding_ratio",
+    "stiffness",
+    "regime",
+    "closure",
+    "steady",
+    "worn_volume",
+    "max_worn_depth",
+];
+
+/// A table while it grows.
 #[derive(Debug)]
 pub struct HistoryTable {
     path: PathBuf,
@@ -43,16 +67,30 @@ pub struct HistoryTable {
 }
 
 impl HistoryTable {
-    /// A table with its head; an earlier one is gone.
+    /// A table of increments with its head; an earlier one is gone.
     pub fn create(path: &Path) -> Result<Self, Unwritten> {
+        Self::with_head(path, &COLUMNS)
+    }
+
+    /// A table of cycles with its head.
+    pub fn create_for_cycles(path: &Path) -> Result<Self, Unwritten> {
+        Self::with_head(path, &CYCLE_COLUMNS)
+    }
+
+    fn with_head(path: &Path, columns: &[&str]) -> Result<Self, Unwritten> {
         let mut file = File::create(path).map_err(Unwritten::at(path))?;
-        file.write_all(format!("{}\n", COLUMNS.join(",")).as_bytes()).map_err(Unwritten::at(path))?;
+        file.write_all(format!("{}\n", columns.join(",")).as_bytes()).map_err(Unwritten::at(path))?;
         Ok(Self { path: path.to_owned(), file })
     }
 
     /// Adds an increment: one write a line, so that a killed process leaves whole lines.
     pub fn add(&mut self, record: &StepRecord) -> Result<(), Unwritten> {
         self.file.write_all(line(record).as_bytes()).map_err(Unwritten::at(&self.path))
+    }
+
+    /// Adds a cycle.
+    pub fn add_cycle(&mut self, record: &CycleRecord) -> Result<(), Unwritten> {
+        self.file.write_all(cycle_line(record).as_bytes()).map_err(Unwritten::at(&self.path))
     }
 
     /// Waits until the table is on the disk.
@@ -87,6 +125,20 @@ fn line(record: &StepRecord) -> String {
         record.stick_cells.to_string(),
         word(record.regime).to_owned(),
     ];
+    cells.join(",") + "\n"
+}
+
+fn cycle_line(record: &CycleRecord) -> String {
+    // A record holds only numbers, words and truth values, each by the name of its column.
+    let values = serde_json::to_value(record).unwrap_or_default();
+    let cells = CYCLE_COLUMNS.map(|name| match &values[name] {
+        serde_json::Value::Null => String::new(),
+        serde_json::Value::String(word) => word.clone(),
+        serde_json::Value::Number(number) => {
+            number.as_f64().filter(|_| number.is_f64()).map_or_else(|| number.to_string(), exact)
+        }
+        other => other.to_string(),
+    });
     cells.join(",") + "\n"
 }
 

@@ -1,6 +1,6 @@
 //! The result folder: the only place of the command that writes files.
 //!
-//! `case.toml` (verbatim copy), `run.json` (how it was computed and how it ended), `history.csv` (a line an increment),
+//! `case.toml` (verbatim copy), `run.json` (how it was computed and how it ended), `history.csv` (a line an increment), `cycles.csv` (a line a cycle),
 //! `fields.zarr` (kept fields). An increment's line is written after its fields: whatever has a line is complete.
 
 mod field_store;
@@ -11,6 +11,7 @@ mod whole_file;
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use fret_core::cycle::CycleRecord;
 use fret_core::history::{KeptFields, StepRecord};
 use fret_core::plan::Plan;
 
@@ -25,6 +26,7 @@ use whole_file::write_whole;
 const CASE: &str = "case.toml";
 const RECORD: &str = "run.json";
 const HISTORY: &str = "history.csv";
+const CYCLES: &str = "cycles.csv";
 const FIELDS: &str = "fields.zarr";
 
 /// What lies where the results shall go.
@@ -44,6 +46,7 @@ pub struct ResultFolder {
     path: PathBuf,
     record: RunRecord,
     history: HistoryTable,
+    cycles: HistoryTable,
     fields: FieldStore,
 }
 
@@ -98,6 +101,7 @@ impl ResultFolder {
         write_whole(&path.join(CASE), case_file.text.as_bytes())?;
         Ok(Self {
             history: HistoryTable::create(&path.join(HISTORY))?,
+            cycles: HistoryTable::create_for_cycles(&path.join(CYCLES))?,
             fields: FieldStore::create(&path.join(FIELDS), plan)?,
             path: path.to_owned(),
             record,
@@ -112,9 +116,15 @@ impl ResultFolder {
         self.history.add(record)
     }
 
+    /// Writes down a cycle that is over.
+    pub fn keep_cycle(&mut self, record: &CycleRecord) -> Result<(), Unwritten> {
+        self.cycles.add_cycle(record)
+    }
+
     /// Writes down how the run ended.
     pub fn close(self, tally: &Tally, wall_s: f64, failure: Option<&Failure>) -> Result<(), Unwritten> {
         self.history.close()?;
+        self.cycles.close()?;
         write_whole(&self.path.join(RECORD), &self.record.ended(tally, wall_s, failure))
     }
 }

@@ -10,6 +10,7 @@ use super::refusal::Mistake;
 use super::repeating::repeats;
 use super::shape::profile;
 use super::stages::{sliding, stages};
+use super::wearing::wear;
 use super::{Case, FIELD_NAMES, GridSize, Origin, Output};
 use crate::model::CoulombFriction;
 
@@ -38,10 +39,11 @@ pub(super) fn case(
         .map_or(Some(CoulombFriction::Uniform(0.0)), |friction| self::friction(&mut judge, friction));
     let frictionless = friction.as_ref().is_some_and(CoulombFriction::is_frictionless);
     let stages = stages(&mut judge, &file.load, frictionless);
-    let periodic = repeats(&mut judge, &file.grid, size, &file.load, profile.as_ref());
-    if let Some(friction) = &friction {
-        sliding(&mut judge, friction, &file.load);
+    let periodic = repeats(&mut judge, &file.grid, size, (&file.load, stages.as_deref()), profile.as_ref());
+    if let (Some(friction), Some(stages)) = (&friction, &stages) {
+        sliding(&mut judge, friction, &file.load, stages);
     }
+    let wear = wear(&mut judge, file.wear.as_ref(), bodies.as_ref(), stages.as_deref(), frictionless);
     let tolerance = match file.solver.as_ref().and_then(|solver| solver.tolerance.as_ref()) {
         None => Some(TOLERANCE),
         Some(given) if (1e-13..=1e-2).contains(given.get_ref()) => Some(*given.get_ref()),
@@ -71,6 +73,7 @@ pub(super) fn case(
             profile,
             friction,
             stages,
+            wear,
             tolerance,
             output,
             origin: Origin { name: name.to_owned(), text: text.to_owned(), size: file.grid.size.span() },

@@ -4,24 +4,31 @@ mod attachments;
 mod bodies;
 mod check;
 mod coating;
+mod controls;
+mod course;
 mod file;
 mod judge;
 mod read;
 mod refusal;
 mod repeating;
 mod shape;
+mod stage_file;
 mod stages;
+mod table;
+mod wearing;
 
 use serde::Serialize;
 
-use crate::model::{ContactPair, CoulombFriction, Profile};
+use crate::model::{ContactPair, CoulombFriction, Profile, WearRule};
 
 pub use attachments::{Attachments, none as no_attachments};
+pub(crate) use course::walk;
+pub use course::{Course, Cycles, Path, Waveform};
 pub use file::schema;
 pub use refusal::{CaseError, Mistake};
 
 /// Fields that can be kept, by the names of the case file.
-pub const FIELD_NAMES: [&str; 5] = ["pressure", "shear", "slip", "gap", "zone"];
+pub const FIELD_NAMES: [&str; 6] = ["pressure", "shear", "slip", "gap", "zone", "worn_depth"];
 
 /// A case that has passed every check.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -42,6 +49,8 @@ pub struct Case {
     pub friction: CoulombFriction,
     /// Loading history.
     pub stages: Vec<Stage>,
+    /// How the surfaces wear, when they do.
+    pub wear: Option<WearRule>,
     /// Bound on the residual of every increment.
     pub tolerance: f64,
     /// What is kept.
@@ -77,50 +86,23 @@ pub struct Stage {
     /// What changes normally, if anything.
     pub normal: Option<StageControl>,
     /// What changes tangentially along x and y, if anything.
-    pub tangential: Option<[StageControl; 2]>,
+    pub tangential: [Option<StageControl>; 2],
     /// What changes about z, if anything.
     pub twist: Option<StageControl>,
-    /// Increments of the stage, or of one cycle.
+    /// Increments of the stage, or of one cycle, all rows of a table included.
     pub increments: usize,
     /// How the stage runs through its increments.
     pub course: Course,
 }
 
-/// The value a control reaches at the end of a ramp, or its amplitude in a cycle.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+/// What a stage prescribes in one direction, and how it runs.
+#[derive(Debug, Clone, PartialEq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum StageControl {
     /// A force [force] or moment [force x length].
-    Force(f64),
+    Force(Path),
     /// A motion [length] or rotation [rad].
-    Motion(f64),
-}
-
-/// How a stage runs from where it starts.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Course {
-    /// Equal steps to the target.
-    Linear,
-    /// Forces with the third power of the share done, approach with the second: a sphere's contact radius grows evenly.
-    Cubic,
-    /// 0, +amplitude, -amplitude, 0 about the start, this many times.
-    Cycles(usize),
-}
-
-impl Stage {
-    /// Increments of the whole stage.
-    pub fn increments_in_all(&self) -> usize {
-        match self.course {
-            Course::Cycles(cycles) => self.increments * cycles,
-            Course::Linear | Course::Cubic => self.increments,
-        }
-    }
-
-    /// Whether the stage moves or loads the bodies tangentially.
-    pub fn is_tangential(&self) -> bool {
-        self.tangential.is_some() || self.twist.is_some()
-    }
+    Motion(Path),
 }
 
 /// What of the solution is kept.
@@ -195,7 +177,15 @@ impl Case {
         kept
     }
 
-    /// Increments of the whole history.
+    /// Whether the history may end before all its increments: a stage that stops when it is steady, or wear in blocks of
+    /// cycles or up to a limit.
+    pub fn is_open_ended(&self) -> bool {
+        let steady = |stage: &Stage| stage.cycles().is_some_and(|cycles| cycles.until_steady.is_some());
+        self.stages.iter().any(steady)
+            || self.wear.as_ref().is_some_and(|wear| wear.every > 1 || wear.limit.is_some())
+    }
+
+    /// Increments of the whole history, at the most.
     pub fn increments(&self) -> usize {
         self.stages.iter().map(Stage::increments_in_all).sum()
     }

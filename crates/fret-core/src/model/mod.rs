@@ -8,6 +8,7 @@ pub mod half_space;
 pub mod load;
 pub mod profile;
 pub mod state;
+pub mod wear;
 
 pub use field::TangentialField;
 pub use friction::{CoulombFriction, FrictionError};
@@ -17,3 +18,4 @@ pub use half_space::{Base, Body, Coating, ContactPair, ElasticMaterial, HalfSpac
 pub use load::{Control, LoadStep};
 pub use profile::{Profile, ProfileError};
 pub use state::{ContactState, Zone};
+pub use wear::{WearLaw, WearRule};

@@ -26,6 +26,8 @@ pub struct ContactState {
     pub slip: [Array2<f64>; 2],
     /// What each cell did in the last increment.
     pub zone: Array2<Zone>,
+    /// Depth worn off both bodies together [length]; `None` where nothing wears.
+    pub worn_depth: Option<Array2<f64>>,
     /// Rigid normal approach [length].
     pub approach: f64,
     /// Rigid tangential displacement of the upper body relative to the lower [length].
@@ -45,6 +47,7 @@ impl ContactState {
             shear: [zero.clone(), zero.clone()],
             slip: [zero.clone(), zero],
             zone: Array2::from_elem(cells, Zone::Open),
+            worn_depth: None,
             approach: 0.0,
             shift: [0.0; 2],
             twist: 0.0,

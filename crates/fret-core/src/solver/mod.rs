@@ -102,6 +102,13 @@ impl<'a> ContactSolver<'a> {
         }
     }
 
+    /// Opens the undeformed gap by a depth worn off [length], shape of the grid.
+    pub fn open_gap(&mut self, depth: &Array2<f64>) {
+        self.undeformed += depth;
+        self.settled = None;
+        self.before = None;
+    }
+
     /// Solves one increment: from `state`, which the step before returned, to the loads and motions of `load`.
     ///
     /// # Errors

@@ -1,0 +1,124 @@
+//! Wear in the course of a run: the depth of a cycle, the number of cycles it may stand for, and when a coating is gone.
+
+use ndarray::{Array2, Zip};
+use serde::{Deserialize, Serialize};
+
+use crate::model::{ContactState, CoulombFriction, SurfaceGrid, WearLaw, WearRule};
+
+/// Share of a cell's pressure that a block may take off at the most, as far as the cell's own compliance tells. Above 0.8
+/// neighbouring cells would take turns in carrying the load.
+const STABLE_SHARE: f64 = 0.4;
+
+/// The first place at which the surfaces are worn to the limit.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct WornThrough {
+    /// Increment after which it happened, from 0.
+    pub increment: usize,
+    /// Stage, from 0.
+    pub stage: usize,
+    /// Cycles of that stage until then, those that a computed one stands for included.
+    pub cycles: usize,
+    /// Cell.
+    pub cell: [usize; 2],
+    /// Its centre [length].
+    pub place: [f64; 2],
+}
+
+/// The wear of one block of cycles is more than the grid can follow.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TooFast {
+    /// Share of a cell's pressure that one cycle takes off, by its own compliance.
+    pub share: f64,
+}
+
+/// Collects the wear of increments until the gap is opened by it.
+#[derive(Debug, Clone)]
+pub struct Wearing {
+    rule: WearRule,
+    own: f64,
+    depth: Array2<f64>,
+    path: Array2<f64>,
+}
+
+/// A block of equal cycles.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Block {
+    /// How many.
+    pub cycles: usize,
+    /// Depth they wear off together [length].
+    pub depth: Array2<f64>,
+    /// The cell that has reached the limit, if any.
+    pub through: Option<[usize; 2]>,
+}
+
+impl Wearing {
+    /// Nothing worn yet; `own`: normal displacement of a cell by unit pressure on itself.
+    pub fn new(rule: WearRule, cells: [usize; 2], own: f64) -> Self {
+        Self { rule, own, depth: Array2::zeros(cells), path: Array2::zeros(cells) }
+    }
+
+    /// Adds the wear between two states that follow each other.
+    pub fn add(&mut self, before: &ContactState, after: &ContactState) {
+        self.rule.add(before, after, &mut self.depth);
+        let slip_y = &after.slip[1] - &before.slip[1];
+        Zip::from(&mut self.path)
+            .and(&after.slip[0])
+            .and(&before.slip[0])
+            .and(&slip_y)
+            .for_each(|path, now, then, y| *path += (now - then).hypot(*y));
+    }
+
+    /// The block that the wear collected so far stands for, at the most `most` cycles; collecting starts anew.
+    pub fn block(
+        &mut self,
+        state: &ContactState,
+        friction: &CoulombFriction,
+        most: usize,
+    ) -> Result<Block, TooFast> {
+        let softening = self
+            .path
+            .indexed_iter()
+            .map(|((i, j), path)| match self.rule.law {
+                WearLaw::Archard => *path,
+                WearLaw::Energy => path * friction.at(i, j),
+            })
+            .fold(0.0, f64::max)
+            * self.rule.coefficient
+            / self.own;
+        if softening > STABLE_SHARE {
+            return Err(TooFast { share: softening });
+        }
+        let deepest = self.depth.iter().copied().fold(0.0, f64::max);
+        let within =
+            |bound: f64, each: f64| if each > 0.0 { (bound / each).floor() as usize } else { usize::MAX };
+        let mut cycles = most
+            .min(self.rule.every)
+            .min(within(STABLE_SHARE, softening))
+            .min(within(self.rule.largest_step * state.approach.abs(), deepest))
+            .max(1);
+        let mut through = None;
+        if let Some(limit) = self.rule.limit {
+            for (cell, each) in self.depth.indexed_iter() {
+                let worn = state.worn_depth.as_ref().map_or(0.0, |worn| worn[cell]);
+                let needed =
+                    if *each > 0.0 { ((limit - worn) / each).ceil().max(1.0) } else { f64::INFINITY };
+                if needed < cycles as f64 || (through.is_none() && needed <= cycles as f64) {
+                    cycles = needed as usize;
+                    through = Some([cell.0, cell.1]);
+                }
+            }
+        }
+        let depth = &self.depth * cycles as f64;
+        self.depth.fill(0.0);
+        self.path.fill(0.0);
+        Ok(Block { cycles, depth, through })
+    }
+}
+
+/// Volume worn off [length^3], and the largest depth [length].
+pub fn worn(state: &ContactState, grid: &SurfaceGrid) -> [f64; 2] {
+    state.worn_depth.as_ref().map_or([0.0; 2], |depth| {
+        let volume = depth.iter().sum::<f64>() * grid.cell_area();
+        [volume, depth.iter().copied().fold(0.0, f64::max)]
+    })
+}
