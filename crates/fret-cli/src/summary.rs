@@ -57,6 +57,16 @@ impl Summary<'_> {
         }
         table.push('\n');
         self.cycles(&mut table);
+        if let Some(worn) = &self.tally.worn_through {
+            let [x, y] = worn.place.map(figure);
+            let after = counted(worn.cycles, "cycle");
+            let _ = writeln!(
+                table,
+                "{:<NAMES$}after {after} of {}, at ({x}, {y})",
+                "worn to the limit",
+                self.stage_name(worn.stage)
+            );
+        }
         let residual =
             format!("{:.1e} (asked for {:.1e})", self.tally.largest_residual, self.plan.case.tolerance);
         for (name, value) in [
@@ -155,6 +165,7 @@ impl Summary<'_> {
             "title": self.plan.case.title,
             "stages": stages,
             "cycles": cycles,
+            "worn_through": self.tally.worn_through,
             "increments": self.tally.solved,
             "increments_planned": self.plan.increments,
             "largest_residual": self.tally.largest_residual,

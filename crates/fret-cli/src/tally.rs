@@ -3,6 +3,7 @@
 use fret_core::cycle::CycleRecord;
 use fret_core::history::{StepRecord, Work};
 use fret_core::plan::Plan;
+use fret_core::wear::WornThrough;
 
 /// A stage of the history, as increments of the whole.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -37,6 +38,8 @@ pub struct Tally {
     pub stage_ends: Vec<StepRecord>,
     /// The cycles that are over.
     pub cycles: Vec<CycleRecord>,
+    /// Where and when the surfaces were worn to the limit; the run ended there.
+    pub worn_through: Option<WornThrough>,
     /// Work of all increments.
     pub work: Work,
     /// Largest residual of all increments.
@@ -51,6 +54,7 @@ impl Tally {
             solved: 0,
             stage_ends: Vec::new(),
             cycles: Vec::new(),
+            worn_through: None,
             work: Work::default(),
             largest_residual: 0.0,
         }

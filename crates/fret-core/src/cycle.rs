@@ -62,8 +62,8 @@ pub struct CycleRecord {
     pub energy_ratio: Option<f64>,
     /// Opening over displacement amplitude [-]; `None` for a cycle without motion.
     pub sliding_ratio: Option<f64>,
-    /// Slope of the loop just after the largest force: over the first increment back. Tends to the stiffness of a contact
-    /// that sticks as the increments become small.
+    /// Slope of the loop over the first increment back from the largest force, or else from the smallest. Tends to the
+    /// stiffness of a contact that sticks as the increments become small. `None` where neither is left on a rising line.
     pub stiffness: Option<f64>,
     /// What the contact does; `None` without friction or contact.
     pub regime: Option<CycleRegime>,

@@ -190,12 +190,14 @@ impl Reading {
         }
         // On the plateau of sliding the force differs by what the solver leaves.
         let nearly = 1e-6 * (force.1 - force.0);
-        let turn = points.iter().rposition(|point| point[0] >= force.1 - nearly);
-        let back = turn.and_then(|turn| points.get(turn..turn + 2));
-        let stiffness = back.and_then(|pair| {
+        let back_from = |turn: Option<usize>| {
+            let pair = points.get(turn?..turn? + 2)?;
             let slope = (pair[0][0] - pair[1][0]) / (pair[0][1] - pair[1][1]);
-            slope.is_finite().then_some(slope)
-        });
+            (slope.is_finite() && slope > 0.0).then_some(slope)
+        };
+        let highest = points.iter().rposition(|point| point[0] >= force.1 - nearly);
+        let lowest = points.iter().rposition(|point| point[0] <= force.0 + nearly);
+        let stiffness = back_from(highest).or_else(|| back_from(lowest));
         Self {
             force_amplitude: 0.5 * (force.1 - force.0),
             displacement_amplitude: 0.5 * (displacement.1 - displacement.0),

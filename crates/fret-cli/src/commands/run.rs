@@ -12,6 +12,7 @@ use fret_core::history::{KeptFields, StepRecord};
 use fret_core::model::ContactState;
 use fret_core::plan::Plan;
 use fret_core::simulation::{Iteration, Observer, RunError, Simulation};
+use fret_core::wear::WornThrough;
 
 use crate::arguments::RunArguments;
 use crate::case_file::CaseFile;
@@ -115,7 +116,8 @@ impl Preparation {
             unwritten: None,
         };
         let outcome = self.followed_by(&mut witness);
-        let Witness { folder, progress, tally, unwritten } = witness;
+        let Witness { folder, progress, mut tally, unwritten } = witness;
+        let outcome = outcome.map(|worn_through| tally.worn_through = worn_through);
         progress.end();
         let wall_s = started.elapsed().as_secs_f64();
         let failure = unwritten.map(Failure::from).or_else(|| outcome.err());
@@ -131,10 +133,10 @@ impl Preparation {
         failure.map_or(Ok(()), Err)
     }
 
-    fn followed_by(&self, witness: &mut Witness) -> Result<(), Failure> {
-        let journey = || Simulation::new(&self.plan).run(witness).map(|_| ());
+    fn followed_by(&self, witness: &mut Witness) -> Result<Option<WornThrough>, Failure> {
+        let journey = || Simulation::new(&self.plan).run(witness).map(|history| history.worn_through);
         match catch_unwind(AssertUnwindSafe(|| self.pool.install(journey))) {
-            Ok(Ok(())) => Ok(()),
+            Ok(Ok(worn_through)) => Ok(worn_through),
             Ok(Err(RunError::Interrupted { .. })) => Err(Failure::Interrupted(format!(
                 "{} of {} increments are solved and kept in {}",
                 witness.tally.solved,

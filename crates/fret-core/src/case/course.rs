@@ -97,7 +97,7 @@ impl Waveform {
         for turn in -2..=2 {
             for &(share, value) in &corners {
                 let share = share + f64::from(turn);
-                let place = ((share - phase) * n).round_ties_even();
+                let place = nearest((share - phase) * n);
                 if place <= k && place >= before.0 {
                     before = (place, share, value);
                 }
@@ -117,6 +117,12 @@ impl Waveform {
             _ => before.2 + (after.2 - before.2) * done,
         }
     }
+}
+
+/// The nearest whole number; halves go to the even one, also when rounding has moved them a little.
+fn nearest(place: f64) -> f64 {
+    const FINE: f64 = (1_u64 << 20) as f64;
+    ((place * FINE).round() / FINE).round_ties_even()
 }
 
 impl Stage {
