@@ -319,7 +319,7 @@ def wear(left, right):
         {"approach": approach, "increments": 1},
         {"shift": [shift, 0.0], "increments": 8, "cycles": 240},
     ]
-    case = scene(48, stages, wear={"coefficient": 40.0})
+    case = scene(48, stages, wear={"coefficient": 25.0})
     case["output"] = {"fields": ["pressure"], "every": 8}
     history = fretting.run(case)
     middle = len(history.x) // 2
@@ -336,7 +336,7 @@ def wear(left, right):
     final = 2 * MODULUS * (approach * c - c**3 / (3 * RADIUS))
     right.loglog(history.cycles["cycle"], (force - final) / (FORCE - final), label="force above its limit")
     energy = history.steps["dissipated_energy"][history.cycles["last_increment"]]
-    off = np.maximum(abs(history.cycles["worn_volume"] / (40.0 * energy) - 1), 1e-17)
+    off = np.maximum(abs(history.cycles["worn_volume"] / (25.0 * energy) - 1), 1e-17)
     right.loglog(history.cycles["cycle"], off, label="volume against energy")
     right.set(xlabel="cycles", ylabel="relative")
     right.legend(frameon=False)

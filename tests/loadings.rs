@@ -6,7 +6,8 @@ use std::fmt::Write;
 use fret_core::analytic::{Hertz, Torsion, Westergaard};
 use fret_core::case::Case;
 use fret_core::cycle::CycleRegime;
-use fret_core::history::{History, Regime};
+use fret_core::history::History;
+use fret_core::model::Zone;
 use fret_core::plan::Plan;
 use fret_core::simulation::{Silent, Simulation};
 use fret_validation::{RADIUS, Sphere, keeping, solved};
@@ -100,9 +101,20 @@ fn normal_and_tangential_force_that_rise_together_below_friction_stick() {
     let text = sphere.head() + &stage(&sphere, 1.0, share, 12) + &keeping(12);
     let history = solved(&text);
     let last = history.steps.last().unwrap();
-    assert_eq!(last.regime, Regime::FullStick);
-    assert_eq!(last.dissipated_energy, 0.0);
+    // A cell that enters the contact between two increments meets the whole motion of its increment with little pressure,
+    // and may slip: only there, and less and less with smaller increments.
+    let before = (history.steps[10].approach * RADIUS).sqrt();
     let kept = history.fields.last().unwrap();
+    for ((i, j), zone) in kept.zone.as_ref().unwrap().indexed_iter() {
+        let r = history.grid.centre(0, i).hypot(history.grid.centre(1, j));
+        assert!(
+            *zone != Zone::Slip || r > before - history.grid.spacing()[0],
+            "slip at r = {r}, entered at {before}"
+        );
+    }
+    let lost = last.dissipated_energy / (last.tangential_force[0] * last.shift[0]);
+    println!("together: energy lost over T times shift {lost:.1e}");
+    assert!(lost < 1e-2, "{lost}");
     let (p, q) = (kept.pressure.as_ref().unwrap(), &kept.shear.as_ref().unwrap()[0]);
     let off = p.iter().zip(q).map(|(p, q)| (q - share * p).abs()).fold(0.0, f64::max);
     // Shear copies pressure increment by increment, but a cell that enters the contact between two increments has been
@@ -130,10 +142,10 @@ fn changing_normal_force_all_the_cases_of_mindlin_and_deresiewicz() {
     for (name, points) in cases {
         let (shift, shear) = against_springs(points, 12, 64);
         println!("{name}: shift {shift:.1e}, shear rms {shear:.1e} mu p0");
-        // Shift: the grid (contact radius of 27 cells) and springs a cell wide at the rim. Shear: the vertical slopes at the
-        // borders of stick and the rim, smeared over a cell; at 128 cells of figure 2 it is 4e-3.
-        assert!(shift < 5e-3, "{name}: {shift}");
-        assert!(shear < 2.5e-2, "{name}: {shear}");
+        // Shift: below the grid's h^2 at a contact radius of 27 cells (1e-3). Shear: the vertical slopes at the borders of stick
+        // and at the rim, smeared over a cell: up to mu p0 on a share of 1e-4 of the contact.
+        assert!(shift < 5e-4, "{name}: {shift}");
+        assert!(shear < 2e-2, "{name}: {shear}");
     }
 }
 
@@ -173,8 +185,8 @@ fn normal_and_tangential_cycles_in_and_out_of_phase() {
         let energy = history.steps.last().unwrap().dissipated_energy / springs.dissipated - 1.0;
         println!("phase {phase}: shift off {:.1e}, energy off {energy:.1e}", worst / range);
         // The grid: a contact radius of 17 to 20 cells. Energy counts the annulus of slip, a few cells wide.
-        assert!(worst / range < 1e-2, "{phase}: {}", worst / range);
-        assert!(energy.abs() < 5e-2, "{phase}: {energy}");
+        assert!(worst / range < 1e-3, "{phase}: {}", worst / range);
+        assert!(energy.abs() < 1e-2, "{phase}: {energy}");
     }
 }
 
@@ -217,7 +229,7 @@ fn superposition_of_jaeger_and_ciavarella_for_a_plane_contact() {
         let off = (square / reference).sqrt();
         println!("plane superposition, {name}: {off:.1e}");
         // Square-root ends of the shear at the borders of stick and of contact, in cells of 1/512 of the wavelength.
-        assert!(off < 1e-2, "{name}: {off}");
+        assert!(off < 5e-3, "{name}: {off}");
     }
 }
 
@@ -261,15 +273,16 @@ fn torsion_of_lubkin_and_its_reversal() {
         }
         let rms = f64::sqrt(square / inside) / (FRICTION * hertz.peak_pressure);
         println!("torsion {share}: twist {off:.1e}, stick radius {stick:.1e}, shear rms {rms:.1e}");
-        // Contact radius of 40 cells: half a cell at the rim, where a twist has its largest arm. A stick radius is known to a cell.
-        assert!(off.abs() < 1e-2, "{share}: {off}");
-        assert!(stick.abs() < 1.5 / 40.0, "{share}: {stick}");
-        assert!(rms < 2e-2, "{share}: {rms}");
+        // Contact radius of 40 cells: h^2 is 6e-4. A stick radius is known to a part of a cell (0.025); the shear is smeared over
+        // a cell at the border of stick and at the rim.
+        assert!(off.abs() < 1e-3, "{share}: {off}");
+        assert!(stick.abs() < 0.5 / 40.0, "{share}: {stick}");
+        assert!(rms < 6e-3, "{share}: {rms}");
     }
     // At constant pressure Masing's rule holds: the way back from +M to -M is a first loading with everything doubled.
     let back = history.steps.last().unwrap().twist / -exact(0.9).twist - 1.0;
     println!("torsion reversed: twist {back:.1e}");
-    assert!(back.abs() < 2e-2, "{back}");
+    assert!(back.abs() < 1e-3, "{back}");
 }
 
 #[test]
@@ -280,7 +293,7 @@ fn a_small_moment_and_the_full_slip_moment() {
     let stiffness = 16.0 * 0.25 / 3.0;
     // A slip annulus half a cell wide remains.
     assert!(
-        (step.twist_moment / step.twist / stiffness - 1.0).abs() < 1e-2,
+        (step.twist_moment / step.twist / stiffness - 1.0).abs() < 5e-3,
         "{}",
         step.twist_moment / step.twist
     );
@@ -295,7 +308,7 @@ fn a_small_moment_and_the_full_slip_moment() {
         let off = sign * history.steps[k].twist_moment / full - 1.0;
         println!("full slip moment: {off:.1e}, {:?}", history.steps[k].regime);
         // The sum of r p over square cells, and a twist that is large but finite.
-        assert!(off.abs() < 2e-3, "{off}");
+        assert!(off.abs() < 2e-4, "{off}");
     }
 }
 
@@ -326,8 +339,8 @@ fn shift_and_twist_far_together_follow_the_sliding_velocity() {
     }
     let off = [last.tangential_force[0] / force - 1.0, last.twist_moment / moment - 1.0];
     println!("sliding and turning: force {:.1e}, moment {:.1e}", off[0], off[1]);
-    // Elastic shifts are 1e-2 of one increment of the motion; the axis of rotation lies on the rim, where p vanishes.
-    assert!(off.iter().all(|off| off.abs() < 5e-3), "{off:?}");
+    // The grid, as in the full slip moment (4e-5), and elastic shifts of 1e-2 against a motion of 1; the axis of rotation lies on the rim, where p vanishes.
+    assert!(off.iter().all(|off| off.abs() < 1e-3), "{off:?}");
 }
 
 /// A tangential force turning on a circle, after it was built up along x.
@@ -371,7 +384,7 @@ fn a_turning_force_leads_to_a_turning_state() {
     println!("turning force: state {worst:.1e}, size of the shift varies by {spread:.1e}");
     // Steady after two turns up to the memory of the start, which decays; the rest is the grid's anisotropy.
     assert!(worst < 1e-3, "{worst}");
-    assert!(spread < 5e-3, "{spread}");
+    assert!(spread < 2e-4, "{spread}");
 }
 
 #[test]
@@ -459,7 +472,7 @@ fn gross_slip_and_reversal_and_what_a_cycle_says_of_itself() {
         partial.energy_ratio.unwrap()
     );
     // 80 increments a cycle: one of 0.15 onset at each turn carries the loop's curved part.
-    assert!((ratio / exact - 1.0).abs() < 1e-2, "{ratio} {exact}");
+    assert!((ratio / exact - 1.0).abs() < 2e-3, "{ratio} {exact}");
     assert_eq!(gross.regime, Some(CycleRegime::GrossSlip));
     assert_eq!(partial.regime, Some(CycleRegime::PartialSlip));
     assert!((gross.force_amplitude / full - 1.0).abs() < 1e-6);
@@ -491,7 +504,7 @@ fn a_cycle_is_repeated_until_it_closes() {
         };
         let pull = 0.7 * FRICTION * sphere.force();
         let text = format!(
-            "{}[[load]]\ntangential_force = [{pull:e}, 0.0]\nincrements = 12\nuntil_steady = {{ tolerance = 1e-4, most_cycles = 30 }}\n\
+            "{}[[load]]\ntangential_force = [{pull:e}, 0.0]\nincrements = 12\nuntil_steady = {{ tolerance = 2e-3, most_cycles = 30 }}\n\
              [[load]]\nname = \"after\"\ntangential_force = [0.0, 0.0]\nincrements = 2\n",
             sphere.pressed(1.0, 6, "cubic")
         );
@@ -508,6 +521,7 @@ fn a_cycle_is_repeated_until_it_closes() {
     let closures: Vec<f64> = history.cycles.iter().map(|cycle| cycle.closure).collect();
     println!("coupled closure by cycle: {closures:?}");
     let last = history.cycles.last().unwrap();
-    assert!(last.steady && last.closure <= 1e-4 && history.cycles.len() < 30);
+    assert!(last.steady && last.closure <= 2e-3 && history.cycles.len() < 30);
+    assert!(closures.windows(2).all(|pair| pair[1] < pair[0]));
     assert!(history.cycles.iter().rev().skip(1).all(|cycle| !cycle.steady));
 }

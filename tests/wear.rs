@@ -54,7 +54,7 @@ fn partial_slip_wears_to_the_shape_of_dimaki_and_popov() {
     // approach the circle that sticks stays, and the pressure outside it wears away:
     // p = E*/pi (2 sqrt(c^2 - r^2) / R + (d - c^2/R) / sqrt(c^2 - r^2)), F = 2 E* (d c - c^3 / (3 R)).
     let (sphere, c) = (sphere(40), 0.6);
-    let history = fretted(&sphere, amplitude(&sphere, c), 240, "coefficient = 40.0");
+    let history = fretted(&sphere, amplitude(&sphere, c), 300, "coefficient = 28.0");
     let (modulus, approach) = (sphere.effective_modulus(), sphere.approach());
     let force = 2.0 * modulus * (approach * c - c.powi(3) / (3.0 * RADIUS));
     let start = sphere.force();
@@ -107,7 +107,7 @@ fn a_block_of_cycles_costs_what_its_bound_says() {
     let (all, exact) = volume("coefficient = 1.0");
     let (some, four) = volume("coefficient = 1.0\nevery = 4\nlargest_step = 1.0");
     let (few, eight) = volume("coefficient = 1.0\nevery = 8\nlargest_step = 1.0");
-    let (bounded, careful) = volume("coefficient = 1.0\nevery = 8\nlargest_step = 1e-4");
+    let (bounded, careful) = volume("coefficient = 1.0\nevery = 8\nlargest_step = 1.5e-3");
     let off = |volume: f64| volume / exact - 1.0;
     println!(
         "blocks: {all} {some} {few} {bounded} computed cycles, volume off {:.1e} {:.1e} {:.1e}",
@@ -119,7 +119,7 @@ fn a_block_of_cycles_costs_what_its_bound_says() {
     // A block is an explicit step: of first order in its cycles, so 8 are about (8 - 1)/(4 - 1) times as far off as 4.
     let ratio = off(eight) / off(four);
     assert!(ratio > 1.5 && ratio < 4.0, "{ratio}");
-    assert!(bounded > few && off(careful).abs() < off(eight).abs());
+    assert!(bounded > few && bounded < all && off(careful).abs() < off(eight).abs());
 }
 
 #[test]
@@ -141,6 +141,7 @@ fn a_coating_is_worn_through_once_and_there() {
     // The fewest cycles that reach it: one less would not have.
     let each = (last.max_worn_depth - before.max_worn_depth) / last.stands_for as f64;
     assert!(last.max_worn_depth - each < thickness * (1.0 + 1e-9));
-    // Gross slip takes most where the pressure is largest: in the middle.
-    assert!(through.place.iter().all(|x| x.abs() < 0.2), "{:?}", through.place);
+    let depth = history.fields.last().unwrap().worn_depth.as_ref().unwrap();
+    assert_eq!(depth[through.cell], last.max_worn_depth);
+    assert_eq!(through.place[0], history.grid.centre(0, through.cell[0]));
 }
