@@ -320,6 +320,7 @@ def wear(left, right):
         {"shift": [shift, 0.0], "increments": 8, "cycles": 240},
     ]
     case = scene(48, stages, wear={"coefficient": 25.0})
+    case["grid"]["size"] = [3.2, 3.2]  # the scar becomes wider than the first contact
     case["output"] = {"fields": ["pressure"], "every": 8}
     history = fretting.run(case)
     middle = len(history.x) // 2

@@ -53,7 +53,7 @@ fn partial_slip_wears_to_the_shape_of_dimaki_and_popov() {
     // Popov (2014), Sci. Rep. 4, 3749; Dimaki, Dmitriev, Chai & Popov (2014), Int. J. Solids Struct. 51, 4215: at a fixed
     // approach the circle that sticks stays, and the pressure outside it wears away:
     // p = E*/pi (2 sqrt(c^2 - r^2) / R + (d - c^2/R) / sqrt(c^2 - r^2)), F = 2 E* (d c - c^3 / (3 R)).
-    let (sphere, c) = (sphere(40), 0.6);
+    let (sphere, c) = (Sphere { size: 3.2, ..sphere(48) }, 0.6);
     let history = fretted(&sphere, amplitude(&sphere, c), 300, "coefficient = 28.0");
     let (modulus, approach) = (sphere.effective_modulus(), sphere.approach());
     let force = 2.0 * modulus * (approach * c - c.powi(3) / (3.0 * RADIUS));
@@ -71,8 +71,8 @@ fn partial_slip_wears_to_the_shape_of_dimaki_and_popov() {
     );
     // What is left of the outer pressure decays ever more slowly towards the circle, where the slip is zero.
     assert!((end - force) / (start - force) < 0.06 && end > 0.98 * force, "{end} {force}");
-    // A cell is 0.06.
-    assert!((radius(last) - c).abs() < 0.06 && (radius(first) - c).abs() < 0.06);
+    // A cell is 0.067.
+    assert!((radius(last) - c).abs() < 0.067 && (radius(first) - c).abs() < 0.067);
     let pressure = history.fields.last().unwrap().pressure.as_ref().unwrap();
     let (mut worst, mut outside) = (0.0_f64, 0.0_f64);
     let middle = modulus / PI * (c / RADIUS + approach / c);
@@ -107,7 +107,7 @@ fn a_block_of_cycles_costs_what_its_bound_says() {
     let (all, exact) = volume("coefficient = 1.0");
     let (some, four) = volume("coefficient = 1.0\nevery = 4\nlargest_step = 1.0");
     let (few, eight) = volume("coefficient = 1.0\nevery = 8\nlargest_step = 1.0");
-    let (bounded, careful) = volume("coefficient = 1.0\nevery = 8\nlargest_step = 1.5e-3");
+    let (bounded, careful) = volume("coefficient = 1.0\nevery = 8\nlargest_step = 5e-4");
     let off = |volume: f64| volume / exact - 1.0;
     println!(
         "blocks: {all} {some} {few} {bounded} computed cycles, volume off {:.1e} {:.1e} {:.1e}",

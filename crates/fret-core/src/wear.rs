@@ -47,7 +47,7 @@ pub struct Block {
     pub cycles: usize,
     /// Depth they wear off together [length].
     pub depth: Array2<f64>,
-    /// The cell that has reached the limit, if any.
+    /// The deepest cell, when it has reached the limit.
     pub through: Option<[usize; 2]>,
 }
 
@@ -96,19 +96,21 @@ impl Wearing {
             .min(within(STABLE_SHARE, softening))
             .min(within(self.rule.largest_step * state.approach.abs(), deepest))
             .max(1);
-        let mut through = None;
+        let worn = |cell: (usize, usize)| state.worn_depth.as_ref().map_or(0.0, |worn| worn[cell]);
         if let Some(limit) = self.rule.limit {
-            for (cell, each) in self.depth.indexed_iter() {
-                let worn = state.worn_depth.as_ref().map_or(0.0, |worn| worn[cell]);
-                let needed =
-                    if *each > 0.0 { ((limit - worn) / each).ceil().max(1.0) } else { f64::INFINITY };
-                if needed < cycles as f64 || (through.is_none() && needed <= cycles as f64) {
-                    cycles = needed as usize;
-                    through = Some([cell.0, cell.1]);
-                }
+            for (cell, each) in self.depth.indexed_iter().filter(|(_, each)| **each > 0.0) {
+                let needed = ((limit - worn(cell)) / each).ceil().max(1.0);
+                cycles = cycles.min(needed as usize);
             }
         }
         let depth = &self.depth * cycles as f64;
+        let mut deepest = ([0, 0], 0.0);
+        for (cell, more) in depth.indexed_iter() {
+            if worn(cell) + more > deepest.1 {
+                deepest = ([cell.0, cell.1], worn(cell) + more);
+            }
+        }
+        let through = self.rule.limit.filter(|limit| deepest.1 >= *limit).map(|_| deepest.0);
         self.depth.fill(0.0);
         self.path.fill(0.0);
         Ok(Block { cycles, depth, through })
