@@ -70,7 +70,8 @@ fn partial_slip_wears_to_the_shape_of_dimaki_and_popov() {
         radius(last)
     );
     // What is left of the outer pressure decays ever more slowly towards the circle, where the slip is zero.
-    assert!((end - force) / (start - force) < 0.06 && end > 0.98 * force, "{end} {force}");
+    // The circle itself is known to a part of a cell.
+    assert!((end / force - 1.0).abs() < 0.01 && start > 1.2 * force, "{end} {force}");
     // A cell is 0.067.
     assert!((radius(last) - c).abs() < 0.067 && (radius(first) - c).abs() < 0.067);
     let pressure = history.fields.last().unwrap().pressure.as_ref().unwrap();
@@ -90,8 +91,8 @@ fn partial_slip_wears_to_the_shape_of_dimaki_and_popov() {
         "limiting shape: pressure within 0.7 c {worst:.1e}, beyond r = 0.8 {outside:.1e} of that in the middle"
     );
     // The square-root rise at the circle is a cell wide on a tenth of the radius.
-    assert!(worst < 0.05, "{worst}");
-    assert!(outside < 0.02, "{outside}");
+    assert!(worst < 0.02, "{worst}");
+    assert!(outside < 0.01, "{outside}");
 }
 
 #[test]
