@@ -169,7 +169,7 @@ def turning(left, right):
             right.semilogy(np.arange(len(turned)) / 24, turned, ".-")
     left.set(xlabel="shift along x / onset", ylabel="shift along y / onset", aspect="equal")
     left.legend(frameon=False)
-    right.set(xlabel="turns", ylabel=r"state against itself a quarter turn later / $\mu p_0$")
+    right.set(xlabel="turns", ylabel=r"shear, a quarter turn later / $\mu p_0$")
 
 
 def torsion(left, right):
@@ -190,8 +190,8 @@ def torsion(left, right):
         right.semilogy(abs(twist[1:] - exact) / abs(exact).max(), ".-", label=f"{cells} x {cells} cells")
     left.set(xlabel="twist [rad]", ylabel="moment / full-slip moment")
     left.legend(frameon=False)
-    right.set(xlabel="increment", ylabel="error of twist / its largest")
-    right.legend(frameon=False)
+    right.set(xlabel="increment", ylabel="error of twist / its largest", ylim=(3e-6, 3e-2))
+    right.legend(frameon=False, ncols=3, fontsize=7)
 
 
 def sphere_contact():
@@ -234,7 +234,7 @@ def plane(left, right):
             left.plot(history.x, exact / full, lw=3, alpha=0.35, label="superposition")
             left.plot(history.x, shear / full, "k.", ms=3, label="computed")
     left.set(xlabel="x / wavelength", ylabel="$q / p^*$, unloaded to $-0.2 T$")
-    left.legend(frameon=False)
+    left.legend(frameon=False, loc="lower center", fontsize=8)
     right.loglog(counts, errors, "o-")
     right.set(xlabel="cells a wavelength", ylabel=r"error of shear, rms / rms of $\mu p$")
 
@@ -283,7 +283,7 @@ def mixed(left, right):
         left.plot(by_force.steps[f"shift_{axis}"] / ONSET, forces[0], ".-", label=f"along {axis}")
         right.semilogy(np.maximum(abs(forces[0] - forces[1]), 1e-17), ".-", label=f"along {axis}")
     left.set(xlabel="shift / onset of sliding", ylabel=r"force / $\mu W$", title="force given along x, shift along y")
-    right.set(xlabel="increment", ylabel=r"by force against by table of motions / $\mu W$")
+    right.set(xlabel="increment", ylabel=r"force asked for or found / $\mu W$")
     left.legend(frameon=False)
     right.legend(frameon=False)
 
