@@ -35,17 +35,31 @@ def read(case: CaseLike) -> _core.Case:
     """
     if isinstance(case, Mapping):
         text = json.dumps(_plain(case, ""), allow_nan=False)
-        return _core.Case.from_json(text, "case")
+        return _core.Case.from_json(text, "case", _Beside(Path()))
     if isinstance(case, str) and not _is_path(case):
-        return _core.Case.from_toml(case, "case")
+        return _core.Case.from_toml(case, "case", _Beside(Path()))
     if isinstance(case, str | os.PathLike):
         path = Path(case)
         try:
             text = path.read_text(encoding="utf-8")
         except UnicodeDecodeError as error:
             raise _refusal(str(path), f"not readable as UTF-8 text: {error.reason} at byte {error.start}") from None
-        return _core.Case.from_toml(text, str(path))
+        return _core.Case.from_toml(text, str(path), _Beside(path.parent))
     raise TypeError(f"case: expected a path, TOML text or a dict, found {type(case).__name__}")
+
+
+class _Beside:
+    """Reads the files a case names: relative to the case file, or to the working folder when there is none."""
+
+    def __init__(self, folder: Path) -> None:
+        self._folder = folder
+
+    def __call__(self, name: str) -> bytes:
+        """Return the content of a file; an error's words become part of the refusal."""
+        try:
+            return (self._folder / name).read_bytes()
+        except OSError as error:
+            raise OSError(error.strerror or str(error)) from None
 
 
 def _is_path(text: str) -> bool:

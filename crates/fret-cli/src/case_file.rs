@@ -10,6 +10,9 @@ use fret_core::plan::Plan;
 /// Bytes read at the most: one more than the core takes, so that an endless stream is refused and not read.
 const MOST_BYTES: u64 = (4 << 20) + 1;
 
+/// Bytes of a file that a case names, at the most.
+const MOST_ATTACHED: u64 = 2 << 30;
+
 /// A case file that could be read.
 #[derive(Debug)]
 pub struct CaseFile {
@@ -34,6 +37,20 @@ impl CaseFile {
         Ok(Self { path: path.to_owned(), text })
     }
 
+    /// A file the case names, looked for beside the case file.
+    fn attachment(&self, name: &str) -> Result<Vec<u8>, String> {
+        let folder = self.path.parent().unwrap_or_else(|| Path::new(""));
+        let path = folder.join(name);
+        let mut content = Vec::new();
+        File::open(&path)
+            .and_then(|file| file.take(MOST_ATTACHED + 1).read_to_end(&mut content))
+            .map_err(|error| unreadable(&path, &error))?;
+        if content.len() as u64 > MOST_ATTACHED {
+            return Err(format!("longer than {} MB", MOST_ATTACHED >> 20));
+        }
+        Ok(content)
+    }
+
     /// Its name as it stands in messages.
     pub fn name(&self) -> String {
         self.path.display().to_string()
@@ -46,14 +63,15 @@ impl CaseFile {
 
     /// The case, read and planned.
     pub fn planned(&self) -> Result<Plan, CaseError> {
-        Plan::new(Case::from_toml(&self.text, &self.name())?)
+        let beside = |name: &str| self.attachment(name);
+        Plan::new(Case::from_toml_with(&self.text, &self.name(), &beside)?)
     }
 }
 
 fn unreadable(path: &Path, error: &io::Error) -> String {
     match error.kind() {
         io::ErrorKind::NotFound => "no such file".to_owned(),
-        _ if path.is_dir() => "a folder, not a case file".to_owned(),
+        _ if path.is_dir() => "a folder, not a file".to_owned(),
         io::ErrorKind::PermissionDenied => "no permission to read it".to_owned(),
         _ => format!("cannot be read: {error}"),
     }

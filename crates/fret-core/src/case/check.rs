@@ -2,6 +2,7 @@
 
 use toml::Spanned;
 
+use super::attachments::Attachments;
 use super::bodies::bodies;
 use super::file::{CaseFile, FrictionFile, OutputFile, SizeFile};
 use super::judge::Judge;
@@ -9,6 +10,7 @@ use super::refusal::Mistake;
 use super::repeating::repeats;
 use super::shape::profile;
 use super::stages::{sliding, stages};
+use super::wearing::wear;
 use super::{Case, FIELD_NAMES, GridSize, Origin, Output};
 use crate::model::{CoulombFriction, Scheme};
 
@@ -24,8 +26,13 @@ const LONGEST_CELL: f64 = 1e6;
 const TOLERANCE: f64 = 1e-8;
 
 /// The case of a file, or everything that is wrong with it.
-pub(super) fn case(file: CaseFile, name: &str, text: &str) -> Result<Case, Vec<Mistake>> {
-    let mut judge = Judge::default();
+pub(super) fn case(
+    file: CaseFile,
+    name: &str,
+    text: &str,
+    attachments: &Attachments<'_>,
+) -> Result<Case, Vec<Mistake>> {
+    let mut judge = Judge { mistakes: Vec::new(), attachments };
     let cells = cells(&mut judge, &file.grid.cells);
     let size = size(&mut judge, &file.grid.size, cells);
     let bodies = bodies(&mut judge, &file.upper, &file.lower);
@@ -36,10 +43,11 @@ pub(super) fn case(file: CaseFile, name: &str, text: &str) -> Result<Case, Vec<M
         .map_or(Some(CoulombFriction::Uniform(0.0)), |friction| self::friction(&mut judge, friction));
     let frictionless = friction.as_ref().is_some_and(CoulombFriction::is_frictionless);
     let stages = stages(&mut judge, &file.load, frictionless);
-    let periodic = repeats(&mut judge, &file.grid, size, &file.load, profile.as_ref());
-    if let Some(friction) = &friction {
-        sliding(&mut judge, friction, &file.load);
+    let periodic = repeats(&mut judge, &file.grid, size, (&file.load, stages.as_deref()), profile.as_ref());
+    if let (Some(friction), Some(stages)) = (&friction, &stages) {
+        sliding(&mut judge, friction, &file.load, stages);
     }
+    let wear = wear(&mut judge, file.wear.as_ref(), bodies.as_ref(), stages.as_deref(), frictionless);
     let tolerance = match file.solver.as_ref().and_then(|solver| solver.tolerance.as_ref()) {
         None => Some(TOLERANCE),
         Some(given) if (1e-13..=1e-2).contains(given.get_ref()) => Some(*given.get_ref()),
@@ -69,6 +77,7 @@ pub(super) fn case(file: CaseFile, name: &str, text: &str) -> Result<Case, Vec<M
             profile,
             friction,
             stages,
+            wear,
             tolerance,
             scheme: file
                 .solver

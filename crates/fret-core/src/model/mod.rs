@@ -10,6 +10,7 @@ pub mod load;
 pub mod profile;
 pub mod scheme;
 pub mod state;
+pub mod wear;
 
 pub use field::TangentialField;
 pub use friction::{CoulombFriction, FrictionError};
@@ -20,3 +21,4 @@ pub use load::{Control, LoadStep};
 pub use profile::{Profile, ProfileError};
 pub use scheme::Scheme;
 pub use state::{ContactState, Zone};
+pub use wear::{WearLaw, WearRule};
