@@ -1,5 +1,6 @@
 """The answer of a run."""
 
+import json
 from typing import TYPE_CHECKING, Any, Literal, Protocol, Self, get_args
 
 import numpy as np
@@ -14,7 +15,7 @@ if TYPE_CHECKING:
     from matplotlib.animation import FuncAnimation
     from matplotlib.axes import Axes
 
-FieldName = Literal["pressure", "shear_x", "shear_y", "slip_x", "slip_y", "gap", "zone"]
+FieldName = Literal["pressure", "shear_x", "shear_y", "slip_x", "slip_y", "gap", "zone", "worn_depth"]
 FIELD_NAMES: tuple[str, ...] = get_args(FieldName)
 
 MEANING = {
@@ -25,6 +26,7 @@ MEANING = {
     "slip_y": "accumulated slip along y, upper body relative to lower [length]",
     "gap": "gap between the surfaces [length]",
     "zone": "0 open, 1 stick, 2 slip; -1 where not kept",
+    "worn_depth": "depth worn off both bodies together [length]",
     "normal_force": "normal force, compression positive [force]",
     "approach": "rigid normal approach [length]",
     "tangential_force_x": "tangential force on the lower body along x [force]",
@@ -49,6 +51,40 @@ MEANING = {
     "outer_iterations": "changes of the contact, stick and slip zones",
     "regime": "apart, full_stick, partial_slip, gross_slip or frictionless",
 }
+
+
+_CYCLE_KINDS: dict[str, type] = {
+    "stage": int,
+    "cycle": int,
+    "first_increment": int,
+    "last_increment": int,
+    "stands_for": int,
+    "dissipated_energy": float,
+    "drive": str,
+    "direction": float,
+    "force_amplitude": float,
+    "displacement_amplitude": float,
+    "opening": float,
+    "energy_ratio": float,
+    "sliding_ratio": float,
+    "stiffness": float,
+    "regime": str,
+    "closure": float,
+    "steady": bool,
+    "worn_volume": float,
+    "max_worn_depth": float,
+}
+
+
+def _columns(records: list[dict[str, Any]]) -> dict[str, npt.NDArray[Any]]:
+    """Records of cycles as one array a name; a missing number is NaN, a missing word empty."""
+    missing: dict[type, object] = {float: np.nan, str: ""}
+    return {
+        name: np.array(
+            [missing[kind] if record[name] is None else record[name] for record in records], dtype=kind
+        )
+        for name, kind in _CYCLE_KINDS.items()
+    }
 
 
 class _Kept(Protocol):
@@ -92,6 +128,16 @@ class History:
         Coordinates of the cell centres [length], shapes (nx,) and (ny,).
     stages : list of str
         Names of the stages.
+    cycles : dict of str to ndarray
+        One entry per cycle of the stages that have cycles; ``stage``, ``cycle``, ``first_increment``,
+        ``last_increment``, ``stands_for`` (int); ``dissipated_energy``, ``direction``, ``force_amplitude``,
+        ``displacement_amplitude``, ``opening``, ``energy_ratio``, ``sliding_ratio``, ``stiffness``, ``closure``,
+        ``worn_volume``, ``max_worn_depth`` (float, NaN where a cycle has none); ``steady`` (bool); ``drive``,
+        ``regime`` (str).
+    running_conditions : list of str or None
+        ``"partial"``, ``"mixed"`` or ``"gross"`` for each stage; None for one without cycles.
+    worn_through : dict or None
+        ``increment``, ``stage``, ``cycles``, ``cell``, ``place`` of the first place worn to the limit.
 
     Notes
     -----
@@ -102,6 +148,9 @@ class History:
     x: Reals
     y: Reals
     stages: list[str]
+    cycles: dict[str, npt.NDArray[Any]]
+    running_conditions: list[str | None]
+    worn_through: dict[str, Any] | None
 
     _kept: _Kept
     _bodies: str
@@ -120,6 +169,9 @@ class History:
         self._spacing = (dx, dy)
         self._periodic = answer.periodic()
         self._cycle_lengths = answer.cycle_lengths()
+        self.cycles = _columns(json.loads(answer.cycles()))
+        self.running_conditions = json.loads(answer.running_conditions())
+        self.worn_through = json.loads(answer.worn_through())
 
     def __getstate__(self) -> dict[str, Any]:
         """Everything as plain arrays."""
@@ -154,7 +206,7 @@ class History:
 
         Parameters
         ----------
-        name : {"pressure", "shear_x", "shear_y", "slip_x", "slip_y", "gap", "zone"}
+        name : {"pressure", "shear_x", "shear_y", "slip_x", "slip_y", "gap", "zone", "worn_depth"}
             ``slip_x``, ``slip_y`` are accumulated along the path; ``zone`` is 0 open, 1 stick, 2 slip.
         step : int
             Number of the increment in the whole history, from 0; negative from the end.

@@ -1,9 +1,10 @@
-//! `history.csv`: a line an increment, on disk as soon as the increment is solved.
+//! `history.csv`: a line an increment; `cycles.csv`: a line a cycle. On disk as soon as it is over.
 
 use std::fs::File;
 use std::io::{Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
+use fret_core::cycle::CycleRecord;
 use fret_core::history::{Regime, StepRecord};
 
 use crate::failure::Unwritten;
@@ -35,7 +36,49 @@ const COLUMNS: [&str; 23] = [
     "regime",
 ];
 
-/// The table while it grows.
+/// The columns of the cycles, in order; the names are those of `history.cycles` in Python.
+const CYCLE_COLUMNS: [&str; 19] = [
+    "stage",
+    "cycle",
+    "first_increment",
+    "last_increment",
+    "stands_for",
+    "dissipated_energy",
+    "drive",
+    "direction",
+    "force_amplitude",
+    "displacement_amplitude",
+    "opening",
+    "energy_ratio",
+    "sliding_ratio",
+    "stiffness",
+    "regime",
+    "closure",
+    "steady",
+    "worn_volume",
+    "max_worn_depth",
+];
+
+/// What a table holds a line of.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Lines {
+    /// Increments.
+    Increments,
+    /// Cycles.
+    Cycles,
+}
+
+impl Lines {
+    fn head(self) -> String {
+        let columns = match self {
+            Self::Increments => &COLUMNS[..],
+            Self::Cycles => &CYCLE_COLUMNS[..],
+        };
+        columns.join(",") + "\n"
+    }
+}
+
+/// A table while it grows.
 #[derive(Debug)]
 pub struct HistoryTable {
     path: PathBuf,
@@ -45,10 +88,10 @@ pub struct HistoryTable {
 
 impl HistoryTable {
     /// A table with its head; an earlier one is gone.
-    pub fn create(path: &Path) -> Result<Self, Unwritten> {
+    pub fn create(path: &Path, lines: Lines) -> Result<Self, Unwritten> {
         let file = File::create(path).map_err(Unwritten::at(path))?;
         let mut table = Self { path: path.to_owned(), file, bytes: 0 };
-        table.append(&head())?;
+        table.append(&lines.head())?;
         Ok(table)
     }
 
@@ -59,14 +102,14 @@ impl HistoryTable {
         Ok(Self { path: path.to_owned(), file, bytes })
     }
 
-    /// Whether the first `bytes` of the table at `path` are its head and so many lines.
-    pub fn holds(path: &Path, bytes: u64, lines: usize) -> bool {
+    /// Whether the first `bytes` of the table at `path` are the head of such `lines` and `count` of them.
+    pub fn holds(path: &Path, bytes: u64, lines: Lines, count: usize) -> bool {
         std::fs::read(path).is_ok_and(|text| {
             let whole = usize::try_from(bytes).ok().and_then(|bytes| text.get(..bytes));
             whole.is_some_and(|text| {
-                text.starts_with(head().as_bytes())
+                text.starts_with(lines.head().as_bytes())
                     && text.ends_with(b"\n")
-                    && text.iter().filter(|&&byte| byte == b'\n').count() == lines + 1
+                    && text.iter().filter(|&&byte| byte == b'\n').count() == count + 1
             })
         })
     }
@@ -86,6 +129,11 @@ impl HistoryTable {
         self.append(&line(record))
     }
 
+    /// Adds a cycle.
+    pub fn add_cycle(&mut self, record: &CycleRecord) -> Result<(), Unwritten> {
+        self.append(&cycle_line(record))
+    }
+
     /// Waits until the table is on the disk.
     pub fn settle(&self) -> Result<(), Unwritten> {
         self.file.sync_all().map_err(Unwritten::at(&self.path))
@@ -96,10 +144,6 @@ impl HistoryTable {
         self.bytes += text.len() as u64;
         Ok(())
     }
-}
-
-fn head() -> String {
-    COLUMNS.join(",") + "\n"
 }
 
 fn line(record: &StepRecord) -> String {
@@ -128,6 +172,20 @@ fn line(record: &StepRecord) -> String {
         record.stick_cells.to_string(),
         word(record.regime).to_owned(),
     ];
+    cells.join(",") + "\n"
+}
+
+fn cycle_line(record: &CycleRecord) -> String {
+    // A record holds only numbers, words and truth values, each by the name of its column.
+    let values = serde_json::to_value(record).unwrap_or_default();
+    let cells = CYCLE_COLUMNS.map(|name| match &values[name] {
+        serde_json::Value::Null => String::new(),
+        serde_json::Value::String(word) => word.clone(),
+        serde_json::Value::Number(number) => {
+            number.as_f64().filter(|_| number.is_f64()).map_or_else(|| number.to_string(), exact)
+        }
+        other => other.to_string(),
+    });
     cells.join(",") + "\n"
 }
 

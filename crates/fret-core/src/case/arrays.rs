@@ -5,38 +5,17 @@ use std::ops::Range;
 use ndarray::Array2;
 
 use super::judge::Judge;
+use super::numbers::numbers;
 use super::surface_file::ArrayFile;
-
-/// Where an array of a case comes from.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum ArraySource<'a> {
-    /// A file, named as in the case.
-    File(&'a str),
-    /// An array handed over beside the case, by its number from 0.
-    Handed(usize),
-}
-
-/// Gives the arrays that a case names, or says in words why not: the core reads no files.
-pub type ArraySupply<'a> = &'a dyn Fn(ArraySource<'_>) -> Result<Array2<f64>, String>;
-
-/// The supply of a case that stands for itself.
-pub(super) fn nothing(source: ArraySource<'_>) -> Result<Array2<f64>, String> {
-    Err(match source {
-        ArraySource::File(_) => "this reader of the case reads no files".to_owned(),
-        ArraySource::Handed(number) => format!("no array {number} was handed over"),
-    })
-}
 
 /// What the arrays of a case are judged by.
 #[derive(Clone, Copy)]
-pub(super) struct Desk<'a> {
+pub(super) struct Desk {
     /// Cells of the grid; `None` when they were refused, and no array can be judged.
     pub cells: Option<[usize; 2]>,
-    /// Where arrays come from.
-    pub supply: ArraySupply<'a>,
 }
 
-impl Desk<'_> {
+impl Desk {
     /// Array of a file, in the order of its rows.
     pub fn file(
         &self,
@@ -45,7 +24,7 @@ impl Desk<'_> {
         span: Range<usize>,
         name: &str,
     ) -> Option<Array2<f64>> {
-        match (self.supply)(ArraySource::File(name)) {
+        match (judge.attachments.file)(name).and_then(|bytes| numbers(&bytes).map_err(|error| error.to_string())) {
             Ok(array) => Some(array),
             Err(why) => judge.refuse(
                 span,
@@ -64,7 +43,10 @@ impl Desk<'_> {
         given: &ArrayFile,
     ) -> Option<Array2<f64>> {
         let taken = match given {
-            ArrayFile::Handed(number) => (self.supply)(ArraySource::Handed(*number)),
+            ArrayFile::Handed(number) => {
+                let array = judge.attachments.arrays.get(*number).cloned();
+                array.ok_or_else(|| format!("no array {number} was handed over"))
+            }
             ArrayFile::Rows(rows) => {
                 let columns = rows.first().map_or(0, Vec::len);
                 let flat: Vec<f64> = rows.iter().flatten().copied().collect();

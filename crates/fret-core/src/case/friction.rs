@@ -5,8 +5,8 @@ use std::ops::Range;
 use toml::Spanned;
 
 use super::arrays::Desk;
-use super::file::StageFile;
 use super::judge::Judge;
+use super::stage_file::StageFile;
 use super::surface_file::{CoefficientFile, FrictionFile, MapFile};
 use crate::model::CoulombFriction;
 
@@ -14,7 +14,7 @@ use crate::model::CoulombFriction;
 pub(super) fn friction(
     judge: &mut Judge,
     given: Option<&FrictionFile>,
-    desk: Desk<'_>,
+    desk: Desk,
 ) -> Option<CoulombFriction> {
     let Some(given) = given else { return Some(CoulombFriction::Uniform(0.0)) };
     match (&given.coefficient, &given.map) {
@@ -33,7 +33,7 @@ pub(super) fn friction(
 pub(super) fn of_stages(
     judge: &mut Judge,
     stages: &[Spanned<StageFile>],
-    desk: Desk<'_>,
+    desk: Desk,
 ) -> Option<Vec<Option<CoulombFriction>>> {
     let mut all = Vec::new();
     for (index, stage) in stages.iter().enumerate() {
@@ -62,7 +62,7 @@ fn map(
     place: &str,
     span: Range<usize>,
     given: &MapFile,
-    desk: Desk<'_>,
+    desk: Desk,
 ) -> Option<CoulombFriction> {
     desk.cells?;
     let array = match given {

@@ -11,7 +11,7 @@ use super::surface_file::{AxisFile, DetrendFile, HeightsFile, OfFile, ProfileFil
 use crate::model::{Axis, Detrend, Heights, Profile, Shape};
 
 /// The gap, as the sum of all profiles of a case; `None` when something about them was refused.
-pub(super) fn profile(judge: &mut Judge, file: &CaseFile, desk: Desk<'_>) -> Option<Profile> {
+pub(super) fn profile(judge: &mut Judge, file: &CaseFile, desk: Desk) -> Option<Profile> {
     let places = [
         ("profile", &file.profile),
         ("upper.profile", &file.upper.get_ref().profile),
@@ -48,9 +48,9 @@ pub(super) fn profile(judge: &mut Judge, file: &CaseFile, desk: Desk<'_>) -> Opt
 
 /// One profile table while it is judged.
 struct Part<'a, 'b> {
-    judge: &'a mut Judge,
+    judge: &'a mut Judge<'b>,
     place: &'static str,
-    desk: Desk<'b>,
+    desk: Desk,
     sum: &'a mut Profile,
 }
 
