@@ -261,8 +261,8 @@ fn random_scenes_are_certified_or_refused_with_words() {
         let scene = scene(&mut dice);
         let pressing = format!("{}[[load]]\napproach = {:e}\nincrements = 1\n", scene.head, scene.approach);
         let (text, end) = match run(&pressing, scene.friction) {
-            End::Solved(run) => {
-                let (history, _) = *run;
+            End::Solved(ended) => {
+                let (history, _) = *ended;
                 let force = history.steps.last().map_or(0.0, |step| step.normal_force);
                 let text = scene.head.clone() + &loads(&mut dice, &scene, force);
                 let end = run(&text, scene.friction);
@@ -271,8 +271,8 @@ fn random_scenes_are_certified_or_refused_with_words() {
             other => (pressing, other),
         };
         match end {
-            End::Solved(run) => {
-                let (history, inspector) = *run;
+            End::Solved(ended) => {
+                let (history, inspector) = *ended;
                 solved += 1;
                 increments += history.steps.len();
                 iterations += inspector.iterations;
