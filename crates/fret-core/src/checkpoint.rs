@@ -179,7 +179,7 @@ mod tests {
     use crate::simulation::{Observer, Silent, Simulation};
 
     /// Coated and rubbed in two directions, with controls that change their kind.
-    const CASE: &str = r#"
+    const CASE: &str = r"
         [grid]
         cells = [14, 12]
         size = [210e-6, 180e-6]
@@ -204,7 +204,7 @@ mod tests {
         increments = 3
         [output]
         fields = []
-    "#;
+    ";
 
     fn plan(case: &str) -> Plan {
         Plan::new(Case::from_toml(case, "case").unwrap()).unwrap()
