@@ -122,7 +122,7 @@ impl<'a> Simulation<'a> {
             history: History {
                 grid: plan.grid,
                 stages: case.stages.iter().map(|stage| stage.name.clone()).collect(),
-                steps: Vec::with_capacity(plan.increments.saturating_sub(place.solved)),
+                steps: Vec::new(),
                 cycles: Vec::new(),
                 worn_through: None,
                 fields: Vec::new(),
