@@ -37,7 +37,8 @@ pub struct Tally {
     pub solved: usize,
     /// The last record of each stage that is done, then of the stage at work.
     pub stage_ends: Vec<StepRecord>,
-    /// The cycles that are over.
+    /// The cycles that are over. Their table keeps them for a run that goes on, however many they are.
+    #[serde(skip)]
     pub cycles: Vec<CycleRecord>,
     /// Where and when the surfaces were worn to the limit; the run ended there.
     pub worn_through: Option<WornThrough>,

@@ -124,7 +124,7 @@ impl<'a> Simulation<'a> {
                 bodies: case.bodies.clone(),
                 periodic: case.periodic,
                 stages: case.stages.iter().map(|stage| stage.name.clone()).collect(),
-                steps: Vec::with_capacity(plan.increments.saturating_sub(place.solved)),
+                steps: Vec::new(),
                 cycles: Vec::new(),
                 worn_through: None,
                 fields: Vec::new(),

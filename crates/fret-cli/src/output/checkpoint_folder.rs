@@ -38,6 +38,8 @@ pub struct Head {
     pub history_bytes: u64,
     /// The same of the table of cycles.
     pub cycles_bytes: u64,
+    /// Lines of that table.
+    pub cycles: usize,
     /// Increments whose fields have been kept.
     pub kept: usize,
     /// What the run has come to.

@@ -153,7 +153,7 @@ impl ResultFolder {
                 "nothing was touched; --force starts from the beginning, --out DIR elsewhere".to_owned(),
             ))
         };
-        let (stored, passed_over) = match checkpoints.newest(plan, &question) {
+        let (mut stored, passed_over) = match checkpoints.newest(plan, &question) {
             // A kill between the first line and the first checkpoint leaves the head and one line.
             Found::Nothing if HistoryTable::lines(&path.join(HISTORY)) > 2 => {
                 return spoilt("its checkpoint is gone".to_owned());
@@ -162,20 +162,18 @@ impl ResultFolder {
             Found::Unusable(why) => return spoilt(why),
             Found::Stored(stored, passed_over) => (*stored, passed_over),
         };
-        let Head { history_bytes, cycles_bytes, kept, .. } = stored.head;
+        let Head { history_bytes, cycles_bytes, cycles: ended, kept, .. } = stored.head;
         let (history, cycles) = (path.join(HISTORY), path.join(CYCLES));
         let solved = stored.checkpoint.solved();
-        if solved != stored.head.tally.solved {
-            return spoilt("its checkpoint contradicts itself".to_owned());
+        let not_whole = |table: &Path, count: usize| {
+            spoilt(format!("{}: not the {count} lines of the checkpoint", table.display()))
+        };
+        if solved != stored.head.tally.solved || !HistoryTable::holds(&history, history_bytes, solved) {
+            return not_whole(&history, solved);
         }
-        let ended = stored.head.tally.cycles.len();
-        for (table, bytes, lines, count) in [
-            (&history, history_bytes, Lines::Increments, solved),
-            (&cycles, cycles_bytes, Lines::Cycles, ended),
-        ] {
-            if !HistoryTable::holds(table, bytes, lines, count) {
-                return spoilt(format!("{}: not the {count} lines of the checkpoint", table.display()));
-            }
+        match HistoryTable::cycles(&cycles, cycles_bytes) {
+            Some(records) if records.len() == ended => stored.head.tally.cycles = records,
+            _ => return not_whole(&cycles, ended),
         }
         if let Some(file) = FieldStore::missing(&path.join(FIELDS), plan, kept) {
             return spoilt(format!("{}: missing, or not whole", file.display()));
@@ -215,6 +213,7 @@ impl ResultFolder {
             question: self.question.clone(),
             history_bytes: self.history.bytes(),
             cycles_bytes: self.cycles.bytes(),
+            cycles: tally.cycles.len(),
             kept: self.fields.kept(),
             tally: tally.clone(),
             wall_s,
