@@ -69,11 +69,6 @@ impl Springs {
         2.0 * self.tangential * self.step * sum
     }
 
-    /// Tangential force now.
-    pub fn force(&self) -> f64 {
-        self.force_at(self.shift)
-    }
-
     /// Moves to a shift; springs at their bound slip.
     pub fn slide(&mut self, shift: f64) {
         for index in 0..SPRINGS {

@@ -103,6 +103,9 @@ impl Wearing {
     }
 
     /// The block that the wear collected so far stands for, at the most `most` cycles; collecting starts anew.
+    ///
+    /// # Errors
+    /// When a single cycle takes more off a cell than its own compliance can follow.
     pub fn block(
         &mut self,
         state: &ContactState,

@@ -215,7 +215,7 @@ pub(super) struct SolverFile {
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(super) struct OutputFile {
-    /// Fields to keep: "pressure", "shear", "slip", "gap", "zone", "worn_depth". All but the gap and the depth when not given.
+    /// Fields to keep: "pressure", "shear", "slip", "gap", "zone", "`worn_depth`". All but the gap and the depth when not given.
     #[schemars(with = "Option<Vec<String>>")]
     pub fields: Option<Vec<Spanned<String>>>,
     /// Fields of every so many increments are kept, and of the last of each stage; only of the last when not given.
