@@ -31,7 +31,7 @@ increments = 3
 "#;
 
 /// Cycles, each computed one for up to four, then a stage without cycles and an unloading that starts on coarse grids.
-const WORN: &str = r#"
+const WORN: &str = r"
 [[load]]
 shift = [60e-9, 0.0]
 increments = 6
@@ -46,10 +46,10 @@ increments = 2
 coefficient = 2e-11
 every = 4
 largest_step = 0.1
-"#;
+";
 
 /// The second stage ends when it is steady; the last one prescribes an approach where there was a force.
-const STEADY: &str = r#"
+const STEADY: &str = r"
 [[load]]
 tangential_force = [0.15, 0.0]
 increments = 6
@@ -60,7 +60,7 @@ increments = 3
 [[load]]
 approach = 60e-9
 increments = 2
-"#;
+";
 
 fn plan(text: &str) -> Plan {
     Plan::new(Case::from_toml(text, "case.toml").unwrap()).unwrap()

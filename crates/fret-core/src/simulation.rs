@@ -205,8 +205,8 @@ impl<'a> Journey<'a> {
     /// The law of friction in force in the stage at work.
     fn friction(&self) -> &'a CoulombFriction {
         let case = self.case();
-        let changes = case.stages.iter().take(self.place.stage + 1).rev();
-        changes.filter_map(|stage| stage.friction.as_ref()).next().unwrap_or(&case.friction)
+        let mut latest_first = case.stages.iter().take(self.place.stage + 1).rev();
+        latest_first.find_map(|stage| stage.friction.as_ref()).unwrap_or(&case.friction)
     }
 
     fn through_all_stages(mut self) -> Result<History, RunError> {

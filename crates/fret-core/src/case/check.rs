@@ -2,7 +2,6 @@
 
 use toml::Spanned;
 
-use super::arrays::Desk;
 use super::attachments::Attachments;
 use super::bodies::bodies;
 use super::file::{CaseFile, OutputFile, SizeFile};
@@ -39,10 +38,9 @@ pub(super) fn case(
     let cells = cells(&mut judge, &file.grid.cells);
     let size = size(&mut judge, &file.grid.size, cells);
     let bodies = bodies(&mut judge, &file.upper, &file.lower);
-    let desk = Desk { cells };
-    let profile = profile(&mut judge, &file, desk);
-    let friction = friction(&mut judge, file.friction.as_ref(), desk);
-    let changes = of_stages(&mut judge, file.load.get_ref(), desk);
+    let profile = profile(&mut judge, &file, cells);
+    let friction = friction(&mut judge, file.friction.as_ref(), cells);
+    let changes = of_stages(&mut judge, file.load.get_ref(), cells);
     let laws = friction.as_ref().zip(changes.as_ref()).map(|(first, changes)| in_force(first, changes));
     let stages = stages(&mut judge, &file.load, laws.as_deref());
     let stages = stages.zip(changes.as_ref()).map(|(stages, changes)| with_friction(stages, changes));
