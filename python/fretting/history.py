@@ -8,7 +8,7 @@ import numpy.typing as npt
 
 from fretting import _core, plot
 from fretting._arrays import Reals
-from fretting.cycles import Columns, cycles
+from fretting.cycles import Columns, columns
 
 if TYPE_CHECKING:
     import xarray
@@ -51,40 +51,6 @@ MEANING = {
     "outer_iterations": "changes of the contact, stick and slip zones",
     "regime": "apart, full_stick, partial_slip, gross_slip or frictionless",
 }
-
-
-_CYCLE_KINDS: dict[str, type] = {
-    "stage": int,
-    "cycle": int,
-    "first_increment": int,
-    "last_increment": int,
-    "stands_for": int,
-    "dissipated_energy": float,
-    "drive": str,
-    "direction": float,
-    "force_amplitude": float,
-    "displacement_amplitude": float,
-    "opening": float,
-    "energy_ratio": float,
-    "sliding_ratio": float,
-    "stiffness": float,
-    "regime": str,
-    "closure": float,
-    "steady": bool,
-    "worn_volume": float,
-    "max_worn_depth": float,
-}
-
-
-def _columns(records: list[dict[str, Any]]) -> dict[str, npt.NDArray[Any]]:
-    """Records of cycles as one array a name; a missing number is NaN, a missing word empty."""
-    missing: dict[type, object] = {float: np.nan, str: ""}
-    return {
-        name: np.array(
-            [missing[kind] if record[name] is None else record[name] for record in records], dtype=kind
-        )
-        for name, kind in _CYCLE_KINDS.items()
-    }
 
 
 class _Kept(Protocol):
@@ -148,7 +114,7 @@ class History:
     x: Reals
     y: Reals
     stages: list[str]
-    cycles: dict[str, npt.NDArray[Any]]
+    cycles: Columns
     running_conditions: list[str | None]
     worn_through: dict[str, Any] | None
 
@@ -156,7 +122,6 @@ class History:
     _bodies: str
     _spacing: tuple[float, float]
     _periodic: bool
-    _cycle_lengths: list[int | None]
 
     def __init__(self, answer: _core.History) -> None:
         self._kept = answer
@@ -168,8 +133,7 @@ class History:
         dx, dy = answer.spacing()
         self._spacing = (dx, dy)
         self._periodic = answer.periodic()
-        self._cycle_lengths = answer.cycle_lengths()
-        self.cycles = _columns(json.loads(answer.cycles()))
+        self.cycles = columns(json.loads(answer.cycles()))
         self.running_conditions = json.loads(answer.running_conditions())
         self.worn_through = json.loads(answer.worn_through())
 
@@ -283,20 +247,6 @@ class History:
         }
         return xarray.Dataset(variables, coords=coordinates, attrs={"stages": self.stages})
 
-    def cycles(self) -> Columns:
-        """Return what each full fretting cycle came to.
-
-        Returns
-        -------
-        dict of str to ndarray
-            One entry a full cycle, in order: ``stage`` and ``cycle`` (from 1, in its stage), ``first`` and ``last``
-            increment, ``energy`` (work of friction in the cycle [force x length]), ``force_amplitude`` and
-            ``shift_amplitude`` (half the span), ``energy_ratio`` (energy over 4 times their product: 0 without slip,
-            towards 1 in gross slip), ``least_stick_share``, ``regime`` (``"gross_slip"`` when any increment slips
-            fully, else ``"partial_slip"`` when any slips, else ``"full_stick"``). Empty without stages in cycles.
-        """
-        return cycles(self.steps, self._cycle_lengths)
-
     def plot_loop(
         self, along: Literal["x", "y"] = "x", stage: int | str | None = None, axes: "Axes | None" = None
     ) -> "Axes":
@@ -343,7 +293,7 @@ class History:
             ("dissipated energy", f"{last['dissipated_energy']:.6g}"),
             ("worst residual", f"{self.steps['residual'].max():.1e}"),
         ]
-        done = self.cycles()
+        done = self.cycles
         if len(done["cycle"]):
             ratio, regime = done["energy_ratio"][-1], done["regime"][-1]
             facts.append((f"last of {len(done['cycle'])} cycles", f"{regime.replace('_', ' ')}, ratio {ratio:.3g}"))

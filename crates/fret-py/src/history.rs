@@ -66,9 +66,9 @@ pub fn step_items<'py>(py: Python<'py>, step: &StepRecord) -> PyResult<Bound<'py
     Ok(items)
 }
 
-/// All of a run, and the increments of a cycle of each stage that has cycles.
+/// All of a run.
 #[pyclass(frozen, module = "fretting._core")]
-pub struct History(pub history::History, pub Vec<Option<usize>>);
+pub struct History(pub history::History);
 
 #[pymethods]
 impl History {
@@ -123,11 +123,6 @@ impl History {
     /// Whether the scene repeats in x and y.
     fn periodic(&self) -> bool {
         self.0.periodic
-    }
-
-    /// Increments of one cycle of each stage; `None` of a stage without cycles.
-    fn cycle_lengths(&self) -> Vec<Option<usize>> {
-        self.1.clone()
     }
 
     /// Coordinates of the cell centres along axis 0 or 1 [length].

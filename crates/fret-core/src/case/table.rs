@@ -146,7 +146,7 @@ impl Words {
 
 #[cfg(test)]
 mod tests {
-    use crate::case::Case;
+    use crate::case::{Attachments, Case};
 
     const HEAD: &str = "[grid]\ncells = [16, 16]\nsize = [3.0, 3.0]\n[upper]\nrigid = true\n[lower]\n\
                         substrate = { young = 1.0, poisson = 0.3 }\n[profile.sphere]\nradius = 100.0\n\
