@@ -131,10 +131,11 @@ impl Section<'_> {
         let _ = writeln!(
             svg,
             "<rect x=\"{LEFT}\" y=\"{TOP}\" width=\"{WIDTH}\" height=\"{height:.1}\" fill=\"none\" stroke=\"black\"/>\n\
-             <text x=\"{:.1}\" y=\"{:.1}\" text-anchor=\"middle\">x</text>\n<text x=\"14\" y=\"{:.1}\">z</text>",
+             <text x=\"{:.1}\" y=\"{:.1}\" text-anchor=\"middle\">x</text>\n<text x=\"{:.1}\" y=\"{:.1}\">z</text>",
             LEFT + 0.5 * WIDTH,
             TOP + height + 38.0,
-            TOP + 0.5 * height
+            LEFT - 40.0,
+            TOP - 10.0
         );
     }
 }

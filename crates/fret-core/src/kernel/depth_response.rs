@@ -173,6 +173,7 @@ mod tests {
     use super::super::frequency_response::FrequencyResponse;
     use super::super::samples::{Random, stack};
     use super::*;
+    use crate::model::Coating;
 
     /// What both sides of an interface share: tractions and displacements.
     fn shared(transfer: &DepthTransfer<f64>) -> [f64; 10] {
@@ -278,7 +279,7 @@ mod tests {
         for case in 0..100 {
             let half_space = random.half_space(3, 1e4, case % 2 == 0);
             let layer = random.whole(0, half_space.coatings().len() - 1);
-            let top: f64 = half_space.coatings()[..layer].iter().map(|c| c.thickness()).sum();
+            let top: f64 = half_space.coatings()[..layer].iter().map(Coating::thickness).sum();
             let h = half_space.coatings()[layer].thickness();
             let z = top + h * (0.2 + 0.6 * random.uniform());
             let k = random.log_uniform(1e-2, 20.0);

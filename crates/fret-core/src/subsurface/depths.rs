@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use serde::{Deserialize, Serialize};
 
-use crate::model::{Base, HalfSpace};
+use crate::model::{Base, Coating, HalfSpace};
 
 /// Relative distance from an interface that counts as rounding of decimal numbers.
 const AT_INTERFACE: f64 = 1e-9;
@@ -43,7 +43,7 @@ pub enum DepthError {
 /// Depths of the interfaces, from the surface down.
 fn interfaces(half_space: &HalfSpace) -> Vec<f64> {
     let mut depth = 0.0;
-    let thicknesses = half_space.coatings().iter().map(|coating| coating.thickness());
+    let thicknesses = half_space.coatings().iter().map(Coating::thickness);
     thicknesses
         .map(|thickness| {
             depth += thickness;
@@ -131,7 +131,7 @@ pub fn automatic_depths(half_space: &HalfSpace, reach: f64, count: usize) -> Vec
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::model::{Coating, ElasticMaterial};
+    use crate::model::ElasticMaterial;
 
     fn body(thicknesses: &[f64], rigid: bool) -> HalfSpace {
         let material = |young| ElasticMaterial::new(young, 0.3).unwrap();
