@@ -7,11 +7,13 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use fret_core::checkpoint::{Checkpoint, Waypoint};
+use fret_core::cycle::CycleRecord;
 use fret_core::history::{KeptFields, StepRecord};
 use fret_core::model::{ContactState, SurfaceGrid};
 use fret_core::plan::Plan;
 use fret_core::simulation::{Iteration, Observer, RunError, Simulation};
 use fret_core::study::{Headline, companion};
+use fret_core::wear::WornThrough;
 use serde_json::{Value, json};
 
 use crate::arguments::RunArguments;
@@ -164,7 +166,7 @@ impl Preparation {
             let answer = json!({
                 "status": "solved",
                 "message": message,
-                "increments": self.plan.increments,
+                "increments": record["totals"]["increments"],
                 "totals": record["totals"],
                 "results": shown,
             });
@@ -191,7 +193,8 @@ impl Preparation {
             failure: None,
         };
         let outcome = self.followed_by(from, &mut witness);
-        let Witness { folder, progress, tally, clock, failure, .. } = witness;
+        let Witness { folder, progress, mut tally, clock, failure, .. } = witness;
+        let outcome = outcome.map(|worn_through| tally.worn_through = worn_through);
         progress.end();
         let wall_s = clock.read();
         let failure = failure.or_else(|| outcome.err());
@@ -246,10 +249,11 @@ impl Preparation {
         }
     }
 
-    fn followed_by(&self, from: Checkpoint, witness: &mut Witness) -> Result<(), Failure> {
-        let journey = || Simulation::new(&self.plan).resume(from, witness).map(|_| ());
+    fn followed_by(&self, from: Checkpoint, witness: &mut Witness) -> Result<Option<WornThrough>, Failure> {
+        let journey =
+            || Simulation::new(&self.plan).resume(from, witness).map(|history| history.worn_through);
         match catch_unwind(AssertUnwindSafe(|| self.pool.install(journey))) {
-            Ok(Ok(())) => Ok(()),
+            Ok(Ok(worn_through)) => Ok(worn_through),
             Ok(Err(RunError::Interrupted { .. })) => {
                 let kept = self.kept(&witness.tally);
                 Err(Failure::Interrupted(format!("{kept}; --resume goes on from there")))
@@ -321,6 +325,13 @@ impl Observer for Witness {
         }
         self.progress.solved(record, &self.tally);
         go_on()
+    }
+
+    fn cycled(&mut self, record: &CycleRecord) {
+        if self.failure.is_none() {
+            self.failure = self.folder.keep_cycle(record).err().map(Failure::from);
+            self.tally.add_cycle(record);
+        }
     }
 
     fn reached(&mut self, waypoint: &Waypoint<'_>) -> ControlFlow<()> {

@@ -140,7 +140,7 @@ fn a_case_file_that_cannot_be_read_is_told_in_one_line() {
     std::fs::write(bench.folder.join("bytes.toml"), [b't', 0xff, 0xfe]).unwrap();
     for (path, words) in [
         ("nowhere.toml", "no such file"),
-        ("folder", "a folder, not a case file"),
+        ("folder", "a folder, not a file"),
         ("bytes.toml", "not a text in UTF-8"),
     ] {
         for verb in ["run", "check", "plan"] {

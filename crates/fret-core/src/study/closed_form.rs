@@ -11,8 +11,8 @@ use super::headline::Quantity;
 use crate::analytic::{
     Cone, EffectiveModuli, FlatPunch, Hertz, HertzEllipse, RoundedPunch, TangentialHistory,
 };
-use crate::case::{Course, Stage, StageControl};
-use crate::model::{Body, CoulombFriction, ElasticMaterial, Shape};
+use crate::case::Stage;
+use crate::model::{Body, Control, CoulombFriction, ElasticMaterial, LoadStep, Shape};
 use crate::plan::{Coupling, Plan};
 
 /// What a closed form says of one stage's end; `None` where it says nothing.
@@ -54,16 +54,14 @@ impl ClosedForm {
     /// The closed form of a plan, where it has one.
     pub fn of(plan: &Plan) -> Option<Self> {
         let case = &plan.case;
-        if case.periodic || plan.coupling == Coupling::Coupled {
+        let changes = case.wear.is_some() || case.is_open_ended();
+        if case.periodic || changes || plan.coupling == Coupling::Coupled {
             return None;
         }
         let moduli = moduli(plan)?;
-        let mut force = None;
-        let mut pressed = Vec::new();
-        for stage in &case.stages {
-            force = stage.normal.or(force);
-            pressed.push(pressed_by(plan, force?, moduli.normal)?);
-        }
+        let at_ends = loads_at_ends(&case.stages);
+        let pressed: Vec<Pressed> =
+            at_ends.iter().map(|load| pressed_by(plan, load.normal, moduli.normal)).collect::<Option<_>>()?;
         let mut ends: Vec<Said> = pressed.iter().map(Pressed::says).collect();
         let shear = if case.is_frictionless() || !has_tangential(&case.stages) {
             none_tangential(&mut ends);
@@ -157,7 +155,7 @@ fn moduli(plan: &Plan) -> Option<EffectiveModuli> {
     }
 }
 
-fn pressed_by(plan: &Plan, control: StageControl, modulus: f64) -> Option<Pressed> {
+fn pressed_by(plan: &Plan, control: Control, modulus: f64) -> Option<Pressed> {
     let profile = &plan.case.profile;
     if !profile.heights.is_empty() {
         return None;
@@ -169,19 +167,19 @@ fn pressed_by(plan: &Plan, control: StageControl, modulus: f64) -> Option<Presse
         }
         let is_round = (x - y).abs() <= 1e-15 * x;
         return match control {
-            StageControl::Force(force) if is_round => {
+            Control::Force(force) if is_round => {
                 Hertz::sphere(x.recip(), force, modulus).ok().map(Pressed::Sphere)
             }
-            StageControl::Motion(approach) if is_round => {
+            Control::Motion(approach) if is_round => {
                 Hertz::sphere_at_approach(x.recip(), approach, modulus).ok().map(Pressed::Sphere)
             }
-            StageControl::Force(force) => {
+            Control::Force(force) => {
                 HertzEllipse::ellipsoid([x.recip(), y.recip()], force, modulus).ok().map(Pressed::Ellipsoid)
             }
-            StageControl::Motion(_) => None,
+            Control::Motion(_) => None,
         };
     }
-    let (StageControl::Force(force), [shape]) = (control, profile.shapes.as_slice()) else { return None };
+    let (Control::Force(force), [shape]) = (control, profile.shapes.as_slice()) else { return None };
     match *shape {
         Shape::RoundedPunch { flat_radius, edge_radius } => {
             RoundedPunch::new(flat_radius, edge_radius, force, modulus).ok().map(Pressed::Rounded)
@@ -221,56 +219,61 @@ fn tangential(
         return None;
     }
     let Some(Pressed::Sphere(hertz)) = pressed.get(first) else { return None };
-    let targets: Vec<Option<[f64; 2]>> = stages.iter().map(force_of).collect::<Option<_>>()?;
-    let largest = targets.iter().flatten().fold([0.0; 2], |most: [f64; 2], force| {
-        if force[0].hypot(force[1]) > most[0].hypot(most[1]) { *force } else { most }
-    });
-    let size = largest[0].hypot(largest[1]);
-    if size == 0.0 {
+    let mut forces = Vec::new();
+    for_every_load(stages, |number, load| forces.push((number, load.tangential)));
+    let forces: Vec<(usize, [f64; 2])> = forces
+        .into_iter()
+        .map(|(number, controls)| match controls {
+            [Control::Force(x), Control::Force(y)] => Some((number, [x, y])),
+            _ => None, // a prescribed shift
+        })
+        .collect::<Option<_>>()?;
+    let size = |force: &[f64; 2]| force[0].hypot(force[1]);
+    let largest = forces.iter().map(|(_, force)| *force).max_by(|a, b| size(a).total_cmp(&size(b)))?;
+    if size(&largest) == 0.0 {
         return None;
     }
-    let direction = largest.map(|part| part / size);
-    let across = |force: &[f64; 2]| (force[0] * direction[1] - force[1] * direction[0]).abs();
-    if targets.iter().flatten().any(|force| across(force) > 1e-12 * size) {
-        return None;
-    }
+    let direction = largest.map(|part| part / size(&largest));
     let mut history = TangentialHistory::new(hertz, friction, shear_modulus).ok()?;
     let mut said = ends.to_vec();
-    for ((stage, target), said) in stages.iter().zip(&targets).zip(&mut said) {
-        if let Some(force) = target {
-            let along = force[0] * direction[0] + force[1] * direction[1];
-            let start = history.tangential_force();
-            let path = match stage.course {
-                Course::Linear | Course::Cubic => vec![along],
-                Course::Cycles(cycles) => [start + along, start - along, start].repeat(cycles),
-            };
-            for force in path {
-                // Where all of the contact slides the shift is no matter of the force.
-                if force.abs() >= friction * hertz.force * (1.0 - 1e-9) {
-                    return None;
-                }
-                history.push(force).ok()?;
-            }
-            said.say(Quantity::StickArea, disc(history.stick_radius()));
+    for (number, force) in &forces {
+        let across = force[0] * direction[1] - force[1] * direction[0];
+        // Where all of the contact slides the shift is no matter of the force.
+        if across.abs() > 1e-12 * size(&largest) || size(force) >= friction * hertz.force * (1.0 - 1e-9) {
+            return None;
         }
-        said.0[Quantity::Shift as usize] = Some(direction.map(|part| part * history.shift()));
-        said.say(Quantity::DissipatedEnergy, history.dissipated_energy());
+        if *number >= first {
+            history.push(force[0] * direction[0] + force[1] * direction[1]).ok()?;
+            said[*number].say(Quantity::StickArea, disc(history.stick_radius()));
+        }
+        said[*number].0[Quantity::Shift as usize] = Some(direction.map(|part| part * history.shift()));
+        said[*number].say(Quantity::DissipatedEnergy, history.dissipated_energy());
     }
     ends.copy_from_slice(&said);
     Some((history, direction))
 }
 
-/// The tangential force a stage goes to, when it has one; `None` for a prescribed shift.
-#[expect(
-    clippy::option_option,
-    reason = "no closed form, and a stage without tangential control, are two things"
-)]
-fn force_of(stage: &Stage) -> Option<Option<[f64; 2]>> {
-    match stage.tangential {
-        None => Some(None),
-        Some([StageControl::Force(x), StageControl::Force(y)]) => Some(Some([x, y])),
-        Some(_) => None,
+/// Visits the loads at the end of every increment. Where a control changes its kind only the end of its stage is right.
+fn for_every_load(stages: &[Stage], mut visit: impl FnMut(usize, &LoadStep)) {
+    let force = Control::Force(0.0);
+    let mut held = LoadStep { normal: force, tangential: [force; 2], twist: Control::Motion(0.0) };
+    for (number, stage) in stages.iter().enumerate() {
+        let start = held;
+        for k in 1..=stage.increments_in_all() {
+            held = stage.load(&start, k);
+            visit(number, &held);
+        }
     }
+}
+
+/// Loads at the ends of the stages.
+fn loads_at_ends(stages: &[Stage]) -> Vec<LoadStep> {
+    let mut ends: Vec<LoadStep> = Vec::new();
+    for_every_load(stages, |number, load| {
+        ends.truncate(number);
+        ends.push(*load);
+    });
+    ends
 }
 
 /// Whether Poisson's ratio vanishes in both bodies.

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use super::variation::{Variation, fewest};
+use super::variation::{Variation, fewest, rows};
 use crate::plan::{Coupling, Plan};
 
 /// Fewest cells a side of a rung that nobody asked for.
@@ -36,6 +36,9 @@ pub enum LadderError {
     /// A number of increments that a stage cannot have.
     #[error("--increments {0}: stage {1:?} needs at least {2}")]
     Increments(usize, String, usize),
+    /// A number of increments that a table cannot be run through in.
+    #[error("--increments {0}: stage {1:?} has a table, whose {2} rows take equal numbers of increments")]
+    Rows(usize, String, usize),
     /// A tolerance out of range.
     #[error("--tolerances {0}: must lie between 1e-14 and 0.1")]
     Tolerance(f64),
@@ -83,6 +86,9 @@ impl Ladder {
         for count in increments {
             if let Some(stage) = plan.case.stages.iter().find(|stage| fewest(stage) > *count) {
                 return Err(LadderError::Increments(*count, stage.name.clone(), fewest(stage)));
+            }
+            if let Some(stage) = plan.case.stages.iter().find(|stage| !count.is_multiple_of(rows(stage))) {
+                return Err(LadderError::Rows(*count, stage.name.clone(), rows(stage)));
             }
         }
         if let Some(bad) = tolerances.iter().find(|tolerance| !(1e-14..=0.1).contains(*tolerance)) {

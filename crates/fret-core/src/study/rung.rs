@@ -7,6 +7,7 @@ use ndarray::Array2;
 
 use super::headline::Headline;
 use super::variation::Variation;
+use crate::cycle::CycleRecord;
 use crate::history::{KeptFields, StepRecord, Work};
 use crate::model::{ContactState, SurfaceGrid};
 use crate::plan::Plan;
@@ -37,7 +38,7 @@ pub struct Rung {
 /// As [`Simulation::run`].
 pub fn climbed(plan: &Plan, observer: &mut dyn Observer) -> Result<Rung, RunError> {
     let started = Instant::now();
-    let mut ends = Ends { grid: plan.grid, last: last_increments(plan), ends: Vec::new(), observer };
+    let mut ends = Ends { grid: plan.grid, ends: Vec::new(), observer };
     let history = Simulation::new(plan).run(&mut ends)?;
     let ends = ends.ends;
     let work = history.work();
@@ -52,20 +53,9 @@ pub fn climbed(plan: &Plan, observer: &mut dyn Observer) -> Result<Rung, RunErro
     })
 }
 
-/// Numbers of the last increments of the stages.
-fn last_increments(plan: &Plan) -> Vec<usize> {
-    let mut done = 0;
-    let last = |stage: &crate::case::Stage| {
-        done += stage.increments_in_all();
-        done - 1
-    };
-    plan.case.stages.iter().map(last).collect()
-}
-
-/// Reads headline numbers at the end of every stage.
+/// Reads headline numbers of the last increment of every stage, whenever that comes.
 struct Ends<'a> {
     grid: SurfaceGrid,
-    last: Vec<usize>,
     ends: Vec<Headline>,
     observer: &'a mut dyn Observer,
 }
@@ -75,15 +65,20 @@ impl Observer for Ends<'_> {
         self.observer.iterated(iteration)
     }
 
+    fn cycled(&mut self, record: &CycleRecord) {
+        self.observer.cycled(record);
+    }
+
     fn solved(
         &mut self,
         record: &StepRecord,
         state: &ContactState,
         kept: Option<&KeptFields>,
     ) -> ControlFlow<()> {
-        if self.last.contains(&record.increment) {
-            self.ends.push(Headline::new(&self.grid, record, state));
+        if self.ends.last().is_some_and(|end| end.stage == record.stage) {
+            self.ends.pop();
         }
+        self.ends.push(Headline::new(&self.grid, record, state));
         self.observer.solved(record, state, kept)
     }
 }

@@ -2,12 +2,9 @@
 
 use serde::Serialize;
 
-use crate::case::{Course, GridSize, Stage};
+use crate::case::{GridSize, Path, Stage, StageControl};
 use crate::model::{GridError, SurfaceGrid};
 use crate::plan::Plan;
-
-/// Increments a cycle needs at the least: it turns twice.
-const FEWEST_OF_A_CYCLE: usize = 4;
 
 /// Cells, increments and tolerance of a scene.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -33,7 +30,10 @@ impl Variation {
     /// About half the cells along each side and half the increments of each stage.
     #[must_use]
     pub fn halved(&self, stages: &[Stage]) -> Self {
-        let half = |(count, stage): (&usize, &Stage)| fewest(stage).max(count.div_ceil(2)).min(*count);
+        let half = |(count, stage): (&usize, &Stage)| {
+            let rows = rows(stage);
+            fewest(stage).max(rows * (count / rows).div_ceil(2)).min(*count)
+        };
         Self {
             cells: self.cells.map(|count| count.div_ceil(2)),
             increments: self.increments.iter().zip(stages).map(half).collect(),
@@ -65,7 +65,20 @@ impl Variation {
     }
 }
 
-/// Fewest increments a stage can have.
+/// Fewest increments a stage can have: all turning points of its cycle, all rows of its table.
 pub(super) fn fewest(stage: &Stage) -> usize {
-    if matches!(stage.course, Course::Cycles(_)) { FEWEST_OF_A_CYCLE } else { 1 }
+    let turns = stage.cycles().map_or(1, |cycles| cycles.waveform.fewest_increments());
+    if rows(stage) > 1 { rows(stage) } else { turns }
+}
+
+/// Rows of a stage's table, each of which takes the same number of increments; 1 without a table.
+pub(super) fn rows(stage: &Stage) -> usize {
+    let controls = [&stage.normal, &stage.tangential[0], &stage.tangential[1], &stage.twist];
+    let rows = controls.into_iter().flatten().map(|control| match control {
+        StageControl::Force(Path::Through(values)) | StageControl::Motion(Path::Through(values)) => {
+            values.len()
+        }
+        _ => 1,
+    });
+    rows.fold(1, usize::max)
 }
