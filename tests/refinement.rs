@@ -57,29 +57,36 @@ fn cells_show_the_orders_of_a_hertz_contact() {
     assert!(!advice.concluded && advised.errors.worst(Form::Between).unwrap() <= 1e-2);
 }
 
-/// Friction works on the way: losses and shift after loading and unloading are met to first order in the increments, the
-/// pressure, which friction between like bodies does not touch, is the same for any number of them.
+/// Between like bodies pressure and shear do not act on each other, and while the force runs one way all that slipped goes on
+/// slipping: the increments on the way change nothing, here up to the solver's tolerance.
 #[test]
-fn increments_show_first_order_in_what_depends_on_the_way() {
-    let sphere = Sphere { cells: 32, poisson: 0.0, identical: true, friction: 0.3, ..Sphere::default() };
+fn increments_change_nothing_where_the_way_does_not_matter() {
+    let sphere = Sphere { cells: 24, poisson: 0.0, identical: true, friction: 0.3, ..Sphere::default() };
     let there = sphere.pulled(&sphere.pressed(1.0, 1, "linear"), 0.8, 8, None);
     let plan = planned(&sphere.pulled(&there, -0.2, 8, None));
+    let climb = solved(&plan, Ladder::new(&plan, &[], &[1, 4, 8], &[]).unwrap());
+    assert_eq!(ClosedForm::of(&plan).unwrap().name(), "Hertz; Cattaneo and Mindlin");
+    let finest = Truth::finest(climb.finest().unwrap());
+    for rung in &line(&climb.judged(&finest), Kind::Increments).rungs {
+        let worst = rung.errors.worst(Form::Between).unwrap();
+        assert!(worst < 1e-5, "{:?}: {worst:e}", rung.place); // energy and shift stand in differences of the tractions
+    }
+}
+
+/// Where each traction acts on the other, steps of the load are implicit steps on the way: first order in what friction took.
+#[test]
+fn increments_show_first_order_where_the_way_matters() {
+    let sphere = Sphere { cells: 24, poisson: 0.0, friction: 0.3, ..Sphere::default() };
+    let pressed = sphere.pressed(1.0, 1, "linear");
+    let plan = planned(&sphere.pulled(&pressed, 0.5, 8, Some(1)));
     let climb = solved(&plan, Ladder::new(&plan, &[], &[4, 8, 16, 32], &[]).unwrap());
-    let form = ClosedForm::of(&plan).unwrap();
-    assert_eq!(form.name(), "Hertz; Cattaneo and Mindlin");
-    let limit = climb.limit().unwrap();
-    let lines = climb.judged(&limit);
+    let lines = climb.judged(&climb.limit().unwrap());
     let losses = order(line(&lines, Kind::Increments), 8.0, |errors| {
         errors.between[Quantity::DissipatedEnergy as usize]
     });
     println!("losses {losses:.2}");
-    assert!((0.8..1.4).contains(&losses), "{losses}"); // measured against the ladder's own limit, which flatters the finest
-    let pressures: Vec<f64> = line(&lines, Kind::Increments)
-        .rungs
-        .iter()
-        .map(|rung| climb.rung(rung.place).unwrap().ends[2].max_pressure)
-        .collect();
-    assert!(pressures.windows(2).all(|pair| pair[0].to_bits() == pair[1].to_bits()), "{pressures:?}");
+    // Measured against the ladder's own limit, which flatters the finest rung a little.
+    assert!((0.8..1.4).contains(&losses), "{losses}");
 }
 
 /// Which closed form speaks, and where none does.

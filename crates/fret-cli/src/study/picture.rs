@@ -10,18 +10,14 @@ use crate::report::scale::Axis;
 use crate::study::table::kind_name;
 
 const PANEL: f64 = 470.0;
-const HEIGHT: f64 = 410.0;
+const HEIGHT: f64 = 440.0;
 const LEFT: f64 = 62.0;
 const RIGHT: f64 = 16.0;
 const TOP: f64 = 62.0;
-const BOTTOM: f64 = 108.0;
+const BOTTOM: f64 = 144.0;
 /// Height of a row of the legend.
 const ROW: f64 = 18.0;
-const COLOURS: [&str; 4] = ["#1f5a93", "#b4452c", "#2c7a4b", "#8a5a9e"];
-/// Numbers that can be read between the cells or extrapolated.
-const READ: [Quantity; 4] =
-    [Quantity::MaxPressure, Quantity::Approach, Quantity::ContactArea, Quantity::StickArea];
-
+const COLOURS: [&str; 5] = ["#1f5a93", "#b4452c", "#2c7a4b", "#8a5a9e", "#b07d12"];
 /// A line of points, from coarse to fine.
 struct Curve {
     name: String,
@@ -76,22 +72,36 @@ fn kinds(climb: &Climb, lines: &[Line]) -> Panel {
 
 fn readings(climb: &Climb, lines: &[Line]) -> Option<Panel> {
     let line = lines.iter().find(|line| line.kind == Kind::Cells)?;
-    let forms = [
-        (Form::Plain, "as the cells have them"),
-        (Form::Between, "read between the cells"),
-        (Form::Extrapolated, "pressure and approach extrapolated too"),
+    let smooth: &[Quantity] = &[Quantity::MaxPressure, Quantity::Approach];
+    let areas: &[Quantity] = &[Quantity::ContactArea, Quantity::StickArea];
+    let readings = [
+        (smooth, Form::Plain, "pressure and approach as the cells have them"),
+        (smooth, Form::Between, "the same between the cells"),
+        (smooth, Form::Extrapolated, "the same extrapolated with the next coarser grid"),
+        (areas, Form::Plain, "contact and stick area by counting cells"),
+        (areas, Form::Between, "the same with the edge of contact between the cells"),
     ];
-    let mut curves: Vec<Curve> = forms
+    let mut curves: Vec<Curve> = readings
         .into_iter()
-        .map(|(form, name)| {
+        .zip(COLOURS)
+        .map(|((quantities, form, name), colour)| {
             let points = line.rungs.iter().filter_map(|judged| {
                 let errors = judged.errors.of(form);
-                let worst = READ.iter().filter_map(|quantity| errors[*quantity as usize]).reduce(f64::max)?;
-                Some(([climb.seconds(judged.place, form)?, worst], false))
+                let known = quantities.iter().filter_map(|quantity| errors[*quantity as usize]);
+                Some(([climb.seconds(judged.place, form)?, known.reduce(f64::max)?], false))
             });
-            Curve { name: name.to_owned(), colour: COLOURS[form as usize], points: points.collect() }
+            Curve { name: name.to_owned(), colour, points: points.collect() }
         })
         .collect();
+    let (of_smooth, of_areas) = curves.split_at_mut(3);
+    mark_frontier(of_smooth);
+    mark_frontier(of_areas);
+    let title = "cells refined: three ways to read a number".to_owned();
+    Some(Panel { title, curves })
+}
+
+/// Marks the points of some curves that no other one of them beats.
+fn mark_frontier(curves: &mut [Curve]) {
     let all: Vec<[f64; 2]> =
         curves.iter().flat_map(|curve| curve.points.iter().map(|(point, _)| *point)).collect();
     for (point, is_efficient) in curves.iter_mut().flat_map(|curve| &mut curve.points) {
@@ -99,8 +109,6 @@ fn readings(climb: &Climb, lines: &[Line]) -> Option<Panel> {
             other[0] <= point[0] && other[1] <= point[1] && (other[0] < point[0] || other[1] < point[1])
         });
     }
-    let title = "cells refined: worst of pressure, approach and areas".to_owned();
-    Some(Panel { title, curves })
 }
 
 impl Panel {

@@ -9,6 +9,8 @@ use crate::study::words::name;
 
 /// Width of a column of errors.
 const COLUMN: usize = 15;
+/// Errors below this are rounding: a rung that is its own measure, or a refinement that changes nothing.
+const ROUNDING: f64 = 1e-12;
 
 /// What a line refines, in words.
 pub fn kind_name(kind: Kind) -> &'static str {
@@ -78,7 +80,9 @@ pub fn table(climb: &Climb, lines: &[Line]) -> String {
             let columns = columns(judged);
             for column in &known {
                 let (error, order) = columns[*column];
-                let error = error.map_or("-".to_owned(), |error| format!("{error:.1e}"));
+                let error = error.map_or("-".to_owned(), |error| {
+                    if error < ROUNDING { "0".to_owned() } else { format!("{error:.1e}") }
+                });
                 let order = order.map_or(String::new(), |order| format!("{order:.1}"));
                 let _ = write!(table, "{error:>9} {order:>5}");
             }

@@ -26,12 +26,17 @@ pub fn measured_by(truth: &Truth) -> String {
     let said = sources.into_iter().filter_map(|(source, words)| {
         let numbers: Vec<&str> = Quantity::ALL
             .into_iter()
-            .filter(|quantity| truth.source(*quantity) == Some(source))
+            .filter(|quantity| truth.source(*quantity) == Some(source) && happens(truth, *quantity))
             .map(name)
             .collect();
         (!numbers.is_empty()).then(|| format!("{} measured by {words}", numbers.join(", ")))
     });
     said.collect::<Vec<_>>().join("\n")
+}
+
+/// Whether a number is ever anything but zero.
+fn happens(truth: &Truth, quantity: Quantity) -> bool {
+    truth.of(quantity).iter().flatten().any(|value| *value != [0.0; 2])
 }
 
 /// One sentence: what to choose for each accuracy. `cells` and `increments` tell which of them the ladder has several of, and

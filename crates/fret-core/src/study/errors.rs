@@ -8,6 +8,8 @@ use super::truth::Truth;
 
 /// Share below which a motion or an energy is none.
 const NOTHING: f64 = 1e-9;
+/// Errors below this are rounding, and show no order.
+const ROUNDING: f64 = 1e-12;
 
 /// How a headline number is read.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
@@ -130,13 +132,13 @@ fn error(
     (0..ends).filter_map(apart).reduce(f64::max)
 }
 
-/// Order each rung of a line shows against the one before: `ln(e0/e1) / ln(n1/n0)`; the first has none.
+/// Order each rung of a line shows against the one before: `ln(e0/e1) / ln(n1/n0)`; the first has none, nor has rounding.
 pub fn orders(counts: &[f64], errors: &[Option<f64>]) -> Vec<Option<f64>> {
     (0..counts.len())
         .map(|k| {
             let before = k.checked_sub(1)?;
             let (e0, e1) = (errors[before]?, errors[k]?);
-            (e0 > 0.0 && e1 > 0.0).then(|| (e0 / e1).ln() / (counts[k] / counts[before]).ln())
+            (e0 > ROUNDING && e1 > ROUNDING).then(|| (e0 / e1).ln() / (counts[k] / counts[before]).ln())
         })
         .collect()
 }
