@@ -99,8 +99,8 @@ fn bare(all: &mut Vec<Judged>) {
     };
     for cells in [32, 45, 64] {
         for (name, size, profile, force) in [
-            ("ellipsoid", [3.6, 1.8], "[profile.ellipsoid]\nradii = [300.0, 60.0]", 0.012),
-            ("ellipsoid", [2.2, 3.2], "[profile.ellipsoid]\nradii = [70.0, 150.0]", 0.012),
+            ("ellipsoid", [3.6, 1.8], "[profile.ellipsoid]\nradius_x = 300.0\nradius_y = 60.0", 0.012),
+            ("ellipsoid", [2.2, 3.2], "[profile.ellipsoid]\nradius_x = 70.0\nradius_y = 150.0", 0.012),
             (
                 "rounded punch",
                 [2.6, 2.6],

@@ -78,7 +78,7 @@ impl Truth {
             for (end, value) in values.iter_mut().enumerate() {
                 let Some(value) = value else { continue };
                 for (kind, counts, rungs) in &lines {
-                    let order = assumed_order(*quantity, *kind);
+                    let order = known_order(*quantity, *kind);
                     for (axis, part) in value.iter_mut().enumerate() {
                         let along: Vec<f64> = rungs
                             .iter()
@@ -184,11 +184,11 @@ impl Fields {
     }
 }
 
-/// Order when only two rungs are there: pressure and approach fall with the cell squared, all else is taken to fall evenly.
-fn assumed_order(quantity: Quantity, kind: Kind) -> f64 {
+/// Order that is known beforehand: pressure and approach fall with the cell squared.
+fn known_order(quantity: Quantity, kind: Kind) -> Option<f64> {
     match (quantity, kind) {
-        (Quantity::MaxPressure | Quantity::Approach, Kind::Cells) => 2.0,
-        _ => 1.0,
+        (Quantity::MaxPressure | Quantity::Approach, Kind::Cells) => Some(2.0),
+        _ => None,
     }
 }
 
