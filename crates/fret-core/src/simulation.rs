@@ -133,7 +133,6 @@ impl<'a> Simulation<'a> {
             },
             place,
             cycle,
-            refinement: None,
             observer,
         };
         journey.through_all_stages()
@@ -196,8 +195,6 @@ struct Journey<'a> {
     place: Place,
     /// The cycle at work.
     cycle: Option<FrettingLoop>,
-    /// How increments of the stage at work are divided; each is one step when not given.
-    refinement: Option<Refinement>,
     observer: &'a mut dyn Observer,
 }
 
@@ -213,6 +210,20 @@ impl<'a> Journey<'a> {
         latest_first.find_map(|stage| stage.friction.as_ref()).unwrap_or(&case.friction)
     }
 
+    /// How the next increment is divided; it is one step where its end does not depend on the way there.
+    fn refinement(&self) -> Option<Refinement> {
+        let stage = &self.case().stages[self.place.stage];
+        let tolerance = stage.history_tolerance?;
+        let friction = self.friction().largest();
+        let shear = self.history.state.shear.iter().flatten().any(|shear| *shear != 0.0);
+        let depends = self.plan.coupling == Coupling::Coupled || stage.is_tangential() || shear;
+        (friction > 0.0 && depends).then_some(Refinement {
+            tolerance,
+            residual: self.case().tolerance,
+            friction,
+        })
+    }
+
     fn through_all_stages(mut self) -> Result<History, RunError> {
         while let Some(stage) = self.case().stages.get(self.place.stage) {
             self.through_stage(stage)?;
@@ -224,10 +235,6 @@ impl<'a> Journey<'a> {
     /// Solves what is left of the stage at work.
     fn through_stage(&mut self, stage: &'a Stage) -> Result<(), RunError> {
         self.solver.rub_with(self.friction());
-        self.refinement =
-            stage.history_tolerance.filter(|_| !self.friction().is_frictionless()).map(|tolerance| {
-                Refinement { tolerance, residual: self.case().tolerance, friction: self.friction().largest() }
-            });
         let place = &self.place;
         let (number, begins) = (place.stage, place.solved_of_stage == 0);
         let steps = if begins {
@@ -315,6 +322,7 @@ impl<'a> Journey<'a> {
     ) -> Result<(StepRecord, Option<KeptFields>), RunError> {
         let case = self.case();
         let Place { solved: increment, stage, .. } = self.place;
+        let refinement = self.refinement();
         let started = Instant::now();
         let observer = &mut *self.observer;
         let failed = |error| run_error(&error, increment, &case.stages[stage], case.tolerance);
@@ -323,7 +331,7 @@ impl<'a> Journey<'a> {
             observer.iterated(&Iteration { increment, stage, iteration, residual, tolerance })
         };
         let state = &self.history.state;
-        let (solved, parts) = match self.refinement {
+        let (solved, parts) = match refinement {
             None => {
                 let solved = self.solver.step(state, to, &mut watch).map_err(failed)?;
                 if let Some(wearing) = &mut self.wearing {

@@ -199,7 +199,7 @@ pub(super) struct SolverFile {
     #[schemars(with = "Option<f64>")]
     pub tolerance: Option<Spanned<f64>>,
     /// Where increments = "auto": bound on the error that an increment's size leaves in the tractions, in shares of the way they go
-    /// in it; 0.01 when not given.
+    /// in it; 0.03 when not given.
     #[schemars(with = "Option<f64>")]
     pub history_tolerance: Option<Spanned<f64>>,
     /// "together" (when not given), or "alternating": pressure and shear in turn until they agree, as in the published

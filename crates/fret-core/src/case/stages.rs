@@ -13,7 +13,7 @@ use crate::model::{Control, CoulombFriction};
 /// Increments of a whole history, at the most.
 const MOST_INCREMENTS: usize = 10_000_000;
 /// Bound on the error of the history where it is left to the program.
-const HISTORY_TOLERANCE: f64 = 0.01;
+const HISTORY_TOLERANCE: f64 = 0.03;
 /// Cycles of a stage, at the most.
 const MOST_CYCLES: usize = 1_000_000;
 
@@ -63,7 +63,7 @@ fn history_tolerance(
         return judge.refuse(
             given.span(),
             format!("solver.history_tolerance = {tolerance:?}: must lie between 1e-6 and 0.5"),
-            "0.01 serves most purposes",
+            "0.03 serves most purposes",
         );
     }
     if !list.iter().any(|stage| *stage.get_ref().increments.get_ref() == IncrementsFile::Auto) {
