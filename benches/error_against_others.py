@@ -1,12 +1,12 @@
 """Error against CPU time of one thread, Hertz and a coated sphere, in one run: exact influence coefficients, the sampled
-frequency response of most of the literature, tamaas and aspher where they can do the scene.
+frequency response of most of the literature, and tamaas where it can do the scene.
 
-    pip install tamaas aspher numpy matplotlib
+    pip install tamaas numpy matplotlib
     cargo bench -p fret-core --bench error_time --no-run         # prints the path of the binary
     python benches/error_against_others.py PATH_OF_THE_BINARY docs/pictures/error_against_others.png
 
 Side four contact radii, solved to residuals at which the grid alone makes the error. Time of the first two includes the
-coefficients, that of the others only the solution. What is not installed is left out, and said.
+coefficients, that of tamaas only the solution. What is not installed is left out, and said.
 """
 
 import os
@@ -81,12 +81,6 @@ def tamaas(cells, periodic):
     return (seconds, *errors(np.array(model.traction)))
 
 
-def aspher(cells):
-    import aspher
-
-    raise NotImplementedError(aspher.__version__)
-
-
 def ours(binary):
     text = subprocess.run(
         [binary, ",".join(map(str, CELLS))], check=True, capture_output=True, text=True
@@ -99,7 +93,6 @@ def others():
     ways = {
         "tamaas, periodic": lambda n: tamaas(n, True),
         "tamaas, free space": lambda n: tamaas(n, False),
-        "aspher": aspher,
     }
     for name, way in ways.items():
         try:
