@@ -17,7 +17,12 @@ const TOLERANCE: f64 = 1e-6;
 /// Fewest cells a side whose half still shows a contact.
 const FEWEST_CELLS: usize = 12;
 /// Edge of contact: read to this share of a cell.
-const EDGE: f64 = 0.05;
+const EDGE: f64 = 0.08;
+/// Least relative bar over the number of cells in contact: the edge lies anywhere between the cells, so that errors of second
+/// order scatter, and two runs may agree by chance.
+const SCATTER: f64 = 0.3;
+/// The same of the energy, which is lost in the slipping cells alone.
+const SCATTER_OF_ENERGY: f64 = 2.0;
 /// Edge of contact where a body ends: it ends at the border of a cell.
 const END_OF_A_BODY: f64 = 0.5;
 /// Edge of what sticks: counted by cells, in steps of the load.
@@ -82,14 +87,17 @@ pub fn error_bars(plan: &Plan, fine: &Headline, coarse: &Headline) -> Bars {
         .any(|shape| matches!(shape, Shape::FlatPunch { .. } | Shape::Cylinder { length: Some(_), .. }));
     let is_pointed = ends || shapes.iter().any(|shape| matches!(shape, Shape::Cone { .. }));
     let depends_on_path = plan.coupling == Coupling::Coupled;
+    let per_cell = fine.cell_area / fine.contact_area.max(fine.cell_area);
     let bar = |quantity: Quantity| {
         let (value, other) = (fine.between(quantity), coarse.between(quantity));
         let apart = (value[0] - other[0]).hypot(value[1] - other[1]);
-        let plain = |share: f64| Bar { quantity, value, bar: Some(share * apart) };
+        let scatter = if quantity == Quantity::DissipatedEnergy { SCATTER_OF_ENERGY } else { SCATTER };
+        let least = scatter * per_cell * value[0].hypot(value[1]);
         match quantity {
             Quantity::MaxPressure if is_pointed => Bar { quantity, value, bar: None },
             Quantity::MaxPressure | Quantity::Approach if is_smooth && !depends_on_path => {
-                Bar { quantity, value: extrapolated(fine, coarse, quantity), bar: Some(SECOND_ORDER * apart) }
+                let value = extrapolated(fine, coarse, quantity);
+                Bar { quantity, value, bar: Some(least.max(SECOND_ORDER * apart)) }
             }
             Quantity::ContactArea => {
                 let share = if ends { END_OF_A_BODY } else { EDGE };
@@ -98,7 +106,7 @@ pub fn error_bars(plan: &Plan, fine: &Headline, coarse: &Headline) -> Bars {
             Quantity::StickArea => {
                 Bar { quantity, value, bar: Some((STICK_EDGE * fine.stick_edge).max(apart)) }
             }
-            _ => plain(UNKNOWN_ORDER),
+            _ => Bar { quantity, value, bar: Some(least.max(UNKNOWN_ORDER * apart)) },
         }
     };
     Bars { stage: fine.stage, bars: Quantity::ALL.map(bar) }
