@@ -49,10 +49,8 @@ impl Estimate {
                 return Err(format!("the coarser companion run: {}", defect::words_of(panic.as_ref())));
             }
         };
-        let coarse = |stage: usize| rung.ends.iter().find(|end| end.stage == stage);
-        let bars = headlines.iter().filter_map(|fine| Some(error_bars(plan, fine, coarse(fine.stage)?)));
         Ok(Self {
-            bars: bars.collect(),
+            bars: error_bars(plan, headlines, &rung.ends),
             cells: rung.variation.cells,
             increments: companion.increments,
             wall_s: rung.wall_s,

@@ -1,7 +1,7 @@
 //! Error bars from a companion run at half the cells and half the increments (of a scene without friction: none but the ends).
 //!
-//! The numbers here were measured on smooth round scenes with closed forms, bare and coated; none is proven. A bar is meant
-//! to hold in 95 of 100 scenes. What it covers is the error of the cells and the increments, not that of the model.
+//! The constants here were measured on scenes with closed forms and on coated spheres; none is proven. A bar is meant to hold in
+//! 95 of 100 scenes. What it covers is the error of the cells and the increments, not that of the model.
 
 use serde::Serialize;
 
@@ -21,7 +21,8 @@ const EDGE: f64 = 0.08;
 /// Least relative bar over the number of cells in contact: the edge lies anywhere between the cells, so that errors of second
 /// order scatter, and two runs may agree by chance.
 const SCATTER: f64 = 0.3;
-/// The same of the energy, which is lost in the slipping cells alone.
+/// The same of shift and energy, which slip makes in fewer cells.
+const SCATTER_OF_SHIFT: f64 = 1.0;
 const SCATTER_OF_ENERGY: f64 = 2.0;
 /// Edge of contact where a body ends: it ends at the border of a cell.
 const END_OF_A_BODY: f64 = 0.5;
@@ -77,37 +78,79 @@ pub fn companion(plan: &Plan) -> Result<Plan, LadderError> {
     half.planned(plan).map_err(|_| LadderError::TooCoarse(least, FEWEST_CELLS))
 }
 
-/// Error bars at the end of a stage of `plan`, from its own headline numbers and those of its companion.
-pub fn error_bars(plan: &Plan, fine: &Headline, coarse: &Headline) -> Bars {
-    let shapes = &plan.case.profile.shapes;
-    let is_smooth =
-        shapes.iter().all(|shape| shape.curvatures().is_some() || matches!(shape, Shape::Wave { .. }));
-    let ends = shapes
-        .iter()
-        .any(|shape| matches!(shape, Shape::FlatPunch { .. } | Shape::Cylinder { length: Some(_), .. }));
-    let is_pointed = ends || shapes.iter().any(|shape| matches!(shape, Shape::Cone { .. }));
-    let depends_on_path = plan.coupling == Coupling::Coupled;
-    let per_cell = fine.cell_area / fine.contact_area.max(fine.cell_area);
-    let bar = |quantity: Quantity| {
+/// Error bars at the ends of the stages of `plan`, from its own headline numbers and those of its companion; of the stages that
+/// both have reached.
+pub fn error_bars(plan: &Plan, fine: &[Headline], coarse: &[Headline]) -> Vec<Bars> {
+    let scene = Scene::of(plan);
+    let mut largest = [0.0_f64; 6];
+    let mut bars = Vec::new();
+    for end in fine {
+        for (largest, quantity) in largest.iter_mut().zip(Quantity::ALL) {
+            let [x, y] = end.between(quantity);
+            *largest = largest.max(x.hypot(y));
+        }
+        if let Some(other) = coarse.iter().find(|other| other.stage == end.stage) {
+            let bar = |quantity: Quantity| scene.bar(quantity, end, other, largest[quantity as usize]);
+            bars.push(Bars { stage: end.stage, bars: Quantity::ALL.map(bar) });
+        }
+    }
+    bars
+}
+
+/// What of a scene decides about its errors.
+struct Scene {
+    /// Surfaces without edges and tips.
+    is_smooth: bool,
+    /// A body ends where the contact ends.
+    ends: bool,
+    /// Somewhere the pressure has no limit.
+    is_pointed: bool,
+    /// Pressure depends on the way.
+    is_coupled: bool,
+}
+
+impl Scene {
+    fn of(plan: &Plan) -> Self {
+        let shapes = &plan.case.profile.shapes;
+        let ends = shapes
+            .iter()
+            .any(|shape| matches!(shape, Shape::FlatPunch { .. } | Shape::Cylinder { length: Some(_), .. }));
+        Self {
+            is_smooth: shapes
+                .iter()
+                .all(|shape| shape.curvatures().is_some() || matches!(shape, Shape::Wave { .. })),
+            ends,
+            is_pointed: ends || shapes.iter().any(|shape| matches!(shape, Shape::Cone { .. })),
+            is_coupled: plan.coupling == Coupling::Coupled,
+        }
+    }
+
+    /// A number with its bar; `largest` is the most it has been so far.
+    fn bar(&self, quantity: Quantity, fine: &Headline, coarse: &Headline, largest: f64) -> Bar {
         let (value, other) = (fine.between(quantity), coarse.between(quantity));
         let apart = (value[0] - other[0]).hypot(value[1] - other[1]);
-        let scatter = if quantity == Quantity::DissipatedEnergy { SCATTER_OF_ENERGY } else { SCATTER };
-        let least = scatter * per_cell * value[0].hypot(value[1]);
-        match quantity {
-            Quantity::MaxPressure if is_pointed => Bar { quantity, value, bar: None },
-            Quantity::MaxPressure | Quantity::Approach if is_smooth && !depends_on_path => {
-                let value = extrapolated(fine, coarse, quantity);
-                Bar { quantity, value, bar: Some(least.max(SECOND_ORDER * apart)) }
+        let area = fine.contact_area.max(fine.cell_area);
+        let scatter = match quantity {
+            Quantity::Shift => SCATTER_OF_SHIFT,
+            Quantity::DissipatedEnergy => SCATTER_OF_ENERGY,
+            _ => SCATTER,
+        };
+        let least = scatter * fine.cell_area / area * largest;
+        let (value, bar) = match quantity {
+            Quantity::MaxPressure if self.is_pointed => (value, None),
+            Quantity::Approach if self.ends => {
+                // As the radius, to which the stiffness of a body that ends is proportional: half the share of the area.
+                (value, Some(0.5 * END_OF_A_BODY * fine.contact_edge / area * largest))
+            }
+            Quantity::MaxPressure | Quantity::Approach if self.is_smooth && !self.is_coupled => {
+                (extrapolated(fine, coarse, quantity), Some(least.max(SECOND_ORDER * apart)))
             }
             Quantity::ContactArea => {
-                let share = if ends { END_OF_A_BODY } else { EDGE };
-                Bar { quantity, value, bar: Some(share * fine.contact_edge) }
+                (value, Some(if self.ends { END_OF_A_BODY } else { EDGE } * fine.contact_edge))
             }
-            Quantity::StickArea => {
-                Bar { quantity, value, bar: Some((STICK_EDGE * fine.stick_edge).max(apart)) }
-            }
-            _ => Bar { quantity, value, bar: Some(least.max(UNKNOWN_ORDER * apart)) },
-        }
-    };
-    Bars { stage: fine.stage, bars: Quantity::ALL.map(bar) }
+            Quantity::StickArea => (value, Some((STICK_EDGE * fine.stick_edge).max(apart))),
+            _ => (value, Some(least.max(UNKNOWN_ORDER * apart))),
+        };
+        Bar { quantity, value, bar }
+    }
 }
