@@ -1,6 +1,5 @@
 //! `fret run`: from a case file to a folder of results, with a face for the time between.
 
-use std::num::NonZero;
 use std::ops::ControlFlow;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
@@ -30,6 +29,7 @@ use crate::progress::Progress;
 use crate::summary::Summary;
 use crate::tally::Tally;
 use crate::terminal;
+use crate::threads::available_threads;
 
 /// Solves a case.
 pub fn run(arguments: &RunArguments, as_json: bool) -> Result<(), Told> {
@@ -108,10 +108,6 @@ fn prepared(arguments: &RunArguments) -> Result<Preparation, Failure> {
         announce(&plan, &folder, &standing);
     }
     Ok(Preparation { case_file, plan, folder, standing, companion, threads, pool })
-}
-
-pub fn available_threads() -> usize {
-    std::thread::available_parallelism().map_or(1, NonZero::get)
 }
 
 fn announce(plan: &Plan, folder: &Path, standing: &Standing) {
