@@ -6,7 +6,7 @@ frequency response of most of the literature, and tamaas where it can do the sce
     python benches/error_against_others.py PATH_OF_THE_BINARY docs/pictures/error_against_others.png
 
 Side four contact radii, solved to residuals at which the grid alone makes the error. Time of the first two includes the
-coefficients, that of tamaas only the solution. What is not installed is left out, and said.
+coefficients, in the mean of many runs; that of tamaas only the solution, the least of some runs. What is not installed is left out, and said.
 """
 
 import os

@@ -13,7 +13,6 @@ use serde_json::{Value, json};
 
 use crate::arguments::StudyArguments;
 use crate::case_file::CaseFile;
-use crate::commands::run::available_threads;
 use crate::defect;
 use crate::failure::{Failure, Unwritten};
 use crate::figures::{counted, duration};
@@ -21,6 +20,7 @@ use crate::interrupt;
 use crate::output::write_whole;
 use crate::study::{picture, reference, table, words};
 use crate::terminal;
+use crate::threads::available_threads;
 
 /// Accuracies a choice is told for.
 const ACCURACIES: [f64; 3] = [1e-2, 1e-3, 1e-4];
