@@ -143,7 +143,8 @@ def draw(rows, path):
                 axis.loglog(x, y, "o--", color=f"C{number}", label="the same, between the cells")
         axis.set(title=title, xlabel="CPU time [s]", ylabel="relative error")
         axis.grid(alpha=0.3)
-        axis.legend(fontsize=8)
+    handles, labels = axes[1].get_legend_handles_labels()
+    figure.legend(handles, labels, loc="outside lower center", ncols=len(labels), fontsize=8)
     figure.savefig(path, dpi=110)
 
 

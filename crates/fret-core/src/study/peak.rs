@@ -52,7 +52,7 @@ fn top(pressure: &ArrayView2<'_, f64>, [i, j]: [usize; 2]) -> Option<f64> {
         return None;
     }
     let (u, v) = ((hxy * gy - hy * gx) / determinant, (hxy * gx - hx * gy) / determinant);
-    (u.abs() <= 1.0 && v.abs() <= 1.0).then(|| centre + 0.5 * (gx * u + gy * v))
+    (u.abs() <= 1.0 && v.abs() <= 1.0).then_some(centre + 0.5 * (gx * u + gy * v))
 }
 
 #[cfg(test)]

@@ -38,9 +38,9 @@ pub struct Rung {
 /// As [`Simulation::run`].
 pub fn climbed(plan: &Plan, observer: &mut dyn Observer) -> Result<Rung, RunError> {
     let started = Instant::now();
-    let mut ends = Ends { grid: plan.grid, ends: Vec::new(), observer };
-    let history = Simulation::new(plan).run(&mut ends)?;
-    let ends = ends.ends;
+    let mut reader = Reader { grid: plan.grid, ends: Vec::new(), observer };
+    let history = Simulation::new(plan).run(&mut reader)?;
+    let ends = reader.ends;
     let work = history.work();
     Ok(Rung {
         variation: Variation::of(plan),
@@ -54,13 +54,13 @@ pub fn climbed(plan: &Plan, observer: &mut dyn Observer) -> Result<Rung, RunErro
 }
 
 /// Reads headline numbers of the last increment of every stage, whenever that comes.
-struct Ends<'a> {
+struct Reader<'a> {
     grid: SurfaceGrid,
     ends: Vec<Headline>,
     observer: &'a mut dyn Observer,
 }
 
-impl Observer for Ends<'_> {
+impl Observer for Reader<'_> {
     fn iterated(&mut self, iteration: &Iteration) -> ControlFlow<()> {
         self.observer.iterated(iteration)
     }
