@@ -27,8 +27,8 @@ type Answer<T> = Result<T, Box<dyn Error>>;
 
 const POISSON: f64 = 0.3;
 /// Largest pressure and approach of the coated sphere over those of Hertz on its substrate.
-const COATED_PEAK: f64 = 2.283465979044321;
-const COATED_APPROACH: f64 = 0.6820639977914936;
+const COATED_PEAK: f64 = 2.283_465_979_044_321;
+const COATED_APPROACH: f64 = 0.682_063_997_791_493_6;
 /// Points a side at which Hertz's pressure is taken in a cell.
 const POINTS: usize = 8;
 /// CPU seconds in which runs are counted.

@@ -98,7 +98,7 @@ enum Against {
     /// The finest rung.
     Finest,
     /// Numbers from a file.
-    Given(Truth),
+    Given(Box<Truth>),
 }
 
 impl Against {
@@ -113,7 +113,10 @@ impl Against {
                         .to_owned(),
                 )
             }),
-            Some(file) => Ok(Self::Given(reference::reference(Path::new(file), plan.case.stages.len())?)),
+            Some(file) => {
+                let truth = reference::reference(Path::new(file), plan.case.stages.len())?;
+                Ok(Self::Given(Box::new(truth)))
+            }
         }
     }
 
@@ -128,7 +131,7 @@ impl Against {
             }
             Self::Analytic(form) => Some(Truth::closed(form)),
             Self::Finest => climb.finest().map(Truth::finest),
-            Self::Given(truth) => Some(truth),
+            Self::Given(truth) => Some(*truth),
         }
     }
 }
