@@ -15,6 +15,7 @@ mod coupled_friction;
 mod fretting_cycles;
 mod friction_on_patches;
 mod invariants;
+mod leaving_out;
 mod normal_counts;
 mod periodic;
 mod random_scenes;

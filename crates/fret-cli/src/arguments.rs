@@ -3,7 +3,7 @@
 use std::ffi::OsString;
 use std::path::PathBuf;
 
-use clap::{Args, Parser, Subcommand};
+use clap::{Args, Parser, Subcommand, ValueEnum};
 
 /// Predicts the fretting contact of coated bodies: pressure, shear, stick and slip through the loading history.
 #[derive(Debug, Parser)]
@@ -78,6 +78,18 @@ pub struct RunArguments {
     /// Go on where a run was broken off; start where there is none, do nothing where it is solved
     #[arg(long, conflicts_with = "force")]
     pub resume: bool,
+    /// What is left out where the answer is the same without it: all that can be, or none, which computes everything
+    #[arg(long, value_enum, default_value = "all", value_name = "WHAT")]
+    pub leave_out: LeavingOut,
+}
+
+/// What a run leaves out.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum LeavingOut {
+    /// All that the scene does not need
+    All,
+    /// Nothing
+    None,
 }
 
 /// What to write of a run, in which form.

@@ -5,7 +5,7 @@ use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
 use fret_core::case::{Case, CaseError};
-use fret_core::plan::Plan;
+use fret_core::plan::{LeaveOut, Plan};
 
 use crate::array_file::array;
 
@@ -48,8 +48,14 @@ impl CaseFile {
 
     /// The case, read and planned.
     pub fn planned(&self) -> Result<Plan, CaseError> {
+        self.planned_leaving_out(LeaveOut::ALL)
+    }
+
+    /// The case, read and planned with some shortcuts alone.
+    pub fn planned_leaving_out(&self, leave_out: LeaveOut) -> Result<Plan, CaseError> {
         let folder = self.path.parent().unwrap_or(Path::new(""));
-        Plan::new(Case::from_toml_with(&self.text, &self.name(), &|source| array(folder, source))?)
+        let case = Case::from_toml_with(&self.text, &self.name(), &|source| array(folder, source))?;
+        Plan::leaving_out(case, leave_out)
     }
 }
 

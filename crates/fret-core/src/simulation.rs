@@ -9,10 +9,13 @@ use crate::case::Stage;
 use crate::checkpoint::{Checkpoint, Waypoint};
 use crate::compliance::SurfaceResponse;
 use crate::history::{History, KeptFields, Residual, StepRecord};
-use crate::kernel::{Components, ResponseTable, influence_coefficients, periodic_symbols};
+use crate::kernel::{
+    Components, PairResponse, ResponseTable, coefficients_of, influence_coefficients, periodic_symbols,
+    symbols_of,
+};
 use crate::model::ContactState;
 use crate::model::field::largest;
-use crate::plan::{Coupling, Plan};
+use crate::plan::{Coupling, Plan, Shortcut};
 use crate::solver::{ContactSolver, Increment, SolveError, SolverSettings};
 use crate::stepping::StageSteps;
 
@@ -230,21 +233,21 @@ impl<'a> Simulation<'a> {
             Coupling::Uncoupled => Components { normal: true, tangential: true, coupling: false },
             Coupling::Coupled => Components::ALL,
         };
-        let response = if case.periodic {
-            SurfaceResponse::Periodic(periodic_symbols(
-                &case.bodies,
-                case.cells,
-                plan.grid.spacing(),
-                wanted,
-                0,
-            ))
-        } else {
-            SurfaceResponse::FreeSpace(influence_coefficients(
-                &case.bodies,
-                case.cells,
-                plan.grid.spacing(),
-                wanted,
-            ))
+        let spacing = plan.grid.spacing();
+        let [longest, shortest] = [plan.grid.size(), spacing].map(|[x, y]| (x.max(y), x.min(y)));
+        let plain = plan.leave_out.takes(Shortcut::LayeredResponse);
+        let layered = || PairResponse::all_layers(&case.bodies, longest.0);
+        let response = match (case.periodic, plain) {
+            (true, true) => {
+                SurfaceResponse::Periodic(periodic_symbols(&case.bodies, case.cells, spacing, wanted, 0))
+            }
+            (true, false) => SurfaceResponse::Periodic(symbols_of(layered(), case.cells, spacing, wanted)),
+            (false, true) => {
+                SurfaceResponse::FreeSpace(influence_coefficients(&case.bodies, case.cells, spacing, wanted))
+            }
+            (false, false) => {
+                SurfaceResponse::FreeSpace(coefficients_of(&layered(), case.cells, spacing, wanted))
+            }
         };
         let solver = ContactSolver::new(
             plan.grid,
@@ -252,13 +255,16 @@ impl<'a> Simulation<'a> {
             &case.friction,
             plan.coupling,
             response,
-            SolverSettings { scheme: case.scheme, ..SolverSettings::new(case.tolerance) },
-            true,
+            SolverSettings {
+                scheme: case.scheme,
+                leave_out: plan.leave_out,
+                ..SolverSettings::new(case.tolerance)
+            },
+            plan.leave_out.takes(Shortcut::Box),
         );
         if case.periodic {
             return solver;
         }
-        let [longest, shortest] = [plan.grid.size(), plan.grid.spacing()].map(|[x, y]| (x.max(y), x.min(y)));
         solver.with_waves(ResponseTable::new(&case.bodies, TAU / longest.0, 5.0 * PI / shortest.1))
     }
 }

@@ -25,6 +25,16 @@ impl PairResponse {
         Self { lower: prepare(pair.lower()), upper: prepare(pair.upper()) }
     }
 
+    /// The same response with every layer in its place, also those that do not differ from what lies below them; a body without
+    /// any gets one of its own material and `thickness` [length]. Nothing is taken from constancy or equality.
+    pub fn all_layers(pair: &ContactPair, thickness: f64) -> Self {
+        let prepare = |body: &Body| match body {
+            Body::Rigid => None,
+            Body::Elastic(half_space) => Some(FrequencyResponse::all_layers(half_space, thickness)),
+        };
+        Self { lower: prepare(pair.lower()), upper: prepare(pair.upper()) }
+    }
+
     /// `C(k)` at a wavenumber `k > 0` [rad/length]: [length/pressure].
     pub fn at(&self, k: f64) -> Response {
         self.times_k(k).over(k)

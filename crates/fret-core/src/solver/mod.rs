@@ -23,6 +23,7 @@ mod rigid;
 mod scene;
 mod settings;
 mod shear;
+mod shortcut;
 mod sweep;
 mod tractions;
 mod zones;
@@ -39,6 +40,7 @@ use crate::spectral::{ConvolutionError, good_length};
 pub use memory::SolverMemory;
 pub use scene::{Outcome, Resultants};
 pub use settings::{Coupling, SolveError, SolverSettings, Watch};
+pub use shortcut::{LeaveOut, Shortcut};
 
 use memory::{GridTractions, Settled};
 use nested::{CoarseGrids, MARGIN, Prescribed};
@@ -163,6 +165,7 @@ impl<'a> ContactSolver<'a> {
             }
             let kept = self.memory.settled.take().filter(|settled| {
                 self.coupling != Coupling::Coupled
+                    && self.settings.leave_out.takes(Shortcut::Pressure)
                     && settled.region == region
                     && settled.load.normal == load.normal
             });
@@ -410,11 +413,17 @@ impl<'a> ContactSolver<'a> {
         let counted = (operators.compliance.applications, operators.preconditioner.passes);
         let settled = self.memory.settled.as_ref().filter(|settled| settled.region == region);
         let displaced = settled.map(|settled| &settled.displacements);
-        let unchanged = settled.is_some_and(|settled| settled.load.normal == load.normal);
+        let leave_out = self.settings.leave_out;
+        let unchanged = leave_out.takes(Shortcut::Pressure)
+            && settled.is_some_and(|settled| settled.load.normal == load.normal);
         let solved = match self.coupling {
             Coupling::Coupled => scene.together(tractions, displaced, &mut operators, &self.settings, watch),
             Coupling::Uncoupled | Coupling::Frictionless => {
-                let turn = Turn { unchanged, frictionless: self.coupling == Coupling::Frictionless };
+                let turn = Turn {
+                    unchanged,
+                    frictionless: self.coupling == Coupling::Frictionless,
+                    waits_for_a_cause: leave_out.takes(Shortcut::Tangential),
+                };
                 scene.in_turn(tractions, displaced, turn, &mut operators, &self.settings, watch)
             }
         };
