@@ -98,7 +98,7 @@ fn a_patch_without_friction_carries_no_shear_and_the_rest_slides_at_its_own_boun
     let map = Array2::from_shape_fn((32, 32), |(i, _)| if i < 16 { 0.0 } else { 0.3 });
     let head = sphere.pressed(0.8, 2, "cubic").replace("coefficient = 0.3", "map = { array = 0 }");
     let slide = format!("{head}[[load]]\nshift = [0.05, 0.0]\nincrements = 3\n{}", keeping(1));
-    let history = solved_with(&slide, &[map.clone()]);
+    let history = solved_with(&slide, std::slice::from_ref(&map));
     let kept = history.fields.last().unwrap();
     let (pressure, shear) = (kept.pressure.as_ref().unwrap(), &kept.shear.as_ref().unwrap()[0]);
     assert!(shear.indexed_iter().all(|((i, _), q)| i >= 16 || *q == 0.0));

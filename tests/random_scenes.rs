@@ -12,7 +12,7 @@ use fret_core::model::ContactState;
 use fret_core::plan::Plan;
 use fret_core::simulation::{Iteration, Observer, RunError, Simulation};
 
-/// SplitMix64: the same scenes on every machine.
+/// `SplitMix64`: the same scenes on every machine.
 struct Dice(u64);
 
 impl Dice {
@@ -220,7 +220,7 @@ impl Observer for Inspector {
 
 /// How a scene ended.
 enum End {
-    Solved(History, Inspector),
+    Solved(Box<(History, Inspector)>),
     /// A physical bound or a numerical one, in words.
     Refused(String),
     Wrong(String),
@@ -241,7 +241,7 @@ fn run(text: &str, friction: f64) -> End {
     match ended {
         Err(_) => End::Wrong("panic".to_owned()),
         Ok(_) if inspector.wrong.is_some() => End::Wrong(inspector.wrong.unwrap_or_default()),
-        Ok(Ok(history)) => End::Solved(history, inspector),
+        Ok(Ok(history)) => End::Solved(Box::new((history, inspector))),
         Ok(Err(error @ (RunError::ContactAtEdge { .. } | RunError::AboveSliding { .. }))) => {
             End::Refused(format!("physics: {error}"))
         }
@@ -261,7 +261,8 @@ fn random_scenes_are_certified_or_refused_with_words() {
         let scene = scene(&mut dice);
         let pressing = format!("{}[[load]]\napproach = {:e}\nincrements = 1\n", scene.head, scene.approach);
         let (text, end) = match run(&pressing, scene.friction) {
-            End::Solved(history, _) => {
+            End::Solved(ended) => {
+                let (history, _) = *ended;
                 let force = history.steps.last().map_or(0.0, |step| step.normal_force);
                 let text = scene.head.clone() + &loads(&mut dice, &scene, force);
                 let end = run(&text, scene.friction);
@@ -270,7 +271,8 @@ fn random_scenes_are_certified_or_refused_with_words() {
             other => (pressing, other),
         };
         match end {
-            End::Solved(history, inspector) => {
+            End::Solved(ended) => {
+                let (history, inspector) = *ended;
                 solved += 1;
                 increments += history.steps.len();
                 iterations += inspector.iterations;
@@ -293,5 +295,5 @@ fn random_scenes_are_certified_or_refused_with_words() {
     }
     assert!(wrong.is_empty(), "{} scenes with a wrong answer", wrong.len());
     assert!(refused.iter().all(|(_, why, _)| why.len() > 20), "a refusal without words");
-    assert!(solved as f64 >= 0.99 * count as f64, "{solved} of {count} solved");
+    assert!(f64::from(solved) >= 0.99 * count as f64, "{solved} of {count} solved");
 }

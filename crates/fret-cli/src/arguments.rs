@@ -104,7 +104,7 @@ pub struct ExportArguments {
     /// The history and a file a kept increment, a row a cell
     #[arg(long, group = "form")]
     pub csv: bool,
-    /// A .vti image a kept increment and a .pvd list, for ParaView and pyvista
+    /// A .vti image a kept increment and a .pvd list, for `ParaView` and pyvista
     #[arg(long, group = "form")]
     pub vtk: bool,
     /// The file (npz) or folder (csv, vtk) to write [default: export.npz, csv, vtk in the folder of the results]
@@ -114,7 +114,6 @@ pub struct ExportArguments {
 
 /// Which stresses.
 #[derive(Debug, Args)]
-#[expect(clippy::struct_excessive_bools, reason = "one for each switch that can be typed")]
 pub struct StressArguments {
     /// The folder of a finished run
     pub folder: PathBuf,
@@ -136,7 +135,7 @@ pub struct StressArguments {
     /// The body: upper or lower
     #[arg(long, value_name = "BODY", value_parser = ["upper", "lower"])]
     pub body: Option<String>,
-    /// Write a volume for ParaView of the last increment looked at
+    /// Write a volume for `ParaView` of the last increment looked at
     #[arg(long)]
     pub volume: bool,
     /// Threads to compute with [default: all the machine has]

@@ -135,7 +135,7 @@ fn hertz(side: f64) -> Answer<Scene> {
 }
 
 /// A unit sphere on a coating; the side is three contact radii.
-fn coated(name: String, pair: ContactPair, force: f64) -> Answer<Scene> {
+fn coated(name: String, pair: ContactPair, force: f64) -> Scene {
     let mut scene = Scene {
         name,
         pair,
@@ -150,7 +150,7 @@ fn coated(name: String, pair: ContactPair, force: f64) -> Answer<Scene> {
             Err(_) => scene.side *= 2.0,
         }
     }
-    Ok(scene)
+    scene
 }
 
 fn scenes() -> Answer<Vec<Scene>> {
@@ -159,17 +159,17 @@ fn scenes() -> Answer<Vec<Scene>> {
         for thickness in [0.1, 1.0] {
             let name = format!("E1/E2 {ratio}, h {thickness} aH");
             let pair = pair(&[(ratio, POISSON, thickness)], Some(1.0))?;
-            list.push(coated(name, pair, unit_force())?);
+            list.push(coated(name, pair, unit_force()));
         }
     }
     // the contact radius is ten times the thickness
     for (ratio, force) in [(1e2, 3.05461), (1e3, 5.94297)] {
         let pair = pair(&[(ratio, POISSON, 0.1)], Some(1.0))?;
-        list.push(coated(format!("E1/E2 {ratio}, h 0.1 of the contact radius"), pair, force)?);
+        list.push(coated(format!("E1/E2 {ratio}, h 0.1 of the contact radius"), pair, force));
     }
     for thickness in [1.0, 0.1] {
         let pair = pair(&[(1.0, 0.49, thickness)], None)?;
-        list.push(coated(format!("rigid base, nu .49, h {thickness}"), pair, unit_force())?);
+        list.push(coated(format!("rigid base, nu .49, h {thickness}"), pair, unit_force()));
     }
     let free = |name: &str, side: f64, force: f64, gap: Box<dyn Fn(f64, f64) -> f64>| {
         let (pair, load) = (pair(&[], Some(1.0))?, Control::Force(force));

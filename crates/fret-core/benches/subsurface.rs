@@ -1,12 +1,7 @@
 //! Time a depth for six components from pressure and both shears, kernels' set-up included: 128 x 128 cells, stiff coating.
 //! Processor time is told apart by running in one thread.
 
-#![expect(
-    clippy::unwrap_used,
-    clippy::print_stdout,
-    missing_docs,
-    reason = "a measurement tells what it found"
-)]
+#![expect(clippy::unwrap_used, clippy::print_stdout, reason = "a measurement tells what it found")]
 
 use std::time::Instant;
 

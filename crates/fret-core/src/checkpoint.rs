@@ -121,7 +121,7 @@ impl Checkpoint {
         let cells = plan.grid.cells();
         let stages = &plan.case.stages;
         let place = &self.place;
-        let before: usize = stages.iter().take(place.stage).map(|stage| stage.increments_in_all()).sum();
+        let before: usize = stages.iter().take(place.stage).map(super::case::Stage::increments_in_all).sum();
         stages.get(place.stage).is_some_and(|stage| {
             place.solved_of_stage <= stage.increments_in_all()
                 && Some(place.solved) == before.checked_add(place.solved_of_stage)
@@ -141,7 +141,7 @@ mod tests {
     use crate::simulation::{Observer, Silent, Simulation};
 
     /// Coated and rubbed in two directions, with controls that change their kind.
-    const CASE: &str = r#"
+    const CASE: &str = r"
         [grid]
         cells = [14, 12]
         size = [210e-6, 180e-6]
@@ -166,7 +166,7 @@ mod tests {
         increments = 3
         [output]
         fields = []
-    "#;
+    ";
 
     fn plan(case: &str) -> Plan {
         Plan::new(Case::from_toml(case, "case").unwrap()).unwrap()

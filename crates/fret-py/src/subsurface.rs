@@ -18,7 +18,7 @@ const COMPONENTS: [&str; 6] = ["xx", "yy", "zz", "xy", "xz", "yz"];
 type TractionArrays<'py> =
     (PyReadonlyArray2<'py, f64>, Option<(PyReadonlyArray2<'py, f64>, PyReadonlyArray2<'py, f64>)>);
 
-/// Stress at depths: arrays xx, yy, zz, xy, xz, yz, von_mises of shape (nz, nx, ny); depth and layer of shape (nz,).
+/// Stress at depths: arrays xx, yy, zz, xy, xz, yz, `von_mises` of shape (nz, nx, ny); depth and layer of shape (nz,).
 #[pyfunction]
 pub fn subsurface_stress<'py>(
     py: Python<'py>,

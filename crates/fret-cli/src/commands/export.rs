@@ -13,10 +13,13 @@ use crate::terminal;
 
 type Writing = fn(&Results, &Path) -> Result<Vec<PathBuf>, Failure>;
 
+/// Name of the archive of arrays in a run folder.
+const NPZ: &str = "export.npz";
+
 /// Writes what is asked for, and tells which files were written.
 pub fn export(arguments: &ExportArguments, as_json: bool) -> Result<(), Failure> {
     let forms: [(bool, &str, Writing); 3] = [
-        (arguments.npz, "export.npz", npz::write),
+        (arguments.npz, NPZ, npz::write),
         (arguments.csv, "csv", csv::write),
         (arguments.vtk, "vtk", vtk::write),
     ];
@@ -32,7 +35,7 @@ pub fn export(arguments: &ExportArguments, as_json: bool) -> Result<(), Failure>
     let mut files = Vec::new();
     for (name, write) in asked {
         let path = arguments.out.clone().unwrap_or_else(|| arguments.results.join(name));
-        fits(&path, name.ends_with(".npz"))?;
+        fits(&path, name == NPZ)?;
         files.extend(write(&results, &path)?);
     }
     let steps = counted(results.fields.steps.len(), "kept increment");

@@ -30,14 +30,17 @@ pub struct Fatigue<'a> {
     ruiz: Option<Vec<[f64; 2]>>,
 }
 
+/// A name and its values `[point][i]`.
+pub type Picture = (String, Vec<Vec<f64>>);
+
 /// What is told at the end.
 pub struct Finished {
     /// For `stress.json`.
     pub record: Value,
     /// For a person.
     pub table: String,
-    /// Names and values `[point][i]` for pictures.
-    pub pictures: Vec<(String, Vec<Vec<f64>>)>,
+    /// To be drawn.
+    pub pictures: Vec<Picture>,
 }
 
 impl<'a> Fatigue<'a> {

@@ -1,7 +1,7 @@
 //! `fret stress`: stresses under the surface, from the kept tractions of a finished run; nothing is solved again.
 //!
 //! Written into `stress/` in the result folder: `stress.json` (all numbers), `depths.csv` (largest values at every depth),
-//! sections as SVG, a volume for ParaView where one is asked for.
+//! sections as SVG, a volume for `ParaView` where one is asked for.
 
 use std::fmt::Write as _;
 use std::fs;
@@ -16,7 +16,7 @@ use fret_core::subsurface::{
 };
 use serde_json::{Value, json};
 
-use super::fatigue::Fatigue;
+use super::fatigue::{Fatigue, Picture};
 use super::run::available_threads;
 use crate::arguments::StressArguments;
 use crate::failure::{Failure, Unwritten};
@@ -326,12 +326,7 @@ impl<'a> Sheet<'a> {
 
     /// Sections of the increments (of many: of the last and of the one with the largest von Mises stress), and of what fatigue
     /// shows.
-    fn draw(
-        &self,
-        place: &Path,
-        x: &[f64],
-        fatigue: Option<&[(String, Vec<Vec<f64>>)]>,
-    ) -> Result<(), Failure> {
+    fn draw(&self, place: &Path, x: &[f64], fatigue: Option<&[Picture]>) -> Result<(), Failure> {
         let depths: Vec<f64> = self.points.iter().map(|point| point.depth).collect();
         if !depths.windows(2).all(|pair| pair[0] <= pair[1]) || depths.first() == depths.last() {
             return Ok(()); // no section without rising depths

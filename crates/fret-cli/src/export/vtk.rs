@@ -1,4 +1,4 @@
-//! `--vtk`: for ParaView and pyvista: a `.vti` image of cells for each kept increment, and `history.pvd` that lists them in time.
+//! `--vtk`: for `ParaView` and pyvista: a `.vti` image of cells for each kept increment, and `history.pvd` that lists them in time.
 //!
 //! Shear and slip are vectors, everything else is a scalar; time is the number of the increment. Format:
 //! <https://docs.vtk.org/en/latest/vtk_file_formats/vtkxml_file_format.html>, data appended raw.

@@ -97,7 +97,7 @@ impl FinishedRun {
             Failure::Call(format!("{}: {what}", path.display()), "run the case again".to_owned())
         };
         if let Some(place) = values.iter().position(|value| !value.is_finite()) {
-            return Err(damaged(&format!("value {} is not finite", place)));
+            return Err(damaged(&format!("value {place} is not finite")));
         }
         match Array2::from_shape_vec((nx, ny), values) {
             Ok(field) if bytes.len() == 8 * nx * ny => Ok(Some(field)),

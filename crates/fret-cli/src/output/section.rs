@@ -89,7 +89,7 @@ impl Section<'_> {
                 LEFT + WIDTH
             );
         }
-        self.axes(&mut svg, [first - half, last + half], [*top, *bottom], height);
+        axes(&mut svg, [first - half, last + half], [*top, *bottom], height);
         for (n, colour) in COLOURS.iter().enumerate() {
             let tall = height.min(320.0) / COLOURS.len() as f64;
             let y = TOP + tall * (COLOURS.len() - 1 - n) as f64;
@@ -113,30 +113,30 @@ impl Section<'_> {
         }
         svg + "</svg>\n"
     }
+}
 
-    fn axes(&self, svg: &mut String, x: [f64; 2], z: [f64; 2], height: f64) {
-        for n in 0..=4 {
-            let share = f64::from(n) / 4.0;
-            let _ = writeln!(
-                svg,
-                "<text x=\"{:.1}\" y=\"{:.1}\" text-anchor=\"middle\">{}</text>\n<text x=\"{:.1}\" y=\"{:.1}\" text-anchor=\"end\">{}</text>",
-                LEFT + share * WIDTH,
-                TOP + height + 18.0,
-                short(x[0] + share * (x[1] - x[0])),
-                LEFT - 6.0,
-                TOP + share * height + 5.0,
-                short(z[0] + share * (z[1] - z[0]))
-            );
-        }
+fn axes(svg: &mut String, x: [f64; 2], z: [f64; 2], height: f64) {
+    for n in 0..=4 {
+        let share = f64::from(n) / 4.0;
         let _ = writeln!(
             svg,
-            "<rect x=\"{LEFT}\" y=\"{TOP}\" width=\"{WIDTH}\" height=\"{height:.1}\" fill=\"none\" stroke=\"black\"/>\n\
-             <text x=\"{:.1}\" y=\"{:.1}\" text-anchor=\"middle\">x</text>\n<text x=\"14\" y=\"{:.1}\">z</text>",
-            LEFT + 0.5 * WIDTH,
-            TOP + height + 38.0,
-            TOP + 0.5 * height
+            "<text x=\"{:.1}\" y=\"{:.1}\" text-anchor=\"middle\">{}</text>\n<text x=\"{:.1}\" y=\"{:.1}\" text-anchor=\"end\">{}</text>",
+            LEFT + share * WIDTH,
+            TOP + height + 18.0,
+            short(x[0] + share * (x[1] - x[0])),
+            LEFT - 6.0,
+            TOP + share * height + 5.0,
+            short(z[0] + share * (z[1] - z[0]))
         );
     }
+    let _ = writeln!(
+        svg,
+        "<rect x=\"{LEFT}\" y=\"{TOP}\" width=\"{WIDTH}\" height=\"{height:.1}\" fill=\"none\" stroke=\"black\"/>\n\
+         <text x=\"{:.1}\" y=\"{:.1}\" text-anchor=\"middle\">x</text>\n<text x=\"14\" y=\"{:.1}\">z</text>",
+        LEFT + 0.5 * WIDTH,
+        TOP + height + 38.0,
+        TOP + 0.5 * height
+    );
 }
 
 fn short(value: f64) -> String {

@@ -1,4 +1,4 @@
-//! Volumes for ParaView: rectilinear grids of the VTK XML format (`.vtr`), filled depth by depth.
+//! Volumes for `ParaView`: rectilinear grids of the VTK XML format (`.vtr`), filled depth by depth.
 //!
 //! Raw appended data, little-endian, in single precision: pictures, not results. At an interface two planes of points lie at the
 //! same depth, one for each side. z counts downward from the surface, as everywhere; turn the view.

@@ -111,7 +111,7 @@ fn an_npz_holds_the_bits_of_the_store() {
         let whole: Vec<u8> = (0..5).flat_map(|place| raw(&bench, name, place)).collect();
         let found = archive.windows(whole.len()).any(|window| window == whole);
         assert!(found, "{name}");
-        let head = format!("'shape': (5, 24, 24,)");
+        let head = "'shape': (5, 24, 24,)".to_string();
         assert!(archive.windows(head.len()).filter(|window| *window == head.as_bytes()).count() >= 5);
     }
     assert_eq!(&archive[..4], b"PK\x03\x04");

@@ -281,7 +281,7 @@ pub(super) struct StressFile {
     /// Every so many kept increments are looked at, and the last; all when not given.
     #[schemars(with = "Option<usize>")]
     pub every: Option<Spanned<usize>>,
-    /// Whether volumes for ParaView are written; not when not given.
+    /// Whether volumes for `ParaView` are written; not when not given.
     pub volume: Option<bool>,
     /// Amplitude endured in fully reversed torsion [pressure], for Crossland and Dang Van.
     #[schemars(with = "Option<f64>")]

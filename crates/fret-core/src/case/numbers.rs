@@ -1,4 +1,4 @@
-//! An array of numbers from the bytes of a file: NumPy's .npy, or text with a row a line. Reading the file is somebody else's.
+//! An array of numbers from the bytes of a file: `NumPy`'s .npy, or text with a row a line. Reading the file is somebody else's.
 //!
 //! The readers of .npy among the crates bring a C compiler into the build; what is needed of the format is a page.
 //! Format: <https://numpy.org/doc/stable/reference/generated/numpy.lib.format.html>, versions 1 to 3.
@@ -121,7 +121,11 @@ fn value_of<'a>(header: &'a str, key: &str) -> Option<&'a str> {
 
 type Read = fn(&[u8]) -> f64;
 
-/// Bytes of a number and how it is read, by NumPy's name of its type.
+/// Bytes of a number and how it is read, by `NumPy`'s name of its type.
+#[expect(
+    clippy::cast_lossless,
+    reason = "eight-byte integers have no exact conversion, and all types share one macro"
+)]
 fn reader(kind: &str) -> Option<(usize, Read)> {
     macro_rules! number {
         ($type:ty, $from:ident) => {
@@ -187,7 +191,7 @@ mod tests {
 
     use super::*;
 
-    /// A .npy file of version 1, as NumPy writes it.
+    /// A .npy file of version 1, as `NumPy` writes it.
     fn file(header: &str, body: &[u8]) -> Vec<u8> {
         let mut bytes = b"\x93NUMPY\x01\x00".to_vec();
         bytes.extend((header.len() as u16).to_le_bytes());

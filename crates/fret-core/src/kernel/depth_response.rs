@@ -278,7 +278,8 @@ mod tests {
         for case in 0..100 {
             let half_space = random.half_space(3, 1e4, case % 2 == 0);
             let layer = random.whole(0, half_space.coatings().len() - 1);
-            let top: f64 = half_space.coatings()[..layer].iter().map(|c| c.thickness()).sum();
+            let top: f64 =
+                half_space.coatings()[..layer].iter().map(crate::model::half_space::Coating::thickness).sum();
             let h = half_space.coatings()[layer].thickness();
             let z = top + h * (0.2 + 0.6 * random.uniform());
             let k = random.log_uniform(1e-2, 20.0);

@@ -14,24 +14,28 @@ pub struct Reals<S: Simd> {
 impl<S: Simd> Reals<S> {
     /// Square roots.
     #[inline(always)]
+    #[must_use]
     pub fn sqrt(self) -> Self {
         Self { numbers: self.simd.sqrt_f64s(self.numbers), ..self }
     }
 
     /// The larger number of each cell.
     #[inline(always)]
+    #[must_use]
     pub fn max(self, other: Self) -> Self {
         Self { numbers: self.simd.max_f64s(self.numbers, other.numbers), ..self }
     }
 
     /// The smaller number of each cell.
     #[inline(always)]
+    #[must_use]
     pub fn min(self, other: Self) -> Self {
         Self { numbers: self.simd.min_f64s(self.numbers, other.numbers), ..self }
     }
 
     /// `yes` in cells where this is at most `bound`, `no` elsewhere.
     #[inline(always)]
+    #[must_use]
     pub fn if_at_most(self, bound: Self, yes: Self, no: Self) -> Self {
         let mask = self.simd.less_than_or_equal_f64s(self.numbers, bound.numbers);
         Self { numbers: self.simd.select_f64s(mask, yes.numbers, no.numbers), ..self }
@@ -39,6 +43,7 @@ impl<S: Simd> Reals<S> {
 
     /// The same number in every cell.
     #[inline(always)]
+    #[must_use]
     pub fn all(self, number: f64) -> Self {
         Self { numbers: self.simd.splat_f64s(number), ..self }
     }

@@ -48,7 +48,7 @@ pub fn solve_alternating(
         let before = contact.packed_tangential(task.before);
         let bound = packed_bound(&contact, &tractions.pressure, task.friction);
         let tangential = judge.judge(
-            &task.tangential(&bound, &before, &modes, own.tangential),
+            &task.tangential(&contact, &bound, &before, &modes, own.tangential),
             &contact.packed_tangential(&tractions.shear),
             &contact.packed_tangential(&displacements.tangential),
             motion,
@@ -100,7 +100,8 @@ pub fn solve_alternating(
         let mut before = contact.packed_tangential(task.before);
         before.add_scaled(-1.0, &contact.packed_tangential(&from_pressure.tangential));
         let bound = packed_bound(&contact, &tractions.pressure, task.friction);
-        let tangential_task: TangentialTask<'_> = task.tangential(&bound, &before, &modes, own.tangential);
+        let tangential_task: TangentialTask<'_> =
+            task.tangential(&contact, &bound, &before, &modes, own.tangential);
         let mut shear = contact.packed_tangential(&tractions.shear);
         let at_rest = TangentialField::zeros(contact.len());
         let zones = Zones::classify(&shear, &at_rest, &bound, |_| false);
@@ -109,7 +110,6 @@ pub fn solve_alternating(
         compliance.tangential(&tractions.shear, &mut from_shear.tangential);
         solve_shear(
             &tangential_task,
-            &contact,
             &mut shear,
             &mut from_shear.tangential,
             compliance,

@@ -2,6 +2,7 @@
 
 use pulp::Simd;
 
+use super::contact_set::ContactSet;
 use super::rigid::RigidModes;
 use crate::model::TangentialField;
 use crate::model::each_cell::{CellRule, Reals, each_cell};
@@ -9,6 +10,8 @@ use crate::model::each_cell::{CellRule, Reals, each_cell};
 /// What the tangential equations of one increment ask for; fields are packed over the cells in contact.
 #[derive(Debug, Clone, Copy)]
 pub struct TangentialTask<'a> {
+    /// Cells in contact; the fields below are packed over them.
+    pub contact: &'a ContactSet,
     /// Friction bound mu p [pressure].
     pub bound: &'a [f64],
     /// Tangential displacement before the increment [length].

@@ -43,12 +43,13 @@ impl CoupledTask<'_> {
     /// The tangential equations under a friction bound, packed.
     pub fn tangential<'a>(
         &self,
+        contact: &'a ContactSet,
         bound: &'a [f64],
         before: &'a TangentialField,
         modes: &'a RigidModes,
         own: f64,
     ) -> TangentialTask<'a> {
-        TangentialTask { bound, before, modes, motion: self.motion, resultant: self.resultant, own }
+        TangentialTask { contact, bound, before, modes, motion: self.motion, resultant: self.resultant, own }
     }
 }
 
@@ -96,7 +97,7 @@ pub fn solve_coupled(
         let before = contact.packed_tangential(task.before);
         let displaced = contact.packed_tangential(&displacements.tangential);
         let tangential = {
-            let judged = task.tangential(&packed.bound, &before, &modes, own.tangential);
+            let judged = task.tangential(&contact, &packed.bound, &before, &modes, own.tangential);
             judge.judge(&judged, &packed.shear, &displaced, motion)
         };
         motion = tangential.motion;
@@ -131,7 +132,7 @@ pub fn solve_coupled(
         }
         packed.find_bound();
         let Packed { pressure, shear, bound, .. } = &mut packed;
-        retraction.shear(shear, &zones, &task.tangential(bound, &before, &modes, own.tangential));
+        retraction.shear(shear, &zones, &task.tangential(&contact, bound, &before, &modes, own.tangential));
         contact.scatter(pressure, &mut tractions.pressure);
         contact.scatter_tangential(shear, &mut tractions.shear);
         compliance.full(

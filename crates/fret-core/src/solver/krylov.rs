@@ -90,7 +90,7 @@ impl Directions {
     /// Returns the norm of the residual, `None` when nothing of the image is left.
     pub fn descend(&mut self, residual: &mut Triple, step: &mut Triple) -> Option<f64> {
         let (before, newest) = self.all[..self.used].split_at_mut(self.used - 1);
-        let Some(Direction { along, image, square }) = newest.first_mut() else { return None };
+        let Direction { along, image, square } = newest.first_mut()?;
         for group in before.chunks(4) {
             let image = &mut image.values;
             let along = &mut along.values;

@@ -216,12 +216,13 @@ impl<'a> Scene<'a> {
 
     fn task<'b>(
         &self,
+        contact: &'b ContactSet,
         bound: &'b [f64],
         before: &'b TangentialField,
         modes: &'b RigidModes,
         own: f64,
     ) -> TangentialTask<'b> {
-        TangentialTask { bound, before, modes, motion: self.motion, resultant: self.resultant, own }
+        TangentialTask { contact, bound, before, modes, motion: self.motion, resultant: self.resultant, own }
     }
 
     /// Predicted tractions made feasible.
@@ -238,7 +239,7 @@ impl<'a> Scene<'a> {
         let at_rest = TangentialField::zeros(contact.len());
         let modes = self.places.modes(&contact);
         let zones = Zones::classify(&shear, &at_rest, &bound, |_| false);
-        Retraction::default().shear(&mut shear, &zones, &self.task(&bound, &at_rest, &modes, own));
+        Retraction::default().shear(&mut shear, &zones, &self.task(&contact, &bound, &at_rest, &modes, own));
         contact.scatter_tangential(&shear, &mut tractions.shear);
     }
 
@@ -419,8 +420,7 @@ impl<'a> Scene<'a> {
             let modes = self.places.modes(&contact);
             let mut shear = contact.packed_tangential(&tractions.shear);
             let solution = solve_shear(
-                &self.task(&bound, &before, &modes, own.tangential),
-                &contact,
+                &self.task(&contact, &bound, &before, &modes, own.tangential),
                 &mut shear,
                 &mut displacements.tangential,
                 compliance,

@@ -30,11 +30,10 @@ pub struct ShearSolution {
     pub iterations: usize,
 }
 
-/// Solves the tangential equations from a feasible `shear`, packed over `contact`, with its `displacement` of the whole
+/// Solves the tangential equations from a feasible `shear`, packed over its contact, with its `displacement` of the whole
 /// box; both end at the solution.
 pub fn solve_shear(
     task: &TangentialTask<'_>,
-    contact: &ContactSet,
     shear: &mut TangentialField,
     displacement: &mut TangentialField,
     compliance: &mut dyn SurfaceCompliance,
@@ -44,6 +43,7 @@ pub fn solve_shear(
 ) -> Result<ShearSolution, SolveError> {
     let mut judge = CoulombJudge::default();
     let mut retraction = Retraction::default();
+    let contact = task.contact;
     let mut here = contact.packed_tangential(displacement);
     let mut inner = ConjugateGradients::new(contact, displacement.x.len());
     let mut motion = [0.0; 3];

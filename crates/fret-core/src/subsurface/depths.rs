@@ -43,7 +43,7 @@ pub enum DepthError {
 /// Depths of the interfaces, from the surface down.
 fn interfaces(half_space: &HalfSpace) -> Vec<f64> {
     let mut depth = 0.0;
-    let thicknesses = half_space.coatings().iter().map(|coating| coating.thickness());
+    let thicknesses = half_space.coatings().iter().map(super::super::model::half_space::Coating::thickness);
     thicknesses
         .map(|thickness| {
             depth += thickness;

@@ -149,7 +149,7 @@ mod tests {
             let mut t = StressTensor(std::array::from_fn(|_| random()));
             if case % 3 == 0 {
                 t.0[1] = t.0[0];
-                t.0[3] = 1e-9 * t.0[3];
+                t.0[3] *= 1e-9;
             }
             let Principal { values, directions } = t.principal();
             assert!(values[0] >= values[1] && values[1] >= values[2]);

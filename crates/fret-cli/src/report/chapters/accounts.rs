@@ -27,7 +27,9 @@ pub fn energy(scene: &Scene<'_>) -> String {
     let mut caption = "Work of friction since the start.".to_owned();
     if let Some(form) = &scene.tangential_form {
         let exact: Vec<f64> = (0..history.rows())
-            .map(|row| form.after(row).map_or(f64::NAN, |after| after.dissipated_energy()))
+            .map(|row| {
+                form.after(row).map_or(f64::NAN, fret_core::analytic::TangentialHistory::dissipated_energy)
+            })
             .collect();
         curves.push(Curve {
             points: points(&exact),
@@ -69,7 +71,10 @@ fn cycles(scene: &Scene<'_>) -> String {
                 number(computed),
             ];
             if let Some(form) = &scene.tangential_form {
-                let at = |row: usize| form.after(row).map_or(f64::NAN, |after| after.dissipated_energy());
+                let at = |row: usize| {
+                    form.after(row)
+                        .map_or(f64::NAN, fret_core::analytic::TangentialHistory::dissipated_energy)
+                };
                 // Before its first increment the closed form has dissipated nothing.
                 let started = before.map_or(0.0, |before| form.after(before).map_or(0.0, |_| at(before)));
                 let exact = at(last) - started;

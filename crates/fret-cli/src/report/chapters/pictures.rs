@@ -163,14 +163,14 @@ impl Section {
         if self.upright { [self.across, s] } else { [s, self.across] }
     }
 
-    /// Points for a smooth curve between two ends.
-    fn fine(&self, [from, to]: [f64; 2]) -> impl Iterator<Item = f64> {
-        (0..=FINE).map(move |part| from + (to - from) * part as f64 / FINE as f64)
-    }
-
     fn name(&self) -> &'static str {
         if self.upright { "y" } else { "x" }
     }
+}
+
+/// Points for a smooth curve between two ends.
+fn fine([from, to]: [f64; 2]) -> impl Iterator<Item = f64> {
+    (0..=FINE).map(move |part| from + (to - from) * part as f64 / FINE as f64)
 }
 
 /// The part of a section where any of the curves is not zero, with a margin.
@@ -245,7 +245,7 @@ fn section_curves(
         let colour = number % COLOURS;
         let exact = form(step);
         if let Some(exact) = &exact {
-            let points = section.fine(ends).map(|s| {
+            let points = fine(ends).map(|s| {
                 let [x, y] = section.point(s);
                 [s, exact(x, y)]
             });

@@ -44,7 +44,7 @@ mod tests {
         let (depths, values) = ([0.0, 1.0, 1.0, 3.0], [4.0, 2.0, 6.0, 2.0]);
         assert_eq!(line_mean(&depths, &values, 0.0), 4.0);
         assert_eq!(line_mean(&depths, &values, 1.0), 3.0);
-        assert_eq!(line_mean(&depths, &values, 2.0), (3.0 + 5.0) / 2.0);
+        assert_eq!(line_mean(&depths, &values, 2.0), f64::midpoint(3.0, 5.0));
         assert_eq!(line_mean(&depths, &values, 50.0), (3.0 + 8.0) / 3.0);
     }
 }
