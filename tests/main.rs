@@ -16,6 +16,7 @@ mod fretting_cycles;
 mod friction_on_patches;
 mod invariants;
 mod leaving_out;
+mod mutilated_cases;
 mod normal_counts;
 mod periodic;
 mod random_scenes;

@@ -50,8 +50,8 @@ pub enum Verb {
     Export(ExportArguments),
     #[command(hide = true, disable_help_flag = true)]
     Study(Unbuilt),
-    #[command(hide = true, disable_help_flag = true)]
-    Extremes(Unbuilt),
+    /// Solve stiff and extreme scenes and judge each by what must hold; the exit code says whether all do
+    Extremes(ExtremesArguments),
     /// Stresses under the surface, from the tractions of a finished run
     Stress(StressArguments),
     /// Solve many cases: a base case, and keys of it with lists of values
@@ -160,6 +160,17 @@ pub struct SweepArguments {
     /// Say nothing but errors
     #[arg(long)]
     pub quiet: bool,
+}
+
+/// Which extremes.
+#[derive(Debug, Args)]
+pub struct ExtremesArguments {
+    /// Some of the scenes, on coarser grids: under a minute
+    #[arg(long)]
+    pub quick: bool,
+    /// Write the table as a page of the documentation, too
+    #[arg(long, value_name = "FILE")]
+    pub page: Option<PathBuf>,
 }
 
 /// Arguments of a verb that is not built yet: anything.

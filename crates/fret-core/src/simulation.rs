@@ -261,7 +261,8 @@ impl<'a> Simulation<'a> {
                 ..SolverSettings::new(case.tolerance)
             },
             plan.leave_out.takes(Shortcut::Box),
-        );
+        )
+        .sheared_along(plan.along);
         if case.periodic {
             return solver;
         }

@@ -1,15 +1,25 @@
 //! What a scene does not need, why, and what that saves.
 
+use ndarray::Axis;
+
 use super::{LeaveOut, LeftOut, Shortcut};
 use crate::case::Case;
-use crate::model::{Body, SurfaceGrid};
+use crate::case::StageControl;
+use crate::kernel::PairResponse;
+use crate::model::{Body, CoulombFriction, SurfaceGrid};
 use crate::solver::Coupling;
 
 /// Names of the fields that can be kept, with their bytes a cell.
 const FIELDS: [(&str, usize); 5] = [("pressure", 8), ("shear", 16), ("slip", 16), ("gap", 8), ("zone", 1)];
 
 /// The list of what is left out of a case that may take the shortcuts of `leave_out`.
-pub fn left_out(case: &Case, grid: &SurfaceGrid, coupling: Coupling, leave_out: LeaveOut) -> Vec<LeftOut> {
+pub fn left_out(
+    case: &Case,
+    grid: &SurfaceGrid,
+    coupling: Coupling,
+    along: Option<usize>,
+    leave_out: LeaveOut,
+) -> Vec<LeftOut> {
     let mut list = Vec::new();
     let mut leave = |what: &str, why: &str, saves: &str| {
         list.push(LeftOut { what: what.to_owned(), why: why.to_owned(), saves: saves.to_owned() });
@@ -62,6 +72,14 @@ pub fn left_out(case: &Case, grid: &SurfaceGrid, coupling: Coupling, leave_out: 
             );
         }
     }
+    if let Some(axis) = along {
+        let [name, across] = [["x", "y"], ["y", "x"]][axis];
+        leave(
+            &format!("shear along {across}"),
+            &format!("nothing loads it, and shear along {name} moves nothing across it"),
+            "three of four tangential kernels, half of the transforms of shear",
+        );
+    }
     if !case.periodic && leave_out.takes(Shortcut::Box) {
         leave(
             "cells far from the contact, in the iterations",
@@ -97,4 +115,45 @@ fn increments_before_a_cause(case: &Case) -> Option<usize> {
 fn increments_at_one_load(case: &Case) -> usize {
     let held = case.stages.iter().filter(|stage| stage.normal.is_none());
     held.map(|stage| stage.increments_in_all()).sum()
+}
+
+/// The one axis along which shear acts: nothing loads the other, and either the bodies know no way across, or nothing changes
+/// along an axis of a scene that repeats.
+pub fn one_way(
+    case: &Case,
+    grid: &SurfaceGrid,
+    response: &PairResponse,
+    coupling: Coupling,
+) -> Option<usize> {
+    if coupling == Coupling::Frictionless || case.stages.iter().any(|stage| stage.twist.is_some()) {
+        return None;
+    }
+    let loads = |axis: usize| {
+        case.stages.iter().filter_map(|stage| stage.tangential).any(|controls| match controls[axis] {
+            StageControl::Force(value) | StageControl::Motion(value) => value != 0.0,
+        })
+    };
+    let axis = match [loads(0), loads(1)] {
+        [true, false] => 0,
+        [false, true] => 1,
+        _ => return None,
+    };
+    let uncoupled = coupling == Coupling::Uncoupled;
+    let straight = uncoupled && response.is_straight();
+    // Pressure moves the surface across a line contact, never along it.
+    let line = |axis: usize| is_endless(case, grid, 1 - axis) || uncoupled && is_endless(case, grid, axis);
+    (straight || line(axis)).then_some(axis)
+}
+
+/// Whether a scene repeats and nothing in it changes along an axis.
+fn is_endless(case: &Case, grid: &SurfaceGrid, axis: usize) -> bool {
+    let maps = case.stages.iter().filter_map(|stage| stage.friction.as_ref()).chain([&case.friction]);
+    case.periodic
+        && maps.into_iter().all(|friction| matches!(friction, CoulombFriction::Uniform(_)))
+        && case
+            .profile
+            .gap(grid)
+            .lanes(Axis(axis))
+            .into_iter()
+            .all(|line| line.iter().all(|gap| *gap == line[0]))
 }

@@ -31,6 +31,8 @@ pub struct Plan {
     pub grid: SurfaceGrid,
     /// How pressure and shear act on each other.
     pub coupling: Coupling,
+    /// The one axis (0: x, 1: y) along which shear acts, where the other part vanishes.
+    pub along: Option<usize>,
     /// The shortcuts that may be taken.
     pub leave_out: LeaveOut,
     /// What is left out.
@@ -88,7 +90,9 @@ impl Plan {
             );
             return Err(case.refuse_size(message, "enlarge it, or write size = \"auto\""));
         }
-        let left_out = left_out::left_out(&case, &grid, coupling, leave_out);
+        let along = left_out::one_way(&case, &grid, &response, coupling)
+            .filter(|_| leave_out.takes(Shortcut::Transverse));
+        let left_out = left_out::left_out(&case, &grid, coupling, along, leave_out);
         let increments = case.increments();
         let per_increment = match coupling {
             Coupling::Frictionless => 12,
@@ -100,6 +104,7 @@ impl Plan {
             case,
             grid,
             coupling,
+            along,
             leave_out,
             left_out,
             increments,

@@ -87,6 +87,8 @@ pub struct ContactSolver<'a> {
     coarse: Option<CoarseGrids>,
     memory: SolverMemory,
     boxed: bool,
+    /// The one axis along which shear acts.
+    along: Option<usize>,
 }
 
 impl<'a> ContactSolver<'a> {
@@ -113,6 +115,7 @@ impl<'a> ContactSolver<'a> {
             coarse: None,
             memory: SolverMemory::default(),
             boxed,
+            along: None,
         }
     }
 
@@ -121,6 +124,13 @@ impl<'a> ContactSolver<'a> {
     #[must_use]
     pub fn with_waves(self, table: ResponseTable) -> Self {
         Self { table: Some(table), ..self }
+    }
+
+    /// The same solver for a scene whose shear acts along one axis (0: x, 1: y) alone: nothing loads the other, and the bodies
+    /// answer a shear along it with no displacement across it.
+    #[must_use]
+    pub fn sheared_along(self, axis: Option<usize>) -> Self {
+        Self { along: axis, ..self }
     }
 
     /// What is remembered of the increments solved so far.
@@ -367,13 +377,20 @@ impl<'a> ContactSolver<'a> {
             tangential: self.coupling == Coupling::Uncoupled || self.settings.scheme == Scheme::Alternating,
             full: self.coupling == Coupling::Coupled,
             normal_from_all: false,
+            along: self.along,
         };
         let tangential = self.coupling != Coupling::Frictionless;
         let waves = self.table.as_ref().map(|table| Waves { table, spacing: self.grid.spacing() });
         Ok(BoxOperators {
             region,
             compliance: SpectralCompliance::new(&self.response, region.shape, wanted)?,
-            preconditioner: Preconditioner::new(&self.response, waves, region.shape, true, tangential)?,
+            preconditioner: Preconditioner::new(
+                &self.response,
+                waves,
+                region.shape,
+                [true, tangential],
+                self.along,
+            )?,
         })
     }
 
@@ -460,6 +477,7 @@ impl<'a> ContactSolver<'a> {
             let wanted = Wanted {
                 normal: self.coupling != Coupling::Coupled,
                 normal_from_all: self.coupling == Coupling::Coupled,
+                along: self.along,
                 ..Wanted::default()
             };
             self.outside = SpectralCompliance::new(&self.response, cells, wanted).ok();

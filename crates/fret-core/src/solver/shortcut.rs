@@ -14,14 +14,34 @@ pub enum Shortcut {
     Tangential,
     /// The normal problem while the pressure cannot change.
     Pressure,
+    /// The part of shear across the load where it vanishes.
+    Transverse,
     /// Cells of the grid far from the contact, in every iteration.
     Box,
 }
 
 impl Shortcut {
     /// All of them.
-    pub const ALL: [Self; 5] =
-        [Self::LayeredResponse, Self::Coupling, Self::Tangential, Self::Pressure, Self::Box];
+    pub const ALL: [Self; 6] = [
+        Self::LayeredResponse,
+        Self::Coupling,
+        Self::Tangential,
+        Self::Pressure,
+        Self::Transverse,
+        Self::Box,
+    ];
+
+    /// What is left out, in words.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::LayeredResponse => "layered response",
+            Self::Coupling => "coupling of pressure and shear",
+            Self::Tangential => "shear that nothing causes",
+            Self::Pressure => "normal problem at one load",
+            Self::Transverse => "shear across the load",
+            Self::Box => "cells far from the contact",
+        }
+    }
 }
 
 /// Which shortcuts are taken where the scene allows them: all, unless somebody wants to see that the answer is the same.
@@ -36,9 +56,9 @@ impl LeaveOut {
     /// No shortcut: everything is computed.
     pub const NONE: Self = Self { taken: [false; Shortcut::ALL.len()] };
 
-    /// One shortcut, no other.
-    pub fn only(shortcut: Shortcut) -> Self {
-        Self { taken: Shortcut::ALL.map(|other| other == shortcut) }
+    /// Every shortcut but one.
+    pub fn all_but(shortcut: Shortcut) -> Self {
+        Self { taken: Shortcut::ALL.map(|other| other != shortcut) }
     }
 
     /// Whether a shortcut is taken where the scene allows it.
