@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::Path;
 
-use fret_core::case::{ArraySource, Case};
+use fret_core::case::{Attachments, Case};
 use fret_core::plan::Plan;
 use fret_core::simulation::{RunError, Silent, Simulation};
 use fret_validation::{Sphere, keeping, solved, solved_with};
@@ -109,8 +109,8 @@ fn a_patch_without_friction_carries_no_shear_and_the_rest_slides_at_its_own_boun
     assert!((pull / bound - 1.0).abs() < 1e-3, "{pull} against {bound}");
     // More than that has no equilibrium, and is told so although mu W of the larger coefficient is not reached.
     let above = sphere.pulled(&head, 0.7, 2, None);
-    let supply = |_: ArraySource<'_>| Ok(map.clone());
-    let plan = Plan::new(Case::from_toml_with(&above, "case.toml", &supply).unwrap()).unwrap();
+    let attachments = Attachments { arrays: std::slice::from_ref(&map), ..Attachments::none() };
+    let plan = Plan::new(Case::from_toml_with(&above, "case.toml", attachments).unwrap()).unwrap();
     let error = Simulation::new(&plan).run(&mut Silent).unwrap_err();
     assert!(matches!(error, RunError::AboveSliding { .. }), "{error}");
 }

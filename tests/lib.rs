@@ -4,7 +4,7 @@ pub mod shortcuts;
 
 use std::fmt::Write;
 
-use fret_core::case::{ArraySource, Case};
+use fret_core::case::{Attachments, Case};
 use fret_core::history::History;
 use fret_core::plan::Plan;
 use fret_core::simulation::{RunError, Silent, Simulation};
@@ -165,11 +165,8 @@ pub fn observed_order(coarse: f64, fine: f64) -> f64 {
 /// # Panics
 /// When it is refused or not solved, or an increment misses its residual.
 pub fn solved_with(text: &str, arrays: &[Array2<f64>]) -> History {
-    let supply = |source: ArraySource<'_>| match source {
-        ArraySource::Handed(number) => Ok(arrays[number].clone()),
-        ArraySource::File(name) => Err(format!("no file {name} here")),
-    };
-    let case = Case::from_toml_with(text, "case.toml", &supply).unwrap_or_else(|error| panic!("{error}"));
+    let attachments = Attachments { arrays, ..Attachments::none() };
+    let case = Case::from_toml_with(text, "case.toml", attachments).unwrap_or_else(|error| panic!("{error}"));
     let plan = Plan::new(case).unwrap_or_else(|error| panic!("{error}"));
     let history = Simulation::new(&plan).run(&mut Silent).unwrap_or_else(|error| panic!("{error}"));
     assert!(history.largest_residual() <= 1e-8, "residual {:e}", history.largest_residual());

@@ -3,7 +3,7 @@
 use std::time::Instant;
 
 use fret_core::case::Case;
-use fret_core::history::{History, StepRecord};
+use fret_core::history::{History, KeptFields, StepRecord};
 use fret_core::plan::{LeaveOut, Plan, Shortcut};
 use fret_core::simulation::{Silent, Simulation};
 
@@ -46,44 +46,34 @@ pub fn solved(text: &str, leave_out: LeaveOut) -> Run {
     Run { history, seconds: started.elapsed().as_secs_f64() }
 }
 
-/// Largest difference of two runs: of pressure and shear in any cell of any increment over the largest of the run, and of
-/// approach, shift and dissipated energy over their largest.
+/// Largest difference of two runs: of pressure and shear in any cell of any increment over the largest pressure of the run, of
+/// approach and shift over the largest approach, and of the dissipated energy over the largest force times that.
 ///
 /// # Panics
 /// When the runs did not keep the same fields.
 pub fn difference(one: &History, other: &History) -> f64 {
     assert_eq!(one.steps.len(), other.steps.len());
     assert_eq!(one.fields.len(), other.fields.len());
-    let worst = |pairs: &mut dyn Iterator<Item = (f64, f64)>| {
-        let (mut scale, mut off) = (0.0_f64, 0.0_f64);
-        for (a, b) in pairs {
-            scale = scale.max(a.abs());
-            off = off.max((a - b).abs());
-        }
-        if scale > 0.0 { off / scale } else { off }
-    };
-    let of = |value: fn(&StepRecord) -> f64| {
-        worst(&mut one.steps.iter().zip(&other.steps).map(|(a, b)| (value(a), value(b))))
-    };
-    let fields = || one.fields.iter().zip(&other.fields);
-    let pressure = worst(&mut fields().flat_map(|(a, b)| {
-        a.pressure.iter().flatten().zip(b.pressure.iter().flatten()).map(|(a, b)| (*a, *b))
-    }));
-    let shear = worst(&mut fields().flat_map(|(a, b)| {
-        let parts = |field: &'_ Option<[ndarray::Array2<f64>; 2]>| {
-            field
-                .iter()
-                .flatten()
-                .flat_map(|part| part.iter().copied().collect::<Vec<_>>())
-                .collect::<Vec<_>>()
+    let largest =
+        |value: fn(&StepRecord) -> f64| one.steps.iter().map(|step| value(step).abs()).fold(0.0, f64::max);
+    let [pressure, approach, force] =
+        [largest(|s| s.max_pressure), largest(|s| s.approach), largest(|s| s.normal_force)];
+    let mut worst = 0.0_f64;
+    for (a, b) in one.steps.iter().zip(&other.steps) {
+        let motions = [a.approach - b.approach, a.shift[0] - b.shift[0], a.shift[1] - b.shift[1]];
+        worst = motions.iter().fold(worst, |worst, off| worst.max(off.abs() / approach));
+        worst = worst.max((a.dissipated_energy - b.dissipated_energy).abs() / (force * approach));
+    }
+    for (a, b) in one.fields.iter().zip(&other.fields) {
+        let tractions = |kept: &'_ KeptFields| -> Vec<f64> {
+            let all = kept.pressure.iter().chain(kept.shear.iter().flatten());
+            all.flat_map(|field| field.iter().copied()).collect()
         };
-        parts(&a.shear).into_iter().zip(parts(&b.shear))
-    }));
-    let shift = worst(&mut one.steps.iter().zip(&other.steps).map(|(a, b)| {
-        let size = |shift: [f64; 2]| shift[0].hypot(shift[1]);
-        (size(a.shift), size(a.shift) + size([a.shift[0] - b.shift[0], a.shift[1] - b.shift[1]]))
-    }));
-    [pressure, shear, shift, of(|s| s.approach), of(|s| s.dissipated_energy)].into_iter().fold(0.0, f64::max)
+        let (a, b) = (tractions(a), tractions(b));
+        assert_eq!(a.len(), b.len());
+        worst = a.iter().zip(&b).fold(worst, |worst, (a, b)| worst.max((a - b).abs() / pressure));
+    }
+    worst
 }
 
 /// The scenes, with `cells` a side.

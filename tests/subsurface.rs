@@ -1,6 +1,7 @@
 //! Stresses under the surface against closed forms and an independent integration over wavenumbers.
 
 use std::f64::consts::PI;
+use std::fmt::Write as _;
 
 use fret_core::model::{Base, Coating, ElasticMaterial, HalfSpace, SurfaceGrid};
 use fret_core::subsurface::{DepthOperator, DepthPoint, StressField, Tractions, depth_points};
@@ -366,7 +367,7 @@ fn a_cell_answers_like_the_cells_that_tile_it_at_every_contrast_and_depth() {
                     }
                 }
             }
-            line += &format!("  {:.1e}", worst / largest);
+            let _ = write!(line, "  {:.1e}", worst / largest);
             // of the traction on the cell
             assert!(worst < 1e-10, "contrast {contrast:e} depth {depth}: {worst:e} of {largest:e}");
         }

@@ -60,6 +60,20 @@ def text_of(case: str | os.PathLike[str]) -> tuple[str, str, Path]:
     raise TypeError(f"case: expected a path, TOML text or a dict, found {type(case).__name__}")
 
 
+class _Beside:
+    """Reads the files a case names: relative to the case file, or to the working folder when there is none."""
+
+    def __init__(self, folder: Path) -> None:
+        self._folder = folder
+
+    def __call__(self, name: str) -> bytes:
+        """Return the content of a file; an error's words become part of the refusal."""
+        try:
+            return (self._folder / name).read_bytes()
+        except OSError as error:
+            raise OSError(error.strerror or str(error)) from None
+
+
 def _is_path(text: str) -> bool:
     if "\n" in text:
         return False

@@ -1,5 +1,6 @@
 """The answer of a run."""
 
+import json
 from typing import TYPE_CHECKING, Any, Literal, Protocol, Self, get_args
 
 import numpy as np
@@ -7,14 +8,14 @@ import numpy.typing as npt
 
 from fretting import _core, plot
 from fretting._arrays import Reals
-from fretting.cycles import Columns, cycles
+from fretting.cycles import Columns, columns
 
 if TYPE_CHECKING:
     import xarray
     from matplotlib.animation import FuncAnimation
     from matplotlib.axes import Axes
 
-FieldName = Literal["pressure", "shear_x", "shear_y", "slip_x", "slip_y", "gap", "zone"]
+FieldName = Literal["pressure", "shear_x", "shear_y", "slip_x", "slip_y", "gap", "zone", "worn_depth"]
 FIELD_NAMES: tuple[str, ...] = get_args(FieldName)
 
 MEANING = {
@@ -25,6 +26,7 @@ MEANING = {
     "slip_y": "accumulated slip along y, upper body relative to lower [length]",
     "gap": "gap between the surfaces [length]",
     "zone": "0 open, 1 stick, 2 slip; -1 where not kept",
+    "worn_depth": "depth worn off both bodies together [length]",
     "normal_force": "normal force, compression positive [force]",
     "approach": "rigid normal approach [length]",
     "tangential_force_x": "tangential force on the lower body along x [force]",
@@ -92,6 +94,16 @@ class History:
         Coordinates of the cell centres [length], shapes (nx,) and (ny,).
     stages : list of str
         Names of the stages.
+    cycles : dict of str to ndarray
+        One entry per cycle of the stages that have cycles; ``stage``, ``cycle``, ``first_increment``,
+        ``last_increment``, ``stands_for`` (int); ``dissipated_energy``, ``direction``, ``force_amplitude``,
+        ``displacement_amplitude``, ``opening``, ``energy_ratio``, ``sliding_ratio``, ``stiffness``, ``closure``,
+        ``worn_volume``, ``max_worn_depth`` (float, NaN where a cycle has none); ``steady`` (bool); ``drive``,
+        ``regime`` (str).
+    running_conditions : list of str or None
+        ``"partial"``, ``"mixed"`` or ``"gross"`` for each stage; None for one without cycles.
+    worn_through : dict or None
+        ``increment``, ``stage``, ``cycles``, ``cell``, ``place`` of the first place worn to the limit.
 
     Notes
     -----
@@ -102,12 +114,14 @@ class History:
     x: Reals
     y: Reals
     stages: list[str]
+    cycles: Columns
+    running_conditions: list[str | None]
+    worn_through: dict[str, Any] | None
 
     _kept: _Kept
     _bodies: str
     _spacing: tuple[float, float]
     _periodic: bool
-    _cycle_lengths: list[int | None]
 
     def __init__(self, answer: _core.History) -> None:
         self._kept = answer
@@ -119,7 +133,9 @@ class History:
         dx, dy = answer.spacing()
         self._spacing = (dx, dy)
         self._periodic = answer.periodic()
-        self._cycle_lengths = answer.cycle_lengths()
+        self.cycles = columns(json.loads(answer.cycles()))
+        self.running_conditions = json.loads(answer.running_conditions())
+        self.worn_through = json.loads(answer.worn_through())
 
     def __getstate__(self) -> dict[str, Any]:
         """Everything as plain arrays."""
@@ -154,7 +170,7 @@ class History:
 
         Parameters
         ----------
-        name : {"pressure", "shear_x", "shear_y", "slip_x", "slip_y", "gap", "zone"}
+        name : {"pressure", "shear_x", "shear_y", "slip_x", "slip_y", "gap", "zone", "worn_depth"}
             ``slip_x``, ``slip_y`` are accumulated along the path; ``zone`` is 0 open, 1 stick, 2 slip.
         step : int
             Number of the increment in the whole history, from 0; negative from the end.
@@ -231,20 +247,6 @@ class History:
         }
         return xarray.Dataset(variables, coords=coordinates, attrs={"stages": self.stages})
 
-    def cycles(self) -> Columns:
-        """Return what each full fretting cycle came to.
-
-        Returns
-        -------
-        dict of str to ndarray
-            One entry a full cycle, in order: ``stage`` and ``cycle`` (from 1, in its stage), ``first`` and ``last``
-            increment, ``energy`` (work of friction in the cycle [force x length]), ``force_amplitude`` and
-            ``shift_amplitude`` (half the span), ``energy_ratio`` (energy over 4 times their product: 0 without slip,
-            towards 1 in gross slip), ``least_stick_share``, ``regime`` (``"gross_slip"`` when any increment slips
-            fully, else ``"partial_slip"`` when any slips, else ``"full_stick"``). Empty without stages in cycles.
-        """
-        return cycles(self.steps, self._cycle_lengths)
-
     def plot_loop(
         self, along: Literal["x", "y"] = "x", stage: int | str | None = None, axes: "Axes | None" = None
     ) -> "Axes":
@@ -291,7 +293,7 @@ class History:
             ("dissipated energy", f"{last['dissipated_energy']:.6g}"),
             ("worst residual", f"{self.steps['residual'].max():.1e}"),
         ]
-        done = self.cycles()
+        done = self.cycles
         if len(done["cycle"]):
             ratio, regime = done["energy_ratio"][-1], done["regime"][-1]
             facts.append((f"last of {len(done['cycle'])} cycles", f"{regime.replace('_', ' ')}, ratio {ratio:.3g}"))

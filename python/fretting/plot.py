@@ -29,7 +29,7 @@ ZONES = (("open", "#f2f2f2"), ("stick", "#2a6f97"), ("slip", "#f4a259"))
 """Names and colours of the zones 0, 1, 2."""
 REGIMES = (
     ("apart", "#f2f2f2"), ("frictionless", "#d9d9d9"), ("full_stick", "#2a6f97"), ("partial_slip", "#a8c686"),
-    ("gross_slip", "#f4a259"),
+    ("mixed", "#e9d985"), ("gross_slip", "#f4a259"),
 )  # fmt: skip
 """Names and colours of the regimes, from less to more slip."""
 
@@ -295,7 +295,7 @@ def _loop_rows(history: "History", stage: int | str | None) -> npt.NDArray[np.in
     """Rows of a loop, with the state it starts from."""
     column = history.steps["stage"]
     if stage is None:
-        in_cycles = history.cycles()["stage"]
+        in_cycles = history.cycles["stage"]
         rows = np.flatnonzero(column >= in_cycles[0]) if len(in_cycles) else np.arange(len(history))
     else:
         rows = np.flatnonzero(column == _stage_number(history, stage))

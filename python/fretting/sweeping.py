@@ -74,8 +74,8 @@ def sweep(
     -------
     xarray.Dataset
         One dimension an axis, named by its key; axes whose values are no plain numbers or words count from 0, their
-        values stand as text in ``NAME_values``. Variables: the names of ``History.steps``; those of the last full cycle
-        as ``cycle_energy``, ``cycle_energy_ratio``, ``cycle_regime`` and so on (see :meth:`History.cycles`); ``status``
+        values stand as text in ``NAME_values``. Variables: the names of ``History.steps``; those of the last cycle
+        as ``cycle_dissipated_energy``, ``cycle_energy_ratio``, ``cycle_regime`` and so on (see :class:`History`); ``status``
         (``"solved"``, ``"refused"``, ``"failed"``) and ``error``, the message of a point that was not solved. Numbers
         of such points are NaN, counts -1, words empty. The attribute ``solved_before`` counts points found in `folder`.
 
@@ -173,14 +173,13 @@ def _solve(task: _Task) -> Table:
     except RunError as error:
         return {**nothing, "status": "failed", "error": str(error)}
     rows = _rows(history, task.keep)
-    cycles_of_it = history.cycles()
     measured = {} if task.measure is None else dict(task.measure(history))
     return {
         **nothing,
         "status": "solved",
         "error": "",
         "steps": {name: column[rows].tolist() for name, column in history.steps.items()},
-        "cycle": {name: column[-1].item() for name, column in cycles_of_it.items() if len(column)},
+        "cycle": {name: column[-1].item() for name, column in history.cycles.items() if len(column)},
         "measured": {name: _measured(name, value) for name, value in measured.items()},
     }
 
@@ -297,7 +296,7 @@ def _dataset(
         for place, answer in answers.items():
             if name in answer["cycle"]:
                 table[place] = answer["cycle"][name]
-        variables[f"cycle_{name}"] = (names, table, {"long_name": f"last full cycle: {cycles.MEANING[name]}"})
+        variables[f"cycle_{name}"] = (names, table, {"long_name": f"last cycle: {cycles.MEANING[name]}"})
     for name in _all_names(answers, "measured"):
         variables[name] = _measured_variable(name, names, shape, answers)
     coordinates: dict[str, Any] = {}

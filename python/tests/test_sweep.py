@@ -70,7 +70,7 @@ def test_every_point_is_what_a_run_alone_gives(case: dict[str, Any], alone: np.n
     assert (answer["status"] == "solved").all()
     assert (answer["error"] == "").all()
     # A cycle's work of friction is what the history gained in it: here all of it, pressing alone loses nothing.
-    np.testing.assert_allclose(answer["cycle_energy"].values, alone, rtol=1e-12)
+    np.testing.assert_allclose(answer["cycle_dissipated_energy"].values, alone, rtol=1e-12)
     # Forces are held to the tolerance of the case, 1e-8.
     np.testing.assert_allclose(answer["cycle_force_amplitude"].values[0], AXES[FORCE], rtol=1e-7)
 

@@ -4,13 +4,14 @@ use std::fs::File;
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
-use fret_core::case::{Case, CaseError};
+use fret_core::case::{Attachments, Case, CaseError};
 use fret_core::plan::{LeaveOut, Plan};
-
-use crate::array_file::array;
 
 /// Bytes read at the most: one more than the core takes, so that an endless stream is refused and not read.
 const MOST_BYTES: u64 = (4 << 20) + 1;
+
+/// Bytes of a file that a case names, at the most.
+const MOST_ATTACHED: u64 = 2 << 30;
 
 /// A case file that could be read.
 #[derive(Debug)]
@@ -36,6 +37,24 @@ impl CaseFile {
         Ok(Self { path: path.to_owned(), text })
     }
 
+    /// A file the case names, looked for beside the case file.
+    fn attachment(&self, name: &str) -> Result<Vec<u8>, String> {
+        let folder = self.path.parent().unwrap_or_else(|| Path::new(""));
+        let path = folder.join(name);
+        // Only ordinary files are read, so that nothing waits on a pipe.
+        if std::fs::metadata(&path).is_ok_and(|facts| !facts.is_file()) {
+            return Err("no ordinary file".to_owned());
+        }
+        let mut content = Vec::new();
+        File::open(&path)
+            .and_then(|file| file.take(MOST_ATTACHED + 1).read_to_end(&mut content))
+            .map_err(|error| unreadable(&path, &error))?;
+        if content.len() as u64 > MOST_ATTACHED {
+            return Err(format!("longer than {} MB", MOST_ATTACHED >> 20));
+        }
+        Ok(content)
+    }
+
     /// Its name as it stands in messages.
     pub fn name(&self) -> String {
         self.path.display().to_string()
@@ -53,8 +72,8 @@ impl CaseFile {
 
     /// The case, read and planned with some shortcuts alone.
     pub fn planned_leaving_out(&self, leave_out: LeaveOut) -> Result<Plan, CaseError> {
-        let folder = self.path.parent().unwrap_or(Path::new(""));
-        let case = Case::from_toml_with(&self.text, &self.name(), &|source| array(folder, source))?;
+        let beside = |name: &str| self.attachment(name);
+        let case = Case::from_toml_with(&self.text, &self.name(), Attachments::files(&beside))?;
         Plan::leaving_out(case, leave_out)
     }
 }
@@ -62,7 +81,7 @@ impl CaseFile {
 fn unreadable(path: &Path, error: &io::Error) -> String {
     match error.kind() {
         io::ErrorKind::NotFound => "no such file".to_owned(),
-        _ if path.is_dir() => "a folder, not a case file".to_owned(),
+        _ if path.is_dir() => "a folder, not a file".to_owned(),
         io::ErrorKind::PermissionDenied => "no permission to read it".to_owned(),
         _ => format!("cannot be read: {error}"),
     }

@@ -114,7 +114,7 @@ impl Failure {
             Self::Call(what, _) | Self::Interrupted(what) => what.clone(),
             Self::Unsolved(error) => error.to_string(),
             Self::Unwritten(unwritten) => unwritten.to_string(),
-            Self::Broken(count) => format!("{} of extreme scenes: not all holds", families(*count)),
+            Self::Broken(count) => format!("{} of extreme scenes: not everything holds", families(*count)),
             Self::Defect(what) => format!("a defect in fret itself, please report it: {what}"),
         }
     }

@@ -3,7 +3,6 @@
 //! A library, so that the program `fret` and the one that comes with the Python wheel are the same to the letter.
 
 mod arguments;
-mod array_file;
 mod case_file;
 mod commands;
 mod defect;

@@ -69,7 +69,7 @@ impl Progress {
             return;
         }
         self.last_shown = Instant::now();
-        let stage = tally.stage_of(iteration.increment).map_or("", |stage| stage.name.as_str());
+        let stage = tally.stages.get(iteration.stage).map_or("", |stage| stage.name.as_str());
         let stage = shortened(stage, TITLE_LETTERS);
         let standing = format!(
             "{stage}  iteration {}  residual {:.1e} (goal {:.1e})",

@@ -3,13 +3,14 @@
 use std::fmt::Write;
 use std::path::Path;
 
+use fret_core::cycle::CycleRecord;
 use fret_core::history::StepRecord;
 use fret_core::plan::{Coupling, Plan};
 use serde_json::{Value, json};
 
 use crate::failure::Failure;
 use crate::figures::{counted, duration, figure, figure_beside, shortened};
-use crate::tally::{CycleEnergy, Tally};
+use crate::tally::Tally;
 
 /// Stages that stand side by side in the table.
 const MOST_COLUMNS: usize = 4;
@@ -56,6 +57,16 @@ impl Summary<'_> {
         }
         table.push('\n');
         self.cycles(&mut table);
+        if let Some(worn) = &self.tally.worn_through {
+            let [x, y] = worn.place.map(figure);
+            let after = counted(worn.cycles, "cycle");
+            let _ = writeln!(
+                table,
+                "{:<NAMES$}after {after} of {}, at ({x}, {y})",
+                "worn to the limit",
+                self.stage_name(worn.stage)
+            );
+        }
         let residual =
             format!("{:.1e} (asked for {:.1e})", self.tally.largest_residual, self.plan.case.tolerance);
         for (name, value) in [
@@ -106,11 +117,11 @@ impl Summary<'_> {
     }
 
     fn cycles(&self, table: &mut String) {
-        let energies = &self.tally.cycle_energies;
+        let energies = &self.tally.cycles;
         let skipped = energies.len().saturating_sub(MOST_CYCLES);
-        let mut line = |energy: &CycleEnergy| {
+        let mut line = |energy: &CycleRecord| {
             let name = format!("energy dissipated in cycle {}", energy.cycle);
-            let value = figure(energy.energy);
+            let value = figure(energy.dissipated_energy);
             let _ = writeln!(table, "{name:<NAMES$}{value:>COLUMN$}  {}", self.stage_name(energy.stage));
         };
         energies.iter().take(1).for_each(&mut line);
@@ -140,14 +151,12 @@ impl Summary<'_> {
             .collect();
         let cycles: Vec<Value> = self
             .tally
-            .cycle_energies
+            .cycles
             .iter()
             .map(|energy| {
-                json!({
-                    "stage": self.stage_name(energy.stage),
-                    "cycle": energy.cycle,
-                    "dissipated_energy": energy.energy,
-                })
+                let mut value = serde_json::to_value(energy).unwrap_or(Value::Null);
+                value["stage"] = json!(self.stage_name(energy.stage));
+                value
             })
             .collect();
         json!({
@@ -156,6 +165,7 @@ impl Summary<'_> {
             "title": self.plan.case.title,
             "stages": stages,
             "cycles": cycles,
+            "worn_through": self.tally.worn_through,
             "increments": self.tally.solved,
             "increments_planned": self.plan.increments,
             "largest_residual": self.tally.largest_residual,

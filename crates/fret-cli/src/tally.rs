@@ -1,8 +1,9 @@
 //! What a run has come to, kept while it goes, so that an interrupted or failed run can tell as much as a solved one.
 
-use fret_core::case::Course;
+use fret_core::cycle::CycleRecord;
 use fret_core::history::{StepRecord, Work};
 use fret_core::plan::Plan;
+use fret_core::wear::WornThrough;
 use serde::{Deserialize, Serialize};
 
 /// A stage of the history, as increments of the whole.
@@ -10,10 +11,8 @@ use serde::{Deserialize, Serialize};
 pub struct StageSpan {
     /// Its name.
     pub name: String,
-    /// Its last increment, from 0.
+    /// Its last increment, from 0, as far as is known.
     pub last: usize,
-    /// Increments of one of its cycles, where it has cycles.
-    pub cycle: Option<usize>,
 }
 
 /// The stages of a plan, in order.
@@ -24,24 +23,9 @@ pub fn stage_spans(plan: &Plan) -> Vec<StageSpan> {
         .iter()
         .map(|stage| {
             done += stage.increments_in_all();
-            StageSpan {
-                name: stage.name.clone(),
-                last: done.saturating_sub(1),
-                cycle: matches!(stage.course, Course::Cycles(_)).then_some(stage.increments),
-            }
+            StageSpan { name: stage.name.clone(), last: done.saturating_sub(1) }
         })
         .collect()
-}
-
-/// Energy dissipated in one full cycle.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct CycleEnergy {
-    /// Number of the stage, from 0.
-    pub stage: usize,
-    /// Number of the cycle in its stage, from 1.
-    pub cycle: usize,
-    /// Work of friction in this cycle [force x length].
-    pub energy: f64,
 }
 
 /// What a run has come to.
@@ -53,13 +37,15 @@ pub struct Tally {
     pub solved: usize,
     /// The last record of each stage that is done, then of the stage at work.
     pub stage_ends: Vec<StepRecord>,
-    /// Energy of each full cycle.
-    pub cycle_energies: Vec<CycleEnergy>,
+    /// The cycles that are over. Their table keeps them for a run that goes on, however many they are.
+    #[serde(skip)]
+    pub cycles: Vec<CycleRecord>,
+    /// Where and when the surfaces were worn to the limit; the run ended there.
+    pub worn_through: Option<WornThrough>,
     /// Work of all increments.
     pub work: Work,
     /// Largest residual of all increments.
     pub largest_residual: f64,
-    energy_at_cycle_start: f64,
 }
 
 impl Tally {
@@ -69,10 +55,10 @@ impl Tally {
             stages: stage_spans(plan),
             solved: 0,
             stage_ends: Vec::new(),
-            cycle_energies: Vec::new(),
+            cycles: Vec::new(),
+            worn_through: None,
             work: Work::default(),
             largest_residual: 0.0,
-            energy_at_cycle_start: 0.0,
         }
     }
 
@@ -86,34 +72,24 @@ impl Tally {
         }
         match self.stage_ends.last_mut() {
             Some(last) if last.stage == record.stage => *last = record.clone(),
-            _ => self.stage_ends.push(record.clone()),
-        }
-        self.count_cycle(record);
-    }
-
-    /// The stage an increment belongs to.
-    pub fn stage_of(&self, increment: usize) -> Option<&StageSpan> {
-        self.stages.iter().find(|stage| increment <= stage.last)
-    }
-
-    fn count_cycle(&mut self, record: &StepRecord) {
-        let first = match record.stage.checked_sub(1).and_then(|before| self.stages.get(before)) {
-            Some(before) => before.last + 1,
-            None => 0,
-        };
-        let Some(length) = self.stages.get(record.stage).map(|stage| stage.cycle) else { return };
-        let done = record.increment + 1 - first;
-        match length {
-            Some(length) if done.is_multiple_of(length) => {
-                self.cycle_energies.push(CycleEnergy {
-                    stage: record.stage,
-                    cycle: done / length,
-                    energy: record.dissipated_energy - self.energy_at_cycle_start,
-                });
-                self.energy_at_cycle_start = record.dissipated_energy;
+            _ => {
+                self.begin_stage(record);
+                self.stage_ends.push(record.clone());
             }
-            Some(_) => {}
-            None => self.energy_at_cycle_start = record.dissipated_energy,
+        }
+    }
+
+    /// Counts a cycle in.
+    pub fn add_cycle(&mut self, record: &CycleRecord) {
+        self.cycles.push(record.clone());
+    }
+
+    /// A stage that ended early brings all that follow it forward.
+    fn begin_stage(&mut self, record: &StepRecord) {
+        let Some(before) = record.stage.checked_sub(1) else { return };
+        let saved = (self.stages[before].last + 1).saturating_sub(record.increment);
+        for stage in &mut self.stages[before..] {
+            stage.last -= saved;
         }
     }
 }

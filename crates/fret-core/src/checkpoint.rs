@@ -1,30 +1,38 @@
 //! Where a run stands after an increment: all that later increments depend on, so that a run can be broken off at any moment and
 //! taken up again with the bits it would have had.
 
+use ndarray::Array2;
 use serde::{Deserialize, Serialize};
 
+use crate::case::{Case, Stage};
+use crate::fretting_loop::FrettingLoop;
 use crate::model::{ContactState, Control, LoadStep};
 use crate::plan::Plan;
 use crate::solver::{Resultants, SolverMemory};
+use crate::wear::{Collected, WornThrough};
 
 /// Version of the bytes; another layout of what is stored gets another one.
-const FORMAT: u32 = 1;
+const FORMAT: u32 = 2;
 
 /// How far a run has come in its stages.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Place {
     /// Increments solved in the whole history.
     pub solved: usize,
-    /// The stage at work.
+    /// The stage at work; their number, once all are over.
     pub stage: usize,
-    /// Increments solved in it.
+    /// Increments solved in it; none, of a stage that has yet to begin.
     pub solved_of_stage: usize,
+    /// Cycles done in it, those that a computed one stands for included.
+    pub cycles: usize,
     /// Controls where it started.
     pub stage_start: LoadStep,
     /// Controls now.
     pub held: LoadStep,
     /// Resultants now.
     pub resultants: Resultants,
+    /// Where and when the surfaces were worn to the limit: all is over.
+    pub worn_through: Option<WornThrough>,
 }
 
 /// Where a run stands after an increment, as the run itself holds it: to be looked at or stored.
@@ -33,6 +41,8 @@ pub struct Waypoint<'a> {
     pub(crate) place: &'a Place,
     pub(crate) state: &'a ContactState,
     pub(crate) memory: &'a SolverMemory,
+    pub(crate) cycle: Option<&'a FrettingLoop>,
+    pub(crate) wear: Option<&'a Collected>,
 }
 
 /// A stored waypoint, from which a run goes on.
@@ -41,6 +51,10 @@ pub struct Checkpoint {
     pub(crate) place: Place,
     pub(crate) state: ContactState,
     pub(crate) memory: SolverMemory,
+    /// The cycle at work.
+    pub(crate) cycle: Option<FrettingLoop>,
+    /// What has worn since the gap was opened last.
+    pub(crate) wear: Option<Collected>,
 }
 
 /// Why stored bytes are no checkpoint of a plan.
@@ -88,11 +102,18 @@ impl Checkpoint {
             solved: 0,
             stage: 0,
             solved_of_stage: 0,
+            cycles: 0,
             stage_start: free,
             held: free,
             resultants: Resultants::default(),
+            worn_through: None,
         };
-        Self { place, state: ContactState::untouched(plan.grid.cells()), memory: SolverMemory::default() }
+        let cells = plan.grid.cells();
+        let mut state = ContactState::untouched(cells);
+        let wears = plan.case.wear.is_some();
+        state.worn_depth = wears.then(|| Array2::zeros(cells));
+        let wear = wears.then(|| Collected::nothing(cells));
+        Self { place, state, memory: SolverMemory::default(), cycle: None, wear }
     }
 
     /// The checkpoint in bytes written by [`Waypoint::write`], for a run of `plan`.
@@ -119,14 +140,31 @@ impl Checkpoint {
 
     fn belongs_to(&self, plan: &Plan) -> bool {
         let cells = plan.grid.cells();
-        let stages = &plan.case.stages;
-        let place = &self.place;
-        let before: usize = stages.iter().take(place.stage).map(super::case::Stage::increments_in_all).sum();
-        stages.get(place.stage).is_some_and(|stage| {
-            place.solved_of_stage <= stage.increments_in_all()
-                && Some(place.solved) == before.checked_add(place.solved_of_stage)
-        }) && self.state.is_sound(cells)
+        let wears = plan.case.wear.is_some();
+        self.is_within(&plan.case)
+            && self.state.is_sound(cells)
             && self.memory.fits(cells)
+            && self.state.worn_depth.is_some() == wears
+            && self.wear.is_some() == wears
+            && self.wear.as_ref().is_none_or(|wear| wear.fits(cells))
+            && self.cycle.as_ref().is_none_or(|cycle| cycle.fits(self.place.stage, cells))
+    }
+
+    /// Whether a run of `case` can come to this place.
+    fn is_within(&self, case: &Case) -> bool {
+        let place = &self.place;
+        let before: usize = case.stages.iter().take(place.stage).map(Stage::increments_in_all).sum();
+        let Some(most) = before.checked_add(place.solved_of_stage) else { return false };
+        // Stages before may have ended early.
+        let adds_up = place.solved == most || (case.is_open_ended() && place.solved < most);
+        let is_in_a_stage = match case.stages.get(place.stage) {
+            Some(stage) => {
+                let follows = place.solved_of_stage > 0 && stage.cycles().is_some();
+                place.solved_of_stage < stage.increments_in_all() && self.cycle.is_some() == follows
+            }
+            None => place.stage == case.stages.len() && place.solved_of_stage == 0 && self.cycle.is_none(),
+        };
+        adds_up && place.solved >= place.solved_of_stage && is_in_a_stage
     }
 }
 

@@ -69,6 +69,14 @@ pub enum SurfaceResponse {
 }
 
 impl SurfaceResponse {
+    /// Normal displacement of a cell by unit pressure on itself [length/pressure]; `cells` of the grid.
+    pub fn own_normal(&self, cells: [usize; 2]) -> f64 {
+        match self {
+            Self::FreeSpace(coefficients) => own_of(coefficients).normal,
+            Self::Periodic(symbols) => own_in_period(symbols, cells).normal,
+        }
+    }
+
     /// Whether the scene repeats.
     pub fn is_periodic(&self) -> bool {
         matches!(self, Self::Periodic(_))

@@ -3,7 +3,9 @@
 use ndarray::Array2;
 use serde::{Deserialize, Serialize};
 
+use crate::cycle::CycleRecord;
 use crate::model::{ContactPair, ContactState, SurfaceGrid, Zone};
+use crate::wear::WornThrough;
 
 /// How well an increment satisfies its equations; all parts dimensionless and relative.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
@@ -121,6 +123,8 @@ pub struct KeptFields {
     pub gap: Option<Array2<f64>>,
     /// Zone of each cell.
     pub zone: Option<Array2<Zone>>,
+    /// Worn depth [length].
+    pub worn_depth: Option<Array2<f64>>,
 }
 
 /// All of a run.
@@ -136,6 +140,10 @@ pub struct History {
     pub stages: Vec<String>,
     /// One record an increment.
     pub steps: Vec<StepRecord>,
+    /// One record a cycle of the stages that have cycles.
+    pub cycles: Vec<CycleRecord>,
+    /// Where and when the surfaces were worn to the limit; the history ends there.
+    pub worn_through: Option<WornThrough>,
     /// Kept fields, in the order of the increments.
     pub fields: Vec<KeptFields>,
     /// The last state reached.

@@ -1,29 +1,38 @@
-//! The journey of a run: stages, increments, records. The only room that knows all of it.
+//! The journey of a run: stages, increments, cycles, records. The only room that knows all of it.
 
 use std::f64::consts::{PI, TAU};
 use std::ops::ControlFlow;
 
 use std::time::Instant;
 
-use crate::case::Stage;
-use crate::checkpoint::{Checkpoint, Waypoint};
+use ndarray::Array2;
+
+use crate::case::{Case, Stage};
+use crate::checkpoint::{Checkpoint, Place, Waypoint};
 use crate::compliance::SurfaceResponse;
-use crate::history::{History, KeptFields, Residual, StepRecord};
+use crate::cycle::CycleRecord;
+use crate::fretting_loop::{CycleEnd, FrettingLoop};
+use crate::history::{History, KeptFields, StepRecord};
 use crate::kernel::{
     Components, PairResponse, ResponseTable, coefficients_of, influence_coefficients, periodic_symbols,
     symbols_of,
 };
-use crate::model::ContactState;
-use crate::model::field::largest;
+use crate::model::{ContactState, CoulombFriction, LoadStep};
 use crate::plan::{Coupling, Plan, Shortcut};
-use crate::solver::{ContactSolver, Increment, SolveError, SolverSettings};
+use crate::recording::{kept, record};
+pub use crate::run_error::RunError;
+use crate::run_error::run_error;
+use crate::solver::{ContactSolver, Resultants, SolverSettings};
 use crate::stepping::StageSteps;
+use crate::wear::{Wearing, WornThrough, worn};
 
 /// Where an increment's iteration stands.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Iteration {
     /// Number of the increment in the whole history, from 0.
     pub increment: usize,
+    /// Number of its stage, from 0.
+    pub stage: usize,
     /// Iteration within the increment.
     pub iteration: usize,
     /// Residual reached so far.
@@ -40,7 +49,8 @@ pub trait Observer {
         ControlFlow::Continue(())
     }
 
-    /// An increment is solved and heard of: where the run stands now, for those who store it. `Break` stops the run after it.
+    /// An increment is solved and heard of, and its cycle when that is over: where the run stands now, for those who store it.
+    /// `Break` stops the run after it.
     fn reached(&mut self, waypoint: &Waypoint<'_>) -> ControlFlow<()> {
         let _ = waypoint;
         ControlFlow::Continue(())
@@ -56,6 +66,11 @@ pub trait Observer {
         let _ = (record, state, kept);
         ControlFlow::Continue(())
     }
+
+    /// A cycle is over; its last increment was solved just before.
+    fn cycled(&mut self, record: &CycleRecord) {
+        let _ = record;
+    }
 }
 
 /// Hears nothing and stops nothing.
@@ -63,71 +78,6 @@ pub trait Observer {
 pub struct Silent;
 
 impl Observer for Silent {}
-
-/// Why a run ended without its answer.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-pub enum RunError {
-    /// The equations could not be satisfied to the tolerance.
-    #[error(
-        "increment {increment} ({stage}) not solved: residual {reached:.1e} after {iterations} iterations, asked for {tolerance:.1e}; {advice}"
-    )]
-    NotConverged {
-        /// Number of the increment, from 0.
-        increment: usize,
-        /// Name of its stage.
-        stage: String,
-        /// Residual reached.
-        reached: f64,
-        /// Residual asked for.
-        tolerance: f64,
-        /// Iterations made.
-        iterations: usize,
-        /// What to try.
-        advice: String,
-    },
-    /// The contact reaches the edge of the grid.
-    #[error(
-        "increment {increment} ({stage}): the contact reaches the edge of the grid; enlarge grid.size, or write size = \"auto\""
-    )]
-    ContactAtEdge {
-        /// Number of the increment, from 0.
-        increment: usize,
-        /// Name of its stage.
-        stage: String,
-    },
-    /// A tangential load above what friction carries.
-    #[error(
-        "increment {increment} ({stage}): tangential force {asked:.6e} is above mu W = {bound:.6e}: no equilibrium; prescribe the shift to slide"
-    )]
-    AboveSliding {
-        /// Number of the increment, from 0.
-        increment: usize,
-        /// Name of its stage.
-        stage: String,
-        /// Force asked for.
-        asked: f64,
-        /// mu W.
-        bound: f64,
-    },
-    /// The observer stopped the run.
-    #[error("interrupted at increment {increment}")]
-    Interrupted {
-        /// Number of the increment that was not finished, from 0.
-        increment: usize,
-    },
-}
-
-impl RunError {
-    /// Number of the increment that has no answer, from 0.
-    pub fn increment(&self) -> usize {
-        match self {
-            Self::NotConverged { increment, .. }
-            | Self::ContactAtEdge { increment, .. }
-            | Self::AboveSliding { increment, .. }
-            | Self::Interrupted { increment } => *increment,
-        }
-    }
-}
 
 /// A planned case with its operators, ready to run.
 #[derive(Debug)]
@@ -144,88 +94,54 @@ impl<'a> Simulation<'a> {
     /// Runs the whole history. Use inside a thread pool to bound the threads; the bits do not depend on their number.
     ///
     /// # Errors
-    /// When an increment cannot be solved, or the observer stops the run.
+    /// When an increment cannot be solved, a cycle wears more than the grid can follow, or the observer stops the run.
     pub fn run(&self, observer: &mut dyn Observer) -> Result<History, RunError> {
         self.resume(Checkpoint::start(self.plan), observer)
     }
 
     /// Runs what is left of the history after a checkpoint of this plan, with the bits of an unbroken run. The history that is
-    /// returned holds the increments solved here.
+    /// returned holds the increments solved here and the cycles that end here.
     ///
     /// # Errors
     /// As [`Simulation::run`].
     pub fn resume(&self, from: Checkpoint, observer: &mut dyn Observer) -> Result<History, RunError> {
         let plan = self.plan;
         let case = &plan.case;
-        let Checkpoint { mut place, state, memory } = from;
-        let mut solver = self.solver();
+        let Checkpoint { place, state, memory, cycle, wear } = from;
+        let response = self.response();
+        let own = response.own_normal(case.cells);
+        let unworn = case.profile.gap(&plan.grid);
+        let mut solver = self.solver(response, unworn.clone());
+        let wearing = case.wear.zip(wear).map(|(rule, collected)| Wearing::new(rule, own, unworn, collected));
+        if let (Some(wearing), Some(depth)) = (&wearing, &state.worn_depth) {
+            solver.reshape(wearing.gap(depth));
+        }
+        // Last: a new gap makes a solver forget.
         solver.remember(memory);
-        let mut history = History {
-            grid: plan.grid,
-            bodies: case.bodies.clone(),
-            periodic: case.periodic,
-            stages: case.stages.iter().map(|stage| stage.name.clone()).collect(),
-            steps: Vec::with_capacity(plan.increments - place.solved.min(plan.increments)),
-            fields: Vec::new(),
-            state,
+        let journey = Journey {
+            plan,
+            solver,
+            wearing,
+            history: History {
+                grid: plan.grid,
+                bodies: case.bodies.clone(),
+                periodic: case.periodic,
+                stages: case.stages.iter().map(|stage| stage.name.clone()).collect(),
+                steps: Vec::new(),
+                cycles: Vec::new(),
+                worn_through: None,
+                fields: Vec::new(),
+                state,
+            },
+            place,
+            cycle,
+            observer,
         };
-        if let Some(friction) =
-            case.stages.iter().take(place.stage).rev().find_map(|stage| stage.friction.as_ref())
-        {
-            solver.rub_with(friction);
-        }
-        for (number, stage) in case.stages.iter().enumerate().skip(place.stage) {
-            if let Some(friction) = &stage.friction {
-                solver.rub_with(friction);
-            }
-            let steps = if place.solved_of_stage == 0 {
-                StageSteps::new(stage, &place.held, &history.state, &place.resultants)
-            } else {
-                StageSteps::from_start(stage, place.stage_start)
-            };
-            place.stage = number;
-            place.stage_start = steps.start();
-            for k in place.solved_of_stage + 1..=stage.increments_in_all() {
-                let increment = place.solved;
-                let load = steps.at(k);
-                let started = Instant::now();
-                let mut watch = |iteration: usize, residual: f64| {
-                    observer.iterated(&Iteration {
-                        increment,
-                        iteration,
-                        residual,
-                        tolerance: case.tolerance,
-                    })
-                };
-                let solved = solver
-                    .step(&history.state, &load, &mut watch)
-                    .map_err(|error| run_error(&error, increment, stage, case.tolerance))?;
-                let record = record(&solved, increment, number, started.elapsed().as_secs_f64());
-                let kept = case.keeps(number, k).then(|| kept(&solved, increment, &case.output.fields));
-                place.resultants = solved.outcome.resultants;
-                place.held = load;
-                place.solved += 1;
-                place.solved_of_stage = k;
-                history.state = solved.state;
-                let heard = observer.solved(&record, &history.state, kept.as_ref());
-                history.steps.push(record);
-                history.fields.extend(kept);
-                let stored = observer.reached(&Waypoint {
-                    place: &place,
-                    state: &history.state,
-                    memory: solver.memory(),
-                });
-                if heard.is_break() || stored.is_break() {
-                    return Err(RunError::Interrupted { increment: place.solved });
-                }
-            }
-            place.solved_of_stage = 0;
-        }
-        Ok(history)
+        journey.through_all_stages()
     }
 
-    /// The solver with its operators.
-    fn solver(&self) -> ContactSolver<'a> {
+    /// How the pair answers tractions.
+    fn response(&self) -> SurfaceResponse {
         let plan = self.plan;
         let case = &plan.case;
         let wanted = match plan.coupling {
@@ -234,10 +150,10 @@ impl<'a> Simulation<'a> {
             Coupling::Coupled => Components::ALL,
         };
         let spacing = plan.grid.spacing();
-        let [longest, shortest] = [plan.grid.size(), spacing].map(|[x, y]| (x.max(y), x.min(y)));
         let plain = plan.leave_out.takes(Shortcut::LayeredResponse);
-        let layered = || PairResponse::all_layers(&case.bodies, longest.0);
-        let response = match (case.periodic, plain) {
+        let [width, depth] = plan.grid.size();
+        let layered = || PairResponse::all_layers(&case.bodies, width.max(depth));
+        match (case.periodic, plain) {
             (true, true) => {
                 SurfaceResponse::Periodic(periodic_symbols(&case.bodies, case.cells, spacing, wanted, 0))
             }
@@ -248,10 +164,16 @@ impl<'a> Simulation<'a> {
             (false, false) => {
                 SurfaceResponse::FreeSpace(coefficients_of(&layered(), case.cells, spacing, wanted))
             }
-        };
+        }
+    }
+
+    /// The solver with its operators.
+    fn solver(&self, response: SurfaceResponse, undeformed: Array2<f64>) -> ContactSolver<'a> {
+        let plan = self.plan;
+        let case = &plan.case;
         let solver = ContactSolver::new(
             plan.grid,
-            case.profile.gap(&plan.grid),
+            undeformed,
             &case.friction,
             plan.coupling,
             response,
@@ -266,74 +188,188 @@ impl<'a> Simulation<'a> {
         if case.periodic {
             return solver;
         }
+        let [longest, shortest] = [plan.grid.size(), plan.grid.spacing()].map(|[x, y]| (x.max(y), x.min(y)));
         solver.with_waves(ResponseTable::new(&case.bodies, TAU / longest.0, 5.0 * PI / shortest.1))
     }
 }
 
-fn record(solved: &Increment, increment: usize, stage: usize, wall_s: f64) -> StepRecord {
-    let state = &solved.state;
-    let outcome = &solved.outcome;
-    let max_shear = state.shear[0].iter().zip(&state.shear[1]).map(|(x, y)| x.hypot(*y)).fold(0.0, f64::max);
-    StepRecord {
-        increment,
-        stage,
-        normal_force: outcome.resultants.normal,
-        approach: state.approach,
-        tangential_force: outcome.resultants.tangential,
-        shift: state.shift,
-        twist_moment: outcome.resultants.moment,
-        twist: state.twist,
-        max_pressure: state.pressure.as_slice().map_or(0.0, largest),
-        max_shear,
-        contact_area: solved.contact_area,
-        stick_area: solved.stick_area,
-        contact_cells: outcome.contact_cells,
-        stick_cells: outcome.stick_cells,
-        dissipated_energy: state.dissipated_energy,
-        regime: outcome.regime,
-        residual: Residual { ..outcome.residual },
-        work: solved.work,
-        wall_s,
-    }
+/// A run on its way.
+struct Journey<'a> {
+    plan: &'a Plan,
+    solver: ContactSolver<'a>,
+    wearing: Option<Wearing>,
+    history: History,
+    place: Place,
+    /// The cycle at work.
+    cycle: Option<FrettingLoop>,
+    observer: &'a mut dyn Observer,
 }
 
-fn kept(solved: &Increment, increment: usize, names: &[String]) -> KeptFields {
-    let asked = |name: &str| names.iter().any(|asked| asked == name);
-    let state = &solved.state;
-    KeptFields {
-        increment,
-        pressure: asked("pressure").then(|| state.pressure.clone()),
-        shear: asked("shear").then(|| state.shear.clone()),
-        slip: asked("slip").then(|| state.slip.clone()),
-        gap: asked("gap").then(|| solved.gap.clone()),
-        zone: asked("zone").then(|| state.zone.clone()),
+impl<'a> Journey<'a> {
+    fn case(&self) -> &'a Case {
+        &self.plan.case
     }
-}
 
-fn run_error(error: &SolveError, increment: usize, stage: &Stage, tolerance: f64) -> RunError {
-    let stage = stage.name.clone();
-    match *error {
-        SolveError::NotConverged { reached, iterations } => RunError::NotConverged {
-            increment,
-            stage,
-            reached,
-            tolerance,
-            iterations,
-            advice: "try more increments in this stage, or a larger solver.tolerance".to_owned(),
-        },
-        SolveError::AboveSliding { asked, bound } => {
-            RunError::AboveSliding { increment, stage, asked, bound }
+    /// The law of friction in force in the stage at work.
+    fn friction(&self) -> &'a CoulombFriction {
+        let case = self.case();
+        let mut latest_first = case.stages.iter().take(self.place.stage + 1).rev();
+        latest_first.find_map(|stage| stage.friction.as_ref()).unwrap_or(&case.friction)
+    }
+
+    fn through_all_stages(mut self) -> Result<History, RunError> {
+        while let Some(stage) = self.case().stages.get(self.place.stage) {
+            self.through_stage(stage)?;
         }
-        SolveError::ContactAtEdge => RunError::ContactAtEdge { increment, stage },
-        SolveError::OperatorsMissing => RunError::NotConverged {
+        self.history.worn_through = self.place.worn_through;
+        Ok(self.history)
+    }
+
+    /// Solves what is left of the stage at work.
+    fn through_stage(&mut self, stage: &'a Stage) -> Result<(), RunError> {
+        self.solver.rub_with(self.friction());
+        let place = &self.place;
+        let (number, begins) = (place.stage, place.solved_of_stage == 0);
+        let steps = if begins {
+            StageSteps::new(stage, &place.held, &self.history.state, &place.resultants)
+        } else {
+            StageSteps::from_start(stage, place.stage_start)
+        };
+        if begins {
+            self.place.stage_start = steps.start();
+            self.place.cycles = 0;
+            self.cycle = stage.cycles().map(|_| self.loop_from_here(1));
+        }
+        for k in self.place.solved_of_stage + 1..=stage.increments_in_all() {
+            self.increment(stage, k, &steps.at(k))?;
+            if self.place.stage > number {
+                break;
+            }
+        }
+        Ok(())
+    }
+
+    /// Solves increment `k` of the stage at work and tells of it. When that ends a cycle or the stage, so does the place.
+    fn increment(&mut self, stage: &Stage, k: usize, load: &LoadStep) -> Result<(), RunError> {
+        let (number, all) = (self.place.stage, stage.increments_in_all());
+        let may_keep = k == all || stage.ends_cycle(k) || self.case().keeps(number, k);
+        let (record, mut kept) = self.solved(load, may_keep)?;
+        if let Some(cycle) = &mut self.cycle {
+            cycle.add(&record);
+        }
+        let ended =
+            if stage.ends_cycle(k) || k == all { self.cycle_over(stage, record.increment)? } else { None };
+        let steady = ended.as_ref().is_some_and(|cycle| cycle.steady);
+        let enough = stage.cycles().is_some_and(|course| self.place.cycles >= course.most);
+        let last = k == all || steady || enough || self.place.worn_through.is_some();
+        if !last && !self.case().keeps(number, k) {
+            kept = None;
+        }
+        if let (Some(kept), Some(depth)) = (&mut kept, &self.history.state.worn_depth)
+            && self.case().output.fields.iter().any(|name| name == "worn_depth")
+        {
+            kept.worn_depth = Some(depth.clone());
+        }
+        self.place.solved += 1;
+        self.place.solved_of_stage = k;
+        let heard = self.observer.solved(&record, &self.history.state, kept.as_ref());
+        self.history.steps.push(record);
+        self.history.fields.extend(kept);
+        if let Some(cycle) = ended {
+            self.observer.cycled(&cycle);
+            self.cycle = Some(self.loop_from_here(cycle.cycle + 1));
+            self.history.cycles.push(cycle);
+        }
+        if last {
+            self.place.stage =
+                if self.place.worn_through.is_some() { self.case().stages.len() } else { number + 1 };
+            self.place.solved_of_stage = 0;
+            self.cycle = None;
+        }
+        let stored = self.observer.reached(&Waypoint {
+            place: &self.place,
+            state: &self.history.state,
+            memory: self.solver.memory(),
+            cycle: self.cycle.as_ref(),
+            wear: self.wearing.as_ref().map(Wearing::collected),
+        });
+        if heard.is_break() || stored.is_break() {
+            return Err(RunError::Interrupted { increment: self.place.solved });
+        }
+        Ok(())
+    }
+
+    /// A cycle that starts now, in the stage at work.
+    fn loop_from_here(&self, cycle: usize) -> FrettingLoop {
+        let Place { solved, stage, resultants, .. } = self.place;
+        let Resultants { tangential, moment, .. } = resultants;
+        FrettingLoop::new((stage, cycle), solved, &self.history.state, tangential, moment)
+    }
+
+    /// Solves the next increment; its fields, should they be kept.
+    fn solved(
+        &mut self,
+        load: &LoadStep,
+        may_keep: bool,
+    ) -> Result<(StepRecord, Option<KeptFields>), RunError> {
+        let case = self.case();
+        let Place { solved: increment, stage, .. } = self.place;
+        let started = Instant::now();
+        let observer = &mut *self.observer;
+        let mut watch = |iteration: usize, residual: f64| {
+            let tolerance = case.tolerance;
+            observer.iterated(&Iteration { increment, stage, iteration, residual, tolerance })
+        };
+        let solved = self
+            .solver
+            .step(&self.history.state, load, &mut watch)
+            .map_err(|error| run_error(&error, increment, &case.stages[stage], case.tolerance))?;
+        let record = record(&solved, increment, stage, started.elapsed().as_secs_f64());
+        let kept = may_keep.then(|| kept(&solved, increment, &case.output.fields));
+        if let Some(wearing) = &mut self.wearing {
+            wearing.add(&self.history.state, &solved.state);
+        }
+        self.place.resultants = solved.outcome.resultants;
+        self.place.held = *load;
+        self.history.state = solved.state;
+        Ok((record, kept))
+    }
+
+    /// Wears the surfaces by what the cycle (or the stage without cycles) that ends with `increment` took off, and reads the
+    /// cycle's loop.
+    fn cycle_over(&mut self, stage: &Stage, increment: usize) -> Result<Option<CycleRecord>, RunError> {
+        let left = stage.cycles().map_or(1, |course| course.most - self.place.cycles);
+        let stands_for = self.wear(stage, increment, left)?;
+        self.place.cycles += stands_for;
+        let (Some(cycle), Some(course)) = (&self.cycle, stage.cycles()) else { return Ok(None) };
+        let end = CycleEnd {
+            stands_for,
+            tolerance: course.until_steady,
+            worn: worn(&self.history.state, &self.plan.grid),
+        };
+        Ok(Some(cycle.close(&self.history.state, self.friction(), end)))
+    }
+
+    /// Opens the gap by what has worn since the last time; the number of cycles that stands for, out of `left`.
+    fn wear(&mut self, stage: &Stage, increment: usize, left: usize) -> Result<usize, RunError> {
+        let friction = self.friction();
+        let Some(wearing) = &mut self.wearing else { return Ok(1) };
+        let block = wearing.block(&self.history.state, friction, left).map_err(|too_fast| {
+            RunError::WearTooFast { increment, stage: stage.name.clone(), share: too_fast.share }
+        })?;
+        if let Some(depth) = &mut self.history.state.worn_depth
+            && block.depth.iter().any(|depth| *depth > 0.0)
+        {
+            *depth += &block.depth;
+            self.solver.reshape(wearing.gap(depth));
+        }
+        self.place.worn_through = block.through.map(|cell| WornThrough {
             increment,
-            stage,
-            reached: f64::INFINITY,
-            tolerance,
-            iterations: 0,
-            advice: "the elastic answer could not be computed: check moduli and lengths for extreme values"
-                .to_owned(),
-        },
-        SolveError::Stopped => RunError::Interrupted { increment },
+            stage: self.place.stage,
+            cycles: self.place.cycles + block.cycles,
+            cell,
+            place: [self.plan.grid.centre(0, cell[0]), self.plan.grid.centre(1, cell[1])],
+        });
+        Ok(block.cycles)
     }
 }

@@ -1,9 +1,9 @@
 //! The question as Python hands it over: text, read and judged by the core.
 
-use std::fs;
 use std::path::{Path, PathBuf};
+use std::{fs, io};
 
-use fret_core::case::{self, ArraySource, numbers};
+use fret_core::case::{self, Attachments};
 use ndarray::Array2;
 use numpy::{PyArray2, PyReadonlyArray2, ToPyArray};
 use pyo3::IntoPyObject;
@@ -32,8 +32,9 @@ impl Case {
     #[staticmethod]
     fn from_toml(text: &str, name: &str, folder: PathBuf) -> PyResult<Self> {
         let case = {
-            let supply = |source: ArraySource<'_>| array(&folder, &[], source);
-            case::Case::from_toml_with(text, name, &supply).map_err(|error| refused(&error))?
+            let file = |file: &str| content(&folder, file);
+            case::Case::from_toml_with(text, name, Attachments::files(&file))
+                .map_err(|error| refused(&error))?
         };
         Ok(Self(case, Source { text: text.to_owned(), name: name.to_owned(), folder, arrays: None }))
     }
@@ -48,8 +49,9 @@ impl Case {
     ) -> PyResult<Self> {
         let arrays: Vec<Array2<f64>> = arrays.iter().map(|array| array.as_array().to_owned()).collect();
         let case = {
-            let supply = |source: ArraySource<'_>| array(&folder, &arrays, source);
-            case::Case::from_json_with(text, name, &supply).map_err(|error| refused(&error))?
+            let file = |file: &str| content(&folder, file);
+            let attachments = Attachments { file: &file, arrays: &arrays };
+            case::Case::from_json_with(text, name, attachments).map_err(|error| refused(&error))?
         };
         Ok(Self(case, Source { text: text.to_owned(), name: name.to_owned(), folder, arrays: Some(arrays) }))
     }
@@ -70,22 +72,23 @@ impl Case {
     }
 }
 
-/// The array of a file, or one that was handed over. Only ordinary files are read, so that nothing waits on a pipe.
-fn array(folder: &Path, arrays: &[Array2<f64>], source: ArraySource<'_>) -> Result<Array2<f64>, String> {
-    let name = match source {
-        ArraySource::File(name) => name,
-        ArraySource::Handed(number) => {
-            return arrays.get(number).cloned().ok_or_else(|| format!("no array {number} was handed over"));
-        }
-    };
+/// Content of a file that a case names. Only ordinary files are read, so that nothing waits on a pipe.
+fn content(folder: &Path, name: &str) -> Result<Vec<u8>, String> {
     let path = folder.join(name);
-    let facts = fs::metadata(&path).map_err(|error| format!("cannot be read: {error}"))?;
+    let facts = fs::metadata(&path).map_err(|error| unreadable(&error))?;
     if !facts.is_file() {
         return Err("no ordinary file".to_owned());
     }
     if facts.len() > MOST_BYTES {
         return Err(format!("{} bytes: at most {MOST_BYTES} are read", facts.len()));
     }
-    let bytes = fs::read(&path).map_err(|error| format!("cannot be read: {error}"))?;
-    numbers(&bytes).map_err(|error| error.to_string())
+    fs::read(&path).map_err(|error| unreadable(&error))
+}
+
+fn unreadable(error: &io::Error) -> String {
+    match error.kind() {
+        io::ErrorKind::NotFound => "no such file".to_owned(),
+        io::ErrorKind::PermissionDenied => "no permission to read it".to_owned(),
+        _ => format!("cannot be read: {error}"),
+    }
 }

@@ -23,12 +23,7 @@ pub fn refused(error: &case::CaseError) -> PyErr {
 
 /// A run that ended without its answer: the message and the number of the increment.
 pub fn failed(error: &simulation::RunError) -> PyErr {
-    use simulation::RunError::{AboveSliding, ContactAtEdge, Interrupted, NotConverged};
-    let (NotConverged { increment, .. }
-    | ContactAtEdge { increment, .. }
-    | AboveSliding { increment, .. }
-    | Interrupted { increment }) = error;
-    RunError::new_err((error.to_string(), *increment))
+    RunError::new_err((error.to_string(), error.increment()))
 }
 
 /// A bad argument of a function.

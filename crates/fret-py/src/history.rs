@@ -1,11 +1,14 @@
 //! The answer of a run, as arrays.
 
+use fret_core::cycle::running_condition;
 use fret_core::history::{self, KeptFields, Regime, StepRecord};
 use ndarray::Array2;
 use numpy::{IntoPyArray, PyArray1, ToPyArray};
 use pyo3::exceptions::{PyKeyError, PyValueError};
 use pyo3::prelude::{Bound, PyAny, PyDictMethods, PyResult, Python, pyclass, pymethods};
 use pyo3::types::PyDict;
+
+use crate::error::bad_value;
 
 /// A public name and the entry of a step it stands for.
 type Entry<T> = (&'static str, fn(&StepRecord) -> T);
@@ -63,9 +66,9 @@ pub fn step_items<'py>(py: Python<'py>, step: &StepRecord) -> PyResult<Bound<'py
     Ok(items)
 }
 
-/// All of a run, and the increments of a cycle of each stage that has cycles.
+/// All of a run.
 #[pyclass(frozen, module = "fretting._core")]
-pub struct History(pub history::History, pub Vec<Option<usize>>);
+pub struct History(pub history::History);
 
 #[pymethods]
 impl History {
@@ -83,6 +86,23 @@ impl History {
         let regimes: Vec<_> = steps.iter().map(|step| regime_name(step.regime)).collect();
         items.set_item("regime", regimes)?;
         Ok(items)
+    }
+
+    /// The records of the cycles, as JSON text.
+    fn cycles(&self) -> PyResult<String> {
+        serde_json::to_string(&self.0.cycles).map_err(bad_value)
+    }
+
+    /// Where and when the surfaces were worn to the limit, as JSON text.
+    fn worn_through(&self) -> PyResult<String> {
+        serde_json::to_string(&self.0.worn_through).map_err(bad_value)
+    }
+
+    /// Running condition of each stage's cycles, as JSON text.
+    fn running_conditions(&self) -> PyResult<String> {
+        let of = |stage| running_condition(self.0.cycles.iter().filter(|cycle| cycle.stage == stage));
+        let conditions: Vec<_> = (0..self.0.stages.len()).map(of).collect();
+        serde_json::to_string(&conditions).map_err(bad_value)
     }
 
     /// Names of the stages.
@@ -105,11 +125,6 @@ impl History {
         self.0.periodic
     }
 
-    /// Increments of one cycle of each stage; `None` of a stage without cycles.
-    fn cycle_lengths(&self) -> Vec<Option<usize>> {
-        self.1.clone()
-    }
-
     /// Coordinates of the cell centres along axis 0 or 1 [length].
     fn centres<'py>(&self, py: Python<'py>, axis: usize) -> PyResult<Bound<'py, PyArray1<f64>>> {
         if axis > 1 {
@@ -126,12 +141,13 @@ impl History {
     /// Names of the fields kept of an increment; none when nothing of it is kept.
     fn kept_fields(&self, increment: usize) -> Vec<&'static str> {
         self.0.fields_of(increment).map_or_else(Vec::new, |kept| {
-            let groups: [(bool, &[&str]); 5] = [
+            let groups: [(bool, &[&str]); 6] = [
                 (kept.pressure.is_some(), &["pressure"]),
                 (kept.shear.is_some(), &["shear_x", "shear_y"]),
                 (kept.slip.is_some(), &["slip_x", "slip_y"]),
                 (kept.gap.is_some(), &["gap"]),
                 (kept.zone.is_some(), &["zone"]),
+                (kept.worn_depth.is_some(), &["worn_depth"]),
             ];
             groups.iter().filter(|(kept, _)| *kept).flat_map(|(_, names)| names.iter().copied()).collect()
         })
@@ -158,6 +174,7 @@ fn real_field<'a>(kept: &'a KeptFields, name: &str) -> Option<&'a Array2<f64>> {
         "slip_x" => kept.slip.as_ref().map(|slip| &slip[0]),
         "slip_y" => kept.slip.as_ref().map(|slip| &slip[1]),
         "gap" => kept.gap.as_ref(),
+        "worn_depth" => kept.worn_depth.as_ref(),
         _ => None,
     }
 }

@@ -7,7 +7,6 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, SyncSender, sync_channel};
 use std::time::Duration;
 
-use fret_core::case::Course;
 use fret_core::history::{self, KeptFields, StepRecord};
 use fret_core::model::ContactState;
 use fret_core::plan::Plan;
@@ -81,13 +80,7 @@ pub fn run(
     let question = case.0.clone();
     let plan = py.detach(|| pool.install(|| Plan::new(question))).map_err(|error| refused(&error))?;
     let outcome = py.detach(|| listen(&pool, &plan, on_step.as_ref()))?;
-    outcome.map(|history| History(history, cycle_lengths(&plan))).map_err(|error| failed(&error))
-}
-
-/// Increments of one cycle of each stage; `None` of a stage without cycles.
-fn cycle_lengths(plan: &Plan) -> Vec<Option<usize>> {
-    let stages = plan.case.stages.iter();
-    stages.map(|stage| matches!(stage.course, Course::Cycles(_)).then_some(stage.increments)).collect()
+    outcome.map(History).map_err(|error| failed(&error))
 }
 
 /// Runs the plan on the pool and listens to it; an error of Python's (Ctrl-C, or raised by `on_step`) stops the run.

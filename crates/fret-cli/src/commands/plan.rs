@@ -2,7 +2,6 @@
 
 use std::path::Path;
 
-use fret_core::case::Course;
 use fret_core::model::Body;
 use fret_core::plan::{Coupling, Plan};
 use serde_json::json;
@@ -98,11 +97,12 @@ fn layers(plan: &Plan) -> String {
 
 /// The stages in a line.
 pub fn stages(plan: &Plan) -> String {
-    let stages = plan.case.stages.iter().map(|stage| match stage.course {
-        Course::Cycles(cycles) => {
-            format!("{} ({} of {})", stage.name, counted(cycles, "cycle"), stage.increments)
+    let stages = plan.case.stages.iter().map(|stage| match stage.cycles() {
+        Some(cycles) => {
+            let most = if cycles.until_steady.is_some() { "at most " } else { "" };
+            format!("{} ({most}{} of {})", stage.name, counted(cycles.most, "cycle"), stage.increments)
         }
-        Course::Linear | Course::Cubic => format!("{} ({})", stage.name, stage.increments),
+        None => format!("{} ({})", stage.name, stage.increments),
     });
     stages.collect::<Vec<_>>().join(", ")
 }

@@ -7,10 +7,12 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use fret_core::checkpoint::{Checkpoint, Waypoint};
+use fret_core::cycle::CycleRecord;
 use fret_core::history::{KeptFields, StepRecord};
 use fret_core::model::ContactState;
 use fret_core::plan::{LeaveOut, Plan};
 use fret_core::simulation::{Iteration, Observer, RunError, Simulation};
+use fret_core::wear::WornThrough;
 use serde_json::{Value, json};
 
 use crate::arguments::{LeavingOut, RunArguments};
@@ -155,7 +157,7 @@ impl Preparation {
             let answer = json!({
                 "status": "solved",
                 "message": message,
-                "increments": self.plan.increments,
+                "increments": record["totals"]["increments"],
                 "totals": record["totals"],
                 "results": shown,
             });
@@ -181,7 +183,8 @@ impl Preparation {
             failure: None,
         };
         let outcome = self.followed_by(from, &mut witness);
-        let Witness { folder, progress, tally, clock, failure } = witness;
+        let Witness { folder, progress, mut tally, clock, failure } = witness;
+        let outcome = outcome.map(|worn_through| tally.worn_through = worn_through);
         progress.end();
         let wall_s = clock.read();
         let failure = failure.or_else(|| outcome.err());
@@ -204,10 +207,11 @@ impl Preparation {
         failure.map_or(Ok(()), |failure| Err(Told { failure, in_json: as_json }))
     }
 
-    fn followed_by(&self, from: Checkpoint, witness: &mut Witness) -> Result<(), Failure> {
-        let journey = || Simulation::new(&self.plan).resume(from, witness).map(|_| ());
+    fn followed_by(&self, from: Checkpoint, witness: &mut Witness) -> Result<Option<WornThrough>, Failure> {
+        let journey =
+            || Simulation::new(&self.plan).resume(from, witness).map(|history| history.worn_through);
         match catch_unwind(AssertUnwindSafe(|| self.pool.install(journey))) {
-            Ok(Ok(())) => Ok(()),
+            Ok(Ok(worn_through)) => Ok(worn_through),
             Ok(Err(RunError::Interrupted { .. })) => {
                 let kept = self.kept(&witness.tally);
                 Err(Failure::Interrupted(format!("{kept}; --resume goes on from there")))
@@ -274,6 +278,13 @@ impl Observer for Witness {
         self.tally.add(record);
         self.progress.solved(record, &self.tally);
         go_on()
+    }
+
+    fn cycled(&mut self, record: &CycleRecord) {
+        if self.failure.is_none() {
+            self.failure = self.folder.keep_cycle(record).err().map(Failure::from);
+            self.tally.add_cycle(record);
+        }
     }
 
     fn reached(&mut self, waypoint: &Waypoint<'_>) -> ControlFlow<()> {

@@ -138,7 +138,7 @@ impl<'a> Board<'a> {
                     RunError::Interrupted { .. } => Failure::Interrupted(String::new()),
                     error => Failure::Unsolved(error),
                 })?;
-                Ok(Answer::solved(&plan, &history.steps))
+                Ok(Answer::solved(&history))
             };
             let answer = match catch_unwind(AssertUnwindSafe(|| pool.install(solve))) {
                 Ok(Ok(answer)) => answer,

@@ -32,7 +32,6 @@ pub struct Accounts {
 struct Moment {
     pressure: Vec<f64>,
     shear: TangentialField,
-    normal: Vec<f64>,
     aside: TangentialField,
     gap: Vec<f64>,
     slip: TangentialField,
@@ -48,13 +47,7 @@ impl Accounts {
         let case = &plan.case;
         let spacing = plan.grid.spacing();
         let response = if case.periodic {
-            SurfaceResponse::Periodic(periodic_symbols(
-                &case.bodies,
-                case.cells,
-                spacing,
-                Components::ALL,
-                0,
-            ))
+            SurfaceResponse::Periodic(periodic_symbols(&case.bodies, case.cells, spacing, Components::ALL, 0))
         } else {
             let all = influence_coefficients(&case.bodies, case.cells, spacing, Components::ALL);
             SurfaceResponse::FreeSpace(all)
@@ -69,7 +62,6 @@ impl Accounts {
             before: Moment {
                 pressure: vec![0.0; len],
                 shear: TangentialField::zeros(len),
-                normal: vec![0.0; len],
                 aside: TangentialField::zeros(len),
                 gap: undeformed.iter().map(|gap| gap - lowest).collect(),
                 slip: TangentialField::zeros(len),
@@ -107,13 +99,11 @@ impl Accounts {
         let gap = self.undeformed.iter().zip(&normal).map(|(gap, u)| gap + u - state.approach).collect();
         let sum = |field: &[f64]| self.area * field.iter().sum::<f64>();
         let forces = [sum(&pressure), sum(&shear.x), sum(&shear.y)];
-        let stored = 0.5
-            * self.area
-            * (dot(&pressure, &normal) + dot(&shear.x, &aside.x) + dot(&shear.y, &aside.y));
+        let stored =
+            0.5 * self.area * (dot(&pressure, &normal) + dot(&shear.x, &aside.x) + dot(&shear.y, &aside.y));
         Moment {
             pressure,
             shear,
-            normal,
             aside,
             gap,
             slip,
@@ -168,11 +158,8 @@ impl Observer for Accounts {
     ) -> ControlFlow<()> {
         let now = self.moment(state);
         let before = &self.before;
-        let motions = [
-            now.approach - before.approach,
-            now.shift[0] - before.shift[0],
-            now.shift[1] - before.shift[1],
-        ];
+        let motions =
+            [now.approach - before.approach, now.shift[0] - before.shift[0], now.shift[1] - before.shift[1]];
         let works: [f64; 3] =
             std::array::from_fn(|axis| 0.5 * (before.forces[axis] + now.forces[axis]) * motions[axis]);
         let done: f64 = works.iter().sum();
@@ -205,7 +192,8 @@ fn mirrored(state: &ContactState) -> f64 {
             .map(|((i, j), value)| (value - sign * field[[i, columns - 1 - j]]).abs())
             .fold(0.0, f64::max)
     };
-    let largest = |field: &ndarray::Array2<f64>| field.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
+    let largest =
+        |field: &ndarray::Array2<f64>| field.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
     let pressure = off(&state.pressure, 1.0) / largest(&state.pressure);
     let shear = largest(&state.shear[0]).max(largest(&state.shear[1]));
     if shear > 0.0 {

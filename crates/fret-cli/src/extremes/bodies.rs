@@ -2,8 +2,6 @@
 
 use std::fmt::Write;
 
-use fret_core::model::{Base, Body, Coating, ContactPair, ElasticMaterial, HalfSpace, MaterialError};
-
 /// A material and, for a coating, its thickness; lengths in nominal contact radii, moduli in those of the plain substrate.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Layer {
@@ -63,19 +61,5 @@ impl Stack {
             format!("substrate = {{ young = {young:e}, poisson = {poisson:e} }}")
         });
         format!("{text}]\n{base}\n")
-    }
-
-    /// The body, under a rigid one.
-    pub fn pair(&self) -> Result<ContactPair, MaterialError> {
-        let coatings = self
-            .coatings
-            .iter()
-            .map(|layer| Coating::new(ElasticMaterial::new(layer.young, layer.poisson)?, layer.thickness))
-            .collect::<Result<_, _>>()?;
-        let base = match self.substrate {
-            Some([young, poisson]) => Base::Elastic(ElasticMaterial::new(young, poisson)?),
-            None => Base::Rigid,
-        };
-        ContactPair::new(Body::Rigid, Body::Elastic(HalfSpace::new(coatings, base)?))
     }
 }

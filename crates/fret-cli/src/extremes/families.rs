@@ -20,7 +20,7 @@ const POISSON: [f64; 6] = [-0.9, -0.5, 0.0, 0.3, 0.49, 0.5];
 /// All families; the first is the benign scene that others are compared with.
 pub fn families(quick: bool) -> Vec<Family> {
     let cells = if quick { 20 } else { 32 };
-    vec![
+    let mut all = vec![
         family("benign", "a sphere on a plain half-space, mu 0.3, T 0.8 mu W", vec![benign("plain", cells)]),
         contrasts(quick, cells),
         thicknesses(quick, cells),
@@ -34,8 +34,12 @@ pub fn families(quick: bool) -> Vec<Family> {
         increments(quick),
         layers(quick, cells),
         single_cell(),
-        full_contact(quick, cells),
-    ]
+        full_contact(cells),
+    ];
+    if !quick {
+        all.push(nearly_full_contact(cells));
+    }
+    all
 }
 
 fn family(name: &'static str, range: impl Into<String>, scenes: Vec<Scene>) -> Family {
@@ -76,10 +80,7 @@ fn poissons(quick: bool, cells: usize) -> Family {
     let ratios: &[f64] = if quick { &ends } else { &POISSON };
     let scenes = ratios.iter().flat_map(|coating| {
         ratios.iter().map(move |substrate| {
-            let stack = Stack {
-                substrate: Some([1.0, *substrate]),
-                ..Stack::coated(4.0, *coating, 0.5)
-            };
+            let stack = Stack { substrate: Some([1.0, *substrate]), ..Stack::coated(4.0, *coating, 0.5) };
             benign(format!("nu1 = {coating}, nu2 = {substrate}"), cells).on(stack)
         })
     });
@@ -92,8 +93,10 @@ fn rigid_bases(quick: bool, cells: usize) -> Family {
     let scenes = ratios.iter().flat_map(|poisson| {
         thicknesses.iter().map(move |thickness| {
             let film = Layer { young: 1.0, poisson: *poisson, thickness: *thickness };
-            benign(format!("nu = {poisson}, h/a = {thickness}"), cells)
-                .on(Stack { coatings: vec![film], substrate: None })
+            // Thin incompressible films spread the contact to twice its nominal radius.
+            let scene =
+                Scene { size: [5.4; 2], ..benign(format!("nu = {poisson}, h/a = {thickness}"), cells) };
+            scene.on(Stack { coatings: vec![film], substrate: None })
         })
     });
     family("rigid base", "one layer, nu -0.9 .. 0.5, h/a 0.01 .. 1000", scenes.collect())
@@ -112,8 +115,10 @@ fn pulls(quick: bool, cells: usize) -> Family {
     let all = [0.9, 0.99, 0.999, 0.9999];
     let shares = if quick { &all[3..] } else { &all };
     let scenes = shares.iter().flat_map(|&pull| {
-        [("plain", Stack::plain()), ("E1/E2 = 4", Stack::coated(4.0, 0.3, 0.5))]
-            .map(|(name, stack)| Scene { pull, ..benign(format!("T/(mu W) = {pull}, {name}"), cells).on(stack) })
+        [("plain", Stack::plain()), ("E1/E2 = 4", Stack::coated(4.0, 0.3, 0.5))].map(|(name, stack)| Scene {
+            pull,
+            ..benign(format!("T/(mu W) = {pull}, {name}"), cells).on(stack)
+        })
     });
     family("near gross slip", "T 0.9 .. 0.9999 mu W", scenes.collect())
 }
@@ -121,8 +126,9 @@ fn pulls(quick: bool, cells: usize) -> Family {
 fn long_cells(quick: bool) -> Family {
     let shapes: &[[usize; 2]] =
         if quick { &[[160, 8], [8, 160]] } else { &[[160, 8], [80, 16], [16, 80], [8, 160]] };
-    let scenes =
-        shapes.iter().map(|&cells| Scene { cells, ..benign(format!("{} x {} cells", cells[0], cells[1]), 8) });
+    let scenes = shapes
+        .iter()
+        .map(|&cells| Scene { cells, ..benign(format!("{} x {} cells", cells[0], cells[1]), 8) });
     family("long cells", "1:20 .. 20:1", scenes.collect())
 }
 
@@ -174,27 +180,32 @@ fn layers(quick: bool, cells: usize) -> Family {
 }
 
 fn single_cell() -> Family {
-    let scenes = [("plain", Stack::plain()), ("E1/E2 = 100", Stack::coated(100.0, 0.3, 0.5))].map(|(name, stack)| {
-        // A sphere on an odd grid, pressed by a tenth of what would reach the next cell.
-        let side = 1.8;
-        let cell = side / 9.0;
-        Scene {
-            cells: [9; 2],
-            size: [side; 2],
-            contact: 0.2 * cell,
-            ..benign(name, 9).on(stack)
-        }
-    });
+    let scenes =
+        [("plain", Stack::plain()), ("E1/E2 = 100", Stack::coated(100.0, 0.3, 0.5))].map(|(name, stack)| {
+            // A sphere on an odd grid, pressed by a tenth of what would reach the next cell.
+            let side = 1.8;
+            let cell = side / 9.0;
+            Scene { cells: [9; 2], size: [side; 2], contact: 0.2 * cell, ..benign(name, 9).on(stack) }
+        });
     family("single cell in contact", "9 x 9 cells", scenes.into())
 }
 
-fn full_contact(quick: bool, cells: usize) -> Family {
-    let stacks = [("plain", Stack::plain()), ("E1/E2 = 100", Stack::coated(100.0, 0.3, 0.05))];
-    let count = if quick { 1 } else { 2 };
-    let scenes = stacks.into_iter().take(count).map(|(name, stack)| Scene {
-        wave: true,
-        size: [1.0; 2],
-        ..benign(name, cells).on(stack)
-    });
-    family("contact fills the period", "a wave pressed flat, and as much again", scenes.collect())
+fn full_contact(cells: usize) -> Family {
+    let scenes = [("plain", Stack::plain(), 2.0), ("E1/E2 = 100", Stack::coated(100.0, 0.3, 0.05), 100.0)]
+        .map(|(name, stack, pressed)| wave(name, cells, stack, pressed));
+    family("contact fills the period", "a wave pressed flat, and as much again", scenes.into())
+}
+
+fn nearly_full_contact(cells: usize) -> Family {
+    let scenes = [10.0, 100.0]
+        .map(|contrast| wave(&format!("E1/E2 = {contrast}"), cells, Stack::coated(contrast, 0.3, 0.05), 2.0));
+    family(
+        "contact nearly fills the period",
+        "the same force under stiff coatings, h = 0.05 wavelengths",
+        scenes.into(),
+    )
+}
+
+fn wave(label: &str, cells: usize, stack: Stack, pressed: f64) -> Scene {
+    Scene { wave: Some(pressed), size: [1.0; 2], ..benign(label, cells).on(stack) }
 }

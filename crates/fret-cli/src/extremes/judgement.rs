@@ -26,14 +26,14 @@ pub struct Judgement {
 pub struct Bounds;
 
 impl Bounds {
-    /// The response is right to rounding: so many units in the last place.
+    /// The response is right to rounding, a few thousand units in the last place after a thousand layers.
     pub const RESPONSE: f64 = 1e-12;
     /// A symmetric operator in rounding.
     pub const ASYMMETRY: f64 = 1e-12;
     /// Energy is missing in proportion to the residual.
-    pub const BALANCE: f64 = 100.0 * TOLERANCE;
+    pub const BALANCE: f64 = 10.0 * TOLERANCE;
     /// So is symmetry, in the worst cell.
-    pub const MIRROR: f64 = 1000.0 * TOLERANCE;
+    pub const MIRROR: f64 = 100.0 * TOLERANCE;
 }
 
 impl Judgement {
@@ -98,7 +98,8 @@ pub fn row(family: &Family) -> Row {
     for scene in &family.scenes {
         match scene.judged() {
             Outcome::Judged(found) => {
-                row.broken.extend(found.broken().into_iter().map(|what| [scene.label.clone(), what.to_owned()]));
+                row.broken
+                    .extend(found.broken().into_iter().map(|what| [scene.label.clone(), what.to_owned()]));
                 if found.effort > most {
                     most = found.effort;
                     row.slowest.clone_from(&scene.label);

@@ -33,10 +33,8 @@ pub fn shown(pair: &ContactPair, spacing: [f64; 2], periodic: bool) -> Result<Sh
     for column in 0..3 * cells {
         let mut traction = vec![0.0; 3 * cells];
         traction[column] = 1.0;
-        let shear = TangentialField {
-            x: traction[cells..2 * cells].to_vec(),
-            y: traction[2 * cells..].to_vec(),
-        };
+        let shear =
+            TangentialField { x: traction[cells..2 * cells].to_vec(), y: traction[2 * cells..].to_vec() };
         let mut normal = vec![0.0; cells];
         let mut aside = TangentialField::zeros(cells);
         compliance.full(&traction[..cells], &shear, &mut normal, &mut aside);

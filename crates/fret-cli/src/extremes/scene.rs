@@ -30,8 +30,8 @@ pub struct Scene {
     pub size: [f64; 2],
     /// Contact radius, if nothing gave way but the sphere's shape.
     pub contact: f64,
-    /// A wave that repeats, pressed flat, instead of the sphere.
-    pub wave: bool,
+    /// A wave that repeats instead of the sphere, pressed by so many times what flattens it on the substrate alone.
+    pub wave: Option<f64>,
     /// Coefficient of friction.
     pub friction: f64,
     /// Tangential force over what friction carries.
@@ -62,7 +62,7 @@ impl Scene {
             cells: [cells; 2],
             size: [3.6; 2],
             contact: 1.0,
-            wave: false,
+            wave: None,
             friction: 0.3,
             pull: 0.8,
             increments: [3, 4],
@@ -83,16 +83,16 @@ impl Scene {
         }
     }
 
-    /// The force that presses the sphere to its nominal contact, or the wave flat and as much again.
+    /// The force that presses the sphere to its nominal contact, or the wave.
     fn pressing_force(&self) -> Result<f64, Outcome> {
         let [length, modulus] = self.units;
-        if self.wave {
+        if let Some(times) = self.wave {
             // Johnson, Greenwood and Higginson: full contact of cos cos waves at sqrt(2) pi E* amplitude / wavelength
             let [width, depth] = self.size;
             let substrate = self.stack.substrate.unwrap_or([1.0, 0.3]);
             let elastic = substrate[0] / (1.0 - substrate[1] * substrate[1]);
             let full = 2.0_f64.sqrt() * std::f64::consts::PI * elastic * self.amplitude() / width;
-            return Ok(2.0 * full * modulus * width * depth * length * length);
+            return Ok(times * full * modulus * width * depth * length * length);
         }
         let approach = length * self.contact * self.contact / RADIUS;
         let text = format!("{}[[load]]\napproach = {approach:e}\nincrements = 1\n", self.head(0.0));
@@ -116,9 +116,8 @@ impl Scene {
         let operator_failed =
             |error: fret_core::spectral::ConvolutionError| Outcome::Failed(error.to_string());
         let mut accounts = Accounts::of(&plan).map_err(operator_failed)?;
-        let history = Simulation::new(&plan)
-            .run(&mut accounts)
-            .map_err(|error| Outcome::Failed(error.to_string()))?;
+        let history =
+            Simulation::new(&plan).run(&mut accounts).map_err(|error| Outcome::Failed(error.to_string()))?;
         let pair = &plan.case.bodies;
         let shown =
             operator::shown(pair, plan.grid.spacing(), plan.case.periodic).map_err(operator_failed)?;
@@ -154,7 +153,7 @@ impl Scene {
         let [length, modulus] = self.units;
         let [width, depth] = self.size.map(|side| side * length);
         let stack = self.stack.scaled(length, modulus).text();
-        let profile = if self.wave {
+        let profile = if self.wave.is_some() {
             let amplitude = self.amplitude() * length;
             format!(
                 "[profile.wave]\namplitude = {amplitude:e}\nwavelength_x = {width:e}\nwavelength_y = {depth:e}\n"
@@ -167,7 +166,7 @@ impl Scene {
             "[grid]\ncells = [{nx}, {ny}]\nsize = [{width:e}, {depth:e}]\nperiodic = {}\n[upper]\nrigid = true\n\
              [lower]\n{stack}{profile}[friction]\ncoefficient = {friction:e}\n\
              [solver]\ntolerance = {TOLERANCE:e}\n[output]\nfields = [\"pressure\"]\n",
-            self.wave
+            self.wave.is_some()
         )
     }
 }

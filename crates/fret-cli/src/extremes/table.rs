@@ -56,8 +56,9 @@ pub fn table(rows: &[Row]) -> String {
     let benign = benign(rows);
     let mut lines = vec![HEADS.map(str::to_owned)];
     lines.extend(rows.iter().map(|row| cells(row, benign)));
-    let widths: [usize; 10] =
-        std::array::from_fn(|column| lines.iter().map(|line| line[column].chars().count()).max().unwrap_or(0));
+    let widths: [usize; 10] = std::array::from_fn(|column| {
+        lines.iter().map(|line| line[column].chars().count()).max().unwrap_or(0)
+    });
     let mut text: Vec<String> = lines
         .iter()
         .map(|line| {
@@ -66,7 +67,11 @@ pub fn table(rows: &[Row]) -> String {
                 .zip(widths)
                 .enumerate()
                 .map(|(column, (cell, width))| {
-                    if column == 0 || column == 9 { format!("{cell:width$}") } else { format!("{cell:>width$}") }
+                    if column == 0 || column == 9 {
+                        format!("{cell:width$}")
+                    } else {
+                        format!("{cell:>width$}")
+                    }
                 })
                 .collect();
             padded.join("  ").trim_end().to_owned()

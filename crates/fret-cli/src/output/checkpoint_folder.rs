@@ -36,6 +36,12 @@ pub struct Head {
     pub question: String,
     /// Bytes of the history table that belong to the waypoint.
     pub history_bytes: u64,
+    /// The same of the table of cycles.
+    pub cycles_bytes: u64,
+    /// Lines of that table.
+    pub cycles: usize,
+    /// Increments whose fields have been kept.
+    pub kept: usize,
     /// What the run has come to.
     pub tally: Tally,
     /// Time spent so far [s].

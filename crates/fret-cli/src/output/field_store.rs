@@ -1,6 +1,7 @@
 //! `fields.zarr`: kept fields as a Zarr v3 folder (dims step, x, y), one chunk file a step and field, raw little-endian numbers.
 //!
-//! Shape and step numbers stand from the start; a step that is not reached reads as NaN (zone: 255). xarray opens it with
+//! Shape and step numbers stand from the start, or grow with a history that may end early; a step that is not reached reads as NaN
+//! (zone: 255). xarray opens it with
 //! `xr.open_zarr(path, consolidated=False)`. Format: <https://zarr-specs.readthedocs.io/en/latest/v3/core/index.html>.
 
 use std::fs;
@@ -21,7 +22,12 @@ pub struct FieldStore {
     path: PathBuf,
     cells: [usize; 2],
     arrays: Vec<&'static FieldArray>,
+    /// Numbers of the increments along `step`.
     steps: Vec<usize>,
+    /// How many of them are there.
+    kept: usize,
+    /// Whether the axis grows as the history goes, since that may end early.
+    grows: bool,
 }
 
 /// One array of the store over step, x and y.
@@ -35,9 +41,11 @@ struct FieldArray {
 }
 
 const PRESSURE: &str = "case units: pressure";
+/// The one chunk of the axis `step`.
+const STEPS: &str = "step/c/0";
 const LENGTH: &str = "case units: length";
 
-const FIELD_ARRAYS: [FieldArray; 7] = [
+const FIELD_ARRAYS: [FieldArray; 8] = [
     FieldArray {
         name: "pressure",
         asked_as: "pressure",
@@ -70,12 +78,18 @@ const FIELD_ARRAYS: [FieldArray; 7] = [
     },
     FieldArray { name: "gap", asked_as: "gap", long_name: "gap between the surfaces", units: LENGTH },
     FieldArray { name: "zone", asked_as: "zone", long_name: "what the cell does", units: "1" },
+    FieldArray {
+        name: "worn_depth",
+        asked_as: "worn_depth",
+        long_name: "depth worn off both bodies together",
+        units: LENGTH,
+    },
 ];
 
 impl FieldStore {
     /// A store of the plan's final shape, without any field yet.
     pub fn create(path: &Path, plan: &Plan) -> Result<Self, Unwritten> {
-        let store = Self::of(path, plan);
+        let store = Self::of(path, plan, Vec::new());
         let group = json!({
             "zarr_format": 3,
             "node_type": "group",
@@ -91,10 +105,10 @@ impl FieldStore {
         Ok(store)
     }
 
-    /// The store of a broken-off run, cut back to what its first `solved` increments kept.
-    pub fn reopen(path: &Path, plan: &Plan, solved: usize) -> Result<Self, Unwritten> {
-        let store = Self::of(path, plan);
-        for (step, _) in store.steps.iter().enumerate().filter(|&(_, &increment)| increment >= solved) {
+    /// The store of a broken-off run, cut back to its first `kept` steps.
+    pub fn reopen(path: &Path, plan: &Plan, kept: usize) -> Result<Self, Unwritten> {
+        let mut store = Self::of(path, plan, steps_at(path));
+        for step in kept..store.steps.len() {
             for array in &store.arrays {
                 let chunk = path.join(array.name).join("c").join(step.to_string());
                 match fs::remove_dir_all(&chunk) {
@@ -105,14 +119,21 @@ impl FieldStore {
                 }
             }
         }
+        store.kept = kept;
+        if store.grows {
+            store.steps.truncate(kept);
+            store.write_metadata()?;
+        }
         Ok(store)
     }
 
-    /// The first file that should be in the store at `path` after `solved` increments and is not, or not of its size.
-    pub fn missing(path: &Path, plan: &Plan, solved: usize) -> Option<PathBuf> {
-        let store = Self::of(path, plan);
+    /// The first file that should be in the store at `path` after `kept` steps and is not, or not of its size.
+    pub fn missing(path: &Path, plan: &Plan, kept: usize) -> Option<PathBuf> {
+        let store = Self::of(path, plan, steps_at(path));
         let cells = store.cells[0] * store.cells[1];
-        let kept = store.steps.iter().take_while(|&&increment| increment < solved).count();
+        if store.steps.len() < kept {
+            return Some(path.join(STEPS));
+        }
         let chunks = store.arrays.iter().flat_map(|array| {
             let bytes = if array.name == "zone" { cells } else { 8 * cells };
             (0..kept).map(move |step| (format!("{}/c/{step}/0/0", array.name), Some(bytes as u64)))
@@ -125,13 +146,22 @@ impl FieldStore {
         })
     }
 
-    fn of(path: &Path, plan: &Plan) -> Self {
+    /// Steps whose fields have been kept.
+    pub fn kept(&self) -> usize {
+        self.kept
+    }
+
+    /// A store without fields; `grown`: its steps so far, should they not be known beforehand.
+    fn of(path: &Path, plan: &Plan, grown: Vec<usize>) -> Self {
         let asked = |array: &&FieldArray| plan.case.output.fields.iter().any(|name| name == array.asked_as);
+        let grows = plan.case.is_open_ended();
         Self {
             path: path.to_owned(),
             cells: plan.grid.cells(),
             arrays: FIELD_ARRAYS.iter().filter(asked).collect(),
-            steps: plan.case.kept_increments(),
+            steps: if grows { grown } else { plan.case.kept_increments() },
+            kept: 0,
+            grows,
         }
     }
 
@@ -147,16 +177,18 @@ impl FieldStore {
                 "slip_x" => slip.as_ref().map(|[x, _]| numbers(x)),
                 "slip_y" => slip.as_ref().map(|[_, y]| numbers(y)),
                 "gap" => kept.gap.as_ref().map(numbers),
+                "worn_depth" => kept.worn_depth.as_ref().map(numbers),
                 _ => kept.zone.as_ref().map(zones),
             };
             if let Some(bytes) = bytes {
                 self.write(&format!("{}/c/{step}/0/0", array.name), &bytes)?;
             }
         }
+        self.kept = step + 1;
         Ok(())
     }
 
-    /// Place of an increment along `step`. One that was not foreseen is added, so that no field is ever lost.
+    /// Place of an increment along `step`. One that was not foreseen is added.
     fn position(&mut self, increment: usize) -> Result<usize, Unwritten> {
         if let Ok(position) = self.steps.binary_search(&increment) {
             return Ok(position);
@@ -209,7 +241,7 @@ impl FieldStore {
             "node_type": "array",
             "shape": [length],
             "data_type": data_type,
-            "chunk_grid": { "name": "regular", "configuration": { "chunk_shape": [length] } },
+            "chunk_grid": { "name": "regular", "configuration": { "chunk_shape": [length.max(1)] } },
             "chunk_key_encoding": { "name": "default", "configuration": { "separator": "/" } },
             "fill_value": 0,
             "codecs": [little_endian_bytes()],
@@ -231,6 +263,13 @@ impl FieldStore {
         }
         write_whole(&path, content)
     }
+}
+
+/// Numbers of the increments in the store at `path`, as far as they can be read.
+fn steps_at(path: &Path) -> Vec<usize> {
+    let bytes = fs::read(path.join(STEPS)).unwrap_or_default();
+    let numbers = bytes.as_chunks::<8>().0.iter().map(|eight| i64::from_le_bytes(*eight));
+    numbers.map_while(|number| usize::try_from(number).ok()).collect()
 }
 
 fn little_endian_bytes() -> Value {

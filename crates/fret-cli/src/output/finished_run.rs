@@ -64,11 +64,12 @@ impl FinishedRun {
         }
         let plan = &record["plan"];
         let broken = |what: &str| refuse(format!("{RECORD} does not tell {what}"), "run the case again");
-        let (last_cycle, cyclic) =
-            last_cycle(&plan["case"]["stages"]).ok_or_else(|| broken("the stages of the run"))?;
         let fields = folder.join(FIELDS);
         let steps = coordinate(&fields.join("step/c/0"))
             .ok_or_else(|| refuse(format!("holds no {FIELDS}: no fields were kept"), no_results))?;
+        let increments = steps.last().map_or(0, |last| last + 1); // the last one of a history is always kept
+        let (last_cycle, cyclic) =
+            last_cycle(&plan["case"]["stages"], increments).ok_or_else(|| broken("the stages of the run"))?;
         Ok(Self {
             fields,
             title: plan["case"]["title"].as_str().unwrap_or_default().to_owned(),
@@ -120,16 +121,9 @@ fn coordinate(path: &Path) -> Option<Vec<usize>> {
 }
 
 /// Increments of the last cycle, and whether it is one.
-fn last_cycle(stages: &Value) -> Option<([usize; 2], bool)> {
-    let stages = stages.as_array()?;
-    let mut before = 0;
-    let mut found = None;
-    for stage in stages {
-        let per_cycle = stage["increments"].as_u64()? as usize;
-        let cycles = stage["course"]["cycles"].as_u64().map(|cycles| cycles as usize);
-        let end = before + per_cycle * cycles.unwrap_or(1);
-        found = Some(([(end - per_cycle).saturating_sub(1), end - 1], cycles.is_some()));
-        before = end;
-    }
-    found
+fn last_cycle(stages: &Value, increments: usize) -> Option<([usize; 2], bool)> {
+    let stage = stages.as_array()?.last()?;
+    let per_cycle = stage["increments"].as_u64()? as usize;
+    let start = increments.saturating_sub(per_cycle + 1);
+    Some(([start, increments.saturating_sub(1)], !stage["course"]["cycles"].is_null()))
 }

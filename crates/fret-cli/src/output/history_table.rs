@@ -1,10 +1,12 @@
-//! `history.csv`: a line an increment, on disk as soon as the increment is solved.
+//! `history.csv`: a line an increment; `cycles.csv`: a line a cycle. On disk as soon as it is over.
 
 use std::fs::File;
 use std::io::{Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
+use fret_core::cycle::CycleRecord;
 use fret_core::history::{Regime, StepRecord};
+use serde_json::Value;
 
 use crate::failure::Unwritten;
 
@@ -35,7 +37,49 @@ const COLUMNS: [&str; 23] = [
     "regime",
 ];
 
-/// The table while it grows.
+/// The columns of the cycles, in order; the names are those of `history.cycles` in Python.
+const CYCLE_COLUMNS: [&str; 19] = [
+    "stage",
+    "cycle",
+    "first_increment",
+    "last_increment",
+    "stands_for",
+    "dissipated_energy",
+    "drive",
+    "direction",
+    "force_amplitude",
+    "displacement_amplitude",
+    "opening",
+    "energy_ratio",
+    "sliding_ratio",
+    "stiffness",
+    "regime",
+    "closure",
+    "steady",
+    "worn_volume",
+    "max_worn_depth",
+];
+
+/// What a table holds a line of.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Lines {
+    /// Increments.
+    Increments,
+    /// Cycles.
+    Cycles,
+}
+
+impl Lines {
+    fn head(self) -> String {
+        let columns = match self {
+            Self::Increments => &COLUMNS[..],
+            Self::Cycles => &CYCLE_COLUMNS[..],
+        };
+        columns.join(",") + "\n"
+    }
+}
+
+/// A table while it grows.
 #[derive(Debug)]
 pub struct HistoryTable {
     path: PathBuf,
@@ -45,10 +89,10 @@ pub struct HistoryTable {
 
 impl HistoryTable {
     /// A table with its head; an earlier one is gone.
-    pub fn create(path: &Path) -> Result<Self, Unwritten> {
+    pub fn create(path: &Path, lines: Lines) -> Result<Self, Unwritten> {
         let file = File::create(path).map_err(Unwritten::at(path))?;
         let mut table = Self { path: path.to_owned(), file, bytes: 0 };
-        table.append(&head())?;
+        table.append(&lines.head())?;
         Ok(table)
     }
 
@@ -61,14 +105,12 @@ impl HistoryTable {
 
     /// Whether the first `bytes` of the table at `path` are its head and so many lines.
     pub fn holds(path: &Path, bytes: u64, lines: usize) -> bool {
-        std::fs::read(path).is_ok_and(|text| {
-            let whole = usize::try_from(bytes).ok().and_then(|bytes| text.get(..bytes));
-            whole.is_some_and(|text| {
-                text.starts_with(head().as_bytes())
-                    && text.ends_with(b"\n")
-                    && text.iter().filter(|&&byte| byte == b'\n').count() == lines + 1
-            })
-        })
+        whole_lines(path, bytes, Lines::Increments).is_some_and(|text| text.lines().count() == lines)
+    }
+
+    /// The cycles in the first `bytes` of the table at `path`; none where these are not its head and whole lines.
+    pub fn cycles(path: &Path, bytes: u64) -> Option<Vec<CycleRecord>> {
+        whole_lines(path, bytes, Lines::Cycles)?.lines().map(cycle).collect()
     }
 
     /// Lines of the table at `path`, its head among them; none where there is no table.
@@ -86,6 +128,11 @@ impl HistoryTable {
         self.append(&line(record))
     }
 
+    /// Adds a cycle.
+    pub fn add_cycle(&mut self, record: &CycleRecord) -> Result<(), Unwritten> {
+        self.append(&cycle_line(record))
+    }
+
     /// Waits until the table is on the disk.
     pub fn settle(&self) -> Result<(), Unwritten> {
         self.file.sync_all().map_err(Unwritten::at(&self.path))
@@ -96,10 +143,6 @@ impl HistoryTable {
         self.bytes += text.len() as u64;
         Ok(())
     }
-}
-
-fn head() -> String {
-    COLUMNS.join(",") + "\n"
 }
 
 fn line(record: &StepRecord) -> String {
@@ -131,6 +174,46 @@ fn line(record: &StepRecord) -> String {
     cells.join(",") + "\n"
 }
 
+fn cycle_line(record: &CycleRecord) -> String {
+    // A record holds only numbers, words and truth values, each by the name of its column.
+    let values = serde_json::to_value(record).unwrap_or_default();
+    let cells = CYCLE_COLUMNS.map(|name| match &values[name] {
+        Value::Null => String::new(),
+        Value::String(word) => word.clone(),
+        Value::Number(number) => {
+            number.as_f64().filter(|_| number.is_f64()).map_or_else(|| number.to_string(), exact)
+        }
+        other => other.to_string(),
+    });
+    cells.join(",") + "\n"
+}
+
+/// What a line of [`cycle_line`] holds.
+fn cycle(line: &str) -> Option<CycleRecord> {
+    let value = |cell: &str| match cell {
+        "" => Value::Null,
+        "true" => Value::Bool(true),
+        "false" => Value::Bool(false),
+        _ => match (cell.parse::<u64>(), cell.parse::<f64>()) {
+            (Ok(count), _) => Value::from(count),
+            (_, Ok(number)) => Value::from(number),
+            _ => Value::from(cell),
+        },
+    };
+    let cells: Vec<&str> = line.split(',').collect();
+    let named = CYCLE_COLUMNS.iter().zip(&cells).map(|(name, cell)| ((*name).to_owned(), value(cell)));
+    (cells.len() == CYCLE_COLUMNS.len()).then(|| serde_json::from_value(named.collect()).ok())?
+}
+
+/// The first `bytes` of a table below its head, when they are the head and whole lines.
+fn whole_lines(path: &Path, bytes: u64, lines: Lines) -> Option<String> {
+    let mut text = std::fs::read_to_string(path).ok()?;
+    let bytes = usize::try_from(bytes).ok()?;
+    let is_whole = text.get(..bytes).is_some_and(|text| text.ends_with('\n'));
+    text.truncate(if is_whole { bytes } else { 0 });
+    text.strip_prefix(&lines.head()).map(str::to_owned)
+}
+
 /// The shortest digits that read back as the same number.
 fn exact(value: f64) -> String {
     format!("{value:?}")
@@ -149,6 +232,37 @@ fn word(regime: Regime) -> &'static str {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_cycle_reads_back_as_it_was() {
+        use fret_core::cycle::{CycleRegime, Drive};
+        let one = CycleRecord {
+            stage: 1,
+            cycle: 12,
+            first_increment: 30,
+            last_increment: 41,
+            stands_for: 50,
+            dissipated_energy: 0.1 + 0.2,
+            drive: Drive::Torsional,
+            direction: -1.0 / 3.0,
+            force_amplitude: 1e-300,
+            displacement_amplitude: 4.0,
+            opening: 0.0,
+            energy_ratio: Some(2.0 / 3.0),
+            sliding_ratio: None,
+            stiffness: Some(1e17),
+            regime: Some(CycleRegime::PartialSlip),
+            closure: 5e-7,
+            steady: true,
+            worn_volume: 1.0,
+            max_worn_depth: -0.0,
+        };
+        let other = CycleRecord { regime: None, steady: false, ..one.clone() };
+        for record in [one, other] {
+            assert_eq!(cycle(cycle_line(&record).trim_end()), Some(record));
+        }
+        assert_eq!(cycle("1,2,3"), None);
+    }
 
     #[test]
     fn numbers_read_back_as_they_were() {

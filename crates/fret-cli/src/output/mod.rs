@@ -1,8 +1,8 @@
 //! The result folder: the only place of the command that writes results.
 //!
 //! `case.toml` (verbatim copy), `run.json` (how it was computed and how it ended), `history.csv` (a line an increment),
-//! `fields.zarr` (kept fields), and `checkpoint` while the run is not solved. An increment's fields are written first, then its
-//! line, then the checkpoint: what the checkpoint counts is complete, what lies beyond it is cut off when the run goes on.
+//! `cycles.csv` (a line a cycle), `fields.zarr` (kept fields), and `checkpoint` while the run is not solved. An increment's fields
+//! are written first, then its line, then that of the cycle it ends, then the checkpoint: what the checkpoint counts is complete, what lies beyond it is cut off when the run goes on.
 
 mod checkpoint_folder;
 mod field_store;
@@ -17,6 +17,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use fret_core::checkpoint::Waypoint;
+use fret_core::cycle::CycleRecord;
 use fret_core::history::{KeptFields, StepRecord};
 use fret_core::plan::Plan;
 use serde_json::Value;
@@ -27,13 +28,14 @@ use crate::tally::Tally;
 pub use checkpoint_folder::Stored;
 use checkpoint_folder::{CheckpointFolder, Found, Head};
 use field_store::FieldStore;
-use history_table::HistoryTable;
+use history_table::{HistoryTable, Lines};
 pub use run_record::{RunRecord, fnv1a64, resolved};
 pub use whole_file::write_whole;
 
 const CASE: &str = "case.toml";
 const RECORD: &str = "run.json";
 const HISTORY: &str = "history.csv";
+const CYCLES: &str = "cycles.csv";
 const FIELDS: &str = "fields.zarr";
 
 /// What lies where the results shall go.
@@ -69,6 +71,7 @@ pub struct ResultFolder {
     question: String,
     record: RunRecord,
     history: HistoryTable,
+    cycles: HistoryTable,
     fields: FieldStore,
     checkpoints: CheckpointFolder,
 }
@@ -129,7 +132,8 @@ impl ResultFolder {
         remove_earlier_fields(&path.join(FIELDS))?;
         write_whole(&path.join(CASE), case_file.text.as_bytes())?;
         Ok(Self {
-            history: HistoryTable::create(&path.join(HISTORY))?,
+            history: HistoryTable::create(&path.join(HISTORY), Lines::Increments)?,
+            cycles: HistoryTable::create(&path.join(CYCLES), Lines::Cycles)?,
             fields: FieldStore::create(&path.join(FIELDS), plan)?,
             path: path.to_owned(),
             question: run_record::question(plan),
@@ -149,7 +153,7 @@ impl ResultFolder {
                 "nothing was touched; --force starts from the beginning, --out DIR elsewhere".to_owned(),
             ))
         };
-        let (stored, passed_over) = match checkpoints.newest(plan, &question) {
+        let (mut stored, passed_over) = match checkpoints.newest(plan, &question) {
             // A kill between the first line and the first checkpoint leaves the head and one line.
             Found::Nothing if HistoryTable::lines(&path.join(HISTORY)) > 2 => {
                 return spoilt("its checkpoint is gone".to_owned());
@@ -158,20 +162,29 @@ impl ResultFolder {
             Found::Unusable(why) => return spoilt(why),
             Found::Stored(stored, passed_over) => (*stored, passed_over),
         };
-        let (table, bytes) = (path.join(HISTORY), stored.head.history_bytes);
+        let Head { history_bytes, cycles_bytes, cycles: ended, kept, .. } = stored.head;
+        let (history, cycles) = (path.join(HISTORY), path.join(CYCLES));
         let solved = stored.checkpoint.solved();
-        if solved != stored.head.tally.solved || !HistoryTable::holds(&table, bytes, solved) {
-            return spoilt(format!("{}: not the {solved} lines of the checkpoint", table.display()));
+        let not_whole = |table: &Path, count: usize| {
+            spoilt(format!("{}: not the {count} lines of the checkpoint", table.display()))
+        };
+        if solved != stored.head.tally.solved || !HistoryTable::holds(&history, history_bytes, solved) {
+            return not_whole(&history, solved);
         }
-        if let Some(file) = FieldStore::missing(&path.join(FIELDS), plan, solved) {
+        match HistoryTable::cycles(&cycles, cycles_bytes) {
+            Some(records) if records.len() == ended => stored.head.tally.cycles = records,
+            _ => return not_whole(&cycles, ended),
+        }
+        if let Some(file) = FieldStore::missing(&path.join(FIELDS), plan, kept) {
             return spoilt(format!("{}: missing, or not whole", file.display()));
         }
         let earlier = fs::read(path.join(RECORD)).ok().and_then(|bytes| serde_json::from_slice(&bytes).ok());
         let record = record.continuing(&earlier.unwrap_or(Value::Null));
         write_whole(&path.join(RECORD), &record.running())?;
         let folder = Self {
-            history: HistoryTable::reopen(&table, bytes)?,
-            fields: FieldStore::reopen(&path.join(FIELDS), plan, solved)?,
+            history: HistoryTable::reopen(&history, history_bytes)?,
+            cycles: HistoryTable::reopen(&cycles, cycles_bytes)?,
+            fields: FieldStore::reopen(&path.join(FIELDS), plan, kept)?,
             path: path.to_owned(),
             question,
             record,
@@ -188,21 +201,30 @@ impl ResultFolder {
         self.history.add(record)
     }
 
+    /// Writes down a cycle that is over.
+    pub fn keep_cycle(&mut self, record: &CycleRecord) -> Result<(), Unwritten> {
+        self.cycles.add_cycle(record)
+    }
+
     /// Writes down where the run stands, after everything about it has been kept.
     pub fn reached(&mut self, waypoint: &Waypoint<'_>, tally: &Tally, wall_s: f64) -> Result<(), Failure> {
         let head = Head {
             version: env!("CARGO_PKG_VERSION").to_owned(),
             question: self.question.clone(),
             history_bytes: self.history.bytes(),
+            cycles_bytes: self.cycles.bytes(),
+            cycles: tally.cycles.len(),
+            kept: self.fields.kept(),
             tally: tally.clone(),
             wall_s,
         };
-        self.checkpoints.store(&head, waypoint, || self.history.settle())
+        self.checkpoints.store(&head, waypoint, || self.history.settle().and_then(|()| self.cycles.settle()))
     }
 
     /// Writes down how the run ended.
     pub fn close(self, tally: &Tally, wall_s: f64, failure: Option<&Failure>) -> Result<(), Unwritten> {
         self.history.settle()?;
+        self.cycles.settle()?;
         write_whole(&self.path.join(RECORD), &self.record.ended(tally, wall_s, failure))?;
         if failure.is_none() {
             self.checkpoints.remove();

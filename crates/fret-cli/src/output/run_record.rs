@@ -57,6 +57,7 @@ impl RunRecord {
         self.with(json!({
             "status": failure.map_or("solved", Failure::status),
             "message": failure.map(Failure::message),
+            "worn_through": tally.worn_through,
             "totals": {
                 "increments": tally.solved,
                 "convolutions": tally.work.convolutions,

@@ -87,7 +87,7 @@ impl<'a> Scene<'a> {
                     .planned::<usize>(&format!("/case/stages/{stage}/{name}"))
                     .filter(|&count| count > 0)
             };
-            if let (Some(_), Some(length)) = (counts("course/cycles"), counts("increments")) {
+            if let (Some(_), Some(length)) = (counts("course/cycles/most"), counts("increments")) {
                 cycles.extend((1..=(end - first) / length).map(|number| Cycle {
                     stage,
                     number,

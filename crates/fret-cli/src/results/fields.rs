@@ -9,7 +9,7 @@ use super::unusable;
 use crate::failure::Failure;
 
 /// The names a run gives its arrays.
-const NAMES: [&str; 7] = ["pressure", "shear_x", "shear_y", "slip_x", "slip_y", "gap", "zone"];
+const NAMES: [&str; 8] = ["pressure", "shear_x", "shear_y", "slip_x", "slip_y", "gap", "zone", "worn_depth"];
 
 /// Fields of the kept increments that the run has reached.
 #[derive(Debug)]

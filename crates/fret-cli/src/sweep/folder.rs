@@ -32,9 +32,18 @@ const END: [&str; 12] = [
     "shift_x",
     "shift_y",
 ];
-/// Columns of the last full cycle.
-const CYCLE: [&str; 6] =
-    ["energy", "force_amplitude", "shift_amplitude", "energy_ratio", "least_stick_share", "regime"];
+/// Columns of the last cycle.
+const CYCLE: [&str; 9] = [
+    "dissipated_energy",
+    "force_amplitude",
+    "displacement_amplitude",
+    "energy_ratio",
+    "sliding_ratio",
+    "stiffness",
+    "regime",
+    "closure",
+    "max_worn_depth",
+];
 
 /// The folder of a sweep.
 #[derive(Debug)]
@@ -130,13 +139,15 @@ impl SweepFolder {
     }
 }
 
-/// Names of files in a case: words under `file` and `map`.
+/// Names of files in a case: words under the keys that can name one.
 fn files_named(text: &str) -> Vec<String> {
     fn look(value: &toml::Value, key: &str, found: &mut Vec<String>) {
         match value {
             toml::Value::Table(table) => table.iter().for_each(|(key, value)| look(value, key, found)),
             toml::Value::Array(items) => items.iter().for_each(|item| look(item, key, found)),
-            toml::Value::String(name) if matches!(key, "file" | "map") => found.push(name.clone()),
+            toml::Value::String(name) if matches!(key, "file" | "map" | "friction" | "table") => {
+                found.push(name.clone())
+            }
             _ => {}
         }
     }

@@ -71,6 +71,29 @@ fn frictionless() -> String {
     )
 }
 
+/// The coated contact in cycles of shift that wear it, then released. A computed cycle stands for up to three.
+fn worn() -> String {
+    let head = COATED.split("[[load]]").next().unwrap();
+    format!(
+        "{head}[wear]\ncoefficient = 2e-11\nevery = 3\nlargest_step = 0.1\n\
+         [[load]]\nnormal_force = 1.0\nincrements = 4\n\
+         [[load]]\nshift = [60e-9, 0.0]\ncycles = 20\nincrements = 8\n\
+         [[load]]\nnormal_force = 0.3\nincrements = 3\n\
+         [output]\nfields = [\"pressure\", \"gap\", \"worn_depth\"]\nevery = 3\n"
+    )
+}
+
+/// The coated contact in cycles until they close, which brings the stage after them forward.
+fn steady() -> String {
+    let head = COATED.split("[[load]]").next().unwrap();
+    format!(
+        "{head}[[load]]\nnormal_force = 1.0\nincrements = 4\n\
+         [[load]]\ntangential_force = [0.15, 0.0]\nincrements = 12\nuntil_steady = {{ tolerance = 2e-3, most_cycles = 12 }}\n\
+         [[load]]\nshift = [40e-9, 20e-9]\nincrements = 6\n\
+         [output]\nfields = [\"shear\", \"zone\"]\nevery = 5\n"
+    )
+}
+
 /// All files of a folder, by their names below it.
 fn files(folder: &Path) -> BTreeMap<String, Vec<u8>> {
     fn walk(folder: &Path, below: &str, found: &mut BTreeMap<String, Vec<u8>>) {
@@ -89,7 +112,7 @@ fn files(folder: &Path) -> BTreeMap<String, Vec<u8>> {
     found
 }
 
-/// What a run found: the table without its column of times, and every file of the field store.
+/// What a run found: the table without its column of times, the table of cycles, and every file of the field store.
 fn findings(results: &Path) -> BTreeMap<String, Vec<u8>> {
     let table = std::fs::read_to_string(results.join("history.csv")).unwrap();
     let place = table.lines().next().unwrap().split(',').position(|column| column == "wall_s").unwrap();
@@ -99,6 +122,7 @@ fn findings(results: &Path) -> BTreeMap<String, Vec<u8>> {
     });
     let mut found = files(&results.join("fields.zarr"));
     found.insert("history.csv".to_owned(), timeless.collect::<Vec<_>>().join("\n").into_bytes());
+    found.insert("cycles.csv".to_owned(), std::fs::read(results.join("cycles.csv")).unwrap());
     found
 }
 
@@ -118,10 +142,10 @@ fn solve_whole(bench: &Bench, case: &str) -> Duration {
     started.elapsed()
 }
 
-/// Starts a run into `broken` and ends it by a signal as soon as its table has so many lines.
+/// Starts a run into `broken`, or goes on with it, and ends it by a signal as soon as its table has so many lines.
 fn break_off(bench: &Bench, lines: usize, signal: &str) -> Answer {
     let table = bench.folder.join("broken/history.csv");
-    let run = bench.command(&["run", "case.toml", "--out", "broken", "--quiet"]).spawn().unwrap();
+    let run = bench.command(&["run", "case.toml", "--out", "broken", "--quiet", "--resume"]).spawn().unwrap();
     let patience = Instant::now();
     let written = || std::fs::read_to_string(&table).map_or(0, |text| text.lines().count());
     while written() < lines && patience.elapsed().as_secs() < 60 {
@@ -193,6 +217,48 @@ fn a_run_of_pressure_then_shear_killed_twenty_times_ends_as_if_nothing_had_been(
 #[test]
 fn a_frictionless_run_killed_twenty_times_ends_as_if_nothing_had_been() {
     killed_at_random("killed-frictionless", &frictionless(), 20, 0x94d0_49bb_1331_11eb);
+}
+
+#[test]
+fn a_run_with_wear_killed_eight_times_ends_as_if_nothing_had_been() {
+    killed_at_random("killed-worn", &worn(), 8, 0xd6e8_feb8_6659_fd93);
+}
+
+#[test]
+fn a_run_until_it_is_steady_killed_eight_times_ends_as_if_nothing_had_been() {
+    killed_at_random("killed-steady", &steady(), 8, 0xa076_1d64_78bd_642f);
+}
+
+/// A run that goes on from a checkpoint older than its tables and fields, as after a power failure.
+#[cfg(unix)]
+#[test]
+fn cycles_and_fields_beyond_the_checkpoint_are_cut_off() {
+    let bench = Bench::new("beyond");
+    solve_whole(&bench, &worn().replace("cycles = 20", "cycles = 90"));
+    let checkpoint = bench.folder.join("broken/checkpoint");
+    assert_eq!(break_off(&bench, 40, "-INT").code, Some(130));
+    let older = std::fs::read(checkpoint.join("even")).unwrap();
+    assert_eq!(break_off(&bench, 100, "-INT").code, Some(130));
+    for newer in ["even", "odd"] {
+        std::fs::remove_file(checkpoint.join(newer)).unwrap();
+    }
+    std::fs::write(checkpoint.join("synced"), older).unwrap();
+
+    // A table of cycles that is shorter than the checkpoint tells is not gone on with.
+    let table = bench.text("broken/cycles.csv");
+    std::fs::write(bench.folder.join("broken/cycles.csv"), &table[..table.find('\n').unwrap()]).unwrap();
+    let refused = resume(&bench);
+    assert_eq!(refused.code, Some(1), "{}", refused.err);
+    assert!(
+        refused.err.contains("cycles.csv") && refused.err.contains("nothing was touched"),
+        "{}",
+        refused.err
+    );
+    std::fs::write(bench.folder.join("broken/cycles.csv"), table).unwrap();
+
+    let answer = resume(&bench);
+    assert_eq!(answer.code, Some(0), "{}", answer.err);
+    assert_same(&bench, "whole", "broken");
 }
 
 #[cfg(unix)]

@@ -140,7 +140,7 @@ fn a_case_file_that_cannot_be_read_is_told_in_one_line() {
     std::fs::write(bench.folder.join("bytes.toml"), [b't', 0xff, 0xfe]).unwrap();
     for (path, words) in [
         ("nowhere.toml", "no such file"),
-        ("folder", "a folder, not a case file"),
+        ("folder", "a folder, not a file"),
         ("bytes.toml", "not a text in UTF-8"),
     ] {
         for verb in ["run", "check", "plan"] {
@@ -157,7 +157,7 @@ fn a_case_file_that_cannot_be_read_is_told_in_one_line() {
 fn verbs_that_are_not_built_yet_are_refused_by_name() {
     let bench = Bench::new("unbuilt");
     bench.file("case.toml", SPHERE);
-    for arguments in [&["study", "case.toml", "--cells", "32"][..], &["extremes"]] {
+    for arguments in [["study", "case.toml", "--cells", "32"]] {
         let answer = bench.fret(arguments);
         assert_eq!(answer.code, Some(1), "{arguments:?}");
         assert!(answer.err.contains("not built yet"), "{arguments:?}: {}", answer.err);

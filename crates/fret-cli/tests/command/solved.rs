@@ -42,6 +42,14 @@ fn a_small_fretting_case_is_solved_and_written_down() {
     assert!((forces[INCREMENTS - 1] - 1.0).abs() < 1e-8, "a prescribed force is kept to the tolerance");
     assert!(column(&table, "residual").iter().all(|&residual| residual <= 1e-8));
 
+    let cycles = bench.text("results/case/cycles.csv");
+    let energies: Vec<f64> =
+        cycles.lines().skip(1).map(|line| line.split(',').nth(5).unwrap().parse().unwrap()).collect();
+    assert_eq!(energies.len(), 2);
+    let dissipated = column(&table, "dissipated_energy");
+    let in_cycles = dissipated[INCREMENTS - 1] - dissipated[2];
+    assert!((energies.iter().sum::<f64>() / in_cycles - 1.0).abs() < 1e-12, "{energies:?} {in_cycles}");
+
     let record: Value = serde_json::from_str(&bench.text("results/case/run.json")).unwrap();
     assert_eq!(record["format"], 1);
     assert_eq!(record["status"], "solved");
@@ -130,4 +138,30 @@ fn an_interrupted_run_keeps_what_was_solved() {
     let record: Value = serde_json::from_str(&bench.text("results/case/run.json")).unwrap();
     assert_eq!(record["status"], "interrupted");
     assert_eq!(record["totals"]["increments"], lines() - 1);
+}
+
+/// The examples of loadings and wear, each with a word of its `run.json` or `cycles.csv` that only its own loading brings.
+#[test]
+fn every_example_of_a_loading_runs() {
+    let examples = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../examples");
+    let bench = Bench::new("loadings");
+    for (name, word) in [
+        ("normal_and_tangential_cycles", "\"sine\""),
+        ("turning_force", "\"phase\": 0.25"),
+        ("force_spiral", "\"envelope\""),
+        ("torsional_fretting", "torsional"),
+        ("gross_slip", "gross_slip"),
+        ("mixed_controls", "\"motion\""),
+        ("force_table", "\"through\""),
+        ("until_steady", ",true,"),
+        ("wear_partial_slip", ",20,"),
+        ("coating_worn_through", "\"cell\""),
+    ] {
+        let path = examples.join(format!("{name}.toml"));
+        let out = format!("results/{name}");
+        let answer = bench.fret(&["run", path.to_str().unwrap(), "--out", &out, "--quiet"]);
+        assert_eq!(answer.code, Some(0), "{name}: {}", answer.err);
+        let told = bench.text(&format!("{out}/run.json")) + &bench.text(&format!("{out}/cycles.csv"));
+        assert!(told.contains(word), "{name}: no {word}");
+    }
 }

@@ -42,7 +42,7 @@ fn a_sweep_solves_every_point_as_it_is_solved_alone_and_records_failures() {
     let history = bench.text("results/alone/history.csv");
     let energies = column(&history, "dissipated_energy");
     assert_eq!(column(&summary, "dissipated_energy")[5], energies[energies.len() - 1]);
-    let cycle: f64 = column(&summary, "cycle_energy")[5].parse().unwrap();
+    let cycle: f64 = column(&summary, "cycle_dissipated_energy")[5].parse().unwrap();
     let [after, before] = [1, 9].map(|back| energies[energies.len() - back].parse::<f64>().unwrap());
     assert_eq!(cycle, after - before, "the last cycle has 8 increments");
 

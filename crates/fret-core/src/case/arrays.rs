@@ -5,101 +5,66 @@ use std::ops::Range;
 use ndarray::Array2;
 
 use super::judge::Judge;
+use super::numbers::numbers;
 use super::surface_file::ArrayFile;
 
-/// Where an array of a case comes from.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum ArraySource<'a> {
-    /// A file, named as in the case.
-    File(&'a str),
-    /// An array handed over beside the case, by its number from 0.
-    Handed(usize),
-}
-
-/// Gives the arrays that a case names, or says in words why not: the core reads no files.
-pub type ArraySupply<'a> = &'a dyn Fn(ArraySource<'_>) -> Result<Array2<f64>, String>;
-
-/// The supply of a case that stands for itself.
-pub(super) fn nothing(source: ArraySource<'_>) -> Result<Array2<f64>, String> {
-    Err(match source {
-        ArraySource::File(_) => "this reader of the case reads no files".to_owned(),
-        ArraySource::Handed(number) => format!("no array {number} was handed over"),
-    })
-}
-
-/// What the arrays of a case are judged by.
-#[derive(Clone, Copy)]
-pub(super) struct Desk<'a> {
-    /// Cells of the grid; `None` when they were refused, and no array can be judged.
-    pub cells: Option<[usize; 2]>,
-    /// Where arrays come from.
-    pub supply: ArraySupply<'a>,
-}
-
-impl Desk<'_> {
-    /// Array of a file, in the order of its rows.
-    pub fn file(
-        &self,
-        judge: &mut Judge,
-        place: &str,
-        span: Range<usize>,
-        name: &str,
-    ) -> Option<Array2<f64>> {
-        match (self.supply)(ArraySource::File(name)) {
-            Ok(array) => Some(array),
-            Err(why) => judge.refuse(
-                span,
-                format!("{place} = {name:?}: {why}"),
-                "a .npy file, or a text with a row of numbers a line; a relative path starts at the case file",
-            ),
-        }
-    }
-
-    /// Array of rows, or one that was handed over.
-    pub fn array(
-        &self,
-        judge: &mut Judge,
-        place: &str,
-        span: Range<usize>,
-        given: &ArrayFile,
-    ) -> Option<Array2<f64>> {
-        let taken = match given {
-            ArrayFile::Handed(number) => (self.supply)(ArraySource::Handed(*number)),
-            ArrayFile::Rows(rows) => {
-                let columns = rows.first().map_or(0, Vec::len);
-                let flat: Vec<f64> = rows.iter().flatten().copied().collect();
-                match rows.iter().position(|row| row.len() != columns) {
-                    Some(row) => {
-                        Err(format!("row {row} has {} numbers, row 0 has {columns}", rows[row].len()))
-                    }
-                    None => Array2::from_shape_vec((rows.len(), columns), flat).map_err(|e| e.to_string()),
-                }
-            }
-        };
-        match taken {
-            Ok(array) => Some(array),
-            Err(why) => judge.refuse(span, format!("{place}: {why}"), ""),
-        }
-    }
-
-    /// The array itself when it has a number for every cell.
-    pub fn fitting(
-        &self,
-        judge: &mut Judge,
-        place: &str,
-        span: Range<usize>,
-        array: Array2<f64>,
-    ) -> Option<Array2<f64>> {
-        let cells = self.cells?;
-        let (nx, ny) = array.dim();
-        if [nx, ny] == cells {
-            return Some(array);
-        }
-        let turned = if [ny, nx] == cells { "; its rows seem to run along y: rows = \"y\"" } else { "" };
-        judge.refuse(
+/// Array of a file, in the order of its rows.
+pub(super) fn of_file(judge: &mut Judge, place: &str, span: Range<usize>, name: &str) -> Option<Array2<f64>> {
+    match (judge.attachments.file)(name).and_then(|bytes| numbers(&bytes).map_err(|error| error.to_string()))
+    {
+        Ok(array) => Some(array),
+        Err(why) => judge.refuse(
             span,
-            format!("{place}: {nx} x {ny} numbers, but the grid has {} x {} cells", cells[0], cells[1]),
-            &format!("one number for every cell, index [i, j] = [x, y]{turned}"),
-        )
+            format!("{place} = {name:?}: {why}"),
+            "a .npy file, or a text with a row of numbers a line; a relative path starts at the case file",
+        ),
     }
+}
+
+/// Array of rows, or one that was handed over.
+pub(super) fn given(
+    judge: &mut Judge,
+    place: &str,
+    span: Range<usize>,
+    source: &ArrayFile,
+) -> Option<Array2<f64>> {
+    let taken = match source {
+        ArrayFile::Handed(number) => {
+            let array = judge.attachments.arrays.get(*number).cloned();
+            array.ok_or_else(|| format!("no array {number} was handed over"))
+        }
+        ArrayFile::Rows(rows) => {
+            let columns = rows.first().map_or(0, Vec::len);
+            let flat: Vec<f64> = rows.iter().flatten().copied().collect();
+            match rows.iter().position(|row| row.len() != columns) {
+                Some(row) => Err(format!("row {row} has {} numbers, row 0 has {columns}", rows[row].len())),
+                None => Array2::from_shape_vec((rows.len(), columns), flat).map_err(|e| e.to_string()),
+            }
+        }
+    };
+    match taken {
+        Ok(array) => Some(array),
+        Err(why) => judge.refuse(span, format!("{place}: {why}"), ""),
+    }
+}
+
+/// The array itself when it has a number for every cell; cells are `None` when they were refused, and no array can be judged.
+pub(super) fn fitting(
+    judge: &mut Judge,
+    cells: Option<[usize; 2]>,
+    place: &str,
+    span: Range<usize>,
+    array: Array2<f64>,
+) -> Option<Array2<f64>> {
+    let cells = cells?;
+    let (nx, ny) = array.dim();
+    if [nx, ny] == cells {
+        return Some(array);
+    }
+    let turned = if [ny, nx] == cells { "; its rows seem to run along y: rows = \"y\"" } else { "" };
+    judge.refuse(
+        span,
+        format!("{place}: {nx} x {ny} numbers, but the grid has {} x {} cells", cells[0], cells[1]),
+        &format!("one number for every cell, index [i, j] = [x, y]{turned}"),
+    )
 }

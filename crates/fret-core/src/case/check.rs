@@ -2,7 +2,7 @@
 
 use toml::Spanned;
 
-use super::arrays::{ArraySupply, Desk};
+use super::attachments::Attachments;
 use super::bodies::bodies;
 use super::file::{CaseFile, OutputFile, SizeFile};
 use super::friction::{friction, of_stages};
@@ -12,6 +12,7 @@ use super::repeating::repeats;
 use super::shape::profile;
 use super::stages::{sliding, stages};
 use super::stress::stress;
+use super::wearing::wear;
 use super::{Case, FIELD_NAMES, GridSize, Origin, Output, Stage};
 use crate::model::{CoulombFriction, Scheme};
 
@@ -31,20 +32,19 @@ pub(super) fn case(
     file: CaseFile,
     name: &str,
     text: &str,
-    supply: ArraySupply<'_>,
+    attachments: Attachments<'_>,
 ) -> Result<Case, Vec<Mistake>> {
-    let mut judge = Judge::default();
+    let mut judge = Judge { mistakes: Vec::new(), attachments };
     let cells = cells(&mut judge, &file.grid.cells);
     let size = size(&mut judge, &file.grid.size, cells);
     let bodies = bodies(&mut judge, &file.upper, &file.lower);
-    let desk = Desk { cells, supply };
-    let profile = profile(&mut judge, &file, desk);
-    let friction = friction(&mut judge, file.friction.as_ref(), desk);
-    let changes = of_stages(&mut judge, file.load.get_ref(), desk);
+    let profile = profile(&mut judge, &file, cells);
+    let friction = friction(&mut judge, file.friction.as_ref(), cells);
+    let changes = of_stages(&mut judge, file.load.get_ref(), cells);
     let laws = friction.as_ref().zip(changes.as_ref()).map(|(first, changes)| in_force(first, changes));
     let stages = stages(&mut judge, &file.load, laws.as_deref());
     let stages = stages.zip(changes.as_ref()).map(|(stages, changes)| with_friction(stages, changes));
-    let periodic = repeats(&mut judge, &file.grid, size, &file.load, profile.as_ref());
+    let periodic = repeats(&mut judge, &file.grid, size, (&file.load, stages.as_deref()), profile.as_ref());
     let mapped = friction.iter().chain(changes.iter().flatten().flatten()).any(CoulombFriction::is_map);
     let has_arrays = mapped || profile.as_ref().is_some_and(|profile| !profile.heights.is_empty());
     if let (true, Some(GridSize::Auto), false) = (has_arrays, size, periodic) {
@@ -54,9 +54,11 @@ pub(super) fn case(
             "size = [x, y]",
         );
     }
-    if let Some(laws) = &laws {
-        sliding(&mut judge, laws, &file.load);
+    let frictionless = laws.as_ref().is_some_and(|laws| laws.iter().all(|law| law.is_frictionless()));
+    if let (Some(laws), Some(stages)) = (&laws, &stages) {
+        sliding(&mut judge, laws, &file.load, stages);
     }
+    let wear = wear(&mut judge, file.wear.as_ref(), bodies.as_ref(), stages.as_deref(), frictionless);
     let tolerance = match file.solver.as_ref().and_then(|solver| solver.tolerance.as_ref()) {
         None => Some(TOLERANCE),
         Some(given) if (1e-13..=1e-2).contains(given.get_ref()) => Some(*given.get_ref()),
@@ -67,7 +69,6 @@ pub(super) fn case(
         ),
     };
     let output = output(&mut judge, file.output.as_ref());
-    let frictionless = laws.as_ref().is_some_and(|laws| laws.iter().all(|law| law.is_frictionless()));
     let stress = stress(&mut judge, file.stress.as_ref(), bodies.as_ref(), output.as_ref(), frictionless);
     match (cells, size, bodies, profile, friction, stages, tolerance, output) {
         (
@@ -88,6 +89,7 @@ pub(super) fn case(
             profile,
             friction,
             stages,
+            wear,
             tolerance,
             scheme: file
                 .solver

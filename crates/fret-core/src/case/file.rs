@@ -5,7 +5,8 @@ use serde::Deserialize;
 use serde::de::{self, SeqAccess, Visitor};
 use toml::Spanned;
 
-use super::surface_file::{CoefficientFile, FrictionFile, ProfileFile};
+use super::stage_file::{StageFile, WearFile};
+use super::surface_file::{FrictionFile, ProfileFile};
 use crate::model::Scheme;
 
 /// A fretting contact: bodies, first gap, friction, and a loading history. Any consistent system of units.
@@ -31,6 +32,8 @@ pub(super) struct CaseFile {
     /// Stages of the loading history, in order.
     #[schemars(with = "Vec<StageFile>")]
     pub load: Spanned<Vec<Spanned<StageFile>>>,
+    /// Wear of the surfaces; without it nothing wears.
+    pub wear: Option<WearFile>,
     /// Accuracy of the solution.
     pub solver: Option<SolverFile>,
     /// What is kept.
@@ -195,54 +198,6 @@ pub(super) struct MaterialFile {
     pub poisson: Spanned<f64>,
 }
 
-/// A stage of the loading history. Controls not named stay as they were.
-#[derive(Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub(super) struct StageFile {
-    /// A name for messages and tables.
-    pub name: Option<String>,
-    /// Normal force at the end of the stage [force], compression positive.
-    #[schemars(with = "Option<f64>")]
-    pub normal_force: Option<Spanned<f64>>,
-    /// Rigid approach at the end of the stage [length].
-    #[schemars(with = "Option<f64>")]
-    pub approach: Option<Spanned<f64>>,
-    /// Tangential force along x and y [force]: at the end of the stage, or the amplitude of its cycles.
-    #[schemars(with = "Option<[f64; 2]>")]
-    pub tangential_force: Option<Spanned<[f64; 2]>>,
-    /// Rigid tangential displacement of the upper body along x and y [length]: at the end, or the amplitude.
-    #[schemars(with = "Option<[f64; 2]>")]
-    pub shift: Option<Spanned<[f64; 2]>>,
-    /// Moment about z [force x length]: at the end, or the amplitude.
-    #[schemars(with = "Option<f64>")]
-    pub twist_moment: Option<Spanned<f64>>,
-    /// Rotation of the upper body about z [rad]: at the end, or the amplitude.
-    #[schemars(with = "Option<f64>")]
-    pub twist: Option<Spanned<f64>>,
-    /// Number of increments of the stage, or of one cycle.
-    #[schemars(with = "usize")]
-    pub increments: Spanned<usize>,
-    /// How the controls run to their targets; "linear" when not given.
-    #[schemars(with = "Option<RampFile>")]
-    pub ramp: Option<Spanned<RampFile>>,
-    /// Number of cycles 0, +amplitude, -amplitude, 0 about the values before the stage.
-    #[schemars(with = "Option<usize>")]
-    pub cycles: Option<Spanned<usize>>,
-    /// Friction from this stage on: a coefficient, or a coefficient for every cell (a file, or rows of numbers).
-    #[schemars(with = "Option<CoefficientFile>")]
-    pub friction: Option<Spanned<CoefficientFile>>,
-}
-
-/// How a ramp runs.
-#[derive(Debug, Clone, Copy, Deserialize, JsonSchema)]
-#[serde(rename_all = "lowercase")]
-pub(super) enum RampFile {
-    /// Equal steps.
-    Linear,
-    /// Forces with (k/n)^3, approach with (k/n)^2: a sphere's contact radius grows evenly.
-    Cubic,
-}
-
 /// Accuracy of the solution.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -260,7 +215,7 @@ pub(super) struct SolverFile {
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(super) struct OutputFile {
-    /// Fields to keep: "pressure", "shear", "slip", "gap", "zone". All but the gap when not given.
+    /// Fields to keep: "pressure", "shear", "slip", "gap", "zone", "`worn_depth`". All but the gap and the depth when not given.
     #[schemars(with = "Option<Vec<String>>")]
     pub fields: Option<Vec<Spanned<String>>>,
     /// Fields of every so many increments are kept, and of the last of each stage; only of the last when not given.

@@ -4,9 +4,9 @@ use std::ops::Range;
 
 use toml::Spanned;
 
-use super::arrays::Desk;
-use super::file::StageFile;
+use super::arrays;
 use super::judge::Judge;
+use super::stage_file::StageFile;
 use super::surface_file::{CoefficientFile, FrictionFile, MapFile};
 use crate::model::CoulombFriction;
 
@@ -14,7 +14,7 @@ use crate::model::CoulombFriction;
 pub(super) fn friction(
     judge: &mut Judge,
     given: Option<&FrictionFile>,
-    desk: Desk<'_>,
+    cells: Option<[usize; 2]>,
 ) -> Option<CoulombFriction> {
     let Some(given) = given else { return Some(CoulombFriction::Uniform(0.0)) };
     match (&given.coefficient, &given.map) {
@@ -23,7 +23,7 @@ pub(super) fn friction(
             "friction: coefficient and map, both at once",
             "a map has a coefficient for every cell: leave out one of the two",
         ),
-        (None, Some(given)) => map(judge, "friction.map", given.span(), given.get_ref(), desk),
+        (None, Some(given)) => map(judge, "friction.map", given.span(), given.get_ref(), cells),
         (Some(given), None) => uniform(judge, "friction.coefficient", given.span(), *given.get_ref()),
         (None, None) => Some(CoulombFriction::Uniform(0.0)),
     }
@@ -33,7 +33,7 @@ pub(super) fn friction(
 pub(super) fn of_stages(
     judge: &mut Judge,
     stages: &[Spanned<StageFile>],
-    desk: Desk<'_>,
+    cells: Option<[usize; 2]>,
 ) -> Option<Vec<Option<CoulombFriction>>> {
     let mut all = Vec::new();
     for (index, stage) in stages.iter().enumerate() {
@@ -42,7 +42,7 @@ pub(super) fn of_stages(
             None => Some(None),
             Some(given) => match given.get_ref() {
                 CoefficientFile::Uniform(value) => uniform(judge, &place, given.span(), *value),
-                CoefficientFile::Map(file) => map(judge, &place, given.span(), file, desk),
+                CoefficientFile::Map(file) => map(judge, &place, given.span(), file, cells),
             }
             .map(Some),
         });
@@ -62,14 +62,14 @@ fn map(
     place: &str,
     span: Range<usize>,
     given: &MapFile,
-    desk: Desk<'_>,
+    cells: Option<[usize; 2]>,
 ) -> Option<CoulombFriction> {
-    desk.cells?;
+    cells?;
     let array = match given {
-        MapFile::File(name) => desk.file(judge, place, span.clone(), name),
-        MapFile::Array(array) => desk.array(judge, place, span.clone(), array),
+        MapFile::File(name) => arrays::of_file(judge, place, span.clone(), name),
+        MapFile::Array(array) => arrays::given(judge, place, span.clone(), array),
     }?;
-    let array = desk.fitting(judge, place, span.clone(), array)?;
+    let array = arrays::fitting(judge, cells, place, span.clone(), array)?;
     match CoulombFriction::map(array) {
         Ok(friction) => Some(friction),
         Err(error) => judge.refuse(span, format!("{place}: {error}"), "0 where a patch has no friction"),

@@ -2,15 +2,16 @@
 
 use std::ops::Range;
 
+use super::attachments::Attachments;
 use super::refusal::Mistake;
 
 /// Collects mistakes; `None` stands for a value that was refused.
-#[derive(Default)]
-pub(super) struct Judge {
+pub(super) struct Judge<'a> {
     pub(super) mistakes: Vec<Mistake>,
+    pub(super) attachments: Attachments<'a>,
 }
 
-impl Judge {
+impl Judge<'_> {
     pub(super) fn refuse<T>(
         &mut self,
         span: Range<usize>,

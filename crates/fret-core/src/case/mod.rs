@@ -1,9 +1,12 @@
 //! The written question: a case, checked. Read from TOML text (`read`), judged all at once (`check`), refused with places (`refusal`).
 
 mod arrays;
+mod attachments;
 mod bodies;
 mod check;
 mod coating;
+mod controls;
+mod course;
 mod file;
 mod friction;
 mod judge;
@@ -12,22 +15,27 @@ mod read;
 mod refusal;
 mod repeating;
 mod shape;
+mod stage_file;
 mod stages;
 mod stress;
 mod surface_file;
+mod table;
+mod wearing;
 
 use serde::Serialize;
 
-use crate::model::{ContactPair, CoulombFriction, Profile, Scheme};
+use crate::model::{ContactPair, CoulombFriction, Profile, Scheme, WearRule};
 
-pub use arrays::{ArraySource, ArraySupply};
+pub use attachments::Attachments;
+pub(crate) use course::walk;
+pub use course::{Course, Cycles, Path, Waveform};
 pub use file::schema;
 pub use numbers::{NumbersError, numbers};
 pub use refusal::{CaseError, Mistake};
 pub use stress::{FatigueRequest, Side, StressRequest};
 
 /// Fields that can be kept, by the names of the case file.
-pub const FIELD_NAMES: [&str; 5] = ["pressure", "shear", "slip", "gap", "zone"];
+pub const FIELD_NAMES: [&str; 6] = ["pressure", "shear", "slip", "gap", "zone", "worn_depth"];
 
 /// A case that has passed every check.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -48,6 +56,8 @@ pub struct Case {
     pub friction: CoulombFriction,
     /// Loading history.
     pub stages: Vec<Stage>,
+    /// How the surfaces wear, when they do.
+    pub wear: Option<WearRule>,
     /// Bound on the residual of every increment.
     pub tolerance: f64,
     /// How coupled pressure and shear are solved.
@@ -87,10 +97,10 @@ pub struct Stage {
     /// What changes normally, if anything.
     pub normal: Option<StageControl>,
     /// What changes tangentially along x and y, if anything.
-    pub tangential: Option<[StageControl; 2]>,
+    pub tangential: [Option<StageControl>; 2],
     /// What changes about z, if anything.
     pub twist: Option<StageControl>,
-    /// Increments of the stage, or of one cycle.
+    /// Increments of the stage, or of one cycle, all rows of a table included.
     pub increments: usize,
     /// How the stage runs through its increments.
     pub course: Course,
@@ -99,41 +109,14 @@ pub struct Stage {
     pub friction: Option<CoulombFriction>,
 }
 
-/// The value a control reaches at the end of a ramp, or its amplitude in a cycle.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+/// What a stage prescribes in one direction, and how it runs.
+#[derive(Debug, Clone, PartialEq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum StageControl {
     /// A force [force] or moment [force x length].
-    Force(f64),
+    Force(Path),
     /// A motion [length] or rotation [rad].
-    Motion(f64),
-}
-
-/// How a stage runs from where it starts.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Course {
-    /// Equal steps to the target.
-    Linear,
-    /// Forces with the third power of the share done, approach with the second: a sphere's contact radius grows evenly.
-    Cubic,
-    /// 0, +amplitude, -amplitude, 0 about the start, this many times.
-    Cycles(usize),
-}
-
-impl Stage {
-    /// Increments of the whole stage.
-    pub fn increments_in_all(&self) -> usize {
-        match self.course {
-            Course::Cycles(cycles) => self.increments * cycles,
-            Course::Linear | Course::Cubic => self.increments,
-        }
-    }
-
-    /// Whether the stage moves or loads the bodies tangentially.
-    pub fn is_tangential(&self) -> bool {
-        self.tangential.is_some() || self.twist.is_some()
-    }
+    Motion(Path),
 }
 
 /// What of the solution is kept.
@@ -146,20 +129,20 @@ pub struct Output {
 }
 
 impl Case {
-    /// Reads and checks a case from TOML text. `name` stands in messages (a file name).
+    /// Reads and checks a case from TOML text that names no other files. `name` stands in messages (a file name).
     ///
     /// # Errors
     /// With every mistake found, each with its place and a way out.
     pub fn from_toml(text: &str, name: &str) -> Result<Self, CaseError> {
-        Self::from_toml_with(text, name, &arrays::nothing)
+        Self::from_toml_with(text, name, Attachments::none())
     }
 
-    /// As [`Case::from_toml`], for a case that names files: `supply` gives their arrays.
+    /// As [`Case::from_toml`]; `attachments` hands in the files and arrays the case names.
     ///
     /// # Errors
-    /// As [`Case::from_toml`]; also when an array is not to be had, or does not fit.
-    pub fn from_toml_with(text: &str, name: &str, supply: ArraySupply<'_>) -> Result<Self, CaseError> {
-        read::case(text, name, supply)
+    /// As [`Case::from_toml`]; also when a file or an array cannot be had or does not hold what the case says.
+    pub fn from_toml_with(text: &str, name: &str, attachments: Attachments<'_>) -> Result<Self, CaseError> {
+        read::case(text, name, attachments)
     }
 
     /// Reads and checks a case given as JSON text of the same structure; messages show it as TOML.
@@ -167,22 +150,22 @@ impl Case {
     /// # Errors
     /// As [`Case::from_toml`]; also when the text is not a JSON object.
     pub fn from_json(text: &str, name: &str) -> Result<Self, CaseError> {
-        Self::from_json_with(text, name, &arrays::nothing)
+        Self::from_json_with(text, name, Attachments::none())
     }
 
-    /// As [`Case::from_json`], for a case that names files or arrays: `supply` gives them. The n-th array handed over stands in
-    /// the case as `{ "array": n }`.
+    /// As [`Case::from_json`]; `attachments` hands in the files and arrays the case names. The n-th array stands in the case as
+    /// `{ "array": n }`.
     ///
     /// # Errors
-    /// As [`Case::from_json`]; also when an array is not to be had, or does not fit.
-    pub fn from_json_with(text: &str, name: &str, supply: ArraySupply<'_>) -> Result<Self, CaseError> {
+    /// As [`Case::from_json`]; also when a file or an array cannot be had or does not hold what the case says.
+    pub fn from_json_with(text: &str, name: &str, attachments: Attachments<'_>) -> Result<Self, CaseError> {
         let refuse = |message: String| CaseError::plain(name, message);
         let value: serde_json::Value =
             serde_json::from_str(text).map_err(|error| refuse(format!("not readable as JSON: {error}")))?;
         let table = toml::Table::try_from(without_null(value))
             .map_err(|error| refuse(format!("not a case: {error}")))?;
         let text = toml::to_string(&table).map_err(|error| refuse(format!("not a case: {error}")))?;
-        Self::from_toml_with(&text, name, supply)
+        Self::from_toml_with(&text, name, attachments)
     }
 
     /// Whether there is no friction anywhere in the whole history.
@@ -215,7 +198,15 @@ impl Case {
         kept
     }
 
-    /// Increments of the whole history.
+    /// Whether the history may end before all its increments: a stage that stops when it is steady, or wear in blocks of
+    /// cycles or up to a limit.
+    pub fn is_open_ended(&self) -> bool {
+        let steady = |stage: &Stage| stage.cycles().is_some_and(|cycles| cycles.until_steady.is_some());
+        self.stages.iter().any(steady)
+            || self.wear.as_ref().is_some_and(|wear| wear.every > 1 || wear.limit.is_some())
+    }
+
+    /// Increments of the whole history, at the most.
     pub fn increments(&self) -> usize {
         self.stages.iter().map(Stage::increments_in_all).sum()
     }

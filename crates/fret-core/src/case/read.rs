@@ -6,7 +6,7 @@ use serde::Deserialize;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue, Deserializer};
 
-use super::arrays::ArraySupply;
+use super::attachments::Attachments;
 use super::refusal::{CaseError, Mistake};
 use super::{Case, check, file::CaseFile};
 
@@ -19,7 +19,7 @@ const DEEPEST: usize = 16;
 /// Longer texts are not cases.
 const LONGEST: usize = 4 << 20;
 
-pub(super) fn case(text: &str, name: &str, supply: ArraySupply<'_>) -> Result<Case, CaseError> {
+pub(super) fn case(text: &str, name: &str, attachments: Attachments<'_>) -> Result<Case, CaseError> {
     if text.len() > LONGEST {
         return Err(CaseError::plain(
             name,
@@ -84,7 +84,7 @@ pub(super) fn case(text: &str, name: &str, supply: ArraySupply<'_>) -> Result<Ca
         // What stands for a whole table would be judged together with the rest.
         return Err(CaseError::new(name, text, mistakes));
     }
-    match check::case(file, name, text, supply) {
+    match check::case(file, name, text, attachments) {
         Ok(case) if mistakes.is_empty() => Ok(case),
         Ok(_) => Err(CaseError::new(name, text, mistakes)),
         Err(found) => {

@@ -2,9 +2,10 @@
 
 use toml::Spanned;
 
-use super::GridSize;
-use super::file::{GridFile, StageFile};
+use super::file::GridFile;
 use super::judge::Judge;
+use super::stage_file::StageFile;
+use super::{GridSize, Stage, StageControl};
 use crate::model::{Profile, Shape};
 
 /// Whether the scene repeats; refuses what has no meaning then.
@@ -12,7 +13,7 @@ pub(super) fn repeats(
     judge: &mut Judge,
     grid: &GridFile,
     size: Option<GridSize>,
-    stages: &Spanned<Vec<Spanned<StageFile>>>,
+    (stages, checked): (&Spanned<Vec<Spanned<StageFile>>>, Option<&[Stage]>),
     profile: Option<&Profile>,
 ) -> bool {
     let periodic = grid.periodic.as_ref().is_some_and(|periodic| *periodic.get_ref());
@@ -39,13 +40,18 @@ pub(super) fn repeats(
         }
         _ => {}
     }
-    for stage in stages.get_ref() {
+    for (index, stage) in stages.get_ref().iter().enumerate() {
         let stage = stage.get_ref();
+        let in_table = checked.and_then(|checked| checked.get(index)).is_some_and(|stage| {
+            let motion = |control: &Option<_>| control.as_ref().is_some_and(StageControl::is_motion);
+            motion(&stage.normal) || stage.tangential.iter().any(motion) || stage.twist.is_some()
+        });
         let motions = [
             ("approach", stage.approach.as_ref().map(Spanned::span)),
             ("shift", stage.shift.as_ref().map(Spanned::span)),
             ("twist_moment", stage.twist_moment.as_ref().map(Spanned::span)),
             ("twist", stage.twist.as_ref().map(Spanned::span)),
+            ("a motion or twist", stage.table.as_ref().filter(|_| in_table).map(Spanned::span)),
         ];
         for (key, span) in motions {
             if let Some(span) = span {

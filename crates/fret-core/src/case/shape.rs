@@ -4,14 +4,14 @@ use std::ops::Range;
 
 use toml::Spanned;
 
-use super::arrays::Desk;
+use super::arrays;
 use super::file::CaseFile;
 use super::judge::Judge;
 use super::surface_file::{AxisFile, DetrendFile, HeightsFile, OfFile, ProfileFile, WaveFile};
 use crate::model::{Axis, Detrend, Heights, Profile, Shape};
 
 /// The gap, as the sum of all profiles of a case; `None` when something about them was refused.
-pub(super) fn profile(judge: &mut Judge, file: &CaseFile, desk: Desk<'_>) -> Option<Profile> {
+pub(super) fn profile(judge: &mut Judge, file: &CaseFile, cells: Option<[usize; 2]>) -> Option<Profile> {
     let places = [
         ("profile", &file.profile),
         ("upper.profile", &file.upper.get_ref().profile),
@@ -21,10 +21,10 @@ pub(super) fn profile(judge: &mut Judge, file: &CaseFile, desk: Desk<'_>) -> Opt
     let mut sum = Profile::default();
     for (place, given) in places {
         if let Some(given) = given {
-            Part { judge, place, desk, sum: &mut sum }.judge(given);
+            Part { judge, place, cells, sum: &mut sum }.judge(given);
         }
     }
-    if judge.mistakes.len() > before || desk.cells.is_none() {
+    if judge.mistakes.len() > before || cells.is_none() {
         return None;
     }
     let Some(first) = places.iter().find_map(|(_, given)| given.as_ref()) else {
@@ -48,9 +48,9 @@ pub(super) fn profile(judge: &mut Judge, file: &CaseFile, desk: Desk<'_>) -> Opt
 
 /// One profile table while it is judged.
 struct Part<'a, 'b> {
-    judge: &'a mut Judge,
+    judge: &'a mut Judge<'b>,
     place: &'static str,
-    desk: Desk<'b>,
+    cells: Option<[usize; 2]>,
     sum: &'a mut Profile,
 }
 
@@ -201,19 +201,19 @@ impl Part<'_, '_> {
                 *unit.get_ref()
             }
         };
-        self.desk.cells?;
+        self.cells?;
         let (source, at, array) = match (&given.file, &given.values) {
             (Some(file), None) => {
                 let key = format!("{place}.file");
                 (
                     file.get_ref().as_str(),
                     file.span(),
-                    self.desk.file(self.judge, &key, file.span(), file.get_ref())?,
+                    arrays::of_file(self.judge, &key, file.span(), file.get_ref())?,
                 )
             }
             (None, Some(values)) => {
                 let key = format!("{place}.values");
-                ("values", values.span(), self.desk.array(self.judge, &key, values.span(), values.get_ref())?)
+                ("values", values.span(), arrays::given(self.judge, &key, values.span(), values.get_ref())?)
             }
             (Some(_), Some(values)) => {
                 return self.judge.refuse(
@@ -234,7 +234,7 @@ impl Part<'_, '_> {
             Some(AxisFile::Y) => array.reversed_axes().as_standard_layout().into_owned(),
             Some(AxisFile::X) | None => array.as_standard_layout().into_owned(),
         };
-        let mut array = self.desk.fitting(self.judge, &place, at.clone(), array)?;
+        let mut array = arrays::fitting(self.judge, self.cells, &place, at.clone(), array)?;
         let sign = if of_gap.is_some() { -1.0 } else { 1.0 };
         array.mapv_inplace(|height| sign * unit * height);
         let detrend = match given.detrend {

@@ -2,13 +2,18 @@
 
 use toml::Spanned;
 
-use super::file::{RampFile, StageFile};
+use super::controls::controls;
+use super::course::{Course, Cycles, Waveform, walk};
 use super::judge::Judge;
-use super::{Course, Stage, StageControl};
-use crate::model::CoulombFriction;
+use super::stage_file::{RampFile, StageFile, WaveformFile};
+use super::table::table;
+use super::{Stage, StageControl};
+use crate::model::{Control, CoulombFriction};
 
 /// Increments of a whole history, at the most.
 const MOST_INCREMENTS: usize = 10_000_000;
+/// Cycles of a stage, at the most.
+const MOST_CYCLES: usize = 1_000_000;
 
 /// The stages; `None` when something about them was refused.
 pub(super) fn stages(
@@ -30,10 +35,7 @@ pub(super) fn stages(
     }
     let stages: Vec<Stage> = checked.into_iter().collect::<Option<_>>()?;
     let in_all = stages.iter().fold(0_usize, |sum, stage| {
-        sum.saturating_add(match stage.course {
-            Course::Cycles(cycles) => stage.increments.saturating_mul(cycles),
-            Course::Linear | Course::Cubic => stage.increments,
-        })
+        sum.saturating_add(stage.increments.saturating_mul(stage.cycles().map_or(1, |cycles| cycles.most)))
     });
     if in_all > MOST_INCREMENTS {
         return judge.refuse(
@@ -50,61 +52,53 @@ fn stage(judge: &mut Judge, index: usize, given: &Spanned<StageFile>, frictionle
     let file = given.get_ref();
     let name = file.name.clone().unwrap_or_else(|| format!("stage {}", index + 1));
     let place = format!("load[{index}] ({name})");
-    let increments = *file.increments.get_ref();
+    let mut increments = *file.increments.get_ref();
     if !(1..=MOST_INCREMENTS).contains(&increments) {
         let message = format!("{place}.increments = {increments}: must lie between 1 and {MOST_INCREMENTS}");
         judge.refuse::<()>(file.increments.span(), message, "");
     }
-    let normal = one_control(
-        judge,
-        &place,
-        ("normal_force", file.normal_force.as_ref()),
-        ("approach", file.approach.as_ref()),
-    );
-    let twist = one_control(
-        judge,
-        &place,
-        ("twist_moment", file.twist_moment.as_ref()),
-        ("twist", file.twist.as_ref()),
-    );
-    let tangential = tangential_control(judge, &place, file);
-    if index == 0 && file.normal_force.is_none() && file.approach.is_none() {
+    let columns = match &file.table {
+        Some(name) => Some(table(judge, &place, file, name)?),
+        None => None,
+    };
+    if let Some(columns) = &columns {
+        let rows = columns.values().next().map_or(1, Vec::len);
+        increments = increments.saturating_mul(rows);
+    }
+    let controls = controls(judge, &place, file, columns.as_ref());
+    let [normal, x, y, twist] = controls;
+    if index == 0 && normal.is_none() && judge.mistakes.len() == before {
         judge.refuse::<()>(
             given.span(),
             format!("{place}: the first stage says neither normal_force nor approach"),
             "bodies must be pressed together first: normal_force = ...",
         );
     }
-    if let (Some(StageControl::Force(force)), Some(value)) = (normal, &file.normal_force)
-        && force < 0.0
-    {
-        judge.refuse::<()>(
-            value.span(),
-            format!(
-                "{place}.normal_force = {force:?}: compression is positive, and the surfaces do not adhere"
-            ),
-            "",
-        );
-    }
     let course = course(judge, &place, file, increments);
-    if frictionless
-        && let Some(span) = [
-            file.tangential_force.as_ref().filter(|force| force.get_ref() != &[0.0; 2]).map(Spanned::span),
+    let stage = Stage {
+        name,
+        normal,
+        tangential: [x, y],
+        twist,
+        increments,
+        course: course.unwrap_or(Course::Linear),
+        friction: None,
+    };
+    if frictionless && stage.is_tangential_beyond_rest() {
+        let spans = [
+            file.tangential_force.as_ref().map(Spanned::span),
             file.shift.as_ref().map(Spanned::span),
             file.twist_moment.as_ref().map(Spanned::span),
             file.twist.as_ref().map(Spanned::span),
-        ]
-        .into_iter()
-        .flatten()
-        .next()
-    {
+            file.table.as_ref().map(Spanned::span),
+        ];
         judge.refuse::<()>(
-            span,
+            spans.into_iter().flatten().next().unwrap_or(given.span()),
             format!("{place}: a tangential load on a contact without friction"),
             "[friction] coefficient = ..., or leave the tangential load out",
         );
     }
-    let says_nothing = normal.is_none() && tangential.is_none() && twist.is_none() && file.friction.is_none();
+    let says_nothing = stage.normal.is_none() && !stage.is_tangential() && file.friction.is_none();
     if says_nothing && judge.mistakes.len() == before {
         judge.refuse::<()>(
             given.span(),
@@ -112,154 +106,211 @@ fn stage(judge: &mut Judge, index: usize, given: &Spanned<StageFile>, frictionle
             "normal_force, approach, tangential_force, shift, twist_moment, twist or friction",
         );
     }
-    (judge.mistakes.len() == before).then(|| Stage {
-        name,
-        normal,
-        tangential,
-        twist,
-        increments,
-        course: course.unwrap_or(Course::Linear),
-        friction: None,
-    })
+    (judge.mistakes.len() == before).then_some(stage)
 }
 
 fn course(judge: &mut Judge, place: &str, file: &StageFile, increments: usize) -> Option<Course> {
-    match (&file.cycles, &file.ramp) {
-        (Some(cycles), Some(_)) => judge.refuse(
-            cycles.span(),
-            format!("{place}: ramp and cycles, both at once"),
-            "cycles run linearly: leave out the ramp, or give the ramp a stage of its own",
-        ),
-        (Some(cycles), None) => {
-            let count = *cycles.get_ref();
-            if !(1..=1_000_000).contains(&count) {
-                return judge.refuse(
-                    cycles.span(),
-                    format!("{place}.cycles = {count}: must lie between 1 and 1000000"),
-                    "",
-                );
-            }
-            if increments < 4 {
-                return judge.refuse(
-                    file.increments.span(),
-                    format!("{place}.increments = {increments}: a cycle turns twice and needs at least 4"),
-                    "",
-                );
-            }
-            let normal = file.normal_force.as_ref().or(file.approach.as_ref());
-            if let Some(normal) = normal {
-                return judge.refuse(
-                    normal.span(),
-                    format!("{place}: a normal load that runs in cycles is not built yet"),
-                    "cycles of tangential_force, shift, twist_moment or twist are built",
-                );
-            }
-            Some(Course::Cycles(count))
+    let (most, until_steady) = match (&file.cycles, &file.until_steady) {
+        (Some(cycles), Some(_)) => {
+            return judge.refuse(
+                cycles.span(),
+                format!("{place}: cycles and until_steady, both at once"),
+                "until_steady counts its own cycles: most_cycles = ...",
+            );
         }
-        (None, Some(ramp)) => Some(match ramp.get_ref() {
+        (None, None) => return ramp(judge, place, file),
+        (Some(cycles), None) => (cycles, None),
+        (None, Some(steady)) => {
+            let steady = steady.get_ref();
+            let tolerance = *steady.tolerance.get_ref();
+            if !(tolerance > 0.0 && tolerance < 1.0) {
+                let message = format!(
+                    "{place}.until_steady.tolerance = {tolerance:?}: must lie between 0 and 1, relative"
+                );
+                return judge.refuse(steady.tolerance.span(), message, "1e-3 serves most purposes");
+            }
+            (&steady.most_cycles, Some(tolerance))
+        }
+    };
+    if !(1..=MOST_CYCLES).contains(most.get_ref()) {
+        let key = if until_steady.is_some() { "until_steady.most_cycles" } else { "cycles" };
+        let message = format!("{place}.{key} = {}: must lie between 1 and {MOST_CYCLES}", most.get_ref());
+        return judge.refuse(most.span(), message, "");
+    }
+    if let Some(ramp) = &file.ramp {
+        return judge.refuse(
+            ramp.span(),
+            format!("{place}: ramp and cycles, both at once"),
+            "a cycle has a waveform: leave out the ramp, or give the ramp a stage of its own",
+        );
+    }
+    let waveform = waveform(judge, place, file)?;
+    if file.table.is_none() && increments < waveform.fewest_increments() {
+        return judge.refuse(
+            file.increments.span(),
+            format!(
+                "{place}.increments = {increments}: the turns of this cycle need at least {}",
+                waveform.fewest_increments()
+            ),
+            "",
+        );
+    }
+    let envelope = match &file.envelope {
+        None => [1.0; 2],
+        Some(given) => {
+            let words = if given.get_ref().iter().any(|share| !share.is_finite()) {
+                "both shares must be finite"
+            } else if until_steady.is_some() && given.get_ref()[0] != given.get_ref()[1] {
+                "amplitudes that change never become steady"
+            } else {
+                ""
+            };
+            if !words.is_empty() {
+                let message = format!("{place}.envelope = {:?}: {words}", given.get_ref());
+                return judge.refuse(given.span(), message, "");
+            }
+            *given.get_ref()
+        }
+    };
+    Some(Course::Cycles(Cycles { most: *most.get_ref(), waveform, envelope, until_steady }))
+}
+
+/// The course of a stage without cycles.
+fn ramp(judge: &mut Judge, place: &str, file: &StageFile) -> Option<Course> {
+    let only_cycles = [
+        ("waveform", file.waveform.as_ref().map(Spanned::span)),
+        ("dwell", file.dwell.as_ref().map(Spanned::span)),
+        ("phase", file.phase.as_ref().map(Spanned::span)),
+        ("envelope", file.envelope.as_ref().map(Spanned::span)),
+    ];
+    for (key, span) in only_cycles {
+        if let Some(span) = span {
+            return judge.refuse(
+                span,
+                format!("{place}.{key}: the stage has no cycles"),
+                "cycles = ..., or until_steady = { tolerance = ..., most_cycles = ... }",
+            );
+        }
+    }
+    match (&file.ramp, &file.table) {
+        (Some(ramp), Some(_)) => judge.refuse(
+            ramp.span(),
+            format!("{place}: ramp and table, both at once"),
+            "a table is followed from row to row by straight lines",
+        ),
+        (Some(ramp), None) => Some(match ramp.get_ref() {
             RampFile::Linear => Course::Linear,
             RampFile::Cubic => Course::Cubic,
         }),
-        (None, None) => Some(Course::Linear),
+        (None, _) => Some(Course::Linear),
     }
 }
 
-type Given<'a, T> = (&'a str, Option<&'a Spanned<T>>);
-
-fn one_control(
-    judge: &mut Judge,
-    place: &str,
-    force: Given<'_, f64>,
-    motion: Given<'_, f64>,
-) -> Option<StageControl> {
-    let (key, value, control): (&str, &Spanned<f64>, fn(f64) -> StageControl) = match (force.1, motion.1) {
-        (None, None) => return None,
-        (Some(value), None) => (force.0, value, StageControl::Force),
-        (None, Some(value)) => (motion.0, value, StageControl::Motion),
-        (Some(_), Some(value)) => {
-            return judge.refuse(
-                value.span(),
-                format!("{place}: {} and {}, both at once", force.0, motion.0),
-                "prescribe one of the two; the other follows",
-            );
+fn waveform(judge: &mut Judge, place: &str, file: &StageFile) -> Option<Waveform> {
+    if let Some(name) = &file.table {
+        let keys = [
+            ("waveform", file.waveform.as_ref().map(Spanned::span)),
+            ("phase", file.phase.as_ref().map(Spanned::span)),
+            ("envelope", file.envelope.as_ref().map(Spanned::span)),
+        ];
+        for (key, span) in keys {
+            if let Some(span) = span {
+                let message = format!("{place}.{key}: the cycle stands in the table {:?}", name.get_ref());
+                return judge.refuse(span, message, "");
+            }
         }
-    };
-    if !value.get_ref().is_finite() {
+    }
+    let word = file.waveform.as_ref().map_or(WaveformFile::Triangle, |given| *given.get_ref());
+    if let (Some(dwell), false) = (&file.dwell, word == WaveformFile::Trapezoid) {
         return judge.refuse(
-            value.span(),
-            format!("{place}.{key} = {}: must be finite", value.get_ref()),
-            "",
+            dwell.span(),
+            format!("{place}.dwell: only a trapezoid holds its extremes"),
+            "waveform = \"trapezoid\"",
         );
     }
-    Some(control(*value.get_ref()))
-}
-
-fn tangential_control(judge: &mut Judge, place: &str, file: &StageFile) -> Option<[StageControl; 2]> {
-    type Kind = fn(f64) -> StageControl;
-    let (key, value, control): (&str, &Spanned<[f64; 2]>, Kind) = match (&file.tangential_force, &file.shift)
-    {
-        (None, None) => return None,
-        (Some(value), None) => ("tangential_force", value, StageControl::Force),
-        (None, Some(value)) => ("shift", value, StageControl::Motion),
-        (Some(_), Some(value)) => {
-            return judge.refuse(
-                value.span(),
-                format!("{place}: tangential_force and shift, both at once"),
-                "prescribe one of the two; the other follows",
-            );
+    Some(match word {
+        WaveformFile::Triangle => Waveform::Triangle,
+        WaveformFile::Sine => Waveform::Sine,
+        WaveformFile::Trapezoid => {
+            let dwell = file.dwell.as_ref().map_or(0.25, |given| *given.get_ref());
+            if let (Some(given), false) = (&file.dwell, (1e-3..=0.499).contains(&dwell)) {
+                let message =
+                    format!("{place}.dwell = {dwell:?}: must lie between 0.001 and 0.499 of a cycle");
+                return judge.refuse(given.span(), message, "");
+            }
+            Waveform::Trapezoid { dwell }
         }
-    };
-    if value.get_ref().iter().any(|part| !part.is_finite()) {
-        return judge.refuse(
-            value.span(),
-            format!("{place}.{key} = {:?}: must be finite", value.get_ref()),
-            "",
-        );
-    }
-    Some(value.get_ref().map(control))
+    })
 }
 
-/// Forces that Coulomb's law, which is given for each stage, cannot carry are refused before anything is computed, as far as the forces are given.
+/// Forces without equilibrium are refused before anything is computed, as far as the case fixes them: tangential ones that
+/// Coulomb's law, which is given for each stage, cannot carry, and normal ones that pull.
 pub(super) fn sliding(
     judge: &mut Judge,
     friction: &[&CoulombFriction],
     list: &Spanned<Vec<Spanned<StageFile>>>,
+    stages: &[Stage],
 ) {
-    let mut normal = None;
-    let mut held = [0.0; 2];
-    for (index, stage) in list.get_ref().iter().enumerate() {
-        let stage = stage.get_ref();
-        let start = normal;
-        if let Some(force) = &stage.normal_force {
-            normal = Some(*force.get_ref());
-        } else if stage.approach.is_some() {
-            normal = None;
+    let mut worst: Vec<(f64, f64)> = vec![(0.0, f64::INFINITY); stages.len()];
+    let mut lowest = vec![f64::INFINITY; stages.len()];
+    walk(stages, |number, loads| {
+        let [normal, x, y, _] = loads;
+        let Some(Control::Force(normal)) = normal else { return };
+        lowest[number] = lowest[number].min(*normal);
+        let part = |control: &Option<Control>| match control {
+            Some(Control::Force(force)) => *force,
+            _ => 0.0,
+        };
+        let (asked, bound) = (part(x).hypot(part(y)), friction[number].largest() * normal.max(0.0));
+        if asked > bound * (1.0 + 1e-12) && asked > worst[number].0 {
+            worst[number] = (asked, bound);
         }
-        let Some(tangential) = &stage.tangential_force else {
-            if stage.shift.is_some() {
-                return;
-            }
-            continue;
-        };
-        let Some(force) = normal else { continue };
-        let force = if stage.cycles.is_some() { start.unwrap_or(force) } else { force };
-        let reached = if stage.cycles.is_some() {
-            let given = tangential.get_ref();
-            let [plus, minus] =
-                [1.0, -1.0].map(|sign| (held[0] + sign * given[0]).hypot(held[1] + sign * given[1]));
-            plus.max(minus)
-        } else {
-            held = *tangential.get_ref();
-            held[0].hypot(held[1])
-        };
-        let largest = friction[index].largest();
-        let bound = largest * force;
-        if reached > bound * (1.0 + 1e-12) && largest > 0.0 {
+    });
+    for (index, (stage, file)) in stages.iter().zip(list.get_ref()).enumerate() {
+        let file = file.get_ref();
+        let table = file.table.as_ref().map(Spanned::span);
+        if stage.normal.is_some() && lowest[index] < 0.0 {
             judge.refuse::<()>(
-                tangential.span(),
-                format!("load[{index}].tangential_force reaches {reached:e}: friction carries at most mu W = {bound:e}"),
+                file.normal_force.as_ref().map(Spanned::span).or(table.clone()).unwrap_or_default(),
+                format!(
+                    "load[{index}].normal_force reaches {:?}: compression is positive, and the surfaces do not adhere",
+                    lowest[index]
+                ),
+                "",
+            );
+            return;
+        }
+        let (asked, bound) = worst[index];
+        if asked > 0.0 && friction[index].largest() > 0.0 {
+            let span = file.tangential_force.as_ref().map(Spanned::span).or(table);
+            let key = if span.is_some() { "tangential_force" } else { "normal_force" };
+            let span = span.or(file.normal_force.as_ref().map(Spanned::span)).unwrap_or_default();
+            judge.refuse::<()>(
+                span,
+                format!(
+                    "load[{index}].{key}: the tangential force reaches {asked:e}, where friction carries at most mu W = {bound:e}"
+                ),
                 "a force above mu W has no equilibrium; prescribe the shift to slide",
             );
+            return;
         }
+    }
+}
+
+impl Stage {
+    /// Whether the stage prescribes any tangential force or motion.
+    pub fn is_tangential(&self) -> bool {
+        self.tangential.iter().any(Option::is_some) || self.twist.is_some()
+    }
+
+    /// Whether it prescribes more than forces that stay zero.
+    fn is_tangential_beyond_rest(&self) -> bool {
+        use super::Path;
+        let rests = |control: &StageControl| match control {
+            StageControl::Motion(_) => false,
+            StageControl::Force(Path::To(value) | Path::Wave { amplitude: value, .. }) => *value == 0.0,
+            StageControl::Force(Path::Through(values)) => values.iter().all(|value| *value == 0.0),
+        };
+        self.tangential.iter().flatten().any(|control| !rests(control)) || self.twist.is_some()
     }
 }

@@ -12,6 +12,7 @@ pub mod profile;
 pub mod scheme;
 pub mod shape;
 pub mod state;
+pub mod wear;
 
 pub use field::TangentialField;
 pub use friction::{CoulombFriction, FrictionError};
@@ -24,3 +25,4 @@ pub use profile::{BEYOND_THE_BODY, Profile, ProfileError};
 pub use scheme::Scheme;
 pub use shape::{Axis, Shape};
 pub use state::{ContactState, Zone};
+pub use wear::{WearLaw, WearRule};

@@ -26,6 +26,8 @@ pub struct ContactState {
     pub slip: [Array2<f64>; 2],
     /// What each cell did in the last increment.
     pub zone: Array2<Zone>,
+    /// Depth worn off both bodies together [length]; `None` where nothing wears.
+    pub worn_depth: Option<Array2<f64>>,
     /// Rigid normal approach [length].
     pub approach: f64,
     /// Rigid tangential displacement of the upper body relative to the lower [length].
@@ -46,19 +48,21 @@ impl ContactState {
             shear: [zero(), zero()],
             slip: [zero(), zero()],
             zone: Array2::from_elem(cells, Zone::Open),
+            worn_depth: None,
             approach: 0.0,
             shift: [0.0; 2],
             twist: 0.0,
             dissipated_energy: 0.0,
         }
     }
+
     /// Whether this can be a state on a grid of `cells`: every field of its shape, every number finite.
     pub fn is_sound(&self, cells: [usize; 2]) -> bool {
         let [qx, qy] = &self.shear;
         let [sx, sy] = &self.slip;
         let motions = [self.approach, self.shift[0], self.shift[1], self.twist, self.dissipated_energy];
         let field = |field: &Array2<f64>| field.dim() == cells.into() && field.iter().all(|v| v.is_finite());
-        [&self.pressure, qx, qy, sx, sy].into_iter().all(field)
+        [&self.pressure, qx, qy, sx, sy].into_iter().chain(&self.worn_depth).all(field)
             && self.zone.dim() == cells.into()
             && motions.iter().all(|motion| motion.is_finite())
     }

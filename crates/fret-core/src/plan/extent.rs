@@ -2,7 +2,7 @@
 
 use std::ops::ControlFlow;
 
-use crate::case::{Case, StageControl};
+use crate::case::{Case, walk};
 use crate::compliance::SurfaceResponse;
 use crate::kernel::{Components, influence_coefficients};
 use crate::model::{
@@ -84,13 +84,11 @@ pub fn automatic_size(case: &Case) -> Option<[f64; 2]> {
 fn heaviest_loads(case: &Case) -> Vec<Control> {
     let mut force = 0.0_f64;
     let mut approach = 0.0_f64;
-    for stage in &case.stages {
-        match stage.normal {
-            Some(StageControl::Force(value)) => force = force.max(value),
-            Some(StageControl::Motion(value)) => approach = approach.max(value),
-            None => {}
-        }
-    }
+    walk(&case.stages, |_, [normal, ..]| match normal {
+        Some(Control::Force(value)) => force = force.max(*value),
+        Some(Control::Motion(value)) => approach = approach.max(*value),
+        None => {}
+    });
     let mut loads = Vec::new();
     if force > 0.0 {
         loads.push(Control::Force(force));

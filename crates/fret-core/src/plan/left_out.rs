@@ -3,8 +3,7 @@
 use ndarray::Axis;
 
 use super::{LeaveOut, LeftOut, Shortcut};
-use crate::case::Case;
-use crate::case::StageControl;
+use crate::case::{Case, Path, StageControl};
 use crate::kernel::PairResponse;
 use crate::model::{Body, CoulombFriction, SurfaceGrid};
 use crate::solver::Coupling;
@@ -67,8 +66,8 @@ pub fn left_out(
         if increments > 0 {
             leave(
                 "normal problem while the pressure cannot change",
-                "the normal load stays and shear does not act on pressure",
-                &format!("the pressure, the gap and the edge of contact in {increments} increments"),
+                "the normal load stays, shear does not act on pressure, and wear changes the gap between cycles alone",
+                &format!("the pressure, the gap and the edge of contact in up to {increments} increments"),
             );
         }
     }
@@ -107,7 +106,10 @@ pub fn left_out(
 
 /// Increments of the stages before the first that names a tangential control; none when the first one does.
 fn increments_before_a_cause(case: &Case) -> Option<usize> {
-    let quiet = case.stages.iter().take_while(|stage| stage.tangential.is_none() && stage.twist.is_none());
+    let quiet = case
+        .stages
+        .iter()
+        .take_while(|stage| stage.tangential.iter().all(Option::is_none) && stage.twist.is_none());
     Some(quiet.map(|stage| stage.increments_in_all()).sum()).filter(|sum| *sum > 0)
 }
 
@@ -129,8 +131,12 @@ pub fn one_way(
         return None;
     }
     let loads = |axis: usize| {
-        case.stages.iter().filter_map(|stage| stage.tangential).any(|controls| match controls[axis] {
-            StageControl::Force(value) | StageControl::Motion(value) => value != 0.0,
+        case.stages.iter().filter_map(|stage| stage.tangential[axis].as_ref()).any(|control| {
+            let (StageControl::Force(path) | StageControl::Motion(path)) = control;
+            match path {
+                Path::To(value) | Path::Wave { amplitude: value, .. } => *value != 0.0,
+                Path::Through(values) => values.iter().any(|value| *value != 0.0),
+            }
         })
     };
     let axis = match [loads(0), loads(1)] {

@@ -148,6 +148,15 @@ impl<'a> ContactSolver<'a> {
         self.friction = friction;
     }
 
+    /// Goes on with another undeformed gap [length], shape of the grid: what was settled before holds no longer. Tractions, loads
+    /// and the box of the last increment still do.
+    pub fn reshape(&mut self, undeformed: Array2<f64>) {
+        self.undeformed = undeformed;
+        self.coarse = None;
+        self.memory.settled = None;
+        self.memory.before = None;
+    }
+
     /// Solves one increment: from `state`, which the step before returned, to the loads and motions of `load`.
     ///
     /// # Errors

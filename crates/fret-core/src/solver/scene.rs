@@ -447,6 +447,7 @@ impl<'a> Scene<'a> {
         let zones = Zones::classify(&packed, &s, &bound, |_| false);
         let modes = self.places.modes(&contact);
         let mut state = ContactState::untouched(self.grid.cells());
+        state.worn_depth.clone_from(&self.state.worn_depth);
         self.region.place(pressure, &mut state.pressure);
         self.region.place(&shear.x, &mut state.shear[0]);
         self.region.place(&shear.y, &mut state.shear[1]);

@@ -360,5 +360,5 @@ pub fn zones(scene: &Scene<'_>) -> Result<String, Failure> {
     let legend = "<ul class=\"legend\"><li><span class=\"swatch stick\"></span>stick</li><li><span class=\"swatch slip\"></span>\
                   slip</li><li><span class=\"swatch open\"></span>no contact</li></ul>";
     let words = "<p>What each cell did in the increment: stage, number in it.</p>";
-    Ok(chapter("Stick and slip", &format!("{words}<div class=\"maps\">{drawn}</div>{legend}\n")))
+    Ok(chapter("Stick and slip", &format!("{words}{legend}<div class=\"maps\">{drawn}</div>\n")))
 }

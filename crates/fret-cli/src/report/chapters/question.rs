@@ -17,12 +17,15 @@ pub fn head(scene: &Scene<'_>) -> String {
     let mut line = vec![
         format!("fretting {}", text(&record["version"])),
         status.clone(),
-        if table.rows() == all {
-            counted(all, "increment")
+        if table.rows() == all || status == "solved" {
+            counted(table.rows(), "increment")
         } else {
             format!("{} of {all} increments", table.rows())
         },
     ];
+    if let Some(cycles) = record["worn_through"]["cycles"].as_u64() {
+        line.push(format!("worn to the limit after {}", counted(cycles as usize, "cycle")));
+    }
     if let Some(wall_s) = record["totals"]["wall_s"].as_f64() {
         let threads = record["threads"].as_u64().unwrap_or(1) as usize;
         line.push(format!("{} on {}", duration(wall_s), counted(threads, "thread")));
@@ -91,6 +94,9 @@ pub fn question(scene: &Scene<'_>) -> String {
         _ => "",
     };
     rows.push(("solved".to_owned(), solved.to_owned()));
+    if !case["wear"].is_null() {
+        rows.push(("wear".to_owned(), described(&case["wear"])));
+    }
     for (number, stage) in case["stages"].as_array().map_or(&[][..], Vec::as_slice).iter().enumerate() {
         rows.push((format!("stage {}", number + 1), self::stage(stage)));
     }
@@ -162,10 +168,8 @@ fn friction(friction: &Value) -> String {
 
 fn stage(stage: &Value) -> String {
     let to = |control: &Value, force: &str, motion: &str| {
-        let value = |name: &str| control[name].as_f64().map(given);
-        value("force")
-            .map(|value| format!("{force} {value}"))
-            .or_else(|| value("motion").map(|value| format!("{motion} {value}")))
+        let told = |kind: &str, name: &str| path(&control[kind]).map(|path| format!("{name} {path}"));
+        told("force", force).or_else(|| told("motion", motion))
     };
     let mut parts: Vec<String> = Vec::new();
     parts.extend(to(&stage["normal"], "normal force", "approach"));
@@ -176,9 +180,12 @@ fn stage(stage: &Value) -> String {
     }
     parts.extend(to(&stage["twist"], "twist moment", "twist"));
     let increments = stage["increments"].as_u64().unwrap_or(0) as usize;
-    let course = match stage["course"]["cycles"].as_u64() {
-        Some(cycles) => {
-            format!("{} of {}", counted(cycles as usize, "cycle"), counted(increments, "increment"))
+    let cycles = &stage["course"]["cycles"];
+    let course = match cycles["most"].as_u64() {
+        Some(most) => {
+            let until = cycles["until_steady"].as_f64().map(given);
+            let until = until.map_or(String::new(), |until| format!("until they close to {until}, at most "));
+            format!("{until}{} of {}", counted(most as usize, "cycle"), counted(increments, "increment"))
         }
         None => format!(
             "{} in {}",
@@ -187,6 +194,18 @@ fn stage(stage: &Value) -> String {
         ),
     };
     format!("<b>{}</b>: {}; {course}", escaped(stage["name"].as_str().unwrap_or_default()), parts.join(", "))
+}
+
+/// What a control runs through; none where there is no control.
+fn path(path: &Value) -> Option<String> {
+    let values =
+        path["through"].as_array().map(|values| format!("through {} values of a table", values.len()));
+    let wave = path["wave"]["amplitude"].as_f64().map(|amplitude| {
+        let phase = path["wave"]["phase"].as_f64().filter(|phase| *phase != 0.0);
+        let ahead = phase.map_or(String::new(), |phase| format!(" ahead by {} of a cycle", given(phase)));
+        format!("± {}{ahead}", given(amplitude))
+    });
+    path["to"].as_f64().map(given).or(wave).or(values)
 }
 
 /// What was not computed, and why the answer is the same without it.

@@ -1,0 +1,304 @@
+//! How a control runs through the increments of a stage: ramps, waves of a cycle, tables.
+
+use std::f64::consts::TAU;
+
+use serde::Serialize;
+
+use super::{Stage, StageControl};
+use crate::model::{Control, LoadStep};
+
+/// How a stage runs from where it starts.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Course {
+    /// Equal steps to the target, or from row to row of a table.
+    Linear,
+    /// Forces with the third power of the share done, approach with the second: a sphere's contact radius grows evenly.
+    Cubic,
+    /// The same again and again.
+    Cycles(Cycles),
+}
+
+/// Cycles of a stage.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Cycles {
+    /// How many; at the most, where the stage ends when it is steady or worn.
+    pub most: usize,
+    /// Shape of a cycle of amplitudes.
+    pub waveform: Waveform,
+    /// Share of the amplitudes at the start of the stage and at its end; linear between them.
+    pub envelope: [f64; 2],
+    /// The stage ends when a cycle ends where it began, up to this.
+    pub until_steady: Option<f64>,
+}
+
+/// Shape of a cycle: 0, +1, -1, 0 at the shares 0, 1/4, 3/4, 1 of its length.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Waveform {
+    /// Straight lines.
+    Triangle,
+    /// A sine.
+    Sine,
+    /// Straight lines with both extremes held for this share of the cycle.
+    Trapezoid {
+        /// Share of the cycle, below a half.
+        dwell: f64,
+    },
+}
+
+/// What a control runs through.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Path {
+    /// To a value, at the end of the stage.
+    To(f64),
+    /// A wave of this amplitude. It goes on from where the control is: its middle is the start less the wave's first value.
+    Wave {
+        /// Amplitude, in the control's unit.
+        amplitude: f64,
+        /// Share of a cycle by which it is ahead.
+        phase: f64,
+    },
+    /// Through values in turn, one after so many increments.
+    Through(Vec<f64>),
+}
+
+impl Waveform {
+    /// Turning points of a cycle: share of the cycle, and value.
+    fn corners(self) -> Vec<(f64, f64)> {
+        match self {
+            Self::Triangle => vec![(0.25, 1.0), (0.75, -1.0)],
+            Self::Sine => vec![(0.0, 0.0), (0.25, 1.0), (0.5, 0.0), (0.75, -1.0)],
+            Self::Trapezoid { dwell } => {
+                let half = 0.5 * dwell;
+                vec![(0.25 - half, 1.0), (0.25 + half, 1.0), (0.75 - half, -1.0), (0.75 + half, -1.0)]
+            }
+        }
+    }
+
+    /// Fewest increments of a cycle that meet all turning points.
+    pub fn fewest_increments(self) -> usize {
+        match self {
+            Self::Triangle | Self::Sine => 4,
+            Self::Trapezoid { dwell } => (1.0 / dwell.min(0.5 - dwell)).ceil() as usize,
+        }
+    }
+
+    /// Height after `k` of `increments` steps a cycle, ahead by a share `phase` of a cycle. The turning points are met, each
+    /// at the increment nearest to it.
+    pub fn at(self, k: usize, increments: usize, phase: f64) -> f64 {
+        let n = increments as f64;
+        let k = (k % increments) as f64;
+        let corners = self.corners();
+        // The corners in increments, one cycle before and two after: those on both sides of k are among them.
+        let mut before = (f64::NEG_INFINITY, 0.0, 0.0);
+        let mut after = (f64::INFINITY, 0.0, 0.0);
+        for turn in -2..=2 {
+            for &(share, value) in &corners {
+                let share = share + f64::from(turn);
+                let place = nearest((share - phase) * n);
+                if place <= k && place >= before.0 {
+                    before = (place, share, value);
+                }
+                if place > k && place < after.0 {
+                    after = (place, share, value);
+                }
+            }
+        }
+        if before.0 == k {
+            return before.2;
+        }
+        let done = (k - before.0) / (after.0 - before.0);
+        match self {
+            Self::Sine => (TAU * (before.1 + (after.1 - before.1) * done)).sin(),
+            // A line through zero is taken from there, so that a cycle ends exactly where it began.
+            _ if before.2 == -after.2 => before.2 * (after.0 + before.0 - 2.0 * k) / (after.0 - before.0),
+            _ => before.2 + (after.2 - before.2) * done,
+        }
+    }
+}
+
+/// The nearest whole number; halves go to the even one, also when rounding has moved them a little.
+fn nearest(place: f64) -> f64 {
+    const FINE: f64 = (1_u64 << 20) as f64;
+    ((place * FINE).round() / FINE).round_ties_even()
+}
+
+impl Stage {
+    /// Increments of the whole stage, at the most.
+    pub fn increments_in_all(&self) -> usize {
+        match self.course {
+            Course::Cycles(cycles) => self.increments * cycles.most,
+            Course::Linear | Course::Cubic => self.increments,
+        }
+    }
+
+    /// Cycles of the stage, when it has any.
+    pub fn cycles(&self) -> Option<&Cycles> {
+        match &self.course {
+            Course::Cycles(cycles) => Some(cycles),
+            Course::Linear | Course::Cubic => None,
+        }
+    }
+
+    /// Whether increment `k` (from 1) is the last of a cycle.
+    pub fn ends_cycle(&self, k: usize) -> bool {
+        self.cycles().is_some() && k.is_multiple_of(self.increments)
+    }
+
+    /// Value of a control at the end of increment `k` (from 1), when the stage found it at `start`.
+    pub fn value(&self, control: &StageControl, start: f64, k: usize) -> f64 {
+        let (StageControl::Force(path) | StageControl::Motion(path)) = control;
+        match (path, &self.course) {
+            (Path::To(target), _) if k == self.increments => *target,
+            (Path::To(target), course) => {
+                let power = match (course, control) {
+                    (Course::Cubic, StageControl::Force(_)) => 3,
+                    (Course::Cubic, StageControl::Motion(_)) => 2,
+                    _ => 1,
+                };
+                start + (target - start) * (k as f64 / self.increments as f64).powi(power)
+            }
+            (Path::Wave { amplitude, phase }, Course::Cycles(cycles)) => {
+                let [first, last] = cycles.envelope;
+                let share = first + (last - first) * k as f64 / self.increments_in_all() as f64;
+                let wave = |k| cycles.waveform.at(k, self.increments, *phase);
+                start + amplitude * (share * wave(k) - first * wave(0))
+            }
+            (Path::Wave { .. }, _) => start,
+            (Path::Through(values), _) => {
+                let per_row = (self.increments / values.len().max(1)).max(1);
+                let row = (k - 1) / per_row;
+                let done = (k - 1) % per_row + 1;
+                let to = values[row % values.len()];
+                if done == per_row {
+                    return to;
+                }
+                let from = if row == 0 { start } else { values[(row - 1) % values.len()] };
+                from + (to - from) * done as f64 / per_row as f64
+            }
+        }
+    }
+
+    /// What is prescribed at the end of increment `k`, from the controls `start` that the stage found.
+    pub fn load(&self, start: &LoadStep, k: usize) -> LoadStep {
+        let one = |control: &Option<StageControl>, start: Control| match (control, start) {
+            (None, start) => start,
+            (Some(control), Control::Force(from) | Control::Motion(from)) => {
+                control.prescribing(self.value(control, from, k))
+            }
+        };
+        LoadStep {
+            normal: one(&self.normal, start.normal),
+            tangential: [0, 1].map(|axis| one(&self.tangential[axis], start.tangential[axis])),
+            twist: one(&self.twist, start.twist),
+        }
+    }
+}
+
+impl StageControl {
+    /// A value of this control's kind.
+    pub fn prescribing(&self, value: f64) -> Control {
+        match self {
+            Self::Force(_) => Control::Force(value),
+            Self::Motion(_) => Control::Motion(value),
+        }
+    }
+
+    /// Whether it prescribes a motion.
+    pub fn is_motion(&self) -> bool {
+        matches!(self, Self::Motion(_))
+    }
+}
+
+/// Controls as far as they follow from the case alone: a control that changes its kind starts from what the run reaches.
+pub type KnownLoads = [Option<Control>; 4];
+
+/// Visits the loads of a history as far as the case fixes them: number of the stage, and the loads at the end of an increment.
+/// Of a stage with cycles the first and the last are visited: its envelope is linear.
+pub fn walk(stages: &[Stage], mut visit: impl FnMut(usize, &KnownLoads)) {
+    let mut held: KnownLoads = [
+        Some(Control::Force(0.0)),
+        Some(Control::Force(0.0)),
+        Some(Control::Force(0.0)),
+        Some(Control::Motion(0.0)),
+    ];
+    for (number, stage) in stages.iter().enumerate() {
+        let controls = [&stage.normal, &stage.tangential[0], &stage.tangential[1], &stage.twist];
+        let start = held;
+        let all = stage.increments_in_all();
+        let first = 1..=stage.increments;
+        for k in first.chain((all - stage.increments + 1).max(stage.increments + 1)..=all) {
+            for (index, control) in controls.iter().enumerate() {
+                let Some(control) = control else { continue };
+                held[index] = known(stage, control, start[index], k);
+            }
+            visit(number, &held);
+        }
+    }
+}
+
+fn known(stage: &Stage, control: &StageControl, start: Option<Control>, k: usize) -> Option<Control> {
+    let (StageControl::Force(path) | StageControl::Motion(path)) = control;
+    match (control, start) {
+        (StageControl::Force(_), Some(Control::Force(from)))
+        | (StageControl::Motion(_), Some(Control::Motion(from))) => {
+            Some(control.prescribing(stage.value(control, from, k)))
+        }
+        _ => match path {
+            Path::To(_) if k < stage.increments => None,
+            Path::Through(values) if k < stage.increments / values.len().max(1) => None,
+            Path::Wave { .. } => None,
+            Path::To(_) | Path::Through(_) => Some(control.prescribing(stage.value(control, 0.0, k))),
+        },
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Waveform;
+
+    const WAVES: [Waveform; 3] = [Waveform::Triangle, Waveform::Sine, Waveform::Trapezoid { dwell: 0.2 }];
+
+    #[test]
+    fn a_wave_meets_its_turns_for_any_number_of_increments_and_any_phase() {
+        for wave in WAVES {
+            for increments in wave.fewest_increments()..40 {
+                for phase in [0.0, 0.25, 0.1, -0.4, 0.75] {
+                    let values: Vec<f64> = (1..=increments).map(|k| wave.at(k, increments, phase)).collect();
+                    assert!(
+                        values.contains(&1.0) && values.contains(&-1.0),
+                        "{wave:?} {increments} {phase}: {values:?}"
+                    );
+                    assert!(values.iter().all(|value| value.abs() <= 1.0));
+                    assert_eq!(wave.at(increments, increments, phase), wave.at(0, increments, phase));
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_wave_without_phase_ends_at_zero() {
+        for wave in WAVES {
+            for increments in wave.fewest_increments()..40 {
+                assert_eq!(wave.at(increments, increments, 0.0), 0.0, "{wave:?} {increments}");
+            }
+        }
+    }
+
+    #[test]
+    fn waves_are_what_their_names_say() {
+        for k in 0..48 {
+            let share = k as f64 / 48.0;
+            let sine = (std::f64::consts::TAU * (share + 0.125)).sin();
+            // Rounding of the sine's argument.
+            assert!((Waveform::Sine.at(k, 48, 0.125) - sine).abs() < 1e-14);
+            let triangle = (std::f64::consts::TAU * share).sin().asin() / std::f64::consts::FRAC_PI_2;
+            // The inverse sine loses half of the digits at the turns.
+            assert!((Waveform::Triangle.at(k, 48, 0.0) - triangle).abs() < 1e-7);
+            let trapezoid = (triangle / (1.0 - 4.0 * 0.125)).clamp(-1.0, 1.0);
+            assert!((Waveform::Trapezoid { dwell: 0.25 }.at(k, 48, 0.0) - trapezoid).abs() < 1e-7);
+        }
+    }
+}

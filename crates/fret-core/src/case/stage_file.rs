@@ -1,0 +1,230 @@
+//! A stage of the loading history, and wear, as they are written.
+
+use std::collections::BTreeMap;
+
+use schemars::JsonSchema;
+use serde::Deserialize;
+use serde::de::{self, Visitor};
+use toml::Spanned;
+
+use super::surface_file::CoefficientFile;
+
+/// A stage of the loading history. Controls not named stay as they were.
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(super) struct StageFile {
+    /// A name for messages and tables.
+    pub name: Option<String>,
+    /// Normal force [force], compression positive: at the end of the stage, or the amplitude of its cycles.
+    #[schemars(with = "Option<f64>")]
+    pub normal_force: Option<Spanned<f64>>,
+    /// Rigid approach [length]: at the end of the stage, or the amplitude.
+    #[schemars(with = "Option<f64>")]
+    pub approach: Option<Spanned<f64>>,
+    /// Tangential force along x and y [force]: at the end, or the amplitude; "held" where this stage does not prescribe it.
+    #[schemars(with = "Option<[AxisSchema; 2]>")]
+    pub tangential_force: Option<Spanned<[AxisFile; 2]>>,
+    /// Rigid tangential displacement of the upper body along x and y [length]: at the end, or the amplitude; or "held".
+    #[schemars(with = "Option<[AxisSchema; 2]>")]
+    pub shift: Option<Spanned<[AxisFile; 2]>>,
+    /// Moment about z [force x length]: at the end, or the amplitude.
+    #[schemars(with = "Option<f64>")]
+    pub twist_moment: Option<Spanned<f64>>,
+    /// Rotation of the upper body about z [rad]: at the end, or the amplitude.
+    #[schemars(with = "Option<f64>")]
+    pub twist: Option<Spanned<f64>>,
+    /// A CSV file with the values of the controls, instead of naming them here; its columns are named like the controls.
+    #[schemars(with = "Option<String>")]
+    pub table: Option<Spanned<String>>,
+    /// Which column of the table holds which control, when they are named otherwise: `tangential_force_x = "Q [N]"`.
+    #[schemars(with = "Option<BTreeMap<String, String>>")]
+    pub columns: Option<BTreeMap<Spanned<String>, Spanned<String>>>,
+    /// Number of increments: of the stage; with cycles, of one cycle; with a table, from row to row.
+    #[schemars(with = "usize")]
+    pub increments: Spanned<usize>,
+    /// How the controls run to their targets; "linear" when not given.
+    #[schemars(with = "Option<RampFile>")]
+    pub ramp: Option<Spanned<RampFile>>,
+    /// Number of cycles 0, +amplitude, -amplitude, 0 about the values before the stage.
+    #[schemars(with = "Option<usize>")]
+    pub cycles: Option<Spanned<usize>>,
+    /// Instead of a number of cycles: until one ends where it began.
+    #[schemars(with = "Option<SteadyFile>")]
+    pub until_steady: Option<Spanned<SteadyFile>>,
+    /// Shape of a cycle; "triangle" when not given.
+    #[schemars(with = "Option<WaveformFile>")]
+    pub waveform: Option<Spanned<WaveformFile>>,
+    /// Share of a cycle for which a trapezoid holds each of its two extremes, below a half; 0.25 when not given.
+    #[schemars(with = "Option<f64>")]
+    pub dwell: Option<Spanned<f64>>,
+    /// By how much a control's cycle is ahead [degrees]; it goes on from where the control is.
+    #[schemars(with = "Option<PhaseFile>")]
+    pub phase: Option<Spanned<PhaseFile>>,
+    /// Share of the amplitudes at the start and at the end of the cycles, linear between; [1, 1] when not given.
+    #[schemars(with = "Option<[f64; 2]>")]
+    pub envelope: Option<Spanned<[f64; 2]>>,
+    /// Friction from this stage on: a coefficient, or a coefficient for every cell (a file, or rows of numbers).
+    #[schemars(with = "Option<CoefficientFile>")]
+    pub friction: Option<Spanned<CoefficientFile>>,
+}
+
+/// A number for one axis, or the word "held".
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum AxisFile {
+    Value(f64),
+    Held,
+}
+
+impl AxisFile {
+    pub fn value(self) -> Option<f64> {
+        match self {
+            Self::Value(value) => Some(value),
+            Self::Held => None,
+        }
+    }
+}
+
+#[derive(JsonSchema)]
+#[serde(untagged)]
+#[expect(dead_code, reason = "stands for AxisFile in the schema")]
+enum AxisSchema {
+    Value(f64),
+    Held(HeldWord),
+}
+
+#[derive(JsonSchema)]
+#[serde(rename_all = "lowercase")]
+#[expect(dead_code, reason = "stands for a word in the schema")]
+enum HeldWord {
+    Held,
+}
+
+impl<'de> Deserialize<'de> for AxisFile {
+    fn deserialize<D: de::Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct AxisVisitor;
+        impl Visitor<'_> for AxisVisitor {
+            type Value = AxisFile;
+            fn expecting(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+                formatter.write_str("a number or \"held\"")
+            }
+            fn visit_f64<E: de::Error>(self, value: f64) -> Result<AxisFile, E> {
+                Ok(AxisFile::Value(value))
+            }
+            fn visit_i64<E: de::Error>(self, value: i64) -> Result<AxisFile, E> {
+                Ok(AxisFile::Value(value as f64))
+            }
+            fn visit_u64<E: de::Error>(self, value: u64) -> Result<AxisFile, E> {
+                Ok(AxisFile::Value(value as f64))
+            }
+            fn visit_str<E: de::Error>(self, word: &str) -> Result<AxisFile, E> {
+                if word == "held" {
+                    Ok(AxisFile::Held)
+                } else {
+                    Err(E::invalid_value(de::Unexpected::Str(word), &self))
+                }
+            }
+        }
+        deserializer.deserialize_any(AxisVisitor)
+    }
+}
+
+/// How a ramp runs.
+#[derive(Debug, Clone, Copy, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub(super) enum RampFile {
+    /// Equal steps.
+    Linear,
+    /// Forces with (k/n)^3, approach with (k/n)^2: a sphere's contact radius grows evenly.
+    Cubic,
+}
+
+/// Shape of a cycle.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub(super) enum WaveformFile {
+    /// Straight lines.
+    Triangle,
+    /// A sine.
+    Sine,
+    /// Straight lines with both extremes held for a while.
+    Trapezoid,
+}
+
+/// Phases of the controls [degrees], each by the name of its control.
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(super) struct PhaseFile {
+    /// Of the normal force.
+    #[schemars(with = "Option<f64>")]
+    pub normal_force: Option<Spanned<f64>>,
+    /// Of the approach.
+    #[schemars(with = "Option<f64>")]
+    pub approach: Option<Spanned<f64>>,
+    /// Of the tangential force along x and y.
+    #[schemars(with = "Option<[f64; 2]>")]
+    pub tangential_force: Option<Spanned<[f64; 2]>>,
+    /// Of the shift along x and y.
+    #[schemars(with = "Option<[f64; 2]>")]
+    pub shift: Option<Spanned<[f64; 2]>>,
+    /// Of the moment about z.
+    #[schemars(with = "Option<f64>")]
+    pub twist_moment: Option<Spanned<f64>>,
+    /// Of the rotation about z.
+    #[schemars(with = "Option<f64>")]
+    pub twist: Option<Spanned<f64>>,
+}
+
+/// When a repeated cycle is enough.
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(super) struct SteadyFile {
+    /// Tractions, forces and motions at the end of a cycle differ from those at its start by at most this, relative.
+    #[schemars(with = "f64")]
+    pub tolerance: Spanned<f64>,
+    /// Cycles at the most.
+    #[schemars(with = "usize")]
+    pub most_cycles: Spanned<usize>,
+}
+
+/// Wear of the surfaces: after each computed cycle the gap opens by the worn depth.
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(super) struct WearFile {
+    /// What the worn depth follows; "energy" when not given.
+    pub law: Option<WearLawFile>,
+    /// Worn depth for pressure times slip (Archard), or for shear times slip (energy) [1/pressure].
+    #[schemars(with = "f64")]
+    pub coefficient: Spanned<f64>,
+    /// Cycles that a computed one stands for, at the most; 1 when not given.
+    #[schemars(with = "Option<usize>")]
+    pub every: Option<Spanned<usize>>,
+    /// Worn depth of such a block of cycles, relative to the approach, at the most; 0.01 when not given.
+    #[schemars(with = "Option<f64>")]
+    pub largest_step: Option<Spanned<f64>>,
+    /// The run ends where the worn depth reaches this [length].
+    #[schemars(with = "Option<f64>")]
+    pub limit: Option<Spanned<f64>>,
+    /// The run ends where the outermost coating of this body is worn through.
+    #[schemars(with = "Option<WornBodyFile>")]
+    pub through_coating_of: Option<Spanned<WornBodyFile>>,
+}
+
+/// What the worn depth follows.
+#[derive(Debug, Clone, Copy, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub(super) enum WearLawFile {
+    /// Pressure times slip.
+    Archard,
+    /// Energy dissipated by friction.
+    Energy,
+}
+
+/// One of the bodies.
+#[derive(Debug, Clone, Copy, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub(super) enum WornBodyFile {
+    /// The upper one.
+    Upper,
+    /// The lower one.
+    Lower,
+}

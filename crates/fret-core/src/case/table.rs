@@ -1,0 +1,273 @@
+//! A loading history from a CSV table: one row after the other, columns named like the controls.
+
+use std::collections::BTreeMap;
+use std::ops::Range;
+
+use toml::Spanned;
+
+use super::judge::Judge;
+use super::stage_file::StageFile;
+
+/// Controls a column can hold, by the names of `history.csv`.
+pub(super) const COLUMNS: [&str; 8] = [
+    "normal_force",
+    "approach",
+    "tangential_force_x",
+    "tangential_force_y",
+    "shift_x",
+    "shift_y",
+    "twist_moment",
+    "twist",
+];
+
+/// Rows of a table, at the most.
+const MOST_ROWS: usize = 1_000_000;
+
+/// Values of the controls, each in the order of the rows.
+pub(super) type Columns = BTreeMap<&'static str, Vec<f64>>;
+
+/// The table of a stage; `None` when it was refused.
+pub(super) fn table(
+    judge: &mut Judge,
+    place: &str,
+    file: &StageFile,
+    name: &Spanned<String>,
+) -> Option<Columns> {
+    let text = judge.attached_text(&format!("{place}.table"), name)?;
+    let text = text.strip_prefix('\u{feff}').unwrap_or(&text);
+    let at = Words { place: format!("{place}.table {:?}", name.get_ref()), span: name.span() };
+    let head = text.lines().find(|line| !line.trim().is_empty() && !line.starts_with('#')).unwrap_or("");
+    let delimiter = [';', '\t'].into_iter().find(|&mark| head.contains(mark)).unwrap_or(',');
+    let mut reader = csv::ReaderBuilder::new()
+        .delimiter(delimiter as u8)
+        .comment(Some(b'#'))
+        .trim(csv::Trim::All)
+        .from_reader(text.as_bytes());
+    let names: Vec<String> = match reader.headers() {
+        Ok(names) => names.iter().map(str::to_owned).collect(),
+        Err(error) => return at.refuse(judge, &format!("not readable as CSV: {error}"), ""),
+    };
+    let chosen = chosen(judge, file, &names, &at)?;
+    let mut columns: Columns = chosen.iter().map(|&(control, _)| (control, Vec::new())).collect();
+    for row in reader.records() {
+        let row = match row {
+            Ok(row) => row,
+            Err(error) => return at.refuse(judge, &format!("not readable as CSV: {error}"), ""),
+        };
+        let line = row.position().map_or(0, csv::Position::line);
+        for &(control, index) in &chosen {
+            let cell = row.get(index).unwrap_or("");
+            match cell.parse::<f64>() {
+                Ok(value) if value.is_finite() => {
+                    if let Some(column) = columns.get_mut(control) {
+                        column.push(value);
+                    }
+                }
+                _ => {
+                    let message =
+                        format!("line {line}, column {:?}: {cell:?} is no finite number", names[index]);
+                    return at.refuse(judge, &message, "");
+                }
+            }
+        }
+    }
+    let rows = columns.values().next().map_or(0, Vec::len);
+    if !(1..=MOST_ROWS).contains(&rows) {
+        let message = format!("{rows} rows below its head; between 1 and {MOST_ROWS} are allowed");
+        return at.refuse(judge, &message, "");
+    }
+    Some(columns)
+}
+
+/// Which column of the file holds which control.
+fn chosen(
+    judge: &mut Judge,
+    file: &StageFile,
+    names: &[String],
+    at: &Words,
+) -> Option<Vec<(&'static str, usize)>> {
+    let control_of = |word: &str| COLUMNS.into_iter().find(|control| *control == word);
+    let mut chosen = Vec::new();
+    if let Some(given) = &file.columns {
+        for (control, column) in given {
+            let Some(known) = control_of(control.get_ref()) else {
+                let message = format!("{}: no control is called {:?}", at.place, control.get_ref());
+                return judge.refuse(
+                    control.span(),
+                    message,
+                    &format!("controls are: {}", COLUMNS.join(", ")),
+                );
+            };
+            let Some(index) = names.iter().position(|name| name == column.get_ref()) else {
+                let message =
+                    format!("{}: no column {:?}; it has: {}", at.place, column.get_ref(), names.join(", "));
+                return judge.refuse(column.span(), message, "");
+            };
+            chosen.push((known, index));
+        }
+    } else {
+        for (index, name) in names.iter().enumerate() {
+            let Some(known) = control_of(name) else {
+                let message = format!("column {name:?} is no control");
+                let help = format!(
+                    "controls are: {}; columns of other names are chosen with columns = {{ shift_x = {name:?} }}",
+                    COLUMNS.join(", ")
+                );
+                return at.refuse(judge, &message, &help);
+            };
+            chosen.push((known, index));
+        }
+    }
+    for pair in [[0, 1], [2, 4], [3, 5], [6, 7]] {
+        let [force, motion] = pair.map(|index| COLUMNS[index]);
+        let has = |control: &str| chosen.iter().filter(|(known, _)| *known == control).count();
+        if has(force) + has(motion) > 1 {
+            let message = format!("{force} and {motion} prescribe one thing, and one column may do so");
+            return at.refuse(judge, &message, "");
+        }
+    }
+    if chosen.is_empty() {
+        return at.refuse(judge, "no column", &format!("controls are: {}", COLUMNS.join(", ")));
+    }
+    Some(chosen)
+}
+
+/// Where messages about a table stand.
+struct Words {
+    place: String,
+    span: Range<usize>,
+}
+
+impl Words {
+    fn refuse<T>(&self, judge: &mut Judge, message: &str, help: &str) -> Option<T> {
+        judge.refuse(self.span.clone(), format!("{}: {message}", self.place), help)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::case::{Attachments, Case};
+
+    const HEAD: &str = "[grid]\ncells = [16, 16]\nsize = [3.0, 3.0]\n[upper]\nrigid = true\n[lower]\n\
+                        substrate = { young = 1.0, poisson = 0.3 }\n[profile.sphere]\nradius = 100.0\n\
+                        [friction]\ncoefficient = 0.3\n[[load]]\nnormal_force = 0.01\nincrements = 1\n";
+
+    /// Messages of a case whose second stage reads `more` and whose only file holds `file`.
+    fn refusal(more: &str, file: &str) -> String {
+        let text = format!("{HEAD}[[load]]\nincrements = 2\n{more}\n");
+        let attachments = |name: &str| match name {
+            "path.csv" => Ok(file.as_bytes().to_vec()),
+            _ => Err("no such file".to_owned()),
+        };
+        match Case::from_toml_with(&text, "case.toml", Attachments::files(&attachments)) {
+            Ok(_) => String::new(),
+            Err(error) => {
+                assert_eq!(error.mistakes().len(), 1, "{error}");
+                assert!(error.place(&error.mistakes()[0]).is_some(), "{error}");
+                error.mistakes()[0].message.clone()
+            }
+        }
+    }
+
+    #[test]
+    fn a_good_table_is_read_whatever_its_separator() {
+        for file in [
+            "tangential_force_x,twist\n1e-3,0\n-1e-3,1e-4\n",
+            "\u{feff}# rig 3\ntangential_force_x; twist\n 1e-3 ; 0\n-1e-3;1e-4\n",
+            "tangential_force_x\ttwist\n1e-3\t0\n-1e-3\t1e-4",
+        ] {
+            assert_eq!(refusal("table = \"path.csv\"", file), "");
+        }
+    }
+
+    #[test]
+    fn every_wrong_table_is_refused_once_and_in_words() {
+        let table = "table = \"path.csv\"";
+        let named = "table = \"path.csv\"\ncolumns = { shift_x = \"Q\" }";
+        for (more, file, words) in [
+            ("table = \"other.csv\"", "", "\"other.csv\": no such file"),
+            (table, "force\n1.0\n", "column \"force\" is no control"),
+            (table, "", "no column"),
+            (table, "shift_x\n", "0 rows"),
+            (table, "shift_x,shift_y\n1e-3\n", "CSV error: record 1"),
+            (table, "shift_x\n1e-3\nnan\n", "line 3, column \"shift_x\": \"nan\" is no finite number"),
+            (table, "shift_x\n1,5\n", "CSV error"),
+            (table, "shift_x,tangential_force_x\n1e-3,0\n", "one column may do so"),
+            (named, "time,P\n0,1\n", "no column \"Q\"; it has: time, P"),
+            ("table = \"path.csv\"\ncolumns = { pull = \"Q\" }", "Q\n1\n", "no control is called \"pull\""),
+            ("table = \"path.csv\"\nshift = [1.0, 0.0]", "shift_y\n1\n", "a table and a control"),
+            ("table = \"path.csv\"\nramp = \"cubic\"", "shift_y\n1\n", "ramp and table"),
+            (table, "normal_force\n0.01\n-0.01\n", "normal_force reaches -0.01"),
+            (table, "tangential_force_x\n0.02\n", "friction carries at most"),
+            ("columns = { shift_x = \"Q\" }\nshift = [1.0, 0.0]", "", "there is no table"),
+        ] {
+            let found = refusal(more, file);
+            assert!(found.contains(words), "{more} {file:?}: {found:?}, expected {words:?}");
+        }
+    }
+
+    #[test]
+    fn wrong_cycles_waves_and_steady_states_are_refused() {
+        for (more, words) in [
+            ("shift = [1.0, 0.0]\ncycles = 2", "the turns of this cycle need at least 4"),
+            ("shift = [1.0, 0.0]\nwaveform = \"sine\"", "the stage has no cycles"),
+            ("shift = [1.0, 0.0]\nphase = { shift = [90.0, 0.0] }", "the stage has no cycles"),
+            ("shift = [1.0, \"held\"]\ntangential_force = [0.0, 0.0]", "both at once"),
+            ("shift = [\"held\", \"held\"]", "nothing is prescribed"),
+            (
+                "shift = [1.0, 0.0]\ncycles = 1\nuntil_steady = { tolerance = 1e-3, most_cycles = 3 }",
+                "both at once",
+            ),
+            ("shift = [1.0, 0.0]\nuntil_steady = { tolerance = 2.0, most_cycles = 3 }", "between 0 and 1"),
+        ] {
+            let found = refusal(more, "");
+            assert!(found.contains(words), "{more}: {found:?}, expected {words:?}");
+        }
+    }
+
+    #[test]
+    fn wrong_words_of_a_cycle_are_refused() {
+        for (more, words) in [
+            ("shift = [1.0, 0.0]\nphase = { twist = 90.0 }", "this stage has no twist"),
+            ("shift = [1.0, 0.0]\ndwell = 0.1", "only a trapezoid"),
+            ("shift = [1.0, 0.0]\nwaveform = \"trapezoid\"\ndwell = 0.5", "between 0.001 and 0.499"),
+            ("shift = [1.0, 0.0]\nramp = \"cubic\"", "ramp and cycles"),
+            ("normal_force = 0.02", "normal_force reaches -0.01"),
+            ("tangential_force = [2e-3, 2e-3]\nphase = { tangential_force = [inf, 0] }", "must be finite"),
+        ] {
+            let text = format!("{HEAD}[[load]]\nincrements = 8\ncycles = 1\n{more}\n");
+            let error = Case::from_toml(&text, "case.toml").unwrap_err();
+            assert_eq!(error.mistakes().len(), 1, "{error}");
+            assert!(error.mistakes()[0].message.contains(words), "{error}");
+        }
+    }
+
+    #[test]
+    fn a_motion_of_a_table_has_no_meaning_in_a_scene_that_repeats() {
+        let head = HEAD.replace("size = [3.0, 3.0]", "size = [3.0, 3.0]\nperiodic = true");
+        let text = format!("{head}[[load]]\nincrements = 1\ntable = \"path.csv\"\n");
+        let error =
+            Case::from_toml_with(&text, "case.toml", Attachments::files(&|_| Ok(b"twist\n1e-3\n".to_vec())))
+                .unwrap_err();
+        assert!(
+            error.to_string().contains("half-space under a repeating load has no such motion"),
+            "{error}"
+        );
+    }
+
+    #[test]
+    fn wrong_wear_is_refused() {
+        for (wear, words) in [
+            ("coefficient = -1.0", "must be zero or positive"),
+            ("coefficient = 1.0\nevery = 0", "between 1 and"),
+            ("coefficient = 1.0\nlargest_step = 0.0", "must lie above 0"),
+            ("coefficient = 1.0\nlimit = 0.0", "positive finite length"),
+            ("coefficient = 1.0\nthrough_coating_of = \"lower\"", "this body has no coating"),
+            ("coefficient = 1.0\nthrough_coating_of = \"upper\"", "this body has no coating"),
+        ] {
+            let error = Case::from_toml(&format!("{HEAD}[wear]\n{wear}\n"), "case.toml").unwrap_err();
+            assert_eq!(error.mistakes().len(), 1, "{error}");
+            assert!(error.mistakes()[0].message.contains(words), "{error}");
+        }
+    }
+}

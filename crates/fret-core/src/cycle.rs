@@ -1,0 +1,107 @@
+//! A cycle seen as a whole: what tribologists read from its loop of force and displacement.
+
+use serde::{Deserialize, Serialize};
+
+/// Energy ratio `W / (4 Q* d*)` above which a sphere slides: Fouvry, Kapsa & Vincent (1995), Wear 185, 35. It is what Mindlin
+/// and Deresiewicz's loop has at `Q* = mu P`.
+pub const SLIDING_ENERGY_RATIO: f64 = 0.2;
+/// Sliding ratio `d0 / d*` of the same transition: `2^(1/3) - 1 = 0.26` of that loop.
+pub const SLIDING_RATIO: f64 = 0.26;
+
+/// What drives a cycle.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Drive {
+    /// A tangential force and shift.
+    Tangential,
+    /// A moment and twist about z.
+    Torsional,
+}
+
+/// What the contact does over a cycle.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum CycleRegime {
+    /// No cell slips.
+    FullStick,
+    /// Some cells slip; no increment slides as a whole, and the energy ratio is below its bound.
+    PartialSlip,
+    /// The two criteria of sliding disagree: the contact slides as a whole at times, but the energy ratio is below its bound;
+    /// or the other way round.
+    Mixed,
+    /// The contact slides as a whole at times, and the energy ratio is above its bound.
+    GrossSlip,
+}
+
+/// A cycle as a whole. Units are those of the case.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct CycleRecord {
+    /// Number of its stage, from 0.
+    pub stage: usize,
+    /// Number of the computed cycle in its stage, from 1.
+    pub cycle: usize,
+    /// Its first increment in the whole history.
+    pub first_increment: usize,
+    /// Its last increment.
+    pub last_increment: usize,
+    /// Cycles it stands for: 1, or more where wear is extrapolated.
+    pub stands_for: usize,
+    /// Work of friction in the computed cycle [force x length].
+    pub dissipated_energy: f64,
+    /// What drives it.
+    pub drive: Drive,
+    /// Direction of the tangential force's main axis, from x [rad], within a quarter turn.
+    pub direction: f64,
+    /// Half of the range of the force along that direction, or of the moment: `Q*`.
+    pub force_amplitude: f64,
+    /// Half of the range of the shift along that direction, or of the twist: `d*`.
+    pub displacement_amplitude: f64,
+    /// Half of the loop's width at the middle of the force's range: `d0`.
+    pub opening: f64,
+    /// Dissipated energy over `4 Q* d*` [-]; `None` for a cycle without motion.
+    pub energy_ratio: Option<f64>,
+    /// Opening over displacement amplitude [-]; `None` for a cycle without motion.
+    pub sliding_ratio: Option<f64>,
+    /// Slope of the loop over the first increment back from the largest force, or else from the smallest. Tends to the
+    /// stiffness of a contact that sticks as the increments become small. `None` where neither is left on a rising line.
+    pub stiffness: Option<f64>,
+    /// What the contact does; `None` without friction or contact.
+    pub regime: Option<CycleRegime>,
+    /// How far the end of the cycle is from its start: the largest change of pressure, shear and motions, relative to
+    /// themselves, to `mu p` and to their range.
+    pub closure: f64,
+    /// Whether the stage ends here because the closure is within its tolerance.
+    pub steady: bool,
+    /// Volume worn off since the start [length^3].
+    pub worn_volume: f64,
+    /// Largest worn depth [length].
+    pub max_worn_depth: f64,
+}
+
+/// Zhou and Vincent's running condition of several cycles, which may change from one to the next.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum RunningCondition {
+    /// All cycles stick, or slip in part.
+    Partial,
+    /// Some cycles slide and some do not, or one does both.
+    Mixed,
+    /// All cycles slide.
+    Gross,
+}
+
+/// Running condition of some cycles; `None` when there are none with friction. Zhou & Vincent (1995), Wear 181-183, 531.
+pub fn running_condition<'a>(cycles: impl IntoIterator<Item = &'a CycleRecord>) -> Option<RunningCondition> {
+    let (mut all, mut gross, mut mixed) = (0, 0, 0);
+    for regime in cycles.into_iter().filter_map(|cycle| cycle.regime) {
+        all += 1;
+        gross += usize::from(regime == CycleRegime::GrossSlip);
+        mixed += usize::from(regime == CycleRegime::Mixed);
+    }
+    match (all, gross, mixed) {
+        (0, _, _) => None,
+        (_, 0, 0) => Some(RunningCondition::Partial),
+        (all, gross, _) if all == gross => Some(RunningCondition::Gross),
+        _ => Some(RunningCondition::Mixed),
+    }
+}

@@ -1,0 +1,252 @@
+//! The loop of force and displacement that a cycle runs through, followed and read.
+
+use ndarray::Array2;
+use serde::{Deserialize, Serialize};
+
+use crate::cycle::{CycleRecord, CycleRegime, Drive, SLIDING_ENERGY_RATIO};
+use crate::history::{Regime, StepRecord};
+use crate::model::{ContactState, CoulombFriction};
+
+/// Force and moment, shift and twist at the end of an increment.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+struct Point {
+    force: [f64; 2],
+    moment: f64,
+    shift: [f64; 2],
+    twist: f64,
+}
+
+/// What the end of a cycle is compared with, besides the first point.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+struct Start {
+    pressure: Array2<f64>,
+    shear: [Array2<f64>; 2],
+    approach: f64,
+    dissipated_energy: f64,
+}
+
+/// Follows one cycle.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct FrettingLoop {
+    stage: usize,
+    cycle: usize,
+    first_increment: usize,
+    start: Start,
+    points: Vec<Point>,
+    regimes: Vec<Regime>,
+    contact_area: f64,
+}
+
+/// What a run knows about a finished cycle beside its loop.
+#[derive(Debug, Clone, Copy)]
+pub struct CycleEnd {
+    /// Cycles it stands for.
+    pub stands_for: usize,
+    /// Closure below which the stage ends.
+    pub tolerance: Option<f64>,
+    /// Volume worn off so far, and largest worn depth.
+    pub worn: [f64; 2],
+}
+
+impl FrettingLoop {
+    /// A cycle that starts from a state with the given tangential force and moment.
+    pub fn new(
+        (stage, cycle): (usize, usize),
+        first_increment: usize,
+        state: &ContactState,
+        force: [f64; 2],
+        moment: f64,
+    ) -> Self {
+        let first = Point { force, moment, shift: state.shift, twist: state.twist };
+        Self {
+            stage,
+            cycle,
+            first_increment,
+            start: Start {
+                pressure: state.pressure.clone(),
+                shear: state.shear.clone(),
+                approach: state.approach,
+                dissipated_energy: state.dissipated_energy,
+            },
+            points: vec![first],
+            regimes: Vec::new(),
+            contact_area: 0.0,
+        }
+    }
+
+    /// Whether this follows a cycle of a stage on a grid of `cells`.
+    pub fn fits(&self, stage: usize, cells: [usize; 2]) -> bool {
+        let Start { pressure, shear: [x, y], .. } = &self.start;
+        self.stage == stage
+            && self.points.len() == self.regimes.len() + 1
+            && [pressure, x, y].iter().all(|field| field.dim() == cells.into())
+    }
+
+    /// Adds an increment.
+    pub fn add(&mut self, record: &StepRecord) {
+        self.points.push(Point {
+            force: record.tangential_force,
+            moment: record.twist_moment,
+            shift: record.shift,
+            twist: record.twist,
+        });
+        self.regimes.push(record.regime);
+        self.contact_area = record.contact_area;
+    }
+
+    /// The record of the cycle that ends in `state`.
+    pub fn close(&self, state: &ContactState, friction: &CoulombFriction, end: CycleEnd) -> CycleRecord {
+        let direction = main_axis(&self.points);
+        let (cos, sin) = (direction.cos(), direction.sin());
+        let tangential: Vec<[f64; 2]> = self
+            .points
+            .iter()
+            .map(|p| [p.force[0] * cos + p.force[1] * sin, p.shift[0] * cos + p.shift[1] * sin])
+            .collect();
+        let torsional: Vec<[f64; 2]> = self.points.iter().map(|p| [p.moment, p.twist]).collect();
+        let (sideways, about) = (Reading::of(&tangential), Reading::of(&torsional));
+        let drive =
+            if about.work_scale() > sideways.work_scale() { Drive::Torsional } else { Drive::Tangential };
+        let read = if drive == Drive::Torsional { about } else { sideways };
+        let dissipated_energy = state.dissipated_energy - self.start.dissipated_energy;
+        let moves = read.work_scale() > 0.0;
+        let energy_ratio = moves.then(|| dissipated_energy / (4.0 * read.work_scale()));
+        let closure = self.closure(state, friction);
+        CycleRecord {
+            stage: self.stage,
+            cycle: self.cycle,
+            first_increment: self.first_increment,
+            last_increment: self.first_increment + self.regimes.len().saturating_sub(1),
+            stands_for: end.stands_for,
+            dissipated_energy,
+            drive,
+            direction,
+            force_amplitude: read.force_amplitude,
+            displacement_amplitude: read.displacement_amplitude,
+            opening: read.opening,
+            energy_ratio,
+            sliding_ratio: moves.then(|| read.opening / read.displacement_amplitude),
+            stiffness: read.stiffness,
+            regime: self.regime(drive, energy_ratio),
+            closure,
+            steady: end.tolerance.is_some_and(|tolerance| closure <= tolerance),
+            worn_volume: end.worn[0],
+            max_worn_depth: end.worn[1],
+        }
+    }
+
+    fn regime(&self, drive: Drive, energy_ratio: Option<f64>) -> Option<CycleRegime> {
+        let any = |wanted: Regime| self.regimes.contains(&wanted);
+        if !any(Regime::PartialSlip) && !any(Regime::GrossSlip) {
+            return any(Regime::FullStick).then_some(CycleRegime::FullStick);
+        }
+        let slides = any(Regime::GrossSlip);
+        // Twisting has no such bound: the twist grows beyond all bounds before the last cell slips.
+        let by_energy = match drive {
+            Drive::Tangential => energy_ratio.is_some_and(|ratio| ratio >= SLIDING_ENERGY_RATIO),
+            Drive::Torsional => slides,
+        };
+        Some(match (slides, by_energy) {
+            (false, false) => CycleRegime::PartialSlip,
+            (true, true) => CycleRegime::GrossSlip,
+            _ => CycleRegime::Mixed,
+        })
+    }
+
+    fn closure(&self, state: &ContactState, friction: &CoulombFriction) -> f64 {
+        let distance =
+            |a: &Array2<f64>, b: &Array2<f64>| -> f64 { a.iter().zip(b).map(|(a, b)| (a - b).powi(2)).sum() };
+        let pressure = state.pressure.iter().map(|p| p * p).sum::<f64>();
+        let bound: f64 =
+            state.pressure.indexed_iter().map(|((i, j), p)| (p * friction.at(i, j)).powi(2)).sum();
+        let share = |change: f64, whole: f64| if whole > 0.0 { (change / whole).sqrt() } else { 0.0 };
+        let shear =
+            distance(&state.shear[0], &self.start.shear[0]) + distance(&state.shear[1], &self.start.shear[1]);
+        let radius = (self.contact_area / std::f64::consts::PI).sqrt();
+        let range = |value: fn(&Point) -> f64| {
+            let ends = self
+                .points
+                .iter()
+                .map(value)
+                .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| (low.min(v), high.max(v)));
+            ends.1 - ends.0
+        };
+        let moved = range(|p| p.shift[0]).hypot(range(|p| p.shift[1])) + radius * range(|p| p.twist);
+        let first = &self.points[0];
+        let [x, y] = [0, 1].map(|axis| state.shift[axis] - first.shift[axis]);
+        let drift = x.hypot(y) + radius * (state.twist - first.twist).abs();
+        let approach = (state.approach - self.start.approach).abs();
+        [
+            share(distance(&state.pressure, &self.start.pressure), pressure),
+            share(shear, bound),
+            if moved > 0.0 { drift / moved } else { 0.0 },
+            if state.approach == 0.0 { 0.0 } else { approach / state.approach.abs() },
+        ]
+        .into_iter()
+        .fold(0.0, f64::max)
+    }
+}
+
+/// What is read from a loop of force against displacement.
+struct Reading {
+    force_amplitude: f64,
+    displacement_amplitude: f64,
+    opening: f64,
+    stiffness: Option<f64>,
+}
+
+impl Reading {
+    fn of(points: &[[f64; 2]]) -> Self {
+        let range = |index: usize| {
+            points.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), point| {
+                (low.min(point[index]), high.max(point[index]))
+            })
+        };
+        let (force, displacement) = (range(0), range(1));
+        let middle = f64::midpoint(force.0, force.1);
+        let mut crossings = (f64::INFINITY, f64::NEG_INFINITY);
+        for pair in points.windows(2) {
+            let ([f0, d0], [f1, d1]) = (pair[0], pair[1]);
+            if (f0 - middle) * (f1 - middle) <= 0.0 && f0 != f1 {
+                let at = d0 + (d1 - d0) * (middle - f0) / (f1 - f0);
+                crossings = (crossings.0.min(at), crossings.1.max(at));
+            }
+        }
+        // On the plateau of sliding the force differs by what the solver leaves.
+        let nearly = 1e-6 * (force.1 - force.0);
+        let back_from = |turn: Option<usize>| {
+            let pair = points.get(turn?..turn? + 2)?;
+            let slope = (pair[0][0] - pair[1][0]) / (pair[0][1] - pair[1][1]);
+            (slope.is_finite() && slope > 0.0).then_some(slope)
+        };
+        let highest = points.iter().rposition(|point| point[0] >= force.1 - nearly);
+        let lowest = points.iter().rposition(|point| point[0] <= force.0 + nearly);
+        let stiffness = back_from(highest).or_else(|| back_from(lowest));
+        Self {
+            force_amplitude: 0.5 * (force.1 - force.0),
+            displacement_amplitude: 0.5 * (displacement.1 - displacement.0),
+            opening: if crossings.0 <= crossings.1 { 0.5 * (crossings.1 - crossings.0) } else { 0.0 },
+            stiffness,
+        }
+    }
+
+    /// `Q* d*` [force x length], by which the loops of shift and twist are compared.
+    fn work_scale(&self) -> f64 {
+        self.force_amplitude * self.displacement_amplitude
+    }
+}
+
+/// Direction in which the force varies most [rad], within a quarter turn of x.
+fn main_axis(points: &[Point]) -> f64 {
+    let n = points.len() as f64;
+    let mean = |axis: usize| points.iter().map(|point| point.force[axis]).sum::<f64>() / n;
+    let (x, y) = (mean(0), mean(1));
+    let (mut xx, mut yy, mut xy) = (0.0, 0.0, 0.0);
+    for point in points {
+        let (dx, dy) = (point.force[0] - x, point.force[1] - y);
+        xx += dx * dx;
+        yy += dy * dy;
+        xy += dx * dy;
+    }
+    0.5 * (2.0 * xy).atan2(xx - yy)
+}

@@ -1,0 +1,61 @@
+//! Wear: the depth that slip takes off the surfaces, so that the gap opens.
+
+use ndarray::{Array2, Zip};
+use serde::{Deserialize, Serialize};
+
+use super::state::ContactState;
+
+/// What the worn depth follows.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum WearLaw {
+    /// `k p |ds|`: pressure times slip. Archard (1953), J. Appl. Phys. 24, 981.
+    Archard,
+    /// `k q . ds`: the energy that friction dissipates. Fouvry, Kapsa & Vincent (1996), Wear 200, 186.
+    Energy,
+}
+
+/// How surfaces wear, and how many cycles a computed one stands for.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct WearRule {
+    /// What the depth follows.
+    pub law: WearLaw,
+    /// Depth for pressure times slip, or for dissipated energy by area [1/pressure].
+    pub coefficient: f64,
+    /// Cycles that a computed one stands for, at the most.
+    pub every: usize,
+    /// Depth of such a block of cycles relative to the approach, at the most.
+    pub largest_step: f64,
+    /// Depth at which the run ends [length].
+    pub limit: Option<f64>,
+}
+
+impl WearRule {
+    /// Adds the depth [length] worn between two states that follow each other. Only slipping cells have slip.
+    pub fn add(&self, before: &ContactState, after: &ContactState, depth: &mut Array2<f64>) {
+        for axis in 0..2 {
+            debug_assert_eq!(before.slip[axis].dim(), depth.dim());
+        }
+        let k = self.coefficient;
+        match self.law {
+            WearLaw::Energy => {
+                for axis in 0..2 {
+                    Zip::from(&mut *depth)
+                        .and(&after.shear[axis])
+                        .and(&after.slip[axis])
+                        .and(&before.slip[axis])
+                        .for_each(|depth, q, now, then| *depth += k * q * (now - then));
+                }
+            }
+            WearLaw::Archard => {
+                let slip_y = &after.slip[1] - &before.slip[1];
+                Zip::from(depth)
+                    .and(&after.pressure)
+                    .and(&after.slip[0])
+                    .and(&before.slip[0])
+                    .and(&slip_y)
+                    .for_each(|depth, p, now, then, y| *depth += k * p * (now - then).hypot(*y));
+            }
+        }
+    }
+}

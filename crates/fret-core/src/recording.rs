@@ -1,0 +1,48 @@
+//! What of a solved increment goes into the history.
+
+use crate::history::{KeptFields, Residual, StepRecord};
+use crate::model::field::largest;
+use crate::solver::Increment;
+
+/// The record of a solved increment.
+pub fn record(solved: &Increment, increment: usize, stage: usize, wall_s: f64) -> StepRecord {
+    let state = &solved.state;
+    let outcome = &solved.outcome;
+    let max_shear = state.shear[0].iter().zip(&state.shear[1]).map(|(x, y)| x.hypot(*y)).fold(0.0, f64::max);
+    StepRecord {
+        increment,
+        stage,
+        normal_force: outcome.resultants.normal,
+        approach: state.approach,
+        tangential_force: outcome.resultants.tangential,
+        shift: state.shift,
+        twist_moment: outcome.resultants.moment,
+        twist: state.twist,
+        max_pressure: state.pressure.as_slice().map_or(0.0, largest),
+        max_shear,
+        contact_area: solved.contact_area,
+        stick_area: solved.stick_area,
+        contact_cells: outcome.contact_cells,
+        stick_cells: outcome.stick_cells,
+        dissipated_energy: state.dissipated_energy,
+        regime: outcome.regime,
+        residual: Residual { ..outcome.residual },
+        work: solved.work,
+        wall_s,
+    }
+}
+
+/// Its fields by the names asked for; the worn depth is not yet known.
+pub fn kept(solved: &Increment, increment: usize, names: &[String]) -> KeptFields {
+    let asked = |name: &str| names.iter().any(|asked| asked == name);
+    let state = &solved.state;
+    KeptFields {
+        increment,
+        pressure: asked("pressure").then(|| state.pressure.clone()),
+        shear: asked("shear").then(|| state.shear.clone()),
+        slip: asked("slip").then(|| state.slip.clone()),
+        gap: asked("gap").then(|| solved.gap.clone()),
+        zone: asked("zone").then(|| state.zone.clone()),
+        worn_depth: None,
+    }
+}

@@ -1,0 +1,111 @@
+//! Why a run ends without its answer.
+
+use crate::case::Stage;
+use crate::solver::SolveError;
+
+/// Why a run ended without its answer.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum RunError {
+    /// The equations could not be satisfied to the tolerance.
+    #[error(
+        "increment {increment} ({stage}) not solved: residual {reached:.1e} after {iterations} iterations, asked for {tolerance:.1e}; {advice}"
+    )]
+    NotConverged {
+        /// Number of the increment, from 0.
+        increment: usize,
+        /// Name of its stage.
+        stage: String,
+        /// Residual reached.
+        reached: f64,
+        /// Residual asked for.
+        tolerance: f64,
+        /// Iterations made.
+        iterations: usize,
+        /// What to try.
+        advice: String,
+    },
+    /// The contact reaches the edge of the grid.
+    #[error(
+        "increment {increment} ({stage}): the contact reaches the edge of the grid; enlarge grid.size, or write size = \"auto\""
+    )]
+    ContactAtEdge {
+        /// Number of the increment, from 0.
+        increment: usize,
+        /// Name of its stage.
+        stage: String,
+    },
+    /// A tangential load above what friction carries.
+    #[error(
+        "increment {increment} ({stage}): tangential force {asked:.6e} is above mu W = {bound:.6e}: no equilibrium; prescribe the shift to slide"
+    )]
+    AboveSliding {
+        /// Number of the increment, from 0.
+        increment: usize,
+        /// Name of its stage.
+        stage: String,
+        /// Force asked for.
+        asked: f64,
+        /// mu W.
+        bound: f64,
+    },
+    /// A cycle wears the surfaces more than the grid can follow.
+    #[error(
+        "increment {increment} ({stage}): this cycle alone wears off {share:.2} of a cell's pressure; choose a smaller wear.coefficient (with more cycles), or coarser cells"
+    )]
+    WearTooFast {
+        /// Number of the cycle's last increment, from 0.
+        increment: usize,
+        /// Name of its stage.
+        stage: String,
+        /// Share of a cell's pressure that the cell's own compliance gives up.
+        share: f64,
+    },
+    /// The observer stopped the run.
+    #[error("interrupted at increment {increment}")]
+    Interrupted {
+        /// Number of the increment that was not finished, from 0.
+        increment: usize,
+    },
+}
+
+impl RunError {
+    /// Number of the increment that has no answer, from 0.
+    pub fn increment(&self) -> usize {
+        match self {
+            Self::NotConverged { increment, .. }
+            | Self::ContactAtEdge { increment, .. }
+            | Self::AboveSliding { increment, .. }
+            | Self::WearTooFast { increment, .. }
+            | Self::Interrupted { increment } => *increment,
+        }
+    }
+}
+
+/// What a solver's error means for increment `increment` of `stage`.
+pub fn run_error(error: &SolveError, increment: usize, stage: &Stage, tolerance: f64) -> RunError {
+    let stage = stage.name.clone();
+    match *error {
+        SolveError::NotConverged { reached, iterations } => RunError::NotConverged {
+            increment,
+            stage,
+            reached,
+            tolerance,
+            iterations,
+            advice: "try more increments in this stage, or a larger solver.tolerance".to_owned(),
+        },
+        SolveError::AboveSliding { asked, bound } => {
+            RunError::AboveSliding { increment, stage, asked, bound }
+        }
+        SolveError::ContactAtEdge => RunError::ContactAtEdge { increment, stage },
+        SolveError::OperatorsMissing => RunError::NotConverged {
+            increment,
+            stage,
+            reached: f64::INFINITY,
+            tolerance,
+            iterations: 0,
+            advice: "the elastic answer could not be computed: check moduli and lengths for extreme values"
+                .to_owned(),
+        },
+        SolveError::Stopped => RunError::Interrupted { increment },
+    }
+}

@@ -1,0 +1,148 @@
+//! A run that is taken up again after any of its increments has the bits of the unbroken one: within a cycle, between cycles, with
+//! wear, and where a stage or the whole history ends early. The judge is the unbroken run, compared exactly.
+
+use std::ops::ControlFlow;
+
+use fret_core::case::Case;
+use fret_core::checkpoint::{Checkpoint, CheckpointError, Waypoint};
+use fret_core::history::{History, StepRecord};
+use fret_core::plan::Plan;
+use fret_core::simulation::{Observer, Silent, Simulation};
+
+/// Pressed with 1 N: contact radius 32e-6, approach 0.1e-6.
+const HEAD: &str = r#"
+[grid]
+cells = [16, 14]
+size = [160e-6, 140e-6]
+[upper]
+rigid = true
+[lower]
+substrate = { young = 210e9, poisson = 0.3 }
+[profile.sphere]
+radius = 10e-3
+[friction]
+coefficient = 0.2
+[output]
+fields = ["pressure", "shear", "slip", "gap", "zone", "worn_depth"]
+every = 3
+[[load]]
+normal_force = 1.0
+increments = 3
+"#;
+
+/// Cycles, each computed one for up to four, then a stage without cycles and an unloading that starts on coarse grids.
+const WORN: &str = r"
+[[load]]
+shift = [60e-9, 0.0]
+increments = 6
+cycles = 14
+[[load]]
+shift = [30e-9, 20e-9]
+increments = 3
+[[load]]
+normal_force = 0.3
+increments = 2
+[wear]
+coefficient = 2e-11
+every = 4
+largest_step = 0.1
+";
+
+/// The second stage ends when it is steady; the last one prescribes an approach where there was a force.
+const STEADY: &str = r"
+[[load]]
+tangential_force = [0.15, 0.0]
+increments = 6
+until_steady = { tolerance = 5e-3, most_cycles = 12 }
+[[load]]
+shift = [40e-9, 10e-9]
+increments = 3
+[[load]]
+approach = 60e-9
+increments = 2
+";
+
+fn plan(text: &str) -> Plan {
+    Plan::new(Case::from_toml(text, "case.toml").unwrap()).unwrap()
+}
+
+fn coated() -> String {
+    HEAD.replace("[lower]\n", "[lower]\ncoatings = [{ thickness = 20e-6, young = 400e9, poisson = 0.25 }]\n")
+}
+
+/// Keeps the bytes of every waypoint.
+struct Keeper(Vec<Vec<u8>>);
+
+impl Observer for Keeper {
+    fn reached(&mut self, waypoint: &Waypoint<'_>) -> ControlFlow<()> {
+        self.0.push(waypoint.write(Vec::new()).unwrap());
+        ControlFlow::Continue(())
+    }
+}
+
+fn timeless(steps: &[StepRecord]) -> Vec<StepRecord> {
+    steps.iter().map(|step| StepRecord { wall_s: 0.0, ..step.clone() }).collect()
+}
+
+/// Runs a case, and what is left of it after each increment; the unbroken history.
+fn taken_up_anywhere(text: &str) -> History {
+    let plan = plan(text);
+    let simulation = Simulation::new(&plan);
+    let mut keeper = Keeper(Vec::new());
+    let whole = simulation.run(&mut keeper).unwrap();
+    assert_eq!(keeper.0.len(), whole.steps.len());
+    for (increment, bytes) in keeper.0.iter().enumerate() {
+        let checkpoint = Checkpoint::read(bytes, &plan).unwrap();
+        assert_eq!(checkpoint.solved(), increment + 1);
+        let rest = simulation.resume(checkpoint, &mut Silent).unwrap();
+        assert_eq!(timeless(&rest.steps), timeless(&whole.steps[increment + 1..]), "after {increment}");
+        let later = whole.cycles.iter().filter(|cycle| cycle.last_increment > increment);
+        assert_eq!(rest.cycles, later.cloned().collect::<Vec<_>>(), "after {increment}");
+        let later = whole.fields.iter().filter(|kept| kept.increment > increment);
+        assert_eq!(rest.fields, later.cloned().collect::<Vec<_>>(), "after {increment}");
+        assert_eq!(rest.state, whole.state, "after {increment}");
+        assert_eq!(rest.worn_through, whole.worn_through, "after {increment}");
+    }
+    whole
+}
+
+#[test]
+fn with_wear_in_blocks_of_cycles() {
+    for head in [HEAD.to_owned(), coated()] {
+        let whole = taken_up_anywhere(&(head + WORN));
+        let blocks: Vec<usize> = whole.cycles.iter().map(|cycle| cycle.stands_for).collect();
+        assert_eq!(blocks, [4, 4, 4, 2], "the case shall have blocks of more than one cycle");
+        let worn = whole.cycles.iter().map(|cycle| cycle.worn_volume).collect::<Vec<_>>();
+        assert!(worn.windows(2).all(|pair| 0.0 < pair[0] && pair[0] < pair[1]), "{worn:?}");
+        assert_eq!(whole.steps.len(), 3 + 4 * 6 + 3 + 2);
+    }
+}
+
+#[test]
+fn with_a_stage_that_ends_when_it_is_steady() {
+    for head in [HEAD.to_owned(), coated()] {
+        let whole = taken_up_anywhere(&(head + STEADY));
+        let computed = whole.cycles.len();
+        assert!(whole.cycles[computed - 1].steady && (2..12).contains(&computed), "{computed} cycles");
+        assert_eq!(whole.steps.len(), 3 + 6 * computed + 3 + 2);
+    }
+}
+
+#[test]
+fn with_surfaces_that_are_worn_through() {
+    let whole = taken_up_anywhere(&(HEAD.to_owned() + WORN + "limit = 1e-9\n"));
+    let worn = whole.worn_through.unwrap();
+    assert_eq!((worn.stage, worn.increment + 1), (1, whole.steps.len()));
+    assert!(worn.cycles < 14, "{worn:?}");
+}
+
+#[test]
+fn a_checkpoint_of_another_course_is_refused() {
+    let mut keeper = Keeper(Vec::new());
+    Simulation::new(&plan(&(HEAD.to_owned() + WORN))).run(&mut keeper).unwrap();
+    let within_a_cycle = &keeper.0[5];
+    let unworn = HEAD.to_owned() + WORN.split("[wear]").next().unwrap();
+    for other in [unworn, HEAD.to_owned() + WORN.replace("cycles = 14\n", "").as_str()] {
+        assert_eq!(Checkpoint::read(within_a_cycle, &plan(&other)), Err(CheckpointError::Foreign));
+    }
+}
