@@ -129,6 +129,18 @@ fn with_a_stage_that_ends_when_it_is_steady() {
 }
 
 #[test]
+fn with_increments_divided_by_the_program() {
+    for head in [HEAD.to_owned(), coated()] {
+        let text = (head + WORN).replace("increments = 3", "increments = \"auto\"");
+        let whole = taken_up_anywhere(&format!("[solver]\nhistory_tolerance = 0.02\n{text}"));
+        assert!(
+            whole.steps.iter().any(|step| step.parts > 2),
+            "the case shall have increments of several parts"
+        );
+    }
+}
+
+#[test]
 fn with_surfaces_that_are_worn_through() {
     let whole = taken_up_anywhere(&(HEAD.to_owned() + WORN + "limit = 1e-9\n"));
     let worn = whole.worn_through.unwrap();

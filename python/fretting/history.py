@@ -44,9 +44,11 @@ MEANING = {
     "wall_s": "time spent on the increment [s]",
     "increment": "number of the increment in the whole history, from 0",
     "stage": "number of the stage, from 0",
+    "parts": "parts it was solved in: more than 1 only where increments are \"auto\"",
     "contact_cells": "cells in contact",
     "stick_cells": "cells in contact that stick",
     "convolutions": "operator applications, each one fused pass whatever its components",
+    "full_grid_convolutions": "the same, each weighted by its share of the whole grid's cells",
     "preconditioner_passes": "preconditioner applications",
     "outer_iterations": "changes of the contact, stick and slip zones",
     "regime": "apart, full_stick, partial_slip, gross_slip or frictionless",
@@ -88,8 +90,8 @@ class History:
         One entry per increment: ``normal_force``, ``approach``, ``tangential_force_x``, ``tangential_force_y``,
         ``shift_x``, ``shift_y``, ``twist_moment``, ``twist``, ``max_pressure``, ``max_shear``, ``contact_area``,
         ``stick_area``, ``dissipated_energy`` (cumulative), ``residual``, ``wall_s`` (float); ``increment``, ``stage``,
-        ``contact_cells``, ``stick_cells``, ``convolutions``, ``preconditioner_passes``, ``outer_iterations`` (int);
-        ``regime`` (str).
+        ``contact_cells``, ``stick_cells``, ``convolutions``, ``preconditioner_passes``, ``outer_iterations``, ``parts``
+        (int); ``full_grid_convolutions`` (float); ``regime`` (str).
     x, y : ndarray
         Coordinates of the cell centres [length], shapes (nx,) and (ny,).
     stages : list of str

@@ -12,9 +12,11 @@ from fretting.history import FieldName
 REALS = {
     "normal_force", "approach", "tangential_force_x", "tangential_force_y", "shift_x", "shift_y", "twist_moment",
     "twist", "max_pressure", "max_shear", "contact_area", "stick_area", "dissipated_energy", "residual", "wall_s",
+    "full_grid_convolutions",
 }  # fmt: skip
 COUNTS = {
     "increment", "stage", "contact_cells", "stick_cells", "convolutions", "preconditioner_passes", "outer_iterations",
+    "parts",
 }  # fmt: skip
 
 
@@ -41,7 +43,7 @@ def test_steps_are_columns_of_one_entry_an_increment(history: fretting.History) 
 
 
 def test_fields_are_nx_by_ny_and_the_callers_own(history: fretting.History) -> None:
-    for name in get_args(FieldName):
+    for name in sorted({*get_args(FieldName)} - {"worn_depth"}):  # nothing wears here
         field = history.field(name)
         assert field.shape == (32, 24), name
         assert field.dtype == (np.uint8 if name == "zone" else np.float64), name
@@ -103,7 +105,7 @@ def test_history_survives_pickling(history: fretting.History) -> None:
     again = pickle.loads(pickle.dumps(history))
     assert repr(again) == repr(history)
     assert again.kept_steps == history.kept_steps
-    for name in get_args(FieldName):
+    for name in sorted({*get_args(FieldName)} - {"worn_depth"}):  # nothing wears here
         np.testing.assert_array_equal(again.field(name, 4), history.field(name, 4))
     for name, column in history.steps.items():
         np.testing.assert_array_equal(again.steps[name], column)

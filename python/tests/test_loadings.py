@@ -37,7 +37,7 @@ def test_a_table_is_looked_for_beside_the_case(tmp_path: Path, fretting_case: di
     with pytest.raises(fretting.CaseError, match='no column "u"; it has: tangential_force_x'):
         fretting.run(case)
     case["load"][1]["table"] = str(tmp_path / "nowhere.csv")
-    with pytest.raises(fretting.CaseError, match="No such file"):
+    with pytest.raises(fretting.CaseError, match="no such file"):
         fretting.run(case)
 
 

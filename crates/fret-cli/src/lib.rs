@@ -19,6 +19,7 @@ mod summary;
 mod sweep;
 mod tally;
 mod terminal;
+mod threads;
 
 use std::ffi::OsString;
 use std::panic::{AssertUnwindSafe, catch_unwind};

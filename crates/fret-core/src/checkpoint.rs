@@ -12,7 +12,7 @@ use crate::solver::{Resultants, SolverMemory};
 use crate::wear::{Collected, WornThrough};
 
 /// Version of the bytes; another layout of what is stored gets another one.
-const FORMAT: u32 = 2;
+const FORMAT: u32 = 3;
 
 /// How far a run has come in its stages.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -23,6 +23,8 @@ pub(crate) struct Place {
     pub stage: usize,
     /// Increments solved in it; none, of a stage that has yet to begin.
     pub solved_of_stage: usize,
+    /// Parts that the next increment is divided into first, where that is left to the program.
+    pub parts: usize,
     /// Cycles done in it, those that a computed one stands for included.
     pub cycles: usize,
     /// Controls where it started.
@@ -102,6 +104,7 @@ impl Checkpoint {
             solved: 0,
             stage: 0,
             solved_of_stage: 0,
+            parts: 1,
             cycles: 0,
             stage_start: free,
             held: free,

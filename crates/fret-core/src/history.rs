@@ -19,6 +19,16 @@ pub struct Residual {
 }
 
 impl Residual {
+    /// The worse of two, each kind by itself.
+    #[must_use]
+    pub fn worse(&self, other: &Self) -> Self {
+        Self {
+            complementarity: worst([self.complementarity, other.complementarity]),
+            coulomb: worst([self.coulomb, other.coulomb]),
+            equilibrium: worst([self.equilibrium, other.equilibrium]),
+        }
+    }
+
     /// The worst of the three; not a number when any of them is none.
     pub fn largest(&self) -> f64 {
         worst([self.complementarity, self.coulomb, self.equilibrium])
@@ -72,6 +82,8 @@ pub struct StepRecord {
     pub increment: usize,
     /// Number of its stage, from 0.
     pub stage: usize,
+    /// Parts it was solved in: more than 1 only where the division is left to the program.
+    pub parts: usize,
     /// Normal force [force], compression positive.
     pub normal_force: f64,
     /// Rigid approach [length].

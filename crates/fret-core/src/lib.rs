@@ -12,6 +12,7 @@ pub mod kernel;
 pub mod model;
 pub mod plan;
 mod recording;
+mod refinement;
 mod run_error;
 pub mod simulation;
 pub mod solver;

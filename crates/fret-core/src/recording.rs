@@ -5,13 +5,14 @@ use crate::model::field::largest;
 use crate::solver::Increment;
 
 /// The record of a solved increment.
-pub fn record(solved: &Increment, increment: usize, stage: usize, wall_s: f64) -> StepRecord {
+pub fn record(solved: &Increment, increment: usize, stage: usize, parts: usize, wall_s: f64) -> StepRecord {
     let state = &solved.state;
     let outcome = &solved.outcome;
     let max_shear = state.shear[0].iter().zip(&state.shear[1]).map(|(x, y)| x.hypot(*y)).fold(0.0, f64::max);
     StepRecord {
         increment,
         stage,
+        parts,
         normal_force: outcome.resultants.normal,
         approach: state.approach,
         tangential_force: outcome.resultants.tangential,

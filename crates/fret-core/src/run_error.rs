@@ -48,6 +48,23 @@ pub enum RunError {
         /// mu W.
         bound: f64,
     },
+    /// Even small parts of an increment leave too large an error in its history.
+    #[error(
+        "increment {increment} ({stage}): {parts} parts leave an error of {reached:.1e} of the way the tractions go, asked for \
+         {tolerance:.1e}; try a larger solver.history_tolerance, or ramp = \"cubic\" while the contact grows"
+    )]
+    HistoryUnresolved {
+        /// Number of the increment, from 0.
+        increment: usize,
+        /// Name of its stage.
+        stage: String,
+        /// Error reached.
+        reached: f64,
+        /// Error asked for.
+        tolerance: f64,
+        /// Parts made.
+        parts: usize,
+    },
     /// A cycle wears the surfaces more than the grid can follow.
     #[error(
         "increment {increment} ({stage}): this cycle alone wears off {share:.2} of a cell's pressure; choose a smaller wear.coefficient (with more cycles), or coarser cells"
@@ -75,6 +92,7 @@ impl RunError {
             Self::NotConverged { increment, .. }
             | Self::ContactAtEdge { increment, .. }
             | Self::AboveSliding { increment, .. }
+            | Self::HistoryUnresolved { increment, .. }
             | Self::WearTooFast { increment, .. }
             | Self::Interrupted { increment } => *increment,
         }

@@ -20,6 +20,7 @@ use crate::kernel::{
 use crate::model::{ContactState, CoulombFriction, LoadStep};
 use crate::plan::{Coupling, Plan, Shortcut};
 use crate::recording::{kept, record};
+use crate::refinement::{DivisionError, Refinement, Span};
 pub use crate::run_error::RunError;
 use crate::run_error::run_error;
 use crate::solver::{ContactSolver, Resultants, SolverSettings};
@@ -217,6 +218,20 @@ impl<'a> Journey<'a> {
         latest_first.find_map(|stage| stage.friction.as_ref()).unwrap_or(&case.friction)
     }
 
+    /// How the next increment is divided; it is one step where its end does not depend on the way there.
+    fn refinement(&self) -> Option<Refinement> {
+        let stage = &self.case().stages[self.place.stage];
+        let tolerance = stage.history_tolerance?;
+        let friction = self.friction().largest();
+        let shear = self.history.state.shear.iter().flatten().any(|shear| *shear != 0.0);
+        let depends = self.plan.coupling == Coupling::Coupled || stage.is_tangential() || shear;
+        (friction > 0.0 && depends).then_some(Refinement {
+            tolerance,
+            residual: self.case().tolerance,
+            friction,
+        })
+    }
+
     fn through_all_stages(mut self) -> Result<History, RunError> {
         while let Some(stage) = self.case().stages.get(self.place.stage) {
             self.through_stage(stage)?;
@@ -241,7 +256,8 @@ impl<'a> Journey<'a> {
             self.cycle = stage.cycles().map(|_| self.loop_from_here(1));
         }
         for k in self.place.solved_of_stage + 1..=stage.increments_in_all() {
-            self.increment(stage, k, &steps.at(k))?;
+            let from = if k == 1 { steps.start() } else { steps.at(k - 1) };
+            self.increment(stage, k, [&from, &steps.at(k)])?;
             if self.place.stage > number {
                 break;
             }
@@ -250,10 +266,10 @@ impl<'a> Journey<'a> {
     }
 
     /// Solves increment `k` of the stage at work and tells of it. When that ends a cycle or the stage, so does the place.
-    fn increment(&mut self, stage: &Stage, k: usize, load: &LoadStep) -> Result<(), RunError> {
+    fn increment(&mut self, stage: &Stage, k: usize, [from, to]: [&LoadStep; 2]) -> Result<(), RunError> {
         let (number, all) = (self.place.stage, stage.increments_in_all());
         let may_keep = k == all || stage.ends_cycle(k) || self.case().keeps(number, k);
-        let (record, mut kept) = self.solved(load, may_keep)?;
+        let (record, mut kept) = self.solved([from, to], may_keep)?;
         if let Some(cycle) = &mut self.cycle {
             cycle.add(&record);
         }
@@ -306,31 +322,55 @@ impl<'a> Journey<'a> {
         FrettingLoop::new((stage, cycle), solved, &self.history.state, tangential, moment)
     }
 
-    /// Solves the next increment; its fields, should they be kept.
+    /// Solves the next increment, in parts where they are left to the program; its fields, should they be kept.
     fn solved(
         &mut self,
-        load: &LoadStep,
+        [from, to]: [&LoadStep; 2],
         may_keep: bool,
     ) -> Result<(StepRecord, Option<KeptFields>), RunError> {
         let case = self.case();
         let Place { solved: increment, stage, .. } = self.place;
+        let refinement = self.refinement();
         let started = Instant::now();
         let observer = &mut *self.observer;
+        let failed = |error| run_error(&error, increment, &case.stages[stage], case.tolerance);
         let mut watch = |iteration: usize, residual: f64| {
             let tolerance = case.tolerance;
             observer.iterated(&Iteration { increment, stage, iteration, residual, tolerance })
         };
-        let solved = self
-            .solver
-            .step(&self.history.state, load, &mut watch)
-            .map_err(|error| run_error(&error, increment, &case.stages[stage], case.tolerance))?;
-        let record = record(&solved, increment, stage, started.elapsed().as_secs_f64());
+        let state = &self.history.state;
+        let (solved, parts) = match refinement {
+            None => {
+                let solved = self.solver.step(state, to, &mut watch).map_err(failed)?;
+                if let Some(wearing) = &mut self.wearing {
+                    wearing.add(state, &solved.state);
+                }
+                (solved, 1)
+            }
+            Some(refinement) => {
+                let span = Span { state, from, to };
+                let wearing = self.wearing.as_ref();
+                let divided = refinement
+                    .solve(&mut self.solver, wearing, span, self.place.parts, &mut watch)
+                    .map_err(|error| match error {
+                        DivisionError::Unsolved(error) => failed(error),
+                        DivisionError::Unresolved { reached, parts } => RunError::HistoryUnresolved {
+                            increment,
+                            stage: case.stages[stage].name.clone(),
+                            reached,
+                            tolerance: refinement.tolerance,
+                            parts,
+                        },
+                    })?;
+                self.wearing = divided.wearing;
+                self.place.parts = divided.next;
+                (divided.end, divided.parts)
+            }
+        };
+        let record = record(&solved, increment, stage, parts, started.elapsed().as_secs_f64());
         let kept = may_keep.then(|| kept(&solved, increment, &case.output.fields));
-        if let Some(wearing) = &mut self.wearing {
-            wearing.add(&self.history.state, &solved.state);
-        }
         self.place.resultants = solved.outcome.resultants;
-        self.place.held = *load;
+        self.place.held = *to;
         self.history.state = solved.state;
         Ok((record, kept))
     }

@@ -14,7 +14,7 @@ use crate::error::bad_value;
 type Entry<T> = (&'static str, fn(&StepRecord) -> T);
 
 /// The real numbers of a step.
-const REALS: [Entry<f64>; 15] = [
+const REALS: [Entry<f64>; 16] = [
     ("normal_force", |step| step.normal_force),
     ("approach", |step| step.approach),
     ("tangential_force_x", |step| step.tangential_force[0]),
@@ -30,12 +30,14 @@ const REALS: [Entry<f64>; 15] = [
     ("dissipated_energy", |step| step.dissipated_energy),
     ("residual", |step| step.residual.largest()),
     ("wall_s", |step| step.wall_s),
+    ("full_grid_convolutions", |step| step.work.full_grid_convolutions),
 ];
 
 /// The counts of a step.
-const COUNTS: [Entry<usize>; 7] = [
+const COUNTS: [Entry<usize>; 8] = [
     ("increment", |step| step.increment),
     ("stage", |step| step.stage),
+    ("parts", |step| step.parts),
     ("contact_cells", |step| step.contact_cells),
     ("stick_cells", |step| step.stick_cells),
     ("convolutions", |step| step.work.convolutions),

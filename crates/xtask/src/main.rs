@@ -100,7 +100,7 @@ impl Step {
 fn test() -> Vec<Step> {
     let mut steps = vec![cargo(&["test", "--release", "--workspace", "--locked"]).called("Rust tests")];
     steps.extend(venv());
-    steps.push(python("Python build", &["-m", "pip", "install", "--quiet", ".[all]", "pytest", "mypy"]));
+    steps.push(python("Python build", &["-m", "pip", "install", "--quiet", ".[test]"]));
     steps.push(python("Python tests", &["-m", "pytest", "python/tests"]));
     steps
 }
@@ -117,8 +117,7 @@ fn docs() -> Vec<Step> {
     let mut steps =
         vec![cargo(&["doc", "--workspace", "--no-deps", "--locked"]).with("RUSTDOCFLAGS", "--deny warnings")];
     steps.extend(venv());
-    let tools =
-        ["-m", "pip", "install", "--quiet", "mkdocs-material", "mkdocstrings[python]", "latex2mathml"];
+    let tools = ["-m", "pip", "install", "--quiet", ".[test]"];
     steps.push(python("documentation tools", &tools));
     // The theme's makers announce the next mkdocs on every build.
     steps.push(

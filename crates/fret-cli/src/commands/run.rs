@@ -1,6 +1,5 @@
 //! `fret run`: from a case file to a folder of results, with a face for the time between.
 
-use std::num::NonZero;
 use std::ops::ControlFlow;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
@@ -28,6 +27,7 @@ use crate::progress::Progress;
 use crate::summary::Summary;
 use crate::tally::Tally;
 use crate::terminal;
+use crate::threads::available_threads;
 
 /// Solves a case.
 pub fn run(arguments: &RunArguments, as_json: bool) -> Result<(), Told> {
@@ -99,10 +99,6 @@ fn prepared(arguments: &RunArguments) -> Result<Preparation, Failure> {
         announce(&plan, &folder, &standing);
     }
     Ok(Preparation { case_file, plan, folder, standing, threads, pool })
-}
-
-pub fn available_threads() -> usize {
-    std::thread::available_parallelism().map_or(1, NonZero::get)
 }
 
 fn announce(plan: &Plan, folder: &Path, standing: &Standing) {

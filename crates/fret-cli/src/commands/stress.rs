@@ -17,7 +17,6 @@ use fret_core::subsurface::{
 use serde_json::{Value, json};
 
 use super::fatigue::{Fatigue, Picture};
-use super::run::available_threads;
 use crate::arguments::StressArguments;
 use crate::failure::{Failure, Unwritten};
 use crate::figures::{counted, duration, figure};
@@ -26,6 +25,7 @@ use crate::output::section::Section;
 use crate::output::vtk::Volume;
 use crate::output::write_whole;
 use crate::terminal;
+use crate::threads::available_threads;
 
 /// Depths chosen by `--auto`.
 const AUTOMATIC: usize = 64;

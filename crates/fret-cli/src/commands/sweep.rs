@@ -1,6 +1,5 @@
 //! `fret sweep`: many cases on the cores of one machine; finished points are not solved again.
 
-use std::num::NonZero;
 use std::ops::ControlFlow;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
@@ -19,6 +18,7 @@ use crate::figures::{counted, duration};
 use crate::interrupt;
 use crate::sweep::{Answer, Question, SweepFolder};
 use crate::terminal;
+use crate::threads::available_threads;
 
 /// Solves all points of a sweep.
 pub fn sweep(arguments: &SweepArguments, as_json: bool) -> Result<(), Failure> {
@@ -28,7 +28,7 @@ pub fn sweep(arguments: &SweepArguments, as_json: bool) -> Result<(), Failure> {
     let path = arguments.out.clone().unwrap_or_else(|| Path::new("results").join(stem));
     let folder = SweepFolder::open(&path, &text)?;
     interrupt::listen();
-    let all = std::thread::available_parallelism().map_or(1, NonZero::get);
+    let all = available_threads();
     let threads = arguments.threads.map_or(all, usize::from);
     let known: Vec<Option<Answer>> = question.points.iter().map(|point| folder.finished(point)).collect();
     let board = Board::new(&question, known, arguments.quiet);

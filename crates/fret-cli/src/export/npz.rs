@@ -16,7 +16,7 @@ use crate::results::Results;
 const WIDE: usize = 1 << 31;
 
 /// Columns of the history that count.
-const COUNTS: [&str; 7] = [
+const COUNTS: [&str; 8] = [
     "increment",
     "stage",
     "convolutions",
@@ -24,6 +24,7 @@ const COUNTS: [&str; 7] = [
     "outer_iterations",
     "contact_cells",
     "stick_cells",
+    "parts",
 ];
 
 /// Writes the results as a `.npz` file.

@@ -11,7 +11,7 @@ use serde_json::Value;
 use crate::failure::Unwritten;
 
 /// The columns, in order; the names are those of `history.steps` in Python.
-const COLUMNS: [&str; 23] = [
+const COLUMNS: [&str; 25] = [
     "increment",
     "stage",
     "normal_force",
@@ -35,6 +35,8 @@ const COLUMNS: [&str; 23] = [
     "contact_cells",
     "stick_cells",
     "regime",
+    "full_grid_convolutions",
+    "parts",
 ];
 
 /// The columns of the cycles, in order; the names are those of `history.cycles` in Python.
@@ -170,6 +172,8 @@ fn line(record: &StepRecord) -> String {
         record.contact_cells.to_string(),
         record.stick_cells.to_string(),
         word(record.regime).to_owned(),
+        exact(record.work.full_grid_convolutions),
+        record.parts.to_string(),
     ];
     cells.join(",") + "\n"
 }

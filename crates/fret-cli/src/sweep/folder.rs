@@ -146,7 +146,7 @@ fn files_named(text: &str) -> Vec<String> {
             toml::Value::Table(table) => table.iter().for_each(|(key, value)| look(value, key, found)),
             toml::Value::Array(items) => items.iter().for_each(|item| look(item, key, found)),
             toml::Value::String(name) if matches!(key, "file" | "map" | "friction" | "table") => {
-                found.push(name.clone())
+                found.push(name.clone());
             }
             _ => {}
         }

@@ -1,9 +1,6 @@
 //! Files a case names beside itself: tables, heights, maps. The core opens none; whoever hands in the text hands them in too.
 
 use ndarray::Array2;
-use toml::Spanned;
-
-use super::judge::Judge;
 
 /// Files and arrays that come with the text of a case.
 #[derive(Clone, Copy)]
@@ -23,35 +20,5 @@ impl<'a> Attachments<'a> {
     /// Files only.
     pub fn files(file: &'a dyn Fn(&str) -> Result<Vec<u8>, String>) -> Self {
         Self { file, arrays: &[] }
-    }
-}
-
-impl Judge<'_> {
-    /// Content of a file the case names under `key`; refused, with the reason, when it cannot be had.
-    pub(super) fn attached(&mut self, key: &str, name: &Spanned<String>) -> Option<Vec<u8>> {
-        match (self.attachments.file)(name.get_ref()) {
-            Ok(content) => Some(content),
-            Err(reason) => self.refuse(
-                name.span(),
-                format!("{key} = {:?}: {reason}", name.get_ref()),
-                "a file's name is relative to the case file",
-            ),
-        }
-    }
-
-    /// The same as text.
-    pub(super) fn attached_text(&mut self, key: &str, name: &Spanned<String>) -> Option<String> {
-        let content = self.attached(key, name)?;
-        match String::from_utf8(content) {
-            Ok(text) => Some(text),
-            Err(error) => {
-                let place = error.utf8_error().valid_up_to();
-                let message = format!(
-                    "{key} = {:?}: not a text in UTF-8 (byte {place} is not part of a letter)",
-                    name.get_ref()
-                );
-                self.refuse(name.span(), message, "")
-            }
-        }
     }
 }

@@ -42,7 +42,8 @@ pub(super) fn case(
     let friction = friction(&mut judge, file.friction.as_ref(), cells);
     let changes = of_stages(&mut judge, file.load.get_ref(), cells);
     let laws = friction.as_ref().zip(changes.as_ref()).map(|(first, changes)| in_force(first, changes));
-    let stages = stages(&mut judge, &file.load, laws.as_deref());
+    let history_tolerance = file.solver.as_ref().and_then(|solver| solver.history_tolerance.as_ref());
+    let stages = stages(&mut judge, &file.load, laws.as_deref(), history_tolerance);
     let stages = stages.zip(changes.as_ref()).map(|(stages, changes)| with_friction(stages, changes));
     let periodic = repeats(&mut judge, &file.grid, size, (&file.load, stages.as_deref()), profile.as_ref());
     let mapped = friction.iter().chain(changes.iter().flatten().flatten()).any(CoulombFriction::is_map);

@@ -5,7 +5,7 @@ use serde::Deserialize;
 use serde::de::{self, SeqAccess, Visitor};
 use toml::Spanned;
 
-use super::stage_file::{StageFile, WearFile};
+use super::stage_file::{AutoWord, StageFile, WearFile};
 use super::surface_file::{FrictionFile, ProfileFile};
 use crate::model::Scheme;
 
@@ -71,13 +71,6 @@ pub(super) enum SizeFile {
 enum SizeSchema {
     Given([f64; 2]),
     Auto(AutoWord),
-}
-
-#[derive(JsonSchema)]
-#[serde(rename_all = "lowercase")]
-#[expect(dead_code, reason = "stands for a word in the schema")]
-enum AutoWord {
-    Auto,
 }
 
 impl<'de> Deserialize<'de> for SizeFile {
@@ -205,6 +198,10 @@ pub(super) struct SolverFile {
     /// Bound on the complementarity and Coulomb residuals of every increment, relative; 1e-8 when not given.
     #[schemars(with = "Option<f64>")]
     pub tolerance: Option<Spanned<f64>>,
+    /// Where increments = "auto": bound on the error that an increment's size leaves in the tractions, in shares of the way they go
+    /// in it; 0.03 when not given.
+    #[schemars(with = "Option<f64>")]
+    pub history_tolerance: Option<Spanned<f64>>,
     /// "together" (when not given), or "alternating": pressure and shear in turn until they agree, as in the published
     /// three-level scheme, for comparison.
     #[schemars(with = "Option<Scheme>")]

@@ -2,6 +2,8 @@
 
 use std::ops::Range;
 
+use toml::Spanned;
+
 use super::attachments::Attachments;
 use super::refusal::Mistake;
 
@@ -21,5 +23,33 @@ impl Judge<'_> {
         let help = (!help.is_empty()).then(|| help.to_owned());
         self.mistakes.push(Mistake { message: message.into(), help, span: Some(span) });
         None
+    }
+
+    /// Content of a file the case names under `key`; refused, with the reason, when it cannot be had.
+    pub(super) fn attached(&mut self, key: &str, name: &Spanned<String>) -> Option<Vec<u8>> {
+        match (self.attachments.file)(name.get_ref()) {
+            Ok(content) => Some(content),
+            Err(reason) => self.refuse(
+                name.span(),
+                format!("{key} = {:?}: {reason}", name.get_ref()),
+                "a file's name is relative to the case file",
+            ),
+        }
+    }
+
+    /// The same as text.
+    pub(super) fn attached_text(&mut self, key: &str, name: &Spanned<String>) -> Option<String> {
+        let content = self.attached(key, name)?;
+        match String::from_utf8(content) {
+            Ok(text) => Some(text),
+            Err(error) => {
+                let place = error.utf8_error().valid_up_to();
+                let message = format!(
+                    "{key} = {:?}: not a text in UTF-8 (byte {place} is not part of a letter)",
+                    name.get_ref()
+                );
+                self.refuse(name.span(), message, "")
+            }
+        }
     }
 }

@@ -102,6 +102,10 @@ pub struct Stage {
     pub twist: Option<StageControl>,
     /// Increments of the stage, or of one cycle, all rows of a table included.
     pub increments: usize,
+    /// Each increment is solved in as many parts as this bound on the error of its history asks for (in shares of the way that the
+    /// tractions go in it); in one when not given.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub history_tolerance: Option<f64>,
     /// How the stage runs through its increments.
     pub course: Course,
     /// Friction from this stage on; as before when not given.

@@ -39,9 +39,10 @@ pub(super) struct StageFile {
     /// Which column of the table holds which control, when they are named otherwise: `tangential_force_x = "Q [N]"`.
     #[schemars(with = "Option<BTreeMap<String, String>>")]
     pub columns: Option<BTreeMap<Spanned<String>, Spanned<String>>>,
-    /// Number of increments: of the stage; with cycles, of one cycle; with a table, from row to row.
-    #[schemars(with = "usize")]
-    pub increments: Spanned<usize>,
+    /// Number of increments: of the stage; with cycles, of one cycle; with a table, from row to row. "auto": 16 of a stage, 32 of
+    /// a cycle, 4 from row to row, each solved in as many parts as `solver.history_tolerance` asks for.
+    #[schemars(with = "IncrementsSchema")]
+    pub increments: Spanned<IncrementsFile>,
     /// How the controls run to their targets; "linear" when not given.
     #[schemars(with = "Option<RampFile>")]
     pub ramp: Option<Spanned<RampFile>>,
@@ -66,6 +67,58 @@ pub(super) struct StageFile {
     /// Friction from this stage on: a coefficient, or a coefficient for every cell (a file, or rows of numbers).
     #[schemars(with = "Option<CoefficientFile>")]
     pub friction: Option<Spanned<CoefficientFile>>,
+}
+
+/// A number of increments, or the word "auto".
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum IncrementsFile {
+    Count(usize),
+    Auto,
+}
+
+#[derive(JsonSchema)]
+#[serde(untagged)]
+#[expect(dead_code, reason = "stands for IncrementsFile in the schema")]
+enum IncrementsSchema {
+    Count(usize),
+    Auto(AutoWord),
+}
+
+#[derive(JsonSchema)]
+#[serde(rename_all = "lowercase")]
+#[expect(dead_code, reason = "stands for a word in the schema")]
+pub(super) enum AutoWord {
+    Auto,
+}
+
+impl<'de> Deserialize<'de> for IncrementsFile {
+    fn deserialize<D: de::Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct IncrementsVisitor;
+        impl Visitor<'_> for IncrementsVisitor {
+            type Value = IncrementsFile;
+            fn expecting(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+                formatter.write_str("a whole number or \"auto\"")
+            }
+            fn visit_i64<E: de::Error>(self, value: i64) -> Result<IncrementsFile, E> {
+                usize::try_from(value)
+                    .map(IncrementsFile::Count)
+                    .map_err(|_| E::invalid_value(de::Unexpected::Signed(value), &self))
+            }
+            fn visit_u64<E: de::Error>(self, value: u64) -> Result<IncrementsFile, E> {
+                usize::try_from(value)
+                    .map(IncrementsFile::Count)
+                    .map_err(|_| E::invalid_value(de::Unexpected::Unsigned(value), &self))
+            }
+            fn visit_str<E: de::Error>(self, word: &str) -> Result<IncrementsFile, E> {
+                if word == "auto" {
+                    Ok(IncrementsFile::Auto)
+                } else {
+                    Err(E::invalid_value(de::Unexpected::Str(word), &self))
+                }
+            }
+        }
+        deserializer.deserialize_any(IncrementsVisitor)
+    }
 }
 
 /// A number for one axis, or the word "held".

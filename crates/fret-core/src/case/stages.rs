@@ -5,13 +5,15 @@ use toml::Spanned;
 use super::controls::controls;
 use super::course::{Course, Cycles, Waveform, walk};
 use super::judge::Judge;
-use super::stage_file::{RampFile, StageFile, WaveformFile};
+use super::stage_file::{IncrementsFile, RampFile, StageFile, WaveformFile};
 use super::table::table;
 use super::{Stage, StageControl};
 use crate::model::{Control, CoulombFriction};
 
 /// Increments of a whole history, at the most.
 const MOST_INCREMENTS: usize = 10_000_000;
+/// Bound on the error of the history where it is left to the program.
+const HISTORY_TOLERANCE: f64 = 0.03;
 /// Cycles of a stage, at the most.
 const MOST_CYCLES: usize = 1_000_000;
 
@@ -20,7 +22,9 @@ pub(super) fn stages(
     judge: &mut Judge,
     list: &Spanned<Vec<Spanned<StageFile>>>,
     friction: Option<&[&CoulombFriction]>,
+    history_tolerance: Option<&Spanned<f64>>,
 ) -> Option<Vec<Stage>> {
+    let tolerance = self::history_tolerance(judge, list.get_ref(), history_tolerance)?;
     if list.get_ref().is_empty() {
         return judge.refuse(
             list.span(),
@@ -31,7 +35,7 @@ pub(super) fn stages(
     let mut checked = Vec::new();
     for (index, given) in list.get_ref().iter().enumerate() {
         let frictionless = friction.is_some_and(|laws| laws[index].is_frictionless());
-        checked.push(stage(judge, index, given, frictionless));
+        checked.push(stage(judge, index, given, frictionless, tolerance));
     }
     let stages: Vec<Stage> = checked.into_iter().collect::<Option<_>>()?;
     let in_all = stages.iter().fold(0_usize, |sum, stage| {
@@ -47,12 +51,47 @@ pub(super) fn stages(
     Some(stages)
 }
 
-fn stage(judge: &mut Judge, index: usize, given: &Spanned<StageFile>, frictionless: bool) -> Option<Stage> {
+/// The bound for increments whose division is left to the program.
+fn history_tolerance(
+    judge: &mut Judge,
+    list: &[Spanned<StageFile>],
+    given: Option<&Spanned<f64>>,
+) -> Option<f64> {
+    let Some(given) = given else { return Some(HISTORY_TOLERANCE) };
+    let tolerance = *given.get_ref();
+    if !(1e-6..=0.5).contains(&tolerance) {
+        return judge.refuse(
+            given.span(),
+            format!("solver.history_tolerance = {tolerance:?}: must lie between 1e-6 and 0.5"),
+            "0.03 serves most purposes",
+        );
+    }
+    if !list.iter().any(|stage| *stage.get_ref().increments.get_ref() == IncrementsFile::Auto) {
+        return judge.refuse(
+            given.span(),
+            "solver.history_tolerance: every stage says its number of increments",
+            "increments = \"auto\" in the stages that it is meant for",
+        );
+    }
+    Some(tolerance)
+}
+
+fn stage(
+    judge: &mut Judge,
+    index: usize,
+    given: &Spanned<StageFile>,
+    frictionless: bool,
+    tolerance: f64,
+) -> Option<Stage> {
     let before = judge.mistakes.len();
     let file = given.get_ref();
     let name = file.name.clone().unwrap_or_else(|| format!("stage {}", index + 1));
     let place = format!("load[{index}] ({name})");
-    let mut increments = *file.increments.get_ref();
+    let auto = *file.increments.get_ref() == IncrementsFile::Auto;
+    let mut increments = match *file.increments.get_ref() {
+        IncrementsFile::Count(count) => count,
+        IncrementsFile::Auto => automatic(file),
+    };
     if !(1..=MOST_INCREMENTS).contains(&increments) {
         let message = format!("{place}.increments = {increments}: must lie between 1 and {MOST_INCREMENTS}");
         judge.refuse::<()>(file.increments.span(), message, "");
@@ -81,6 +120,7 @@ fn stage(judge: &mut Judge, index: usize, given: &Spanned<StageFile>, frictionle
         tangential: [x, y],
         twist,
         increments,
+        history_tolerance: auto.then_some(tolerance),
         course: course.unwrap_or(Course::Linear),
         friction: None,
     };
@@ -107,6 +147,19 @@ fn stage(judge: &mut Judge, index: usize, given: &Spanned<StageFile>, frictionle
         );
     }
     (judge.mistakes.len() == before).then_some(stage)
+}
+
+/// Increments of a stage that leaves them to the program: enough to draw it by.
+fn automatic(file: &StageFile) -> usize {
+    let dwell = file.dwell.as_ref().map_or(0.25, |given| *given.get_ref());
+    match (&file.table, file.cycles.is_some() || file.until_steady.is_some(), &file.waveform) {
+        (Some(_), _, _) => 4,
+        (None, false, _) => 16,
+        (None, true, Some(form)) if *form.get_ref() == WaveformFile::Trapezoid => {
+            Waveform::Trapezoid { dwell: dwell.clamp(0.001, 0.499) }.fewest_increments().max(32)
+        }
+        (None, true, _) => 32,
+    }
 }
 
 fn course(judge: &mut Judge, place: &str, file: &StageFile, increments: usize) -> Option<Course> {

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use ndarray::Array2;
 use serde::{Serialize, Serializer};
 
-use super::profile::ProfileError;
+use super::shape::ProfileError;
 
 /// What is taken off heights before they are used.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -21,3 +21,19 @@ pub struct LoadStep {
     /// Moment about z on the lower body, or rotation of the upper body.
     pub twist: Control,
 }
+
+impl LoadStep {
+    /// What is prescribed at a share of the straight way from one step to another that prescribes the same kinds.
+    pub fn between(from: &Self, to: &Self, share: f64) -> Self {
+        let one = |from: Control, to: Control| match (from, to) {
+            (Control::Force(a), Control::Force(b)) if share < 1.0 => Control::Force(a + (b - a) * share),
+            (Control::Motion(a), Control::Motion(b)) if share < 1.0 => Control::Motion(a + (b - a) * share),
+            (_, to) => to,
+        };
+        Self {
+            normal: one(from.normal, to.normal),
+            tangential: [0, 1].map(|axis| one(from.tangential[axis], to.tangential[axis])),
+            twist: one(from.twist, to.twist),
+        }
+    }
+}

@@ -10,35 +10,6 @@ use super::shape::Shape;
 /// Gap where one of the bodies has ended, in diagonals of the grid: finite, so that sums stay numbers, and out of reach.
 pub const BEYOND_THE_BODY: f64 = 1e6;
 
-/// Why a profile was refused.
-#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
-pub enum ProfileError {
-    /// A length that is not positive and finite.
-    #[error("{name} = {value}: must be positive and finite")]
-    Length {
-        /// Which length.
-        name: &'static str,
-        /// What was given.
-        value: f64,
-    },
-    /// A radius of curvature that is zero or not finite.
-    #[error("{name} = {value}: must be a finite length, and not zero")]
-    Radius {
-        /// Which radius.
-        name: &'static str,
-        /// What was given.
-        value: f64,
-    },
-    /// A height that is not finite.
-    #[error("height [{}, {}] = {value}: must be finite", at[0], at[1])]
-    Height {
-        /// Its cell.
-        at: [usize; 2],
-        /// What was given.
-        value: f64,
-    },
-}
-
 /// The undeformed gap: the sum of the shapes and the heights of both bodies.
 #[derive(Debug, Clone, PartialEq, Default, Serialize)]
 pub struct Profile {

@@ -2,7 +2,34 @@
 
 use serde::Serialize;
 
-use super::profile::ProfileError;
+/// Why a profile was refused.
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+pub enum ProfileError {
+    /// A length that is not positive and finite.
+    #[error("{name} = {value}: must be positive and finite")]
+    Length {
+        /// Which length.
+        name: &'static str,
+        /// What was given.
+        value: f64,
+    },
+    /// A radius of curvature that is zero or not finite.
+    #[error("{name} = {value}: must be a finite length, and not zero")]
+    Radius {
+        /// Which radius.
+        name: &'static str,
+        /// What was given.
+        value: f64,
+    },
+    /// A height that is not finite.
+    #[error("height [{}, {}] = {value}: must be finite", at[0], at[1])]
+    Height {
+        /// Its cell.
+        at: [usize; 2],
+        /// What was given.
+        value: f64,
+    },
+}
 
 /// A direction in the surface.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
