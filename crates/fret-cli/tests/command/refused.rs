@@ -158,7 +158,7 @@ fn verbs_that_are_not_built_yet_are_refused_by_name() {
     let bench = Bench::new("unbuilt");
     bench.file("case.toml", SPHERE);
     for arguments in [["study", "case.toml", "--cells", "32"]] {
-        let answer = bench.fret(arguments);
+        let answer = bench.fret(&arguments);
         assert_eq!(answer.code, Some(1), "{arguments:?}");
         assert!(answer.err.contains("not built yet"), "{arguments:?}: {}", answer.err);
     }
