@@ -82,7 +82,7 @@ pub struct StepRecord {
     pub increment: usize,
     /// Number of its stage, from 0.
     pub stage: usize,
-    /// Parts it was solved in: more than 1 only where the division is left to the program.
+    /// Parts it was solved in: more than 1 where the division is left to the program, or where it was not solved as a whole.
     pub parts: usize,
     /// Normal force [force], compression positive.
     pub normal_force: f64,

@@ -1,5 +1,5 @@
-//! Increments divided until the history no longer depends on their size: the shear that slip leaves behind in a growing contact is
-//! of first order in the increment.
+//! Increments in parts: where the whole is not solved, and where the history is to depend no longer on their size, since the shear
+//! that slip leaves behind in a growing contact is of first order in the increment.
 
 use ndarray::Zip;
 
@@ -7,6 +7,8 @@ use crate::model::{ContactState, LoadStep};
 use crate::solver::{ContactSolver, Increment, SolveError, SolverMemory, Watch};
 use crate::wear::Wearing;
 
+/// Halvings of a step that is not solved as a whole, at the most.
+const MOST_HALVINGS: u32 = 5;
 /// Parts of an increment, at the most.
 const MOST_PARTS: usize = 1024;
 /// Two solutions of one problem differ by at most so many times the bound on their residuals; 100 leaves room for
@@ -22,6 +24,53 @@ pub struct Span<'a> {
     pub from: &'a LoadStep,
     /// What is prescribed at its end.
     pub to: &'a LoadStep,
+}
+
+/// Solves a step; one whose equations are not solved as a whole in two halves, and these again. With it the number of parts; wear is
+/// collected on the way.
+///
+/// # Errors
+/// Those of the equations; that they do not converge, when the smallest part does not.
+pub fn in_halves(
+    solver: &mut ContactSolver<'_>,
+    wearing: &mut Option<Wearing>,
+    span: Span<'_>,
+    watch: Watch<'_>,
+) -> Result<(Increment, usize), SolveError> {
+    halved(solver, wearing, span, MOST_HALVINGS, watch)
+}
+
+fn halved(
+    solver: &mut ContactSolver<'_>,
+    wearing: &mut Option<Wearing>,
+    span: Span<'_>,
+    halvings: u32,
+    watch: Watch<'_>,
+) -> Result<(Increment, usize), SolveError> {
+    match solver.step(span.state, span.to, watch) {
+        Ok(end) => {
+            if let Some(wearing) = wearing {
+                wearing.add(span.state, &end.state);
+            }
+            Ok((end, 1))
+        }
+        Err(SolveError::NotConverged { .. }) if halvings > 0 && span.from != span.to => {
+            let middle = &LoadStep::between(span.from, span.to, 0.5);
+            let first = Span { to: middle, ..span };
+            let (first, parts) = halved(solver, wearing, first, halvings - 1, watch)?;
+            let second = Span { state: &first.state, from: middle, to: span.to };
+            let (second, more) = halved(solver, wearing, second, halvings - 1, watch)?;
+            Ok((after(&first, second), parts + more))
+        }
+        Err(error) => Err(error),
+    }
+}
+
+/// The second of two steps, with the work of both and the worse residuals.
+fn after(first: &Increment, mut second: Increment) -> Increment {
+    second.work += first.work;
+    second.outcome.residual = second.outcome.residual.worse(&first.outcome.residual);
+    second
 }
 
 /// How finely increments are divided.
@@ -82,8 +131,7 @@ impl Refinement {
     /// remembers the finer one.
     ///
     /// # Errors
-    /// [`DivisionError::Unresolved`] when even the most parts are not enough; errors of the equations as they come, but that a
-    /// division that does not converge is followed by a finer one.
+    /// [`DivisionError::Unresolved`] when even the most parts are not enough; errors of the equations as they come.
     pub fn solve(
         &self,
         solver: &mut ContactSolver<'_>,
@@ -103,18 +151,11 @@ impl Refinement {
             way
         };
         let mut parts = parts.clamp(1, MOST_PARTS / 2);
-        let mut coarse = refused_if_unsolved(try_in(parts))?;
+        let mut coarse = try_in(parts)?;
         loop {
             parts *= 2;
-            let fine = match try_in(parts) {
-                Err(error) if parts >= MOST_PARTS => return Err(error.into()),
-                way => refused_if_unsolved(way)?,
-            };
-            let (Some(rough), Some(fine)) = (coarse, fine) else {
-                coarse = None;
-                continue;
-            };
-            let error = self.distance(&rough.end.state, &fine.end.state);
+            let fine = try_in(parts)?;
+            let error = self.distance(&coarse.end.state, &fine.end.state);
             let size = self
                 .distance(&ContactState::untouched(fine.end.state.pressure.dim().into()), &fine.end.state);
             let bound = self.tolerance * fine.length + NOISE * self.residual * size;
@@ -128,7 +169,7 @@ impl Refinement {
             if parts >= MOST_PARTS {
                 return Err(DivisionError::Unresolved { reached: error / fine.length, parts });
             }
-            coarse = Some(fine);
+            coarse = fine;
         }
     }
 
@@ -140,23 +181,18 @@ impl Refinement {
         parts: usize,
         watch: Watch<'_>,
     ) -> Result<Way, SolveError> {
+        let mut from = *span.from;
         let mut step = |before: &ContactState, part: usize| {
-            let load = LoadStep::between(span.from, span.to, part as f64 / parts as f64);
-            let solved = solver.step(before, &load, watch)?;
-            if let Some(wearing) = &mut wearing {
-                wearing.add(before, &solved.state);
-            }
+            let to = LoadStep::between(span.from, span.to, part as f64 / parts as f64);
+            let here = Span { state: before, from: &from, to: &to };
+            let (solved, _) = in_halves(solver, &mut wearing, here, watch)?;
+            from = to;
             Ok((self.distance(before, &solved.state), solved))
         };
         let (mut length, mut end) = step(span.state, 1)?;
         for part in 2..=parts {
             let (way, next) = step(&end.state, part)?;
-            let mut work = end.work;
-            work += next.work;
-            let residual = end.outcome.residual.worse(&next.outcome.residual);
-            end = next;
-            end.work = work;
-            end.outcome.residual = residual;
+            end = after(&end, next);
             length += way;
         }
         Ok(Way { end, memory: solver.memory().clone(), wearing, length })
@@ -174,14 +210,5 @@ impl Refinement {
             Zip::from(one).and(other).for_each(|a, b| square += (weight * (a - b)).powi(2));
         }
         square.sqrt()
-    }
-}
-
-/// A way that was not solved is none; other errors stay.
-fn refused_if_unsolved(way: Result<Way, SolveError>) -> Result<Option<Way>, SolveError> {
-    match way {
-        Ok(way) => Ok(Some(way)),
-        Err(SolveError::NotConverged { .. }) => Ok(None),
-        Err(error) => Err(error),
     }
 }

@@ -20,7 +20,7 @@ use crate::kernel::{
 use crate::model::{ContactState, CoulombFriction, LoadStep};
 use crate::plan::{Coupling, Plan, Shortcut};
 use crate::recording::{kept, record};
-use crate::refinement::{DivisionError, Refinement, Span};
+use crate::refinement::{DivisionError, Refinement, Span, in_halves};
 pub use crate::run_error::RunError;
 use crate::run_error::run_error;
 use crate::solver::{ContactSolver, Resultants, SolverSettings};
@@ -322,7 +322,7 @@ impl<'a> Journey<'a> {
         FrettingLoop::new((stage, cycle), solved, &self.history.state, tangential, moment)
     }
 
-    /// Solves the next increment, in parts where they are left to the program; its fields, should they be kept.
+    /// Solves the next increment, in parts where it is left to the program or not solved as a whole; its fields, should they be kept.
     fn solved(
         &mut self,
         [from, to]: [&LoadStep; 2],
@@ -341,11 +341,8 @@ impl<'a> Journey<'a> {
         let state = &self.history.state;
         let (solved, parts) = match refinement {
             None => {
-                let solved = self.solver.step(state, to, &mut watch).map_err(failed)?;
-                if let Some(wearing) = &mut self.wearing {
-                    wearing.add(state, &solved.state);
-                }
-                (solved, 1)
+                let span = Span { state, from, to };
+                in_halves(&mut self.solver, &mut self.wearing, span, &mut watch).map_err(failed)?
             }
             Some(refinement) => {
                 let span = Span { state, from, to };
