@@ -148,10 +148,11 @@ fn mutilated_cases_are_read_or_refused_with_a_place() {
                 false
             }
         }));
-        match judged {
-            Ok(true) => read += 1,
-            Ok(false) => refused += 1,
-            Err(_) => panic!("case {number} panics:\n{text}"),
+        assert!(judged.is_ok(), "case {number} panics:\n{text}");
+        if judged.is_ok_and(|is_read| is_read) {
+            read += 1;
+        } else {
+            refused += 1;
         }
     }
     // Neither all sense nor all nonsense, else little was tried.
@@ -180,10 +181,8 @@ fn what_public_constructors_take_is_sound_whatever_the_numbers() {
         let base = if random.below(2) == 0 { Base::Rigid } else { Base::Elastic(material) };
         let Ok(half_space) = HalfSpace::new(coatings, base) else { continue };
         let k = random.number().abs();
-        // What a case may hold; beyond, moduli overflow on the way to the response.
-        let usual = |number: f64| (1e-100..=1e100).contains(&number);
-        let thickness = half_space.coating_thickness();
-        if usual(k) && usual(material.young()) && (thickness == 0.0 || usual(thickness)) {
+        // Materials and thicknesses are taken within these bounds; a wavenumber is for the caller to choose.
+        if (1e-100..=1e100).contains(&k) {
             let Ok(pair) = ContactPair::new(Body::Rigid, Body::Elastic(half_space)) else { continue };
             let found = PairResponse::new(&pair).times_k(k);
             for value in [found.zz, found.rr, found.rz, found.tt] {

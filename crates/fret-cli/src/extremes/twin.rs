@@ -59,12 +59,11 @@ fn number(value: f64, bits: usize) -> Number {
 fn compliance(stack: &Stack, felt: &[&Layer], k: f64, bits: usize) -> Compliance {
     let lowest = felt.last().filter(|_| felt.len() < stack.coatings.len() || deep(felt, k));
     let base = lowest.map(|layer| [layer.young, layer.poisson]).or(stack.substrate);
-    let mut carried = match base {
-        Some([young, poisson]) => half_space(young, poisson, bits),
-        None => {
-            let zero = || number(0.0, bits);
-            Compliance { plane: [[zero(), zero()], [zero(), zero()]], tt: zero() }
-        }
+    let mut carried = if let Some([young, poisson]) = base {
+        half_space(young, poisson, bits)
+    } else {
+        let zero = || number(0.0, bits);
+        Compliance { plane: [[zero(), zero()], [zero(), zero()]], tt: zero() }
     };
     for layer in felt.iter().rev() {
         carried = above(layer, &carried, k, bits);

@@ -3,7 +3,7 @@
 use ndarray::Axis;
 
 use super::{LeaveOut, LeftOut, Shortcut};
-use crate::case::{Case, Path, StageControl};
+use crate::case::{Case, Path, Stage, StageControl};
 use crate::kernel::PairResponse;
 use crate::model::{Body, CoulombFriction, SurfaceGrid};
 use crate::solver::Coupling;
@@ -110,13 +110,13 @@ fn increments_before_a_cause(case: &Case) -> Option<usize> {
         .stages
         .iter()
         .take_while(|stage| stage.tangential.iter().all(Option::is_none) && stage.twist.is_none());
-    Some(quiet.map(|stage| stage.increments_in_all()).sum()).filter(|sum| *sum > 0)
+    Some(quiet.map(Stage::increments_in_all).sum()).filter(|sum| *sum > 0)
 }
 
 /// Increments in which no stage changes the normal load.
 fn increments_at_one_load(case: &Case) -> usize {
     let held = case.stages.iter().filter(|stage| stage.normal.is_none());
-    held.map(|stage| stage.increments_in_all()).sum()
+    held.map(Stage::increments_in_all).sum()
 }
 
 /// The one axis along which shear acts: nothing loads the other, and either the bodies know no way across, or nothing changes
