@@ -18,11 +18,11 @@ pub fn extremes(arguments: &ExtremesArguments, as_json: bool) -> Result<(), Told
             row(family)
         })
         .collect();
+    let answer = if as_json { format!("{:#}", json(&rows)) } else { table(&rows) };
+    terminal::answer(&answer)?;
     if let Some(path) = &arguments.page {
         std::fs::write(path, page(&rows)).map_err(Unwritten::at(path)).map_err(Failure::from)?;
     }
-    let answer = if as_json { format!("{:#}", json(&rows)) } else { table(&rows) };
-    terminal::answer(&answer)?;
     let broken: usize = rows.iter().filter(|row| !row.holds()).count();
     if broken == 0 {
         return Ok(());

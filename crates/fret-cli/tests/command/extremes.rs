@@ -24,10 +24,11 @@ fn the_quick_extremes_hold_and_are_told_family_by_family() {
 }
 
 #[test]
-fn a_page_that_cannot_be_written_is_told_after_nothing_else_is_lost() {
+fn a_page_that_cannot_be_written_is_told_and_the_table_is_not_lost() {
     let bench = Bench::new("extremes-unwritten");
     let answer = bench.fret(&["extremes", "--quick", "--page", "no/such/folder/page.md"]);
     assert_eq!(answer.code, Some(2));
+    assert!(answer.out.contains("thousand layers"), "{}", answer.out);
     assert!(answer.err.contains("cannot be written"), "{}", answer.err);
 }
 
