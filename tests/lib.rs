@@ -1,5 +1,7 @@
 //! Scenes and comparisons that several validation tests share.
 
+pub mod shortcuts;
+
 use std::fmt::Write;
 
 use fret_core::case::{Attachments, Case};

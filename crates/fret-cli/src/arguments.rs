@@ -1,9 +1,8 @@
 //! What can be typed after `fret`. What it does lives in `commands`.
 
-use std::ffi::OsString;
 use std::path::PathBuf;
 
-use clap::{Args, Parser, Subcommand};
+use clap::{Args, Parser, Subcommand, ValueEnum};
 
 /// Predicts the fretting contact of coated bodies: pressure, shear, stick and slip through the loading history.
 #[derive(Debug, Parser)]
@@ -50,8 +49,8 @@ pub enum Verb {
     Export(ExportArguments),
     /// Solve a case at many resolutions: errors, orders, times, and which grid and increments to choose
     Study(StudyArguments),
-    #[command(hide = true, disable_help_flag = true)]
-    Extremes(Unbuilt),
+    /// Solve stiff and extreme scenes and judge each by what must hold; the exit code says whether all do
+    Extremes(ExtremesArguments),
     /// Stresses under the surface, from the tractions of a finished run
     Stress(StressArguments),
     /// Solve many cases: a base case, and keys of it with lists of values
@@ -81,6 +80,18 @@ pub struct RunArguments {
     /// Solve a coarser companion too, and give every headline number an error bar
     #[arg(long)]
     pub estimate_error: bool,
+    /// What is left out where the answer is the same without it: all that can be, or none, which computes everything
+    #[arg(long, value_enum, default_value = "all", value_name = "WHAT")]
+    pub leave_out: LeavingOut,
+}
+
+/// What a run leaves out.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum LeavingOut {
+    /// All that the scene does not need
+    All,
+    /// Nothing
+    None,
 }
 
 /// Which resolutions to study, and what to measure them by.
@@ -182,10 +193,13 @@ pub struct SweepArguments {
     pub quiet: bool,
 }
 
-/// Arguments of a verb that is not built yet: anything.
+/// Which extremes.
 #[derive(Debug, Args)]
-pub struct Unbuilt {
-    /// Anything.
-    #[arg(trailing_var_arg = true, allow_hyphen_values = true, num_args = 0..)]
-    pub anything: Vec<OsString>,
+pub struct ExtremesArguments {
+    /// Some of the scenes, on coarser grids: under a minute
+    #[arg(long)]
+    pub quick: bool,
+    /// Write the table as a page of the documentation, too
+    #[arg(long, value_name = "FILE")]
+    pub page: Option<PathBuf>,
 }

@@ -5,7 +5,7 @@ use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
 use fret_core::case::{Attachments, Case, CaseError};
-use fret_core::plan::Plan;
+use fret_core::plan::{LeaveOut, Plan};
 
 /// Bytes read at the most: one more than the core takes, so that an endless stream is refused and not read.
 const MOST_BYTES: u64 = (4 << 20) + 1;
@@ -67,8 +67,14 @@ impl CaseFile {
 
     /// The case, read and planned.
     pub fn planned(&self) -> Result<Plan, CaseError> {
+        self.planned_leaving_out(LeaveOut::ALL)
+    }
+
+    /// The case, read and planned with some shortcuts alone.
+    pub fn planned_leaving_out(&self, leave_out: LeaveOut) -> Result<Plan, CaseError> {
         let beside = |name: &str| self.attachment(name);
-        Plan::new(Case::from_toml_with(&self.text, &self.name(), Attachments::files(&beside))?)
+        let case = Case::from_toml_with(&self.text, &self.name(), Attachments::files(&beside))?;
+        Plan::leaving_out(case, leave_out)
     }
 }
 

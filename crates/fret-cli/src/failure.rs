@@ -27,6 +27,8 @@ pub enum Failure {
     Interrupted(String),
     /// A file could not be written.
     Unwritten(Unwritten),
+    /// So many families of extreme scenes do not hold.
+    Broken(usize),
     /// A mistake in the program itself.
     Defect(String),
 }
@@ -77,20 +79,12 @@ impl std::fmt::Display for Unwritten {
 }
 
 impl Failure {
-    /// A verb or an option that has a name but no code.
-    pub fn not_built(what: &str) -> Self {
-        Self::Call(
-            format!("{what}: not built yet"),
-            "built are: run, check, plan, study, stress, report, export, sweep, schema".to_owned(),
-        )
-    }
-
     /// The exit code.
     pub fn code(&self) -> u8 {
         match self {
             Self::Case(_) | Self::Call(..) => REFUSED,
             Self::Unsolved(error) if asks_for_another_case(error) => REFUSED,
-            Self::Unsolved(_) | Self::Unwritten(_) | Self::Defect(_) => FAILED,
+            Self::Unsolved(_) | Self::Unwritten(_) | Self::Broken(_) | Self::Defect(_) => FAILED,
             Self::Interrupted(_) => INTERRUPTED,
         }
     }
@@ -100,7 +94,7 @@ impl Failure {
         match self {
             Self::Case(_) | Self::Call(..) => "refused",
             Self::Unsolved(error) if asks_for_another_case(error) => "refused",
-            Self::Unsolved(_) | Self::Unwritten(_) | Self::Defect(_) => "failed",
+            Self::Unsolved(_) | Self::Unwritten(_) | Self::Broken(_) | Self::Defect(_) => "failed",
             Self::Interrupted(_) => "interrupted",
         }
     }
@@ -112,6 +106,7 @@ impl Failure {
             Self::Call(what, _) | Self::Interrupted(what) => what.clone(),
             Self::Unsolved(error) => error.to_string(),
             Self::Unwritten(unwritten) => unwritten.to_string(),
+            Self::Broken(count) => format!("{} of extreme scenes: not everything holds", families(*count)),
             Self::Defect(what) => format!("a defect in fret itself, please report it: {what}"),
         }
     }
@@ -147,6 +142,10 @@ impl Failure {
         }
         value
     }
+}
+
+fn families(count: usize) -> String {
+    if count == 1 { "1 family".to_owned() } else { format!("{count} families") }
 }
 
 /// Whether the equations went well but the case leaves what can be computed: a plan that had known would have refused it.

@@ -8,6 +8,7 @@ mod commands;
 mod defect;
 mod estimate;
 mod export;
+mod extremes;
 mod failure;
 mod figures;
 mod interrupt;
@@ -57,6 +58,7 @@ pub fn command_line(words: impl IntoIterator<Item = OsString>) -> u8 {
 fn dispatch(arguments: &Arguments) -> Result<(), Told> {
     let as_json = arguments.json;
     match &arguments.verb {
+        Verb::Extremes(arguments) => return commands::extremes::extremes(arguments, as_json),
         Verb::Run(arguments) => return commands::run::run(arguments, as_json),
         Verb::Check { case } => commands::check::check(case, as_json),
         Verb::Plan { case } => commands::plan::plan(case, as_json),
@@ -64,7 +66,6 @@ fn dispatch(arguments: &Arguments) -> Result<(), Told> {
         Verb::Report { results, out } => commands::report::report(results, out.as_deref(), as_json),
         Verb::Export(arguments) => commands::export::export(arguments, as_json),
         Verb::Study(arguments) => commands::study::study(arguments, as_json),
-        Verb::Extremes(_) => Err(Failure::not_built("fret extremes")),
         Verb::Stress(arguments) => commands::stress::stress(arguments, as_json),
         Verb::Sweep(arguments) => commands::sweep::sweep(arguments, as_json),
     }?;

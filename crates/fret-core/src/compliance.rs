@@ -55,6 +55,8 @@ pub struct Wanted {
     pub full: bool,
     /// Normal from pressure and shear.
     pub normal_from_all: bool,
+    /// The one axis (0: x, 1: y) along which shear acts, where it causes no displacement across it.
+    pub along: Option<usize>,
 }
 
 /// How the surface answers, as far as a grid needs to know it.
@@ -89,6 +91,8 @@ pub struct SpectralCompliance {
     tangential: Option<Product>,
     full: Option<Product>,
     normal_from_all: Option<Product>,
+    /// The one axis along which shear acts.
+    along: Option<usize>,
     /// Applications so far.
     pub applications: usize,
 }
@@ -110,6 +114,14 @@ const FULL_BLOCKS: [Block; 9] = [
 ];
 
 const NORMAL_FROM_ALL_BLOCKS: [Block; 3] = [block(0, 0, 0, 1.0), block(0, 1, 1, 1.0), block(0, 2, 2, 1.0)];
+
+/// Kernels and blocks for shear along one axis: inputs and outputs z and that axis.
+const TANGENTIAL_MEMBERS_ALONG: [[usize; 1]; 2] = [[1], [2]];
+const FULL_MEMBERS_ALONG: [[usize; 3]; 2] = [[0, 1, 4], [0, 2, 5]];
+const FULL_BLOCKS_ALONG: [Block; 4] =
+    [block(0, 0, 0, 1.0), block(1, 1, 1, 1.0), block(0, 1, 2, 1.0), block(1, 0, 2, -1.0)];
+const NORMAL_FROM_ALL_MEMBERS_ALONG: [[usize; 2]; 2] = [[0, 4], [0, 5]];
+const NORMAL_FROM_ALL_BLOCKS_ALONG: [Block; 2] = [block(0, 0, 0, 1.0), block(0, 1, 1, 1.0)];
 
 const fn block(output: usize, input: usize, kernel: usize, sign: f64) -> Block {
     Block { output, input, kernel, sign }
@@ -198,13 +210,26 @@ impl SpectralCompliance {
             SurfaceResponse::FreeSpace(coefficients) => own_of(coefficients),
             SurfaceResponse::Periodic(symbols) => own_in_period(symbols, shape),
         };
+        let [tangential, full, normal_from_all]: [(&[usize], &[Block]); 3] = match wanted.along {
+            Some(axis) => [
+                (&TANGENTIAL_MEMBERS_ALONG[axis], &NORMAL_BLOCKS),
+                (&FULL_MEMBERS_ALONG[axis], &FULL_BLOCKS_ALONG),
+                (&NORMAL_FROM_ALL_MEMBERS_ALONG[axis], &NORMAL_FROM_ALL_BLOCKS_ALONG),
+            ],
+            None => [
+                (&[1, 2, 3], &TANGENTIAL_BLOCKS),
+                (&[0, 1, 2, 3, 4, 5], &FULL_BLOCKS),
+                (&[0, 4, 5], &NORMAL_FROM_ALL_BLOCKS),
+            ],
+        };
         Ok(Self {
             shape,
             own,
             normal: build(wanted.normal, &[0], &NORMAL_BLOCKS)?,
-            tangential: build(wanted.tangential, &[1, 2, 3], &TANGENTIAL_BLOCKS)?,
-            full: build(wanted.full, &[0, 1, 2, 3, 4, 5], &FULL_BLOCKS)?,
-            normal_from_all: build(wanted.normal_from_all, &[0, 4, 5], &NORMAL_FROM_ALL_BLOCKS)?,
+            tangential: build(wanted.tangential, tangential.0, tangential.1)?,
+            full: build(wanted.full, full.0, full.1)?,
+            normal_from_all: build(wanted.normal_from_all, normal_from_all.0, normal_from_all.1)?,
+            along: wanted.along,
             applications: 0,
         })
     }
@@ -213,7 +238,10 @@ impl SpectralCompliance {
     pub fn normal_from_all(&mut self, pressure: &[f64], shear: &TangentialField, normal: &mut [f64]) {
         if let Some(product) = &mut self.normal_from_all {
             self.applications += 1;
-            product.apply(&[pressure, &shear.x, &shear.y], &mut [normal]);
+            match self.along {
+                Some(axis) => product.apply(&[pressure, shear.parts()[axis]], &mut [normal]),
+                None => product.apply(&[pressure, &shear.x, &shear.y], &mut [normal]),
+            }
         }
     }
 
@@ -225,6 +253,14 @@ impl SpectralCompliance {
             .map(Product::memory_bytes)
             .sum()
     }
+}
+
+/// The part along an axis; the other is none.
+pub(crate) fn only(axis: usize, field: &mut TangentialField) -> &mut [f64] {
+    let [x, y] = field.each_mut();
+    let (along, across) = if axis == 0 { (x, y) } else { (y, x) };
+    across.fill(0.0);
+    along
 }
 
 impl SurfaceCompliance for SpectralCompliance {
@@ -250,7 +286,10 @@ impl SurfaceCompliance for SpectralCompliance {
     fn tangential(&mut self, shear: &TangentialField, tangential: &mut TangentialField) {
         if let Some(product) = &mut self.tangential {
             self.applications += 1;
-            product.apply(&shear.parts(), &mut [&mut tangential.x, &mut tangential.y]);
+            match self.along {
+                Some(axis) => product.apply(&[shear.parts()[axis]], &mut [only(axis, tangential)]),
+                None => product.apply(&shear.parts(), &mut [&mut tangential.x, &mut tangential.y]),
+            }
         } else {
             let zero = vec![0.0; shear.x.len()];
             let mut aside = vec![0.0; shear.x.len()];
@@ -267,6 +306,10 @@ impl SurfaceCompliance for SpectralCompliance {
     ) {
         if let Some(product) = &mut self.full {
             self.applications += 1;
+            if let Some(axis) = self.along {
+                product.apply(&[pressure, shear.parts()[axis]], &mut [normal, only(axis, tangential)]);
+                return;
+            }
             let input = [pressure, &shear.x, &shear.y];
             product.apply(&input, &mut [normal, &mut tangential.x, &mut tangential.y]);
         } else {

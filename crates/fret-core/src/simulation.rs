@@ -13,9 +13,12 @@ use crate::compliance::SurfaceResponse;
 use crate::cycle::CycleRecord;
 use crate::fretting_loop::{CycleEnd, FrettingLoop};
 use crate::history::{History, KeptFields, StepRecord};
-use crate::kernel::{Components, ResponseTable, influence_coefficients, periodic_symbols};
+use crate::kernel::{
+    Components, PairResponse, ResponseTable, coefficients_of, influence_coefficients, periodic_symbols,
+    symbols_of,
+};
 use crate::model::{ContactState, CoulombFriction, LoadStep};
-use crate::plan::{Coupling, Plan};
+use crate::plan::{Coupling, Plan, Shortcut};
 use crate::recording::{kept, record};
 use crate::refinement::{DivisionError, Refinement, Span, in_halves};
 pub use crate::run_error::RunError;
@@ -147,21 +150,21 @@ impl<'a> Simulation<'a> {
             Coupling::Uncoupled => Components { normal: true, tangential: true, coupling: false },
             Coupling::Coupled => Components::ALL,
         };
-        if case.periodic {
-            SurfaceResponse::Periodic(periodic_symbols(
-                &case.bodies,
-                case.cells,
-                plan.grid.spacing(),
-                wanted,
-                0,
-            ))
-        } else {
-            SurfaceResponse::FreeSpace(influence_coefficients(
-                &case.bodies,
-                case.cells,
-                plan.grid.spacing(),
-                wanted,
-            ))
+        let spacing = plan.grid.spacing();
+        let plain = plan.leave_out.takes(Shortcut::LayeredResponse);
+        let [width, depth] = plan.grid.size();
+        let layered = || PairResponse::all_layers(&case.bodies, width.max(depth));
+        match (case.periodic, plain) {
+            (true, true) => {
+                SurfaceResponse::Periodic(periodic_symbols(&case.bodies, case.cells, spacing, wanted, 0))
+            }
+            (true, false) => SurfaceResponse::Periodic(symbols_of(layered(), case.cells, spacing, wanted)),
+            (false, true) => {
+                SurfaceResponse::FreeSpace(influence_coefficients(&case.bodies, case.cells, spacing, wanted))
+            }
+            (false, false) => {
+                SurfaceResponse::FreeSpace(coefficients_of(&layered(), case.cells, spacing, wanted))
+            }
         }
     }
 
@@ -175,9 +178,14 @@ impl<'a> Simulation<'a> {
             &case.friction,
             plan.coupling,
             response,
-            SolverSettings { scheme: case.scheme, ..SolverSettings::new(case.tolerance) },
-            true,
-        );
+            SolverSettings {
+                scheme: case.scheme,
+                leave_out: plan.leave_out,
+                ..SolverSettings::new(case.tolerance)
+            },
+            plan.leave_out.takes(Shortcut::Box),
+        )
+        .sheared_along(plan.along);
         if case.periodic {
             return solver;
         }

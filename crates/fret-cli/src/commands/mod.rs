@@ -2,6 +2,7 @@
 
 pub mod check;
 pub mod export;
+pub mod extremes;
 mod fatigue;
 pub mod plan;
 pub mod report;

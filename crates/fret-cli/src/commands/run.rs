@@ -9,13 +9,13 @@ use fret_core::checkpoint::{Checkpoint, Waypoint};
 use fret_core::cycle::CycleRecord;
 use fret_core::history::{KeptFields, StepRecord};
 use fret_core::model::{ContactState, SurfaceGrid};
-use fret_core::plan::Plan;
+use fret_core::plan::{LeaveOut, Plan};
 use fret_core::simulation::{Iteration, Observer, RunError, Simulation};
 use fret_core::study::{Headline, companion};
 use fret_core::wear::WornThrough;
 use serde_json::{Value, json};
 
-use crate::arguments::RunArguments;
+use crate::arguments::{LeavingOut, RunArguments};
 use crate::case_file::CaseFile;
 use crate::commands::plan::left_out;
 use crate::commands::stress::after_run;
@@ -80,7 +80,11 @@ struct Departure {
 
 fn prepared(arguments: &RunArguments) -> Result<Preparation, Failure> {
     let case_file = CaseFile::read(&arguments.case)?;
-    let plan = case_file.planned()?;
+    let leave_out = match arguments.leave_out {
+        LeavingOut::All => LeaveOut::ALL,
+        LeavingOut::None => LeaveOut::NONE,
+    };
+    let plan = case_file.planned_leaving_out(leave_out)?;
     let folder = arguments.out.clone().unwrap_or_else(|| Path::new("results").join(case_file.stem()));
     let wish = match (arguments.resume, arguments.force) {
         (true, _) => Wish::Resume,

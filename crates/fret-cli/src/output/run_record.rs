@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::time::{SystemTime, UNIX_EPOCH};
 
-use fret_core::plan::Plan;
+use fret_core::plan::{LeaveOut, Plan};
 use serde_json::{Value, json};
 
 use crate::case_file::CaseFile;
@@ -87,7 +87,10 @@ pub fn resolved(plan: &Plan) -> Value {
 
 /// A digest of what is asked, as it was understood: the same for texts that differ in words and order only.
 pub fn question(plan: &Plan) -> String {
-    let asked = json!({ "case": plan.case, "grid": plan.grid, "coupling": plan.coupling });
+    let mut asked = json!({ "case": plan.case, "grid": plan.grid, "coupling": plan.coupling });
+    if plan.leave_out != LeaveOut::ALL {
+        asked["leave_out"] = json!(plan.leave_out); // other bits: the one does not go on where the other stopped
+    }
     fnv1a64(asked.to_string().as_bytes())
 }
 

@@ -5,6 +5,7 @@
 mod answered;
 mod bench;
 mod broken_off;
+mod extremes;
 mod hostile;
 mod refused;
 mod shown;

@@ -154,16 +154,6 @@ fn a_case_file_that_cannot_be_read_is_told_in_one_line() {
 }
 
 #[test]
-fn verbs_that_are_not_built_yet_are_refused_by_name() {
-    let bench = Bench::new("unbuilt");
-    bench.file("case.toml", SPHERE);
-    let answer = bench.fret(&["extremes"]);
-    assert_eq!(answer.code, Some(1));
-    assert!(answer.err.contains("not built yet"), "{}", answer.err);
-    assert_eq!(bench.names(), ["case.toml"]);
-}
-
-#[test]
 fn a_call_that_makes_no_sense_is_refused_too() {
     let bench = Bench::new("call");
     for arguments in [&["rum"][..], &["run"], &["run", "case.toml", "--threads", "0"], &[]] {

@@ -13,7 +13,7 @@ use crate::model::{
 pub(super) fn layer(judge: &mut Judge, place: &str, entry: &Spanned<CoatingFile>) -> Option<Layer> {
     let given = entry.get_ref();
     let thickness = *given.thickness.get_ref();
-    let has_thickness = thickness.is_finite() && thickness > 0.0;
+    let has_thickness = Coating::can_be(thickness);
     let layer = match (&given.young, &given.gradient) {
         (Some(young), None) => {
             let material = material(judge, place, young, &given.poisson);
@@ -32,7 +32,7 @@ pub(super) fn layer(judge: &mut Judge, place: &str, entry: &Spanned<CoatingFile>
         ),
     };
     if !has_thickness {
-        let message = format!("{place}.thickness = {thickness:?}: must be a positive finite length");
+        let message = format!("{place}.thickness: {}", MaterialError::Thickness(thickness));
         return judge.refuse(given.thickness.span(), message, "");
     }
     layer

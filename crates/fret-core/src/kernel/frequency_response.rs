@@ -58,7 +58,20 @@ pub struct FrequencyResponse {
 impl FrequencyResponse {
     /// Prepares the response of one half-space.
     pub fn new(half_space: &HalfSpace) -> Self {
-        let half_space = half_space.simplified();
+        Self::as_given(&half_space.simplified())
+    }
+
+    /// The same response with every layer in its place, also those that do not differ from what lies below them; a homogeneous
+    /// body gets one of its own material and `thickness` [length].
+    pub fn all_layers(half_space: &HalfSpace, thickness: f64) -> Self {
+        let mut response = Self::as_given(half_space);
+        if let (true, Some(constants)) = (response.layers.is_empty(), response.base) {
+            response.layers.push(Layer { constants, thickness });
+        }
+        response
+    }
+
+    fn as_given(half_space: &HalfSpace) -> Self {
         let layers = half_space
             .coatings()
             .iter()

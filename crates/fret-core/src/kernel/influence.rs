@@ -76,8 +76,18 @@ pub fn influence_coefficients(
         let zz = Some(homogeneous::normal_coefficients(times_k.zz, cells, spacing));
         return InfluenceCoefficients { zz, xx: None, yy: None, xy: None, zx: None, zy: None };
     }
+    coefficients_of(&response, cells, spacing, wanted)
+}
+
+/// The same coefficients by the general way for any pair response, whatever simpler form it has.
+pub fn coefficients_of(
+    response: &PairResponse,
+    cells: [usize; 2],
+    spacing: [f64; 2],
+    wanted: Components,
+) -> InfluenceCoefficients {
     let [nearest, farthest] = distances(cells, spacing);
-    let kernels = RadialKernels::new(&response, nearest, farthest);
+    let kernels = RadialKernels::new(response, nearest, farthest);
     integrated(&kernels, cells, spacing, wanted)
 }
 

@@ -25,6 +25,16 @@ impl PairResponse {
         Self { lower: prepare(pair.lower()), upper: prepare(pair.upper()) }
     }
 
+    /// The same response with every layer in its place, also those that do not differ from what lies below them; a body without
+    /// any gets one of its own material and `thickness` [length]. Nothing is taken from constancy or equality.
+    pub fn all_layers(pair: &ContactPair, thickness: f64) -> Self {
+        let prepare = |body: &Body| match body {
+            Body::Rigid => None,
+            Body::Elastic(half_space) => Some(FrequencyResponse::all_layers(half_space, thickness)),
+        };
+        Self { lower: prepare(pair.lower()), upper: prepare(pair.upper()) }
+    }
+
     /// `C(k)` at a wavenumber `k > 0` [rad/length]: [length/pressure].
     pub fn at(&self, k: f64) -> Response {
         self.times_k(k).over(k)
@@ -72,18 +82,29 @@ impl PairResponse {
     /// Judged on wavenumbers from far below the longest length of the bodies to far above the shortest one, eight per e-fold:
     /// `max |k rz| <= 1e-14 max(k sqrt(rr zz))`, what is left by rounding.
     pub fn is_uncoupled(&self) -> bool {
+        self.vanishes(|response| (response.rz, (response.rr * response.zz).sqrt()))
+    }
+
+    /// Whether shear causes no displacement across it: `rr = tt` at every wavenumber, as for bodies without lateral contraction
+    /// (Poisson's ratio 0). Judged as [`PairResponse::is_uncoupled`] is.
+    pub fn is_straight(&self) -> bool {
+        self.vanishes(|response| (response.rr - response.tt, response.rr.max(response.tt)))
+    }
+
+    /// Whether the first of two parts of the response is but rounding of the second at every wavenumber.
+    fn vanishes(&self, parts: impl Fn(Response) -> (f64, f64)) -> bool {
         let longest = self.longest_length();
         let shortest = self.bodies().filter_map(FrequencyResponse::shortest_length).fold(longest, f64::min);
         let (first, last) = if longest > 0.0 { (1e-6 / longest, 1e2 / shortest) } else { (1.0, 1.0) };
         let steps = (8.0 * libm::log(last / first)).ceil() as u32;
-        let mut coupling = 0.0_f64;
-        let mut size = 0.0_f64;
+        let mut part = 0.0_f64;
+        let mut whole = 0.0_f64;
         for step in 0..=steps {
-            let response = self.times_k(first * libm::exp(f64::from(step) / 8.0));
-            coupling = coupling.max(response.rz.abs());
-            size = size.max((response.rr * response.zz).sqrt());
+            let found = parts(self.times_k(first * libm::exp(f64::from(step) / 8.0)));
+            part = part.max(found.0.abs());
+            whole = whole.max(found.1);
         }
-        coupling <= 1e-14 * size
+        part <= 1e-14 * whole
     }
 }
 

@@ -52,6 +52,17 @@ pub fn periodic_symbols(
     ResponseTable::new(pair, least, greatest).symbols(cells, spacing, wanted, aliases)
 }
 
+/// The same symbols of any pair response.
+pub fn symbols_of(
+    response: PairResponse,
+    cells: [usize; 2],
+    spacing: [f64; 2],
+    wanted: Components,
+) -> PeriodicSymbols {
+    let [least, greatest] = wavenumbers(cells, spacing, 0);
+    ResponseTable::of(response, least, greatest).symbols(cells, spacing, wanted, 0)
+}
+
 /// Least wavenumber but zero, and a bound on the greatest one.
 fn wavenumbers(cells: [usize; 2], spacing: [f64; 2], aliases: usize) -> [f64; 2] {
     let longest = (cells[0] as f64 * spacing[0]).max(cells[1] as f64 * spacing[1]);
@@ -78,7 +89,11 @@ impl ResponseTable {
     /// Tabulates `k C(k)` between two wavenumbers `0 < least <= greatest` [rad/length]; beyond them it is computed when asked
     /// for. Relative error of interpolation below 1e-12. Cost: about 100 responses per factor two.
     pub fn new(pair: &ContactPair, least: f64, greatest: f64) -> Self {
-        let pair = PairResponse::new(pair);
+        Self::of(PairResponse::new(pair), least, greatest)
+    }
+
+    /// The table of a response, as [`ResponseTable::new`] makes it of a pair's.
+    pub fn of(pair: PairResponse, least: f64, greatest: f64) -> Self {
         let values = match pair.constant() {
             Some(response) => Values::Constant(components(response)),
             None => Values::Tabulated(Panels::new(least * least, greatest * greatest, |square| {

@@ -6,13 +6,13 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 pub enum MaterialError {
     /// Young's modulus out of range.
-    #[error("Young's modulus {0:?}: must be a positive finite modulus")]
+    #[error("Young's modulus {0:?}: must be a positive finite modulus, between 1e-100 and 1e100")]
     Young(f64),
     /// Poisson's ratio out of range.
     #[error("Poisson's ratio {0:?}: must lie above -1 and not above 0.5")]
     Poisson(f64),
     /// Thickness out of range.
-    #[error("thickness {0:?}: must be a positive finite length")]
+    #[error("thickness {0:?}: must be a positive finite length, between 1e-100 and 1e100")]
     Thickness(f64),
     /// Two rigid bodies.
     #[error("both bodies are rigid: nothing can deform; give at least one of them a substrate or coatings")]
@@ -20,6 +20,11 @@ pub enum MaterialError {
     /// A rigid base without anything on it.
     #[error("a rigid base without coatings is a rigid body: write rigid = true, or add coatings")]
     BareRigidBase,
+}
+
+/// Whether powers and quotients of a modulus or length are numbers still.
+fn is_within_reach(value: f64) -> bool {
+    (1e-100..=1e100).contains(&value)
 }
 
 /// A linear elastic isotropic material.
@@ -33,9 +38,9 @@ impl ElasticMaterial {
     /// Material from Young's modulus [pressure] and Poisson's ratio [-], `-1 < poisson <= 0.5`.
     ///
     /// # Errors
-    /// When a value is out of its range.
+    /// When a value is out of its range; the modulus must lie between 1e-100 and 1e100.
     pub fn new(young: f64, poisson: f64) -> Result<Self, MaterialError> {
-        if !(young.is_finite() && young > 0.0) {
+        if !is_within_reach(young) {
             return Err(MaterialError::Young(young));
         }
         if !(poisson > -1.0 && poisson <= 0.5) {
@@ -68,12 +73,17 @@ pub struct Coating {
 }
 
 impl Coating {
+    /// Whether a coating can be so thick [length].
+    pub fn can_be(thickness: f64) -> bool {
+        is_within_reach(thickness)
+    }
+
     /// Coating of a material with its thickness [length].
     ///
     /// # Errors
-    /// When the thickness is not a positive finite length.
+    /// When the thickness is not a positive length between 1e-100 and 1e100.
     pub fn new(material: ElasticMaterial, thickness: f64) -> Result<Self, MaterialError> {
-        if !(thickness.is_finite() && thickness > 0.0) {
+        if !Self::can_be(thickness) {
             return Err(MaterialError::Thickness(thickness));
         }
         Ok(Self { material, thickness })

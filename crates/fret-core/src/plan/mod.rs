@@ -1,13 +1,14 @@
 //! The question made numerical, before any work: grid, sizes, what is computed and what is left out and why.
 
 mod extent;
+mod left_out;
 
 use serde::Serialize;
 
 use crate::case::{Case, CaseError, GridSize};
 use crate::kernel::PairResponse;
-use crate::model::{Body, SurfaceGrid};
-pub use crate::solver::Coupling;
+use crate::model::SurfaceGrid;
+pub use crate::solver::{Coupling, LeaveOut, Shortcut};
 use extent::{automatic_size, reaches_beyond};
 
 /// Something the scene does not need.
@@ -30,6 +31,10 @@ pub struct Plan {
     pub grid: SurfaceGrid,
     /// How pressure and shear act on each other.
     pub coupling: Coupling,
+    /// The one axis (0: x, 1: y) along which shear acts, where the other part vanishes.
+    pub along: Option<usize>,
+    /// The shortcuts that may be taken.
+    pub leave_out: LeaveOut,
     /// What is left out.
     pub left_out: Vec<LeftOut>,
     /// Increments of the whole history.
@@ -46,13 +51,23 @@ impl Plan {
     /// # Errors
     /// When the contact would not fit into the grid.
     pub fn new(case: Case) -> Result<Self, CaseError> {
+        Self::leaving_out(case, LeaveOut::ALL)
+    }
+
+    /// Plans a case that takes these shortcuts alone where the scene allows them: the answer is the same, the work is not.
+    ///
+    /// # Errors
+    /// As [`Plan::new`].
+    pub fn leaving_out(case: Case, leave_out: LeaveOut) -> Result<Self, CaseError> {
         let response = PairResponse::new(&case.bodies);
         let frictionless = case.is_frictionless();
-        let uncoupled = response.is_uncoupled();
-        let coupling = match (frictionless, uncoupled) {
-            (true, _) => Coupling::Frictionless,
-            (false, true) => Coupling::Uncoupled,
-            (false, false) => Coupling::Coupled,
+        let uncoupled = frictionless || response.is_uncoupled();
+        let coupling = if frictionless && leave_out.takes(Shortcut::Tangential) {
+            Coupling::Frictionless
+        } else if uncoupled && leave_out.takes(Shortcut::Coupling) {
+            Coupling::Uncoupled
+        } else {
+            Coupling::Coupled
         };
         let size = match case.size {
             GridSize::Given(size) => size,
@@ -75,7 +90,9 @@ impl Plan {
             );
             return Err(case.refuse_size(message, "enlarge it, or write size = \"auto\""));
         }
-        let left_out = left_out(&case, coupling);
+        let along = left_out::one_way(&case, &grid, &response, coupling)
+            .filter(|_| leave_out.takes(Shortcut::Transverse));
+        let left_out = left_out::left_out(&case, &grid, coupling, along, leave_out);
         let increments = case.increments();
         let per_increment = match coupling {
             Coupling::Frictionless => 12,
@@ -87,6 +104,8 @@ impl Plan {
             case,
             grid,
             coupling,
+            along,
+            leave_out,
             left_out,
             increments,
         })
@@ -116,36 +135,4 @@ fn memory(case: &Case, grid: &SurfaceGrid, coupling: Coupling) -> usize {
     };
     let kept: usize = case.output.fields.iter().map(bytes_of).sum();
     PROCESS + grid.len() * (8 * numbers_per_cell + case.kept_increments().len() * kept)
-}
-
-fn left_out(case: &Case, coupling: Coupling) -> Vec<LeftOut> {
-    let mut list = Vec::new();
-    let mut leave = |what: &str, why: &str, saves: &str| {
-        list.push(LeftOut { what: what.to_owned(), why: why.to_owned(), saves: saves.to_owned() });
-    };
-    let homogeneous = |body: &Body| match body {
-        Body::Rigid => true,
-        Body::Elastic(half_space) => half_space.single_material().is_some(),
-    };
-    if homogeneous(case.bodies.upper()) && homogeneous(case.bodies.lower()) {
-        leave(
-            "layered response",
-            "no body has a coating that differs from what lies below it",
-            "the radial table of the coated response",
-        );
-    }
-    match coupling {
-        Coupling::Frictionless => leave(
-            "shear, slip and the tangential equations",
-            "there is no friction",
-            "five of six kernels and every tangential iteration",
-        ),
-        Coupling::Uncoupled => leave(
-            "coupling of pressure and shear",
-            "the bodies answer a shear with equal normal displacements, so pressure does not depend on shear",
-            "two of six kernels; pressure is solved only when the normal load changes",
-        ),
-        Coupling::Coupled => {}
-    }
-    list
 }

@@ -23,6 +23,7 @@ mod rigid;
 mod scene;
 mod settings;
 mod shear;
+mod shortcut;
 mod sweep;
 mod tractions;
 mod zones;
@@ -39,6 +40,7 @@ use crate::spectral::{ConvolutionError, good_length};
 pub use memory::SolverMemory;
 pub use scene::{Outcome, Resultants};
 pub use settings::{Coupling, SolveError, SolverSettings, Watch};
+pub use shortcut::{LeaveOut, Shortcut};
 
 use memory::{GridTractions, Settled};
 use nested::{CoarseGrids, MARGIN, Prescribed};
@@ -85,6 +87,8 @@ pub struct ContactSolver<'a> {
     coarse: Option<CoarseGrids>,
     memory: SolverMemory,
     boxed: bool,
+    /// The one axis along which shear acts.
+    along: Option<usize>,
 }
 
 impl<'a> ContactSolver<'a> {
@@ -111,6 +115,7 @@ impl<'a> ContactSolver<'a> {
             coarse: None,
             memory: SolverMemory::default(),
             boxed,
+            along: None,
         }
     }
 
@@ -119,6 +124,13 @@ impl<'a> ContactSolver<'a> {
     #[must_use]
     pub fn with_waves(self, table: ResponseTable) -> Self {
         Self { table: Some(table), ..self }
+    }
+
+    /// The same solver for a scene whose shear acts along one axis (0: x, 1: y) alone: nothing loads the other, and the bodies
+    /// answer a shear along it with no displacement across it.
+    #[must_use]
+    pub fn sheared_along(self, axis: Option<usize>) -> Self {
+        Self { along: axis, ..self }
     }
 
     /// What is remembered of the increments solved so far.
@@ -172,6 +184,7 @@ impl<'a> ContactSolver<'a> {
             }
             let kept = self.memory.settled.take().filter(|settled| {
                 self.coupling != Coupling::Coupled
+                    && self.settings.leave_out.takes(Shortcut::Pressure)
                     && settled.region == region
                     && settled.load.normal == load.normal
             });
@@ -373,13 +386,20 @@ impl<'a> ContactSolver<'a> {
             tangential: self.coupling == Coupling::Uncoupled || self.settings.scheme == Scheme::Alternating,
             full: self.coupling == Coupling::Coupled,
             normal_from_all: false,
+            along: self.along,
         };
         let tangential = self.coupling != Coupling::Frictionless;
         let waves = self.table.as_ref().map(|table| Waves { table, spacing: self.grid.spacing() });
         Ok(BoxOperators {
             region,
             compliance: SpectralCompliance::new(&self.response, region.shape, wanted)?,
-            preconditioner: Preconditioner::new(&self.response, waves, region.shape, true, tangential)?,
+            preconditioner: Preconditioner::new(
+                &self.response,
+                waves,
+                region.shape,
+                [true, tangential],
+                self.along,
+            )?,
         })
     }
 
@@ -419,11 +439,17 @@ impl<'a> ContactSolver<'a> {
         let counted = (operators.compliance.applications, operators.preconditioner.passes);
         let settled = self.memory.settled.as_ref().filter(|settled| settled.region == region);
         let displaced = settled.map(|settled| &settled.displacements);
-        let unchanged = settled.is_some_and(|settled| settled.load.normal == load.normal);
+        let leave_out = self.settings.leave_out;
+        let unchanged = leave_out.takes(Shortcut::Pressure)
+            && settled.is_some_and(|settled| settled.load.normal == load.normal);
         let solved = match self.coupling {
             Coupling::Coupled => scene.together(tractions, displaced, &mut operators, &self.settings, watch),
             Coupling::Uncoupled | Coupling::Frictionless => {
-                let turn = Turn { unchanged, frictionless: self.coupling == Coupling::Frictionless };
+                let turn = Turn {
+                    unchanged,
+                    frictionless: self.coupling == Coupling::Frictionless,
+                    waits_for_a_cause: leave_out.takes(Shortcut::Tangential),
+                };
                 scene.in_turn(tractions, displaced, turn, &mut operators, &self.settings, watch)
             }
         };
@@ -460,6 +486,7 @@ impl<'a> ContactSolver<'a> {
             let wanted = Wanted {
                 normal: self.coupling != Coupling::Coupled,
                 normal_from_all: self.coupling == Coupling::Coupled,
+                along: self.along,
                 ..Wanted::default()
             };
             self.outside = SpectralCompliance::new(&self.response, cells, wanted).ok();

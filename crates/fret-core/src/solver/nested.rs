@@ -137,7 +137,8 @@ impl Level {
     fn is_nearly_full(&self, total: Option<f64>, cells: [usize; 2]) -> bool {
         let (true, Some(total)) = (self.response.is_periodic(), total) else { return false };
         let mean = total / (cells[0] * cells[1]) as f64;
-        let Ok(mut inverse) = Preconditioner::new(&self.response, None, self.cells(), true, false) else {
+        let Ok(mut inverse) = Preconditioner::new(&self.response, None, self.cells(), [true, false], None)
+        else {
             return false;
         };
         let undeformed = Region::whole(self.cells()).gather(&self.undeformed);
@@ -171,7 +172,8 @@ impl Level {
             let mut compliance =
                 SpectralCompliance::new(&self.response, region.shape, wanted).map_err(missing)?;
             let mut preconditioner =
-                Preconditioner::new(&self.response, waves, region.shape, true, false).map_err(missing)?;
+                Preconditioner::new(&self.response, waves, region.shape, [true, false], None)
+                    .map_err(missing)?;
             let undeformed = region.gather(&self.undeformed);
             let task = NormalTask {
                 undeformed: &undeformed,

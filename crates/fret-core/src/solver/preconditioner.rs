@@ -7,7 +7,7 @@ use pulp::Simd;
 
 use super::contact_set::ContactSet;
 use super::zones::Zones;
-use crate::compliance::SurfaceResponse;
+use crate::compliance::{SurfaceResponse, only};
 use crate::kernel::ResponseTable;
 use crate::model::TangentialField;
 use crate::model::each_cell::{CellRule, Reals, each_cell};
@@ -34,6 +34,8 @@ pub struct Preconditioner {
     shear: Option<[(PeriodicProduct, Workspace); 2]>,
     /// Smallest symbol of the tangential response [length/pressure].
     softest: f64,
+    /// The one axis along which shear acts.
+    along: Option<usize>,
     /// Weights of the two levels in the cells of the frozen zones.
     weights: [Vec<f64>; 2],
     /// Levels in use: one where nothing slips stiffly.
@@ -66,7 +68,8 @@ impl Waves<'_> {
 }
 
 impl Preconditioner {
-    /// Inverses for a box of `shape` cells; normal, tangential or both. `waves` serves pressure in free space.
+    /// Inverses for a box of `shape` cells; normal, tangential or both. `waves` serves pressure in free space, `along` is the one
+    /// axis of shear where the other part vanishes.
     ///
     /// # Errors
     /// When a coefficient is missing or does not cover the box.
@@ -74,8 +77,8 @@ impl Preconditioner {
         response: &SurfaceResponse,
         waves: Option<Waves<'_>>,
         shape: [usize; 2],
-        normal: bool,
-        tangential: bool,
+        [normal, tangential]: [bool; 2],
+        along: Option<usize>,
     ) -> Result<Self, ConvolutionError> {
         let [zz, xx, yy, xy] = match response {
             SurfaceResponse::FreeSpace(c) => [&c.zz, &c.xx, &c.yy, &c.xy],
@@ -114,7 +117,10 @@ impl Preconditioner {
                     Symbol { values: yy.view(), parity: Parity::EvenEven },
                     Symbol { values: xy.view(), parity: Parity::OddOdd },
                 ];
-                product(&symbols, &TANGENTIAL)
+                match along {
+                    Some(axis) => product(&symbols[axis..=axis], &NORMAL),
+                    None => product(&symbols, &TANGENTIAL),
+                }
             };
             Some([level(0.0)?, level(STIFF_LEVEL * softest)?])
         } else {
@@ -125,6 +131,7 @@ impl Preconditioner {
             normal,
             shear,
             softest,
+            along,
             stiff: waves.is_some_and(|waves| waves.are_stiff(shape)),
             weights: [Vec::new(), Vec::new()],
             levels: 1,
@@ -167,7 +174,7 @@ impl Preconditioner {
     /// Shears that would remove tangential displacements `right` on the zones last frozen, before any restriction to what
     /// these leave free. Packed over `contact`.
     pub fn shear(&mut self, [right_x, right_y]: [&[f64]; 2], contact: &ContactSet, [x, y]: [&mut [f64]; 2]) {
-        let Self { shear: Some(levels), packed, scaled, part, .. } = self else { return };
+        let Self { shear: Some(levels), packed, scaled, part, along, .. } = self else { return };
         x.fill(0.0);
         y.fill(0.0);
         for ((product, workspace), weights) in levels.iter_mut().zip(&self.weights).take(self.levels) {
@@ -175,7 +182,10 @@ impl Preconditioner {
             each_cell(&Weighted, read, [&mut packed.x, &mut packed.y]);
             contact.place_tangential(packed, scaled);
             self.passes += 1;
-            product.apply(workspace, &scaled.parts(), &mut [&mut part.x, &mut part.y]);
+            match *along {
+                Some(axis) => product.apply(workspace, &[scaled.parts()[axis]], &mut [only(axis, part)]),
+                None => product.apply(workspace, &scaled.parts(), &mut [&mut part.x, &mut part.y]),
+            }
             contact.gather_tangential(part, packed);
             let read = [&packed.x[..], &packed.y, weights];
             each_cell(&AddWeighted, read, [&mut *x, &mut *y]);

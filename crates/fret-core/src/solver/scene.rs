@@ -63,6 +63,8 @@ pub struct Turn {
     pub unchanged: bool,
     /// There is no friction: no shear.
     pub frictionless: bool,
+    /// No shear is looked for before something causes it.
+    pub waits_for_a_cause: bool,
 }
 
 /// A solved box.
@@ -402,7 +404,8 @@ impl<'a> Scene<'a> {
         }
         let mut s = TangentialField::zeros(len);
         let mut tangential = TangentialVerdict { motion: self.motion, residual: 0.0 };
-        let caused = self.motion != [0.0; 3]
+        let caused = !turn.waits_for_a_cause
+            || self.motion != [0.0; 3]
             || self.resultant != [0.0; 3]
             || self.state.shear.iter().any(|shear| shear.iter().any(|q| *q != 0.0));
         if turn.frictionless || !caused {

@@ -4,6 +4,7 @@ use std::ops::ControlFlow;
 
 use serde::Serialize;
 
+use super::shortcut::LeaveOut;
 use crate::model::Scheme;
 
 /// How pressure and shear act on each other.
@@ -29,12 +30,20 @@ pub struct SolverSettings {
     pub most_inner_iterations: usize,
     /// How coupled pressure and shear are solved.
     pub scheme: Scheme,
+    /// What is left out where the scene allows it.
+    pub leave_out: LeaveOut,
 }
 
 impl SolverSettings {
     /// Settings for a tolerance; coupled tractions together.
     pub fn new(tolerance: f64) -> Self {
-        Self { tolerance, most_outer_iterations: 200, most_inner_iterations: 30, scheme: Scheme::default() }
+        Self {
+            tolerance,
+            most_outer_iterations: 200,
+            most_inner_iterations: 30,
+            scheme: Scheme::default(),
+            leave_out: LeaveOut::ALL,
+        }
     }
 }
 

@@ -1,0 +1,165 @@
+//! What a scene does not need, why, and what that saves.
+
+use ndarray::Axis;
+
+use super::{LeaveOut, LeftOut, Shortcut};
+use crate::case::{Case, Path, Stage, StageControl};
+use crate::kernel::PairResponse;
+use crate::model::{Body, CoulombFriction, SurfaceGrid};
+use crate::solver::Coupling;
+
+/// Names of the fields that can be kept, with their bytes a cell.
+const FIELDS: [(&str, usize); 5] = [("pressure", 8), ("shear", 16), ("slip", 16), ("gap", 8), ("zone", 1)];
+
+/// The list of what is left out of a case that may take the shortcuts of `leave_out`.
+pub fn left_out(
+    case: &Case,
+    grid: &SurfaceGrid,
+    coupling: Coupling,
+    along: Option<usize>,
+    leave_out: LeaveOut,
+) -> Vec<LeftOut> {
+    let mut list = Vec::new();
+    let mut leave = |what: &str, why: &str, saves: &str| {
+        list.push(LeftOut { what: what.to_owned(), why: why.to_owned(), saves: saves.to_owned() });
+    };
+    let homogeneous = |body: &Body| match body {
+        Body::Rigid => true,
+        Body::Elastic(half_space) => half_space.single_material().is_some(),
+    };
+    let plain = homogeneous(case.bodies.upper()) && homogeneous(case.bodies.lower());
+    if plain && leave_out.takes(Shortcut::LayeredResponse) {
+        leave(
+            "layered response",
+            "no body has a coating that differs from what lies below it",
+            "the radial table of the coated response",
+        );
+    }
+    match coupling {
+        Coupling::Frictionless => leave(
+            "shear, slip and the tangential equations",
+            "there is no friction",
+            "five of six kernels and every tangential iteration",
+        ),
+        Coupling::Uncoupled => {
+            let why = if case.is_frictionless() {
+                "there is no friction"
+            } else {
+                "the bodies answer a shear with equal normal displacements, so pressure does not depend on shear"
+            };
+            leave("coupling of pressure and shear", why, "two of six kernels and every coupled iteration");
+        }
+        Coupling::Coupled => {}
+    }
+    if coupling == Coupling::Uncoupled
+        && leave_out.takes(Shortcut::Tangential)
+        && let Some(increments) = increments_before_a_cause(case)
+    {
+        leave(
+            "tangential equations before anything causes shear",
+            "no tangential force, shift or twist has been asked for so far",
+            &format!("every tangential iteration of the first {increments} increments"),
+        );
+    }
+    if coupling != Coupling::Coupled && leave_out.takes(Shortcut::Pressure) {
+        let increments = increments_at_one_load(case);
+        if increments > 0 {
+            leave(
+                "normal problem while the pressure cannot change",
+                "the normal load stays, shear does not act on pressure, and wear changes the gap between cycles alone",
+                &format!("the pressure, the gap and the edge of contact in up to {increments} increments"),
+            );
+        }
+    }
+    if let Some(axis) = along {
+        let [name, across] = [["x", "y"], ["y", "x"]][axis];
+        leave(
+            &format!("shear along {across}"),
+            &format!("nothing loads it, and shear along {name} moves nothing across it"),
+            "three of four tangential kernels, half of the transforms of shear",
+        );
+    }
+    if !case.periodic && leave_out.takes(Shortcut::Box) {
+        leave(
+            "cells far from the contact, in the iterations",
+            "they carry nothing; whether the surfaces overlap there is checked once the box is solved",
+            "the share of the grid outside the box, in every iteration",
+        );
+    }
+    let unasked: Vec<_> =
+        FIELDS.iter().filter(|(name, _)| !case.output.fields.iter().any(|asked| asked == name)).collect();
+    if !unasked.is_empty() {
+        let names: Vec<&str> = unasked.iter().map(|(name, _)| *name).collect();
+        let bytes: usize = unasked.iter().map(|(_, bytes)| bytes * grid.len()).sum();
+        let kept = case.kept_increments().len();
+        leave(
+            &format!("kept fields of {}", names.join(", ")),
+            "nobody asked for them",
+            &format!("{bytes} bytes in each of {kept} kept increments"),
+        );
+    }
+    if case.stress.is_none() {
+        leave("stress under the surface", "the case has no table [stress]", "its operators, depth by depth");
+    }
+    list
+}
+
+/// Increments of the stages before the first that names a tangential control; none when the first one does.
+fn increments_before_a_cause(case: &Case) -> Option<usize> {
+    let quiet = case
+        .stages
+        .iter()
+        .take_while(|stage| stage.tangential.iter().all(Option::is_none) && stage.twist.is_none());
+    Some(quiet.map(Stage::increments_in_all).sum()).filter(|sum| *sum > 0)
+}
+
+/// Increments in which no stage changes the normal load.
+fn increments_at_one_load(case: &Case) -> usize {
+    let held = case.stages.iter().filter(|stage| stage.normal.is_none());
+    held.map(Stage::increments_in_all).sum()
+}
+
+/// The one axis along which shear acts: nothing loads the other, and either the bodies know no way across, or nothing changes
+/// along an axis of a scene that repeats.
+pub fn one_way(
+    case: &Case,
+    grid: &SurfaceGrid,
+    response: &PairResponse,
+    coupling: Coupling,
+) -> Option<usize> {
+    if coupling == Coupling::Frictionless || case.stages.iter().any(|stage| stage.twist.is_some()) {
+        return None;
+    }
+    let loads = |axis: usize| {
+        case.stages.iter().filter_map(|stage| stage.tangential[axis].as_ref()).any(|control| {
+            let (StageControl::Force(path) | StageControl::Motion(path)) = control;
+            match path {
+                Path::To(value) | Path::Wave { amplitude: value, .. } => *value != 0.0,
+                Path::Through(values) => values.iter().any(|value| *value != 0.0),
+            }
+        })
+    };
+    let axis = match [loads(0), loads(1)] {
+        [true, false] => 0,
+        [false, true] => 1,
+        _ => return None,
+    };
+    let uncoupled = coupling == Coupling::Uncoupled;
+    let straight = uncoupled && response.is_straight();
+    // Pressure moves the surface across a line contact, never along it.
+    let line = |axis: usize| is_endless(case, grid, 1 - axis) || uncoupled && is_endless(case, grid, axis);
+    (straight || line(axis)).then_some(axis)
+}
+
+/// Whether a scene repeats and nothing in it changes along an axis.
+fn is_endless(case: &Case, grid: &SurfaceGrid, axis: usize) -> bool {
+    let maps = case.stages.iter().filter_map(|stage| stage.friction.as_ref()).chain([&case.friction]);
+    case.periodic
+        && maps.into_iter().all(|friction| matches!(friction, CoulombFriction::Uniform(_)))
+        && case
+            .profile
+            .gap(grid)
+            .lanes(Axis(axis))
+            .into_iter()
+            .all(|line| line.iter().all(|gap| *gap == line[0]))
+}
