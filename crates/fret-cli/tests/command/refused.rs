@@ -160,3 +160,26 @@ fn a_call_that_makes_no_sense_is_refused_too() {
         assert_eq!(bench.fret(arguments).code, Some(1), "{arguments:?}");
     }
 }
+
+#[test]
+fn a_film_that_the_cells_do_not_see_is_refused() {
+    let bench = Bench::new("unseen-film");
+    // Cells of 10 micrometres under a film of 1: a fifth of a cell is 2.
+    let film = |poisson: f64| {
+        SPHERE.replace(
+            "substrate = { young = 210e9, poisson = 0.3 }",
+            &format!(
+                "coatings = [{{ thickness = 1e-6, young = 1e9, poisson = {poisson} }}]\nbase = \"rigid\""
+            ),
+        )
+    };
+    let answer = bench.file("case.toml", &film(0.5)).fret(&["plan", "case.toml"]);
+    assert_eq!(answer.code, Some(1), "{}", answer.out);
+    assert!(
+        answer.err.contains("incompressible film") && answer.err.contains("case.toml:"),
+        "{}",
+        answer.err
+    );
+    let answer = bench.file("case.toml", &film(0.3)).fret(&["plan", "case.toml"]);
+    assert_eq!(answer.code, Some(0), "a film that gives way is seen: {}", answer.err);
+}

@@ -58,7 +58,7 @@ pub struct InfluenceCoefficients {
 /// of `zz` at the same offset for contrasts 1e-1 to 1e6, 1e-12 for coatings 1e4 times softer, 1e-10 at 1e6 times. On a rigid
 /// base the coefficients fall exponentially and keep 1e-15 of the own cell's value.
 ///
-/// Fails silently in meaning, not in digits, where point collocation itself fails: see
+/// Fails in meaning, not in digits, where point collocation itself fails (a plan refuses such grids): see
 /// [`cells_too_coarse_for_incompressible_film`](super::collocation::cells_too_coarse_for_incompressible_film).
 /// The same bits for any number of threads. Cost about 0.3 microseconds per cell; for pressure alone on homogeneous bodies a
 /// twentieth of that.

@@ -6,8 +6,8 @@ mod left_out;
 use serde::Serialize;
 
 use crate::case::{Case, CaseError, GridSize};
-use crate::kernel::PairResponse;
-use crate::model::SurfaceGrid;
+use crate::kernel::{PairResponse, cells_too_coarse_for_incompressible_film};
+use crate::model::{Body, SurfaceGrid};
 pub use crate::solver::{Coupling, LeaveOut, Shortcut};
 use extent::{automatic_size, reaches_beyond};
 
@@ -84,6 +84,17 @@ impl Plan {
                 format!("grid.size = {size:?}: no cell centre lies on the body, which ends between them");
             return Err(case.refuse_size(message, "more cells, or a smaller grid"));
         }
+        if !case.periodic && has_unseen_film(&case, &grid) {
+            let message = format!(
+                "grid.cells = {:?}: a nearly incompressible film on a stiff base is thinner than a fifth of a cell; it moves \
+                 sideways between the cells' centres, where displacements are taken, and the grid does not see it",
+                case.cells
+            );
+            return Err(case.refuse_size(
+                message,
+                "cells no longer than five thicknesses: more of them, or a smaller grid",
+            ));
+        }
         if matches!(case.size, GridSize::Given(_)) && !case.periodic && reaches_beyond(&case, size) {
             let message = format!(
                 "grid.size = {size:?}: the contact under the heaviest load reaches the edge of the grid"
@@ -117,6 +128,14 @@ fn has_a_body(case: &Case, grid: &SurfaceGrid) -> bool {
     let centres = [0, 1].map(|axis| grid.centres(axis));
     let there = |x: f64| centres[1].iter().any(|y| case.profile.gap_of_shapes_at(x, *y).is_finite());
     centres[0].iter().any(|x| there(*x))
+}
+
+/// Whether a body has a film that the cells are too coarse for.
+fn has_unseen_film(case: &Case, grid: &SurfaceGrid) -> bool {
+    [case.bodies.upper(), case.bodies.lower()].into_iter().any(|body| match body {
+        Body::Rigid => false,
+        Body::Elastic(half_space) => cells_too_coarse_for_incompressible_film(half_space, grid.spacing()),
+    })
 }
 
 /// Memory of a run at the most [bytes]: of the process, of the operators and fields of the solver, of the kept fields.
