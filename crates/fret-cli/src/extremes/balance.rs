@@ -165,6 +165,13 @@ impl Observer for Accounts {
         let done: f64 = works.iter().sum();
         self.work[0] += done;
         self.work[1] += works.iter().map(|work| work.abs()).sum::<f64>();
+        self.mirror = worse(self.mirror, mirrored(state));
+        if record.parts > 1 {
+            // Its two ends do not tell where the parts between them slid, nor under which shear.
+            self.dissipated = record.dissipated_energy;
+            self.before = now;
+            return ControlFlow::Continue(());
+        }
         let crossed = 0.5 * self.area * (dot(&now.pressure, &before.gap) - dot(&before.pressure, &now.gap));
         let stored = now.stored - before.stored;
         let missing = done - (stored + self.slid(&now) + crossed);
@@ -172,7 +179,6 @@ impl Observer for Accounts {
         let unrecorded = record.dissipated_energy - self.dissipated;
         let [_, size] = self.work;
         self.worst = worse(self.worst, missing.abs().max(unrecorded.abs()) / size);
-        self.mirror = worse(self.mirror, mirrored(state));
         self.before = now;
         ControlFlow::Continue(())
     }
