@@ -71,7 +71,7 @@ pub struct RunArguments {
     /// Say nothing but errors
     #[arg(long)]
     pub quiet: bool,
-    /// Write into a folder even when it holds other things; only files of `fret` are replaced
+    /// Write into a folder even when it holds other things; only files of fret are replaced
     #[arg(long)]
     pub force: bool,
     /// Go on where a run was broken off; start where there is none, do nothing where it is solved
@@ -135,8 +135,12 @@ pub struct ExportArguments {
     /// The history and a file a kept increment, a row a cell
     #[arg(long, group = "form")]
     pub csv: bool,
-    /// A .vti image a kept increment and a .pvd list, for `ParaView` and pyvista
-    #[arg(long, group = "form")]
+    /// What `ParaView` and pyvista read.
+    #[arg(
+        long,
+        group = "form",
+        help = "A .vti image a kept increment and a .pvd list, for ParaView and pyvista"
+    )]
     pub vtk: bool,
     /// The file (npz) or folder (csv, vtk) to write [default: export.npz, csv, vtk in the folder of the results]
     #[arg(long, value_name = "PATH")]
@@ -166,8 +170,8 @@ pub struct StressArguments {
     /// The body: upper or lower
     #[arg(long, value_name = "BODY", value_parser = ["upper", "lower"])]
     pub body: Option<String>,
-    /// Write a volume for `ParaView` of the last increment looked at
-    #[arg(long)]
+    /// What `ParaView` reads.
+    #[arg(long, help = "Write a volume for ParaView of the last increment looked at")]
     pub volume: bool,
     /// Threads to compute with [default: all the machine has]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]

@@ -79,7 +79,9 @@ impl Estimate {
                 Quantity::StickArea | Quantity::Shift | Quantity::DissipatedEnergy if !self.rubs => {}
                 Quantity::Shift => {
                     for (axis, direction) in ["x", "y"].into_iter().enumerate() {
-                        row(&format!("shift {direction}"), &|bars| number(&bars.of(quantity), axis));
+                        row(&format!("shift {direction}"), &|bars| {
+                            shift(&bars.of(quantity), axis, bars.of(Quantity::Approach).value[0])
+                        });
                     }
                 }
                 Quantity::ContactArea => {
@@ -119,6 +121,12 @@ impl Estimate {
 /// `value ± bar`.
 fn number(bar: &Bar, axis: usize) -> String {
     with_bar(bar.value[axis], bar.bar)
+}
+
+/// A shift with its bar, both zero where they vanish in the rounding of the approach.
+fn shift(bar: &Bar, axis: usize, approach: f64) -> String {
+    let above_rounding = |value: f64| if value.abs() <= 1e-12 * approach.abs() { 0.0 } else { value };
+    with_bar(above_rounding(bar.value[axis]), bar.bar.map(above_rounding))
 }
 
 /// The radius of a circle of an area, with the bar that follows from the area's.

@@ -168,6 +168,7 @@ impl<'a> Fatigue<'a> {
                 entry["largest_mean"] = json!({ "value": means[most], "x": x[most], "distance": distance });
                 let _ = write!(table, " mean {} at x {}", figure(means[most]), figure(x[most]));
             }
+            table.truncate(table.trim_end().len());
             table.push('\n');
             parameters.insert((*name).to_owned(), entry);
         }

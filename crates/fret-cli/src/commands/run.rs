@@ -123,6 +123,14 @@ fn announce(plan: &Plan, folder: &Path, standing: &Standing) {
         Standing::Free | Standing::Unfinished | Standing::Solved(_) => {}
         Standing::SameCase => {
             terminal::say(&format!("{shown}: the earlier results of this case are replaced"));
+            let made_since = ["report.html", "export.npz", "csv", "vtk", "stress"];
+            let stays = |name: &&str| {
+                folder.join(name).exists() && !(*name == "stress" && plan.case.stress.is_some())
+            };
+            let old: Vec<&str> = made_since.into_iter().filter(stays).collect();
+            if !old.is_empty() {
+                terminal::say(&format!("{shown}: still of the earlier run: {}", old.join(", ")));
+            }
         }
         Standing::Forced => terminal::say(&format!("{shown}: written into as it is, by --force")),
     }

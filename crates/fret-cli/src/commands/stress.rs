@@ -374,7 +374,7 @@ impl<'a> Sheet<'a> {
 
     fn table(&self, place: &Path, fatigue: Option<&str>, wall_s: f64) -> String {
         let mut text = format!(
-            "stress in the {} body: {} at {}\n\n  largest            value        increment  x            y            depth        in\n",
+            "stress in the {} body: {} at {}, counted from 0\n\n  largest            value        increment  x            y            depth        in\n",
             self.request.body.name(),
             counted(self.points.len(), "depth"),
             counted(self.surfaces.len(), "increment"),

@@ -135,7 +135,7 @@ fn axes(svg: &mut String, x: [f64; 2], z: [f64; 2], height: f64) {
          <text x=\"{:.1}\" y=\"{:.1}\" text-anchor=\"middle\">x</text>\n<text x=\"14\" y=\"{:.1}\">z</text>",
         LEFT + 0.5 * WIDTH,
         TOP + height + 38.0,
-        TOP + 0.5 * height
+        TOP - 8.0
     );
 }
 

@@ -86,6 +86,7 @@ pub fn table(climb: &Climb, lines: &[Line]) -> String {
                 let order = order.map_or(String::new(), |order| format!("{order:.1}"));
                 let _ = write!(table, "{error:>9} {order:>5}");
             }
+            table.truncate(table.trim_end().len());
             table.push('\n');
         }
         table.push('\n');

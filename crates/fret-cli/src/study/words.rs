@@ -49,11 +49,12 @@ pub fn choice(advice: &[Advice], cells: bool, increments: bool, ny_over_nx: f64)
             format!("{nx} x {ny} cells")
         });
         let steps = advice.increments.map(|count| format!("{count} increments a stage or cycle"));
-        let chosen: Vec<String> = [(cells, grid), (increments, steps)]
+        let mut chosen: Vec<String> = [(cells, grid), (increments, steps)]
             .into_iter()
             .filter(|(varied, _)| *varied)
             .map(|(_, choice)| choice.unwrap_or_else(|| "more than this ladder can tell of".to_owned()))
             .collect();
+        chosen.dedup();
         let beyond = if advice.concluded { " (concluded from the order, not computed)" } else { "" };
         format!("{percent}{}{beyond}", chosen.join(" and "))
     });

@@ -61,7 +61,8 @@ fn two_controls_of_one_motion_at_once_are_refused() {
 #[test]
 fn a_tangential_force_above_what_friction_carries_is_refused() {
     let case = changed("[0.05, 0.0]", "[0.15, 0.0]");
-    one_mistake("sliding", &case, "26:20", &["mu W", "shift"]);
+    let words = ["the tangential force reaches 0.15, where friction carries at most mu W = 0.1\n", "shift"];
+    one_mistake("sliding", &case, "26:20", &words);
 }
 
 #[test]
@@ -102,6 +103,29 @@ fn every_table_that_is_missing_is_named() {
         assert_eq!(answer.err.matches(&format!("missing field `{table}`")).count(), 1, "{}", answer.err);
     }
     assert!(!answer.err.contains("`upper`"), "{}", answer.err);
+}
+
+#[test]
+fn a_table_with_mistakes_inside_is_not_called_missing_and_the_rest_is_judged() {
+    let case = changed("size = [240e-6, 240e-6]", "size = \"automatic\"")
+        .replacen("radius = 10e-3", "radius = -10e-3", 1)
+        .replacen("[0.05, 0.0]", "0.05", 1);
+    let answer = refused("inside", &case.replacen("cells = [24, 24]", "cells = [24]", 1));
+    for words in ["invalid length 1, expected a list of two values", "automatic", "-0.01", "`0.05`"] {
+        assert!(answer.err.contains(words), "expected {words:?}:\n{}", answer.err);
+    }
+    assert_eq!(answer.err.matches("error: ").count(), 4, "{}", answer.err);
+}
+
+#[test]
+fn a_table_that_loses_all_it_needs_is_not_called_missing() {
+    let case = changed("cells = [24, 24]", "number_of_points = [24, 24]");
+    one_mistake("lost-table", &case, "4:1", &["unknown field `number_of_points`"]);
+}
+
+#[test]
+fn no_increments_of_a_cycle_are_one_mistake() {
+    one_mistake("no-increments", &changed("increments = 8", "increments = 0"), "28:14", &["increments = 0"]);
 }
 
 /// The plan knows the contact up to a cell of its own coarse grid; where only the run finds out, the case is refused as well.

@@ -102,11 +102,13 @@ fn results_of_the_same_case_are_replaced_and_those_of_another_are_not() {
     let bench = Bench::new("replaced");
     bench.file("case.toml", SPHERE);
     assert_eq!(bench.fret(&["run", "case.toml", "--quiet"]).code, Some(0));
+    assert_eq!(bench.fret(&["report", "results/case"]).code, Some(0));
 
     let changed = SPHERE.replace("every = 5", "every = 19");
     let again = bench.file("case.toml", &changed).fret(&["run", "case.toml"]);
     assert_eq!(again.code, Some(0), "{}", again.err);
     assert!(again.err.contains("replaced"), "{}", again.err);
+    assert!(again.err.contains("still of the earlier run: report.html\n"), "{}", again.err);
     assert!(!bench.folder.join("results/case/fields.zarr/pressure/c/4").exists(), "nothing old stays");
 
     bench.file("other.toml", &SPHERE.replace("1.0", "1.1"));

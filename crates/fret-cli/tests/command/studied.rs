@@ -168,6 +168,12 @@ fn error_bars_of_a_fretting_loop_and_where_there_are_none() {
     assert_eq!(said["error_bars"]["companion"]["increments"], Value::from(2 + 2 * 4));
     let energy = &stages[1]["dissipated_energy"];
     assert!(energy["error_bar"].as_f64().unwrap() > 0.0 && energy["value"].as_f64().unwrap() > 0.0);
+    let table = bench.fret(&["run", "case.toml", "--estimate-error"]).out;
+    let bars = table.split("error bars").nth(1).unwrap();
+    let across = bars.lines().find(|line| line.starts_with("shift y")).unwrap();
+    // The force runs along x: what moves along y is rounding, before the rubbing begins in its bar as well.
+    assert!(across["shift y".len()..].split_whitespace().next() == Some("0"), "{across}");
+    assert!(across.matches('±').count() == 1, "{across}");
     let again = bench.fret(&["run", "case.toml", "--estimate-error", "--resume"]);
     assert_eq!(again.code, Some(1));
     assert!(again.err.contains("solved already"), "{}", again.err);

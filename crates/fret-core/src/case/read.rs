@@ -45,15 +45,20 @@ pub(super) fn case(text: &str, name: &str, attachments: Attachments<'_>) -> Resu
         return Err(CaseError::plain(name, format!("tables nested deeper than {DEEPEST}: not a case")));
     }
     let mut removed: Vec<Range<usize>> = Vec::new();
+    let written: Vec<String> = root.get_ref().keys().map(|key| key.get_ref().to_string()).collect();
     let mut lacks_tables = false;
     let file = loop {
         match CaseFile::deserialize(Deserializer::from(root.clone())) {
             Ok(file) => break file,
-            Err(error) if supplied(root.get_mut(), error.message()) => {
-                mistakes.push(mistake(&error, error.span()));
-                lacks_tables = true;
-            }
             Err(error) => {
+                if let Some(table) = supplied(root.get_mut(), error.message()) {
+                    // A table that was taken out above for what it lacked is not missing from the text.
+                    if !written.iter().any(|key| key == table) {
+                        mistakes.push(mistake(&error, error.span()));
+                    }
+                    lacks_tables = true;
+                    continue;
+                }
                 let Some(span) = error.span() else {
                     mistakes.push(mistake(&error, None));
                     return Err(CaseError::new(name, text, mistakes));
@@ -107,7 +112,8 @@ fn mistake(error: &toml::de::Error, span: Option<Range<usize>>) -> Mistake {
     let message = error
         .message()
         .replace("expected f64", "expected a number")
-        .replace("expected usize", "expected a whole number");
+        .replace("expected usize", "expected a whole number")
+        .replace("expected an array of length 2", "expected a list of two values");
     let help = near_miss(&message).map_or_else(
         || Some("`fret schema` lists every key with its meaning".to_owned()),
         |near| Some(format!("did you mean `{near}`?")),
@@ -124,18 +130,13 @@ const TABLES: [(&str, &str); 5] = [
     ("load", "x = [{ normal_force = 1.0, increments = 1 }]"),
 ];
 
-/// Puts in the table that serde's message misses, so that the next one that is missing can be found.
-fn supplied(root: &mut DeTable<'_>, message: &str) -> bool {
+/// Puts in the table that serde's message misses, so that the next one that is missing can be found; its name.
+fn supplied(root: &mut DeTable<'_>, message: &str) -> Option<&'static str> {
     let missed = |name: &str| message.starts_with(&format!("missing field `{name}`"));
-    let Some((name, text)) = TABLES.into_iter().find(|(name, _)| missed(name) && !root.contains_key(*name))
-    else {
-        return false;
-    };
-    let stand_in = DeTable::parse(text).ok().and_then(|mut table| table.get_mut().remove("x"));
-    stand_in.is_some_and(|value| {
-        root.insert(Spanned::new(NOWHERE, name.into()), placeless(value.into_inner()));
-        true
-    })
+    let (name, text) = TABLES.into_iter().find(|(name, _)| missed(name) && !root.contains_key(*name))?;
+    let value = DeTable::parse(text).ok()?.get_mut().remove("x")?;
+    root.insert(Spanned::new(NOWHERE, name.into()), placeless(value.into_inner()));
+    Some(name)
 }
 
 /// A place where no text has anything.
@@ -196,10 +197,15 @@ fn stand_in(message: &str) -> Option<DeValue<'static>> {
     if message.starts_with("unknown variant") {
         return message.split('`').nth(3).map(|word| DeValue::String(word.to_owned().into()));
     }
-    if !message.starts_with("invalid type") {
+    if !message.starts_with("invalid ") {
         return None;
     }
-    let text = if message.ends_with("expected f64") {
+    let text = if message.ends_with("expected an array of length 2") {
+        // enough for a number of cells, and what a side, a force or a motion may be
+        "x = [64, 64]"
+    } else if message.ends_with("or \"auto\"") && message.contains("two side lengths") {
+        "x = 'auto'"
+    } else if message.ends_with("expected f64") {
         "x = 0.3"
     } else if message.ends_with("expected usize") {
         "x = 4"

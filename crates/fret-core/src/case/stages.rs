@@ -198,7 +198,7 @@ fn course(judge: &mut Judge, place: &str, file: &StageFile, increments: usize) -
         );
     }
     let waveform = waveform(judge, place, file)?;
-    if file.table.is_none() && increments < waveform.fewest_increments() {
+    if file.table.is_none() && (1..waveform.fewest_increments()).contains(&increments) {
         return judge.refuse(
             file.increments.span(),
             format!(
@@ -321,12 +321,13 @@ pub(super) fn sliding(
     });
     for (index, (stage, file)) in stages.iter().zip(list.get_ref()).enumerate() {
         let file = file.get_ref();
+        let name = &stage.name;
         let table = file.table.as_ref().map(Spanned::span);
         if stage.normal.is_some() && lowest[index] < 0.0 {
             judge.refuse::<()>(
                 file.normal_force.as_ref().map(Spanned::span).or(table.clone()).unwrap_or_default(),
                 format!(
-                    "load[{index}].normal_force reaches {:?}: compression is positive, and the surfaces do not adhere",
+                    "load[{index}] ({name}).normal_force reaches {:?}: compression is positive, and the surfaces do not adhere",
                     lowest[index]
                 ),
                 "",
@@ -338,16 +339,26 @@ pub(super) fn sliding(
             let span = file.tangential_force.as_ref().map(Spanned::span).or(table);
             let key = if span.is_some() { "tangential_force" } else { "normal_force" };
             let span = span.or(file.normal_force.as_ref().map(Spanned::span)).unwrap_or_default();
+            let [asked, bound] = apart(asked, bound);
             judge.refuse::<()>(
                 span,
                 format!(
-                    "load[{index}].{key}: the tangential force reaches {asked:e}, where friction carries at most mu W = {bound:e}"
+                    "load[{index}] ({name}).{key}: the tangential force reaches {asked}, where friction carries at most mu W = {bound}"
                 ),
                 "a force above mu W has no equilibrium; prescribe the shift to slide",
             );
             return;
         }
     }
+}
+
+/// Two numbers in as few digits as tell them apart.
+fn apart(one: f64, other: f64) -> [String; 2] {
+    let rounded = [one, other].map(|value| {
+        let short = format!("{value:.5e}").parse::<f64>().unwrap_or(value);
+        format!("{short:?}")
+    });
+    if rounded[0] == rounded[1] { [one, other].map(|value| format!("{value:?}")) } else { rounded }
 }
 
 impl Stage {
