@@ -30,6 +30,17 @@ normal_force = 1.0
 increments = 3
 "#;
 
+/// Rubbed in two directions, with controls that change their kind.
+const TURNED: &str = r"
+[[load]]
+tangential_force = [0.1, 0.05]
+cycles = 1
+increments = 8
+[[load]]
+shift = [30e-9, 0.0]
+increments = 3
+";
+
 /// Cycles, each computed one for up to four, then a stage without cycles and an unloading that starts on coarse grids.
 const WORN: &str = r"
 [[load]]
@@ -107,6 +118,11 @@ fn taken_up_anywhere(text: &str) -> History {
 }
 
 #[test]
+fn with_controls_that_change_their_kind() {
+    assert_eq!(taken_up_anywhere(&(coated() + TURNED)).steps.len(), 3 + 8 + 3);
+}
+
+#[test]
 fn with_wear_in_blocks_of_cycles() {
     for head in [HEAD.to_owned(), coated()] {
         let whole = taken_up_anywhere(&(head + WORN));
@@ -156,5 +172,24 @@ fn a_checkpoint_of_another_course_is_refused() {
     let unworn = HEAD.to_owned() + WORN.split("[wear]").next().unwrap();
     for other in [unworn, HEAD.to_owned() + WORN.replace("cycles = 14\n", "").as_str()] {
         assert_eq!(Checkpoint::read(within_a_cycle, &plan(&other)), Err(CheckpointError::Foreign));
+    }
+}
+
+#[test]
+fn bytes_that_are_no_checkpoint_of_the_case_are_refused() {
+    let case = HEAD.to_owned() + TURNED;
+    let mut keeper = Keeper(Vec::new());
+    Simulation::new(&plan(&case)).run(&mut keeper).unwrap();
+    let bytes = &keeper.0[5];
+    for length in [0, 1, bytes.len() / 2, bytes.len() - 1] {
+        let read = Checkpoint::read(&bytes[..length], &plan(&case));
+        assert!(matches!(read, Err(CheckpointError::Damaged(_))), "{length} bytes");
+    }
+    let mut newer = bytes.clone();
+    newer[0] = 9;
+    assert_eq!(Checkpoint::read(&newer, &plan(&case)), Err(CheckpointError::Format { found: 9 }));
+    for other in [case.replace("[16, 14]", "[14, 16]"), case.replacen("increments = 3", "increments = 2", 1)]
+    {
+        assert_eq!(Checkpoint::read(bytes, &plan(&other)), Err(CheckpointError::Foreign));
     }
 }

@@ -2,19 +2,15 @@
 
 use std::f64::consts::PI;
 use std::fmt::Write;
-use std::ops::ControlFlow;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
-use fret_core::history::{KeptFields, StepRecord};
-use fret_core::model::ContactState;
 use fret_core::plan::{Coupling, Plan};
-use fret_core::simulation::{Iteration, Observer};
 use fret_core::study::{Bar, Bars, Headline, Quantity, climbed, error_bars};
 use serde_json::{Value, json};
 
 use crate::defect;
 use crate::figures::{counted, duration, figure, shortened};
-use crate::interrupt;
+use crate::interrupt::Listener;
 use crate::study::words::name;
 
 /// Stages that stand side by side in the table.
@@ -141,21 +137,4 @@ fn with_bar(value: f64, bar: Option<f64>) -> String {
         Some(bar) => format!("{} ± {bar:.1e}", figure(value)),
         None => "no limit".to_owned(),
     }
-}
-
-/// Stops the companion when somebody asks to.
-struct Listener;
-
-impl Observer for Listener {
-    fn iterated(&mut self, _: &Iteration) -> ControlFlow<()> {
-        go_on()
-    }
-
-    fn solved(&mut self, _: &StepRecord, _: &ContactState, _: Option<&KeptFields>) -> ControlFlow<()> {
-        go_on()
-    }
-}
-
-fn go_on() -> ControlFlow<()> {
-    if interrupt::is_asked() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
 }

@@ -1,6 +1,11 @@
 //! Ctrl-C and a scheduler's request to end: the first stops the run after the iteration at work, a second one at once.
 
+use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicBool, Ordering};
+
+use fret_core::history::{KeptFields, StepRecord};
+use fret_core::model::ContactState;
+use fret_core::simulation::{Iteration, Observer};
 
 use crate::failure::INTERRUPTED;
 
@@ -18,4 +23,21 @@ pub fn listen() {
 /// Whether somebody asked to stop.
 pub fn is_asked() -> bool {
     ASKED.load(Ordering::Relaxed)
+}
+
+/// Stops a run when somebody asks to, and hears nothing else.
+pub struct Listener;
+
+impl Observer for Listener {
+    fn iterated(&mut self, _: &Iteration) -> ControlFlow<()> {
+        go_on()
+    }
+
+    fn solved(&mut self, _: &StepRecord, _: &ContactState, _: Option<&KeptFields>) -> ControlFlow<()> {
+        go_on()
+    }
+}
+
+fn go_on() -> ControlFlow<()> {
+    if is_asked() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
 }

@@ -3,6 +3,7 @@
 
 use ndarray::Zip;
 
+use crate::history::Work;
 use crate::model::{ContactState, LoadStep};
 use crate::solver::{ContactSolver, Increment, SolveError, SolverMemory, Watch};
 use crate::wear::Wearing;
@@ -88,7 +89,7 @@ pub struct Refinement {
 pub struct Divided {
     /// Its end; the work of all tries is in it.
     pub end: Increment,
-    /// Parts of the try that was taken.
+    /// Parts of the try that was taken, halved ones counted as two.
     pub parts: usize,
     /// Parts to begin the next increment with.
     pub next: usize,
@@ -121,6 +122,8 @@ struct Way {
     end: Increment,
     memory: SolverMemory,
     wearing: Option<Wearing>,
+    /// Steps made.
+    steps: usize,
     /// How far the tractions went, all parts in turn: Euclidean norm of (mu p, q).
     length: f64,
 }
@@ -141,7 +144,7 @@ impl Refinement {
         watch: Watch<'_>,
     ) -> Result<Divided, DivisionError> {
         let memory = solver.memory().clone();
-        let mut work = crate::history::Work::default();
+        let mut work = Work::default();
         let mut try_in = |parts: usize| {
             solver.remember(memory.clone());
             let way = self.way(solver, wearing.cloned(), span, parts, watch);
@@ -160,11 +163,11 @@ impl Refinement {
                 .distance(&ContactState::untouched(fine.end.state.pressure.dim().into()), &fine.end.state);
             let bound = self.tolerance * fine.length + NOISE * self.residual * size;
             if error <= bound {
-                let Way { mut end, memory, wearing, .. } = fine;
+                let Way { mut end, memory, wearing, steps, .. } = fine;
                 end.work = work;
                 solver.remember(memory);
                 let next = if error < 0.25 * bound { parts / 4 } else { parts / 2 };
-                return Ok(Divided { end, parts, next: next.max(1), wearing });
+                return Ok(Divided { end, parts: steps, next: next.max(1), wearing });
             }
             if parts >= MOST_PARTS {
                 return Err(DivisionError::Unresolved { reached: error / fine.length, parts });
@@ -182,11 +185,13 @@ impl Refinement {
         watch: Watch<'_>,
     ) -> Result<Way, SolveError> {
         let mut from = *span.from;
+        let mut steps = 0;
         let mut step = |before: &ContactState, part: usize| {
             let to = LoadStep::between(span.from, span.to, part as f64 / parts as f64);
             let here = Span { state: before, from: &from, to: &to };
-            let (solved, _) = in_halves(solver, &mut wearing, here, watch)?;
+            let (solved, made) = in_halves(solver, &mut wearing, here, watch)?;
             from = to;
+            steps += made;
             Ok((self.distance(before, &solved.state), solved))
         };
         let (mut length, mut end) = step(span.state, 1)?;
@@ -195,7 +200,7 @@ impl Refinement {
             end = after(&end, next);
             length += way;
         }
-        Ok(Way { end, memory: solver.memory().clone(), wearing, length })
+        Ok(Way { end, memory: solver.memory().clone(), wearing, steps, length })
     }
 
     /// Distance of the tractions of two states.

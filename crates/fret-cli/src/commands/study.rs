@@ -1,13 +1,10 @@
 //! `fret study`: one case at many resolutions, how far each is from the truth and what it costs.
 
-use std::ops::ControlFlow;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
 
-use fret_core::history::{KeptFields, StepRecord};
-use fret_core::model::ContactState;
 use fret_core::plan::Plan;
-use fret_core::simulation::{Iteration, Observer, RunError};
+use fret_core::simulation::RunError;
 use fret_core::study::{Advice, Climb, ClosedForm, Kind, Ladder, Line, Place, Rung, Truth, climbed};
 use serde_json::{Value, json};
 
@@ -16,7 +13,7 @@ use crate::case_file::CaseFile;
 use crate::defect;
 use crate::failure::{Failure, Unwritten};
 use crate::figures::{counted, duration};
-use crate::interrupt;
+use crate::interrupt::{self, Listener};
 use crate::output::write_whole;
 use crate::study::{picture, reference, table, words};
 use crate::terminal;
@@ -225,21 +222,4 @@ fn answer(
         "advice": advice,
         "choice": choice,
     })
-}
-
-/// Stops a rung when somebody asks to.
-struct Listener;
-
-impl Observer for Listener {
-    fn iterated(&mut self, _: &Iteration) -> ControlFlow<()> {
-        go_on()
-    }
-
-    fn solved(&mut self, _: &StepRecord, _: &ContactState, _: Option<&KeptFields>) -> ControlFlow<()> {
-        go_on()
-    }
-}
-
-fn go_on() -> ControlFlow<()> {
-    if interrupt::is_asked() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
 }

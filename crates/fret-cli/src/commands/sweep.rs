@@ -1,21 +1,18 @@
 //! `fret sweep`: many cases on the cores of one machine; finished points are not solved again.
 
-use std::ops::ControlFlow;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
 use std::time::Instant;
 
-use fret_core::history::{KeptFields, StepRecord};
-use fret_core::model::ContactState;
-use fret_core::simulation::{Iteration, Observer, RunError, Simulation};
+use fret_core::simulation::{RunError, Simulation};
 use serde_json::json;
 
 use crate::arguments::SweepArguments;
 use crate::failure::{Failure, Unwritten};
 use crate::figures::{counted, duration};
-use crate::interrupt;
+use crate::interrupt::{self, Listener};
 use crate::sweep::{Answer, Question, SweepFolder};
 use crate::terminal;
 use crate::threads::available_threads;
@@ -183,18 +180,5 @@ impl<'a> Board<'a> {
         let answers = self.answers();
         let solved = answers.iter().flatten().filter(|answer| answer.status() == "solved").count();
         Counts { solved, unsolved: answers.iter().flatten().count() - solved }
-    }
-}
-
-/// Stops a point when somebody asks to.
-struct Listener;
-
-impl Observer for Listener {
-    fn iterated(&mut self, _: &Iteration) -> ControlFlow<()> {
-        if interrupt::is_asked() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
-    }
-
-    fn solved(&mut self, _: &StepRecord, _: &ContactState, _: Option<&KeptFields>) -> ControlFlow<()> {
-        if interrupt::is_asked() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     }
 }

@@ -4,6 +4,17 @@ use std::path::Path;
 
 use crate::bench::{Bench, SPHERE};
 
+/// Checks that a case is refused in one message, at its place and with these words.
+fn one_mistake(bench: &Bench, case: &str, place: &str, words: &[&str]) {
+    let answer = bench.file("case.toml", case).fret(&["check", "case.toml"]);
+    assert_eq!(answer.code, Some(1), "{case}\n{}", answer.err);
+    assert_eq!(answer.err.matches("error: ").count(), 1, "one clear message:\n{}", answer.err);
+    assert!(answer.err.contains(&format!("case.toml:{place}")), "expected place {place}:\n{}", answer.err);
+    for word in words {
+        assert!(answer.err.contains(word), "expected {word:?}:\n{}", answer.err);
+    }
+}
+
 #[test]
 fn every_example_of_a_surface_and_of_friction_is_solved() {
     let bench = Bench::new("surface-examples");
@@ -98,17 +109,7 @@ fn every_bad_array_is_one_clear_message_at_its_place() {
             vec!["entry [2, 2]"],
         ),
     ] {
-        let answer = bench.file("case.toml", &case).fret(&["check", "case.toml"]);
-        assert_eq!(answer.code, Some(1), "{case}\n{}", answer.err);
-        assert_eq!(answer.err.matches("error: ").count(), 1, "one clear message:\n{}", answer.err);
-        assert!(
-            answer.err.contains(&format!("case.toml:{place}")),
-            "expected place {place}:\n{}",
-            answer.err
-        );
-        for word in words {
-            assert!(answer.err.contains(word), "expected {word:?}:\n{}", answer.err);
-        }
+        one_mistake(&bench, &case, place, &words);
     }
 }
 
@@ -116,7 +117,6 @@ fn every_bad_array_is_one_clear_message_at_its_place() {
 fn every_bad_shape_is_one_clear_message_at_its_place() {
     let bench = Bench::new("bad-shapes");
     let shape = |rest: &str| SPHERE.replace("[profile.sphere]\nradius = 10e-3", rest);
-    let lower = |rest: &str| SPHERE.replace("[profile.sphere]\nradius = 10e-3", rest);
     for (case, place, words) in [
         (shape("[profile]"), "13:", vec!["profile: empty", "sphere, ellipsoid"]),
         (shape(""), "10:", vec!["what shape the bodies have"]),
@@ -141,28 +141,18 @@ fn every_bad_shape_is_one_clear_message_at_its_place() {
         (shape("[profile.rounded_punch]\nflat_radius = 1e-4"), "13:", vec!["missing field", "edge_radius"]),
         (shape("[profile.cone]\nslope = nan"), "14:9", vec!["profile.cone.slope", "positive finite number"]),
         (shape("[profile.sphere]\nradius = -0.01"), "14:10", vec!["positive"]),
-        (lower("[lower.profile.sphere]\nradius = 0.0"), "14:10", vec!["lower.profile.sphere", "not zero"]),
+        (shape("[lower.profile.sphere]\nradius = 0.0"), "14:10", vec!["lower.profile.sphere", "not zero"]),
         (
-            lower("[lower.profile.sphere]\nradius = -0.01\n[upper.profile.sphere]\nradius = 0.02"),
+            shape("[lower.profile.sphere]\nradius = -0.01\n[upper.profile.sphere]\nradius = 0.02"),
             "15:8",
             vec!["must open away from the middle", "hollow"],
         ),
         (
-            lower("[lower.profile.heights]\nvalues = [[0.0]]\nof = \"gap\""),
+            shape("[lower.profile.heights]\nvalues = [[0.0]]\nof = \"gap\""),
             "15:6",
             vec!["a body has a surface"],
         ),
     ] {
-        let answer = bench.file("case.toml", &case).fret(&["check", "case.toml"]);
-        assert_eq!(answer.code, Some(1), "{case}\n{}", answer.err);
-        assert_eq!(answer.err.matches("error: ").count(), 1, "one clear message:\n{}", answer.err);
-        assert!(
-            answer.err.contains(&format!("case.toml:{place}")),
-            "expected place {place}:\n{}",
-            answer.err
-        );
-        for word in words {
-            assert!(answer.err.contains(word), "expected {word:?}:\n{}", answer.err);
-        }
+        one_mistake(&bench, &case, place, &words);
     }
 }

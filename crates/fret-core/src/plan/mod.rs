@@ -5,7 +5,7 @@ mod left_out;
 
 use serde::Serialize;
 
-use crate::case::{Case, CaseError, GridSize};
+use crate::case::{Case, CaseError, GridSize, Stage};
 use crate::kernel::{PairResponse, cells_too_coarse_for_incompressible_film};
 use crate::model::{Body, SurfaceGrid};
 pub use crate::solver::{Coupling, LeaveOut, Shortcut};
@@ -41,7 +41,7 @@ pub struct Plan {
     pub increments: usize,
     /// Memory expected at the most [bytes].
     pub memory_bytes: usize,
-    /// Operator applications expected, by the experience of earlier runs.
+    /// Operator applications expected, by the experience of earlier runs; at the least, where increments are "auto".
     pub convolutions_expected: usize,
 }
 
@@ -105,13 +105,17 @@ impl Plan {
             .filter(|_| leave_out.takes(Shortcut::Transverse));
         let left_out = left_out::left_out(&case, &grid, coupling, along, leave_out);
         let increments = case.increments();
+        // Where the division is left to the program: one solution of the whole and two of its halves at the least.
+        let least = |stage: &Stage| if stage.history_tolerance.is_some() { 3_usize } else { 1 };
+        let solutions: usize =
+            case.stages.iter().map(|stage| least(stage).saturating_mul(stage.increments_in_all())).sum();
         let per_increment = match coupling {
             Coupling::Frictionless => 12,
             Coupling::Uncoupled | Coupling::Coupled => 20,
         };
         Ok(Self {
             memory_bytes: memory(&case, &grid, coupling),
-            convolutions_expected: increments * per_increment,
+            convolutions_expected: solutions * per_increment,
             case,
             grid,
             coupling,
@@ -139,13 +143,14 @@ fn has_unseen_film(case: &Case, grid: &SurfaceGrid) -> bool {
 }
 
 /// Memory of a run at the most [bytes]: of the process, of the operators and fields of the solver, of the kept fields.
-/// The first two are fitted to runs of 64 to 512 cells a side and hold to a tenth.
+/// The first two bound what runs of 64 to 512 cells a side took on two threads whose contact fills the grid, by a fifth at the
+/// most; a contact that leaves room takes less.
 fn memory(case: &Case, grid: &SurfaceGrid, coupling: Coupling) -> usize {
-    const PROCESS: usize = 7 << 20;
+    const PROCESS: usize = 10 << 20;
     let numbers_per_cell = match coupling {
-        Coupling::Frictionless => 37,
-        Coupling::Uncoupled => 97,
-        Coupling::Coupled => 118,
+        Coupling::Frictionless => 57,
+        Coupling::Uncoupled => 118,
+        Coupling::Coupled => 160,
     };
     let bytes_of = |name: &String| match name.as_str() {
         "shear" | "slip" => 16,

@@ -86,6 +86,8 @@ pub struct ContactSolver<'a> {
     /// Made when they are first asked for.
     coarse: Option<CoarseGrids>,
     memory: SolverMemory,
+    /// Work of steps that were not solved; the next one that is counts it.
+    in_vain: Work,
     boxed: bool,
     /// The one axis along which shear acts.
     along: Option<usize>,
@@ -114,6 +116,7 @@ impl<'a> ContactSolver<'a> {
             table: None,
             coarse: None,
             memory: SolverMemory::default(),
+            in_vain: Work::default(),
             boxed,
             along: None,
         }
@@ -167,16 +170,32 @@ impl<'a> ContactSolver<'a> {
         load: &LoadStep,
         watch: Watch<'_>,
     ) -> Result<Increment, SolveError> {
+        let mut work = std::mem::take(&mut self.in_vain);
+        match self.solved(state, load, &mut work, watch) {
+            Ok(increment) => Ok(Increment { work, ..increment }),
+            Err(error) => {
+                self.in_vain = work;
+                Err(error)
+            }
+        }
+    }
+
+    fn solved(
+        &mut self,
+        state: &ContactState,
+        load: &LoadStep,
+        work: &mut Work,
+        watch: Watch<'_>,
+    ) -> Result<Increment, SolveError> {
         self.check_sliding(load)?;
-        let mut work = Work::default();
-        let mut start = self.nested_start(state, load, &mut work, watch)?;
+        let mut start = self.nested_start(state, load, work, watch)?;
         let mut region = match &start {
             Some(pressure) => self.region_around(pressure),
             None => self.region_for(state, load),
         };
         loop {
             let (solved, state_after, outcome) = self
-                .step_in(region, start.as_ref(), (state, load), &mut work, watch)
+                .step_in(region, start.as_ref(), (state, load), work, watch)
                 .map_err(|error| self.explained(error, state, load))?;
             self.check_equilibrium(load, &outcome)?;
             if !self.response.is_periodic() && touches_edge(&state_after.pressure) {
@@ -191,7 +210,7 @@ impl<'a> ContactSolver<'a> {
             let (gap, contact_area) = if let Some(settled) = kept {
                 (settled.gap, settled.contact_area)
             } else {
-                let gap = self.gap_everywhere(region, &solved, &state_after, &mut work);
+                let gap = self.gap_everywhere(region, &solved, &state_after, work);
                 if self.overlaps_outside(region, &gap) {
                     region = Region::whole(self.grid.cells());
                     start = start.map(|_| state_after.pressure);
@@ -211,7 +230,7 @@ impl<'a> ContactSolver<'a> {
             });
             let share = outcome.stick_cells as f64 / outcome.contact_cells.max(1) as f64;
             let stick_area = contact_area * share;
-            return Ok(Increment { state: state_after, outcome, contact_area, stick_area, gap, work });
+            return Ok(Increment { state: state_after, outcome, contact_area, stick_area, gap, work: *work });
         }
     }
 
