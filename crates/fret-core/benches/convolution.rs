@@ -12,7 +12,9 @@
 use std::hint::black_box;
 use std::time::{Duration, Instant};
 
-use fret_core::spectral::{Block, Convolution, Engine, Kernel, Parity, PeriodicProduct, Symbol, Workspace};
+use fret_core::spectral::{
+    Block, Convolution, Engine, Kernel, Mirrors, Parity, PeriodicProduct, Symbol, Workspace,
+};
 use ndarray::Array2;
 
 /// Name, parities of the kernels, blocks as (output, input, kernel, sign).
@@ -86,11 +88,11 @@ fn measure(n: usize, (name, parities, blocks): Problem) -> Result<(), Box<dyn st
             Ok(if name == "p" {
                 let symbols: Vec<_> =
                     quadrants.map(|(values, &parity)| Symbol { values: values.view(), parity }).collect();
-                Product::Periodic(PeriodicProduct::on(engine, [n, n], &symbols, &blocks)?)
+                Product::Periodic(PeriodicProduct::on(engine, [n, n], &symbols, &blocks, Mirrors::NONE)?)
             } else {
                 let kernels: Vec<_> =
                     quadrants.map(|(values, &parity)| Kernel { values: values.view(), parity }).collect();
-                Product::FreeSpace(Convolution::on(engine, [n, n], &kernels, &blocks)?)
+                Product::FreeSpace(Convolution::on(engine, [n, n], &kernels, &blocks, Mirrors::NONE)?)
             })
         };
         let product = plan()?;
