@@ -73,9 +73,11 @@ impl Region {
     }
 
     /// The smallest box around all cells where `wanted`, with a `margin` of cells on each side, its sides rounded up by
-    /// `good_length`; the whole grid when that is hardly larger, or when nothing is wanted.
+    /// `good_length`; the whole grid when that is hardly larger, or when nothing is wanted. Along a mirrored axis it begins at the
+    /// mirror.
     pub fn around(
         cells: [usize; 2],
+        mirrored: [bool; 2],
         margin: usize,
         good_length: impl Fn(usize) -> usize,
         wanted: impl Fn(usize, usize) -> bool,
@@ -95,8 +97,14 @@ impl Region {
         }
         let mut region = Self::whole(cells);
         for axis in 0..2 {
-            let shape = good_length(high[axis] - low[axis] + 1 + 2 * margin);
+            let sides = if mirrored[axis] { 1 } else { 2 };
+            let first = if mirrored[axis] { 0 } else { low[axis] };
+            let shape = good_length(high[axis] - first + 1 + sides * margin);
             if shape as f64 > 0.93 * cells[axis] as f64 {
+                continue;
+            }
+            if mirrored[axis] {
+                region.shape[axis] = shape;
                 continue;
             }
             // Centred on what is wanted, moved inside where it would stick out.
