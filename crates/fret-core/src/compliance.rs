@@ -201,12 +201,22 @@ impl SpectralCompliance {
                 SurfaceResponse::FreeSpace(_) => {
                     let kernels: Vec<Kernel<'_>> =
                         there.map(|(values, parity)| Kernel { values: values.view(), parity }).collect();
-                    Product::free_space(Convolution::mirrored(shape, &kernels, blocks, mirrors(symmetry, fields))?)
+                    Product::free_space(Convolution::mirrored(
+                        shape,
+                        &kernels,
+                        blocks,
+                        mirrors(symmetry, fields),
+                    )?)
                 }
                 SurfaceResponse::Periodic(_) => {
                     let symbols: Vec<Symbol<'_>> =
                         there.map(|(values, parity)| Symbol { values: values.view(), parity }).collect();
-                    Product::periodic(PeriodicProduct::mirrored(shape, &symbols, blocks, mirrors(symmetry, fields))?)
+                    Product::periodic(PeriodicProduct::mirrored(
+                        shape,
+                        &symbols,
+                        blocks,
+                        mirrors(symmetry, fields),
+                    )?)
                 }
             };
             Ok(Some(product))
@@ -269,7 +279,8 @@ pub(crate) fn mirrors(symmetry: Symmetry, fields: &[usize]) -> Mirrors {
     if !symmetry.any() {
         return Mirrors::NONE;
     }
-    let parity = |field: &usize| match field.checked_sub(1).map(|component| symmetry.shear_is_odd(component)) {
+    let parity = |field: &usize| match field.checked_sub(1).map(|component| symmetry.shear_is_odd(component))
+    {
         None | Some([false, false]) => Parity::EvenEven,
         Some([true, false]) => Parity::OddEven,
         Some([false, true]) => Parity::EvenOdd,

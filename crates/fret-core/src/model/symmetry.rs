@@ -128,7 +128,11 @@ impl Symmetry {
         LoadStep {
             normal: part(load.normal),
             tangential: [0, 1].map(|axis| {
-                if self.forbids(axis) { Control::Motion(state.shift[axis]) } else { part(load.tangential[axis]) }
+                if self.forbids(axis) {
+                    Control::Motion(state.shift[axis])
+                } else {
+                    part(load.tangential[axis])
+                }
             }),
             twist: Control::Motion(state.twist),
         }
@@ -181,7 +185,8 @@ mod tests {
     fn a_part_made_whole_goes_on_behind_the_mirrors() {
         let part = array![[1.0, 2.0], [3.0, 4.0]];
         let even = QUARTER.whole(&part, [false, false]);
-        let rows = array![[4.0, 3.0, 3.0, 4.0], [2.0, 1.0, 1.0, 2.0], [2.0, 1.0, 1.0, 2.0], [4.0, 3.0, 3.0, 4.0]];
+        let rows =
+            array![[4.0, 3.0, 3.0, 4.0], [2.0, 1.0, 1.0, 2.0], [2.0, 1.0, 1.0, 2.0], [4.0, 3.0, 3.0, 4.0]];
         assert_eq!(even, rows);
         assert!(QUARTER.is_kept_by(&even.view()));
         assert_eq!(HALF.whole(&part, [false, true]), array![[-2.0, -1.0, 1.0, 2.0], [-4.0, -3.0, 3.0, 4.0]]);

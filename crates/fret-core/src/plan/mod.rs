@@ -106,11 +106,7 @@ impl Plan {
         }
         let along = left_out::one_way(&case, &grid, &response, coupling)
             .filter(|_| leave_out.takes(Shortcut::Transverse));
-        let symmetry = if leave_out.takes(Shortcut::Mirror) {
-            symmetry::symmetry(&case, &grid, coupling)
-        } else {
-            Symmetry::NONE
-        };
+        let symmetry = mirrors(&case, &grid, coupling, leave_out);
         let left_out = left_out::left_out(&case, &grid, coupling, along, symmetry, leave_out);
         let increments = case.increments();
         // Where the division is left to the program: one solution of the whole and two of its halves at the least.
@@ -134,6 +130,15 @@ impl Plan {
             increments,
         })
     }
+
+    /// The mirrors of its case on its grid.
+    pub(crate) fn mirrors(&self) -> Symmetry {
+        mirrors(&self.case, &self.grid, self.coupling, self.leave_out)
+    }
+}
+
+fn mirrors(case: &Case, grid: &SurfaceGrid, coupling: Coupling, leave_out: LeaveOut) -> Symmetry {
+    if leave_out.takes(Shortcut::Mirror) { symmetry::symmetry(case, grid, coupling) } else { Symmetry::NONE }
 }
 
 /// Whether both bodies are there in any cell.

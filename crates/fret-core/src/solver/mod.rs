@@ -16,6 +16,7 @@ mod nested;
 mod normal;
 mod normal_problem;
 mod preconditioner;
+mod prediction;
 mod region;
 mod residual;
 mod retraction;
@@ -36,8 +37,10 @@ use crate::compliance::{SpectralCompliance, SurfaceCompliance, SurfaceResponse, 
 use crate::edge;
 use crate::history::Work;
 use crate::kernel::ResponseTable;
-use crate::model::{BEYOND_THE_BODY, ContactState, Control, CoulombFriction, LoadStep, Scheme, SurfaceGrid, Symmetry,};
-use crate::spectral::{ConvolutionError, good_length};
+use crate::model::{
+    BEYOND_THE_BODY, ContactState, Control, CoulombFriction, LoadStep, Scheme, SurfaceGrid, Symmetry,
+};
+use crate::spectral::ConvolutionError;
 
 pub use memory::SolverMemory;
 pub use scene::{Outcome, Resultants};
@@ -45,7 +48,7 @@ pub use settings::{Coupling, SolveError, SolverSettings, Watch};
 pub use shortcut::{LeaveOut, Shortcut};
 
 use memory::{GridTractions, Settled};
-use nested::{CoarseGrids, MARGIN, Prescribed};
+use nested::{CoarseGrids, Prescribed};
 use preconditioner::{Preconditioner, Waves};
 use region::Region;
 use scene::{BoxOperators, Scene, Solved, Turn};
@@ -347,25 +350,10 @@ impl<'a> ContactSolver<'a> {
             _ => return Ok(None),
         };
         let spacing = self.grid.spacing();
-        let grids =
-            self.coarse.get_or_insert_with(|| CoarseGrids::below(&self.response, &self.undeformed, spacing, self.symmetry));
+        let grids = self.coarse.get_or_insert_with(|| {
+            CoarseGrids::below(&self.response, &self.undeformed, spacing, self.symmetry)
+        });
         grids.pressure_above(prescribed, self.table.as_ref(), &self.settings, work, watch)
-    }
-
-    /// The box of an increment that starts from a pressure on coarser grids.
-    fn region_around(&self, pressure: &Array2<f64>) -> Region {
-        let cells = self.grid.cells();
-        if !self.boxed || self.response.is_periodic() {
-            return Region::whole(cells);
-        }
-        let loaded = |i: usize, j: usize| pressure[[i, j]] > 0.0;
-        let margin = if self.coupling == Coupling::Coupled {
-            let least = Region::around(cells, self.symmetry.axes(), 1, |n| n, loaded);
-            (least.shape[0].max(least.shape[1]) / 12).max(MARGIN)
-        } else {
-            MARGIN
-        };
-        Region::around(cells, self.symmetry.axes(), margin, good_length, loaded)
     }
 
     /// A map carries what its coefficients times the pressure sum to, which is known from the pressure before: an increment that
@@ -382,69 +370,6 @@ impl<'a> ContactSolver<'a> {
         let carried: f64 = map.iter().zip(&state.pressure).map(|(mu, p)| mu * p).sum();
         let bound = carried / pressed * normal;
         if asked > bound { SolveError::AboveSliding { asked, bound } } else { error }
-    }
-
-    /// The box of an increment: around the contact so far and the predicted one, kept while it fits.
-    fn region_for(&self, state: &ContactState, load: &LoadStep) -> Region {
-        let whole = Region::whole(self.grid.cells());
-        let touched = state.pressure.iter().any(|p| *p > 0.0);
-        if !self.boxed || !touched || self.response.is_periodic() {
-            return whole;
-        }
-        let predicted = self.predicted(state, load);
-        let cells = self.grid.cells();
-        let in_contact = |i: usize, j: usize| state.pressure[[i, j]] > 0.0 || predicted.0[[i, j]] > 0.0;
-        let least = Region::around(cells, self.symmetry.axes(), 1, |n| n, in_contact);
-        let extent = least.shape[0].max(least.shape[1]);
-        let wanted = Region::around(cells, self.symmetry.axes(), (extent / 12).max(3), good_length, in_contact);
-        match self.memory.region {
-            Some(now) => {
-                let fits = (0..2).all(|axis| {
-                    now.origin[axis] <= least.origin[axis]
-                        && least.origin[axis] + least.shape[axis] <= now.origin[axis] + now.shape[axis]
-                });
-                if fits && now.len() as f64 <= 1.6 * wanted.len() as f64 { now } else { wanted }
-            }
-            None => wanted,
-        }
-    }
-
-    /// Tractions extrapolated linearly in the load while it keeps its direction.
-    fn predicted(&self, state: &ContactState, load: &LoadStep) -> (Array2<f64>, [Array2<f64>; 2]) {
-        let share = self.continuation(load);
-        match (&self.memory.before, share) {
-            (Some((_, before)), Some(share)) => {
-                let extrapolate = |now: &Array2<f64>, then: &Array2<f64>| now + &((now - then) * share);
-                (
-                    extrapolate(&state.pressure, &before.pressure).mapv(|p| p.max(0.0)),
-                    [
-                        extrapolate(&state.shear[0], &before.shear[0]),
-                        extrapolate(&state.shear[1], &before.shear[1]),
-                    ],
-                )
-            }
-            _ => (state.pressure.clone(), state.shear.clone()),
-        }
-    }
-
-    /// Ratio of this load increment to the last one when it goes on in the same direction.
-    fn continuation(&self, load: &LoadStep) -> Option<f64> {
-        let (Some((first, _)), Some(second)) = (&self.memory.before, &self.memory.last_load) else {
-            return None;
-        };
-        let (older, newer) = (change(first, second)?, change(second, load)?);
-        let mut product = 0.0;
-        let (mut old_square, mut new_square) = (0.0, 0.0);
-        for (a, b) in older.iter().zip(&newer) {
-            let scale = a.abs().max(b.abs());
-            if scale > 0.0 {
-                product += (a / scale) * (b / scale);
-                old_square += (a / scale).powi(2);
-                new_square += (b / scale).powi(2);
-            }
-        }
-        let cosine = product / (old_square * new_square).sqrt();
-        (cosine > 0.5).then(|| (product / old_square).min(3.0))
     }
 
     /// The operators of a box; those of the last box when its shape is the same.
@@ -606,20 +531,6 @@ impl<'a> ContactSolver<'a> {
         let beyond = 0.5 * BEYOND_THE_BODY * (cells_x as f64 * dx).hypot(cells_y as f64 * dy);
         edge::contact_cells(&pressure.view(), &gap.view(), beyond) * self.grid.cell_area()
     }
-}
-
-/// Loads as numbers, when both name the same controls.
-fn change(from: &LoadStep, to: &LoadStep) -> Option<[f64; 4]> {
-    let difference = |a: Control, b: Control| match (a, b) {
-        (Control::Force(a), Control::Force(b)) | (Control::Motion(a), Control::Motion(b)) => Some(b - a),
-        _ => None,
-    };
-    Some([
-        difference(from.normal, to.normal)?,
-        difference(from.tangential[0], to.tangential[0])?,
-        difference(from.tangential[1], to.tangential[1])?,
-        difference(from.twist, to.twist)?,
-    ])
 }
 
 /// Whether there is pressure in an outermost row or column, apart from those at a mirror.

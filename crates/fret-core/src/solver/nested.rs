@@ -73,9 +73,8 @@ impl CoarseGrids {
             let (nx, ny) = undeformed.dim();
             let cells = symmetry.whole_of([nx, ny]);
             let repeats = response.is_periodic();
-            let halves = |axis: usize| {
-                !(repeats || symmetry.axes()[axis]) || [nx, ny][axis].is_multiple_of(2)
-            };
+            let halves =
+                |axis: usize| !(repeats || symmetry.axes()[axis]) || [nx, ny][axis].is_multiple_of(2);
             if cells[0].min(cells[1]) < COARSEST || !(halves(0) && halves(1)) {
                 break;
             }
@@ -119,7 +118,8 @@ impl CoarseGrids {
             };
             work.convolutions += solved.convolutions;
             work.preconditioner_passes += solved.passes;
-            work.full_grid_convolutions += solved.cell_convolutions / (self.cells[0] * self.cells[1] * level.symmetry.copies()) as f64;
+            work.full_grid_convolutions +=
+                solved.cell_convolutions / (self.cells[0] * self.cells[1] * level.symmetry.copies()) as f64;
             let Some(carried) = solved.carried(above, total) else { return Ok(None) };
             start = Some(carried);
         }
@@ -149,7 +149,8 @@ impl Level {
     fn is_nearly_full(&self, total: Option<f64>, cells: [usize; 2]) -> bool {
         let (true, Some(total)) = (self.response.is_periodic(), total) else { return false };
         let mean = total / (cells[0] * cells[1]) as f64;
-        let Ok(mut inverse) = Preconditioner::new(&self.response, None, self.cells(), [true, false], None, self.symmetry)
+        let Ok(mut inverse) =
+            Preconditioner::new(&self.response, None, self.cells(), [true, false], None, self.symmetry)
         else {
             return false;
         };
@@ -172,7 +173,9 @@ impl Level {
         let whole = Region::whole(self.cells());
         let mut region = match &start {
             Some(start) if !self.response.is_periodic() => {
-                Region::around(self.cells(), self.symmetry.axes(), MARGIN, good_length, |i, j| start[[i, j]] > 0.0)
+                Region::around(self.cells(), self.symmetry.axes(), MARGIN, good_length, |i, j| {
+                    start[[i, j]] > 0.0
+                })
             }
             _ => whole,
         };

@@ -9,8 +9,8 @@ use super::contact_set::ContactSet;
 use super::zones::Zones;
 use crate::compliance::{SurfaceResponse, mirrors, only};
 use crate::kernel::ResponseTable;
-use crate::model::{Symmetry, TangentialField};
 use crate::model::each_cell::{CellRule, Reals, each_cell};
+use crate::model::{Symmetry, TangentialField};
 use crate::spectral::{Block, ConvolutionError, Kernel, Parity, PeriodicProduct, Symbol, Workspace};
 
 /// A pair is stiff at the surface when the longest waves of a box meet this many times the compliance times wavenumber that
