@@ -1,7 +1,7 @@
 //! Mirror symmetry of a scene: the part of the grid in front of its mirrors stands for the whole.
 
 use ndarray::{Array2, ArrayView2, s};
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 use super::friction::CoulombFriction;
 use super::load::{Control, LoadStep};
@@ -11,7 +11,7 @@ use super::state::ContactState;
 ///
 /// Behind a plane gap and pressure go on as they are; of the shear one component goes on as it is, the other with the other sign.
 /// The part in front of the mirrors are the cells of the second half along each mirrored axis.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
 pub struct Symmetry {
     /// For a mirror along x and y the component of shear that changes its sign behind it (0: x, 1: y); `None` without.
     pub odd_shear: [Option<usize>; 2],
