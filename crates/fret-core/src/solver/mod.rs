@@ -519,17 +519,18 @@ impl<'a> ContactSolver<'a> {
 
     /// Contact area [length^2] from the edge between the cells of a box.
     fn contact_area(&self, region: Region, solved: &Solved) -> f64 {
-        let whole = |field: &[f64]| {
-            let part = ArrayView2::from_shape(region.shape, field).ok()?.to_owned();
-            Some(if self.symmetry.any() { self.symmetry.whole(&part, [false; 2]) } else { part })
-        };
-        let (Some(pressure), Some(gap)) = (whole(&solved.tractions.pressure), whole(&solved.gap)) else {
+        let view = |field| ArrayView2::from_shape(region.shape, field);
+        let (Ok(pressure), Ok(gap)) =
+            (view(solved.tractions.pressure.as_slice()), view(solved.gap.as_slice()))
+        else {
             return 0.0;
         };
         let [cells_x, cells_y] = self.symmetry.whole_of(self.grid.cells());
         let [dx, dy] = self.grid.spacing();
         let beyond = 0.5 * BEYOND_THE_BODY * (cells_x as f64 * dx).hypot(cells_y as f64 * dy);
-        edge::contact_cells(&pressure.view(), &gap.view(), beyond) * self.grid.cell_area()
+        // At a mirror the edge goes on as it does at a side of the box: with the same value in the next cell.
+        let cells = edge::contact_cells(&pressure, &gap, beyond) * self.symmetry.copies() as f64;
+        cells * self.grid.cell_area()
     }
 }
 
