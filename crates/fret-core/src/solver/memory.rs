@@ -17,10 +17,20 @@ pub struct SolverMemory {
     pub(super) region: Option<Region>,
     /// What the last increment settled.
     pub(super) settled: Option<Settled>,
-    /// The tractions before the last ones and the load that led to them, for the predictor.
-    pub(super) before: Option<(LoadStep, GridTractions)>,
+    /// What was there before the last increment, for the predictor.
+    pub(super) before: Option<Before>,
     /// The load that led to the last state.
     pub(super) last_load: Option<LoadStep>,
+}
+
+/// The state before the last one.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub(super) struct Before {
+    /// The load that led to it.
+    pub load: LoadStep,
+    pub tractions: GridTractions,
+    /// Its area of contact [length^2].
+    pub contact_area: f64,
 }
 
 /// Tractions of a state on the whole grid.
@@ -68,6 +78,6 @@ impl SolverMemory {
         };
         self.region.is_none_or(|region| region.lies_within(cells))
             && self.settled.as_ref().is_none_or(settled_fits)
-            && self.before.as_ref().is_none_or(|(_, tractions)| tractions.fits(cells))
+            && self.before.as_ref().is_none_or(|before| before.tractions.fits(cells))
     }
 }

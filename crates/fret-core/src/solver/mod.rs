@@ -10,6 +10,7 @@ mod coulomb;
 mod coupled;
 mod feasible;
 mod frozen;
+mod growth;
 mod krylov;
 mod memory;
 mod nested;
@@ -47,7 +48,7 @@ pub use scene::{Outcome, Resultants};
 pub use settings::{Coupling, SolveError, SolverSettings, Watch};
 pub use shortcut::{LeaveOut, Shortcut};
 
-use memory::{GridTractions, Settled};
+use memory::{Before, GridTractions, Settled};
 use nested::{CoarseGrids, Prescribed};
 use preconditioner::{Preconditioner, Waves};
 use region::Region;
@@ -259,7 +260,9 @@ impl<'a> ContactSolver<'a> {
             if !self.response.is_periodic() && touches_edge(&state_after.pressure, self.symmetry.axes()) {
                 return Err(SolveError::ContactAtEdge);
             }
-            let kept = self.memory.settled.take().filter(|settled| {
+            let settled_before = self.memory.settled.take();
+            let area_before = settled_before.as_ref().map_or(0.0, |settled| settled.contact_area);
+            let kept = settled_before.filter(|settled| {
                 self.coupling != Coupling::Coupled
                     && self.settings.leave_out.takes(Shortcut::Pressure)
                     && settled.region == region
@@ -278,7 +281,11 @@ impl<'a> ContactSolver<'a> {
                 (gap, area)
             };
             let previous = self.memory.last_load.replace(*load);
-            self.memory.before = previous.map(|last| (last, GridTractions::of(state)));
+            self.memory.before = previous.map(|load| Before {
+                load,
+                tractions: GridTractions::of(state),
+                contact_area: area_before,
+            });
             self.memory.settled = Some(Settled {
                 region,
                 displacements: solved.displacements,

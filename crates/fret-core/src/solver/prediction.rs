@@ -3,6 +3,8 @@
 use ndarray::Array2;
 
 use super::ContactSolver;
+use super::growth::{Growth, sum_of};
+use super::memory::Before;
 use super::nested::MARGIN;
 use super::region::Region;
 use crate::model::{ContactState, Control, LoadStep};
@@ -59,39 +61,72 @@ impl ContactSolver<'_> {
 
     /// Cells by which the contact will grow on one side when it goes on as in the last increment.
     fn growth(&self, state: &ContactState, load: &LoadStep) -> usize {
-        let (Some((_, before)), Some(share)) = (&self.memory.before, self.continuation(load)) else {
+        let (Some(before), Some(share)) = (&self.memory.before, self.continuation(load)) else {
             return 0;
         };
         let (cells, axes) = (self.grid.cells(), self.symmetry.axes());
         let extent = |pressure: &Array2<f64>| Region::extent(cells, axes, |i, j| pressure[[i, j]] > 0.0);
-        let (Some(then), Some(now)) = (extent(&before.pressure), extent(&state.pressure)) else { return 0 };
+        let (Some(then), Some(now)) = (extent(&before.tractions.pressure), extent(&state.pressure)) else {
+            return 0;
+        };
         let grown = (0..2).map(|axis| {
             then[axis].start.saturating_sub(now[axis].start).max(now[axis].end.saturating_sub(then[axis].end))
         });
         (grown.max().unwrap_or(0) as f64 * share).ceil() as usize
     }
 
-    /// Tractions extrapolated linearly in the load while it keeps its direction.
+    /// Tractions to start from while the load keeps its direction: those of a contact that goes on growing without changing its
+    /// shape, or extrapolated linearly in the load where the normal load stays.
     pub(super) fn predicted(&self, state: &ContactState, load: &LoadStep) -> (Array2<f64>, [Array2<f64>; 2]) {
-        let share = self.continuation(load);
-        match (&self.memory.before, share) {
-            (Some((_, before)), Some(share)) => {
-                let extrapolate = |now: &Array2<f64>, then: &Array2<f64>| now + &((now - then) * share);
-                (
-                    extrapolate(&state.pressure, &before.pressure).mapv(|p| p.max(0.0)),
-                    [
-                        extrapolate(&state.shear[0], &before.shear[0]),
-                        extrapolate(&state.shear[1], &before.shear[1]),
-                    ],
-                )
-            }
-            _ => (state.pressure.clone(), state.shear.clone()),
+        let (Some(before), Some(share)) = (&self.memory.before, self.continuation(load)) else {
+            return (state.pressure.clone(), state.shear.clone());
+        };
+        if let Some(grown) = self.grown(state, before, load) {
+            return grown;
         }
+        let then = &before.tractions;
+        let extrapolate = |now: &Array2<f64>, then: &Array2<f64>| now + &((now - then) * share);
+        (
+            extrapolate(&state.pressure, &then.pressure).mapv(|p| p.max(0.0)),
+            [extrapolate(&state.shear[0], &then.shear[0]), extrapolate(&state.shear[1], &then.shear[1])],
+        )
+    }
+
+    /// Tractions of a contact whose area and force go on growing by the powers of the load by which they grew last, everything
+    /// else alike; `None` where the normal load stays, or nothing is known of such powers.
+    fn grown(
+        &self,
+        state: &ContactState,
+        before: &Before,
+        load: &LoadStep,
+    ) -> Option<(Array2<f64>, [Array2<f64>; 2])> {
+        let settled = self.memory.settled.as_ref()?;
+        let last = self.memory.last_load.as_ref()?;
+        let value = |control: Control| match control {
+            Control::Force(value) | Control::Motion(value) => value,
+        };
+        let loads = [before.load.normal, last.normal, load.normal].map(value);
+        if loads[1] == loads[2] || loads.iter().any(|load| *load <= 0.0) {
+            return None;
+        }
+        let forces = [sum_of(&before.tractions.pressure), sum_of(&state.pressure)];
+        let areas = [before.contact_area, settled.contact_area];
+        let way = (loads[2] / loads[1]).ln() / (loads[1] / loads[0]).ln();
+        let on = |[then, now]: [f64; 2]| (now / then).powf(way);
+        let (area, force) = (on(areas), on(forces));
+        if !(area.is_finite() && force.is_finite() && area > 0.0 && area < 4.0 && force > 0.0) {
+            return None;
+        }
+        Some(
+            Growth { widening: area.sqrt(), strengthening: force / area, mirrored: self.symmetry.axes() }
+                .of(state, &settled.gap),
+        )
     }
 
     /// Ratio of this load increment to the last one when it goes on in the same direction.
     fn continuation(&self, load: &LoadStep) -> Option<f64> {
-        let (Some((first, _)), Some(second)) = (&self.memory.before, &self.memory.last_load) else {
+        let (Some(Before { load: first, .. }), Some(second)) = (&self.memory.before, &self.memory.last_load)
+        else {
             return None;
         };
         let (older, newer) = (change(first, second)?, change(second, load)?);

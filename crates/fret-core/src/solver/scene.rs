@@ -227,6 +227,15 @@ impl<'a> Scene<'a> {
 
     /// Predicted tractions made feasible.
     fn feasible(&self, tractions: &mut Tractions, own: f64) {
+        if let Some(total) = self.total {
+            // Shear keeps its ratio to the pressure: what was on its circle stays there.
+            let found: f64 = tractions.pressure.iter().map(|p| p.max(0.0)).sum();
+            if found > 0.0 {
+                for q in tractions.shear.x.iter_mut().chain(&mut tractions.shear.y) {
+                    *q *= total / found;
+                }
+            }
+        }
         retract_pressure(&mut tractions.pressure, self.total);
         self.feasible_shear(tractions, own);
     }

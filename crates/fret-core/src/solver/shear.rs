@@ -15,9 +15,9 @@ use crate::model::each_cell::{CellRule, Reals, each_cell};
 use crate::model::field::{norm, scale_and_add};
 
 /// How much of the cut a frozen problem is solved below; raised while outer steps do not pay.
-pub const THETA: f64 = 0.3;
+pub const THETA: f64 = 1.0;
 /// Share of its start to which a frozen problem is solved at the most when something is cut.
-pub const ETA: f64 = 0.02;
+pub const ETA: f64 = 0.005;
 
 /// What the shear solver reached.
 #[derive(Debug)]
