@@ -124,11 +124,11 @@ fn an_increment_that_is_not_solved_as_a_whole_is_solved_in_halves_and_says_so() 
     let force = 2.0_f64.sqrt() * std::f64::consts::PI * 0.01 / (1.0 - 0.3 * 0.3);
     let history = solved(&format!(
         "[grid]\ncells = [32, 32]\nsize = [1.0, 1.0]\nperiodic = true\n[upper]\nrigid = true\n[lower]\n\
-         coatings = [{{ thickness = 0.05, young = 100.0, poisson = 0.3 }}]\nsubstrate = {{ young = 1.0, poisson = 0.3 }}\n\
-         [profile.wave]\namplitude = 0.01\nwavelength_x = 1.0\nwavelength_y = 1.0\n[friction]\ncoefficient = 0.3\n\
+         coatings = [{{ thickness = 0.02, young = 1000.0, poisson = 0.3 }}]\nsubstrate = {{ young = 1.0, poisson = 0.3 }}\n\
+         [profile.wave]\namplitude = 0.01\nwavelength_x = 1.0\nwavelength_y = 1.0\n[friction]\ncoefficient = 0.8\n\
          [[load]]\nnormal_force = {:e}\nincrements = 3\n[[load]]\ntangential_force = [{:e}, 0.0]\nincrements = 4\n",
-        2.0 * force,
-        0.8 * 0.3 * 2.0 * force
+        force,
+        0.8 * 0.8 * force
     ));
     let parts: Vec<usize> = history.steps.iter().map(|step| step.parts).collect();
     println!("parts {parts:?}");
