@@ -20,6 +20,8 @@ mod bessel;
 mod cells;
 #[cfg(test)]
 mod closed_form;
+mod depth_panels;
+mod far_cells;
 mod homogeneous;
 mod panels;
 mod quadrature;

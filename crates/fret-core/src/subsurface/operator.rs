@@ -79,16 +79,14 @@ impl DepthOperator {
         } else {
             stress_coefficients(&response, shape, spacing, with_shear)
         };
-        let mut loads = vec![&coefficients.pressure];
-        if let (true, Some([x, y])) = (with_shear, &coefficients.shear) {
-            loads.extend([x, y]);
-        }
+        let loads = if with_shear { coefficients.loads() } else { 1 };
         let half = |first: usize| {
             let (mut kernels, mut blocks) = (Vec::new(), Vec::new());
-            for (input, load) in loads.iter().enumerate() {
+            for input in 0..loads {
                 for component in 0..3 {
                     blocks.push(block(component, input, kernels.len()));
-                    kernels.push((&load[first + component], parity(first + component, input)));
+                    let values = coefficients.kernel(input, first + component);
+                    kernels.push((values, parity(first + component, input)));
                 }
             }
             product(periodic, shape, &kernels, &blocks)
@@ -101,10 +99,11 @@ impl DepthOperator {
                 displacement_coefficients(&response, shape, spacing)
             };
             let (mut kernels, mut blocks) = (Vec::new(), Vec::new());
-            for (input, load) in coefficients.from[..loads.len()].iter().enumerate() {
-                for (component, values) in load.iter().enumerate() {
+            for input in 0..loads {
+                for component in 0..3 {
                     // u_x, u_y, u_z have the parities of sigma_xz, sigma_yz, sigma_zz
                     blocks.push(block(component, input, kernels.len()));
+                    let values = coefficients.kernel(input, component);
                     kernels.push((values, parity([4, 5, 2][component], input)));
                 }
             }
@@ -160,16 +159,16 @@ impl DepthOperator {
 fn product(
     periodic: bool,
     shape: [usize; 2],
-    kernels: &[(&Array2<f64>, Parity)],
+    kernels: &[(ArrayView2<'_, f64>, Parity)],
     blocks: &[Block],
 ) -> Result<Product, ConvolutionError> {
     if periodic {
         let symbols: Vec<Symbol<'_>> =
-            kernels.iter().map(|&(values, parity)| Symbol { values: values.view(), parity }).collect();
+            kernels.iter().map(|&(values, parity)| Symbol { values, parity }).collect();
         Ok(Product::periodic(PeriodicProduct::new(shape, &symbols, blocks)?))
     } else {
         let kernels: Vec<Kernel<'_>> =
-            kernels.iter().map(|&(values, parity)| Kernel { values: values.view(), parity }).collect();
+            kernels.iter().map(|&(values, parity)| Kernel { values, parity }).collect();
         Ok(Product::free_space(Convolution::new(shape, &kernels, blocks)?))
     }
 }
