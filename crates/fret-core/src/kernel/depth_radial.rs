@@ -8,7 +8,7 @@
 //! responses of `depth_response`. No step depends on the depth: at depth 0 the same sums give the kernels of the surface, the
 //! part of them that is concentrated in the loaded point being in the integral over the disc around it.
 //!
-//! Kernels of one order share their weights, so that a few sums over the lattice run side by side, for eight radii at a time.
+//! Kernels of one order share their weights, so that a few sums over the lattice run side by side, for sixteen radii at a time.
 
 use std::f64::consts::TAU;
 use std::sync::OnceLock;
@@ -46,6 +46,18 @@ impl Quartet {
             Self::ShearStress => [1, 1, 1, 3],
             Self::ShearTraction => [0, 2, 0, 0],
             Self::Rise => [1, 0, 0, 0],
+        }
+    }
+
+    /// What belongs to the order of each lane, `of_order` being given from 0 to 3; zero in idle lanes.
+    #[inline(always)]
+    pub(crate) const fn spread(self, of_order: [f64; 4]) -> Lanes {
+        let [zero, one, two, three] = of_order;
+        match self {
+            Self::PressureStress | Self::Displacement => [zero, zero, two, one],
+            Self::ShearStress => [one, one, one, three],
+            Self::ShearTraction => [zero, two, 0.0, 0.0],
+            Self::Rise => [one, 0.0, 0.0, 0.0],
         }
     }
 
@@ -134,7 +146,7 @@ impl Quartets<2> for DisplacementFromAll {
 }
 
 /// Radii that are transformed side by side.
-const RADII: usize = 8;
+const RADII: usize = 16;
 
 /// Weights of the transform, for the Bessel orders 0 to 3. They depend on no case.
 #[derive(Clone, Debug)]
@@ -202,7 +214,8 @@ impl Weights {
             .unzip();
         let parts: [fn(&Complex) -> f64; 2] = [|w| w.re, |w| -w.im];
         let ray = parts.map(|part| {
-            let weights: Vec<[f64; 4]> = ray.iter().map(|orders| std::array::from_fn(|n| part(&orders[n]))).collect();
+            let weights: Vec<[f64; 4]> =
+                ray.iter().map(|orders| std::array::from_fn(|n| part(&orders[n]))).collect();
             OrderedWeights::new(&weights)
         });
         Self { step, lowest, real: OrderedWeights::new(&real), ray, disc_real, disc_ray }
@@ -226,14 +239,17 @@ struct LatticeSamples {
 }
 
 impl LatticeSamples {
-    fn new(response: &DepthResponse, radius: f64, greatest: f64, before: i32) -> Self {
+    /// For responses that start with a power of the wavenumber.
+    fn new(response: &DepthResponse, radius: f64, greatest: f64, before: i32, start: i32) -> Self {
         let weights = Weights::of_the_method();
         let longest = greatest.max(response.longest_length());
-        let first = (libm::log(1e-8 * (radius / longest)) / weights.step).floor() as i32;
+        // below, D is its first power but for a fraction as small as the argument
+        let least = if start > 0 { 1e-7 } else { 1e-8 };
+        let first = (libm::log(least * (radius / longest)) / weights.step).floor() as i32;
         let first = first.max(weights.lowest + before);
-        // beyond 750 over the depth nothing arrives
+        // beyond 100 over the depth nothing arrives: exp(-96) on the ray
         let last = if response.depth() > 0.0 {
-            (libm::log(750.0 * (radius / response.depth())) / weights.step).ceil() as i32
+            (libm::log(100.0 * (radius / response.depth())) / weights.step).ceil() as i32
         } else {
             i32::MAX
         };
@@ -494,11 +510,19 @@ pub(crate) struct KernelLattice {
 
 impl KernelLattice {
     /// Samples the response for tables from the radius `least` to `greatest`.
-    pub(crate) fn new(response: &DepthResponse, least: f64, greatest: f64) -> Self {
+    pub(crate) fn new<Q: Quartets<N>, const N: usize>(
+        response: &DepthResponse,
+        least: f64,
+        greatest: f64,
+    ) -> Self {
         let step = Weights::of_the_method().step;
         // a panel reaches a quarter octave of the square beyond its ends, the interpolation REACH points further
         let margin = REACH as i32 + 1 + (0.5 * libm::log(1.25) / step).ceil() as i32;
-        Self { samples: LatticeSamples::new(response, least, greatest, margin), radius: least, margin }
+        Self {
+            samples: LatticeSamples::new(response, least, greatest, margin, Q::LIST[0].start()),
+            radius: least,
+            margin,
+        }
     }
 
     /// Kernels of points from the least radius to `greatest`, and their integrals over the disc of the least radius.

@@ -20,6 +20,7 @@ mod bessel;
 mod cells;
 #[cfg(test)]
 mod closed_form;
+mod depth_integrals;
 mod depth_panels;
 mod far_cells;
 mod homogeneous;
