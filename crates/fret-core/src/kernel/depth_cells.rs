@@ -8,9 +8,8 @@ use rayon::prelude::*;
 
 use super::cells::CellQuadrature;
 use super::depth_integrals::{Moments, NearCells, Rectangle, add_five_points};
-use super::depth_radial::{
-    DepthKernels, DisplacementFromAll, KernelLattice, Quartets, StressFromAll, StressFromPressure,
-};
+use super::depth_quartets::{DisplacementFromAll, Quartets, StressFromAll, StressFromPressure};
+use super::depth_radial::{DepthKernels, KernelLattice};
 use super::depth_response::DepthResponse;
 use super::far_cells::{FAR, LEAST};
 

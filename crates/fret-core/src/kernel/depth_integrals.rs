@@ -6,7 +6,8 @@ use pulp::Simd;
 
 use super::cells::{CellQuadrature, MOST_POINTS};
 use super::depth_panels::{Lanes, fused};
-use super::depth_radial::{DepthKernels, Quartets};
+use super::depth_quartets::Quartets;
+use super::depth_radial::DepthKernels;
 use super::far_cells::FIVE_POINTS;
 
 /// Integrals over one cell of the kernels of a quartet times the angular factors of their orders.

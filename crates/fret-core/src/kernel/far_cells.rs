@@ -8,7 +8,7 @@
 use super::complex::Wavenumber;
 
 /// Distance, depth included, in sides of a cell beyond which the rule is used: what is left is 1e-3 of its eighth power.
-pub(super) const FAR: f64 = 16.0;
+pub(super) const FAR: f64 = 24.0;
 
 /// `v`, the weight of the four points together.
 const WEIGHT: f64 = 0.899_761_459_741_544_3;

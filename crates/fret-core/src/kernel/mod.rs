@@ -21,7 +21,9 @@ mod cells;
 #[cfg(test)]
 mod closed_form;
 mod depth_integrals;
+mod depth_lattice;
 mod depth_panels;
+mod depth_quartets;
 mod far_cells;
 mod homogeneous;
 mod panels;
