@@ -7,7 +7,7 @@
 
 use super::complex::Wavenumber;
 
-/// Distance, depth included, in sides of a cell beyond which the rule is used: what is left is 1e-3 of its eighth power.
+/// Distance, depth included, in sides of a cell beyond which the rule is used: what is left is 1e-3 of its eighth power, rounding.
 pub(super) const FAR: f64 = 24.0;
 
 /// `v`, the weight of the four points together.
