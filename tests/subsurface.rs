@@ -374,3 +374,30 @@ fn a_cell_answers_like_the_cells_that_tile_it_at_every_contrast_and_depth() {
         println!("{line}");
     }
 }
+
+/// An operator that is moved works in memory that other depths have written, one or several threads at a time.
+#[test]
+fn a_moved_operator_gives_the_bits_of_a_new_one_in_any_number_of_threads() {
+    let half_space = body(&[(5.0, 0.25, 0.4)], Some((1.0, 0.3)));
+    let grid = SurfaceGrid::new([40, 40], [0.05; 2]).unwrap();
+    let fields = [1, 2, 3].map(|seed| random_field(seed, [40, 40]));
+    let shear = || Some([fields[1].view(), fields[2].view()]);
+    let points = depth_points(&half_space, &[0.0, 0.3, 0.9, 0.4, 0.1]).unwrap();
+    let fresh: Vec<StressField> = points
+        .iter()
+        .map(|&point| stress(&half_space, point, &grid, false, &fields[0], Some([&fields[1], &fields[2]])))
+        .collect();
+    for threads in [1, 2, 3] {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        pool.install(|| {
+            let mut operator = DepthOperator::new(&half_space, points[0], &grid, false, true, true).unwrap();
+            let mut field = StressField::zeros([40, 40]);
+            for (point, fresh) in points.iter().zip(&fresh) {
+                operator.move_to(*point).unwrap();
+                operator.stress_into(&Tractions { pressure: fields[0].view(), shear: shear() }, &mut field);
+                assert_eq!(operator.point(), *point);
+                assert!(&field == fresh, "{threads} threads, {point:?}");
+            }
+        });
+    }
+}

@@ -2,10 +2,10 @@
 
 use std::f64::consts::{PI, TAU};
 
-use ndarray::Array2;
+use ndarray::Array3;
 use rayon::prelude::*;
 
-use super::depth_cells::{DisplacementCoefficients, StressCoefficients};
+use super::depth_cells::DepthCoefficients;
 use super::depth_response::{DepthResponse, DepthTransfer};
 
 /// Symbols of stress at one depth, shape `(nx/2 + 1, ny/2 + 1)`, in the convention of [`PeriodicSymbols`]: the transfer function
@@ -18,7 +18,7 @@ pub(crate) fn stress_symbols(
     response: &DepthResponse,
     cells: [usize; 2],
     spacing: [f64; 2],
-) -> StressCoefficients {
+) -> DepthCoefficients<6> {
     let nu = response.poisson();
     let lateral = -nu / (1.0 - nu);
     let uniform = [
@@ -26,11 +26,9 @@ pub(crate) fn stress_symbols(
         [0.0, 0.0, 0.0, 0.0, -1.0, 0.0],
         [0.0, 0.0, 0.0, 0.0, 0.0, -1.0],
     ];
-    let all = symbols(response, cells, spacing, uniform, |c, s, t, _| {
+    symbols(response, cells, spacing, uniform, |c, s, t, _| {
         [from_pressure(c, s, t), from_shear_x(c, s, t), exchanged(from_shear_x(s, c, t))]
-    });
-    let [pressure, x, y] = all;
-    StressCoefficients { pressure, shear: Some([x, y]) }
+    })
 }
 
 /// Symbols of displacement at one depth [length/pressure]; zero at `k = 0`.
@@ -38,8 +36,8 @@ pub(crate) fn displacement_symbols(
     response: &DepthResponse,
     cells: [usize; 2],
     spacing: [f64; 2],
-) -> DisplacementCoefficients {
-    let from = symbols(response, cells, spacing, [[0.0; 3]; 3], |c, s, t, k| {
+) -> DepthCoefficients<3> {
+    symbols(response, cells, spacing, [[0.0; 3]; 3], |c, s, t, k| {
         let per_k = 1.0 / k;
         let difference = t.tangential[0] - t.sideways;
         [
@@ -48,8 +46,7 @@ pub(crate) fn displacement_symbols(
             [-c * s * difference, s * s * t.tangential[0] + c * c * t.sideways, s * t.depthwise[0]],
         ]
         .map(|components| components.map(|value| value * per_k))
-    });
-    DisplacementCoefficients { from }
+    })
 }
 
 /// xx, yy, zz, xy, xz, yz.
@@ -88,7 +85,7 @@ fn symbols<const N: usize>(
     spacing: [f64; 2],
     uniform: [[f64; N]; 3],
     of_wave: impl Fn(f64, f64, &DepthTransfer<f64>, f64) -> [[f64; N]; 3] + Sync,
-) -> [[Array2<f64>; N]; 3] {
+) -> DepthCoefficients<N> {
     let axis = |axis: usize| -> Vec<(f64, f64)> {
         (0..=cells[axis] / 2)
             .map(|index| {
@@ -111,9 +108,7 @@ fn symbols<const N: usize>(
             }
         }
     });
-    std::array::from_fn(|load| {
-        std::array::from_fn(|component| {
-            Array2::from_shape_fn(shape, |(a, b)| values[a * shape.1 + b][load][component])
-        })
-    })
+    DepthCoefficients::new(Array3::from_shape_fn((shape.0, 3 * N, shape.1), |(a, kernel, b)| {
+        values[a * shape.1 + b][kernel / N][kernel % N]
+    }))
 }

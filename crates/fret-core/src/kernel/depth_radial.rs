@@ -7,347 +7,332 @@
 //! on the logarithmic lattice of the surface's kernels (see `radial`), with Bessel orders 0 to 3. `S` and `k U` are the
 //! responses of `depth_response`. No step depends on the depth: at depth 0 the same sums give the kernels of the surface, the
 //! part of them that is concentrated in the loaded point being in the integral over the disc around it.
+//!
+//! Kernels of one order share their weights, so that a few sums over the lattice run side by side, for sixteen radii at a time.
 
 use std::f64::consts::TAU;
-use std::sync::OnceLock;
 
+use pulp::{Arch, Simd, WithSimd};
 use rayon::prelude::*;
 
-use super::bessel::{bessel_j, hankel};
 use super::complex::{Complex, Wavenumber};
-use super::depth_response::{DepthResponse, DepthTransfer};
-use super::panels::Panels;
-use super::radial::{ANGLE, LEAST_LOG, REACH, STEPS_PER_E_FOLD, interpolated};
+use super::depth_lattice::{LatticeSamples, RADII, Weights};
+use super::depth_panels::{DepthPanels, Lanes, fused};
+use super::depth_quartets::Quartets;
+use super::depth_response::DepthResponse;
+use super::far_cells::filter;
+use super::radial::{BARYCENTRIC, REACH};
 
-/// Four kernels side by side.
-type Lanes = [f64; 4];
-
-/// Four kernels that are made together: what they are, and the Bessel order of each.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Quartet {
-    /// From pressure: `sigma_zz`, mean and difference of `sigma_xx` and `sigma_yy`, `sigma_rz`.
-    PressureStress,
-    /// From shear: `sigma_zz`, and the three parts of the stresses in the plane.
-    ShearStress,
-    /// From shear: mean and difference of `sigma_xz` and `sigma_yz`; two lanes are idle.
-    ShearTraction,
-    /// Displacement: `u_z` from pressure, mean and difference of `u_x` and `u_y` from shear, `u_r` from pressure.
-    Displacement,
-    /// Displacement `u_z` from shear; three lanes are idle.
-    Rise,
-}
-
-impl Quartet {
-    /// Bessel order of each kernel.
-    pub(crate) fn orders(self) -> [usize; 4] {
-        match self {
-            Self::PressureStress | Self::Displacement => [0, 0, 2, 1],
-            Self::ShearStress => [1, 1, 1, 3],
-            Self::ShearTraction => [0, 2, 0, 0],
-            Self::Rise => [1, 0, 0, 0],
-        }
-    }
-
-    /// Power of k with which D starts.
-    fn start(self) -> i32 {
-        match self {
-            Self::PressureStress | Self::ShearStress | Self::ShearTraction => 1,
-            Self::Displacement | Self::Rise => 0,
-        }
-    }
-
-    /// D of the four kernels at a wavenumber.
-    fn lanes<T: Wavenumber>(self, k: T, transfer: &DepthTransfer<T>) -> [T; 4] {
-        let t = transfer;
-        let zero = T::zero();
-        match self {
-            Self::PressureStress => {
-                let (along, across) = (t.along[1], t.across[1]);
-                [k * t.normal[1], k * (along + across) * 0.5, k * (along - across) * 0.5, k * t.shear[1]]
-            }
-            Self::ShearStress => {
-                let (along, across) = (t.along[0], t.across[0]);
-                let twice = t.in_plane_shear * 2.0;
-                [
-                    k * t.normal[0],
-                    k * (along + across) * 0.5,
-                    k * (along - across - twice) * 0.25,
-                    k * (along - across + twice) * 0.25,
-                ]
-            }
-            Self::ShearTraction => {
-                let (shear, twist) = (t.shear[0], t.twist_shear);
-                [k * (shear + twist) * 0.5, k * (shear - twist) * 0.5, zero, zero]
-            }
-            Self::Displacement => {
-                let (tangential, sideways) = (t.tangential[0], t.sideways);
-                [
-                    t.depthwise[1],
-                    (tangential + sideways) * 0.5,
-                    (tangential - sideways) * 0.5,
-                    t.tangential[1],
-                ]
-            }
-            Self::Rise => [t.depthwise[0], zero, zero, zero],
-        }
-    }
-}
-
-/// Weights of the transform for the Bessel orders 0 to 3. They depend on no case.
-#[derive(Clone, Debug)]
-struct Weights {
-    step: f64,
-    lowest: i32,
-    /// `step/(2 pi) x J_n(x) exp(-x^2)`
+/// D of some kernels of one order on the lattice; with fewer than four the last places are idle.
+struct OrderGroup {
+    order: usize,
+    /// Quartet and lane of each.
+    places: Vec<(usize, usize)>,
     real: Vec<Lanes>,
-    /// `step/(2 pi) z H_n(z) (1 - exp(-z^2))`, real and imaginary parts.
-    ray: Vec<[Lanes; 2]>,
-    /// `step/(2 pi) J_1(x) exp(-x^2)`, for the integral over a disc.
-    disc_real: Vec<f64>,
-    /// `step/(2 pi) H_1(z) (1 - exp(-z^2))`
-    disc_ray: Vec<Complex>,
+    /// Real and imaginary part.
+    ray: [Vec<Lanes>; 2],
 }
 
-impl Weights {
-    fn of_the_method() -> &'static Self {
-        static WEIGHTS: OnceLock<Weights> = OnceLock::new();
-        WEIGHTS.get_or_init(Self::new)
-    }
-
-    fn new() -> Self {
-        let angle = ANGLE.to_radians();
-        let steps = f64::from(STEPS_PER_E_FOLD);
-        let step = 1.0 / steps;
-        let lowest = LEAST_LOG * STEPS_PER_E_FOLD as i32;
-        // exp(-6.1^2) and exp(-44) are below rounding
-        let last_real = (steps * libm::log(6.1)).ceil() as i32;
-        let last_ray = (steps * libm::log(44.0 / libm::sin(angle))).ceil() as i32;
-        let scale = step / TAU;
-        let (real, disc_real) = (lowest..last_real + 1)
-            .into_par_iter()
-            .map(|m| {
-                let x = libm::exp(f64::from(m) * step);
-                let j = bessel_j(x).map(|j| scale * j * libm::exp(-x * x));
-                (j.map(|j| x * j), j[1])
-            })
-            .unzip();
-        let (ray, disc_ray) = (lowest..last_ray + 1)
-            .into_par_iter()
-            .map(|m| {
-                let x = libm::exp(f64::from(m) * step);
-                let z = Complex::polar(x, angle);
-                let filter = -(-(z * z)).exp_m1() * scale;
-                let h = hankel(x, angle).map(|h| h * filter);
-                let weights = h.map(|h| h * z);
-                ([weights.map(|w| w.re), weights.map(|w| w.im)], h[1])
-            })
-            .unzip();
-        Self { step, lowest, real, ray, disc_real, disc_ray }
-    }
-
-    fn last_real(&self) -> i32 {
-        self.lowest + self.real.len() as i32 - 1
-    }
-
-    fn last_ray(&self) -> i32 {
-        self.lowest + self.ray.len() as i32 - 1
-    }
-
-    /// The weights in the order of a quartet's lanes, from the index `skipped` on.
-    fn ordered(&self, quartet: Quartet) -> OrderedWeights {
-        let orders = quartet.orders();
-        OrderedWeights {
-            real: self.real.iter().map(|w| orders.map(|n| w[n])).collect(),
-            ray: self.ray.iter().map(|w| [orders.map(|n| w[0][n]), orders.map(|n| w[1][n])]).collect(),
-        }
-    }
-
-    fn of(quartet: Quartet) -> &'static OrderedWeights {
-        static PRESSURE: OnceLock<OrderedWeights> = OnceLock::new();
-        static SHEAR: OnceLock<OrderedWeights> = OnceLock::new();
-        static TRACTION: OnceLock<OrderedWeights> = OnceLock::new();
-        static RISE: OnceLock<OrderedWeights> = OnceLock::new();
-        let place = match quartet {
-            Quartet::PressureStress | Quartet::Displacement => &PRESSURE,
-            Quartet::ShearStress => &SHEAR,
-            Quartet::ShearTraction => &TRACTION,
-            Quartet::Rise => &RISE,
-        };
-        place.get_or_init(|| Self::of_the_method().ordered(quartet))
-    }
-}
-
-#[derive(Clone, Debug)]
-struct OrderedWeights {
-    real: Vec<Lanes>,
-    ray: Vec<[Lanes; 2]>,
-}
-
-/// The response at depth on the lattice of wavenumbers `exp(m step)/radius`, on the axis and on the ray.
-struct LatticeSamples {
-    /// Index m of the first wavenumber.
+/// D of `N` quartets on the lattice.
+struct LatticeKernels<const N: usize> {
     first: i32,
-    real: Vec<(f64, DepthTransfer<f64>)>,
-    ray: Vec<(Complex, DepthTransfer<Complex>)>,
+    start: i32,
+    groups: Vec<OrderGroup>,
 }
 
-impl LatticeSamples {
-    fn new(response: &DepthResponse, radius: f64, greatest: f64, before: i32) -> Self {
+impl<const N: usize> LatticeKernels<N> {
+    /// With the response multiplied by a function of the wavenumber.
+    fn new<Q: Quartets<N>>(
+        samples: &LatticeSamples,
+        real_factor: impl Fn(f64) -> f64,
+        ray_factor: impl Fn(Complex) -> Complex,
+    ) -> Self {
+        let mut groups: Vec<OrderGroup> = (0..4)
+            .map(|order| {
+                let places = (0..N)
+                    .flat_map(|quartet| (0..Q::LIST[quartet].lanes_in_use()).map(move |lane| (quartet, lane)))
+                    .filter(|&(quartet, lane)| Q::LIST[quartet].orders()[lane] == order)
+                    .collect();
+                let ray = [Vec::with_capacity(samples.ray.len()), Vec::with_capacity(samples.ray.len())];
+                OrderGroup { order, places, real: Vec::with_capacity(samples.real.len()), ray }
+            })
+            .filter(|group: &OrderGroup| !group.places.is_empty())
+            .collect();
+        for (k, transfer) in &samples.real {
+            let factor = real_factor(*k);
+            let d = Q::LIST.map(|quartet| quartet.lanes(*k, transfer));
+            for group in &mut groups {
+                let mut lanes = [0.0; 4];
+                for (lane, &(quartet, place)) in lanes.iter_mut().zip(&group.places) {
+                    *lane = d[quartet][place] * factor;
+                }
+                group.real.push(lanes);
+            }
+        }
+        for (k, transfer) in &samples.ray {
+            let factor = ray_factor(*k);
+            let d = Q::LIST.map(|quartet| quartet.lanes(*k, transfer));
+            for group in &mut groups {
+                let (mut re, mut im) = ([0.0; 4], [0.0; 4]);
+                for (lane, &(quartet, place)) in group.places.iter().enumerate() {
+                    let value = d[quartet][place] * factor;
+                    (re[lane], im[lane]) = (value.re, value.im);
+                }
+                group.ray[0].push(re);
+                group.ray[1].push(im);
+            }
+        }
+        Self { first: samples.first, start: Q::LIST[0].start(), groups }
+    }
+
+    /// `r G(r)` of all kernels at `r = radius exp(n step)` for `count` whole numbers n from `first` on.
+    fn transformed(&self, first: i32, count: usize) -> Vec<[Lanes; N]> {
+        let mut times_r = vec![[[0.0; 4]; N]; count];
+        times_r.par_chunks_mut(RADII).with_min_len(2).enumerate().for_each(|(chunk, radii)| {
+            let n = first + (chunk * RADII) as i32;
+            for group in &self.groups {
+                let sums = match group.places.len() {
+                    1 => Arch::new().dispatch(RadiiOf::<1> { kernels: group, skipped: self.skipped(n) }),
+                    2 => Arch::new().dispatch(RadiiOf::<2> { kernels: group, skipped: self.skipped(n) }),
+                    3 => Arch::new().dispatch(RadiiOf::<3> { kernels: group, skipped: self.skipped(n) }),
+                    _ => Arch::new().dispatch(RadiiOf::<4> { kernels: group, skipped: self.skipped(n) }),
+                };
+                for (radius, values) in radii.iter_mut().enumerate() {
+                    let below = self.below(group, self.skipped(n) + radius);
+                    for (lane, &(quartet, place)) in group.places.iter().enumerate() {
+                        values[quartet][place] = sums[lane][radius] + below[lane];
+                    }
+                }
+            }
+        });
+        times_r
+    }
+
+    /// Weights of smaller arguments than that of the first wavenumber.
+    fn skipped(&self, n: i32) -> usize {
+        (self.first + n - Weights::of_the_method().lowest) as usize
+    }
+
+    /// Sum of the terms below the first wavenumber, which fall by powers of x: `J_n` like `x^n`, `H_n (1 - exp(-z^2))` like
+    /// `x^(2 - n)`.
+    fn below(&self, group: &OrderGroup, skipped: usize) -> Lanes {
         let weights = Weights::of_the_method();
-        let longest = greatest.max(response.longest_length());
-        let first = (libm::log(1e-8 * (radius / longest)) / weights.step).floor() as i32;
-        let first = first.max(weights.lowest + before);
-        // beyond 750 over the depth nothing arrives
-        let last = if response.depth() > 0.0 {
-            (libm::log(750.0 * (radius / response.depth())) / weights.step).ceil() as i32
-        } else {
-            i32::MAX
-        };
-        let wavenumber = |m: i32| libm::exp(f64::from(m) * weights.step) / radius;
-        let end_real = (weights.last_real() + before + 1).min(last).max(first + 1);
-        let real = (first..end_real)
-            .into_par_iter()
-            .with_min_len(32)
-            .map(|m| {
-                let k = wavenumber(m);
-                (k, response.at(k))
-            })
-            .collect();
-        let direction = Complex::polar(1.0, ANGLE.to_radians());
-        let end_ray = (weights.last_ray() + before + 1).min(last).max(first + 1);
-        let ray = (first..end_ray)
-            .into_par_iter()
-            .with_min_len(32)
-            .map(|m| {
-                let k = direction * wavenumber(m);
-                (k, response.at(k))
-            })
-            .collect();
-        Self { first, real, ray }
-    }
-}
-
-/// D of four kernels on the lattice.
-struct LatticeQuartet {
-    quartet: Quartet,
-    first: i32,
-    real: Vec<Lanes>,
-    ray: Vec<[Lanes; 2]>,
-}
-
-impl LatticeQuartet {
-    fn new(quartet: Quartet, samples: &LatticeSamples) -> Self {
-        let real = samples.real.iter().map(|(k, transfer)| quartet.lanes(*k, transfer)).collect();
-        let ray = samples
-            .ray
-            .iter()
-            .map(|(k, transfer)| {
-                let d = quartet.lanes(*k, transfer);
-                [d.map(|d| d.re), d.map(|d| d.im)]
-            })
-            .collect();
-        Self { quartet, first: samples.first, real, ray }
-    }
-
-    /// `r G(r)` of the four kernels at `r = radius exp(n step)`.
-    fn transformed(&self, n: i32) -> Lanes {
-        let method = Weights::of_the_method();
-        let weights = Weights::of(self.quartet);
-        let skipped = (self.first + n - method.lowest) as usize;
-        let mut real = [0.0; 4];
-        for (response, weight) in self.real.iter().zip(&weights.real[skipped..]) {
-            for lane in 0..4 {
-                real[lane] += response[lane] * weight[lane];
-            }
-        }
-        let mut ray = [0.0; 4];
-        for (response, weight) in self.ray.iter().zip(&weights.ray[skipped..]) {
-            for lane in 0..4 {
-                ray[lane] += response[0][lane] * weight[0][lane] - response[1][lane] * weight[1][lane];
-            }
-        }
-        let orders = self.quartet.orders();
+        let order = group.order as i32;
+        let falling = |power: i32| 1.0 / libm::expm1(f64::from(power) * weights.step);
+        let ray_power = if order == 0 { 3 } else { 3 - order };
+        let real = falling(1 + order + self.start) * weights.real.of_order[group.order][skipped];
+        let ray = [0, 1].map(|part| {
+            falling((ray_power + self.start).max(1)) * weights.ray[part].of_order[group.order][skipped]
+        });
         std::array::from_fn(|lane| {
-            // below the first wavenumber terms fall by powers of x: J_n like x^n, H_n (1 - exp(-z^2)) like x^(2 - n)
-            let start = self.quartet.start();
-            let order = orders[lane] as i32;
-            let below = |power: i32| 1.0 / libm::expm1(f64::from(power) * method.step);
-            let real_first = self.real[0][lane] * weights.real[skipped][lane];
-            let [d, w] = [self.ray[0], weights.ray[skipped]];
-            let ray_first = d[0][lane] * w[0][lane] - d[1][lane] * w[1][lane];
-            let ray_power = if order == 0 { 3 } else { 3 - order };
-            real[lane]
-                + ray[lane]
-                + real_first * below(1 + order + start)
-                + ray_first * below((ray_power + start).max(1))
+            group.real[0][lane] * real + group.ray[0][0][lane] * ray[0] + group.ray[1][0][lane] * ray[1]
         })
     }
 
-    /// `Int_0^radius G(r) r dr` of a kernel of order 0, `radius` being that of the lattice.
-    fn over_disc(&self, lane: usize, radius: f64) -> f64 {
-        let method = Weights::of_the_method();
-        let skipped = (self.first - method.lowest) as usize;
-        let real: f64 = self.real.iter().zip(&method.disc_real[skipped..]).map(|(d, w)| d[lane] * w).sum();
-        let ray: f64 = self
-            .ray
-            .iter()
-            .zip(&method.disc_ray[skipped..])
-            .map(|(d, w)| d[0][lane] * w.re - d[1][lane] * w.im)
-            .sum();
-        let below = 1.0 / libm::expm1(f64::from(1 + self.quartet.start()) * method.step);
-        let (d, w) = (self.ray[0], method.disc_ray[skipped]);
-        let first = self.real[0][lane] * method.disc_real[skipped] + d[0][lane] * w.re - d[1][lane] * w.im;
-        (real + ray + first * below) * radius
+    /// Of the kernels of order 0, `of_lane(group, lane)`; zero for the others.
+    fn of_order_0(&self, of_lane: impl Fn(&OrderGroup, usize) -> f64) -> [Lanes; N] {
+        let mut values = [[0.0; 4]; N];
+        for group in self.groups.iter().filter(|group| group.order == 0) {
+            for (lane, &(quartet, place)) in group.places.iter().enumerate() {
+                values[quartet][place] = of_lane(group, lane);
+            }
+        }
+        values
+    }
+
+    /// Integral over the disc of the lattice's radius, `Int_0^radius G(r) 2 pi r dr`, of the kernels of order 0.
+    fn over_disc(&self, radius: f64) -> [Lanes; N] {
+        let weights = Weights::of_the_method();
+        let skipped = self.skipped(0);
+        self.of_order_0(|group, lane| {
+            let real: f64 =
+                group.real.iter().zip(&weights.disc_real[skipped..]).map(|(d, w)| d[lane] * w).sum();
+            let [re, im] = &group.ray;
+            let ray: f64 = re
+                .iter()
+                .zip(im)
+                .zip(&weights.disc_ray[skipped..])
+                .map(|((re, im), w)| re[lane] * w.re - im[lane] * w.im)
+                .sum();
+            let below = 1.0 / libm::expm1(f64::from(1 + self.start) * weights.step);
+            let w = weights.disc_ray[skipped];
+            let first =
+                group.real[0][lane] * weights.disc_real[skipped] + re[0][lane] * w.re - im[0][lane] * w.im;
+            TAU * (real + ray + first * below) * radius
+        })
+    }
+
+    /// Values at the centre, `1/(2 pi) Int_0^inf D(k) dk`, of the kernels of order 0; at depth only.
+    fn at_centre(&self, samples: &LatticeSamples) -> [Lanes; N] {
+        let step = Weights::of_the_method().step;
+        let below = 1.0 / libm::expm1(f64::from(1 + self.start) * step);
+        self.of_order_0(|group, lane| {
+            let terms = || group.real.iter().zip(&samples.real).map(|(d, (k, _))| d[lane] * k);
+            let first = terms().next().unwrap_or(0.0);
+            (terms().sum::<f64>() + first * below) * step / TAU
+        })
     }
 }
 
-/// Four kernels at one depth, tabulated in `r^2`, each over `r^n`, n being its Bessel order.
-#[derive(Clone, Debug)]
-pub(crate) struct DepthKernels {
-    panels: Panels,
-    disc: Lanes,
+/// The sums over the lattice of some kernels of one order, for neighbouring radii.
+struct RadiiOf<'a, const COUNT: usize> {
+    kernels: &'a OrderGroup,
+    skipped: usize,
 }
 
-impl DepthKernels {
-    /// Tabulates quartets of kernels from `least` to `greatest` distance; `least` is also the radius of the disc.
-    pub(crate) fn new<const N: usize>(
+impl<const COUNT: usize> WithSimd for RadiiOf<'_, COUNT> {
+    type Output = [[f64; RADII]; 4];
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) -> [[f64; RADII]; 4] {
+        let weights = Weights::of_the_method();
+        let OrderGroup { order, real, ray, .. } = self.kernels;
+        let mut sums = [[0.0; RADII]; COUNT];
+        let parts = [(&weights.real, real), (&weights.ray[0], &ray[0]), (&weights.ray[1], &ray[1])];
+        for (weights, values) in parts {
+            let weights = &weights.of_order[*order][self.skipped..];
+            for (values, weights) in values.iter().zip(weights.windows(RADII)) {
+                let Some(weights) = weights.first_chunk::<RADII>() else { continue };
+                for kernel in 0..COUNT {
+                    for radius in 0..RADII {
+                        sums[kernel][radius] =
+                            fused::<S>(values[kernel], weights[radius], sums[kernel][radius]);
+                    }
+                }
+            }
+        }
+        let mut result = [[0.0; RADII]; 4];
+        result[..COUNT].copy_from_slice(&sums);
+        result
+    }
+}
+
+/// Lagrange interpolation with the lattice points around a position.
+struct Interpolated<'a, const N: usize> {
+    lattice: &'a [[Lanes; N]],
+    position: f64,
+}
+
+impl<const N: usize> WithSimd for Interpolated<'_, N> {
+    type Output = [Lanes; N];
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) -> [Lanes; N] {
+        let below = self.position.floor();
+        let start = below as usize + 1 - REACH;
+        let within = self.position - below + (REACH - 1) as f64;
+        if within == (REACH - 1) as f64 {
+            return self.lattice[start + REACH - 1];
+        }
+        let mut weights = [0.0; 2 * REACH];
+        for j in 0..2 * REACH {
+            weights[j] = BARYCENTRIC[j] / (within - j as f64);
+        }
+        let total: f64 = weights.iter().sum();
+        let mut sums = [[0.0; 4]; N];
+        for (weight, values) in weights.iter().zip(&self.lattice[start..]) {
+            for quartet in 0..N {
+                for lane in 0..4 {
+                    sums[quartet][lane] = fused::<S>(*weight, values[quartet][lane], sums[quartet][lane]);
+                }
+            }
+        }
+        for quartet in 0..N {
+            for lane in 0..4 {
+                sums[quartet][lane] /= total;
+            }
+        }
+        sums
+    }
+}
+
+/// The response of one depth on the lattice, from which tables of kernels are made.
+pub(crate) struct KernelLattice {
+    samples: LatticeSamples,
+    /// Least radius of any table \[length\].
+    radius: f64,
+    margin: i32,
+}
+
+impl KernelLattice {
+    /// Samples the response for tables from the radius `least` to `greatest`.
+    pub(crate) fn new<Q: Quartets<N>, const N: usize>(
         response: &DepthResponse,
-        quartets: [Quartet; N],
         least: f64,
         greatest: f64,
-    ) -> [Self; N] {
+    ) -> Self {
         let step = Weights::of_the_method().step;
         // a panel reaches a quarter octave of the square beyond its ends, the interpolation REACH points further
         let margin = REACH as i32 + 1 + (0.5 * libm::log(1.25) / step).ceil() as i32;
-        let samples = LatticeSamples::new(response, least, greatest, margin);
-        let last = (libm::log(greatest / least) / step).ceil() as i32 + margin;
-        quartets.map(|quartet| {
-            let lattice = LatticeQuartet::new(quartet, &samples);
-            let orders = quartet.orders();
-            let times_r: Vec<Lanes> =
-                (-margin..last + 1).into_par_iter().with_min_len(8).map(|n| lattice.transformed(n)).collect();
-            let panels = Panels::new(least * least, greatest * greatest, |square| {
-                let r = square.sqrt();
-                let position = libm::log(r / least) / step + f64::from(margin);
-                let values = interpolated(&times_r, position);
-                let powers = [r, square, r * square, square * square];
-                std::array::from_fn(|lane| values[lane] / powers[orders[lane]])
-            });
-            let disc = std::array::from_fn(|lane| {
-                if orders[lane] == 0 { TAU * lattice.over_disc(lane, least) } else { 0.0 }
-            });
-            Self { panels, disc }
+        Self {
+            samples: LatticeSamples::new(response, least, greatest, margin, Q::LIST[0].start()),
+            radius: least,
+            margin,
+        }
+    }
+
+    /// Kernels of points from the least radius to `greatest`, and their integrals over the disc of the least radius.
+    pub(crate) fn points<Q: Quartets<N>, const N: usize>(&self, greatest: f64) -> DepthKernels<N> {
+        let lattice = LatticeKernels::new::<Q>(&self.samples, |_| 1.0, |_| Complex::one());
+        let panels = self.panels::<Q, N>(&lattice, self.radius, greatest);
+        DepthKernels { panels, innermost: lattice.over_disc(self.radius) }
+    }
+
+    /// Kernels filtered for the rule of five points on cells of a side, and their values right under the load.
+    pub(crate) fn filtered<Q: Quartets<N>, const N: usize>(
+        &self,
+        least: f64,
+        greatest: f64,
+        side: f64,
+    ) -> DepthKernels<N> {
+        let lattice = LatticeKernels::new::<Q>(&self.samples, |k| filter(k * side), |k| filter(k * side));
+        let panels = self.panels::<Q, N>(&lattice, least, greatest);
+        DepthKernels { panels, innermost: lattice.at_centre(&self.samples) }
+    }
+
+    fn panels<Q: Quartets<N>, const N: usize>(
+        &self,
+        lattice: &LatticeKernels<N>,
+        least: f64,
+        greatest: f64,
+    ) -> DepthPanels<N> {
+        let step = Weights::of_the_method().step;
+        let position = |r: f64| libm::log(r / self.radius) / step;
+        let first = position(least).floor() as i32 - self.margin;
+        let last = position(greatest).ceil() as i32 + self.margin;
+        let times_r = lattice.transformed(first, (last + 1 - first) as usize);
+        DepthPanels::new(least * least, greatest * greatest, |square| {
+            let r = square.sqrt();
+            let position = position(r) - f64::from(first);
+            let mut values = Arch::new().dispatch(Interpolated { lattice: &times_r, position });
+            let powers = [r, square, r * square, square * square].map(|power| 1.0 / power);
+            for (values, quartet) in values.iter_mut().zip(Q::LIST) {
+                for (value, order) in values.iter_mut().zip(quartet.orders()) {
+                    *value *= powers[order];
+                }
+            }
+            values
         })
     }
+}
 
-    /// The four kernels over `r^n` at the square of the distance.
+/// Kernels at one depth, tabulated in `r^2`, each over `r^n`, n being its Bessel order.
+#[derive(Clone, Debug)]
+pub(crate) struct DepthKernels<const N: usize> {
+    panels: DepthPanels<N>,
+    innermost: [Lanes; N],
+}
+
+impl<const N: usize> DepthKernels<N> {
+    /// The kernels over `r^n` at the square of the distance.
     #[inline(always)]
-    pub(crate) fn at_square(&self, square: f64) -> Lanes {
-        self.panels.at(square)
+    pub(crate) fn at_square<S: Simd>(&self, square: f64) -> [Lanes; N] {
+        self.panels.at::<S>(square)
     }
 
-    /// Integrals over the disc; zero for kernels that are not of order 0.
-    pub(crate) fn over_disc(&self) -> Lanes {
-        self.disc
+    /// What is known right under the load, zero for kernels that are not of order 0: integrals over the disc of
+    /// [`KernelLattice::points`], values of [`KernelLattice::filtered`].
+    pub(crate) fn innermost(&self) -> [Lanes; N] {
+        self.innermost
     }
 }

@@ -20,6 +20,11 @@ mod bessel;
 mod cells;
 #[cfg(test)]
 mod closed_form;
+mod depth_integrals;
+mod depth_lattice;
+mod depth_panels;
+mod depth_quartets;
+mod far_cells;
 mod homogeneous;
 mod panels;
 mod quadrature;

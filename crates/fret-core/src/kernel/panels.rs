@@ -4,9 +4,9 @@
 /// Chebyshev nodes, and coefficients, of one panel. The tabulated functions are analytic but for the imaginary axis of `r`
 /// (of `k`: beyond the poles, 22 degrees off the axis and more); their singularities lie 6 half-panels away in the square and
 /// more, usually 9: twelve terms leave 1e-13 to 1e-15.
-const DEGREES: usize = 12;
+pub(super) const DEGREES: usize = 12;
 /// Bits of a number's pattern below exponent and the two leading bits of its fraction: what stays within a panel.
-const WITHIN_PANEL: u32 = 50;
+pub(super) const WITHIN_PANEL: u32 = 50;
 
 /// Piecewise polynomials in `s > 0`, on panels `[2^e (1 + q/4), 2^e (1 + (q+1)/4))`.
 #[derive(Clone, Debug)]
@@ -70,12 +70,12 @@ impl Panels {
     }
 }
 
-fn panel_of(s: f64) -> u64 {
+pub(super) fn panel_of(s: f64) -> u64 {
     s.to_bits() >> WITHIN_PANEL
 }
 
 /// `cos(degree * angle of node)`.
-fn chebyshev_cosines() -> [[f64; DEGREES]; DEGREES] {
+pub(super) fn chebyshev_cosines() -> [[f64; DEGREES]; DEGREES] {
     let mut cosines = [[0.0; DEGREES]; DEGREES];
     for (degree, row) in cosines.iter_mut().enumerate() {
         for (node, cosine) in row.iter_mut().enumerate() {
@@ -87,7 +87,7 @@ fn chebyshev_cosines() -> [[f64; DEGREES]; DEGREES] {
 }
 
 /// Coefficients of the powers of u in the Chebyshev polynomials: whole numbers, exact.
-fn chebyshev_powers() -> [[f64; DEGREES]; DEGREES] {
+pub(super) fn chebyshev_powers() -> [[f64; DEGREES]; DEGREES] {
     let mut powers = [[0.0; DEGREES]; DEGREES];
     powers[0][0] = 1.0;
     powers[1][1] = 1.0;

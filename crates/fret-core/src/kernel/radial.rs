@@ -263,7 +263,7 @@ fn per_radius(times_r: Lanes, square: f64) -> Lanes {
 }
 
 /// `(-1)^j binomial(23, j)`: barycentric weights of evenly spaced points.
-const BARYCENTRIC: [f64; 2 * REACH] = {
+pub(super) const BARYCENTRIC: [f64; 2 * REACH] = {
     let mut weights = [1.0; 2 * REACH];
     let mut j = 1;
     while j < 2 * REACH {

@@ -1,15 +1,16 @@
 //! From the tractions on the surface to stress and displacement at one depth: kernels of that depth, and products with them.
 
-use ndarray::{Array2, ArrayView2};
+use ndarray::{Array2, ArrayView2, CowArray, Ix2};
 
 use super::depths::DepthPoint;
 use super::tensor::StressField;
-use crate::compliance::product::Product;
 use crate::kernel::depth_cells::{displacement_coefficients, stress_coefficients};
 use crate::kernel::depth_periodic::{displacement_symbols, stress_symbols};
 use crate::kernel::depth_response::DepthResponse;
 use crate::model::{HalfSpace, SurfaceGrid};
-use crate::spectral::{Block, Convolution, ConvolutionError, Kernel, Parity, PeriodicProduct, Symbol};
+use crate::spectral::{
+    Block, Convolution, ConvolutionError, Kernel, Parity, PeriodicProduct, Symbol, Workspace,
+};
 
 /// Tractions on the body's surface [pressure], shape `(nx, ny)`, uniform over each cell.
 #[derive(Debug, Clone, Copy)]
@@ -26,13 +27,28 @@ pub struct Tractions<'a> {
 /// surface; at depth 0 they give the stress in the surface itself. In scenes that repeat: the response at the grid's own
 /// wavenumbers. Exact for tractions that are uniform over each cell (free space), to rounding: about 1e-13 of the largest
 /// traction for contrasts up to 1e4.
+///
+/// It can be moved to another depth, and then works in the same memory.
 pub struct DepthOperator {
+    scene: Scene,
+    planned: Planned,
+    workspace: Workspace,
+    /// Where kernels are made before they are transformed.
+    kernels: Vec<f64>,
+}
+
+/// The products of one depth.
+struct Planned {
     point: DepthPoint,
-    shape: [usize; 2],
-    with_shear: bool,
     /// xx, yy, zz and xy, xz, yz.
-    stress: [Product; 2],
-    displacement: Option<Product>,
+    stress: [DepthProduct; 2],
+    displacement: Option<DepthProduct>,
+}
+
+/// A product whose workspace is elsewhere.
+enum DepthProduct {
+    FreeSpace(Convolution),
+    Periodic(PeriodicProduct),
 }
 
 const fn block(output: usize, input: usize, kernel: usize) -> Block {
@@ -72,52 +88,32 @@ impl DepthOperator {
         with_shear: bool,
         with_displacement: bool,
     ) -> Result<Self, ConvolutionError> {
-        let (shape, spacing) = (grid.cells(), grid.spacing());
-        let response = DepthResponse::new(half_space, point.layer, point.depth);
-        let coefficients = if periodic {
-            stress_symbols(&response, shape, spacing)
-        } else {
-            stress_coefficients(&response, shape, spacing, with_shear)
+        let scene = Scene {
+            half_space: half_space.clone(),
+            shape: grid.cells(),
+            spacing: grid.spacing(),
+            periodic,
+            with_shear,
+            with_displacement,
         };
-        let mut loads = vec![&coefficients.pressure];
-        if let (true, Some([x, y])) = (with_shear, &coefficients.shear) {
-            loads.extend([x, y]);
-        }
-        let half = |first: usize| {
-            let (mut kernels, mut blocks) = (Vec::new(), Vec::new());
-            for (input, load) in loads.iter().enumerate() {
-                for component in 0..3 {
-                    blocks.push(block(component, input, kernels.len()));
-                    kernels.push((&load[first + component], parity(first + component, input)));
-                }
-            }
-            product(periodic, shape, &kernels, &blocks)
-        };
-        let stress = [half(0)?, half(3)?];
-        let displacement = if with_displacement {
-            let coefficients = if periodic {
-                displacement_symbols(&response, shape, spacing)
-            } else {
-                displacement_coefficients(&response, shape, spacing)
-            };
-            let (mut kernels, mut blocks) = (Vec::new(), Vec::new());
-            for (input, load) in coefficients.from[..loads.len()].iter().enumerate() {
-                for (component, values) in load.iter().enumerate() {
-                    // u_x, u_y, u_z have the parities of sigma_xz, sigma_yz, sigma_zz
-                    blocks.push(block(component, input, kernels.len()));
-                    kernels.push((values, parity([4, 5, 2][component], input)));
-                }
-            }
-            Some(product(periodic, shape, &kernels, &blocks)?)
-        } else {
-            None
-        };
-        Ok(Self { point, shape, with_shear, stress, displacement })
+        let mut kernels = Vec::new();
+        let planned = scene.plan(point, &mut kernels)?;
+        let workspace = planned.stress[0].workspace();
+        Ok(Self { scene, planned, workspace, kernels })
+    }
+
+    /// Moves to another depth of the same half-space.
+    ///
+    /// # Errors
+    /// As [`new`](Self::new); the operator then stays where it was.
+    pub fn move_to(&mut self, point: DepthPoint) -> Result<(), ConvolutionError> {
+        self.planned = self.scene.plan(point, &mut self.kernels)?;
+        Ok(())
     }
 
     /// The depth.
     pub fn point(&self) -> DepthPoint {
-        self.point
+        self.planned.point
     }
 
     /// Stress from tractions [pressure]. Shear must be given exactly when the operator was made for it.
@@ -125,12 +121,20 @@ impl DepthOperator {
     /// # Panics
     /// When the tractions are not those the operator was made for.
     pub fn stress(&mut self, tractions: &Tractions<'_>) -> StressField {
-        let input = self.flat(tractions);
-        let mut field = StressField::zeros(self.shape);
-        let (normal, shear) = field.components.split_at_mut(3);
-        apply(&mut self.stress[0], &input, normal);
-        apply(&mut self.stress[1], &input, shear);
+        let mut field = StressField::zeros(self.scene.shape);
+        self.stress_into(tractions, &mut field);
         field
+    }
+
+    /// As [`stress`](Self::stress), in a field that is there; what it held is lost.
+    ///
+    /// # Panics
+    /// When the tractions or the field are not those the operator was made for.
+    pub fn stress_into(&mut self, tractions: &Tractions<'_>, field: &mut StressField) {
+        let input = self.standard(tractions);
+        let (normal, shear) = field.components.split_at_mut(3);
+        apply(&self.planned.stress[0], &mut self.workspace, &input, normal);
+        apply(&self.planned.stress[1], &mut self.workspace, &input, shear);
     }
 
     /// Displacement `u_x, u_y, u_z` of the body [length]; `None` when the operator was not made for it. In scenes that repeat
@@ -139,45 +143,111 @@ impl DepthOperator {
     /// # Panics
     /// As [`stress`](Self::stress).
     pub fn displacement(&mut self, tractions: &Tractions<'_>) -> Option<[Array2<f64>; 3]> {
-        let input = self.flat(tractions);
-        let shape = (self.shape[0], self.shape[1]);
-        let product = self.displacement.as_mut()?;
-        let mut fields: [Array2<f64>; 3] = std::array::from_fn(|_| Array2::zeros(shape));
-        apply(product, &input, &mut fields);
+        let input = self.standard(tractions);
+        let [nx, ny] = self.scene.shape;
+        let product = self.planned.displacement.as_ref()?;
+        let mut fields: [Array2<f64>; 3] = std::array::from_fn(|_| Array2::zeros((nx, ny)));
+        apply(product, &mut self.workspace, &input, &mut fields);
         Some(fields)
     }
 
-    fn flat(&self, tractions: &Tractions<'_>) -> Vec<Vec<f64>> {
-        let mut input = vec![tractions.pressure.iter().copied().collect::<Vec<f64>>()];
-        if let (true, Some(shear)) = (self.with_shear, &tractions.shear) {
-            input.extend(shear.iter().map(|component| component.iter().copied().collect()));
-        }
-        assert_eq!(self.with_shear, tractions.shear.is_some(), "shear given or asked for, not both");
-        input
+    /// The tractions row by row.
+    fn standard<'a>(&self, tractions: &'a Tractions<'_>) -> Vec<CowArray<'a, f64, Ix2>> {
+        assert_eq!(self.scene.with_shear, tractions.shear.is_some(), "shear given or asked for, not both");
+        let shear = tractions.shear.iter().flatten();
+        std::iter::once(&tractions.pressure).chain(shear).map(|field| field.as_standard_layout()).collect()
     }
 }
 
-fn product(
-    periodic: bool,
+/// What stays the same from depth to depth.
+struct Scene {
+    half_space: HalfSpace,
     shape: [usize; 2],
-    kernels: &[(&Array2<f64>, Parity)],
-    blocks: &[Block],
-) -> Result<Product, ConvolutionError> {
-    if periodic {
-        let symbols: Vec<Symbol<'_>> =
-            kernels.iter().map(|&(values, parity)| Symbol { values: values.view(), parity }).collect();
-        Ok(Product::periodic(PeriodicProduct::new(shape, &symbols, blocks)?))
-    } else {
-        let kernels: Vec<Kernel<'_>> =
-            kernels.iter().map(|&(values, parity)| Kernel { values: values.view(), parity }).collect();
-        Ok(Product::free_space(Convolution::new(shape, &kernels, blocks)?))
+    spacing: [f64; 2],
+    periodic: bool,
+    with_shear: bool,
+    with_displacement: bool,
+}
+
+impl Scene {
+    /// Products of a depth; their kernels are made in `memory`.
+    fn plan(&self, point: DepthPoint, memory: &mut Vec<f64>) -> Result<Planned, ConvolutionError> {
+        let Self { shape, spacing, periodic, with_shear, .. } = *self;
+        let response = DepthResponse::new(&self.half_space, point.layer, point.depth);
+        let coefficients = if periodic {
+            stress_symbols(&response, shape, spacing)
+        } else {
+            stress_coefficients(&response, shape, spacing, with_shear, std::mem::take(memory))
+        };
+        let loads = if with_shear { 3 } else { 1 };
+        let stress = [[0, 1, 2], [3, 4, 5]].map(|components| {
+            self.product(loads, |load, output| {
+                (coefficients.kernel(load, components[output]), parity(components[output], load))
+            })
+        });
+        *memory = coefficients.into_memory();
+        let [normal, shear] = stress;
+        let displacement = if self.with_displacement {
+            let coefficients = if periodic {
+                displacement_symbols(&response, shape, spacing)
+            } else {
+                displacement_coefficients(&response, shape, spacing, std::mem::take(memory))
+            };
+            // u_x, u_y, u_z have the parities of sigma_xz, sigma_yz, sigma_zz
+            let product = self.product(loads, |load, output| {
+                (coefficients.kernel(load, output), parity([4, 5, 2][output], load))
+            });
+            *memory = coefficients.into_memory();
+            Some(product?)
+        } else {
+            None
+        };
+        Ok(Planned { point, stress: [normal?, shear?], displacement })
+    }
+
+    /// Product of three outputs from all loads.
+    fn product<'k>(
+        &self,
+        loads: usize,
+        kernel: impl Fn(usize, usize) -> (ArrayView2<'k, f64>, Parity),
+    ) -> Result<DepthProduct, ConvolutionError> {
+        let pairs = || (0..loads).flat_map(|load| (0..3).map(move |output| (load, output)));
+        let blocks: Vec<Block> =
+            pairs().enumerate().map(|(number, (load, output))| block(output, load, number)).collect();
+        let kernels = pairs().map(|(load, output)| kernel(load, output));
+        Ok(if self.periodic {
+            let symbols: Vec<Symbol<'_>> =
+                kernels.map(|(values, parity)| Symbol { values, parity }).collect();
+            DepthProduct::Periodic(PeriodicProduct::new(self.shape, &symbols, &blocks)?)
+        } else {
+            let kernels: Vec<Kernel<'_>> =
+                kernels.map(|(values, parity)| Kernel { values, parity }).collect();
+            DepthProduct::FreeSpace(Convolution::new(self.shape, &kernels, &blocks)?)
+        })
     }
 }
 
-fn apply(product: &mut Product, input: &[Vec<f64>], output: &mut [Array2<f64>]) {
-    let input: Vec<&[f64]> = input.iter().map(Vec::as_slice).collect();
-    // fields made by `zeros` are contiguous
+impl DepthProduct {
+    fn workspace(&self) -> Workspace {
+        match self {
+            Self::FreeSpace(convolution) => convolution.workspace(),
+            Self::Periodic(product) => product.workspace(),
+        }
+    }
+}
+
+fn apply(
+    product: &DepthProduct,
+    workspace: &mut Workspace,
+    input: &[CowArray<'_, f64, Ix2>],
+    output: &mut [Array2<f64>],
+) {
+    // arrays in standard layout and fields made by `zeros` are contiguous
+    let input: Vec<&[f64]> = input.iter().map(|field| field.as_slice().unwrap_or_default()).collect();
     let mut output: Vec<&mut [f64]> =
         output.iter_mut().map(|field| field.as_slice_mut().unwrap_or_default()).collect();
-    product.apply(&input, &mut output);
+    match product {
+        DepthProduct::FreeSpace(convolution) => convolution.apply(workspace, &input, &mut output),
+        DepthProduct::Periodic(product) => product.apply(workspace, &input, &mut output),
+    }
 }

@@ -37,14 +37,19 @@ pub fn survey(
 ) -> Result<(), ConvolutionError> {
     let with_shear = surfaces.iter().any(|surface| surface.shear.is_some());
     let none = Array2::zeros((grid.cells()[0], grid.cells()[1]));
+    let mut field = StressField::zeros(grid.cells());
+    let Some(&first) = points.first() else { return Ok(()) };
+    let mut operator = DepthOperator::new(half_space, first, grid, periodic, with_shear, false)?;
     for (number, &point) in points.iter().enumerate() {
-        let mut operator = DepthOperator::new(half_space, point, grid, periodic, with_shear, false)?;
+        if number > 0 {
+            operator.move_to(point)?;
+        }
         for (index, surface) in surfaces.iter().enumerate() {
             let shear = with_shear.then(|| match &surface.shear {
                 Some([x, y]) => [x.view(), y.view()],
                 None => [none.view(), none.view()],
             });
-            let field = operator.stress(&Tractions { pressure: surface.pressure.view(), shear });
+            operator.stress_into(&Tractions { pressure: surface.pressure.view(), shear }, &mut field);
             if !visit(number, index, &field) {
                 return Ok(());
             }
