@@ -42,6 +42,28 @@ class CaseError(FrettingError, ValueError):
         self.mistakes = [Mistake(*mistake) for mistake in mistakes]
 
 
+class UnreadableError(FrettingError, OSError):
+    """A file or folder that was named cannot be read, or does not hold what was expected.
+
+    Attributes
+    ----------
+    filename : str
+        Which one.
+    """
+
+    __module__ = "fretting"
+
+    def __init__(self, message: str, filename: str = "") -> None:
+        super().__init__(message)
+        self.filename = filename
+
+
+class MissingFileError(UnreadableError, FileNotFoundError):
+    """A file or folder that was named is not there."""
+
+    __module__ = "fretting"
+
+
 class RunError(FrettingError, RuntimeError):
     """A run ended without its answer; there is no silent wrong one.
 

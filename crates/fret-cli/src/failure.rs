@@ -29,6 +29,13 @@ pub enum Failure {
     Unwritten(Unwritten),
     /// So many families of extreme scenes do not hold.
     Broken(usize),
+    /// Points of a sweep that have no answer: how many were refused, and how many could not be solved.
+    Points {
+        /// Refused.
+        refused: usize,
+        /// Not solved.
+        failed: usize,
+    },
     /// A mistake in the program itself.
     Defect(String),
 }
@@ -84,6 +91,8 @@ impl Failure {
         match self {
             Self::Case(_) | Self::Call(..) => REFUSED,
             Self::Unsolved(error) if asks_for_another_case(error) => REFUSED,
+            Self::Points { failed: 0, .. } => REFUSED,
+            Self::Points { .. } => FAILED,
             Self::Unsolved(_) | Self::Unwritten(_) | Self::Broken(_) | Self::Defect(_) => FAILED,
             Self::Interrupted(_) => INTERRUPTED,
         }
@@ -94,6 +103,8 @@ impl Failure {
         match self {
             Self::Case(_) | Self::Call(..) => "refused",
             Self::Unsolved(error) if asks_for_another_case(error) => "refused",
+            Self::Points { failed: 0, .. } => "refused",
+            Self::Points { .. } => "failed",
             Self::Unsolved(_) | Self::Unwritten(_) | Self::Broken(_) | Self::Defect(_) => "failed",
             Self::Interrupted(_) => "interrupted",
         }
@@ -107,6 +118,9 @@ impl Failure {
             Self::Unsolved(error) => error.to_string(),
             Self::Unwritten(unwritten) => unwritten.to_string(),
             Self::Broken(count) => format!("{} of extreme scenes: not everything holds", families(*count)),
+            Self::Points { refused, failed } => {
+                format!("points without an answer: {refused} refused, {failed} failed; the others are solved and kept")
+            }
             Self::Defect(what) => format!("a defect in fret itself, please report it: {what}"),
         }
     }
