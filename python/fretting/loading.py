@@ -61,11 +61,13 @@ def load(folder: str | os.PathLike[str]) -> History:
         _refuse(path / "history.csv", f"does not hold the {done} increments of the run")
     history = History.__new__(History)
     history.steps = steps
-    store = _Stored(path / "fields.zarr", plan["grid"]["cells"])
+    store = _Stored(path / "fields.zarr", plan["grid"]["cells"], done)
     history._kept = store
     history.x, history.y = store.coordinate("x"), store.coordinate("y")
     history.stages = stages
-    history.cycles = columns(_cycles(path / "cycles.csv"))
+    courses = [stage["course"] for stage in plan["case"]["stages"]]
+    is_cyclic = any(isinstance(course, dict) and course["cycles"] is not None for course in courses)
+    history.cycles = columns(_cycles(path / "cycles.csv") if is_cyclic else [])
     history.running_conditions = [_running_condition(history.cycles, stage) for stage in range(len(stages))]
     history.worn_through = record.get("worn_through")
     history._bodies = json.dumps(plan["case"]["bodies"])
@@ -78,10 +80,12 @@ def load(folder: str | os.PathLike[str]) -> History:
 class _Stored:
     """Fields in a run's store: little-endian numbers, a file an increment."""
 
-    def __init__(self, path: Path, cells: list[int]) -> None:
+    def __init__(self, path: Path, cells: list[int], increments: int) -> None:
         self._path = path
         self._cells = (cells[0], cells[1])
         self._steps = [int(step) for step in self._numbers(path / "step" / "c" / "0", "<i8")]
+        if self._steps != sorted(set(self._steps)) or not set(self._steps) <= set(range(increments)):
+            _refuse(path / "step", "does not hold numbers of increments")
         self._names = [name for name in FIELD_NAMES if (path / name / "zarr.json").is_file()]
 
     def coordinate(self, name: str) -> npt.NDArray[np.float64]:
@@ -128,7 +132,7 @@ def _record(path: Path) -> dict[str, Any]:
             way = "`fret run CASE --resume` goes on with it; `fret report` and `fret export` show what there is"
             _refuse(path, f"the run is not finished (status: {record['status']})", way)
         case, grid = record["plan"]["case"], record["plan"]["grid"]
-        _ = case["bodies"], case["periodic"], [stage["name"] for stage in case["stages"]], record["totals"]["increments"]
+        _ = case["bodies"], case["periodic"], [(stage["name"], stage["course"]) for stage in case["stages"]], record["totals"]["increments"]
         if [len(grid["cells"]), len(grid["spacing"])] != [2, 2]:
             raise ValueError("a grid has two sides")
     except (ValueError, KeyError, TypeError) as error:
@@ -137,11 +141,12 @@ def _record(path: Path) -> dict[str, Any]:
 
 
 def _steps(path: Path) -> Steps:
-    """Return the columns of ``history.csv``, in the order of ``History.steps``."""
-    rows = list(csv.reader(_read(path).decode("utf-8", "replace").splitlines()))
-    head, body = (rows[0], rows[1:]) if rows else ([], [])
-    wanted = [name for name in MEANING if name not in FIELD_NAMES]
-    if lost := [name for name in wanted if name not in head]:
+    """Return the columns of ``history.csv``."""
+    rows = list(csv.reader(_lines(path)))
+    head, body = rows[0], rows[1:]
+    known = [name for name in MEANING if name not in FIELD_NAMES]
+    wanted = [name for name in head if name in known]
+    if lost := [name for name in known if name not in head]:
         _refuse(path, f"has no column {lost[0]}; it may be of an earlier version: run the case again")
     try:
         return Steps((name, _column(name, [row[head.index(name)] for row in body])) for name in wanted)
@@ -156,10 +161,8 @@ def _column(name: str, cells: list[str]) -> npt.NDArray[Any]:
 
 
 def _cycles(path: Path) -> list[dict[str, Any]]:
-    """Return the lines of ``cycles.csv``; a run without cycles has no such file."""
-    if not path.is_file():
-        return []
-    rows = csv.DictReader(_read(path).decode("utf-8", "replace").splitlines())
+    """Return the lines of ``cycles.csv``."""
+    rows = csv.DictReader(_lines(path))
     try:
         return [{name: _value(row[name]) for name in CYCLE_COLUMNS} for row in rows]
     except (KeyError, TypeError) as error:
@@ -185,6 +188,13 @@ def _running_condition(cycles: dict[str, npt.NDArray[Any]], stage: int) -> str |
     if set(regimes) == {"gross_slip"}:
         return "gross"
     return "mixed" if {"gross_slip", "mixed"} & set(regimes) else "partial"
+
+
+def _lines(path: Path) -> list[str]:
+    text = _read(path).decode("utf-8", "replace")
+    if not text.endswith("\n"):
+        _refuse(path, "ends in the middle of a line")
+    return text.splitlines()
 
 
 def _read(path: Path) -> bytes:

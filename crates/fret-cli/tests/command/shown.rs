@@ -212,3 +212,18 @@ fn results_that_were_tampered_with_are_refused_without_a_fall() {
         std::fs::write(&path, good).unwrap();
     }
 }
+
+/// Where the points stand is not known before; under the chart nothing is laid over them.
+#[test]
+fn the_residual_that_was_asked_for_is_named_under_its_chart() {
+    let bench = solved("report-level");
+    assert_eq!(bench.fret(&["report", "run", "--out", "page.html"]).code, Some(0));
+    let page = bench.text("page.html");
+    let named: Vec<&str> = page.split("asked for</").collect();
+    assert_eq!(named.len(), 2);
+    assert!(named[1].starts_with("li>"), "{}", &named[1][..20]);
+    let chart = page.split("aria-label=\"residual of every increment\"").nth(1).unwrap();
+    let (drawing, legend) = chart.split_once("</svg>").unwrap();
+    assert!(drawing.contains("class=\"level\"") && !drawing.contains("asked for"));
+    assert!(legend.trim_start().starts_with("<ul class=\"legend\">"), "{}", &legend[..40]);
+}
