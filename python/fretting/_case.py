@@ -135,11 +135,12 @@ def _field(values: npt.NDArray[Any], place: str) -> Reals:
 
 def _unreadable(path: Path, error: OSError) -> UnreadableError:
     if not path.exists():
-        help = f"relative names start at the current folder, {Path.cwd()}; a case may also be given as TOML text or a dict"
-        return MissingFileError(f"error: {path}: no such file\n  = help: {help}", str(path))
-    what = "a folder, not a file" if path.is_dir() else f"cannot be read: {error.strerror or error}"
-    help = "give the TOML file of a case; fretting.load(folder) opens the results of a run" if path.is_dir() else ""
-    return UnreadableError(f"error: {path}: {what}" + (f"\n  = help: {help}" if help else ""), str(path))
+        way = f"relative names start at the current folder, {Path.cwd()}; a case may also be TOML text or a dict"
+        return MissingFileError(f"error: {path}: no such file\n  = help: {way}", str(path))
+    if path.is_dir():
+        way = "give the TOML file of a case; fretting.load(folder) opens the results of a run"
+        return UnreadableError(f"error: {path}: a folder, not a file\n  = help: {way}", str(path))
+    return UnreadableError(f"error: {path}: cannot be read: {error.strerror or error}", str(path))
 
 
 def _refusal(name: str, message: str) -> CaseError:

@@ -121,18 +121,19 @@ class _Stored:
 def _record(path: Path) -> dict[str, Any]:
     """Return ``run.json`` of a finished run, with what is needed of it."""
     place = path / "run.json"
-    help = "give the folder that `fret run CASE --out FOLDER` wrote"
+    way = "give the folder that `fret run CASE --out FOLDER` wrote"
     if not place.is_file():
-        _refuse(path, "not a folder of results: it has no run.json", help)
+        _refuse(path, "not a folder of results: it has no run.json", way)
     try:
         record = json.loads(_read(place))
         if record["program"] != "fretting" or record["format"] != 1:
-            _refuse(path, "results of another program, or of another version of the format", help)
+            _refuse(path, "results of another program, or of another version of the format", way)
         if record["status"] != "solved":
-            way = "`fret run CASE --resume` goes on with it; `fret report` and `fret export` show what there is"
-            _refuse(path, f"the run is not finished (status: {record['status']})", way)
+            on = "`fret run CASE --resume` goes on with it; `fret report` and `fret export` show what there is"
+            _refuse(path, f"the run is not finished (status: {record['status']})", on)
         case, grid = record["plan"]["case"], record["plan"]["grid"]
-        _ = case["bodies"], case["periodic"], [(stage["name"], stage["course"]) for stage in case["stages"]], record["totals"]["increments"]
+        _ = case["bodies"], case["periodic"], record["totals"]["increments"]
+        _ = [(stage["name"], stage["course"]) for stage in case["stages"]]
         if [len(grid["cells"]), len(grid["spacing"])] != [2, 2]:
             raise ValueError("a grid has two sides")
     except (ValueError, KeyError, TypeError) as error:
@@ -206,6 +207,6 @@ def _read(path: Path) -> bytes:
         _refuse(path, f"cannot be read: {error.strerror or error}")
 
 
-def _refuse(path: Path, what: str, help: str = "run the case again", missing: bool = False) -> NoReturn:
+def _refuse(path: Path, what: str, way: str = "run the case again", missing: bool = False) -> NoReturn:
     kind = MissingFileError if missing else UnreadableError
-    raise kind(f"error: {path}: {what}\n  = help: {help}", str(path)) from None
+    raise kind(f"error: {path}: {what}\n  = help: {way}", str(path)) from None

@@ -136,7 +136,7 @@ def test_what_is_no_case_at_all_is_a_type_error() -> None:
 
 
 def test_a_missing_file_is_named_with_what_to_do_instead(tmp_path: Path) -> None:
-    with pytest.raises(fretting.MissingFileError, match="nowhere/at_all.toml: no such file") as missed:
+    with pytest.raises(fretting.MissingFileError, match=r"nowhere/at_all\.toml: no such file") as missed:
         fretting.run("nowhere/at_all.toml")
     assert isinstance(missed.value, FileNotFoundError)
     assert isinstance(missed.value, fretting.FrettingError)

@@ -129,6 +129,6 @@ def test_a_name_that_steps_do_not_have_is_answered_with_those_they_have(folder: 
     steps = fretting.load(folder).steps
     with pytest.raises(KeyError, match=r"history\.field\('pressure', step\)"):
         steps["pressure"]
-    with pytest.raises(KeyError, match="it has: increment, .*max_pressure"):
+    with pytest.raises(KeyError, match=r"it has: increment, .*max_pressure"):
         steps["presure"]
     assert steps.get("presure") is None

@@ -119,7 +119,9 @@ impl Failure {
             Self::Unwritten(unwritten) => unwritten.to_string(),
             Self::Broken(count) => format!("{} of extreme scenes: not everything holds", families(*count)),
             Self::Points { refused, failed } => {
-                format!("points without an answer: {refused} refused, {failed} failed; the others are solved and kept")
+                format!(
+                    "points without an answer: {refused} refused, {failed} failed; the others are solved and kept"
+                )
             }
             Self::Defect(what) => format!("a defect in fret itself, please report it: {what}"),
         }

@@ -71,7 +71,10 @@ pub fn left_out(plan: &Plan) -> String {
 /// The same for the start of a run: a line an item.
 pub fn left_out_in_short(plan: &Plan) -> String {
     let items = plan.left_out.iter().map(|item| format!("\n  {}", item.what));
-    format!("left out, the answer being the same without it (`fret plan` says why):{}", items.collect::<String>())
+    format!(
+        "left out, the answer being the same without it (`fret plan` says why):{}",
+        items.collect::<String>()
+    )
 }
 
 /// The grid in a line.

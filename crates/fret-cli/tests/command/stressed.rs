@@ -117,7 +117,10 @@ fn what_cannot_be_told_is_refused_with_a_way_out() {
 fn a_compression_is_not_called_the_largest_peel() {
     let bench = Bench::new("stress-no-peel");
     let coated = SPHERE
-        .replace("substrate =", "coatings = [{ young = 210e9, poisson = 0.3, thickness = 20e-6 }]\nsubstrate =")
+        .replace(
+            "substrate =",
+            "coatings = [{ young = 210e9, poisson = 0.3, thickness = 20e-6 }]\nsubstrate =",
+        )
         .replace("coefficient = 0.1", "coefficient = 0.0")
         .replace("tangential_force = [0.05, 0.0]\ncycles = 2", "normal_force = 2.0");
     bench.file("case.toml", &coated);

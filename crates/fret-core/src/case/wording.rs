@@ -10,9 +10,7 @@ pub fn in_words(message: &str) -> String {
             |(given, wanted)| format!("found {}, expected {}", found(given), expected(wanted)),
         );
     }
-    if let Some((count, wanted)) =
-        starts("invalid length ").and_then(|rest| rest.split_once(", expected "))
-    {
+    if let Some((count, wanted)) = starts("invalid length ").and_then(|rest| rest.split_once(", expected ")) {
         let values = if count == "1" { "value" } else { "values" };
         return format!("found {count} {values}, expected {}", expected(wanted));
     }
@@ -110,7 +108,17 @@ mod tests {
 
     #[test]
     fn no_wrong_value_is_answered_in_the_parsers_words() {
-        let parsers = ["invalid type", "invalid value", "invalid length", "variant", "field", "struct", "enum", "f64", "usize"];
+        let parsers = [
+            "invalid type",
+            "invalid value",
+            "invalid length",
+            "variant",
+            "field",
+            "struct",
+            "enum",
+            "f64",
+            "usize",
+        ];
         let numbers = ["[32, 32]", "'auto'", "true", "210e9", "0.3", "10e-3", "0.1", "12.0", "4\n"];
         for good in numbers {
             for bad in ["'word'", "-1.5", "[]", "{}", "{ x = 1 }", "true", "1979-05-27", "[[1], [2]]"] {
