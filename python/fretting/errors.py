@@ -47,15 +47,17 @@ class UnreadableError(FrettingError, OSError):
 
     Attributes
     ----------
-    filename : str
+    path : str
         Which one.
     """
 
     __module__ = "fretting"
 
-    def __init__(self, message: str, filename: str = "") -> None:
+    path: str
+
+    def __init__(self, message: str, path: str = "") -> None:
         super().__init__(message)
-        self.filename = filename
+        self.path = path
 
 
 class MissingFileError(UnreadableError, FileNotFoundError):

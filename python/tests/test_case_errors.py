@@ -141,9 +141,9 @@ def test_a_missing_file_is_named_with_what_to_do_instead(tmp_path: Path) -> None
     assert isinstance(missed.value, FileNotFoundError)
     assert isinstance(missed.value, fretting.FrettingError)
     assert "current folder" in str(missed.value)
-    assert missed.value.filename == str(Path("nowhere/at_all.toml"))
+    assert missed.value.path == str(Path("nowhere/at_all.toml"))
     again = pickle.loads(pickle.dumps(missed.value))
-    assert str(again) == str(missed.value)
+    assert (str(again), again.path) == (str(missed.value), missed.value.path)
     with pytest.raises(fretting.UnreadableError, match="a folder, not a file"):
         fretting.plan(tmp_path)
 
