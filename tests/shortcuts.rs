@@ -78,7 +78,7 @@ pub fn difference(one: &History, other: &History) -> f64 {
 
 /// The scenes, with `cells` a side.
 pub fn scenes(cells: usize) -> Vec<Scene> {
-    use Shortcut::{Box, Coupling, LayeredResponse, Pressure, Tangential, Transverse};
+    use Shortcut::{Box, Coupling, LayeredResponse, Mirror, Pressure, Tangential, Transverse};
     let rigid = Sphere { cells, tolerance: TOLERANCE, friction: 0.3, ..Sphere::default() };
     let equal = Sphere { identical: true, ..rigid.clone() };
     let coated = Sphere { coating: Some((4.0, 0.5)), ..rigid.clone() };
@@ -97,6 +97,10 @@ pub fn scenes(cells: usize) -> Vec<Scene> {
         ("two equal bodies without lateral contraction", pulled(&straight, 1, 8), Some(Transverse)),
         ("endless cylinder, pulled across its axis", line(cells), Some(Transverse)),
         ("coated, on a wide grid", pulled(&wide, 2, 4), Some(Box)),
+        ("coated, pulled: half", pulled(&coated, 3, 5), Some(Mirror)),
+        ("two equal bodies, pulled: a quarter", pulled(&equal, 2, 6), Some(Mirror)),
+        ("coated, no friction: a quarter", smooth.pressed(1.0, 3, "cubic"), Some(Mirror)),
+        ("endless cylinder: half and a quarter of a scene that repeats", line(cells), Some(Mirror)),
         ("two equal bodies, wide grid, pressed and pulled", pulled(&everything, 3, 6), None),
     ];
     list.map(|(name, text, shortcut)| Scene { name, text: format!("{text}{}", keeping(1)), shortcut }).into()

@@ -1,7 +1,8 @@
 //! Time per application of the spectral products on every engine of this machine.
 //!
 //! Problems: `n` pressure to normal displacement (1 kernel), `t` both shear components (3 kernels, 4 blocks), `f` pressure and
-//! shear with all couplings (6 kernels, 9 blocks), `p` the periodic product of problem `n`. The engines take turns, round
+//! shear with all couplings (6 kernels, 9 blocks), `p` and `q` the periodic products of problems `n` and `t`; each on the whole
+//! grid, and on the half and the quarter in front of mirrors. The engines take turns, round
 //! after round; printed are the best time of each on one thread, its ratio to the plain line-by-line engine on rustfft (best
 //! against best), the cost of planning, and the best time of the fastest engine on two threads.
 //!
@@ -12,7 +13,9 @@
 use std::hint::black_box;
 use std::time::{Duration, Instant};
 
-use fret_core::spectral::{Block, Convolution, Engine, Kernel, Parity, PeriodicProduct, Symbol, Workspace};
+use fret_core::spectral::{
+    Block, Convolution, Engine, Kernel, Mirrors, Parity, PeriodicProduct, Symbol, Workspace,
+};
 use ndarray::Array2;
 
 /// Name, parities of the kernels, blocks as (output, input, kernel, sign).
@@ -20,9 +23,12 @@ type Problem = (&'static str, &'static [Parity], &'static [(usize, usize, usize,
 
 use Parity::{EvenEven, EvenOdd, OddEven, OddOdd};
 
-const PROBLEMS: [Problem; 4] = [
+const TANGENTIAL: [(usize, usize, usize, f64); 4] =
+    [(0, 0, 0, 1.0), (1, 1, 1, 1.0), (0, 1, 2, 1.0), (1, 0, 2, 1.0)];
+
+const PROBLEMS: [Problem; 5] = [
     ("n", &[EvenEven], &[(0, 0, 0, 1.0)]),
-    ("t", &[EvenEven, EvenEven, OddOdd], &[(0, 0, 0, 1.0), (1, 1, 1, 1.0), (0, 1, 2, 1.0), (1, 0, 2, 1.0)]),
+    ("t", &[EvenEven, EvenEven, OddOdd], &TANGENTIAL),
     (
         "f",
         &[EvenEven, EvenEven, EvenEven, OddOdd, OddEven, EvenOdd],
@@ -39,7 +45,20 @@ const PROBLEMS: [Problem; 4] = [
         ],
     ),
     ("p", &[EvenEven], &[(0, 0, 0, 1.0)]),
+    ("q", &[EvenEven, EvenEven, OddOdd], &TANGENTIAL),
 ];
+
+/// Share of the grid that is solved, and its mirrors for a problem of one, two or three fields.
+fn mirrors(fields: usize) -> [(&'static str, Mirrors); 3] {
+    let half: &[Parity] = [&[EvenEven][..], &[EvenEven, EvenOdd], &[EvenEven, EvenEven, EvenOdd]][fields - 1];
+    let quarter: &[Parity] =
+        [&[EvenEven][..], &[EvenEven, OddOdd], &[EvenEven, OddEven, EvenOdd]][fields - 1];
+    [
+        ("1", Mirrors::NONE),
+        ("1/2", Mirrors { axes: [false, true], inputs: half.to_vec() }),
+        ("1/4", Mirrors { axes: [true, true], inputs: quarter.to_vec() }),
+    ]
+}
 
 enum Product {
     FreeSpace(Convolution),
@@ -73,7 +92,13 @@ fn best(best: Duration, run: impl FnOnce()) -> Duration {
     best.min(start.elapsed())
 }
 
-fn measure(n: usize, (name, parities, blocks): Problem) -> Result<(), Box<dyn std::error::Error>> {
+fn measure(
+    n: usize,
+    (name, parities, blocks): Problem,
+    (share, mirrors): (&str, Mirrors),
+) -> Result<(), Box<dyn std::error::Error>> {
+    let shape = [0, 1].map(|axis| if mirrors.axes[axis] { n / 2 } else { n });
+    let cells = shape[0] * shape[1];
     let kernels: Vec<_> = (0..parities.len()).map(|index| kernel(n, index)).collect();
     let blocks: Vec<_> =
         blocks.iter().map(|&(output, input, kernel, sign)| Block { output, input, kernel, sign }).collect();
@@ -83,14 +108,14 @@ fn measure(n: usize, (name, parities, blocks): Problem) -> Result<(), Box<dyn st
     for &engine in &engines {
         let plan = || -> Result<_, Box<dyn std::error::Error>> {
             let quadrants = kernels.iter().zip(parities);
-            Ok(if name == "p" {
+            Ok(if name == "p" || name == "q" {
                 let symbols: Vec<_> =
                     quadrants.map(|(values, &parity)| Symbol { values: values.view(), parity }).collect();
-                Product::Periodic(PeriodicProduct::on(engine, [n, n], &symbols, &blocks)?)
+                Product::Periodic(PeriodicProduct::on(engine, shape, &symbols, &blocks, mirrors.clone())?)
             } else {
                 let kernels: Vec<_> =
                     quadrants.map(|(values, &parity)| Kernel { values: values.view(), parity }).collect();
-                Product::FreeSpace(Convolution::on(engine, [n, n], &kernels, &blocks)?)
+                Product::FreeSpace(Convolution::on(engine, shape, &kernels, &blocks, mirrors.clone())?)
             })
         };
         let product = plan()?;
@@ -103,10 +128,10 @@ fn measure(n: usize, (name, parities, blocks): Problem) -> Result<(), Box<dyn st
     }
     let fields = blocks.iter().map(|block| block.input + 1).max().unwrap_or(0);
     let input: Vec<Vec<f64>> = (0..fields)
-        .map(|field| (0..n * n).map(|cell| ((cell * 37 + field) % 101) as f64).collect())
+        .map(|field| (0..cells).map(|cell| ((cell * 37 + field) % 101) as f64).collect())
         .collect();
     let input: Vec<_> = input.iter().map(Vec::as_slice).collect();
-    let mut output = vec![vec![0.0; n * n]; fields];
+    let mut output = vec![vec![0.0; cells]; fields];
     let mut output: Vec<_> = output.iter_mut().map(Vec::as_mut_slice).collect();
 
     let rounds = (4_000_000 / (n * n)).clamp(5, 200);
@@ -130,7 +155,7 @@ fn measure(n: usize, (name, parities, blocks): Problem) -> Result<(), Box<dyn st
 
     let milliseconds = |time: Duration| time.as_secs_f64() * 1e3;
     let lines = times.last().copied().unwrap_or(Duration::MAX);
-    print!("{name} {n:5}");
+    print!("{name} {n:5} {share:>4}");
     for time in &times {
         print!("  {:8.3} ({:.3})", milliseconds(*time), milliseconds(*time) / milliseconds(lines));
     }
@@ -144,7 +169,10 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     println!("[ms], in brackets the ratio to the last engine: {:?}", Engine::available());
     for problem in PROBLEMS {
         for &n in &sizes {
-            measure(n, problem)?;
+            let fields = problem.2.iter().map(|block| block.1 + 1).max().unwrap_or(1);
+            for mirrors in mirrors(fields) {
+                measure(n, problem, mirrors)?;
+            }
         }
     }
     Ok(())

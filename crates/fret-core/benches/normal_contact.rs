@@ -1,13 +1,14 @@
 //! What the normal problem costs: operator applications on the finest grid, on all levels weighted by cells, time, scene by
 //! scene. `cargo bench -p fret-core --bench normal_contact -- [CELLS,CELLS,...] [FILTER]`.
 //!
-//! With the argument `time` it prints CPU seconds of Hertz contacts, influence coefficients included, for
-//! `benches/normal_against_others.py`.
+//! With the argument `time` it prints CPU seconds of Hertz contacts, influence coefficients included, in front of their mirrors and
+//! on the whole grid, for `benches/normal_against_others.py`.
 
 #![expect(clippy::print_stdout, reason = "a benchmark answers on the terminal")]
 
 use std::error::Error;
 use std::f64::consts::{PI, TAU};
+use std::fmt::Write;
 use std::ops::ControlFlow;
 use std::sync::OnceLock;
 use std::time::Instant;
@@ -17,7 +18,7 @@ use fret_core::history::Work;
 use fret_core::kernel::{Components, ResponseTable, influence_coefficients, periodic_symbols};
 use fret_core::model::{
     Base, Body, Coating, ContactPair, ContactState, Control, CoulombFriction, ElasticMaterial, HalfSpace,
-    LoadStep, SurfaceGrid,
+    LoadStep, SurfaceGrid, Symmetry,
 };
 use fret_core::solver::{ContactSolver, Coupling, SolveError, SolverSettings};
 use ndarray::Array2;
@@ -48,12 +49,9 @@ struct Cost {
 fn main() -> Answer<()> {
     let arguments: Vec<String> = std::env::args().skip(1).filter(|a| !a.starts_with("--")).collect();
     if arguments.first().is_some_and(|argument| argument == "time") {
-        return times();
+        return times(&sizes(arguments.get(1), &[128, 256, 512, 1024])?);
     }
-    let cells: Vec<usize> = match arguments.first() {
-        Some(list) => list.split(',').map(str::parse).collect::<Result<_, _>>()?,
-        None => vec![64, 128, 256, 512],
-    };
+    let cells = sizes(arguments.first(), &[64, 128, 256, 512])?;
     println!(
         "operator applications: all levels, weighted by cells, final check included; residual below 1e-8\n"
     );
@@ -68,7 +66,7 @@ fn main() -> Answer<()> {
         }
         print!("| {} |", scene.name);
         for &n in &cells {
-            match solve(&scene, n, 1e-8) {
+            match solve(&scene, n, 1e-8, false) {
                 Ok(cost) if cost.residual < 1e-8 => print!(" {:.1} |", cost.work.full_grid_convolutions),
                 Ok(cost) => print!(" residual {:.0e} |", cost.residual),
                 Err(error) => print!(" {error} |"),
@@ -79,19 +77,31 @@ fn main() -> Answer<()> {
     Ok(())
 }
 
+/// Cells a side from a list with commas.
+fn sizes(list: Option<&String>, else_these: &[usize]) -> Answer<Vec<usize>> {
+    Ok(match list {
+        Some(list) => list.split(',').map(str::parse).collect::<Result<_, _>>()?,
+        None => else_these.to_vec(),
+    })
+}
+
 /// CPU seconds, one thread: least of a few runs.
-fn times() -> Answer<()> {
+fn times(cells: &[usize]) -> Answer<()> {
     rayon::ThreadPoolBuilder::new().num_threads(1).use_current_thread().build_global()?;
-    for n in [128, 256, 512, 1024] {
+    for &n in cells {
         let scene = hertz(4.0)?;
-        let mut least = f64::INFINITY;
-        let begun = Instant::now();
-        let mut runs = 0;
-        while runs < 3 || (begun.elapsed().as_secs_f64() < 3.0 && runs < 30) {
-            least = least.min(solve(&scene, n, 1e-8)?.seconds);
-            runs += 1;
+        let mut line = format!("{n}");
+        for mirrors in [true, false] {
+            let mut least = f64::INFINITY;
+            let begun = Instant::now();
+            let mut runs = 0;
+            while runs < 3 || (begun.elapsed().as_secs_f64() < 2.0 && runs < 30) {
+                least = least.min(solve(&scene, n, 1e-8, mirrors)?.seconds);
+                runs += 1;
+            }
+            let _ = write!(line, " {least:.6}");
         }
-        println!("{n} {least:.6}");
+        println!("{line}");
     }
     Ok(())
 }
@@ -145,7 +155,7 @@ fn coated(name: String, pair: ContactPair, force: f64) -> Scene {
         periodic: false,
     };
     for _ in 0..4 {
-        match solve(&scene, 64, 1e-4) {
+        match solve(&scene, 64, 1e-4, true) {
             Ok(cost) => scene.side *= 3.0 * (cost.contact_cells as f64 / PI).sqrt() / 64.0,
             Err(_) => scene.side *= 2.0,
         }
@@ -229,7 +239,8 @@ fn waves(side: f64, numbers: std::ops::Range<u32>, slope: f64) -> impl Fn(f64, f
     move |x, y| factor * list.iter().map(|(k, phase, a)| a * (k[0] * x + k[1] * y + phase).cos()).sum::<f64>()
 }
 
-fn solve(scene: &Scene, n: usize, tolerance: f64) -> Answer<Cost> {
+/// Solves a scene; in front of its mirrors, where it has any and that is wanted.
+fn solve(scene: &Scene, n: usize, tolerance: f64, mirrors: bool) -> Answer<Cost> {
     let side = scene.side / n as f64;
     let grid = SurfaceGrid::new([n, n], [side; 2])?;
     let mut gap = Array2::from_shape_fn((n, n), |(i, j)| (scene.gap)(grid.centre(0, i), grid.centre(1, j)));
@@ -243,8 +254,15 @@ fn solve(scene: &Scene, n: usize, tolerance: f64) -> Answer<Cost> {
     };
     let friction = CoulombFriction::Uniform(0.0);
     let settings = SolverSettings::new(tolerance);
+    let odd = |axis: usize| {
+        let mut odd_shear = [None; 2];
+        odd_shear[axis] = Some(axis);
+        Some(axis).filter(|_| mirrors && Symmetry { odd_shear }.is_kept_by(&gap.view()))
+    };
+    let symmetry = Symmetry { odd_shear: [odd(0), odd(1)] };
     let mut solver =
-        ContactSolver::new(grid, gap, &friction, Coupling::Frictionless, response, settings, true);
+        ContactSolver::new(grid, gap, &friction, Coupling::Frictionless, response, settings, true)
+            .mirrored(symmetry);
     if !scene.periodic {
         solver = solver.with_waves(ResponseTable::new(&scene.pair, TAU / scene.side, 5.0 * PI / side));
     }

@@ -12,7 +12,7 @@ use crate::solver::{Resultants, SolverMemory};
 use crate::wear::{Collected, WornThrough};
 
 /// Version of the bytes; another layout of what is stored gets another one.
-const FORMAT: u32 = 3;
+const FORMAT: u32 = 4;
 
 /// How far a run has come in its stages.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -146,7 +146,7 @@ impl Checkpoint {
         let wears = plan.case.wear.is_some();
         self.is_within(&plan.case)
             && self.state.is_sound(cells)
-            && self.memory.fits(cells)
+            && self.memory.fits(plan.symmetry.part_of(cells))
             && self.state.worn_depth.is_some() == wears
             && self.wear.is_some() == wears
             && self.wear.as_ref().is_none_or(|wear| wear.fits(cells))

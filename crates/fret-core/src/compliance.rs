@@ -9,8 +9,10 @@ pub(crate) mod product;
 use ndarray::Array2;
 
 use crate::kernel::{InfluenceCoefficients, PeriodicSymbols};
-use crate::model::TangentialField;
-use crate::spectral::{Block, Convolution, ConvolutionError, Kernel, Parity, PeriodicProduct, Symbol};
+use crate::model::{Symmetry, TangentialField};
+use crate::spectral::{
+    Block, Convolution, ConvolutionError, Kernel, Mirrors, Parity, PeriodicProduct, Symbol,
+};
 use product::Product;
 
 pub use direct::DirectCompliance;
@@ -57,6 +59,8 @@ pub struct Wanted {
     pub normal_from_all: bool,
     /// The one axis (0: x, 1: y) along which shear acts, where it causes no displacement across it.
     pub along: Option<usize>,
+    /// Mirrors of the scene: the box is what lies in front of them.
+    pub symmetry: Symmetry,
 }
 
 /// How the surface answers, as far as a grid needs to know it.
@@ -173,8 +177,8 @@ fn own_in_period(symbols: &PeriodicSymbols, shape: [usize; 2]) -> Own {
 }
 
 impl SpectralCompliance {
-    /// Operators of a box of `shape` cells; in free space the coefficients must cover at least its offsets, periodic symbols
-    /// must be of that very shape.
+    /// Operators of a box of `shape` cells, which stands for a larger one with mirrors; in free space the coefficients must cover at least the offsets of
+    /// the whole, periodic symbols must be of that very shape.
     ///
     /// # Errors
     /// When a wanted coefficient is missing or does not cover the box.
@@ -187,7 +191,8 @@ impl SpectralCompliance {
             SurfaceResponse::FreeSpace(coefficients) => signed_kernels(coefficients),
             SurfaceResponse::Periodic(symbols) => signed_symbols(symbols),
         };
-        let build = |wanted: bool, members: &[usize], blocks: &[Block]| {
+        let symmetry = wanted.symmetry;
+        let build = |wanted: bool, members: &[usize], fields: &[usize], blocks: &[Block]| {
             if !wanted {
                 return Ok(None);
             }
@@ -196,19 +201,29 @@ impl SpectralCompliance {
                 SurfaceResponse::FreeSpace(_) => {
                     let kernels: Vec<Kernel<'_>> =
                         there.map(|(values, parity)| Kernel { values: values.view(), parity }).collect();
-                    Product::free_space(Convolution::new(shape, &kernels, blocks)?)
+                    Product::free_space(Convolution::mirrored(
+                        shape,
+                        &kernels,
+                        blocks,
+                        mirrors(symmetry, fields),
+                    )?)
                 }
                 SurfaceResponse::Periodic(_) => {
                     let symbols: Vec<Symbol<'_>> =
                         there.map(|(values, parity)| Symbol { values: values.view(), parity }).collect();
-                    Product::periodic(PeriodicProduct::new(shape, &symbols, blocks)?)
+                    Product::periodic(PeriodicProduct::mirrored(
+                        shape,
+                        &symbols,
+                        blocks,
+                        mirrors(symmetry, fields),
+                    )?)
                 }
             };
             Ok(Some(product))
         };
         let own = match response {
             SurfaceResponse::FreeSpace(coefficients) => own_of(coefficients),
-            SurfaceResponse::Periodic(symbols) => own_in_period(symbols, shape),
+            SurfaceResponse::Periodic(symbols) => own_in_period(symbols, symmetry.whole_of(shape)),
         };
         let [tangential, full, normal_from_all]: [(&[usize], &[Block]); 3] = match wanted.along {
             Some(axis) => [
@@ -222,13 +237,17 @@ impl SpectralCompliance {
                 (&[0, 4, 5], &NORMAL_FROM_ALL_BLOCKS),
             ],
         };
+        let (sheared, all): (&[usize], &[usize]) = match wanted.along {
+            Some(axis) => (&[[1], [2]][axis], &[[0, 1], [0, 2]][axis]),
+            None => (&[1, 2], &[0, 1, 2]),
+        };
         Ok(Self {
             shape,
             own,
-            normal: build(wanted.normal, &[0], &NORMAL_BLOCKS)?,
-            tangential: build(wanted.tangential, tangential.0, tangential.1)?,
-            full: build(wanted.full, full.0, full.1)?,
-            normal_from_all: build(wanted.normal_from_all, normal_from_all.0, normal_from_all.1)?,
+            normal: build(wanted.normal, &[0], &[0], &NORMAL_BLOCKS)?,
+            tangential: build(wanted.tangential, tangential.0, sheared, tangential.1)?,
+            full: build(wanted.full, full.0, all, full.1)?,
+            normal_from_all: build(wanted.normal_from_all, normal_from_all.0, all, normal_from_all.1)?,
             along: wanted.along,
             applications: 0,
         })
@@ -253,6 +272,21 @@ impl SpectralCompliance {
             .map(Product::memory_bytes)
             .sum()
     }
+}
+
+/// How fields (0: normal, 1 and 2: along x and y) go on behind the mirrors of a scene.
+pub(crate) fn mirrors(symmetry: Symmetry, fields: &[usize]) -> Mirrors {
+    if !symmetry.any() {
+        return Mirrors::NONE;
+    }
+    let parity = |field: &usize| match field.checked_sub(1).map(|component| symmetry.shear_is_odd(component))
+    {
+        None | Some([false, false]) => Parity::EvenEven,
+        Some([true, false]) => Parity::OddEven,
+        Some([false, true]) => Parity::EvenOdd,
+        Some([true, true]) => Parity::OddOdd,
+    };
+    Mirrors { axes: symmetry.axes(), inputs: fields.iter().map(parity).collect() }
 }
 
 /// The part along an axis; the other is none.

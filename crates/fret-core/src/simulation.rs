@@ -185,7 +185,8 @@ impl<'a> Simulation<'a> {
             },
             plan.leave_out.takes(Shortcut::Box),
         )
-        .sheared_along(plan.along);
+        .sheared_along(plan.along)
+        .mirrored(plan.symmetry);
         if case.periodic {
             return solver;
         }

@@ -3,7 +3,7 @@
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use fret_core::spectral::{Block, Convolution, Engine, Kernel, Parity, PeriodicProduct, Symbol};
+use fret_core::spectral::{Block, Convolution, Engine, Kernel, Mirrors, Parity, PeriodicProduct, Symbol};
 use ndarray::Array2;
 
 struct Counting;
@@ -55,8 +55,8 @@ fn applying_a_product_allocates_nothing() -> Result<(), Box<dyn std::error::Erro
             let parity = Parity::EvenEven;
             let kernel = Kernel { values: values.view(), parity };
             let symbol = Symbol { values: values.view(), parity };
-            let free_space = Convolution::on(engine, shape, &[kernel], &[block])?;
-            let periodic = PeriodicProduct::on(engine, shape, &[symbol], &[block])?;
+            let free_space = Convolution::on(engine, shape, &[kernel], &[block], Mirrors::NONE)?;
+            let periodic = PeriodicProduct::on(engine, shape, &[symbol], &[block], Mirrors::NONE)?;
             let counts = pool.install(|| {
                 let (mut in_free_space, mut in_periodic) = (free_space.workspace(), periodic.workspace());
                 [

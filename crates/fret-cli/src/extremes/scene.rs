@@ -3,9 +3,10 @@
 use std::fmt::Write;
 
 use fret_core::case::Case;
+use fret_core::history::{History, StepRecord};
 use fret_core::kernel::PairResponse;
-use fret_core::plan::Plan;
-use fret_core::simulation::{Silent, Simulation};
+use fret_core::plan::{LeaveOut, Plan, Shortcut};
+use fret_core::simulation::{RunError, Silent, Simulation};
 
 use super::balance::Accounts;
 use super::bodies::Stack;
@@ -113,11 +114,14 @@ impl Scene {
              [[load]]\ntangential_force = [{along:e}, 0.0]\nincrements = {pull}\n"
         );
         let plan = planned(&text)?;
+        let whole = planned_leaving_out(&text, LeaveOut::all_but(Shortcut::Mirror))?;
         let operator_failed =
             |error: fret_core::spectral::ConvolutionError| Outcome::Failed(error.to_string());
+        let failed = |error: RunError| Outcome::Failed(error.to_string());
         let mut accounts = Accounts::of(&plan).map_err(operator_failed)?;
-        let history =
-            Simulation::new(&plan).run(&mut accounts).map_err(|error| Outcome::Failed(error.to_string()))?;
+        let history = Simulation::new(&plan).run(&mut accounts).map_err(failed)?;
+        let mut accounts_of_whole = Accounts::of(&whole).map_err(operator_failed)?;
+        let history_of_whole = Simulation::new(&whole).run(&mut accounts_of_whole).map_err(failed)?;
         let pair = &plan.case.bodies;
         let shown =
             operator::shown(pair, plan.grid.spacing(), plan.case.periodic).map_err(operator_failed)?;
@@ -128,7 +132,7 @@ impl Scene {
             pivot: shown.pivot,
             residual: history.largest_residual(),
             balance: accounts.balance(),
-            mirror: accounts.mirror(),
+            mirror: accounts_of_whole.mirror().max(apart(&history, &history_of_whole)),
             effort: history.work().convolutions as f64 / increments as f64,
         }))
     }
@@ -171,10 +175,26 @@ impl Scene {
     }
 }
 
+/// Largest difference of two histories in largest pressure, approach and shift, relative to the largest of each run.
+fn apart(one: &History, other: &History) -> f64 {
+    let largest =
+        |value: fn(&StepRecord) -> f64| one.steps.iter().map(|step| value(step).abs()).fold(0.0, f64::max);
+    let [pressure, approach] = [largest(|step| step.max_pressure), largest(|step| step.approach)];
+    let steps = one.steps.iter().zip(&other.steps);
+    steps.fold(0.0, |worst, (a, b)| {
+        let motion = (a.approach - b.approach).abs().max((a.shift[0] - b.shift[0]).abs());
+        worst.max((a.max_pressure - b.max_pressure).abs() / pressure).max(motion / approach)
+    })
+}
+
 fn planned(text: &str) -> Result<Plan, Outcome> {
+    planned_leaving_out(text, LeaveOut::ALL)
+}
+
+fn planned_leaving_out(text: &str, leave_out: LeaveOut) -> Result<Plan, Outcome> {
     let refused = |error: fret_core::case::CaseError| {
         let said: Vec<&str> = error.mistakes().iter().map(|mistake| mistake.message.as_str()).collect();
         Outcome::Refused(said.join("; "))
     };
-    Case::from_toml(text, "scene").and_then(Plan::new).map_err(refused)
+    Case::from_toml(text, "scene").and_then(|case| Plan::leaving_out(case, leave_out)).map_err(refused)
 }

@@ -178,8 +178,13 @@ fn both_compliances_keep_every_promise() {
                 continue;
             }
             let coefficients = influence_coefficients(&pair, shape, spacing, Components::ALL);
-            let all =
-                Wanted { normal: true, tangential: true, full: true, normal_from_all: true, along: None };
+            let all = Wanted {
+                normal: true,
+                tangential: true,
+                full: true,
+                normal_from_all: true,
+                ..Wanted::default()
+            };
             let fused = Wanted { full: true, ..Wanted::default() };
             for (name, wanted) in [("spectral", all), ("spectral, fused only", fused)] {
                 let mut spectral =
@@ -232,8 +237,13 @@ fn a_compliance_that_repeats_keeps_every_promise() {
         for (shape, spacing) in GRIDS {
             let symbols = periodic_symbols(&pair, shape, spacing, Components::ALL, 0);
             let response = SurfaceResponse::Periodic(symbols.clone());
-            let all =
-                Wanted { normal: true, tangential: true, full: true, normal_from_all: true, along: None };
+            let all = Wanted {
+                normal: true,
+                tangential: true,
+                full: true,
+                normal_from_all: true,
+                ..Wanted::default()
+            };
             let mut periodic = SpectralCompliance::new(&response, shape, all).unwrap();
             conforms(&mut periodic, &mut random, "periodic");
 

@@ -12,6 +12,7 @@ pub mod profile;
 pub mod scheme;
 pub mod shape;
 pub mod state;
+pub mod symmetry;
 pub mod wear;
 
 pub use field::TangentialField;
@@ -25,4 +26,5 @@ pub use profile::{BEYOND_THE_BODY, Profile};
 pub use scheme::Scheme;
 pub use shape::{Axis, ProfileError, Shape};
 pub use state::{ContactState, Zone};
+pub use symmetry::Symmetry;
 pub use wear::{WearLaw, WearRule};

@@ -4,10 +4,11 @@ use ndarray::Array2;
 use serde::{Deserialize, Serialize};
 
 /// What a cell of the surface does.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[repr(u8)]
 pub enum Zone {
     /// The surfaces are apart.
+    #[default]
     Open = 0,
     /// In contact without slip in this increment.
     Stick = 1,

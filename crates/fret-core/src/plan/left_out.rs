@@ -2,10 +2,11 @@
 
 use ndarray::Axis;
 
+use super::symmetry::is_loaded;
 use super::{LeaveOut, LeftOut, Shortcut};
-use crate::case::{Case, Path, Stage, StageControl};
+use crate::case::{Case, Stage};
 use crate::kernel::PairResponse;
-use crate::model::{Body, CoulombFriction, SurfaceGrid};
+use crate::model::{Body, CoulombFriction, SurfaceGrid, Symmetry};
 use crate::solver::Coupling;
 
 /// Names of the fields that can be kept, with their bytes a cell.
@@ -17,6 +18,7 @@ pub fn left_out(
     grid: &SurfaceGrid,
     coupling: Coupling,
     along: Option<usize>,
+    symmetry: Symmetry,
     leave_out: LeaveOut,
 ) -> Vec<LeftOut> {
     let mut list = Vec::new();
@@ -79,6 +81,18 @@ pub fn left_out(
             "three of four tangential kernels, half of the transforms of shear",
         );
     }
+    if symmetry.any() {
+        let (share, planes) = match symmetry.axes() {
+            [true, true] => ("three quarters", "the planes x = 0 and y = 0"),
+            [true, false] => ("half", "the plane x = 0"),
+            _ => ("half", "the plane y = 0"),
+        };
+        leave(
+            &format!("{share} of the grid"),
+            &format!("gap, friction and loads are their own mirror images at {planes}"),
+            &format!("{share} of the solver's fields and transforms"),
+        );
+    }
     if !case.periodic && leave_out.takes(Shortcut::Box) {
         leave(
             "cells far from the contact, in the iterations",
@@ -130,16 +144,7 @@ pub fn one_way(
     if coupling == Coupling::Frictionless || case.stages.iter().any(|stage| stage.twist.is_some()) {
         return None;
     }
-    let loads = |axis: usize| {
-        case.stages.iter().filter_map(|stage| stage.tangential[axis].as_ref()).any(|control| {
-            let (StageControl::Force(path) | StageControl::Motion(path)) = control;
-            match path {
-                Path::To(value) | Path::Wave { amplitude: value, .. } => *value != 0.0,
-                Path::Through(values) => values.iter().any(|value| *value != 0.0),
-            }
-        })
-    };
-    let axis = match [loads(0), loads(1)] {
+    let axis = match [is_loaded(case, 0), is_loaded(case, 1)] {
         [true, false] => 0,
         [false, true] => 1,
         _ => return None,

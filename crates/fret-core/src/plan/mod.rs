@@ -2,12 +2,13 @@
 
 mod extent;
 mod left_out;
+mod symmetry;
 
 use serde::Serialize;
 
 use crate::case::{Case, CaseError, GridSize, Stage};
 use crate::kernel::{PairResponse, cells_too_coarse_for_incompressible_film};
-use crate::model::{Body, SurfaceGrid};
+use crate::model::{Body, SurfaceGrid, Symmetry};
 pub use crate::solver::{Coupling, LeaveOut, Shortcut};
 use extent::{automatic_size, reaches_beyond};
 
@@ -33,6 +34,8 @@ pub struct Plan {
     pub coupling: Coupling,
     /// The one axis (0: x, 1: y) along which shear acts, where the other part vanishes.
     pub along: Option<usize>,
+    /// Mirrors of scene and loads, in front of which the solver works.
+    pub symmetry: Symmetry,
     /// The shortcuts that may be taken.
     pub leave_out: LeaveOut,
     /// What is left out.
@@ -103,7 +106,8 @@ impl Plan {
         }
         let along = left_out::one_way(&case, &grid, &response, coupling)
             .filter(|_| leave_out.takes(Shortcut::Transverse));
-        let left_out = left_out::left_out(&case, &grid, coupling, along, leave_out);
+        let symmetry = mirrors(&case, &grid, coupling, leave_out);
+        let left_out = left_out::left_out(&case, &grid, coupling, along, symmetry, leave_out);
         let increments = case.increments();
         // Where the division is left to the program: one solution of the whole and two of its halves at the least.
         let least = |stage: &Stage| if stage.history_tolerance.is_some() { 3_usize } else { 1 };
@@ -120,11 +124,21 @@ impl Plan {
             grid,
             coupling,
             along,
+            symmetry,
             leave_out,
             left_out,
             increments,
         })
     }
+
+    /// The mirrors of its case on its grid.
+    pub(crate) fn mirrors(&self) -> Symmetry {
+        mirrors(&self.case, &self.grid, self.coupling, self.leave_out)
+    }
+}
+
+fn mirrors(case: &Case, grid: &SurfaceGrid, coupling: Coupling, leave_out: LeaveOut) -> Symmetry {
+    if leave_out.takes(Shortcut::Mirror) { symmetry::symmetry(case, grid, coupling) } else { Symmetry::NONE }
 }
 
 /// Whether both bodies are there in any cell.

@@ -16,6 +16,7 @@ mod nested;
 mod normal;
 mod normal_problem;
 mod preconditioner;
+mod prediction;
 mod region;
 mod residual;
 mod retraction;
@@ -28,14 +29,18 @@ mod sweep;
 mod tractions;
 mod zones;
 
+use std::borrow::Cow;
+
 use ndarray::{Array2, ArrayView2};
 
 use crate::compliance::{SpectralCompliance, SurfaceCompliance, SurfaceResponse, Wanted};
 use crate::edge;
 use crate::history::Work;
 use crate::kernel::ResponseTable;
-use crate::model::{BEYOND_THE_BODY, ContactState, Control, CoulombFriction, LoadStep, Scheme, SurfaceGrid};
-use crate::spectral::{ConvolutionError, good_length};
+use crate::model::{
+    BEYOND_THE_BODY, ContactState, Control, CoulombFriction, LoadStep, Scheme, SurfaceGrid, Symmetry,
+};
+use crate::spectral::ConvolutionError;
 
 pub use memory::SolverMemory;
 pub use scene::{Outcome, Resultants};
@@ -43,7 +48,7 @@ pub use settings::{Coupling, SolveError, SolverSettings, Watch};
 pub use shortcut::{LeaveOut, Shortcut};
 
 use memory::{GridTractions, Settled};
-use nested::{CoarseGrids, MARGIN, Prescribed};
+use nested::{CoarseGrids, Prescribed};
 use preconditioner::{Preconditioner, Waves};
 use region::Region;
 use scene::{BoxOperators, Scene, Solved, Turn};
@@ -66,15 +71,39 @@ pub struct Increment {
     pub work: Work,
 }
 
+impl Increment {
+    /// The increment of a scene with mirrors from what lies in front of them.
+    fn made_whole(self, symmetry: Symmetry) -> Self {
+        let copies = symmetry.copies();
+        let Outcome { resultants: Resultants { normal, tangential, moment }, .. } = self.outcome;
+        let resultants = Resultants {
+            normal: normal * copies as f64,
+            tangential: symmetry.whole_force(tangential),
+            moment,
+        };
+        Self {
+            state: symmetry.whole_state(&self.state),
+            outcome: Outcome {
+                resultants,
+                contact_cells: self.outcome.contact_cells * copies,
+                stick_cells: self.outcome.stick_cells * copies,
+                ..self.outcome
+            },
+            gap: symmetry.whole(&self.gap, [false; 2]),
+            ..self
+        }
+    }
+}
+
 /// A normal load changes much when it changes by more than this share: starting on coarse grids is then cheaper than from the
 /// pressure before.
 const LARGE_CHANGE: f64 = 0.03;
 
-/// Solves increments of one scene.
+/// Solves increments of one scene; of one with mirrors what lies in front of them, which is what its grid, fields and memory hold.
 pub struct ContactSolver<'a> {
     grid: SurfaceGrid,
     undeformed: Array2<f64>,
-    friction: &'a CoulombFriction,
+    friction: Cow<'a, CoulombFriction>,
     coupling: Coupling,
     response: SurfaceResponse,
     settings: SolverSettings,
@@ -91,6 +120,7 @@ pub struct ContactSolver<'a> {
     boxed: bool,
     /// The one axis along which shear acts.
     along: Option<usize>,
+    symmetry: Symmetry,
 }
 
 impl<'a> ContactSolver<'a> {
@@ -107,7 +137,7 @@ impl<'a> ContactSolver<'a> {
         Self {
             grid,
             undeformed,
-            friction,
+            friction: Cow::Borrowed(friction),
             coupling,
             response,
             settings,
@@ -119,6 +149,7 @@ impl<'a> ContactSolver<'a> {
             in_vain: Work::default(),
             boxed,
             along: None,
+            symmetry: Symmetry::NONE,
         }
     }
 
@@ -136,6 +167,20 @@ impl<'a> ContactSolver<'a> {
         Self { along: axis, ..self }
     }
 
+    /// The same solver for a scene with mirrors: gap, friction and loads are their own mirror images, and cells even in number
+    /// along mirrored axes. States pass in and out whole.
+    #[must_use]
+    pub fn mirrored(self, symmetry: Symmetry) -> Self {
+        let cells = symmetry.part_of(self.grid.cells());
+        Self {
+            grid: SurfaceGrid::new(cells, self.grid.spacing()).unwrap_or(self.grid),
+            undeformed: symmetry.part(&self.undeformed),
+            friction: Cow::Owned(symmetry.part_of_friction(&self.friction)),
+            symmetry,
+            ..self
+        }
+    }
+
     /// What is remembered of the increments solved so far.
     pub fn memory(&self) -> &SolverMemory {
         &self.memory
@@ -148,13 +193,17 @@ impl<'a> ContactSolver<'a> {
 
     /// Another law of friction from the next increment on.
     pub fn rub_with(&mut self, friction: &'a CoulombFriction) {
-        self.friction = friction;
+        self.friction = if self.symmetry.any() {
+            Cow::Owned(self.symmetry.part_of_friction(friction))
+        } else {
+            Cow::Borrowed(friction)
+        };
     }
 
     /// Goes on with another undeformed gap [length], shape of the grid: what was settled before holds no longer. Tractions, loads
     /// and the box of the last increment still do.
     pub fn reshape(&mut self, undeformed: Array2<f64>) {
-        self.undeformed = undeformed;
+        self.undeformed = if self.symmetry.any() { self.symmetry.part(&undeformed) } else { undeformed };
         self.coarse = None;
         self.memory.settled = None;
         self.memory.before = None;
@@ -171,7 +220,16 @@ impl<'a> ContactSolver<'a> {
         watch: Watch<'_>,
     ) -> Result<Increment, SolveError> {
         let mut work = std::mem::take(&mut self.in_vain);
-        match self.solved(state, load, &mut work, watch) {
+        let symmetry = self.symmetry;
+        let solved = if symmetry.any() {
+            let part = symmetry.part_of_state(state);
+            self.solved(&part, &symmetry.part_of_load(load, state), &mut work, watch)
+                .map(|increment| increment.made_whole(symmetry))
+                .map_err(|error| error.of_whole(symmetry.copies()))
+        } else {
+            self.solved(state, load, &mut work, watch)
+        };
+        match solved {
             Ok(increment) => Ok(Increment { work, ..increment }),
             Err(error) => {
                 self.in_vain = work;
@@ -198,7 +256,7 @@ impl<'a> ContactSolver<'a> {
                 .step_in(region, start.as_ref(), (state, load), work, watch)
                 .map_err(|error| self.explained(error, state, load))?;
             self.check_equilibrium(load, &outcome)?;
-            if !self.response.is_periodic() && touches_edge(&state_after.pressure) {
+            if !self.response.is_periodic() && touches_edge(&state_after.pressure, self.symmetry.axes()) {
                 return Err(SolveError::ContactAtEdge);
             }
             let kept = self.memory.settled.take().filter(|settled| {
@@ -292,32 +350,17 @@ impl<'a> ContactSolver<'a> {
             _ => return Ok(None),
         };
         let spacing = self.grid.spacing();
-        let grids =
-            self.coarse.get_or_insert_with(|| CoarseGrids::below(&self.response, &self.undeformed, spacing));
+        let grids = self.coarse.get_or_insert_with(|| {
+            CoarseGrids::below(&self.response, &self.undeformed, spacing, self.symmetry)
+        });
         grids.pressure_above(prescribed, self.table.as_ref(), &self.settings, work, watch)
-    }
-
-    /// The box of an increment that starts from a pressure on coarser grids.
-    fn region_around(&self, pressure: &Array2<f64>) -> Region {
-        let cells = self.grid.cells();
-        if !self.boxed || self.response.is_periodic() {
-            return Region::whole(cells);
-        }
-        let loaded = |i: usize, j: usize| pressure[[i, j]] > 0.0;
-        let margin = if self.coupling == Coupling::Coupled {
-            let least = Region::around(cells, 1, |n| n, loaded);
-            (least.shape[0].max(least.shape[1]) / 12).max(MARGIN)
-        } else {
-            MARGIN
-        };
-        Region::around(cells, margin, good_length, loaded)
     }
 
     /// A map carries what its coefficients times the pressure sum to, which is known from the pressure before: an increment that
     /// asks for more has no equilibrium, and did not converge for that reason.
     fn explained(&self, error: SolveError, state: &ContactState, load: &LoadStep) -> SolveError {
         let (SolveError::NotConverged { .. }, CoulombFriction::Map(map), Control::Force(normal)) =
-            (&error, self.friction, load.normal)
+            (&error, &*self.friction, load.normal)
         else {
             return error;
         };
@@ -327,69 +370,6 @@ impl<'a> ContactSolver<'a> {
         let carried: f64 = map.iter().zip(&state.pressure).map(|(mu, p)| mu * p).sum();
         let bound = carried / pressed * normal;
         if asked > bound { SolveError::AboveSliding { asked, bound } } else { error }
-    }
-
-    /// The box of an increment: around the contact so far and the predicted one, kept while it fits.
-    fn region_for(&self, state: &ContactState, load: &LoadStep) -> Region {
-        let whole = Region::whole(self.grid.cells());
-        let touched = state.pressure.iter().any(|p| *p > 0.0);
-        if !self.boxed || !touched || self.response.is_periodic() {
-            return whole;
-        }
-        let predicted = self.predicted(state, load);
-        let cells = self.grid.cells();
-        let in_contact = |i: usize, j: usize| state.pressure[[i, j]] > 0.0 || predicted.0[[i, j]] > 0.0;
-        let least = Region::around(cells, 1, |n| n, in_contact);
-        let extent = least.shape[0].max(least.shape[1]);
-        let wanted = Region::around(cells, (extent / 12).max(3), good_length, in_contact);
-        match self.memory.region {
-            Some(now) => {
-                let fits = (0..2).all(|axis| {
-                    now.origin[axis] <= least.origin[axis]
-                        && least.origin[axis] + least.shape[axis] <= now.origin[axis] + now.shape[axis]
-                });
-                if fits && now.len() as f64 <= 1.6 * wanted.len() as f64 { now } else { wanted }
-            }
-            None => wanted,
-        }
-    }
-
-    /// Tractions extrapolated linearly in the load while it keeps its direction.
-    fn predicted(&self, state: &ContactState, load: &LoadStep) -> (Array2<f64>, [Array2<f64>; 2]) {
-        let share = self.continuation(load);
-        match (&self.memory.before, share) {
-            (Some((_, before)), Some(share)) => {
-                let extrapolate = |now: &Array2<f64>, then: &Array2<f64>| now + &((now - then) * share);
-                (
-                    extrapolate(&state.pressure, &before.pressure).mapv(|p| p.max(0.0)),
-                    [
-                        extrapolate(&state.shear[0], &before.shear[0]),
-                        extrapolate(&state.shear[1], &before.shear[1]),
-                    ],
-                )
-            }
-            _ => (state.pressure.clone(), state.shear.clone()),
-        }
-    }
-
-    /// Ratio of this load increment to the last one when it goes on in the same direction.
-    fn continuation(&self, load: &LoadStep) -> Option<f64> {
-        let (Some((first, _)), Some(second)) = (&self.memory.before, &self.memory.last_load) else {
-            return None;
-        };
-        let (older, newer) = (change(first, second)?, change(second, load)?);
-        let mut product = 0.0;
-        let (mut old_square, mut new_square) = (0.0, 0.0);
-        for (a, b) in older.iter().zip(&newer) {
-            let scale = a.abs().max(b.abs());
-            if scale > 0.0 {
-                product += (a / scale) * (b / scale);
-                old_square += (a / scale).powi(2);
-                new_square += (b / scale).powi(2);
-            }
-        }
-        let cosine = product / (old_square * new_square).sqrt();
-        (cosine > 0.5).then(|| (product / old_square).min(3.0))
     }
 
     /// The operators of a box; those of the last box when its shape is the same.
@@ -406,6 +386,7 @@ impl<'a> ContactSolver<'a> {
             full: self.coupling == Coupling::Coupled,
             normal_from_all: false,
             along: self.along,
+            symmetry: self.symmetry,
         };
         let tangential = self.coupling != Coupling::Frictionless;
         let waves = self.table.as_ref().map(|table| Waves { table, spacing: self.grid.spacing() });
@@ -418,6 +399,7 @@ impl<'a> ContactSolver<'a> {
                 region.shape,
                 [true, tangential],
                 self.along,
+                self.symmetry,
             )?,
         })
     }
@@ -435,7 +417,7 @@ impl<'a> ContactSolver<'a> {
         let mut scene = Scene::new(
             &grid,
             &self.undeformed,
-            self.friction,
+            &self.friction,
             state,
             load,
             region,
@@ -474,7 +456,8 @@ impl<'a> ContactSolver<'a> {
         };
         let applications = operators.compliance.applications - counted.0;
         work.convolutions += applications;
-        work.full_grid_convolutions += applications as f64 * (region.len() as f64 / grid.len() as f64);
+        let whole = (grid.len() * self.symmetry.copies()) as f64;
+        work.full_grid_convolutions += applications as f64 * (region.len() as f64 / whole);
         work.preconditioner_passes += operators.preconditioner.passes - counted.1;
         self.operators = Some(operators);
         self.memory.region = Some(region);
@@ -506,6 +489,7 @@ impl<'a> ContactSolver<'a> {
                 normal: self.coupling != Coupling::Coupled,
                 normal_from_all: self.coupling == Coupling::Coupled,
                 along: self.along,
+                symmetry: self.symmetry,
                 ..Wanted::default()
             };
             self.outside = SpectralCompliance::new(&self.response, cells, wanted).ok();
@@ -519,7 +503,7 @@ impl<'a> ContactSolver<'a> {
                 outside.normal(&pressure, &mut normal);
             }
             work.convolutions += 1;
-            work.full_grid_convolutions += 1.0;
+            work.full_grid_convolutions += 1.0 / self.symmetry.copies() as f64;
             for (gap, u) in gap.iter_mut().zip(&normal) {
                 *gap += u;
             }
@@ -536,36 +520,26 @@ impl<'a> ContactSolver<'a> {
     /// Contact area [length^2] from the edge between the cells of a box.
     fn contact_area(&self, region: Region, solved: &Solved) -> f64 {
         let view = |field| ArrayView2::from_shape(region.shape, field);
-        match (view(solved.tractions.pressure.as_slice()), view(solved.gap.as_slice())) {
-            (Ok(pressure), Ok(gap)) => {
-                let [width, depth] = self.grid.size();
-                let beyond = 0.5 * BEYOND_THE_BODY * width.hypot(depth);
-                edge::contact_cells(&pressure, &gap, beyond) * self.grid.cell_area()
-            }
-            _ => 0.0,
-        }
+        let (Ok(pressure), Ok(gap)) =
+            (view(solved.tractions.pressure.as_slice()), view(solved.gap.as_slice()))
+        else {
+            return 0.0;
+        };
+        let [cells_x, cells_y] = self.symmetry.whole_of(self.grid.cells());
+        let [dx, dy] = self.grid.spacing();
+        let beyond = 0.5 * BEYOND_THE_BODY * (cells_x as f64 * dx).hypot(cells_y as f64 * dy);
+        // At a mirror the edge goes on as it does at a side of the box: with the same value in the next cell.
+        let cells = edge::contact_cells(&pressure, &gap, beyond) * self.symmetry.copies() as f64;
+        cells * self.grid.cell_area()
     }
 }
 
-/// Loads as numbers, when both name the same controls.
-fn change(from: &LoadStep, to: &LoadStep) -> Option<[f64; 4]> {
-    let difference = |a: Control, b: Control| match (a, b) {
-        (Control::Force(a), Control::Force(b)) | (Control::Motion(a), Control::Motion(b)) => Some(b - a),
-        _ => None,
-    };
-    Some([
-        difference(from.normal, to.normal)?,
-        difference(from.tangential[0], to.tangential[0])?,
-        difference(from.tangential[1], to.tangential[1])?,
-        difference(from.twist, to.twist)?,
-    ])
-}
-
-fn touches_edge(pressure: &Array2<f64>) -> bool {
+/// Whether there is pressure in an outermost row or column, apart from those at a mirror.
+fn touches_edge(pressure: &Array2<f64>, mirrored: [bool; 2]) -> bool {
     let (nx, ny) = pressure.dim();
     let any = |view: ndarray::ArrayView1<'_, f64>| view.iter().any(|p| *p > 0.0);
-    any(pressure.row(0))
+    (!mirrored[0] && any(pressure.row(0)))
         || any(pressure.row(nx - 1))
-        || any(pressure.column(0))
+        || (!mirrored[1] && any(pressure.column(0)))
         || any(pressure.column(ny - 1))
 }

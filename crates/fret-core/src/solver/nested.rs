@@ -14,6 +14,7 @@ use crate::compliance::{SpectralCompliance, SurfaceCompliance, SurfaceResponse, 
 use crate::edge::level_function;
 use crate::history::Work;
 use crate::kernel::{InfluenceCoefficients, PeriodicSymbols, ResponseTable};
+use crate::model::Symmetry;
 use crate::spectral::good_length;
 
 /// No grid with fewer cells a side is made coarser.
@@ -36,6 +37,7 @@ struct Level {
     response: SurfaceResponse,
     undeformed: Array2<f64>,
     spacing: [f64; 2],
+    symmetry: Symmetry,
 }
 
 /// The grids below one, the finest of them first.
@@ -54,8 +56,13 @@ pub struct Prescribed {
 }
 
 impl CoarseGrids {
-    /// The grids below one of the given cells; none when it is small.
-    pub fn below(response: &SurfaceResponse, undeformed: &Array2<f64>, spacing: [f64; 2]) -> Self {
+    /// The grids below one of the given cells, in front of its mirrors; none when it is small.
+    pub fn below(
+        response: &SurfaceResponse,
+        undeformed: &Array2<f64>,
+        spacing: [f64; 2],
+        symmetry: Symmetry,
+    ) -> Self {
         let (nx, ny) = undeformed.dim();
         let mut levels: Vec<Level> = Vec::new();
         loop {
@@ -64,15 +71,19 @@ impl CoarseGrids {
                     (&last.response, &last.undeformed, last.spacing)
                 });
             let (nx, ny) = undeformed.dim();
-            let halves = !response.is_periodic() || (nx.is_multiple_of(2) && ny.is_multiple_of(2));
-            if nx.min(ny) < COARSEST || !halves {
+            let cells = symmetry.whole_of([nx, ny]);
+            let repeats = response.is_periodic();
+            let halves =
+                |axis: usize| !(repeats || symmetry.axes()[axis]) || [nx, ny][axis].is_multiple_of(2);
+            if cells[0].min(cells[1]) < COARSEST || !(halves(0) && halves(1)) {
                 break;
             }
-            let Some(response) = coarser_response(response, [nx, ny]) else { break };
+            let Some(response) = coarser_response(response, cells) else { break };
             let level = Level {
                 response,
                 undeformed: coarser_heights(undeformed),
                 spacing: spacing.map(|side| 2.0 * side),
+                symmetry,
             };
             levels.push(level);
         }
@@ -107,7 +118,8 @@ impl CoarseGrids {
             };
             work.convolutions += solved.convolutions;
             work.preconditioner_passes += solved.passes;
-            work.full_grid_convolutions += solved.cell_convolutions / (self.cells[0] * self.cells[1]) as f64;
+            work.full_grid_convolutions +=
+                solved.cell_convolutions / (self.cells[0] * self.cells[1] * level.symmetry.copies()) as f64;
             let Some(carried) = solved.carried(above, total) else { return Ok(None) };
             start = Some(carried);
         }
@@ -137,7 +149,8 @@ impl Level {
     fn is_nearly_full(&self, total: Option<f64>, cells: [usize; 2]) -> bool {
         let (true, Some(total)) = (self.response.is_periodic(), total) else { return false };
         let mean = total / (cells[0] * cells[1]) as f64;
-        let Ok(mut inverse) = Preconditioner::new(&self.response, None, self.cells(), [true, false], None)
+        let Ok(mut inverse) =
+            Preconditioner::new(&self.response, None, self.cells(), [true, false], None, self.symmetry)
         else {
             return false;
         };
@@ -160,19 +173,22 @@ impl Level {
         let whole = Region::whole(self.cells());
         let mut region = match &start {
             Some(start) if !self.response.is_periodic() => {
-                Region::around(self.cells(), MARGIN, good_length, |i, j| start[[i, j]] > 0.0)
+                Region::around(self.cells(), self.symmetry.axes(), MARGIN, good_length, |i, j| {
+                    start[[i, j]] > 0.0
+                })
             }
             _ => whole,
         };
         let mut start = start;
         let (mut convolutions, mut passes, mut cell_convolutions) = (0, 0, 0.0);
         loop {
-            let wanted = Wanted { normal: true, ..Wanted::default() };
+            let symmetry = self.symmetry;
+            let wanted = Wanted { normal: true, symmetry, ..Wanted::default() };
             let missing = |_| SolveError::OperatorsMissing;
             let mut compliance =
                 SpectralCompliance::new(&self.response, region.shape, wanted).map_err(missing)?;
             let mut preconditioner =
-                Preconditioner::new(&self.response, waves, region.shape, [true, false], None)
+                Preconditioner::new(&self.response, waves, region.shape, [true, false], None, symmetry)
                     .map_err(missing)?;
             let undeformed = region.gather(&self.undeformed);
             let task = NormalTask {

@@ -7,10 +7,10 @@ use pulp::Simd;
 
 use super::contact_set::ContactSet;
 use super::zones::Zones;
-use crate::compliance::{SurfaceResponse, only};
+use crate::compliance::{SurfaceResponse, mirrors, only};
 use crate::kernel::ResponseTable;
-use crate::model::TangentialField;
 use crate::model::each_cell::{CellRule, Reals, each_cell};
+use crate::model::{Symmetry, TangentialField};
 use crate::spectral::{Block, ConvolutionError, Kernel, Parity, PeriodicProduct, Symbol, Workspace};
 
 /// A pair is stiff at the surface when the longest waves of a box meet this many times the compliance times wavenumber that
@@ -69,7 +69,7 @@ impl Waves<'_> {
 
 impl Preconditioner {
     /// Inverses for a box of `shape` cells; normal, tangential or both. `waves` serves pressure in free space, `along` is the one
-    /// axis of shear where the other part vanishes.
+    /// axis of shear where the other part vanishes; with mirrors the box stands for a larger one.
     ///
     /// # Errors
     /// When a coefficient is missing or does not cover the box.
@@ -79,7 +79,9 @@ impl Preconditioner {
         shape: [usize; 2],
         [normal, tangential]: [bool; 2],
         along: Option<usize>,
+        symmetry: Symmetry,
     ) -> Result<Self, ConvolutionError> {
+        let (part, shape) = (shape, symmetry.whole_of(shape));
         let [zz, xx, yy, xy] = match response {
             SurfaceResponse::FreeSpace(c) => [&c.zz, &c.xx, &c.yy, &c.xy],
             SurfaceResponse::Periodic(c) => [&c.zz, &c.xx, &c.yy, &c.xy],
@@ -88,8 +90,8 @@ impl Preconditioner {
             let values = values.as_ref().ok_or(ConvolutionError::EmptyShape(0, 0))?;
             Ok(if response.is_periodic() { values.clone() } else { nearest_images(values, shape, parity) })
         };
-        let product = |symbols: &[Symbol<'_>], blocks: &[Block]| {
-            let product = PeriodicProduct::new(shape, symbols, blocks)?;
+        let product = |symbols: &[Symbol<'_>], fields: &[usize], blocks: &[Block]| {
+            let product = PeriodicProduct::mirrored(part, symbols, blocks, mirrors(symmetry, fields))?;
             let workspace = product.workspace();
             Ok::<_, ConvolutionError>((product, workspace))
         };
@@ -100,7 +102,7 @@ impl Preconditioner {
             };
             let least = smallest_positive(&inverse);
             inverse.mapv_inplace(|value| if value == 0.0 { 0.0 } else { 1.0 / value.max(least) });
-            Some(product(&[Symbol { values: inverse.view(), parity: Parity::EvenEven }], &NORMAL)?)
+            Some(product(&[Symbol { values: inverse.view(), parity: Parity::EvenEven }], &[0], &NORMAL)?)
         } else {
             None
         };
@@ -118,15 +120,15 @@ impl Preconditioner {
                     Symbol { values: xy.view(), parity: Parity::OddOdd },
                 ];
                 match along {
-                    Some(axis) => product(&symbols[axis..=axis], &NORMAL),
-                    None => product(&symbols, &TANGENTIAL),
+                    Some(axis) => product(&symbols[axis..=axis], &[1 + axis], &NORMAL),
+                    None => product(&symbols, &[1, 2], &TANGENTIAL),
                 }
             };
             Some([level(0.0)?, level(STIFF_LEVEL * softest)?])
         } else {
             None
         };
-        let len = shape[0] * shape[1];
+        let len = part[0] * part[1];
         Ok(Self {
             normal,
             shear,

@@ -1,5 +1,7 @@
 //! The box around the contact: where the iteration works, and how fields pass between it and the whole grid.
 
+use std::ops::Range;
+
 use ndarray::Array2;
 use serde::{Deserialize, Serialize};
 
@@ -72,14 +74,20 @@ impl Region {
             && (self.origin[1]..self.origin[1] + self.shape[1]).contains(&j)
     }
 
-    /// The smallest box around all cells where `wanted`, with a `margin` of cells on each side, its sides rounded up by
-    /// `good_length`; the whole grid when that is hardly larger, or when nothing is wanted.
-    pub fn around(
+    /// Whether another box lies inside.
+    pub fn contains_all(&self, other: &Self) -> bool {
+        (0..2).all(|axis| {
+            self.origin[axis] <= other.origin[axis]
+                && other.origin[axis] + other.shape[axis] <= self.origin[axis] + self.shape[axis]
+        })
+    }
+
+    /// Rows and columns of all cells where `wanted`, from the mirror on along a mirrored axis; `None` when there are none.
+    pub fn extent(
         cells: [usize; 2],
-        margin: usize,
-        good_length: impl Fn(usize) -> usize,
+        mirrored: [bool; 2],
         wanted: impl Fn(usize, usize) -> bool,
-    ) -> Self {
+    ) -> Option<[Range<usize>; 2]> {
         let mut low = [usize::MAX; 2];
         let mut high = [0_usize; 2];
         for i in 0..cells[0] {
@@ -90,17 +98,34 @@ impl Region {
                 }
             }
         }
-        if low[0] == usize::MAX {
-            return Self::whole(cells);
-        }
+        (low[0] < usize::MAX)
+            .then(|| [0, 1].map(|axis| if mirrored[axis] { 0 } else { low[axis] }..high[axis] + 1))
+    }
+
+    /// The smallest box around all cells where `wanted`, with a `margin` of cells on each side, its sides rounded up by
+    /// `good_length`; the whole grid when that is hardly larger, or when nothing is wanted. Along a mirrored axis it begins at the
+    /// mirror.
+    pub fn around(
+        cells: [usize; 2],
+        mirrored: [bool; 2],
+        margin: usize,
+        good_length: impl Fn(usize) -> usize,
+        wanted: impl Fn(usize, usize) -> bool,
+    ) -> Self {
+        let Some(extent) = Self::extent(cells, mirrored, wanted) else { return Self::whole(cells) };
         let mut region = Self::whole(cells);
         for axis in 0..2 {
-            let shape = good_length(high[axis] - low[axis] + 1 + 2 * margin);
+            let sides = if mirrored[axis] { 1 } else { 2 };
+            let shape = good_length(extent[axis].len() + sides * margin);
             if shape as f64 > 0.93 * cells[axis] as f64 {
                 continue;
             }
+            if mirrored[axis] {
+                region.shape[axis] = shape;
+                continue;
+            }
             // Centred on what is wanted, moved inside where it would stick out.
-            let middle = (low[axis] + high[axis]).div_ceil(2);
+            let middle = (extent[axis].start + extent[axis].end - 1).div_ceil(2);
             region.origin[axis] = middle.saturating_sub(shape / 2).min(cells[axis] - shape);
             region.shape[axis] = shape;
         }

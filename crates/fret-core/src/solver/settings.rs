@@ -72,5 +72,18 @@ pub enum SolveError {
     Stopped,
 }
 
+impl SolveError {
+    /// The error of a scene with mirrors, of whose cells one in `copies` was solved.
+    pub(super) fn of_whole(self, copies: usize) -> Self {
+        match self {
+            Self::AboveSliding { asked, bound } => {
+                let copies = copies as f64;
+                Self::AboveSliding { asked: asked * copies, bound: bound * copies }
+            }
+            other => other,
+        }
+    }
+}
+
 /// Hears of every outer iteration and its residual; may stop it.
 pub type Watch<'a> = &'a mut dyn FnMut(usize, f64) -> ControlFlow<()>;

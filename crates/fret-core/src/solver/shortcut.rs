@@ -16,18 +16,21 @@ pub enum Shortcut {
     Pressure,
     /// The part of shear across the load where it vanishes.
     Transverse,
+    /// Cells that are mirror images of others.
+    Mirror,
     /// Cells of the grid far from the contact, in every iteration.
     Box,
 }
 
 impl Shortcut {
     /// All of them.
-    pub const ALL: [Self; 6] = [
+    pub const ALL: [Self; 7] = [
         Self::LayeredResponse,
         Self::Coupling,
         Self::Tangential,
         Self::Pressure,
         Self::Transverse,
+        Self::Mirror,
         Self::Box,
     ];
 
@@ -39,6 +42,7 @@ impl Shortcut {
             Self::Tangential => "shear that nothing causes",
             Self::Pressure => "normal problem at one load",
             Self::Transverse => "shear across the load",
+            Self::Mirror => "cells behind a mirror",
             Self::Box => "cells far from the contact",
         }
     }

@@ -2,7 +2,7 @@
 
 use ndarray::{ArrayView2, s};
 
-use super::Parity;
+use super::{Mirrors, Parity};
 
 /// One kernel, given by its quadrant of offsets: `values[[i, j]]` belongs to the offset of `i >= 0` cells in `x`
 /// and `j >= 0` cells in `y`; the parity gives the other three quadrants.
@@ -88,6 +88,12 @@ pub enum ConvolutionError {
         /// Index along `y`.
         y: usize,
     },
+    /// Blocks that make an output even and odd at once.
+    #[error("block {block}: behind the mirrors its output goes on otherwise than that of another block")]
+    Parity {
+        /// Index of the block.
+        block: usize,
+    },
     /// A block with a factor that is not a finite number.
     #[error("block {block}: factor {sign} is not finite")]
     Factor {
@@ -106,6 +112,9 @@ pub(super) struct Terms {
     pub outputs: usize,
     pub parities: Vec<Parity>,
     pub blocks: Vec<Block>,
+    pub mirrors: Mirrors,
+    /// Whether each output is odd along `[x, y]`, at mirrors.
+    pub outputs_odd: Vec<[bool; 2]>,
 }
 
 impl Terms {
@@ -115,6 +124,7 @@ impl Terms {
         quadrant: [usize; 2],
         kernels: &[Kernel<'_>],
         blocks: &[Block],
+        mirrors: Mirrors,
     ) -> Result<Self, ConvolutionError> {
         if shape.contains(&0) {
             return Err(ConvolutionError::EmptyShape(shape[0], shape[1]));
@@ -141,6 +151,8 @@ impl Terms {
             outputs: count(|block| block.output),
             parities: kernels.iter().map(|kernel| kernel.parity).collect(),
             blocks: blocks.to_vec(),
+            outputs_odd: mirrors.outputs_odd(kernels, blocks)?,
+            mirrors,
         })
     }
 

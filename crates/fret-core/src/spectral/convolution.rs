@@ -2,7 +2,7 @@
 
 use super::block::Terms;
 use super::engine::PlannedProduct;
-use super::{Block, ConvolutionError, Engine, Kernel, Workspace};
+use super::{Block, ConvolutionError, Engine, Kernel, Mirrors, Workspace};
 
 /// Free-space product of fields with translation-invariant kernels:
 ///
@@ -43,20 +43,36 @@ impl Convolution {
         kernels: &[Kernel<'_>],
         blocks: &[Block],
     ) -> Result<Self, ConvolutionError> {
-        Self::on(Engine::fastest(), shape, kernels, blocks)
+        Self::on(Engine::fastest(), shape, kernels, blocks, Mirrors::NONE)
     }
 
-    /// Like [`new`](Self::new), on a chosen engine.
+    /// The product of fields that go on behind mirrors, on the cells in front of them: `shape` counts these, and of each kernel
+    /// as many values are used as the whole grid has. A mirror halves the work.
     ///
     /// # Errors
-    /// As [`new`](Self::new).
+    /// As [`new`](Self::new), and when the blocks would make an output even and odd at once.
+    pub fn mirrored(
+        shape: [usize; 2],
+        kernels: &[Kernel<'_>],
+        blocks: &[Block],
+        mirrors: Mirrors,
+    ) -> Result<Self, ConvolutionError> {
+        Self::on(Engine::fastest(), shape, kernels, blocks, mirrors)
+    }
+
+    /// Like [`mirrored`](Self::mirrored), on a chosen engine.
+    ///
+    /// # Errors
+    /// As [`mirrored`](Self::mirrored).
     pub fn on(
         engine: Engine,
         shape: [usize; 2],
         kernels: &[Kernel<'_>],
         blocks: &[Block],
+        mirrors: Mirrors,
     ) -> Result<Self, ConvolutionError> {
-        let terms = Terms::new(shape, shape, kernels, blocks)?;
+        let quadrant = mirrors.whole(shape);
+        let terms = Terms::new(shape, quadrant, kernels, blocks, mirrors)?;
         let product = PlannedProduct::free_space(engine, &terms, kernels);
         Ok(Self { terms, product })
     }

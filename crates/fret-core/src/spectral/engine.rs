@@ -6,7 +6,8 @@ use super::block::Terms;
 use super::lanes::{InstructionSet, LaneProduct};
 use super::lengths::is_good_length;
 use super::line_product::LineProduct;
-use super::{Kernel, Workspace};
+use super::mirrors::{in_front, unfolded};
+use super::{Kernel, Mirrors, Workspace};
 
 /// A way to compute products on this machine. All give the same numbers up to rounding.
 ///
@@ -47,16 +48,31 @@ impl Engine {
 pub(super) enum PlannedProduct {
     Lanes(LaneProduct),
     Lines(LineProduct),
+    /// Line by line on the whole grid, whatever its mirrors.
+    Unfolded(LineProduct, Terms),
+}
+
+/// The terms of the whole grid.
+fn whole(terms: &Terms) -> Terms {
+    Terms { shape: terms.mirrors.whole(terms.shape), mirrors: Mirrors::NONE, ..terms.clone() }
 }
 
 impl PlannedProduct {
+    fn lines(terms: &Terms, product: impl Fn(Terms) -> LineProduct) -> Self {
+        if terms.mirrors.any() {
+            Self::Unfolded(product(whole(terms)), terms.clone())
+        } else {
+            Self::Lines(product(terms.clone()))
+        }
+    }
+
     /// Free-space product; with more fields than the lane engine takes, line by line.
     pub fn free_space(engine: Engine, terms: &Terms, kernels: &[Kernel<'_>]) -> Self {
         match engine.0 {
             Choice::Lanes(set) if LaneProduct::takes(terms) => {
                 Self::Lanes(LaneProduct::free_space(set, terms, kernels))
             }
-            _ => Self::Lines(LineProduct::free_space(terms.clone(), kernels)),
+            _ => Self::lines(terms, |terms| LineProduct::free_space(terms, kernels)),
         }
     }
 
@@ -67,7 +83,7 @@ impl PlannedProduct {
             Choice::Lanes(set) if good && LaneProduct::takes(terms) => {
                 Self::Lanes(LaneProduct::periodic(set, terms, symbols))
             }
-            _ => Self::Lines(LineProduct::periodic(terms.clone(), symbols)),
+            _ => Self::lines(terms, |terms| LineProduct::periodic(terms, symbols)),
         }
     }
 
@@ -78,7 +94,7 @@ impl PlannedProduct {
             Self::Lanes(product) => {
                 workspace.lanes(product.work_len(rayon::current_num_threads()));
             }
-            Self::Lines(product) => {
+            Self::Lines(product) | Self::Unfolded(product, _) => {
                 workspace.lines(product.scratch_len());
             }
         }
@@ -89,13 +105,36 @@ impl PlannedProduct {
         match self {
             Self::Lanes(product) => product.apply(workspace.lanes(product.work_len(1)), input, output),
             Self::Lines(product) => product.apply(workspace.lines(product.scratch_len()), input, output),
+            Self::Unfolded(product, terms) => unfolded_product(product, terms, workspace, input, output),
         }
     }
 
     pub fn memory_bytes(&self) -> usize {
         match self {
             Self::Lanes(product) => product.memory_bytes(),
-            Self::Lines(product) => product.memory_bytes(),
+            Self::Lines(product) | Self::Unfolded(product, _) => product.memory_bytes(),
         }
+    }
+}
+
+/// The product of what lies in front of mirrors by that of the whole grid.
+fn unfolded_product(
+    product: &LineProduct,
+    terms: &Terms,
+    workspace: &mut Workspace,
+    input: &[&[f64]],
+    output: &mut [&mut [f64]],
+) {
+    let [nx, ny] = terms.mirrors.whole(terms.shape);
+    let wide = |count: usize| vec![vec![0.0; nx * ny]; count];
+    let (mut inputs, mut outputs) = (wide(input.len()), wide(output.len()));
+    for (index, (part, field)) in input.iter().zip(&mut inputs).enumerate() {
+        unfolded(terms, part, terms.mirrors.input_is_odd(index), field);
+    }
+    let fields: Vec<&[f64]> = inputs.iter().map(Vec::as_slice).collect();
+    let mut results: Vec<&mut [f64]> = outputs.iter_mut().map(Vec::as_mut_slice).collect();
+    product.apply(workspace.lines(product.scratch_len()), &fields, &mut results);
+    for (part, field) in output.iter_mut().zip(&outputs) {
+        in_front(terms, field, part);
     }
 }

@@ -11,6 +11,7 @@ mod inverse_table;
 mod lanes;
 mod lengths;
 mod line_product;
+mod mirrors;
 mod parity;
 mod periodic_product;
 #[cfg(test)]
@@ -22,6 +23,7 @@ pub use convolution::Convolution;
 pub use engine::Engine;
 pub use inverse_table::inverse_table;
 pub use lengths::good_length;
+pub use mirrors::Mirrors;
 pub use parity::Parity;
 pub use periodic_product::PeriodicProduct;
 pub use workspace::Workspace;

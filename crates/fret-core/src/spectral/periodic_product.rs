@@ -5,7 +5,7 @@ use ndarray::Array2;
 use super::block::Terms;
 use super::engine::PlannedProduct;
 use super::line_product;
-use super::{Block, ConvolutionError, Engine, Kernel, Symbol, Workspace};
+use super::{Block, ConvolutionError, Engine, Kernel, Mirrors, Symbol, Workspace};
 
 /// Product of periodic fields with real transfer functions:
 ///
@@ -30,22 +30,38 @@ impl PeriodicProduct {
         symbols: &[Symbol<'_>],
         blocks: &[Block],
     ) -> Result<Self, ConvolutionError> {
-        Self::on(Engine::fastest(), shape, symbols, blocks)
+        Self::on(Engine::fastest(), shape, symbols, blocks, Mirrors::NONE)
     }
 
-    /// Like [`new`](Self::new), on a chosen engine.
+    /// The product of fields that go on behind mirrors, on the cells in front of them: `shape` counts these, the symbols are
+    /// those of the whole grid. A mirror halves the work.
     ///
     /// # Errors
-    /// As [`new`](Self::new).
+    /// As [`new`](Self::new), and when the blocks would make an output even and odd at once.
+    pub fn mirrored(
+        shape: [usize; 2],
+        symbols: &[Symbol<'_>],
+        blocks: &[Block],
+        mirrors: Mirrors,
+    ) -> Result<Self, ConvolutionError> {
+        Self::on(Engine::fastest(), shape, symbols, blocks, mirrors)
+    }
+
+    /// Like [`mirrored`](Self::mirrored), on a chosen engine.
+    ///
+    /// # Errors
+    /// As [`mirrored`](Self::mirrored).
     pub fn on(
         engine: Engine,
         shape: [usize; 2],
         symbols: &[Symbol<'_>],
         blocks: &[Block],
+        mirrors: Mirrors,
     ) -> Result<Self, ConvolutionError> {
         let kernels: Vec<_> =
             symbols.iter().map(|symbol| Kernel { values: symbol.values, parity: symbol.parity }).collect();
-        let terms = Terms::new(shape, shape.map(|n| n / 2 + 1), &kernels, blocks)?;
+        let quadrant = mirrors.whole(shape).map(|n| n / 2 + 1);
+        let terms = Terms::new(shape, quadrant, &kernels, blocks, mirrors)?;
         let product = PlannedProduct::periodic(engine, &terms, &kernels);
         Ok(Self { terms, product })
     }

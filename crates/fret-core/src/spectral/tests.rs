@@ -2,7 +2,7 @@
 
 use ndarray::Array2;
 
-use super::{Block, Convolution, ConvolutionError, Engine, Kernel, Parity, PeriodicProduct, Symbol};
+use super::{Block, Convolution, ConvolutionError, Engine, Kernel, Mirrors, Parity, PeriodicProduct, Symbol};
 
 const PARITIES: [Parity; 4] = [Parity::EvenEven, Parity::OddEven, Parity::EvenOdd, Parity::OddOdd];
 
@@ -158,7 +158,8 @@ impl Problem {
     }
 
     fn convolve(&self, engine: Engine) -> Vec<Vec<f64>> {
-        let product = Convolution::on(engine, self.shape, &self.kernels(), &self.blocks).unwrap();
+        let product =
+            Convolution::on(engine, self.shape, &self.kernels(), &self.blocks, Mirrors::NONE).unwrap();
         self.apply(|input, output| product.apply(&mut product.workspace(), input, output))
     }
 
@@ -263,7 +264,8 @@ fn periodic_products_are_the_plain_sum_over_one_period() {
         };
         let judged = problem.judged(None, Problem::periodic_at);
         for engine in Engine::available() {
-            let product = PeriodicProduct::on(engine, shape, &in_frequency.symbols(), &blocks).unwrap();
+            let product =
+                PeriodicProduct::on(engine, shape, &in_frequency.symbols(), &blocks, Mirrors::NONE).unwrap();
             let found = problem.apply(|input, output| product.apply(&mut product.workspace(), input, output));
             Problem::compare(&found, &judged, tolerance(&problem), &format!("{shape:?} {engine:?}"));
         }
@@ -340,7 +342,8 @@ fn one_thread_or_more_give_the_same_bits() {
         for engine in Engine::available() {
             let run = |threads: usize| {
                 let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-                let periodic = PeriodicProduct::on(engine, shape, &symbols.symbols(), &blocks).unwrap();
+                let periodic =
+                    PeriodicProduct::on(engine, shape, &symbols.symbols(), &blocks, Mirrors::NONE).unwrap();
                 pool.install(|| {
                     let mut found = problem.convolve(engine);
                     let mut workspace = periodic.workspace();
@@ -364,7 +367,8 @@ fn the_content_and_the_origin_of_a_workspace_do_not_matter() {
     let large = Problem::new([96, 100], [96, 100], &parities, &blocks, 15);
     for engine in Engine::available() {
         let plan = |problem: &Problem| {
-            Convolution::on(engine, problem.shape, &problem.kernels(), &problem.blocks).unwrap()
+            Convolution::on(engine, problem.shape, &problem.kernels(), &problem.blocks, Mirrors::NONE)
+                .unwrap()
         };
         let (small_product, large_product) = (plan(&small), plan(&large));
         let mut workspace = small_product.workspace();
@@ -379,7 +383,8 @@ fn the_content_and_the_origin_of_a_workspace_do_not_matter() {
         small.apply(|_, output| small_product.apply(&mut workspace, &[infinite.as_slice(); 3], output));
         let found = small.apply(|input, output| small_product.apply(&mut workspace, input, output));
         assert_eq!(found, small.convolve(engine));
-        let periodic = PeriodicProduct::on(engine, small.shape, &small.symbols(), &small.blocks).unwrap();
+        let periodic =
+            PeriodicProduct::on(engine, small.shape, &small.symbols(), &small.blocks, Mirrors::NONE).unwrap();
         let clean = small.apply(|input, output| periodic.apply(&mut periodic.workspace(), input, output));
         small.apply(|_, output| periodic.apply(&mut workspace, &[infinite.as_slice(); 3], output));
         let found = small.apply(|input, output| periodic.apply(&mut workspace, input, output));

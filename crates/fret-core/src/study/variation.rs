@@ -61,6 +61,7 @@ impl Variation {
             stage.increments = *increments;
         }
         varied.increments = varied.case.increments();
+        varied.symmetry = varied.mirrors();
         Ok(varied)
     }
 }

@@ -43,6 +43,12 @@ impl<L: Lanes> Complex<L> {
         Self { re: self.im, im: self.re }
     }
 
+    /// `-self`
+    #[inline(always)]
+    pub fn negated(self, lanes: L) -> Self {
+        Self { re: lanes.sub(lanes.splat(0.0), self.re), im: lanes.sub(lanes.splat(0.0), self.im) }
+    }
+
     #[inline(always)]
     fn add(self, lanes: L, other: Self) -> Self {
         Self { re: lanes.add(self.re, other.re), im: lanes.add(self.im, other.im) }

@@ -89,12 +89,12 @@ impl<L: Lanes, const F: usize, const P: usize> Task<L> for Columns<'_, F, P> {
 }
 
 /// Reads one column of an input and does the outermost pass of its parts.
-struct OutermostForward<'a, L: Lanes, const R: usize, const P: usize> {
-    plan: &'a LinePlan,
-    spectrum: &'a [Line<L>],
+pub struct OutermostForward<'a, L: Lanes, const R: usize, const P: usize> {
+    pub plan: &'a LinePlan,
+    pub spectrum: &'a [Line<L>],
     /// Lines from one row group to the next.
-    stride: usize,
-    lines: &'a mut [Line<L>],
+    pub stride: usize,
+    pub lines: &'a mut [Line<L>],
 }
 
 impl<L: Lanes, const R: usize, const P: usize> Task<L> for OutermostForward<'_, L, R, P> {
@@ -191,10 +191,10 @@ impl<L: Lanes, const F: usize, const P: usize> Task<L> for Multiply<'_, L, F, P>
 }
 
 /// Outermost inverse pass of the parts of one column, their sum, and out.
-struct OutermostInverse<'a, L: Lanes, const R: usize, const P: usize> {
-    plan: &'a LinePlan,
-    lines: &'a mut [Line<L>],
-    output: &'a mut [Line<L>],
+pub struct OutermostInverse<'a, L: Lanes, const R: usize, const P: usize> {
+    pub plan: &'a LinePlan,
+    pub lines: &'a mut [Line<L>],
+    pub output: &'a mut [Line<L>],
 }
 
 impl<L: Lanes, const R: usize, const P: usize> Task<L> for OutermostInverse<'_, L, R, P> {

@@ -3,8 +3,8 @@
 //! Lines are transformed [`Lanes::WIDTH`](simd::Lanes::WIDTH) at a time, so that SIMD code is one vector operation per
 //! scalar one. Frequencies stay in the order in which they come out; kernels are stored in that order. Per strip of
 //! columns, forward transform, kernels and inverse transform are done in cache. From the ground: `simd` and
-//! `butterfly` (arithmetic), `plan` (tables), `passes` (one line transform), `rows`, `paired_rows` and `columns` (the stages
-//! of a product), `spectrum` (kernels in the order of the engine), `product` (the whole).
+//! `butterfly` (arithmetic), `plan` (tables), `passes` (one line transform), `rows`, `paired_rows`, `columns` and
+//! `mirrored_columns` (the stages of a product), `spectrum` (kernels in the order of the engine), `reflection` (what mirrors change), `product` (the whole).
 
 #![expect(
     clippy::needless_range_loop,
@@ -15,10 +15,12 @@
 mod butterfly;
 mod columns;
 mod memory;
+mod mirrored_columns;
 mod paired_rows;
 mod passes;
 mod plan;
 mod product;
+mod reflection;
 mod rows;
 mod simd;
 mod spectrum;

@@ -4,11 +4,11 @@
 //! `2 B_k = -i (Z_k - conj(Z_-k))`, wanted for `k = 0..=n/2` only; the factors 2 go into the kernels.
 //! Strips hold the wavenumbers in natural order.
 
-use super::butterfly::{Complex, Weights, butterfly, plain_butterfly, splat};
+use super::butterfly::{Complex, butterfly, plain_butterfly, splat};
 use super::memory::{Line, as_lines_mut, as_vectors_mut};
 use super::passes::{forward_middle, inverse_middle, load_quad, parts, with_radix};
 use super::plan::LinePlan;
-use super::rows::{Layout, gather_rows, rows_of_strip, scatter_rows};
+use super::rows::{Layout, Side, gather_rows, mirrored_point, rows_of_strip, scatter_rows};
 use super::simd::{Lanes, MAX_WIDTH, Task};
 
 /// Where the frequencies `k` and `-k` come out of the transform of a pair of rows.
@@ -34,6 +34,7 @@ pub fn places(order: &[usize], count: usize) -> Vec<Places> {
 pub struct PairsForward<'a> {
     pub layout: &'a Layout,
     pub plan: &'a LinePlan,
+    pub side: Side,
     pub places: &'a [Places],
     pub field: &'a [f64],
     pub first: usize,
@@ -44,7 +45,7 @@ pub struct PairsForward<'a> {
 impl<L: Lanes> Task<L> for PairsForward<'_> {
     #[inline(always)]
     fn run(self, lanes: L) {
-        let Self { layout, plan, places, field, first, pairs, scratch } = self;
+        let Self { layout, plan, side, places, field, first, pairs, scratch } = self;
         let [nx, ny] = layout.shape;
         let (staging_a, scratch) = scratch.split_at_mut(plan.padded_length() * L::WIDTH);
         let (staging_b, scratch) = scratch.split_at_mut(plan.padded_length() * L::WIDTH);
@@ -56,21 +57,21 @@ impl<L: Lanes> Task<L> for PairsForward<'_> {
             let end = (middle + L::WIDTH).min(nx);
             gather_rows(lanes, &field[begin * ny..middle * ny], ny, staging_a);
             gather_rows(lanes, &field[middle * ny..end * ny], ny, staging_b);
-            with_radix!(plan.outermost(), R => outermost_forward::<L, R>(lanes, plan, staging_a, staging_b, lines));
+            with_radix!(plan.outermost(), R => outermost_forward::<L, R>(lanes, plan, side, [staging_a, staging_b], lines));
             for (block, lines) in lines[..ny].chunks_exact_mut(plan.inner_length()).enumerate() {
                 forward_middle(lanes, plan, block, lines);
             }
             let (group_a, group_b) = spectrum.split_at_mut(layout.group_stride);
             let [group_a, group_b] = [as_lines_mut::<L>(group_a), as_lines_mut::<L>(group_b)];
-            let weights = plan.innermost_forward();
-            lanes.enter(Separate::<L> { weights, places, lines, group_a, group_b });
+            lanes.enter(Separate::<L> { plan, side, places, lines, group_a, group_b });
         }
     }
 }
 
 /// Innermost forward pass, and the spectra of both rows from that of the pair.
 struct Separate<'a, L: Lanes> {
-    weights: &'a [Weights],
+    plan: &'a LinePlan,
+    side: Side,
     places: &'a [Places],
     /// One line more than the transform has.
     lines: &'a mut [Line<L>],
@@ -82,7 +83,7 @@ impl<L: Lanes> Task<L> for Separate<'_, L> {
     #[inline(always)]
     fn run(self, lanes: L) {
         let lines = self.lines;
-        for (lines, weights) in lines.chunks_exact_mut(4).zip(self.weights) {
+        for (lines, weights) in lines.chunks_exact_mut(4).zip(self.plan.innermost_forward()) {
             let y = butterfly(lanes, load_quad(lanes, lines), &splat(lanes, weights));
             for m in 0..4 {
                 y[m].store(&mut lines[m]);
@@ -99,6 +100,11 @@ impl<L: Lanes> Task<L> for Separate<'_, L> {
                 a[1][lane] = lanes.sub(z[1], mirrored[1]);
                 b[0][lane] = lanes.add(z[1], mirrored[1]);
                 b[1][lane] = lanes.sub(mirrored[0], z[0]);
+                if self.side.is_mirrored() {
+                    let turn = turn_at(self.plan, places[lane], 1.0);
+                    turned(lanes, &mut a, lane, turn);
+                    turned(lanes, &mut b, lane, turn);
+                }
             }
             lanes.transpose(&mut a[0]);
             lanes.transpose(&mut a[1]);
@@ -116,6 +122,7 @@ impl<L: Lanes> Task<L> for Separate<'_, L> {
 pub struct PairsInverse<'a> {
     pub layout: &'a Layout,
     pub plan: &'a LinePlan,
+    pub side: Side,
     pub places: &'a [Places],
     /// Spectra from the first strip of this output on.
     pub spectrum: &'a [f64],
@@ -127,18 +134,18 @@ pub struct PairsInverse<'a> {
 impl<L: Lanes> Task<L> for PairsInverse<'_> {
     #[inline(always)]
     fn run(self, lanes: L) {
-        let Self { layout, plan, places, spectrum, first, rows, scratch } = self;
+        let Self { layout, plan, side, places, spectrum, first, rows, scratch } = self;
         let ny = layout.shape[1];
         let (staging_a, scratch) = scratch.split_at_mut(plan.padded_length() * L::WIDTH);
         let (staging_b, scratch) = scratch.split_at_mut(plan.padded_length() * L::WIDTH);
         let [staging_a, staging_b] = [as_vectors_mut::<L>(staging_a), as_vectors_mut::<L>(staging_b)];
         let lines = &mut as_lines_mut::<L>(scratch)[..=ny];
         for (pair, rows) in (first..).zip(rows.chunks_mut(2 * L::WIDTH * ny)) {
-            lanes.enter(Join::<L> { layout, spectrum, places, pair, lines });
+            lanes.enter(Join::<L> { layout, plan, side, spectrum, places, pair, lines });
             for lines in lines[..ny].chunks_exact_mut(plan.inner_length()) {
                 inverse_middle(lanes, plan, lines);
             }
-            with_radix!(plan.outermost(), R => outermost_inverse::<L, R>(lanes, plan, lines, staging_a, staging_b));
+            with_radix!(plan.outermost(), R => outermost_inverse::<L, R>(lanes, plan, side, lines, [staging_a, staging_b]));
             let (rows_a, rows_b) = rows.split_at_mut(rows.len().min(L::WIDTH * ny));
             scatter_rows(lanes, staging_a, rows_a, ny);
             scatter_rows(lanes, staging_b, rows_b, ny);
@@ -149,6 +156,8 @@ impl<L: Lanes> Task<L> for PairsInverse<'_> {
 /// The spectrum of a pair of rows from those of both, with real and imaginary part exchanged, and innermost inverse pass.
 struct Join<'a, L: Lanes> {
     layout: &'a Layout,
+    plan: &'a LinePlan,
+    side: Side,
     spectrum: &'a [f64],
     places: &'a [Places],
     pair: usize,
@@ -159,20 +168,26 @@ struct Join<'a, L: Lanes> {
 impl<L: Lanes> Task<L> for Join<'_, L> {
     #[inline(always)]
     fn run(self, lanes: L) {
-        let Self { layout, spectrum, places, pair, lines } = self;
+        let Self { layout, plan, side, spectrum, places, pair, lines } = self;
         for (strip, places) in places.chunks_exact(L::WIDTH).enumerate() {
-            let (mut a_re, mut a_im) = rows_of_strip(lanes, layout, spectrum, strip, 2 * pair);
-            let (mut b_re, mut b_im) = rows_of_strip(lanes, layout, spectrum, strip, 2 * pair + 1);
-            lanes.transpose(&mut a_re);
-            lanes.transpose(&mut a_im);
-            lanes.transpose(&mut b_re);
-            lanes.transpose(&mut b_im);
+            let (mut a, mut b) = ([[lanes.splat(0.0); MAX_WIDTH]; 2], [[lanes.splat(0.0); MAX_WIDTH]; 2]);
+            [a[0], a[1]] = rows_of_strip(lanes, layout, spectrum, strip, 2 * pair).into();
+            [b[0], b[1]] = rows_of_strip(lanes, layout, spectrum, strip, 2 * pair + 1).into();
+            lanes.transpose(&mut a[0]);
+            lanes.transpose(&mut a[1]);
+            lanes.transpose(&mut b[0]);
+            lanes.transpose(&mut b[1]);
             for lane in 0..L::WIDTH {
+                if side.is_mirrored() {
+                    let turn = turn_at(plan, places[lane], -1.0);
+                    turned(lanes, &mut a, lane, turn);
+                    turned(lanes, &mut b, lane, turn);
+                }
                 // Mirrored first: at the ends of the spectrum both are one place.
                 lines[places[lane].mirrored] =
-                    [lanes.sub(b_re[lane], a_im[lane]), lanes.add(a_re[lane], b_im[lane])];
+                    [lanes.sub(b[0][lane], a[1][lane]), lanes.add(a[0][lane], b[1][lane])];
                 lines[places[lane].direct] =
-                    [lanes.add(a_im[lane], b_re[lane]), lanes.sub(a_re[lane], b_im[lane])];
+                    [lanes.add(a[1][lane], b[0][lane]), lanes.sub(a[0][lane], b[1][lane])];
             }
         }
         for lines in lines.chunks_exact_mut(4) {
@@ -184,12 +199,42 @@ impl<L: Lanes> Task<L> for Join<'_, L> {
     }
 }
 
+/// Phase of a mirrored line at the frequency of some places, forward or (`sign = -1`) back.
+#[inline(always)]
+fn turn_at(plan: &LinePlan, places: Places, sign: f64) -> [f64; 2] {
+    plan.mirror_turns().get(places.direct).map_or([1.0, 0.0], |[cosine, sine]| [*cosine, sign * sine])
+}
+
+/// Turns the complex number of one lane index.
+#[inline(always)]
+fn turned<L: Lanes>(
+    lanes: L,
+    numbers: &mut [[L::Reals; MAX_WIDTH]; 2],
+    index: usize,
+    [cosine, sine]: [f64; 2],
+) {
+    let number = Complex::<L> { re: numbers[0][index], im: numbers[1][index] };
+    let number = number.rotated(lanes, lanes.splat(cosine), lanes.splat(sine));
+    numbers[0][index] = number.re;
+    numbers[1][index] = number.im;
+}
+
+/// The point of a row at a place of its transform, and its factor.
+#[inline(always)]
+fn point_at(plan: &LinePlan, side: Side, place: usize) -> (usize, f64) {
+    if !side.is_mirrored() {
+        return (place, 1.0);
+    }
+    let (point, backward) = mirrored_point(place, plan.length());
+    (point, if backward { side.backward_sign() } else { 1.0 })
+}
+
 #[inline(always)]
 fn outermost_forward<L: Lanes, const R: usize>(
     lanes: L,
     plan: &LinePlan,
-    real: &[L::Reals],
-    imaginary: &[L::Reals],
+    side: Side,
+    [real, imaginary]: [&[L::Reals]; 2],
     lines: &mut [Line<L>],
 ) {
     let places = plan.inner_length();
@@ -198,7 +243,11 @@ fn outermost_forward<L: Lanes, const R: usize>(
     for j in 0..places {
         let mut x = [Complex::zero(lanes); R];
         for m in 0..R {
-            x[m] = Complex { re: real[m * places + j], im: imaginary[m * places + j] };
+            let (point, sign) = point_at(plan, side, m * places + j);
+            x[m] = Complex { re: real[point], im: imaginary[point] };
+            if sign < 0.0 {
+                x[m] = x[m].negated(lanes);
+            }
         }
         let y = butterfly(lanes, x, &weights);
         for m in 0..R {
@@ -211,9 +260,9 @@ fn outermost_forward<L: Lanes, const R: usize>(
 fn outermost_inverse<L: Lanes, const R: usize>(
     lanes: L,
     plan: &LinePlan,
+    side: Side,
     lines: &mut [Line<L>],
-    real: &mut [L::Reals],
-    imaginary: &mut [L::Reals],
+    [real, imaginary]: [&mut [L::Reals]; 2],
 ) {
     let places = plan.inner_length();
     let parts = parts::<L, R>(lines, places);
@@ -224,8 +273,10 @@ fn outermost_inverse<L: Lanes, const R: usize>(
         }
         let y = butterfly(lanes, x, &splat(lanes, weights));
         for m in 0..R {
-            real[m * places + j] = y[m].im;
-            imaginary[m * places + j] = y[m].re;
+            let (point, sign) = point_at(plan, side, m * places + j);
+            let y = if sign < 0.0 { y[m].negated(lanes) } else { y[m] };
+            real[point] = y.im;
+            imaginary[point] = y.re;
         }
     }
 }

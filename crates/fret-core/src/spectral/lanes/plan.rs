@@ -27,6 +27,9 @@ pub struct LinePlan {
     first_turns: Vec<[f64; 2]>,
     /// Cosine and sine of `2 pi f m / r_0`, the half-shift of their outputs.
     output_turns: Vec<[f64; 2]>,
+    /// Cosine and sine of `pi (k + f) / (2n)` at the position of each frequency: the phase between the first point and the
+    /// plane of a mirror half a cell of the mirrored line before it.
+    mirror_turns: Vec<[f64; 2]>,
 }
 
 impl LinePlan {
@@ -58,7 +61,12 @@ impl LinePlan {
         let first_turns =
             (0..length / outermost).map(|j| turn(fraction * j as f64 / length as f64)).collect();
         let output_turns = (0..outermost).map(|m| turn(fraction * m as f64 / outermost as f64)).collect();
-        Self { length, radices, forward, inverse, first_turns, output_turns }
+        let mut plan =
+            Self { length, radices, forward, inverse, first_turns, output_turns, mirror_turns: Vec::new() };
+        let quarter = |k: usize| turn(0.25 * (k as f64 + fraction) / length as f64);
+        plan.mirror_turns = plan.order().into_iter().map(quarter).collect();
+        plan.mirror_turns.resize(plan.padded_length(), [1.0, 0.0]);
+        plan
     }
 
     pub fn length(&self) -> usize {
@@ -106,6 +114,11 @@ impl LinePlan {
 
     pub fn output_turns(&self) -> &[[f64; 2]] {
         &self.output_turns
+    }
+
+    /// One per position of the padded line.
+    pub fn mirror_turns(&self) -> &[[f64; 2]] {
+        &self.mirror_turns
     }
 
     /// For each position of the transform, the index of its frequency.

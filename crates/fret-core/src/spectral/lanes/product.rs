@@ -8,9 +8,11 @@ use super::super::line_product::folded_indices;
 use super::super::{Kernel, Parity};
 use super::columns::{Columns, Term};
 use super::memory::{AlignedReals, CACHE_LINE};
+use super::mirrored_columns::MirroredColumns;
 use super::paired_rows::{PairsForward, PairsInverse, Places, places};
 use super::plan::LinePlan;
-use super::rows::{Layout, RowsForward, RowsInverse};
+use super::reflection::{Reflection, second_of_table, tables};
+use super::rows::{Layout, RowsForward, RowsInverse, Side};
 use super::simd::{Lanes, Portable};
 use super::spectrum::KernelColumns;
 use super::threads::{Scratch, divide, pieces};
@@ -99,6 +101,9 @@ pub struct LaneProduct {
     outputs: usize,
     /// Per output.
     terms: Vec<Vec<Term>>,
+    /// What mirrors change.
+    reflection: Option<Reflection>,
+    /// Of each place: kernels, or their tables with mirrors.
     kernel_count: usize,
     kernels: AlignedReals,
 }
@@ -111,13 +116,22 @@ impl LaneProduct {
 
     /// Free-space product from the quadrants of the kernels; any shape.
     pub fn free_space(set: InstructionSet, terms: &Terms, kernels: &[Kernel<'_>]) -> Self {
-        let [nx, ny] = terms.shape.map(|n| good_length(n).max(SHORTEST));
-        let mut product = Self::planned(set, terms, Boundary::FreeSpace, [nx, ny], 0.25, ny);
-        let [cells_x, cells_y] = terms.shape;
-        let scale = 1.0 / (2.0 * nx as f64 * ny as f64);
-        let mut rows = AlignedReals::zeros(product.input_len());
-        let mut scratch = AlignedReals::zeros(product.scratch_len());
-        let Self { layout, along_x, along_y, kernel_count, kernels: transformed, .. } = &mut product;
+        let lengths = terms.shape.map(|n| good_length(n).max(SHORTEST));
+        if terms.mirrors.any() {
+            return Self::free_space_mirrored(set, terms, kernels, lengths);
+        }
+        let mut product = Self::planned(set, terms, Boundary::FreeSpace, lengths, 0.25, lengths[1]);
+        product.transform(kernels, 1.0 / (2.0 * lengths[0] as f64 * lengths[1] as f64));
+        product
+    }
+
+    /// The kernels of a free-space product without mirrors, times `scale`.
+    fn transform(&mut self, kernels: &[Kernel<'_>], scale: f64) {
+        let mut rows = AlignedReals::zeros(self.input_len());
+        let mut scratch = AlignedReals::zeros(self.scratch_len());
+        let Self { set, layout, along_x, along_y, kernel_count, kernels: transformed, .. } = self;
+        let (set, side) = (*set, Side::Plain);
+        let [cells_x, cells_y] = layout.shape;
         let (rows, scratch) = (rows.as_mut_slice(), scratch.as_mut_slice());
         let mut quadrant = vec![0.0; set.width() * cells_y];
         for (kernel, &Kernel { values, parity }) in kernels.iter().enumerate() {
@@ -138,17 +152,78 @@ impl LaneProduct {
                 }
                 let layout = &Layout { shape: [values.nrows(), cells_y], ..*layout };
                 let field = quadrant.as_slice();
-                enter!(set, RowsForward { layout, plan: &*along_y, field, first: 0, groups, scratch });
+                enter!(set, RowsForward { layout, plan: &*along_y, side, field, first: 0, groups, scratch });
             }
             let (layout, plan, kernel_count, odd) = (&*layout, &*along_x, *kernel_count, parity.odd());
             let kernels = transformed.as_mut_slice();
             enter!(set, KernelColumns { layout, plan, rows, odd, kernel, kernel_count, kernels, scratch });
+        }
+    }
+
+    /// Free-space product in front of mirrors, from the kernels of the whole grid.
+    ///
+    /// The frequencies of a line of `n` points before a mirror are half of those of the whole line of `2n` points; the other half,
+    /// from `n` on, are two pi minus what `pi - w` would be.
+    fn free_space_mirrored(
+        set: InstructionSet,
+        terms: &Terms,
+        kernels: &[Kernel<'_>],
+        lengths: [usize; 2],
+    ) -> Self {
+        let axes = terms.mirrors.axes;
+        let mut product = Self::planned(set, terms, Boundary::FreeSpace, lengths, 0.25, lengths[1]);
+        product.reflection = Some(Reflection::new(terms, Vec::new()));
+        let wide = Terms { shape: terms.mirrors.whole(terms.shape), ..terms.clone() };
+        let wide = Terms { mirrors: super::super::Mirrors::NONE, ..wide };
+        let wide_lengths = terms.mirrors.whole(lengths);
+        let mut whole = Self::planned(set, &wide, Boundary::FreeSpace, wide_lengths, 0.25, wide_lengths[1]);
+        whole.transform(kernels, 0.25 / (lengths[0] as f64 * lengths[1] as f64));
+        let position = |plan: &LinePlan| {
+            let mut positions = vec![0; plan.length()];
+            for (position, frequency) in plan.order().into_iter().enumerate() {
+                positions[frequency] = position;
+            }
+            positions
+        };
+        let places = [position(&whole.along_x), position(&whole.along_y)];
+        let orders = [product.along_x.order(), product.along_y.order()];
+        let (width, count) = (set.width(), product.kernel_count);
+        let source = whole.kernels.as_slice();
+        for (kernel, &Kernel { parity, .. }) in kernels.iter().enumerate() {
+            let sign = if parity == Parity::EvenEven { 1.0 } else { -1.0 };
+            for table in 0..tables(axes) {
+                let second = second_of_table(axes, table);
+                let sign =
+                    (0..2).filter(|axis| second[*axis] && parity.odd()[*axis]).fold(sign, |sign, _| -sign);
+                let of_axis = |axis: usize| -> Vec<usize> {
+                    let behind = if second[axis] { lengths[axis] } else { 0 };
+                    orders[axis].iter().map(|k| places[axis][k + behind]).collect()
+                };
+                let (from_x, from_y) = (of_axis(0), of_axis(1));
+                let at = kernel * tables(axes) + table;
+                let strips = product.kernels.as_mut_slice().chunks_exact_mut(lengths[0] * count * width);
+                for (strip, values) in strips.enumerate() {
+                    let columns = &from_y[(strip * width).min(from_y.len())..];
+                    for (place, &x) in from_x.iter().enumerate() {
+                        let values =
+                            &mut values[((place / 4 * count + at) * 4 + place % 4) * width..][..width];
+                        let first = ((x / 4 * kernels.len() + kernel) * 4 + x % 4) * width;
+                        for (value, &y) in values.iter_mut().zip(columns) {
+                            let strip = y / width * wide_lengths[0] * kernels.len() * width;
+                            *value = sign * source[strip + first + y % width];
+                        }
+                    }
+                }
+            }
         }
         product
     }
 
     /// Periodic product from the quadrants of the symbols; lengths must be good and at least 8.
     pub fn periodic(set: InstructionSet, terms: &Terms, symbols: &[Kernel<'_>]) -> Self {
+        if terms.mirrors.any() {
+            return Self::periodic_mirrored(set, terms, symbols);
+        }
         let [nx, ny] = terms.shape;
         let boundary = Boundary::Periodic { places: Vec::new() };
         let mut product = Self::planned(set, terms, boundary, [nx, ny], 0.0, ny / 2 + 1);
@@ -172,6 +247,49 @@ impl LaneProduct {
                     for (value, ky) in values.iter_mut().zip(strip * width..=ny / 2) {
                         let (b, sign_b) = folded_y[ky];
                         *value = scale * sign_a * sign_b * symbol.values[[a, b]];
+                    }
+                }
+            }
+        }
+        product
+    }
+
+    /// Periodic product in front of mirrors, from the symbols of the whole grid.
+    fn periodic_mirrored(set: InstructionSet, terms: &Terms, symbols: &[Kernel<'_>]) -> Self {
+        let [nx, ny] = terms.shape;
+        let axes = terms.mirrors.axes;
+        let boundary = Boundary::Periodic { places: Vec::new() };
+        let mut product = Self::planned(set, terms, boundary, [nx, ny], 0.0, ny / 2 + 1);
+        let (width, count) = (set.width(), product.kernel_count);
+        let strips = product.layout.strips;
+        product.boundary = Boundary::Periodic { places: places(&product.along_y.order(), strips * width) };
+        let waves = nx / 2 + 1;
+        let along_x = places(&product.along_x.order(), waves);
+        product.reflection = Some(Reflection::new(terms, along_x));
+        product.kernels = AlignedReals::zeros(strips * waves * count * width);
+        // Rows come out doubled, and so do pairs of opposite frequencies.
+        let scale = 0.25 / (nx as f64 * ny as f64);
+        for (kernel, symbol) in symbols.iter().enumerate() {
+            let odd = symbol.parity.odd();
+            let whole = terms.mirrors.whole(terms.shape);
+            for table in 0..tables(axes) {
+                let second = second_of_table(axes, table);
+                // Index of a wave in the symbol; none where an odd one counts as zero.
+                let index = |axis: usize, wave: usize| {
+                    let index = if second[axis] { terms.shape[axis] - wave } else { wave };
+                    (!odd[axis] || (index > 0 && 2 * index < whole[axis])).then_some(index)
+                };
+                let at = kernel * tables(axes) + table;
+                let strips = product.kernels.as_mut_slice().chunks_exact_mut(waves * count * width);
+                for (strip, values) in strips.enumerate() {
+                    for (a, values) in values.chunks_exact_mut(count * width).enumerate() {
+                        let values = &mut values[at * width..][..width];
+                        for (value, b) in values.iter_mut().zip(strip * width..=ny / 2) {
+                            *value = match (index(0, a), index(1, b)) {
+                                (Some(a), Some(b)) => scale * symbol.values[[a, b]],
+                                _ => 0.0,
+                            };
+                        }
                     }
                 }
             }
@@ -208,7 +326,7 @@ impl LaneProduct {
             });
             terms.collect()
         };
-        let kernel_count = terms.parities.len();
+        let kernel_count = terms.parities.len() * tables(terms.mirrors.axes);
         Self {
             set,
             boundary,
@@ -218,6 +336,7 @@ impl LaneProduct {
             inputs: terms.inputs,
             outputs: terms.outputs,
             terms: (0..terms.outputs).map(order).collect(),
+            reflection: None,
             kernel_count,
             kernels: AlignedReals::zeros(strips * nx * kernel_count * width),
         }
@@ -275,8 +394,15 @@ impl LaneProduct {
         let (strips, numbers) = work.split_at_mut(self.layout.strips * self.layout.strip_stride);
         let piece_len = self.scratch_len();
         let pieces = pieces(self.layout.shape, numbers.len() / piece_len);
-        for (field, spectrum) in input.iter().zip(spectra.chunks_exact_mut(self.input_len())) {
-            self.rows_forward(field, spectrum, Scratch { numbers, piece_len }, pieces);
+        let sides = self.reflection.as_ref().map(|reflection| reflection.rows);
+        let side = |sides: Option<[Side; 3]>, index: usize| {
+            sides.and_then(|sides| sides.get(index).copied()).unwrap_or(Side::Plain)
+        };
+        for (index, (field, spectrum)) in
+            input.iter().zip(spectra.chunks_exact_mut(self.input_len())).enumerate()
+        {
+            let side = side(sides.map(|sides| sides.inputs), index);
+            self.rows_forward(field, side, spectrum, Scratch { numbers, piece_len }, pieces);
         }
         let scratch = Scratch { numbers, piece_len };
         match self.boundary {
@@ -285,11 +411,25 @@ impl LaneProduct {
         }
         let output_len = self.layout.column_len * 2 * self.set.width();
         for (index, field) in output.iter_mut().enumerate() {
-            self.rows_inverse(&strips[index * output_len..], field, Scratch { numbers, piece_len }, pieces);
+            let side = side(sides.map(|sides| sides.outputs), index);
+            self.rows_inverse(
+                &strips[index * output_len..],
+                side,
+                field,
+                Scratch { numbers, piece_len },
+                pieces,
+            );
         }
     }
 
-    fn rows_forward(&self, field: &[f64], spectrum: &mut [f64], scratch: Scratch<'_>, pieces: usize) {
+    fn rows_forward(
+        &self,
+        field: &[f64],
+        side: Side,
+        spectrum: &mut [f64],
+        scratch: Scratch<'_>,
+        pieces: usize,
+    ) {
         let Self { layout, along_y: plan, .. } = self;
         let chunk = self.paired() * layout.group_stride;
         divide(
@@ -299,11 +439,14 @@ impl LaneProduct {
             pieces,
             &|first, groups: &mut [f64], scratch: &mut [f64]| match &self.boundary {
                 Boundary::FreeSpace => {
-                    enter!(self.set, RowsForward { layout, plan, field, first, groups, scratch });
+                    enter!(self.set, RowsForward { layout, plan, side, field, first, groups, scratch });
                 }
                 Boundary::Periodic { places } => {
                     let pairs = groups;
-                    enter!(self.set, PairsForward { layout, plan, places, field, first, pairs, scratch });
+                    enter!(
+                        self.set,
+                        PairsForward { layout, plan, side, places, field, first, pairs, scratch }
+                    );
                 }
             },
         );
@@ -318,6 +461,24 @@ impl LaneProduct {
     ) {
         let chunk = self.layout.strip_stride;
         divide(strips, chunk, scratch, pieces, &|first, strips: &mut [f64], scratch: &mut [f64]| {
+            if let Some(reflection) = &self.reflection {
+                let columns = MirroredColumns::<F, P> {
+                    layout: &self.layout,
+                    plan: &self.along_x,
+                    sides: reflection.columns,
+                    inputs,
+                    input_len: self.input_len(),
+                    kernels: self.kernels.as_slice(),
+                    table_count: self.kernel_count,
+                    places: &reflection.places,
+                    terms: &reflection.terms,
+                    first,
+                    strips,
+                    scratch,
+                };
+                enter!(self.set, columns);
+                return;
+            }
             let columns = Columns::<F, P> {
                 layout: &self.layout,
                 plan: &self.along_x,
@@ -334,17 +495,24 @@ impl LaneProduct {
         });
     }
 
-    fn rows_inverse(&self, spectrum: &[f64], field: &mut [f64], scratch: Scratch<'_>, pieces: usize) {
+    fn rows_inverse(
+        &self,
+        spectrum: &[f64],
+        side: Side,
+        field: &mut [f64],
+        scratch: Scratch<'_>,
+        pieces: usize,
+    ) {
         let Self { layout, along_y: plan, .. } = self;
         let chunk = self.paired() * self.set.width() * layout.shape[1];
         divide(field, chunk, scratch, pieces, &|first, rows: &mut [f64], scratch: &mut [f64]| match &self
             .boundary
         {
             Boundary::FreeSpace => {
-                enter!(self.set, RowsInverse { layout, plan, spectrum, first, rows, scratch });
+                enter!(self.set, RowsInverse { layout, plan, side, spectrum, first, rows, scratch });
             }
             Boundary::Periodic { places } => {
-                enter!(self.set, PairsInverse { layout, plan, places, spectrum, first, rows, scratch });
+                enter!(self.set, PairsInverse { layout, plan, side, places, spectrum, first, rows, scratch });
             }
         });
     }

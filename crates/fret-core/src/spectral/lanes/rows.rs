@@ -9,6 +9,40 @@ use super::passes::{forward_middle, inverse_middle, load_quad, parts, with_radix
 use super::plan::LinePlan;
 use super::simd::{Lanes, MAX_WIDTH, Task};
 
+/// How a line lies to a mirror before its first point.
+///
+/// Of a line `x_j`, `j = 0..n`, that goes on behind the mirror, even or odd, the transform is real: the cosines or sines at
+/// the frequencies `w_k` and at `pi - w_k`. One complex transform of `n` points yields both, as real and minus imaginary part
+/// (the other way round for odd lines), of `x_0, x_2, x_4 ...` as real and `... x_5, x_3, x_1` as imaginary numbers (with
+/// minus for odd lines). For whole frequencies the latter are real as well.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Side {
+    /// No mirror.
+    Plain,
+    /// Goes on behind the mirror as it is.
+    Even,
+    /// Goes on with the other sign.
+    Odd,
+}
+
+impl Side {
+    /// Whether there is a mirror.
+    pub fn is_mirrored(self) -> bool {
+        self != Self::Plain
+    }
+
+    /// Factor of the points taken backwards.
+    pub fn backward_sign(self) -> f64 {
+        if self == Self::Odd { -1.0 } else { 1.0 }
+    }
+}
+
+/// The point of a mirrored line of `length` points that is taken at `place`, and whether backwards.
+#[inline(always)]
+pub fn mirrored_point(place: usize, length: usize) -> (usize, bool) {
+    if 2 * place < length { (2 * place, false) } else { (2 * (length - place) - 1, true) }
+}
+
 /// Where things are: see the fields.
 #[derive(Debug, Clone, Copy)]
 pub struct Layout {
@@ -28,6 +62,7 @@ pub struct Layout {
 pub struct RowsForward<'a> {
     pub layout: &'a Layout,
     pub plan: &'a LinePlan,
+    pub side: Side,
     pub field: &'a [f64],
     pub first: usize,
     pub groups: &'a mut [f64],
@@ -37,7 +72,7 @@ pub struct RowsForward<'a> {
 impl<L: Lanes> Task<L> for RowsForward<'_> {
     #[inline(always)]
     fn run(self, lanes: L) {
-        let Self { layout, plan, field, first, groups, scratch } = self;
+        let Self { layout, plan, side, field, first, groups, scratch } = self;
         let [nx, ny] = layout.shape;
         let (staging, scratch) = scratch.split_at_mut(plan.padded_length() * L::WIDTH);
         let staging = as_vectors_mut::<L>(staging);
@@ -50,11 +85,11 @@ impl<L: Lanes> Task<L> for RowsForward<'_> {
                 continue;
             }
             gather_rows(lanes, &field[group * L::WIDTH * ny..][..rows * ny], ny, staging);
-            with_radix!(plan.outermost(), R => outermost_forward::<L, R>(lanes, plan, staging, lines));
+            with_radix!(plan.outermost(), R => outermost_forward::<L, R>(lanes, plan, side, staging, lines));
             for (block, lines) in lines[..plan.length()].chunks_exact_mut(plan.inner_length()).enumerate() {
                 forward_middle(lanes, plan, block, lines);
             }
-            lanes.enter(InnermostForward::<L> { plan, lines, spectrum });
+            lanes.enter(InnermostForward::<L> { plan, side, lines, spectrum });
         }
     }
 }
@@ -62,6 +97,7 @@ impl<L: Lanes> Task<L> for RowsForward<'_> {
 /// Innermost forward pass, and the turn from vectors across rows to vectors across frequencies.
 struct InnermostForward<'a, L: Lanes> {
     plan: &'a LinePlan,
+    side: Side,
     lines: &'a [Line<L>],
     spectrum: &'a mut [Line<L>],
 }
@@ -70,16 +106,22 @@ impl<L: Lanes> Task<L> for InnermostForward<'_, L> {
     #[inline(always)]
     fn run(self, lanes: L) {
         let weights = self.plan.innermost_forward().chunks_exact(L::WIDTH / 4);
-        let strips = self.lines.chunks_exact(L::WIDTH).zip(weights);
-        for ((lines, weights), strip) in strips.zip(self.spectrum.chunks_exact_mut(L::WIDTH)) {
+        let turns = self.plan.mirror_turns().chunks_exact(L::WIDTH);
+        let strips = self.lines.chunks_exact(L::WIDTH).zip(weights).zip(turns);
+        for (((lines, weights), turns), strip) in strips.zip(self.spectrum.chunks_exact_mut(L::WIDTH)) {
             let mut re = [lanes.splat(0.0); MAX_WIDTH];
             let mut im = [lanes.splat(0.0); MAX_WIDTH];
             for quad in 0..L::WIDTH / 4 {
                 let x = load_quad(lanes, &lines[4 * quad..4 * quad + 4]);
                 let y = butterfly(lanes, x, &splat(lanes, &weights[quad]));
                 for m in 0..4 {
-                    re[4 * quad + m] = y[m].re;
-                    im[4 * quad + m] = y[m].im;
+                    let mut y = y[m];
+                    if self.side.is_mirrored() {
+                        let [cosine, sine] = turns[4 * quad + m];
+                        y = y.rotated(lanes, lanes.splat(cosine), lanes.splat(sine));
+                    }
+                    re[4 * quad + m] = y.re;
+                    im[4 * quad + m] = y.im;
                 }
             }
             lanes.transpose(&mut re);
@@ -95,6 +137,7 @@ impl<L: Lanes> Task<L> for InnermostForward<'_, L> {
 pub struct RowsInverse<'a> {
     pub layout: &'a Layout,
     pub plan: &'a LinePlan,
+    pub side: Side,
     /// Spectra from the first strip of this output on.
     pub spectrum: &'a [f64],
     pub first: usize,
@@ -105,17 +148,17 @@ pub struct RowsInverse<'a> {
 impl<L: Lanes> Task<L> for RowsInverse<'_> {
     #[inline(always)]
     fn run(self, lanes: L) {
-        let Self { layout, plan, spectrum, first, rows, scratch } = self;
+        let Self { layout, plan, side, spectrum, first, rows, scratch } = self;
         let ny = layout.shape[1];
         let (staging, scratch) = scratch.split_at_mut(plan.padded_length() * L::WIDTH);
         let staging = as_vectors_mut::<L>(staging);
         let lines = &mut as_lines_mut::<L>(scratch)[..plan.padded_length()];
         for (group, rows) in (first..).zip(rows.chunks_mut(L::WIDTH * ny)) {
-            lanes.enter(InnermostInverse::<L> { layout, spectrum, group, lines });
+            lanes.enter(InnermostInverse::<L> { layout, plan, side, spectrum, group, lines });
             for lines in lines[..plan.length()].chunks_exact_mut(plan.inner_length()) {
                 inverse_middle(lanes, plan, lines);
             }
-            with_radix!(plan.outermost(), R => outermost_inverse::<L, R>(lanes, plan, lines, staging));
+            with_radix!(plan.outermost(), R => outermost_inverse::<L, R>(lanes, plan, side, lines, staging));
             scatter_rows(lanes, staging, rows, ny);
         }
     }
@@ -124,6 +167,8 @@ impl<L: Lanes> Task<L> for RowsInverse<'_> {
 /// The turn from vectors across frequencies to vectors across rows, and innermost inverse pass.
 struct InnermostInverse<'a, L: Lanes> {
     layout: &'a Layout,
+    plan: &'a LinePlan,
+    side: Side,
     spectrum: &'a [f64],
     group: usize,
     lines: &'a mut [Line<L>],
@@ -132,7 +177,7 @@ struct InnermostInverse<'a, L: Lanes> {
 impl<L: Lanes> Task<L> for InnermostInverse<'_, L> {
     #[inline(always)]
     fn run(self, lanes: L) {
-        let Self { layout, spectrum, group, lines } = self;
+        let Self { layout, plan, side, spectrum, group, lines } = self;
         for (strip, lines) in lines.chunks_exact_mut(L::WIDTH).take(layout.strips).enumerate() {
             let (mut re, mut im) = rows_of_strip(lanes, layout, spectrum, strip, group);
             lanes.transpose(&mut re);
@@ -141,6 +186,11 @@ impl<L: Lanes> Task<L> for InnermostInverse<'_, L> {
                 let mut x = [Complex::<L>::zero(lanes); 4];
                 for m in 0..4 {
                     x[m] = Complex { re: im[4 * quad + m], im: re[4 * quad + m] };
+                    if side.is_mirrored() {
+                        // Forward on the swapped number is backward on the number.
+                        let [cosine, sine] = plan.mirror_turns()[strip * L::WIDTH + 4 * quad + m];
+                        x[m] = x[m].rotated(lanes, lanes.splat(cosine), lanes.splat(sine));
+                    }
                 }
                 let y = plain_butterfly(lanes, x);
                 for m in 0..4 {
@@ -286,16 +336,28 @@ impl<L: Lanes> Task<L> for ScatterRows<'_, L> {
 fn outermost_forward<L: Lanes, const R: usize>(
     lanes: L,
     plan: &LinePlan,
+    side: Side,
     staging: &[L::Reals],
     lines: &mut [Line<L>],
 ) {
     let places = plan.inner_length();
     let weights = splat(lanes, &plan.forward(0)[0]);
+    let sign = lanes.splat(side.backward_sign());
     let parts = parts::<L, R>(&mut lines[..R * places], places);
     for j in 0..places {
         let mut x = [Complex::zero(lanes); R];
         for m in 0..R {
-            x[m].re = staging[m * places + j];
+            let place = m * places + j;
+            if side.is_mirrored() {
+                let (point, backward) = mirrored_point(place, plan.length());
+                if backward {
+                    x[m].im = lanes.mul(sign, staging[point]);
+                } else {
+                    x[m].re = staging[point];
+                }
+            } else {
+                x[m].re = staging[place];
+            }
         }
         let y = butterfly(lanes, x, &weights);
         for m in 0..R {
@@ -304,16 +366,19 @@ fn outermost_forward<L: Lanes, const R: usize>(
     }
 }
 
-/// Outermost inverse pass on swapped numbers, of which only the real part of the result is wanted.
+/// Outermost inverse pass on swapped numbers, of which only the real part of the result is wanted, or, of points that a
+/// mirrored line takes backwards, the imaginary part.
 #[inline(always)]
 fn outermost_inverse<L: Lanes, const R: usize>(
     lanes: L,
     plan: &LinePlan,
+    side: Side,
     lines: &mut [Line<L>],
     staging: &mut [L::Reals],
 ) {
     let places = plan.inner_length();
     let turns = plan.output_turns();
+    let sign = lanes.splat(side.backward_sign());
     let parts = parts::<L, R>(&mut lines[..R * places], places);
     for (j, (weights, [cosine, sine])) in plan.inverse(0).iter().zip(plan.first_turns()).enumerate() {
         let mut x = [Complex::zero(lanes); R];
@@ -322,10 +387,18 @@ fn outermost_inverse<L: Lanes, const R: usize>(
         }
         x[0] = x[0].rotated(lanes, lanes.splat(*cosine), lanes.splat(*sine));
         let y = butterfly(lanes, x, &splat(lanes, weights));
-        staging[j] = y[0].im;
-        for m in 1..R {
+        for m in 0..R {
             let [cosine, sine] = [lanes.splat(turns[m][0]), lanes.splat(turns[m][1])];
-            staging[m * places + j] = lanes.negate_mul_add(sine, y[m].re, lanes.mul(cosine, y[m].im));
+            let place = m * places + j;
+            let (point, backward) =
+                if side.is_mirrored() { mirrored_point(place, plan.length()) } else { (place, false) };
+            staging[point] = if backward {
+                lanes.mul(sign, lanes.mul_add(sine, y[m].im, lanes.mul(cosine, y[m].re)))
+            } else if m == 0 {
+                y[m].im
+            } else {
+                lanes.negate_mul_add(sine, y[m].re, lanes.mul(cosine, y[m].im))
+            };
         }
     }
 }

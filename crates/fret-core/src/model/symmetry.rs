@@ -1,0 +1,224 @@
+//! Mirror symmetry of a scene: the part of the grid in front of its mirrors stands for the whole.
+
+use ndarray::{Array2, ArrayView2, s};
+use serde::Serialize;
+
+use super::friction::CoulombFriction;
+use super::load::{Control, LoadStep};
+use super::state::ContactState;
+
+/// Planes through the middle of the grid at which scene and load are their own mirror image.
+///
+/// Behind a plane gap and pressure go on as they are; of the shear one component goes on as it is, the other with the other sign.
+/// The part in front of the mirrors are the cells of the second half along each mirrored axis.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
+pub struct Symmetry {
+    /// For a mirror along x and y the component of shear that changes its sign behind it (0: x, 1: y); `None` without.
+    pub odd_shear: [Option<usize>; 2],
+}
+
+impl Symmetry {
+    /// No mirror.
+    pub const NONE: Self = Self { odd_shear: [None, None] };
+
+    /// Whether there is any mirror.
+    pub fn any(&self) -> bool {
+        *self != Self::NONE
+    }
+
+    /// Whether there is a mirror along `[x, y]`.
+    pub fn axes(&self) -> [bool; 2] {
+        self.odd_shear.map(|odd| odd.is_some())
+    }
+
+    /// How many cells of the whole grid each cell of the part stands for.
+    pub fn copies(&self) -> usize {
+        self.axes().into_iter().filter(|mirrored| *mirrored).fold(1, |copies, _| 2 * copies)
+    }
+
+    /// Whether a component of shear (0: x, 1: y) changes its sign behind the mirror along each axis.
+    pub fn shear_is_odd(&self, component: usize) -> [bool; 2] {
+        self.odd_shear.map(|odd| odd == Some(component))
+    }
+
+    /// Whether a rigid motion along an axis, and the force that goes with it, are none.
+    fn forbids(&self, component: usize) -> bool {
+        self.shear_is_odd(component) != [false, false]
+    }
+
+    /// Cells of the part of a grid of `cells`, which must be even along a mirrored axis.
+    pub fn part_of(&self, cells: [usize; 2]) -> [usize; 2] {
+        let axes = self.axes();
+        [0, 1].map(|axis| if axes[axis] { cells[axis] / 2 } else { cells[axis] })
+    }
+
+    /// Cells of the grid of which a part has `cells`.
+    pub fn whole_of(&self, cells: [usize; 2]) -> [usize; 2] {
+        let axes = self.axes();
+        [0, 1].map(|axis| if axes[axis] { 2 * cells[axis] } else { cells[axis] })
+    }
+
+    /// Whether a field of the whole grid is its own mirror image, to the bit.
+    pub fn is_kept_by(&self, field: &ArrayView2<'_, f64>) -> bool {
+        let axes = self.axes();
+        let (nx, ny) = field.dim();
+        let even = [nx, ny].iter().zip(axes).all(|(cells, mirrored)| !mirrored || cells % 2 == 0);
+        let same = |image: ArrayView2<'_, f64>| image.iter().zip(field).all(|(a, b)| a == b);
+        even && (!axes[0] || same(field.slice(s![..;-1, ..])))
+            && (!axes[1] || same(field.slice(s![.., ..;-1])))
+    }
+
+    /// The part of a field in front of the mirrors.
+    pub fn part<T: Copy>(&self, field: &Array2<T>) -> Array2<T> {
+        let (nx, ny) = field.dim();
+        let [mx, my] = self.part_of([nx, ny]);
+        Array2::from_shape_fn((mx, my), |(i, j)| field[[nx - mx + i, ny - my + j]])
+    }
+
+    /// The whole of a field that goes on behind the mirrors, with the other sign along axes where it is odd.
+    pub fn whole(&self, part: &Array2<f64>, odd: [bool; 2]) -> Array2<f64> {
+        self.made_whole(part, |value, behind| {
+            let turns = (behind[0] && odd[0]) != (behind[1] && odd[1]);
+            if turns && value != 0.0 { -value } else { value }
+        })
+    }
+
+    fn made_whole<T: Copy + PartialEq + Default>(
+        &self,
+        part: &Array2<T>,
+        seen: impl Fn(T, [bool; 2]) -> T,
+    ) -> Array2<T> {
+        let (mx, my) = part.dim();
+        let [nx, ny] = self.whole_of([mx, my]);
+        // Zeros that nobody wrote to take no memory.
+        let mut whole = Array2::default((nx, ny));
+        for (i, row) in part.rows().into_iter().enumerate() {
+            if row.iter().all(|value| *value == T::default()) {
+                continue;
+            }
+            let rows = [Some((nx - mx + i, false)), (nx > mx).then(|| (mx - 1 - i, true))];
+            for (to, behind_x) in rows.into_iter().flatten() {
+                let mut line = whole.row_mut(to);
+                for (j, &value) in row.iter().enumerate() {
+                    line[ny - my + j] = seen(value, [behind_x, false]);
+                    if ny > my {
+                        line[my - 1 - j] = seen(value, [behind_x, true]);
+                    }
+                }
+            }
+        }
+        whole
+    }
+
+    /// The part of a friction law.
+    pub fn part_of_friction(&self, friction: &CoulombFriction) -> CoulombFriction {
+        match friction {
+            CoulombFriction::Uniform(coefficient) => CoulombFriction::Uniform(*coefficient),
+            CoulombFriction::Map(map) => CoulombFriction::Map(self.part(map)),
+        }
+    }
+
+    /// The share of a load that the part carries; along an axis that the symmetry forbids nothing moves from `state`.
+    pub fn part_of_load(&self, load: &LoadStep, state: &ContactState) -> LoadStep {
+        let share = 1.0 / self.copies() as f64;
+        let part = |control: Control| match control {
+            Control::Force(force) => Control::Force(force * share),
+            Control::Motion(motion) => Control::Motion(motion),
+        };
+        LoadStep {
+            normal: part(load.normal),
+            tangential: [0, 1].map(|axis| {
+                if self.forbids(axis) {
+                    Control::Motion(state.shift[axis])
+                } else {
+                    part(load.tangential[axis])
+                }
+            }),
+            twist: Control::Motion(state.twist),
+        }
+    }
+
+    /// The part of a state, with its share of the dissipated energy.
+    pub fn part_of_state(&self, state: &ContactState) -> ContactState {
+        ContactState {
+            pressure: self.part(&state.pressure),
+            shear: [0, 1].map(|axis| self.part(&state.shear[axis])),
+            slip: [0, 1].map(|axis| self.part(&state.slip[axis])),
+            zone: self.part(&state.zone),
+            worn_depth: state.worn_depth.as_ref().map(|depth| self.part(depth)),
+            dissipated_energy: state.dissipated_energy / self.copies() as f64,
+            ..*state
+        }
+    }
+
+    /// The state of the whole grid from that of its part.
+    pub fn whole_state(&self, part: &ContactState) -> ContactState {
+        let tangential =
+            |field: &[Array2<f64>; 2]| [0, 1].map(|axis| self.whole(&field[axis], self.shear_is_odd(axis)));
+        ContactState {
+            pressure: self.whole(&part.pressure, [false; 2]),
+            shear: tangential(&part.shear),
+            slip: tangential(&part.slip),
+            zone: self.made_whole(&part.zone, |zone, _| zone),
+            worn_depth: part.worn_depth.as_ref().map(|depth| self.whole(depth, [false; 2])),
+            dissipated_energy: part.dissipated_energy * self.copies() as f64,
+            ..*part
+        }
+    }
+
+    /// Sums of a tangential force over the whole grid from those over the part.
+    pub fn whole_force(&self, part: [f64; 2]) -> [f64; 2] {
+        [0, 1].map(|axis| if self.forbids(axis) { 0.0 } else { part[axis] * self.copies() as f64 })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use ndarray::array;
+
+    use super::*;
+
+    const QUARTER: Symmetry = Symmetry { odd_shear: [Some(0), Some(1)] };
+    const HALF: Symmetry = Symmetry { odd_shear: [None, Some(1)] };
+
+    #[test]
+    fn a_part_made_whole_goes_on_behind_the_mirrors() {
+        let part = array![[1.0, 2.0], [3.0, 4.0]];
+        let even = QUARTER.whole(&part, [false, false]);
+        let rows =
+            array![[4.0, 3.0, 3.0, 4.0], [2.0, 1.0, 1.0, 2.0], [2.0, 1.0, 1.0, 2.0], [4.0, 3.0, 3.0, 4.0]];
+        assert_eq!(even, rows);
+        assert!(QUARTER.is_kept_by(&even.view()));
+        assert_eq!(HALF.whole(&part, [false, true]), array![[-2.0, -1.0, 1.0, 2.0], [-4.0, -3.0, 3.0, 4.0]]);
+        assert_eq!(QUARTER.part(&even), part);
+        for odd in [[true, false], [false, true], [true, true]] {
+            let whole = QUARTER.whole(&part, odd);
+            assert_eq!(QUARTER.part(&whole), part);
+            assert!(!QUARTER.is_kept_by(&whole.view()));
+        }
+    }
+
+    #[test]
+    fn a_field_of_an_odd_number_of_cells_has_no_mirror_between_them() {
+        assert!(!HALF.is_kept_by(&Array2::zeros((4, 3)).view()));
+        assert!(HALF.is_kept_by(&Array2::zeros((3, 4)).view()));
+    }
+
+    #[test]
+    fn forces_are_shared_and_motions_are_not() {
+        let mut state = ContactState::untouched([4, 4]);
+        state.shift = [0.25, 0.0];
+        state.dissipated_energy = 8.0;
+        let load = LoadStep {
+            normal: Control::Force(12.0),
+            tangential: [Control::Motion(0.5), Control::Force(0.0)],
+            twist: Control::Motion(0.0),
+        };
+        let part = HALF.part_of_load(&load, &state);
+        assert_eq!(part.normal, Control::Force(6.0));
+        assert_eq!(part.tangential, [Control::Motion(0.5), Control::Motion(0.0)]);
+        assert_eq!(HALF.part_of_state(&state).dissipated_energy, 4.0);
+        assert_eq!(HALF.whole_state(&HALF.part_of_state(&state)), state);
+        assert_eq!(HALF.whole_force([3.0, 1.0]), [6.0, 0.0]);
+    }
+}

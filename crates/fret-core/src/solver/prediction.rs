@@ -1,0 +1,125 @@
+//! What an increment starts from: tractions that go on as they did, and the box they will stay in.
+
+use ndarray::Array2;
+
+use super::ContactSolver;
+use super::nested::MARGIN;
+use super::region::Region;
+use crate::model::{ContactState, Control, LoadStep};
+use crate::solver::Coupling;
+use crate::spectral::good_length;
+
+/// Cells kept free around a contact: this share of its width, and no less than [`LEAST_MARGIN`].
+const MARGIN_SHARE: usize = 12;
+const LEAST_MARGIN: usize = 3;
+
+impl ContactSolver<'_> {
+    /// The box of an increment that starts from a pressure on coarser grids.
+    pub(super) fn region_around(&self, pressure: &Array2<f64>) -> Region {
+        let cells = self.grid.cells();
+        if !self.boxed || self.response.is_periodic() {
+            return Region::whole(cells);
+        }
+        let loaded = |i: usize, j: usize| pressure[[i, j]] > 0.0;
+        let axes = self.symmetry.axes();
+        let margin = if self.coupling == Coupling::Coupled {
+            (self.width(&Region::around(cells, axes, 1, |n| n, loaded)) / MARGIN_SHARE).max(MARGIN)
+        } else {
+            MARGIN
+        };
+        Region::around(cells, axes, margin, good_length, loaded)
+    }
+
+    /// The box of an increment: around the contact so far and the predicted one, kept while that fits.
+    pub(super) fn region_for(&self, state: &ContactState, load: &LoadStep) -> Region {
+        let whole = Region::whole(self.grid.cells());
+        let touched = state.pressure.iter().any(|p| *p > 0.0);
+        if !self.boxed || !touched || self.response.is_periodic() {
+            return whole;
+        }
+        let (cells, axes) = (self.grid.cells(), self.symmetry.axes());
+        let around = |margin: usize, good: fn(usize) -> usize| {
+            Region::around(cells, axes, margin, good, |i, j| state.pressure[[i, j]] > 0.0)
+        };
+        let growth = self.growth(state, load);
+        let least = around(growth + 1, |n| n);
+        let margin = (self.width(&around(1, |n| n)) / MARGIN_SHARE).max(LEAST_MARGIN);
+        let wanted = around(margin.max(growth + 2), good_length);
+        match self.memory.region {
+            Some(now) if now.contains_all(&least) && now.len() as f64 <= 1.6 * wanted.len() as f64 => now,
+            _ => wanted,
+        }
+    }
+
+    /// The larger side of a box, with what lies behind the mirrors [cells].
+    fn width(&self, region: &Region) -> usize {
+        let [x, y] = self.symmetry.whole_of(region.shape);
+        x.max(y)
+    }
+
+    /// Cells by which the contact will grow on one side when it goes on as in the last increment.
+    fn growth(&self, state: &ContactState, load: &LoadStep) -> usize {
+        let (Some((_, before)), Some(share)) = (&self.memory.before, self.continuation(load)) else {
+            return 0;
+        };
+        let (cells, axes) = (self.grid.cells(), self.symmetry.axes());
+        let extent = |pressure: &Array2<f64>| Region::extent(cells, axes, |i, j| pressure[[i, j]] > 0.0);
+        let (Some(then), Some(now)) = (extent(&before.pressure), extent(&state.pressure)) else { return 0 };
+        let grown = (0..2).map(|axis| {
+            then[axis].start.saturating_sub(now[axis].start).max(now[axis].end.saturating_sub(then[axis].end))
+        });
+        (grown.max().unwrap_or(0) as f64 * share).ceil() as usize
+    }
+
+    /// Tractions extrapolated linearly in the load while it keeps its direction.
+    pub(super) fn predicted(&self, state: &ContactState, load: &LoadStep) -> (Array2<f64>, [Array2<f64>; 2]) {
+        let share = self.continuation(load);
+        match (&self.memory.before, share) {
+            (Some((_, before)), Some(share)) => {
+                let extrapolate = |now: &Array2<f64>, then: &Array2<f64>| now + &((now - then) * share);
+                (
+                    extrapolate(&state.pressure, &before.pressure).mapv(|p| p.max(0.0)),
+                    [
+                        extrapolate(&state.shear[0], &before.shear[0]),
+                        extrapolate(&state.shear[1], &before.shear[1]),
+                    ],
+                )
+            }
+            _ => (state.pressure.clone(), state.shear.clone()),
+        }
+    }
+
+    /// Ratio of this load increment to the last one when it goes on in the same direction.
+    fn continuation(&self, load: &LoadStep) -> Option<f64> {
+        let (Some((first, _)), Some(second)) = (&self.memory.before, &self.memory.last_load) else {
+            return None;
+        };
+        let (older, newer) = (change(first, second)?, change(second, load)?);
+        let mut product = 0.0;
+        let (mut old_square, mut new_square) = (0.0, 0.0);
+        for (a, b) in older.iter().zip(&newer) {
+            let scale = a.abs().max(b.abs());
+            if scale > 0.0 {
+                product += (a / scale) * (b / scale);
+                old_square += (a / scale).powi(2);
+                new_square += (b / scale).powi(2);
+            }
+        }
+        let cosine = product / (old_square * new_square).sqrt();
+        (cosine > 0.5).then(|| (product / old_square).min(3.0))
+    }
+}
+
+/// Loads as numbers, when both name the same controls.
+fn change(from: &LoadStep, to: &LoadStep) -> Option<[f64; 4]> {
+    let difference = |a: Control, b: Control| match (a, b) {
+        (Control::Force(a), Control::Force(b)) | (Control::Motion(a), Control::Motion(b)) => Some(b - a),
+        _ => None,
+    };
+    Some([
+        difference(from.normal, to.normal)?,
+        difference(from.tangential[0], to.tangential[0])?,
+        difference(from.tangential[1], to.tangential[1])?,
+        difference(from.twist, to.twist)?,
+    ])
+}
