@@ -89,11 +89,13 @@ impl Failure {
     /// The exit code.
     pub fn code(&self) -> u8 {
         match self {
-            Self::Case(_) | Self::Call(..) => REFUSED,
+            Self::Case(_) | Self::Call(..) | Self::Points { failed: 0, .. } => REFUSED,
             Self::Unsolved(error) if asks_for_another_case(error) => REFUSED,
-            Self::Points { failed: 0, .. } => REFUSED,
-            Self::Points { .. } => FAILED,
-            Self::Unsolved(_) | Self::Unwritten(_) | Self::Broken(_) | Self::Defect(_) => FAILED,
+            Self::Unsolved(_)
+            | Self::Unwritten(_)
+            | Self::Broken(_)
+            | Self::Points { .. }
+            | Self::Defect(_) => FAILED,
             Self::Interrupted(_) => INTERRUPTED,
         }
     }
@@ -101,11 +103,13 @@ impl Failure {
     /// One word for records.
     pub fn status(&self) -> &'static str {
         match self {
-            Self::Case(_) | Self::Call(..) => "refused",
+            Self::Case(_) | Self::Call(..) | Self::Points { failed: 0, .. } => "refused",
             Self::Unsolved(error) if asks_for_another_case(error) => "refused",
-            Self::Points { failed: 0, .. } => "refused",
-            Self::Points { .. } => "failed",
-            Self::Unsolved(_) | Self::Unwritten(_) | Self::Broken(_) | Self::Defect(_) => "failed",
+            Self::Unsolved(_)
+            | Self::Unwritten(_)
+            | Self::Broken(_)
+            | Self::Points { .. }
+            | Self::Defect(_) => "failed",
             Self::Interrupted(_) => "interrupted",
         }
     }
