@@ -1,12 +1,13 @@
 """Error against CPU time of one thread, Hertz and a coated sphere, in one run: exact influence coefficients, the sampled
-frequency response of most of the literature, and tamaas where it can do the scene.
+frequency response of most of the literature, and tamaas and aspher where they can do the scene.
 
-    pip install tamaas numpy matplotlib
+    pip install tamaas numpy matplotlib                          # aspher: see README.md
     cargo bench -p fret-core --bench error_time --no-run         # prints the path of the binary
     python benches/error_against_others.py PATH_OF_THE_BINARY docs/pictures/error_against_others.png
 
 Side four contact radii, solved to residuals at which the grid alone makes the error. Time of the first two includes the
-coefficients, in the mean of many runs; that of tamaas only the solution, the least of some runs. What is not installed is left out, and said.
+coefficients, in the mean of many runs; that of tamaas only the solution, that of aspher all it does, the
+least of some runs. What is not installed is left out, and said.
 """
 
 import os
@@ -81,6 +82,24 @@ def tamaas(cells, periodic):
     return (seconds, *errors(np.array(model.traction)))
 
 
+def aspher(cells):
+    """Nested grids with its exact convolution, in the quickest of its settings here."""
+    import aspher
+
+    gap = -heights(cells).ravel()
+    answer = None
+
+    def work():
+        nonlocal answer
+        answer = aspher.solve_nested(
+            grid_size=cells, gap=gap, p_nominal=FORCE / SIDE**2, domain_size=SIDE, E_star=MODULUS,
+            backend="fft", tol=1e-8, precision="float_then_double", coarsest=16,
+        )  # fmt: skip
+
+    seconds = least(work)
+    return (seconds, *errors(np.array(answer.pressure).reshape(cells, cells)))
+
+
 def ours(binary):
     text = subprocess.run(
         [binary, ",".join(map(str, CELLS))], check=True, capture_output=True, text=True
@@ -93,6 +112,7 @@ def others():
     ways = {
         "tamaas, periodic": lambda n: tamaas(n, True),
         "tamaas, free space": lambda n: tamaas(n, False),
+        "aspher, free space": aspher,
     }
     for name, way in ways.items():
         try:

@@ -21,9 +21,10 @@ lower body, compression is positive.
 from fretting import analytic, plot
 from fretting._core import __version__
 from fretting._points import Axis
-from fretting.errors import CaseError, FrettingError, Mistake, RunError
+from fretting.errors import CaseError, FrettingError, MissingFileError, Mistake, RunError, UnreadableError
 from fretting.history import History
 from fretting.kernels import Convolution, frequency_response, influence_coefficients
+from fretting.loading import load
 from fretting.planning import Plan, plan
 from fretting.simulation import run
 from fretting.stress import subsurface_stress
@@ -35,13 +36,16 @@ __all__ = [
     "Convolution",
     "FrettingError",
     "History",
+    "MissingFileError",
     "Mistake",
     "Plan",
     "RunError",
+    "UnreadableError",
     "__version__",
     "analytic",
     "frequency_response",
     "influence_coefficients",
+    "load",
     "plan",
     "plot",
     "run",

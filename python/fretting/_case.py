@@ -12,7 +12,7 @@ import numpy.typing as npt
 
 from fretting import _core
 from fretting._arrays import Reals
-from fretting.errors import CaseError
+from fretting.errors import CaseError, MissingFileError, UnreadableError
 
 CaseLike: TypeAlias = str | os.PathLike[str] | Mapping[str, object]
 """A case: path of a TOML file, TOML text, or a mapping of the same structure.
@@ -37,8 +37,8 @@ def read(case: CaseLike) -> _core.Case:
     ------
     CaseError
         With all mistakes of the case.
-    OSError
-        When the file cannot be read.
+    UnreadableError
+        When the file cannot be read; ``MissingFileError`` when there is none.
     """
     if isinstance(case, Mapping):
         arrays: list[Reals] = []
@@ -55,6 +55,8 @@ def text_of(case: str | os.PathLike[str]) -> tuple[str, str, Path]:
         path = Path(case)
         try:
             return path.read_text(encoding="utf-8"), str(path), path.parent
+        except OSError as error:
+            raise _unreadable(path, error) from None
         except UnicodeDecodeError as error:
             raise _refusal(str(path), f"not readable as UTF-8 text: {error.reason} at byte {error.start}") from None
     raise TypeError(f"case: expected a path, TOML text or a dict, found {type(case).__name__}")
@@ -129,6 +131,16 @@ def _field(values: npt.NDArray[Any], place: str) -> Reals:
     if values.ndim != 2:
         raise _refusal("case", f"{place}: an array of shape {values.shape}: must have two dimensions")
     return np.ascontiguousarray(np.ma.getdata(values), dtype=np.float64)
+
+
+def _unreadable(path: Path, error: OSError) -> UnreadableError:
+    if not path.exists():
+        way = f"relative names start at the current folder, {Path.cwd()}; a case may also be TOML text or a dict"
+        return MissingFileError(f"error: {path}: no such file\n  = help: {way}", str(path))
+    if path.is_dir():
+        way = "give the TOML file of a case; fretting.load(folder) opens the results of a run"
+        return UnreadableError(f"error: {path}: a folder, not a file\n  = help: {way}", str(path))
+    return UnreadableError(f"error: {path}: cannot be read: {error.strerror or error}", str(path))
 
 
 def _refusal(name: str, message: str) -> CaseError:

@@ -58,7 +58,8 @@ class ProgressLine(_Line):
         left = self.due(done, increments)
         if left is not None:
             regime = step["regime"].replace("_", " ")
-            self.write(f"increment {done}/{increments}  {regime}  residual {step['residual']:.1e}  {left:.0f} s left")
+            number, residual = step["increment"], f"residual {step['residual']:.1e}"
+            self.write(f"increment {number}  {regime}  {residual}  {done} of {increments} solved, {left:.0f} s left")
 
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None

@@ -42,6 +42,30 @@ class CaseError(FrettingError, ValueError):
         self.mistakes = [Mistake(*mistake) for mistake in mistakes]
 
 
+class UnreadableError(FrettingError, OSError):
+    """A file or folder that was named cannot be read, or does not hold what was expected.
+
+    Attributes
+    ----------
+    path : str
+        Which one.
+    """
+
+    __module__ = "fretting"
+
+    path: str
+
+    def __init__(self, message: str, path: str = "") -> None:
+        super().__init__(message)
+        self.path = path
+
+
+class MissingFileError(UnreadableError, FileNotFoundError):
+    """A file or folder that was named is not there."""
+
+    __module__ = "fretting"
+
+
 class RunError(FrettingError, RuntimeError):
     """A run ended without its answer; there is no silent wrong one.
 

@@ -55,6 +55,18 @@ MEANING = {
 }
 
 
+class Steps(dict[str, npt.NDArray[Any]]):
+    """The numbers of every increment by name; a name it does not have is answered with those it has."""
+
+    def __missing__(self, name: object) -> npt.NDArray[Any]:
+        """Refuse a name."""
+        if name in FIELD_NAMES:
+            raise KeyError(f"{name!r} is a field, a number a cell: history.field({name!r}, step) has it")
+        raise KeyError(
+            f"steps has no {name!r}; it has: {', '.join(self)}; fields (history.field): {', '.join(FIELD_NAMES)}"
+        )
+
+
 class _Kept(Protocol):
     """Where the fields come from: the compiled module, or a copy that went through another process."""
 
@@ -127,7 +139,7 @@ class History:
 
     def __init__(self, answer: _core.History) -> None:
         self._kept = answer
-        self.steps = {name: np.asarray(column) for name, column in answer.steps().items()}
+        self.steps = Steps((name, np.asarray(column)) for name, column in answer.steps().items())
         self.x = answer.centres(0)
         self.y = answer.centres(1)
         self.stages = answer.stages()

@@ -135,9 +135,17 @@ def test_what_is_no_case_at_all_is_a_type_error() -> None:
         fretting.plan(3)  # type: ignore[arg-type]
 
 
-def test_a_missing_file_is_named() -> None:
-    with pytest.raises(FileNotFoundError, match="nowhere"):
-        fretting.plan("nowhere/at_all.toml")
+def test_a_missing_file_is_named_with_what_to_do_instead(tmp_path: Path) -> None:
+    with pytest.raises(fretting.MissingFileError, match=r"nowhere/at_all\.toml: no such file") as missed:
+        fretting.run("nowhere/at_all.toml")
+    assert isinstance(missed.value, FileNotFoundError)
+    assert isinstance(missed.value, fretting.FrettingError)
+    assert "current folder" in str(missed.value)
+    assert missed.value.path == str(Path("nowhere/at_all.toml"))
+    again = pickle.loads(pickle.dumps(missed.value))
+    assert (str(again), again.path) == (str(missed.value), missed.value.path)
+    with pytest.raises(fretting.UnreadableError, match="a folder, not a file"):
+        fretting.plan(tmp_path)
 
 
 def test_a_file_that_is_not_text_is_refused(tmp_path: Path) -> None:

@@ -159,7 +159,7 @@ def test_points_that_fail_are_recorded_and_the_others_solved(case: dict[str, Any
 def test_a_sweep_of_refused_points_only_is_refused(case: dict[str, Any]) -> None:
     with pytest.raises(fretting.CaseError, match=r"all 2 points .* refused; the first:\n(.|\n)*coeficient") as refused:
         fretting.sweep(case, {"friction.coeficient": [0.1, 0.2]})
-    assert refused.value.mistakes[0].message.startswith("unknown field `coeficient`")
+    assert refused.value.mistakes[0].message.startswith("unknown key `coeficient`")
 
 
 @pytest.mark.parametrize(

@@ -9,7 +9,7 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 #[command(
     name = "fret",
     version,
-    after_help = "Exit codes: 0 solved, 1 refused (also a contact that grows to the edge of its grid), 2 failed (numerically, or a file could not be written), 130 interrupted and resumable."
+    after_help = "Exit codes: 0 solved, 1 refused (also a contact that grows to the edge of its grid), 2 failed (numerically, or a file could not be written), 130 interrupted and resumable. A sweep with points that have no answer ends in 1 when they were all refused, in 2 when one failed."
 )]
 pub struct Arguments {
     /// Answer in JSON, mistakes too, with nothing else on standard output

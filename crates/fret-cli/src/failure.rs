@@ -29,6 +29,13 @@ pub enum Failure {
     Unwritten(Unwritten),
     /// So many families of extreme scenes do not hold.
     Broken(usize),
+    /// Points of a sweep that have no answer: how many were refused, and how many could not be solved.
+    Points {
+        /// Refused.
+        refused: usize,
+        /// Not solved.
+        failed: usize,
+    },
     /// A mistake in the program itself.
     Defect(String),
 }
@@ -82,9 +89,13 @@ impl Failure {
     /// The exit code.
     pub fn code(&self) -> u8 {
         match self {
-            Self::Case(_) | Self::Call(..) => REFUSED,
+            Self::Case(_) | Self::Call(..) | Self::Points { failed: 0, .. } => REFUSED,
             Self::Unsolved(error) if asks_for_another_case(error) => REFUSED,
-            Self::Unsolved(_) | Self::Unwritten(_) | Self::Broken(_) | Self::Defect(_) => FAILED,
+            Self::Unsolved(_)
+            | Self::Unwritten(_)
+            | Self::Broken(_)
+            | Self::Points { .. }
+            | Self::Defect(_) => FAILED,
             Self::Interrupted(_) => INTERRUPTED,
         }
     }
@@ -92,9 +103,13 @@ impl Failure {
     /// One word for records.
     pub fn status(&self) -> &'static str {
         match self {
-            Self::Case(_) | Self::Call(..) => "refused",
+            Self::Case(_) | Self::Call(..) | Self::Points { failed: 0, .. } => "refused",
             Self::Unsolved(error) if asks_for_another_case(error) => "refused",
-            Self::Unsolved(_) | Self::Unwritten(_) | Self::Broken(_) | Self::Defect(_) => "failed",
+            Self::Unsolved(_)
+            | Self::Unwritten(_)
+            | Self::Broken(_)
+            | Self::Points { .. }
+            | Self::Defect(_) => "failed",
             Self::Interrupted(_) => "interrupted",
         }
     }
@@ -107,6 +122,11 @@ impl Failure {
             Self::Unsolved(error) => error.to_string(),
             Self::Unwritten(unwritten) => unwritten.to_string(),
             Self::Broken(count) => format!("{} of extreme scenes: not everything holds", families(*count)),
+            Self::Points { refused, failed } => {
+                format!(
+                    "points without an answer: {refused} refused, {failed} failed; the others are solved and kept"
+                )
+            }
             Self::Defect(what) => format!("a defect in fret itself, please report it: {what}"),
         }
     }

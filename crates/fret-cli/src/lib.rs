@@ -59,6 +59,7 @@ fn dispatch(arguments: &Arguments) -> Result<(), Told> {
     let as_json = arguments.json;
     match &arguments.verb {
         Verb::Extremes(arguments) => return commands::extremes::extremes(arguments, as_json),
+        Verb::Sweep(arguments) => return commands::sweep::sweep(arguments, as_json),
         Verb::Run(arguments) => return commands::run::run(arguments, as_json),
         Verb::Check { case } => commands::check::check(case, as_json),
         Verb::Plan { case } => commands::plan::plan(case, as_json),
@@ -67,7 +68,6 @@ fn dispatch(arguments: &Arguments) -> Result<(), Told> {
         Verb::Export(arguments) => commands::export::export(arguments, as_json),
         Verb::Study(arguments) => commands::study::study(arguments, as_json),
         Verb::Stress(arguments) => commands::stress::stress(arguments, as_json),
-        Verb::Sweep(arguments) => commands::sweep::sweep(arguments, as_json),
     }?;
     Ok(())
 }

@@ -1,4 +1,5 @@
 //! How a run is followed on standard error: a live bar for a person, plain lines for a log, nothing when nobody wants it.
+//! An increment is called by its number in the whole history, from 0, as in all files.
 
 use std::time::{Duration, Instant};
 
@@ -77,7 +78,7 @@ impl Progress {
         );
         match &self.face {
             Face::Live(bar) => bar.set_message(standing),
-            _ => self.line(&format!("{}  {standing}", self.place(iteration.increment + 1))),
+            _ => self.line(&format!("increment {:>1$}  {standing}", iteration.increment, self.width())),
         }
     }
 
@@ -97,13 +98,16 @@ impl Progress {
         self.last_shown = Instant::now();
         let name = stage.map_or("", |stage| stage.name.as_str());
         self.line(&format!(
-            "{}  {name}{}  force {}  max pressure {}  residual {:.1e}  {}",
-            self.place(tally.solved),
+            "increment {:>width$}  {name}{}  force {}  max pressure {}  residual {:.1e}  {} of {} solved, {}",
+            record.increment,
             if ends_stage { " done" } else { "" },
             figure(record.normal_force),
             figure(record.max_pressure),
             record.residual.largest(),
+            tally.solved,
+            self.increments,
             self.time(tally.solved),
+            width = self.width(),
         ));
     }
 
@@ -122,9 +126,9 @@ impl Progress {
         }
     }
 
-    fn place(&self, count: usize) -> String {
-        let width = self.increments.to_string().len();
-        format!("increment {count:>width$}/{}", self.increments)
+    /// Digits of an increment's number.
+    fn width(&self) -> usize {
+        self.increments.saturating_sub(1).to_string().len()
     }
 
     fn time(&self, solved: usize) -> String {

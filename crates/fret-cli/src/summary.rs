@@ -92,7 +92,7 @@ impl Summary<'_> {
         let mut readings: Vec<(&'static str, Reading)> = vec![
             ("normal force", |record| figure(record.normal_force)),
             ("approach", |record| figure(record.approach)),
-            ("largest pressure", |record| figure(record.max_pressure)),
+            ("max pressure", |record| figure(record.max_pressure)),
             ("contact area", |record| figure(record.contact_area)),
             ("radius of a circle that large", |record| {
                 figure((record.contact_area / std::f64::consts::PI).sqrt())
@@ -108,7 +108,7 @@ impl Summary<'_> {
                 }),
                 ("shift x", |record| figure_beside(record.shift[0], record.approach)),
                 ("shift y", |record| figure_beside(record.shift[1], record.approach)),
-                ("largest shear", |record| figure(record.max_shear)),
+                ("max shear", |record| figure(record.max_shear)),
                 ("share of the contact in stick", |record| {
                     stick_share(record).map_or("-".to_owned(), percent)
                 }),

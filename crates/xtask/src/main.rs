@@ -3,16 +3,22 @@
 use std::env;
 use std::fmt;
 use std::path::{Path, PathBuf};
-use std::process::{Command, ExitCode};
+use std::process::{Command, ExitCode, Stdio};
 
 const USAGE: &str = "\
 usage: cargo xtask CHORE
 
-  test    all tests: Rust in release mode, then the Python package, built and installed into target/venv
-  check   format, clippy, documentation: warnings are errors
-  bench   the benchmarks
-  docs    the site, into target/site, and the Rust documentation, into target/doc: warnings are errors
-  wheel   the Python wheel, into target/wheels";
+  test      all tests: Rust in release mode, then the Python package, built and installed into target/venv
+  check     format, clippy, documentation: warnings are errors
+  bench     the benchmarks
+  docs      the site, into target/site, and the Rust documentation, into target/doc: warnings are errors
+  wheel     the Python wheel, into target/wheels
+  coverage  lines that the Rust tests reach, into target/coverage; wants `cargo install cargo-tarpaulin`
+  audit     licences, sources and known faults of the dependencies; wants `cargo install cargo-deny`, and the network:
+            exit code 3 says that the faults could not be looked up";
+
+/// Exit code of a chore that could not get its answer.
+const NOT_CHECKED: u8 = 3;
 
 fn main() -> ExitCode {
     let words: Vec<String> = env::args().skip(1).collect();
@@ -22,6 +28,8 @@ fn main() -> ExitCode {
         ["bench"] => ("bench", vec![cargo(&["bench", "--workspace", "--locked"])]),
         ["docs"] => ("docs", docs()),
         ["wheel"] => ("wheel", wheel()),
+        ["coverage"] => ("coverage", vec![coverage()]),
+        ["audit"] => ("audit", audit()),
         _ => {
             eprintln!("{USAGE}");
             return ExitCode::FAILURE;
@@ -46,6 +54,8 @@ struct Step {
     program: PathBuf,
     arguments: Vec<String>,
     variables: Vec<(&'static str, &'static str)>,
+    /// Words on standard error by which a failure is not the answer no but no answer, and what is then said.
+    unanswered: Option<(&'static str, &'static str)>,
 }
 
 /// A command that did not end well.
@@ -64,7 +74,7 @@ impl fmt::Display for Failure {
 impl Step {
     fn new(what: &'static str, program: impl Into<PathBuf>, arguments: &[&str]) -> Self {
         let arguments = arguments.iter().map(|&argument| argument.to_owned()).collect();
-        Self { what, program: program.into(), arguments, variables: Vec::new() }
+        Self { what, program: program.into(), arguments, variables: Vec::new(), unanswered: None }
     }
 
     fn called(mut self, what: &'static str) -> Self {
@@ -77,16 +87,32 @@ impl Step {
         self
     }
 
+    fn unanswered_by(mut self, words: &'static str, meaning: &'static str) -> Self {
+        self.unanswered = Some((words, meaning));
+        self
+    }
+
     fn run(&self) -> Result<(), Failure> {
         let settings: Vec<String> =
             self.variables.iter().map(|(name, value)| format!("{name}='{value}' ")).collect();
         eprintln!("+ {}{} {}", settings.concat(), self.program.display(), self.arguments.join(" "));
-        let ended = Command::new(&self.program)
-            .args(&self.arguments)
-            .envs(self.variables.iter().copied())
-            .current_dir(root())
-            .status();
+        let mut command = Command::new(&self.program);
+        command.args(&self.arguments).envs(self.variables.iter().copied()).current_dir(root());
         let fail = |why: String, code: u8| Err(Failure { what: self.what, why, code });
+        let ended = match self.unanswered {
+            None => command.status(),
+            Some((words, meaning)) => match command.stdout(Stdio::inherit()).output() {
+                Ok(output) => {
+                    let said = String::from_utf8_lossy(&output.stderr);
+                    eprint!("{said}");
+                    if !output.status.success() && said.contains(words) {
+                        return fail(meaning.to_owned(), NOT_CHECKED);
+                    }
+                    Ok(output.status)
+                }
+                Err(error) => Err(error),
+            },
+        };
         match ended {
             Ok(status) if status.success() => Ok(()),
             Ok(status) => {
@@ -130,6 +156,25 @@ fn wheel() -> Vec<Step> {
     let mut steps = Vec::from_iter(venv());
     steps.push(python("wheel", &["-m", "pip", "wheel", "--no-deps", "--wheel-dir", "target/wheels", "."]));
     steps
+}
+
+/// The program `fret`, started by tests, counts too.
+fn coverage() -> Step {
+    let words = "tarpaulin --engine llvm --release --locked --follow-exec --skip-clean --timeout 1800 \
+                 --target-dir target/coverage --output-dir target/coverage --out Stdout --out Json \
+                 --packages fret-core --packages fret-cli --packages fret-validation";
+    cargo(&words.split_whitespace().collect::<Vec<_>>()).called("coverage")
+}
+
+/// The database of faults is fetched anew each time: an old one would say yes to a new fault.
+fn audit() -> Vec<Step> {
+    vec![
+        cargo(&["deny", "check", "licenses", "bans", "sources"]).called("licences, doubles, sources"),
+        cargo(&["deny", "check", "advisories"]).called("known faults").unanswered_by(
+            "failed to fetch advisory database",
+            "not checked: the RustSec database could not be fetched; nothing is known about faults",
+        ),
+    ]
 }
 
 /// `cargo` with these words; the step is called after the first.

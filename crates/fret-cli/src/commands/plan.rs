@@ -68,6 +68,15 @@ pub fn left_out(plan: &Plan) -> String {
     format!("left out, the answer being the same without it:\n{}", items.collect::<Vec<_>>().join("\n"))
 }
 
+/// The same for the start of a run: a line an item.
+pub fn left_out_in_short(plan: &Plan) -> String {
+    let items = plan.left_out.iter().map(|item| format!("\n  {}", item.what));
+    format!(
+        "left out, the answer being the same without it (`fret plan` says why):{}",
+        items.collect::<String>()
+    )
+}
+
 /// The grid in a line.
 pub fn cells(plan: &Plan) -> String {
     let ([nx, ny], [dx, dy], [width, depth]) = (plan.grid.cells(), plan.grid.spacing(), plan.grid.size());

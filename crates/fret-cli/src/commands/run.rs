@@ -17,7 +17,7 @@ use serde_json::{Value, json};
 
 use crate::arguments::{LeavingOut, RunArguments};
 use crate::case_file::CaseFile;
-use crate::commands::plan::left_out;
+use crate::commands::plan::left_out_in_short;
 use crate::commands::stress::after_run;
 use crate::defect;
 use crate::estimate::Estimate;
@@ -116,7 +116,7 @@ fn prepared(arguments: &RunArguments) -> Result<Preparation, Failure> {
 
 fn announce(plan: &Plan, folder: &Path, standing: &Standing) {
     if !plan.left_out.is_empty() {
-        terminal::say(&left_out(plan));
+        terminal::say(&left_out_in_short(plan));
     }
     let shown = folder.display();
     match standing {
@@ -151,10 +151,11 @@ impl Preparation {
                     terminal::say(&format!("an older checkpoint is taken: {why}"));
                 }
                 terminal::say(&format!(
-                    "{}: going on after increment {} of {}",
+                    "{}: {} of {} increments are solved; going on with increment {} (counted from 0)",
                     self.folder.display(),
                     checkpoint.solved(),
-                    self.plan.increments
+                    self.plan.increments,
+                    checkpoint.solved()
                 ));
             }
             let (tally, wall_s) = (head.tally, head.wall_s);

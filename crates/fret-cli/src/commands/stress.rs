@@ -380,6 +380,11 @@ impl<'a> Sheet<'a> {
             counted(self.surfaces.len(), "increment"),
         );
         for found in &self.largest {
+            if found.value <= 0.0 && names_tension(found.measure) {
+                let name = found.measure.name().replace('_', " ");
+                let _ = writeln!(text, "  {name:<18} none: compression everywhere");
+                continue;
+            }
             let _ = writeln!(
                 text,
                 "  {:<18} {:<12} {:<10} {:<12} {:<12} {:<12} {}",
@@ -398,6 +403,11 @@ impl<'a> Sheet<'a> {
         let _ = write!(text, "\nwritten to {} in {}", place.display(), duration(wall_s));
         text
     }
+}
+
+/// Whether a number that is not above zero is no tension at all.
+fn names_tension(measure: Measure) -> bool {
+    matches!(measure, Measure::Tension | Measure::Hydrostatic | Measure::Peel)
 }
 
 /// Stresses of a run that has just ended, as its case asks.

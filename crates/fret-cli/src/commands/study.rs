@@ -61,7 +61,8 @@ pub fn study(arguments: &StudyArguments, as_json: bool) -> Result<(), Failure> {
     } else {
         plan.case.title.clone()
     };
-    let measured = words::measured_by(&truth);
+    let measured =
+        if table::shows_errors(&lines) { words::measured_by(&truth) } else { words::NO_ERRORS.to_owned() };
     let answer = answer(&title, &truth, (&climb, &lines), (&advice, &choice), &unsolved);
     let text = format!("{answer:#}");
     write_whole(&folder.join("study.csv"), table::csv(&climb, &lines).as_bytes())?;

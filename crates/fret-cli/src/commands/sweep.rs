@@ -10,7 +10,7 @@ use fret_core::simulation::{RunError, Simulation};
 use serde_json::json;
 
 use crate::arguments::SweepArguments;
-use crate::failure::{Failure, Unwritten};
+use crate::failure::{Failure, Told, Unwritten};
 use crate::figures::{counted, duration};
 use crate::interrupt::{self, Listener};
 use crate::sweep::{Answer, Question, SweepFolder};
@@ -18,7 +18,7 @@ use crate::terminal;
 use crate::threads::available_threads;
 
 /// Solves all points of a sweep.
-pub fn sweep(arguments: &SweepArguments, as_json: bool) -> Result<(), Failure> {
+pub fn sweep(arguments: &SweepArguments, as_json: bool) -> Result<(), Told> {
     let question = Question::read(&arguments.sweep)?;
     let text = std::fs::read_to_string(&arguments.sweep).map_err(Unwritten::at(&arguments.sweep))?;
     let stem = arguments.sweep.file_stem().unwrap_or_else(|| "sweep".as_ref());
@@ -33,7 +33,7 @@ pub fn sweep(arguments: &SweepArguments, as_json: bool) -> Result<(), Failure> {
     let failure = board.work(&folder, threads);
     let summary = folder.summarise(&question, &board.answers());
     if let Some(failure) = failure {
-        return Err(failure);
+        return Err(failure.into());
     }
     let summary = summary?;
     let counts = board.counts();
@@ -41,10 +41,12 @@ pub fn sweep(arguments: &SweepArguments, as_json: bool) -> Result<(), Failure> {
         terminal::answer(&format!(
             "{:#}",
             json!({
-                "status": if counts.unsolved == 0 { "solved" } else { "some points not solved" },
+                "status": if counts.unsolved() == 0 { "solved" } else { "some points not solved" },
                 "points": question.points.len(),
                 "solved": counts.solved,
-                "unsolved": counts.unsolved,
+                "unsolved": counts.unsolved(),
+                "refused": counts.refused,
+                "failed": counts.failed,
                 "solved_before": board.before,
                 "summary": summary.display().to_string(),
             })
@@ -53,18 +55,30 @@ pub fn sweep(arguments: &SweepArguments, as_json: bool) -> Result<(), Failure> {
         terminal::answer(&format!(
             "{} solved, {} not, {} found finished\nsummary    {}",
             counts.solved,
-            counts.unsolved,
+            counts.unsolved(),
             board.before,
             summary.display()
         ))?;
     }
-    Ok(())
+    match counts {
+        Counts { refused: 0, failed: 0, .. } => Ok(()),
+        Counts { refused, failed, .. } => {
+            Err(Told { failure: Failure::Points { refused, failed }, in_json: as_json })
+        }
+    }
 }
 
 /// How many points came to what.
 struct Counts {
     solved: usize,
-    unsolved: usize,
+    refused: usize,
+    failed: usize,
+}
+
+impl Counts {
+    fn unsolved(&self) -> usize {
+        self.refused + self.failed
+    }
 }
 
 /// What the workers share: the points, the next of them, the answers.
@@ -155,6 +169,7 @@ impl<'a> Board<'a> {
 
     fn tell(&self, number: usize, answer: Answer) {
         let status = answer.status().to_owned();
+        let why = answer.why();
         let mut answers = self.answers.lock().unwrap_or_else(PoisonError::into_inner);
         answers[number] = Some(answer);
         let done = answers.iter().flatten().count();
@@ -170,6 +185,9 @@ impl<'a> Board<'a> {
         terminal::say(
             format!("point {done:>width$}/{all}  {status}  {}  {time}", place.join(", ")).trim_end(),
         );
+        for line in why {
+            terminal::say(&format!("  {line}"));
+        }
     }
 
     fn answers(&self) -> Vec<Option<Answer>> {
@@ -178,7 +196,8 @@ impl<'a> Board<'a> {
 
     fn counts(&self) -> Counts {
         let answers = self.answers();
-        let solved = answers.iter().flatten().filter(|answer| answer.status() == "solved").count();
-        Counts { solved, unsolved: answers.iter().flatten().count() - solved }
+        let count = |status| answers.iter().flatten().filter(|answer| answer.status() == status).count();
+        let [solved, refused] = ["solved", "refused"].map(count);
+        Counts { solved, refused, failed: answers.iter().flatten().count() - solved - refused }
     }
 }

@@ -70,19 +70,10 @@ impl Chart {
             escaped(&self.what)
         );
         frame.draw(&mut svg, &self.axes);
-        if let Some((level, name)) = &self.level {
+        if let Some((level, _)) = &self.level {
             let height = frame.y_of(*level);
             let (from, to) = (LEFT, WIDTH - RIGHT);
-            let above = height - 5.0;
-            let beside = if above > TOP + 10.0 { above } else { height + 15.0 };
             let _ = writeln!(svg, "<path class=\"level\" d=\"M{from} {height:.1}H{to}\"/>");
-            let _ = writeln!(
-                svg,
-                "<text class=\"note\" x=\"{:.1}\" y=\"{:.1}\" text-anchor=\"end\">{}</text>",
-                to - 4.0,
-                beside,
-                escaped(name)
-            );
         }
         for curve in &self.curves {
             frame.draw_curve(&mut svg, curve);
@@ -91,9 +82,9 @@ impl Chart {
         svg + &self.legend()
     }
 
-    /// The names of the curves, as text under the chart.
+    /// The names of the curves and of the level, as text under the chart, where they lie over no point.
     fn legend(&self) -> String {
-        let named: Vec<String> = self
+        let mut named: Vec<String> = self
             .curves
             .iter()
             .filter_map(|curve| {
@@ -110,6 +101,12 @@ impl Chart {
                 ))
             })
             .collect();
+        if let Some((_, name)) = &self.level {
+            named.push(format!(
+                "<li><svg viewBox=\"0 0 26 10\" class=\"key\"><path class=\"level\" d=\"M1 5H25\"/></svg>{}</li>",
+                escaped(name)
+            ));
+        }
         if named.is_empty() {
             String::new()
         } else {

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use fret_core::case::{CaseError, Mistake};
+use fret_core::case::{CaseError, Mistake, in_words};
 use fret_core::study::{Quantity, Truth};
 use serde::Deserialize;
 use toml::Spanned;
@@ -29,7 +29,7 @@ pub fn reference(path: &Path, stages: usize) -> Result<Truth, CaseError> {
     let file = CaseFile::read(path)?;
     let refused = |mistakes| CaseError::new(&file.name(), &file.text, mistakes);
     let given: ReferenceFile = toml::from_str(&file.text).map_err(|error| {
-        refused(vec![Mistake { span: error.span(), message: error.message().trim().to_owned(), help: None }])
+        refused(vec![Mistake { span: error.span(), message: in_words(error.message()), help: None }])
     })?;
     let scalar = |value: Option<Spanned<f64>>| value.map(|value| (value.span(), [value.into_inner(), 0.0]));
     let vector = given.shift.map(|value| (value.span(), value.into_inner()));

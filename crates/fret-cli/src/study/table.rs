@@ -43,6 +43,12 @@ fn columns(judged: &Judged) -> Vec<(Option<f64>, Option<f64>)> {
         .collect()
 }
 
+/// Whether any error is known.
+pub fn shows_errors(lines: &[Line]) -> bool {
+    let judged = lines.iter().flat_map(|line| &line.rungs);
+    judged.flat_map(columns).any(|(error, _)| error.is_some())
+}
+
 /// The table: a block a line of the ladder. `*` marks what no other rung beats in time and in its worst headline number.
 pub fn table(climb: &Climb, lines: &[Line]) -> String {
     let mut names: Vec<&str> = Quantity::ALL.into_iter().map(name).collect();
@@ -90,6 +96,10 @@ pub fn table(climb: &Climb, lines: &[Line]) -> String {
             table.push('\n');
         }
         table.push('\n');
+    }
+    if known.is_empty() {
+        table.truncate(table.trim_end().len());
+        return table;
     }
     table.push_str("errors are relative; behind each the order it shows against the row above; * nothing is both quicker and closer");
     table

@@ -2,6 +2,10 @@
 
 use fret_core::study::{Advice, Quantity, Source, Truth};
 
+/// Why a ladder shows no errors.
+pub const NO_ERRORS: &str = "no errors: no closed form speaks about this case, and one rung has nothing finer to be measured \
+                             by; give more, as in --cells 32,64,128, or numbers with --against FILE";
+
 /// A headline number in words.
 pub fn name(quantity: Quantity) -> &'static str {
     match quantity {

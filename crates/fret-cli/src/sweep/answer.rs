@@ -28,6 +28,18 @@ impl Answer {
         Self(answer)
     }
 
+    /// Why there is none, a line a mistake; nothing of a solved point.
+    pub fn why(&self) -> Vec<String> {
+        let mistakes = self.0["mistakes"].as_array().into_iter().flatten();
+        let told: Vec<String> =
+            mistakes.filter_map(|mistake| mistake["message"].as_str()).map(str::to_owned).collect();
+        if told.is_empty() {
+            let message = self.0["message"].as_str().unwrap_or_default();
+            return message.lines().take(1).map(str::to_owned).collect();
+        }
+        told
+    }
+
     /// `solved`, `refused`, `failed`.
     pub fn status(&self) -> &str {
         self.0["status"].as_str().unwrap_or_default()

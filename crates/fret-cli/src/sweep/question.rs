@@ -4,7 +4,7 @@
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
-use fret_core::case::{CaseError, Mistake};
+use fret_core::case::{CaseError, Mistake, in_words};
 use toml::de::{DeTable, DeValue};
 use toml::{Spanned, Table, Value};
 
@@ -61,7 +61,7 @@ impl Reader<'_> {
         let table = match DeTable::parse(text) {
             Ok(table) => table.into_inner(),
             Err(error) => {
-                self.refuse(error.span(), error.message().trim(), None);
+                self.refuse(error.span(), &in_words(error.message()), None);
                 return Err(self.refusal());
             }
         };
@@ -223,7 +223,7 @@ impl Reader<'_> {
         match format!("number = {text}").parse::<Table>() {
             Ok(mut table) => table.remove("number").unwrap_or(Value::Boolean(false)),
             Err(error) => {
-                self.refuse(Some(value.span()), error.message().trim(), None);
+                self.refuse(Some(value.span()), &in_words(error.message()), None);
                 Value::Boolean(false)
             }
         }

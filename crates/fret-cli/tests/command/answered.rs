@@ -30,6 +30,27 @@ fn a_plan_says_what_is_left_out_and_why() {
 }
 
 #[test]
+fn a_run_names_what_is_left_out_a_line_each_and_increments_as_its_files_do() {
+    let bench = Bench::new("run-tells");
+    let answer = bench.file("case.toml", SPHERE).fret(&["run", "case.toml", "--out", "out"]);
+    assert_eq!(answer.code, Some(0), "{}", answer.err);
+    let told: Vec<&str> = answer.err.lines().collect();
+    let plan = bench.fret(&["plan", "case.toml", "--json"]);
+    let plan: serde_json::Value = serde_json::from_str(&plan.out).unwrap();
+    let items = plan["left_out"].as_array().unwrap();
+    assert!(told[0].contains("`fret plan` says why"), "{}", answer.err);
+    for (line, item) in told[1..].iter().zip(items) {
+        assert_eq!(line.trim(), item["what"].as_str().unwrap());
+    }
+    // The last line is about the last increment, by its number in history.csv.
+    let history = bench.text("out/history.csv");
+    let last = history.lines().last().unwrap().split(',').next().unwrap();
+    let line = told.last().unwrap();
+    assert!(line.starts_with(&format!("increment {last}  fretting done")), "{}", answer.err);
+    assert!(line.contains("19 of 19 solved"), "{}", answer.err);
+}
+
+#[test]
 fn a_plan_counts_the_layers_of_a_graded_coating_and_tells_of_the_box() {
     let bench = Bench::new("plan-layers");
     let coating = "coatings = [{ thickness = 20e-6, poisson = 0.3, gradient = { young = [400e9, 210e9], law = \"linear\", \

@@ -50,7 +50,7 @@ fn a_file_as_long_as_a_film_is_refused_unread() {
         let _ = writeln!(many, "wrong{number} = {number}");
     }
     bench.file("many.toml", &many);
-    refused(&bench, "many.toml", &["unknown field"]);
+    refused(&bench, "many.toml", &["unknown key"]);
 }
 
 #[cfg(unix)]

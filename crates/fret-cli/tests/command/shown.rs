@@ -76,7 +76,7 @@ fn the_page_compares_with_the_closed_form() {
     let bench = solved("report-closed");
     assert_eq!(bench.fret(&["report", "run", "--out", "page.html"]).code, Some(0));
     let page = bench.text("page.html");
-    let row = page.split("<td>largest pressure</td>").nth(1).unwrap();
+    let row = page.split("<td>max pressure</td>").nth(1).unwrap();
     let cells: Vec<&str> = row.split("</td>").take(3).map(|cell| cell.trim_start_matches("<td>")).collect();
     // 6 W E*^2 / (pi^3 R^2), cube root, with E* = E / (1 - 0.25): 5.3334e8.
     assert_eq!(cells[1], "5.3334 · 10⁸");
@@ -211,4 +211,19 @@ fn results_that_were_tampered_with_are_refused_without_a_fall() {
         assert!(!answer.err.contains("panicked"), "{}", answer.err);
         std::fs::write(&path, good).unwrap();
     }
+}
+
+/// Where the points stand is not known before; under the chart nothing is laid over them.
+#[test]
+fn the_residual_that_was_asked_for_is_named_under_its_chart() {
+    let bench = solved("report-level");
+    assert_eq!(bench.fret(&["report", "run", "--out", "page.html"]).code, Some(0));
+    let page = bench.text("page.html");
+    let named: Vec<&str> = page.split("asked for</").collect();
+    assert_eq!(named.len(), 2);
+    assert!(named[1].starts_with("li>"), "{}", &named[1][..20]);
+    let chart = page.split("aria-label=\"residual of every increment\"").nth(1).unwrap();
+    let (drawing, legend) = chart.split_once("</svg>").unwrap();
+    assert!(drawing.contains("class=\"level\"") && !drawing.contains("asked for"));
+    assert!(legend.trim_start().starts_with("<ul class=\"legend\">"), "{}", &legend[..40]);
 }

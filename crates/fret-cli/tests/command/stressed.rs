@@ -110,3 +110,24 @@ fn what_cannot_be_told_is_refused_with_a_way_out() {
     let answer = bench.fret(&["check", "deep.toml"]);
     assert!(answer.err.contains("lies in the rigid base"), "{}", answer.err);
 }
+
+/// Boussinesq: under a pressure without shear the stress across any plane in parallel to a homogeneous surface presses, whatever the
+/// place. A coating of the substrate's own material has an interface, and nothing that peels it.
+#[test]
+fn a_compression_is_not_called_the_largest_peel() {
+    let bench = Bench::new("stress-no-peel");
+    let coated = SPHERE
+        .replace(
+            "substrate =",
+            "coatings = [{ young = 210e9, poisson = 0.3, thickness = 20e-6 }]\nsubstrate =",
+        )
+        .replace("coefficient = 0.1", "coefficient = 0.0")
+        .replace("tangential_force = [0.05, 0.0]\ncycles = 2", "normal_force = 2.0");
+    bench.file("case.toml", &coated);
+    let run = bench.fret(&["run", "case.toml", "--out", "out", "--quiet"]);
+    assert_eq!(run.code, Some(0), "{}", run.err);
+    let answer = bench.fret(&["stress", "out"]);
+    assert_eq!(answer.code, Some(0), "{}", answer.err);
+    let peel = answer.out.lines().find(|line| line.trim_start().starts_with("peel")).unwrap();
+    assert!(peel.ends_with("none: compression everywhere"), "{}", answer.out);
+}

@@ -182,3 +182,13 @@ fn error_bars_of_a_fretting_loop_and_where_there_are_none() {
     assert_eq!(answer.code, Some(1));
     assert!(answer.err.contains("too few to be halved") && !bench.folder.join("results/tiny").exists());
 }
+
+#[test]
+fn one_rung_without_a_closed_form_says_why_there_are_no_errors() {
+    let bench = Bench::new("study-one-rung");
+    bench.file("case.toml", &SPHERE.replace("cycles = 2", "cycles = 1"));
+    let answer = bench.fret(&["study", "case.toml", "--cells", "24", "--against", "finest"]);
+    assert_eq!(answer.code, Some(0), "{}", answer.err);
+    assert!(answer.out.contains("no errors:") && answer.out.contains("--cells 32,64,128"), "{}", answer.out);
+    assert!(!answer.out.contains("measured by the"), "{}", answer.out);
+}

@@ -138,7 +138,7 @@ fn every_bad_shape_is_one_clear_message_at_its_place() {
         ),
         (shape("[profile.flat_punch]\nradius = 1e-6"), "5:8", vec!["no cell centre lies on the body"]),
         (shape("[profile.flat_punch]\nradius = 1e-3"), "5:8", vec!["reaches the edge"]),
-        (shape("[profile.rounded_punch]\nflat_radius = 1e-4"), "13:", vec!["missing field", "edge_radius"]),
+        (shape("[profile.rounded_punch]\nflat_radius = 1e-4"), "13:", vec!["missing key", "edge_radius"]),
         (shape("[profile.cone]\nslope = nan"), "14:9", vec!["profile.cone.slope", "positive finite number"]),
         (shape("[profile.sphere]\nradius = -0.01"), "14:10", vec!["positive"]),
         (shape("[lower.profile.sphere]\nradius = 0.0"), "14:10", vec!["lower.profile.sphere", "not zero"]),

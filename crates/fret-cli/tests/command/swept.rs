@@ -28,7 +28,11 @@ fn a_sweep_solves_every_point_as_it_is_solved_alone_and_records_failures() {
         "--threads",
         "2",
     ]);
-    assert_eq!(answer.code, Some(0), "{}", answer.err);
+    assert_eq!(answer.code, Some(1), "refused points, and none that failed: {}", answer.err);
+    let why = "refused  friction.coefficient = -0.1, load.fretting.tangential_force.0 = 0.05";
+    let told = answer.err.lines().skip_while(|line| !line.contains(why)).nth(1).unwrap();
+    assert!(told.contains("friction coefficient -0.1: must be zero or positive"), "{}", answer.err);
+    assert!(answer.err.contains("2 refused, 0 failed"), "{}", answer.err);
     assert!(answer.out.contains("4 solved, 2 not, 0 found finished"), "{}", answer.out);
     let summary = bench.text("results/many/summary.csv");
     assert_eq!(column(&summary, "status"), ["solved", "solved", "refused", "refused", "solved", "solved"]);
@@ -47,8 +51,9 @@ fn a_sweep_solves_every_point_as_it_is_solved_alone_and_records_failures() {
     assert_eq!(cycle, after - before, "the last cycle has 8 increments");
 
     let again = bench.fret(&["sweep", "many.toml", "--json"]);
-    assert_eq!(again.code, Some(0), "{}", again.err);
+    assert_eq!(again.code, Some(1), "{}", again.err);
     let said: Value = serde_json::from_str(&again.out).unwrap();
+    assert_eq!((&said["refused"], &said["failed"]), (&Value::from(2), &Value::from(0)));
     assert_eq!((&said["solved_before"], &said["points"]), (&Value::from(6), &Value::from(6)));
     assert_eq!(bench.text("results/many/summary.csv"), summary);
     // A changed base case, and a damaged file of a point, are solved anew.

@@ -227,8 +227,8 @@ mod tests {
                 "row 1",
                 "[[0.0, 1.0], [0.0, 3.0], [0.5, 2.0]]",
             ),
-            ("gradient = { young = [4.0, 1.0], law = \"cubic\" }", "unknown variant `cubic`", "\"cubic\""),
-            ("gradient = { young = [4.0, 1.0], law = \"linaer\" }", "unknown variant `linaer`", "\"linaer\""),
+            ("gradient = { young = [4.0, 1.0], law = \"cubic\" }", "unknown name `cubic`", "\"cubic\""),
+            ("gradient = { young = [4.0, 1.0], law = \"linaer\" }", "unknown name `linaer`", "\"linaer\""),
         ] {
             let (found, stands) = with(rest);
             assert!(found.contains(message), "{rest}: {found}");

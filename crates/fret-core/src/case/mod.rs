@@ -21,6 +21,7 @@ mod stress;
 mod surface_file;
 mod table;
 mod wearing;
+mod wording;
 
 use serde::Serialize;
 
@@ -33,6 +34,7 @@ pub use file::schema;
 pub use numbers::{NumbersError, numbers};
 pub use refusal::{CaseError, Mistake};
 pub use stress::{FatigueRequest, Side, StressRequest};
+pub use wording::in_words;
 
 /// Fields that can be kept, by the names of the case file.
 pub const FIELD_NAMES: [&str; 6] = ["pressure", "shear", "slip", "gap", "zone", "worn_depth"];

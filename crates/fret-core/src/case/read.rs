@@ -8,6 +8,7 @@ use toml::de::{DeTable, DeValue, Deserializer};
 
 use super::attachments::Attachments;
 use super::refusal::{CaseError, Mistake};
+use super::wording::in_words;
 use super::{Case, check, file::CaseFile};
 
 /// More mistakes than this are not looked for.
@@ -109,12 +110,8 @@ pub(super) fn case(text: &str, name: &str, attachments: Attachments<'_>) -> Resu
 }
 
 fn mistake(error: &toml::de::Error, span: Option<Range<usize>>) -> Mistake {
-    let message = error
-        .message()
-        .replace("expected f64", "expected a number")
-        .replace("expected usize", "expected a whole number")
-        .replace("expected an array of length 2", "expected a list of two values");
-    let help = near_miss(&message).map_or_else(
+    let message = in_words(error.message());
+    let help = near_miss(error.message()).map_or_else(
         || Some("`fret schema` lists every key with its meaning".to_owned()),
         |near| Some(format!("did you mean `{near}`?")),
     );

@@ -120,7 +120,7 @@ pub fn comparison(scene: &Scene<'_>) -> String {
             ]);
         };
         if let Some(pressed) = form.under(history.at("normal_force", row)) {
-            add("largest pressure", history.at("max_pressure", row), pressed.peak());
+            add("max pressure", history.at("max_pressure", row), pressed.peak());
             add("contact area", history.at("contact_area", row), pressed.area());
             add("approach", history.at("approach", row), pressed.approach());
         }

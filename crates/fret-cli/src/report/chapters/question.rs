@@ -56,11 +56,11 @@ fn cards(scene: &Scene<'_>) -> String {
     let Some(last) = table.rows().checked_sub(1) else { return String::new() };
     let largest = |name: &str| table.column(name).iter().copied().fold(0.0, f64::max);
     let mut cards = vec![
-        ("largest pressure", number(largest("max_pressure"))),
-        ("largest contact area", number(largest("contact_area"))),
+        ("max pressure", number(largest("max_pressure"))),
+        ("max contact area", number(largest("contact_area"))),
     ];
     if scene.direction.is_some() {
-        cards.push(("largest shear", number(largest("max_shear"))));
+        cards.push(("max shear", number(largest("max_shear"))));
         cards.push((
             "stick at the end",
             percent(table.at("stick_cells", last) / table.at("contact_cells", last)),

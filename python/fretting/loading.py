@@ -1,0 +1,212 @@
+"""Opening what ``fret run`` has written."""
+
+import csv
+import json
+import os
+from collections import Counter
+from pathlib import Path
+from typing import Any, NoReturn
+
+import numpy as np
+import numpy.typing as npt
+
+from fretting.cycles import MEANING as CYCLE_COLUMNS
+from fretting.cycles import columns
+from fretting.errors import MissingFileError, UnreadableError
+from fretting.history import FIELD_NAMES, MEANING, History, Steps
+
+COUNTS = {
+    "increment", "stage", "parts", "contact_cells", "stick_cells", "convolutions", "preconditioner_passes",
+    "outer_iterations",
+}  # fmt: skip
+
+
+def load(folder: str | os.PathLike[str]) -> History:
+    """Open the folder of a finished run as a history.
+
+    Parameters
+    ----------
+    folder : path
+        What ``fret run CASE --out FOLDER`` has written, or ``results/CASE`` where no ``--out`` was given.
+
+    Returns
+    -------
+    History
+        As :func:`run` returns it, to the bit: numbers are stored exactly. Fields are read when they are asked for, so
+        the folder has to stay where it is; a pickled history holds them itself.
+
+    Raises
+    ------
+    MissingFileError
+        When there is no such folder.
+    UnreadableError
+        When it holds no results, or those of an unfinished run, or a damaged file.
+
+    Examples
+    --------
+    >>> import fretting
+    >>> history = fretting.load("results/coated_sphere")  # doctest: +SKIP
+    >>> history.plot_loop()  # doctest: +SKIP
+    """
+    path = Path(folder)
+    if not path.is_dir():
+        what = "a file, not a folder" if path.exists() else "no such folder"
+        _refuse(path, what, "give the folder that `fret run CASE --out FOLDER` wrote", missing=not path.exists())
+    record = _record(path)
+    plan = record["plan"]
+    stages = [stage["name"] for stage in plan["case"]["stages"]]
+    steps = _steps(path / "history.csv")
+    done = record["totals"]["increments"]
+    if len(steps["increment"]) != done or not np.array_equal(steps["increment"], np.arange(done)):
+        _refuse(path / "history.csv", f"does not hold the {done} increments of the run")
+    history = History.__new__(History)
+    history.steps = steps
+    store = _Stored(path / "fields.zarr", plan["grid"]["cells"], done)
+    history._kept = store
+    history.x, history.y = store.coordinate("x"), store.coordinate("y")
+    history.stages = stages
+    courses = [stage["course"] for stage in plan["case"]["stages"]]
+    is_cyclic = any(isinstance(course, dict) and course["cycles"] is not None for course in courses)
+    history.cycles = columns(_cycles(path / "cycles.csv") if is_cyclic else [])
+    history.running_conditions = [_running_condition(history.cycles, stage) for stage in range(len(stages))]
+    history.worn_through = record.get("worn_through")
+    history._bodies = json.dumps(plan["case"]["bodies"])
+    dx, dy = plan["grid"]["spacing"]
+    history._spacing = (dx, dy)
+    history._periodic = bool(plan["case"]["periodic"])
+    return history
+
+
+class _Stored:
+    """Fields in a run's store: little-endian numbers, a file an increment."""
+
+    def __init__(self, path: Path, cells: list[int], increments: int) -> None:
+        self._path = path
+        self._cells = (cells[0], cells[1])
+        self._steps = [int(step) for step in self._numbers(path / "step" / "c" / "0", "<i8")]
+        if self._steps != sorted(set(self._steps)) or not set(self._steps) <= set(range(increments)):
+            _refuse(path / "step", "does not hold numbers of increments")
+        self._names = [name for name in FIELD_NAMES if (path / name / "zarr.json").is_file()]
+
+    def coordinate(self, name: str) -> npt.NDArray[np.float64]:
+        centres = self._numbers(self._path / name / "c" / "0", "<f8").astype(np.float64)
+        if len(centres) != self._cells["xy".index(name)] or not np.isfinite(centres).all():
+            _refuse(self._path / name, "does not hold the centres of the grid's cells")
+        return centres
+
+    def kept_steps(self) -> list[int]:
+        return list(self._steps) if self._names else []
+
+    def kept_fields(self, increment: int) -> list[str]:
+        return list(self._names) if increment in self._steps else []
+
+    def field(self, name: str, increment: int) -> npt.NDArray[Any]:
+        place = self._path / name / "c" / str(self._steps.index(increment)) / "0" / "0"
+        zone = name == "zone"
+        values = self._numbers(place, "|u1" if zone else "<f8")
+        if values.size != self._cells[0] * self._cells[1]:
+            _refuse(place, f"holds {values.size} numbers, not those of {self._cells[0]} x {self._cells[1]} cells")
+        if (zone and values.max(initial=0) > 2) or (not zone and not np.isfinite(values).all()):
+            _refuse(place, "holds values that are none of a field")
+        return values.reshape(self._cells).astype(np.uint8 if zone else np.float64)
+
+    @staticmethod
+    def _numbers(path: Path, kind: str) -> npt.NDArray[Any]:
+        content = _read(path)
+        if len(content) % np.dtype(kind).itemsize:
+            _refuse(path, "does not hold whole numbers of bytes")
+        return np.frombuffer(content, dtype=kind)
+
+
+def _record(path: Path) -> dict[str, Any]:
+    """Return ``run.json`` of a finished run, with what is needed of it."""
+    place = path / "run.json"
+    way = "give the folder that `fret run CASE --out FOLDER` wrote"
+    if not place.is_file():
+        _refuse(path, "not a folder of results: it has no run.json", way)
+    try:
+        record = json.loads(_read(place))
+        if record["program"] != "fretting" or record["format"] != 1:
+            _refuse(path, "results of another program, or of another version of the format", way)
+        if record["status"] != "solved":
+            on = "`fret run CASE --resume` goes on with it; `fret report` and `fret export` show what there is"
+            _refuse(path, f"the run is not finished (status: {record['status']})", on)
+        case, grid = record["plan"]["case"], record["plan"]["grid"]
+        _ = case["bodies"], case["periodic"], record["totals"]["increments"]
+        _ = [(stage["name"], stage["course"]) for stage in case["stages"]]
+        if [len(grid["cells"]), len(grid["spacing"])] != [2, 2]:
+            raise ValueError("a grid has two sides")
+    except (ValueError, KeyError, TypeError) as error:
+        _refuse(place, f"not what a run writes: {type(error).__name__}: {error}")
+    return dict(record)
+
+
+def _steps(path: Path) -> Steps:
+    """Return the columns of ``history.csv``."""
+    rows = list(csv.reader(_lines(path)))
+    head, body = rows[0], rows[1:]
+    known = [name for name in MEANING if name not in FIELD_NAMES]
+    wanted = [name for name in head if name in known]
+    if lost := [name for name in known if name not in head]:
+        _refuse(path, f"has no column {lost[0]}; it may be of an earlier version: run the case again")
+    try:
+        return Steps((name, _column(name, [row[head.index(name)] for row in body])) for name in wanted)
+    except (ValueError, IndexError) as error:
+        _refuse(path, f"not the table of a run: {error}")
+
+
+def _column(name: str, cells: list[str]) -> npt.NDArray[Any]:
+    if name == "regime":
+        return np.array(cells, dtype=np.str_)
+    return np.array(cells, dtype=np.int64 if name in COUNTS else np.float64)
+
+
+def _cycles(path: Path) -> list[dict[str, Any]]:
+    """Return the lines of ``cycles.csv``."""
+    rows = csv.DictReader(_lines(path))
+    try:
+        return [{name: _value(row[name]) for name in CYCLE_COLUMNS} for row in rows]
+    except (KeyError, TypeError) as error:
+        _refuse(path, f"not the table of a run's cycles: {error}")
+
+
+def _value(cell: str) -> object:
+    if cell in ("", "true", "false"):
+        return {"": None, "true": True, "false": False}[cell]
+    for kind in (int, float):
+        try:
+            return kind(cell)
+        except ValueError:
+            pass
+    return cell
+
+
+def _running_condition(cycles: dict[str, npt.NDArray[Any]], stage: int) -> str | None:
+    """Return the running condition of a stage: gross where all cycles slide, partial where none slides or is mixed."""
+    regimes = Counter(str(regime) for regime in cycles["regime"][cycles["stage"] == stage] if regime)
+    if not regimes:
+        return None
+    if set(regimes) == {"gross_slip"}:
+        return "gross"
+    return "mixed" if {"gross_slip", "mixed"} & set(regimes) else "partial"
+
+
+def _lines(path: Path) -> list[str]:
+    text = _read(path).decode("utf-8", "replace")
+    if not text.endswith("\n"):
+        _refuse(path, "ends in the middle of a line")
+    return text.splitlines()
+
+
+def _read(path: Path) -> bytes:
+    try:
+        return path.read_bytes()
+    except FileNotFoundError:
+        _refuse(path, "is missing", "run the case again", missing=True)
+    except OSError as error:
+        _refuse(path, f"cannot be read: {error.strerror or error}")
+
+
+def _refuse(path: Path, what: str, way: str = "run the case again", missing: bool = False) -> NoReturn:
+    kind = MissingFileError if missing else UnreadableError
+    raise kind(f"error: {path}: {what}\n  = help: {way}", str(path)) from None

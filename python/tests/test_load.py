@@ -1,0 +1,134 @@
+"""A folder that ``fret run`` has written, opened as a history."""
+
+import json
+import pickle
+import shutil
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+import fretting
+from fretting.__main__ import main
+
+CASE = """
+title = "to and fro"
+[grid]
+cells = [20, 24]
+size = [220e-6, 264e-6]
+[upper]
+rigid = true
+[lower]
+substrate = { young = 210e9, poisson = 0.3 }
+[profile.sphere]
+radius = 10e-3
+[friction]
+coefficient = 0.1
+[[load]]
+name = "press"
+normal_force = 1.0
+increments = 2
+[[load]]
+name = "rub"
+tangential_force = [0.05, 0.0]
+cycles = 2
+increments = 8
+[output]
+fields = ["pressure", "shear", "slip", "gap", "zone"]
+every = 4
+"""
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    place = tmp_path_factory.mktemp("load")
+    (place / "case.toml").write_text(CASE)
+    assert main(["run", str(place / "case.toml"), "--out", str(place / "run"), "--quiet"]) == 0
+    return place / "run"
+
+
+@pytest.fixture
+def copy(folder: Path, tmp_path: Path) -> Path:
+    return Path(shutil.copytree(folder, tmp_path / "run"))
+
+
+def test_a_loaded_history_is_the_one_a_run_gives(folder: Path) -> None:
+    run, loaded = fretting.run(CASE), fretting.load(folder)
+    assert loaded.stages == run.stages
+    assert set(loaded.steps) == set(run.steps)
+    for name, column in run.steps.items():
+        assert loaded.steps[name].dtype.kind == column.dtype.kind, name
+        if name != "wall_s":
+            np.testing.assert_array_equal(loaded.steps[name], column, err_msg=name)
+    for name, column in run.cycles.items():
+        assert loaded.cycles[name].dtype.kind == column.dtype.kind, name
+        np.testing.assert_array_equal(loaded.cycles[name], column, err_msg=name)
+    assert loaded.running_conditions == run.running_conditions
+    assert loaded.worn_through == run.worn_through
+    np.testing.assert_array_equal(loaded.x, run.x)
+    np.testing.assert_array_equal(loaded.y, run.y)
+    assert loaded.kept_steps == run.kept_steps
+    for step in run.kept_steps:
+        for name in ("pressure", "shear_x", "shear_y", "slip_x", "slip_y", "gap", "zone"):
+            field = loaded.field(name, step)
+            assert field.dtype == run.field(name, step).dtype
+            np.testing.assert_array_equal(field, run.field(name, step), err_msg=name)
+    assert repr(loaded) == repr(run)
+    stress = [fretting.subsurface_stress(history, [0.0, 20e-6])["von_mises"] for history in (loaded, run)]
+    np.testing.assert_array_equal(*stress)
+
+
+def test_a_pickled_history_does_without_its_folder(copy: Path) -> None:
+    text = pickle.dumps(fretting.load(copy))
+    field = fretting.load(copy).field("pressure")
+    shutil.rmtree(copy)
+    again = pickle.loads(text)
+    np.testing.assert_array_equal(again.field("pressure"), field)
+    with pytest.raises(KeyError, match="it has: increment"):
+        again.steps["presure"]
+
+
+def test_what_is_no_finished_run_is_refused(copy: Path, tmp_path: Path) -> None:
+    with pytest.raises(fretting.MissingFileError, match="no such folder"):
+        fretting.load(tmp_path / "nowhere")
+    with pytest.raises(fretting.UnreadableError, match="has no run.json"):
+        fretting.load(tmp_path)
+    record = json.loads((copy / "run.json").read_text())
+    (copy / "run.json").write_text(json.dumps({**record, "status": "interrupted"}))
+    with pytest.raises(fretting.UnreadableError, match=r"not finished \(status: interrupted\)(.|\n)*--resume"):
+        fretting.load(copy)
+
+
+def _cut(path: Path) -> None:
+    path.write_bytes(path.read_bytes()[:-9])
+
+
+def _poison(path: Path) -> None:
+    numbers = np.frombuffer(path.read_bytes(), dtype=np.uint8).copy()
+    numbers[:8] = 255  # a double with all bits set is not a number; a zone of 255 is none
+    path.write_bytes(numbers.tobytes())
+
+
+@pytest.mark.parametrize("spoil", [_cut, _poison, Path.unlink])
+@pytest.mark.parametrize(
+    "name",
+    ["run.json", "history.csv", "cycles.csv", "fields.zarr/x/c/0", "fields.zarr/step/c/0", "fields.zarr/pressure/c/0/0/0",
+     "fields.zarr/zone/c/0/0/0"],
+)  # fmt: skip
+def test_a_damaged_folder_is_refused_never_half_read(copy: Path, name: str, spoil: Any) -> None:
+    spoil(copy / name)
+    with pytest.raises(fretting.UnreadableError, match="error: ") as refused:
+        history = fretting.load(copy)
+        history.field("pressure", history.kept_steps[0])
+        history.field("zone", history.kept_steps[0])
+    assert Path(name).name in str(refused.value) or "run.json" in str(refused.value)
+
+
+def test_a_name_that_steps_do_not_have_is_answered_with_those_they_have(folder: Path) -> None:
+    steps = fretting.load(folder).steps
+    with pytest.raises(KeyError, match=r"history\.field\('pressure', step\)"):
+        steps["pressure"]
+    with pytest.raises(KeyError, match=r"it has: increment, .*max_pressure"):
+        steps["presure"]
+    assert steps.get("presure") is None
