@@ -1,6 +1,6 @@
 //! What is convolved with what: kernels, symbols and the blocks that connect fields, checked once at the door.
 
-use ndarray::{ArrayView2, s};
+use ndarray::{ArrayView1, ArrayView2, s};
 
 use super::{Mirrors, Parity};
 
@@ -189,7 +189,16 @@ fn check_quadrant(
     if found_x < needed_x || found_y < needed_y {
         return Err(ConvolutionError::TooSmall { kernel, found_x, found_y, needed_x, needed_y });
     }
-    match values.slice(s![..needed_x, ..needed_y]).indexed_iter().find(|(_, value)| !value.is_finite()) {
+    let used = values.slice(s![..needed_x, ..needed_y]);
+    // Row by row and without stopping in between, so that it takes a vector at a time.
+    let is_finite = |row: ArrayView1<'_, f64>| match row.as_slice() {
+        Some(row) => row.iter().fold(true, |so_far, value| so_far & value.is_finite()),
+        None => row.iter().all(|value| value.is_finite()),
+    };
+    if used.rows().into_iter().all(is_finite) {
+        return Ok(());
+    }
+    match used.indexed_iter().find(|(_, value)| !value.is_finite()) {
         Some(((x, y), &value)) => Err(ConvolutionError::NotFinite { kernel, value, x, y }),
         None => Ok(()),
     }

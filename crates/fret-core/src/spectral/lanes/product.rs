@@ -68,6 +68,13 @@ impl InstructionSet {
     }
 }
 
+/// `to = factor * from`
+fn scaled(factor: f64, from: &[f64], to: &mut [f64]) {
+    for (to, from) in to.iter_mut().zip(from) {
+        *to = factor * from;
+    }
+}
+
 /// Runs a task on an instruction set.
 macro_rules! enter {
     ($set:expr, $task:expr) => {
@@ -142,8 +149,13 @@ impl LaneProduct {
                 let first = (group * set.width()).min(cells_x);
                 let values = values.slice(s![first..(first + set.width()).min(cells_x), ..]);
                 for (row, values) in quadrant.chunks_exact_mut(cells_y).zip(values.rows()) {
-                    for (to, &from) in row.iter_mut().zip(values) {
-                        *to = sign * from;
+                    match values.as_slice() {
+                        Some(values) => scaled(sign, values, row),
+                        None => {
+                            for (to, &from) in row.iter_mut().zip(values) {
+                                *to = sign * from;
+                            }
+                        }
                     }
                     row[0] *= 0.5;
                 }
