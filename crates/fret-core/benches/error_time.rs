@@ -17,7 +17,7 @@ use fret_core::compliance::SurfaceResponse;
 use fret_core::kernel::{Components, influence_coefficients, sampled_coefficients};
 use fret_core::model::{
     Base, Body, Coating, ContactPair, ContactState, Control, CoulombFriction, ElasticMaterial, HalfSpace,
-    LoadStep, SurfaceGrid,
+    LoadStep, SurfaceGrid, Symmetry,
 };
 use fret_core::solver::{ContactSolver, Coupling, Increment, SolverSettings};
 use fret_core::study::peak_pressure;
@@ -139,7 +139,9 @@ fn solve(scene: &Scene, grid: &SurfaceGrid, extension: usize) -> Answer<Incremen
         SurfaceResponse::FreeSpace(coefficients),
         SolverSettings::new(1e-8),
         true,
-    );
+    )
+    // A sphere pressed alone is its own image in both directions.
+    .mirrored(Symmetry { odd_shear: [Some(0), Some(1)] });
     let none = Control::Force(0.0);
     let load =
         LoadStep { normal: Control::Force(force()), tangential: [none; 2], twist: Control::Motion(0.0) };

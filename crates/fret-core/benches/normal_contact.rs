@@ -85,21 +85,22 @@ fn sizes(list: Option<&String>, else_these: &[usize]) -> Answer<Vec<usize>> {
     })
 }
 
-/// CPU seconds, one thread: least of a few runs.
+/// CPU seconds, one thread.
 fn times(cells: &[usize]) -> Answer<()> {
     rayon::ThreadPoolBuilder::new().num_threads(1).use_current_thread().build_global()?;
     for &n in cells {
         let scene = hertz(4.0)?;
         let mut line = format!("{n}");
         for mirrors in [true, false] {
-            let mut least = f64::INFINITY;
-            let begun = Instant::now();
+            // In the mean of many runs: the system counts a thread's time in ticks of some milliseconds.
+            let started = cpu_seconds();
             let mut runs = 0;
-            while runs < 3 || (begun.elapsed().as_secs_f64() < 2.0 && runs < 30) {
-                least = least.min(solve(&scene, n, 1e-8, mirrors)?.seconds);
+            while runs < 3 || cpu_seconds() - started < 3.0 {
+                solve(&scene, n, 1e-8, mirrors)?;
                 runs += 1;
             }
-            let _ = write!(line, " {least:.6}");
+            let mean = (cpu_seconds() - started) / f64::from(runs);
+            let _ = write!(line, " {mean:.6}");
         }
         println!("{line}");
     }

@@ -77,21 +77,23 @@ impl Symmetry {
 
     /// The whole of a field that goes on behind the mirrors, with the other sign along axes where it is odd.
     pub fn whole(&self, part: &Array2<f64>, odd: [bool; 2]) -> Array2<f64> {
-        self.made_whole(part, |value, behind| {
+        // Zeros that nobody wrote to take no memory.
+        let zeros = Array2::zeros(self.whole_of(part.dim().into()));
+        self.made_whole(part, zeros, |value, behind| {
             let turns = (behind[0] && odd[0]) != (behind[1] && odd[1]);
             if turns && value != 0.0 { -value } else { value }
         })
     }
 
+    /// Fills `whole`, which holds the default everywhere.
     fn made_whole<T: Copy + PartialEq + Default>(
         &self,
         part: &Array2<T>,
+        mut whole: Array2<T>,
         seen: impl Fn(T, [bool; 2]) -> T,
     ) -> Array2<T> {
         let (mx, my) = part.dim();
-        let [nx, ny] = self.whole_of([mx, my]);
-        // Zeros that nobody wrote to take no memory.
-        let mut whole = Array2::default((nx, ny));
+        let (nx, ny) = whole.dim();
         for (i, row) in part.rows().into_iter().enumerate() {
             if row.iter().all(|value| *value == T::default()) {
                 continue;
@@ -159,7 +161,10 @@ impl Symmetry {
             pressure: self.whole(&part.pressure, [false; 2]),
             shear: tangential(&part.shear),
             slip: tangential(&part.slip),
-            zone: self.made_whole(&part.zone, |zone, _| zone),
+            zone: {
+                let open = Array2::default(self.whole_of(part.zone.dim().into()));
+                self.made_whole(&part.zone, open, |zone, _| zone)
+            },
             worn_depth: part.worn_depth.as_ref().map(|depth| self.whole(depth, [false; 2])),
             dissipated_energy: part.dissipated_energy * self.copies() as f64,
             ..*part

@@ -118,7 +118,7 @@ impl Plan {
             Coupling::Uncoupled | Coupling::Coupled => 20,
         };
         Ok(Self {
-            memory_bytes: memory(&case, &grid, coupling),
+            memory_bytes: memory(&case, &grid, coupling, symmetry),
             convolutions_expected: solutions * per_increment,
             case,
             grid,
@@ -156,16 +156,17 @@ fn has_unseen_film(case: &Case, grid: &SurfaceGrid) -> bool {
     })
 }
 
-/// Memory of a run at the most [bytes]: of the process, of the operators and fields of the solver, of the kept fields.
-/// The first two bound what runs of 64 to 512 cells a side took on two threads whose contact fills the grid, by a fifth at the
-/// most; a contact that leaves room takes less.
-fn memory(case: &Case, grid: &SurfaceGrid, coupling: Coupling) -> usize {
+/// Memory of a run at the most [bytes]: of the process, of the fields of the whole grid, of the operators and fields of the solver
+/// in front of the mirrors, of the kept fields. All but the last bound what runs of 128 to 512 cells a side took on two threads
+/// whose contact fills the grid, by a fifth at the most; a contact that leaves room takes less.
+fn memory(case: &Case, grid: &SurfaceGrid, coupling: Coupling, symmetry: Symmetry) -> usize {
     const PROCESS: usize = 10 << 20;
-    let numbers_per_cell = match coupling {
-        Coupling::Frictionless => 57,
-        Coupling::Uncoupled => 118,
-        Coupling::Coupled => 160,
+    let [whole, in_front] = match coupling {
+        Coupling::Frictionless => [17, 40],
+        Coupling::Uncoupled => [32, 88],
+        Coupling::Coupled => [50, 112],
     };
+    let numbers_per_cell = whole + in_front / symmetry.copies();
     let bytes_of = |name: &String| match name.as_str() {
         "shear" | "slip" => 16,
         "zone" => 1,
