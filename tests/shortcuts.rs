@@ -100,7 +100,7 @@ pub fn scenes(cells: usize) -> Vec<Scene> {
         ("coated, pulled: half", pulled(&coated, 3, 5), Some(Mirror)),
         ("two equal bodies, pulled: a quarter", pulled(&equal, 2, 6), Some(Mirror)),
         ("coated, no friction: a quarter", smooth.pressed(1.0, 3, "cubic"), Some(Mirror)),
-        ("endless cylinder: half and a quarter of a scene that repeats", line(cells), Some(Mirror)),
+        ("endless cylinder, in a scene that repeats: half", line(cells), Some(Mirror)),
         ("two equal bodies, wide grid, pressed and pulled", pulled(&everything, 3, 6), None),
     ];
     list.map(|(name, text, shortcut)| Scene { name, text: format!("{text}{}", keeping(1)), shortcut }).into()

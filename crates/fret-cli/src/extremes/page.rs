@@ -32,7 +32,7 @@ pub fn page(rows: &[Row]) -> String {
          | least pivot | of Cholesky's factors of that matrix | above 0 |\n\
          | residual | of complementarity, Coulomb's law and equilibrium, the worst increment | {TOLERANCE:.0e} |\n\
          | energy | work done less energy stored and dissipated, over the work done, the worst increment that was solved as a whole | {:.0e} |\n\
-         | mirror | the scene solved without its mirrors: pressure and shear against their image in the line of the pull, and largest pressure, approach and shift against those in front of the mirrors, over the largest | {:.0e} |\n\
+         | mirror | the scene solved without its mirrors: pressure and shear against their image in the line of the pull, and largest pressure, approach and shift against those in front of the mirrors as far as both took the same steps, over the largest | {:.0e} |\n\
          | iterations | convolutions an increment, over those of the benign scene | shown |\n",
         Bounds::RESPONSE,
         Bounds::ASYMMETRY,

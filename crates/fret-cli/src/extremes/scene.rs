@@ -175,12 +175,13 @@ impl Scene {
     }
 }
 
-/// Largest difference of two histories in largest pressure, approach and shift, relative to the largest of each run.
+/// Largest difference of two histories in largest pressure, approach and shift, relative to the largest of each run; as far as they
+/// took the same steps: an increment that one of them solved in halves has another history of slip.
 fn apart(one: &History, other: &History) -> f64 {
     let largest =
         |value: fn(&StepRecord) -> f64| one.steps.iter().map(|step| value(step).abs()).fold(0.0, f64::max);
     let [pressure, approach] = [largest(|step| step.max_pressure), largest(|step| step.approach)];
-    let steps = one.steps.iter().zip(&other.steps);
+    let steps = one.steps.iter().zip(&other.steps).take_while(|(a, b)| a.parts == b.parts);
     steps.fold(0.0, |worst, (a, b)| {
         let motion = (a.approach - b.approach).abs().max((a.shift[0] - b.shift[0]).abs());
         worst.max((a.max_pressure - b.max_pressure).abs() / pressure).max(motion / approach)
