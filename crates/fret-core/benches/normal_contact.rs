@@ -43,7 +43,6 @@ struct Cost {
     work: Work,
     residual: f64,
     contact_cells: usize,
-    seconds: f64,
 }
 
 fn main() -> Answer<()> {
@@ -247,7 +246,6 @@ fn solve(scene: &Scene, n: usize, tolerance: f64, mirrors: bool) -> Answer<Cost>
     let mut gap = Array2::from_shape_fn((n, n), |(i, j)| (scene.gap)(grid.centre(0, i), grid.centre(1, j)));
     let lowest = gap.iter().copied().fold(f64::INFINITY, f64::min);
     gap -= lowest;
-    let started = cpu_seconds();
     let response = if scene.periodic {
         SurfaceResponse::Periodic(periodic_symbols(&scene.pair, [n, n], [side; 2], Components::NORMAL, 0))
     } else {
@@ -280,6 +278,5 @@ fn solve(scene: &Scene, n: usize, tolerance: f64, mirrors: bool) -> Answer<Cost>
         work: solved.work,
         residual: solved.outcome.residual.largest(),
         contact_cells: solved.outcome.contact_cells,
-        seconds: cpu_seconds() - started,
     })
 }

@@ -79,37 +79,10 @@ impl Symmetry {
     pub fn whole(&self, part: &Array2<f64>, odd: [bool; 2]) -> Array2<f64> {
         // Zeros that nobody wrote to take no memory.
         let zeros = Array2::zeros(self.whole_of(part.dim().into()));
-        self.made_whole(part, zeros, |value, behind| {
+        made_whole(part, zeros, |value, behind| {
             let turns = (behind[0] && odd[0]) != (behind[1] && odd[1]);
             if turns && value != 0.0 { -value } else { value }
         })
-    }
-
-    /// Fills `whole`, which holds the default everywhere.
-    fn made_whole<T: Copy + PartialEq + Default>(
-        &self,
-        part: &Array2<T>,
-        mut whole: Array2<T>,
-        seen: impl Fn(T, [bool; 2]) -> T,
-    ) -> Array2<T> {
-        let (mx, my) = part.dim();
-        let (nx, ny) = whole.dim();
-        for (i, row) in part.rows().into_iter().enumerate() {
-            if row.iter().all(|value| *value == T::default()) {
-                continue;
-            }
-            let rows = [Some((nx - mx + i, false)), (nx > mx).then(|| (mx - 1 - i, true))];
-            for (to, behind_x) in rows.into_iter().flatten() {
-                let mut line = whole.row_mut(to);
-                for (j, &value) in row.iter().enumerate() {
-                    line[ny - my + j] = seen(value, [behind_x, false]);
-                    if ny > my {
-                        line[my - 1 - j] = seen(value, [behind_x, true]);
-                    }
-                }
-            }
-        }
-        whole
     }
 
     /// The part of a friction law.
@@ -163,7 +136,7 @@ impl Symmetry {
             slip: tangential(&part.slip),
             zone: {
                 let open = Array2::default(self.whole_of(part.zone.dim().into()));
-                self.made_whole(&part.zone, open, |zone, _| zone)
+                made_whole(&part.zone, open, |zone, _| zone)
             },
             worn_depth: part.worn_depth.as_ref().map(|depth| self.whole(depth, [false; 2])),
             dissipated_energy: part.dissipated_energy * self.copies() as f64,
@@ -175,6 +148,33 @@ impl Symmetry {
     pub fn whole_force(&self, part: [f64; 2]) -> [f64; 2] {
         [0, 1].map(|axis| if self.forbids(axis) { 0.0 } else { part[axis] * self.copies() as f64 })
     }
+}
+
+/// Fills `whole`, which holds the default everywhere, from the part in front of its mirrors; `seen` tells what a value looks like
+/// behind a mirror along each axis.
+fn made_whole<T: Copy + PartialEq + Default>(
+    part: &Array2<T>,
+    mut whole: Array2<T>,
+    seen: impl Fn(T, [bool; 2]) -> T,
+) -> Array2<T> {
+    let (mx, my) = part.dim();
+    let (nx, ny) = whole.dim();
+    for (i, row) in part.rows().into_iter().enumerate() {
+        if row.iter().all(|value| *value == T::default()) {
+            continue;
+        }
+        let rows = [Some((nx - mx + i, false)), (nx > mx).then(|| (mx - 1 - i, true))];
+        for (to, behind_x) in rows.into_iter().flatten() {
+            let mut line = whole.row_mut(to);
+            for (j, &value) in row.iter().enumerate() {
+                line[ny - my + j] = seen(value, [behind_x, false]);
+                if ny > my {
+                    line[my - 1 - j] = seen(value, [behind_x, true]);
+                }
+            }
+        }
+    }
+    whole
 }
 
 #[cfg(test)]
