@@ -122,7 +122,7 @@ def test_a_damaged_folder_is_refused_never_half_read(copy: Path, name: str, spoi
         history = fretting.load(copy)
         history.field("pressure", history.kept_steps[0])
         history.field("zone", history.kept_steps[0])
-    assert Path(name).name in str(refused.value) or "run.json" in str(refused.value)
+    assert name.partition("/c/")[0] in str(refused.value) or "run.json" in str(refused.value)
 
 
 def test_a_name_that_steps_do_not_have_is_answered_with_those_they_have(folder: Path) -> None:
