@@ -177,8 +177,8 @@ fn own_in_period(symbols: &PeriodicSymbols, shape: [usize; 2]) -> Own {
 }
 
 impl SpectralCompliance {
-    /// Operators of a box of `shape` cells, which stands for a larger one with mirrors; in free space the coefficients must cover at least the offsets of
-    /// the whole, periodic symbols must be of that very shape.
+    /// Operators of a box of `shape` cells, which stands for a larger one with mirrors; in free space the coefficients must cover at
+    /// least the offsets of the whole, periodic symbols must be of its very shape.
     ///
     /// # Errors
     /// When a wanted coefficient is missing or does not cover the box.

@@ -251,6 +251,7 @@ impl<'a> ContactSolver<'a> {
             Some(pressure) => self.region_around(pressure),
             None => self.region_for(state, load),
         };
+        let area_before = self.memory.settled.as_ref().map_or(0.0, |settled| settled.contact_area);
         loop {
             let (solved, state_after, outcome) = self
                 .step_in(region, start.as_ref(), (state, load), work, watch)
@@ -259,9 +260,7 @@ impl<'a> ContactSolver<'a> {
             if !self.response.is_periodic() && touches_edge(&state_after.pressure, self.symmetry.axes()) {
                 return Err(SolveError::ContactAtEdge);
             }
-            let settled_before = self.memory.settled.take();
-            let area_before = settled_before.as_ref().map_or(0.0, |settled| settled.contact_area);
-            let kept = settled_before.filter(|settled| {
+            let kept = self.memory.settled.take().filter(|settled| {
                 self.coupling != Coupling::Coupled
                     && self.settings.leave_out.takes(Shortcut::Pressure)
                     && settled.region == region

@@ -2,13 +2,12 @@
 
 use ndarray::Array2;
 
-use super::ContactSolver;
 use super::growth::{Growth, sum_of};
 use super::memory::Before;
 use super::nested::MARGIN;
 use super::region::Region;
+use super::{ContactSolver, Coupling};
 use crate::model::{ContactState, Control, LoadStep};
-use crate::solver::Coupling;
 use crate::spectral::good_length;
 
 /// Cells kept free around a contact: this share of its width, and no less than [`LEAST_MARGIN`].
@@ -32,7 +31,7 @@ impl ContactSolver<'_> {
         Region::around(cells, axes, margin, good_length, loaded)
     }
 
-    /// The box of an increment: around the contact so far and the predicted one, kept while that fits.
+    /// The box of an increment: around the contact with room to go on growing, the last one while that fits.
     pub(super) fn region_for(&self, state: &ContactState, load: &LoadStep) -> Region {
         let whole = Region::whole(self.grid.cells());
         let touched = state.pressure.iter().any(|p| *p > 0.0);
@@ -43,7 +42,7 @@ impl ContactSolver<'_> {
         let around = |margin: usize, good: fn(usize) -> usize| {
             Region::around(cells, axes, margin, good, |i, j| state.pressure[[i, j]] > 0.0)
         };
-        let growth = self.growth(state, load);
+        let growth = self.cells_of_growth(state, load);
         let least = around(growth + 1, |n| n);
         let margin = (self.width(&around(1, |n| n)) / MARGIN_SHARE).max(LEAST_MARGIN);
         let wanted = around(margin.max(growth + 2), good_length);
@@ -60,7 +59,7 @@ impl ContactSolver<'_> {
     }
 
     /// Cells by which the contact will grow on one side when it goes on as in the last increment.
-    fn growth(&self, state: &ContactState, load: &LoadStep) -> usize {
+    fn cells_of_growth(&self, state: &ContactState, load: &LoadStep) -> usize {
         let (Some(before), Some(share)) = (&self.memory.before, self.continuation(load)) else {
             return 0;
         };

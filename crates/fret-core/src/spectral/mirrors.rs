@@ -92,10 +92,10 @@ fn folded(index: usize, cells: usize, mirrored: bool) -> (usize, bool) {
 mod tests {
     use ndarray::Array2;
 
+    use super::super::tests::{PARITIES, full_blocks};
     use super::super::{Convolution, Engine, PeriodicProduct, Symbol};
     use super::*;
 
-    const PARITIES: [Parity; 4] = [Parity::EvenEven, Parity::OddEven, Parity::EvenOdd, Parity::OddOdd];
     const AXES: [[bool; 2]; 3] = [[true, false], [false, true], [true, true]];
 
     /// Any numbers without symmetry.
@@ -235,26 +235,7 @@ mod tests {
 
     #[test]
     fn pressure_and_shear_together_behind_mirrors_are_the_product_of_the_whole() {
-        let kernels = [
-            Parity::EvenEven,
-            Parity::EvenEven,
-            Parity::EvenEven,
-            Parity::OddOdd,
-            Parity::OddEven,
-            Parity::EvenOdd,
-        ];
-        let block = |output, input, kernel, sign| Block { output, input, kernel, sign };
-        let blocks = [
-            block(0, 0, 0, 1.0),
-            block(1, 1, 1, 1.0),
-            block(2, 2, 2, 1.0),
-            block(1, 2, 3, 1.0),
-            block(2, 1, 3, 1.0),
-            block(0, 1, 4, 1.0),
-            block(1, 0, 4, -1.0),
-            block(0, 2, 5, 1.0),
-            block(2, 0, 5, -1.0),
-        ];
+        let (kernels, blocks) = full_blocks();
         // Pressure even, shear as its kernels from pressure.
         let inputs = [Parity::EvenEven, Parity::OddEven, Parity::EvenOdd];
         for axes in AXES {

@@ -4,7 +4,7 @@ use ndarray::Array2;
 
 use super::{Block, Convolution, ConvolutionError, Engine, Kernel, Mirrors, Parity, PeriodicProduct, Symbol};
 
-const PARITIES: [Parity; 4] = [Parity::EvenEven, Parity::OddEven, Parity::EvenOdd, Parity::OddOdd];
+pub(super) const PARITIES: [Parity; 4] = [Parity::EvenEven, Parity::OddEven, Parity::EvenOdd, Parity::OddOdd];
 
 /// Seeded numbers in (-1, 1): the generator of Knuth's MMIX.
 struct Numbers(u64);
@@ -37,7 +37,7 @@ fn block(output: usize, input: usize, kernel: usize, sign: f64) -> Block {
 }
 
 /// Pressure and shear with all couplings: six kernels, nine blocks.
-fn full_blocks() -> (Vec<Parity>, Vec<Block>) {
+pub(super) fn full_blocks() -> (Vec<Parity>, Vec<Block>) {
     let parities = vec![
         Parity::EvenEven,
         Parity::EvenEven,
