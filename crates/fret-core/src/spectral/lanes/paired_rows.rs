@@ -170,9 +170,12 @@ impl<L: Lanes> Task<L> for Join<'_, L> {
     fn run(self, lanes: L) {
         let Self { layout, plan, side, spectrum, places, pair, lines } = self;
         for (strip, places) in places.chunks_exact(L::WIDTH).enumerate() {
-            let (mut a, mut b) = ([lanes.block(lanes.zero()); 2], [lanes.block(lanes.zero()); 2]);
-            [a[0], a[1]] = rows_of_strip(lanes, layout, spectrum, strip, 2 * pair).into();
-            [b[0], b[1]] = rows_of_strip(lanes, layout, spectrum, strip, 2 * pair + 1).into();
+            let mut a = [lanes.block(lanes.zero()); 2];
+            let mut b = [lanes.block(lanes.zero()); 2];
+            let [a_re, a_im] = &mut a;
+            rows_of_strip::<L>(layout, spectrum, strip, 2 * pair, a_re, a_im);
+            let [b_re, b_im] = &mut b;
+            rows_of_strip::<L>(layout, spectrum, strip, 2 * pair + 1, b_re, b_im);
             lanes.transpose(&mut a[0]);
             lanes.transpose(&mut a[1]);
             lanes.transpose(&mut b[0]);

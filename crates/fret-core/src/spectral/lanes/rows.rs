@@ -179,7 +179,9 @@ impl<L: Lanes> Task<L> for InnermostInverse<'_, L> {
     fn run(self, lanes: L) {
         let Self { layout, plan, side, spectrum, group, lines } = self;
         for (strip, lines) in lines.chunks_exact_mut(L::WIDTH).take(layout.strips).enumerate() {
-            let (mut re, mut im) = rows_of_strip(lanes, layout, spectrum, strip, group);
+            let mut re = lanes.block(lanes.zero());
+            let mut im = lanes.block(lanes.zero());
+            rows_of_strip::<L>(layout, spectrum, strip, group, &mut re, &mut im);
             lanes.transpose(&mut re);
             lanes.transpose(&mut im);
             for quad in 0..L::WIDTH / 4 {
@@ -201,17 +203,16 @@ impl<L: Lanes> Task<L> for InnermostInverse<'_, L> {
     }
 }
 
-/// The rows of one group in one strip of the outputs' spectra, real and imaginary parts.
+/// Real and imaginary parts of the rows of one group in one strip of the outputs' spectra, in place of zeros.
 #[inline(always)]
 pub fn rows_of_strip<L: Lanes>(
-    lanes: L,
     layout: &Layout,
     spectrum: &[L::Number],
     strip: usize,
     group: usize,
-) -> (L::Block, L::Block) {
-    let mut re = lanes.block(lanes.zero());
-    let mut im = lanes.block(lanes.zero());
+    re: &mut L::Block,
+    im: &mut L::Block,
+) {
     let first = group * L::WIDTH;
     let rows = layout.column_len.saturating_sub(first).min(L::WIDTH);
     if rows > 0 {
@@ -228,7 +229,6 @@ pub fn rows_of_strip<L: Lanes>(
             }
         }
     }
-    (re, im)
 }
 
 /// Real rows of `ny` numbers to vectors across the rows; what is not there is zero.
