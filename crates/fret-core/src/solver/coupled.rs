@@ -124,6 +124,7 @@ pub fn solve_coupled(
             most: settings.most_inner_iterations,
             floor: floor(settings.tolerance, &packed.pressure, own.normal),
             theta: patience.hears(residual),
+            exact: patience.is_at_an_end(),
         };
         frozen.solve(&contact.packed(&gap), &judge.s, &mut krylov, compliance, preconditioner);
         packed.add(&krylov.step);

@@ -4,11 +4,12 @@
 use pulp::Simd;
 
 use super::contact_set::ContactSet;
+use super::elastic_answer::ElasticAnswer;
 use super::krylov::{Directions, Triple};
 use super::preconditioner::Preconditioner;
 use super::rigid::RigidModes;
-use super::shear::ETA;
-use super::tractions::{Displacements, Tractions};
+use super::shear::{ETA, SIX_DIGITS};
+use super::tractions::Tractions;
 use super::zones::{RigidProjector, Zones, free_part};
 use crate::compliance::SurfaceCompliance;
 use crate::model::TangentialField;
@@ -76,6 +77,8 @@ pub struct Frozen<'a> {
     pub floor: f64,
     /// Share of the cut below which solving stops.
     pub theta: f64,
+    /// The elastic answer is wanted with all digits.
+    pub exact: bool,
 }
 
 /// Memory of the Krylov method.
@@ -85,9 +88,7 @@ pub struct KrylovMemory {
     residual: Triple,
     /// The step found, packed.
     pub step: Triple,
-    /// Tractions of the box, zero outside the contact.
-    spread: Tractions,
-    answer: Displacements,
+    answer: ElasticAnswer,
 }
 
 impl KrylovMemory {
@@ -97,8 +98,7 @@ impl KrylovMemory {
             directions: Directions::default(),
             residual: Triple::default(),
             step: Triple::default(),
-            spread: Tractions::zeros(cells),
-            answer: Displacements::zeros(cells),
+            answer: ElasticAnswer::new(cells),
         }
     }
 }
@@ -118,7 +118,8 @@ impl Frozen<'_> {
         let rigid = RigidProjector::new(self.modes, self.zones);
         preconditioner.freeze(self.zones);
         memory.directions.restart();
-        memory.spread.clear();
+        memory.answer.restart();
+        memory.answer.exact |= self.exact;
         memory.step.clear(len);
         memory.residual.clear(len);
         // Tangential equations are weighted so that shear counts in units of the pressure that carries it.
@@ -134,29 +135,21 @@ impl Frozen<'_> {
         let start = memory.residual.norm();
         let mut first_size = 0.0;
         for depth in 0..self.most {
-            let KrylovMemory { directions, residual, step, spread, answer } = memory;
+            let KrylovMemory { directions, residual, step, answer } = memory;
             let direction = directions.open(len);
-            self.precondition(
-                residual,
-                weight,
-                &rigid,
-                preconditioner,
-                (spread, answer),
-                &mut direction.along,
-            );
+            self.precondition(residual, weight, &rigid, preconditioner, &mut direction.along);
             if depth == 0 {
                 first_size = self.size_of(&direction.along);
             }
-            let [p, x, y] = direction.along.parts();
-            self.contact.place(p, &mut spread.pressure);
-            self.contact.place(x, &mut spread.shear.x);
-            self.contact.place(y, &mut spread.shear.y);
-            compliance.full(&spread.pressure, &spread.shear, &mut answer.normal, &mut answer.tangential);
-            self.image_of(&direction.along, answer, weight, &rigid, &mut direction.image);
+            answer.full(self.contact, &direction.along, &mut direction.image, compliance);
+            self.make_image(&direction.along, weight, &rigid, &mut direction.image);
             let Some(left_over) = directions.descend(residual, step) else { break };
             let cut = self.cut_of(step);
             let left = first_size * left_over / start;
-            if left_over < self.floor || (cut > 0.0 && (cut > self.theta * left || left_over < ETA * start)) {
+            if left_over < self.floor
+                || !answer.exact && left_over < SIX_DIGITS * start
+                || (cut > 0.0 && (cut > self.theta * left || left_over < ETA * start))
+            {
                 break;
             }
         }
@@ -177,14 +170,11 @@ impl Frozen<'_> {
         weight: f64,
         rigid: &RigidProjector<'_>,
         preconditioner: &mut Preconditioner,
-        (spread, answer): (&mut Tractions, &mut Displacements),
         along: &mut Triple,
     ) {
         let [normal, x, y] = residual.parts();
         let [p, qx, qy] = along.parts_mut();
-        self.contact.place(normal, &mut spread.pressure);
-        preconditioner.normal(&spread.pressure, &mut answer.normal);
-        self.contact.gather(&answer.normal, p);
+        preconditioner.pressure(normal, self.contact, p);
         self.remove_mean(p);
         preconditioner.shear([x, y], self.contact, [qx, qy]);
         let zones = self.zones;
@@ -204,19 +194,9 @@ impl Frozen<'_> {
         each_cell(&Follow(amounts), read, [qx, qy]);
     }
 
-    /// Left side of the frozen equations for tractions `along` with their displacements in the box.
-    fn image_of(
-        &self,
-        along: &Triple,
-        answer: &Displacements,
-        weight: f64,
-        rigid: &RigidProjector<'_>,
-        image: &mut Triple,
-    ) {
+    /// Makes of the displacements of tractions `along` the left side of the frozen equations.
+    fn make_image(&self, along: &Triple, weight: f64, rigid: &RigidProjector<'_>, image: &mut Triple) {
         let [normal, x, y] = image.parts_mut();
-        self.contact.gather(&answer.normal, normal);
-        self.contact.gather(&answer.tangential.x, x);
-        self.contact.gather(&answer.tangential.y, y);
         self.remove_mean(normal);
         let [_, qx, qy] = along.parts();
         let zones = self.zones;
