@@ -52,7 +52,7 @@ pub use shortcut::{LeaveOut, Shortcut};
 use memory::{Before, GridTractions, Settled};
 use nested::{CoarseGrids, Prescribed};
 use outside::touches_edge;
-use preconditioner::{Preconditioner, Waves, six_digits_do};
+use preconditioner::{Preconditioner, Waves};
 use region::Region;
 use scene::{BoxOperators, Scene, Solved, Turn};
 use tractions::Tractions;
@@ -389,9 +389,7 @@ impl<'a> ContactSolver<'a> {
             return Ok(operators);
         }
         let waves = self.table.as_ref().map(|table| Waves { table, spacing: self.grid.spacing() });
-        let whole = self.symmetry.whole_of(region.shape);
-        let single =
-            self.settings.leave_out.takes(Shortcut::Digits) && six_digits_do(&self.response, waves, whole);
+        let single = self.settings.six_digits;
         let wanted = Wanted {
             normal: true,
             tangential: self.coupling == Coupling::Uncoupled || self.settings.scheme == Scheme::Alternating,

@@ -7,10 +7,9 @@
 use ndarray::{Array2, ArrayView2};
 
 use super::normal::{NormalTask, first_pressure, solve_normal};
-use super::preconditioner::{Preconditioner, Waves, six_digits_do};
+use super::preconditioner::{Preconditioner, Waves};
 use super::region::Region;
 use super::settings::{SolveError, SolverSettings, Watch};
-use super::shortcut::Shortcut;
 use crate::compliance::{SpectralCompliance, SurfaceCompliance, SurfaceResponse, Wanted};
 use crate::edge::level_function;
 use crate::history::Work;
@@ -194,8 +193,7 @@ impl Level {
             let missing = |_| SolveError::OperatorsMissing;
             let mut compliance =
                 SpectralCompliance::new(&self.response, region.shape, wanted).map_err(missing)?;
-            let single = settings.leave_out.takes(Shortcut::Digits)
-                && six_digits_do(&self.response, waves, symmetry.whole_of(region.shape));
+            let single = settings.six_digits;
             let shape = region.shape;
             let mut preconditioner =
                 Preconditioner::new(&self.response, waves, shape, [true, false], None, symmetry, single)

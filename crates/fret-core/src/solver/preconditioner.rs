@@ -17,8 +17,6 @@ use crate::spectral::{Block, ConvolutionError, Kernel, Parity, PeriodicProduct, 
 /// A pair is stiff at the surface when the longest waves of a box meet this many times the compliance times wavenumber that
 /// the shortest ones meet: a thin coating more than about five times stiffer than what lies below.
 const STIFF_ABOVE: f64 = 4.0;
-/// Six digits do when long and short waves move a surface alike up to this factor.
-const SIX_DIGITS_WITHIN: f64 = 100.0;
 /// Second level of slip stiffness, in units of the smallest elastic symbol.
 const STIFF_LEVEL: f64 = 30.0;
 
@@ -62,32 +60,18 @@ pub struct Waves<'a> {
 }
 
 impl Waves<'_> {
-    /// How much softer the longest waves of a box find a body than its shortest do.
-    fn softening(&self, shape: [usize; 2]) -> f64 {
+    /// Whether long waves meet a body much softer than short ones do.
+    fn are_stiff(&self, shape: [usize; 2]) -> bool {
         let longest = (0..2).map(|axis| shape[axis] as f64 * self.spacing[axis]).fold(0.0, f64::max);
         let shortest = 2.0 * self.spacing[0].min(self.spacing[1]);
         let at = |length: f64| self.table.times_k(std::f64::consts::TAU / length).zz;
-        at(longest) / at(shortest)
+        at(longest) > STIFF_ABOVE * at(shortest)
     }
-
-    /// Whether long waves meet a body much softer than short ones do.
-    fn are_stiff(&self, shape: [usize; 2]) -> bool {
-        self.softening(shape) > STIFF_ABOVE
-    }
-}
-
-/// Whether six digits do on a box, in approximate inverses and on frozen zones: when rounding, which is relative to the waves
-/// that move most, leaves enough to those that move least. `shape` is that of the whole box. Scenes that repeat keep all
-/// digits: there the inverse is exact, and full contact is solved by it at once.
-pub fn six_digits_do(response: &SurfaceResponse, waves: Option<Waves<'_>>, shape: [usize; 2]) -> bool {
-    let even =
-        |waves: Waves<'_>| (1.0 / SIX_DIGITS_WITHIN..SIX_DIGITS_WITHIN).contains(&waves.softening(shape));
-    !response.is_periodic() && waves.is_none_or(even)
 }
 
 impl Preconditioner {
     /// Inverses for a box of `shape` cells; normal, tangential or both. `waves` serves pressure in free space, `along` is the one
-    /// axis of shear where the other part vanishes; with mirrors the box stands for a larger one.
+    /// axis of shear where the other part vanishes; with mirrors the box stands for a larger one; `single`: six digits do.
     ///
     /// # Errors
     /// When a coefficient is missing or does not cover the box.
