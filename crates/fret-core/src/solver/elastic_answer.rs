@@ -7,7 +7,7 @@ use super::tractions::{Displacements, Tractions};
 use crate::compliance::SurfaceCompliance;
 
 /// Fields of the box, in both precisions as they are needed; tractions are zero outside the contact.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub struct ElasticAnswer {
     cells: usize,
     /// Whether all digits are wanted.
@@ -19,23 +19,21 @@ pub struct ElasticAnswer {
 }
 
 impl ElasticAnswer {
-    /// Memory for a box of so many cells.
-    pub fn new(cells: usize) -> Self {
-        Self {
-            cells,
-            exact: false,
-            tractions: Tractions::zeros(0),
-            displacements: Displacements::zeros(0),
-            single_tractions: Default::default(),
-            single_displacements: Default::default(),
-        }
+    /// Makes ready for an increment in a box of so many cells.
+    pub fn begin(&mut self, cells: usize) {
+        self.cells = cells;
+        self.exact = false;
     }
 
     /// Forgets the contact before.
     pub fn restart(&mut self) {
         self.tractions.clear();
         for field in &mut self.single_tractions {
-            field.fill(0.0);
+            field.clear();
+            field.resize(self.cells, 0.0);
+        }
+        for field in &mut self.single_displacements {
+            field.resize(self.cells, 0.0);
         }
     }
 
@@ -76,9 +74,6 @@ impl ElasticAnswer {
         compliance: &mut dyn SurfaceCompliance,
     ) -> bool {
         let unit = unit_of(tractions.norm());
-        for field in self.single_tractions.iter_mut().chain(&mut self.single_displacements) {
-            field.resize(self.cells, 0.0);
-        }
         for (part, field) in tractions.parts().into_iter().zip(&mut self.single_tractions) {
             contact.place_rounded(part, 1.0 / unit, field);
         }

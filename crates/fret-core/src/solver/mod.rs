@@ -49,6 +49,7 @@ pub use scene::{Outcome, Resultants};
 pub use settings::{Coupling, SolveError, SolverSettings, Watch};
 pub use shortcut::{LeaveOut, Shortcut};
 
+use frozen::KrylovMemory;
 use memory::{Before, GridTractions, Settled};
 use nested::{CoarseGrids, Prescribed};
 use outside::touches_edge;
@@ -412,6 +413,7 @@ impl<'a> ContactSolver<'a> {
                 self.symmetry,
                 single,
             )?,
+            krylov: KrylovMemory::default(),
         })
     }
 

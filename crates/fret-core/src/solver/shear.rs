@@ -18,7 +18,7 @@ use crate::model::field::{norm, scale_and_add};
 /// How much of the cut a frozen problem is solved below; raised while outer steps do not pay.
 pub const THETA: f64 = 1.0;
 /// Share of its start to which a frozen problem is solved at the most when something is cut.
-pub const ETA: f64 = 0.005;
+const ETA: f64 = 0.005;
 
 /// Share of its start to which the residual of a frozen problem falls when its operator has six digits.
 pub const SIX_DIGITS: f64 = 1e-5;
