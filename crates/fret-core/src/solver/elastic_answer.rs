@@ -2,7 +2,7 @@
 
 use super::contact_set::ContactSet;
 use super::krylov::Triple;
-use super::single::unit_of;
+use super::single::{Rounding, unit_of};
 use super::tractions::{Displacements, Tractions};
 use crate::compliance::SurfaceCompliance;
 
@@ -16,6 +16,7 @@ pub struct ElasticAnswer {
     displacements: Displacements,
     single_tractions: [Vec<f32>; 3],
     single_displacements: [Vec<f32>; 3],
+    rounding: Rounding,
 }
 
 impl ElasticAnswer {
@@ -75,12 +76,12 @@ impl ElasticAnswer {
     ) -> bool {
         let unit = unit_of(tractions.norm());
         for (part, field) in tractions.parts().into_iter().zip(&mut self.single_tractions) {
-            contact.place_rounded(part, 1.0 / unit, field);
+            self.rounding.place(contact, part, 1.0 / unit, field);
         }
         let answer = &mut self.single_displacements;
         let Some(out) = compliance.full_single(&self.single_tractions, answer) else { return false };
         for (field, part) in answer.iter().zip(displacements.parts_mut()) {
-            contact.gather_widened(field, unit * out, part);
+            self.rounding.gather(contact, field, unit * out, part);
         }
         true
     }

@@ -1,7 +1,7 @@
 //! One approximate inverse on the cells of a box, in the precision it deserves.
 
 use super::contact_set::ContactSet;
-use super::single::{round, unit_of, widen};
+use super::single::{Rounding, round, unit_of, widen};
 use crate::model::field::{dot, norm};
 use crate::spectral::{PeriodicProduct, SingleProduct, Workspace};
 
@@ -18,6 +18,7 @@ pub enum Inverse {
 pub struct BoxFields {
     double: Sides<f64>,
     single: Sides<f32>,
+    rounding: Rounding,
 }
 
 #[derive(Default)]
@@ -81,16 +82,16 @@ impl Inverse {
                 }
             }
             Self::Single(product) => {
-                let Sides { before, after } = &mut fields.single;
+                let BoxFields { single: Sides { before, after }, rounding, .. } = fields;
                 let unit = unit_of(right.iter().map(|part| dot(part, part)).sum::<f64>().sqrt());
                 for (right, field) in right.iter().zip(before.iter_mut()) {
-                    contact.place_rounded(right, 1.0 / unit, field);
+                    rounding.place(contact, right, 1.0 / unit, field);
                 }
                 let before = before.each_ref().map(Vec::as_slice);
                 let mut after = after.each_mut().map(Vec::as_mut_slice);
                 product.apply(&before[..count], &mut after[..count]);
                 for (left, field) in left.iter_mut().zip(after) {
-                    contact.gather_widened(field, unit * product.unit(), left);
+                    rounding.gather(contact, field, unit * product.unit(), left);
                 }
             }
         }

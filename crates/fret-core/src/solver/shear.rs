@@ -8,7 +8,7 @@ use super::coulomb::{CoulombJudge, TangentialTask, TangentialVerdict};
 use super::preconditioner::Preconditioner;
 use super::retraction::Retraction;
 use super::settings::{SolveError, SolverSettings, Watch};
-use super::single::unit_of;
+use super::single::{Rounding, unit_of};
 use super::zones::{RigidProjector, Zones};
 use crate::compliance::SurfaceCompliance;
 use crate::model::TangentialField;
@@ -138,6 +138,7 @@ struct ConjugateGradients<'a> {
     exact: bool,
     /// The same fields in single precision, shear zero outside the contact.
     single: [[Vec<f32>; 2]; 2],
+    rounding: Rounding,
 }
 
 impl<'a> ConjugateGradients<'a> {
@@ -157,6 +158,7 @@ impl<'a> ConjugateGradients<'a> {
             answer: TangentialField::zeros(cells),
             exact: false,
             single: std::array::from_fn(|_| [vec![0.0; cells], vec![0.0; cells]]),
+            rounding: Rounding::default(),
         }
     }
 
@@ -166,11 +168,11 @@ impl<'a> ConjugateGradients<'a> {
         if !self.exact {
             let unit = unit_of(self.along.norm());
             for (part, field) in self.along.parts().into_iter().zip(spread.iter_mut()) {
-                self.contact.place_rounded(part, 1.0 / unit, field);
+                self.rounding.place(self.contact, part, 1.0 / unit, field);
             }
             if let Some(out) = compliance.tangential_single(spread, answer) {
                 for (field, part) in answer.iter().zip(self.image.parts_mut()) {
-                    self.contact.gather_widened(field, unit * out, part);
+                    self.rounding.gather(self.contact, field, unit * out, part);
                 }
                 return;
             }
