@@ -48,7 +48,10 @@ impl LaneProduct<f64> {
                     let behind = if second[axis] { lengths[axis] } else { 0 };
                     orders[axis].iter().map(|k| places[axis][k + behind]).collect()
                 };
-                let (from_x, from_y) = (of_axis(0), of_axis(1));
+                let from_x = of_axis(0);
+                let strip_len = wide_lengths[0] * kernels.len() * width;
+                let from_y: Vec<usize> =
+                    of_axis(1).into_iter().map(|y| y / width * strip_len + y % width).collect();
                 let at = kernel * tables(axes) + table;
                 let strips = product.kernels.as_mut_slice().chunks_exact_mut(lengths[0] * count * width);
                 for (strip, values) in strips.enumerate() {
@@ -58,8 +61,7 @@ impl LaneProduct<f64> {
                             &mut values[((place / 4 * count + at) * 4 + place % 4) * width..][..width];
                         let first = ((x / 4 * kernels.len() + kernel) * 4 + x % 4) * width;
                         for (value, &y) in values.iter_mut().zip(columns) {
-                            let strip = y / width * wide_lengths[0] * kernels.len() * width;
-                            *value = sign * source[strip + first + y % width];
+                            *value = sign * source[first + y];
                         }
                     }
                 }
