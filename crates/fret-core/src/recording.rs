@@ -8,7 +8,9 @@ use crate::solver::Increment;
 pub fn record(solved: &Increment, increment: usize, stage: usize, parts: usize, wall_s: f64) -> StepRecord {
     let state = &solved.state;
     let outcome = &solved.outcome;
-    let max_shear = state.shear[0].iter().zip(&state.shear[1]).map(|(x, y)| x.hypot(*y)).fold(0.0, f64::max);
+    let [qx, qy] = &state.shear;
+    let sheared = qx.iter().zip(qy).filter(|(x, y)| **x != 0.0 || **y != 0.0);
+    let max_shear = sheared.map(|(x, y)| x.hypot(*y)).fold(0.0, f64::max);
     StepRecord {
         increment,
         stage,

@@ -1,6 +1,6 @@
 //! Mirror symmetry of a scene: the part of the grid in front of its mirrors stands for the whole.
 
-use ndarray::{Array2, ArrayView2, s};
+use ndarray::{Array2, ArrayView2, Axis, s};
 use serde::Serialize;
 
 use super::friction::CoulombFriction;
@@ -69,10 +69,10 @@ impl Symmetry {
     }
 
     /// The part of a field in front of the mirrors.
-    pub fn part<T: Copy>(&self, field: &Array2<T>) -> Array2<T> {
+    pub fn part<T: Clone>(&self, field: &Array2<T>) -> Array2<T> {
         let (nx, ny) = field.dim();
         let [mx, my] = self.part_of([nx, ny]);
-        Array2::from_shape_fn((mx, my), |(i, j)| field[[nx - mx + i, ny - my + j]])
+        field.slice(s![nx - mx.., ny - my..]).as_standard_layout().into_owned()
     }
 
     /// The whole of a field that goes on behind the mirrors, with the other sign along axes where it is odd.
@@ -165,12 +165,12 @@ fn made_whole<T: Copy + PartialEq + Default>(
         }
         let rows = [Some((nx - mx + i, false)), (nx > mx).then(|| (mx - 1 - i, true))];
         for (to, behind_x) in rows.into_iter().flatten() {
-            let mut line = whole.row_mut(to);
-            for (j, &value) in row.iter().enumerate() {
-                line[ny - my + j] = seen(value, [behind_x, false]);
-                if ny > my {
-                    line[my - 1 - j] = seen(value, [behind_x, true]);
-                }
+            let (mirrored, before) = whole.row_mut(to).split_at(Axis(0), ny - my);
+            for (to, value) in before.into_iter().zip(row) {
+                *to = seen(*value, [behind_x, false]);
+            }
+            for (to, value) in mirrored.into_iter().rev().zip(row) {
+                *to = seen(*value, [behind_x, true]);
             }
         }
     }
