@@ -9,8 +9,11 @@ pub fn record(solved: &Increment, increment: usize, stage: usize, parts: usize, 
     let state = &solved.state;
     let outcome = &solved.outcome;
     let [qx, qy] = &state.shear;
-    let sheared = qx.iter().zip(qy).filter(|(x, y)| **x != 0.0 || **y != 0.0);
-    let max_shear = sheared.map(|(x, y)| x.hypot(*y)).fold(0.0, f64::max);
+    // A root only where it may be the largest.
+    let larger = |most: f64, (x, y): (&f64, &f64)| {
+        if x.abs() + y.abs() > most { most.max(x.hypot(*y)) } else { most }
+    };
+    let max_shear = qx.iter().zip(qy).fold(0.0, larger);
     StepRecord {
         increment,
         stage,
