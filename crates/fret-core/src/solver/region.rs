@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use ndarray::{Array2, s};
+use ndarray::{Array2, ArrayBase, Ix2, RawData, s};
 use serde::{Deserialize, Serialize};
 
 use crate::model::field::TangentialField;
@@ -37,8 +37,7 @@ impl Region {
 
     /// The part of a grid field, as flat rows.
     pub fn gather(&self, field: &Array2<f64>) -> Vec<f64> {
-        let [rows, columns] = self.ranges();
-        let part = field.slice(s![rows, columns]).as_standard_layout().into_owned();
+        let part = inside(field.view(), self.ranges()).as_standard_layout().into_owned();
         part.into_raw_vec_and_offset().0
     }
 
@@ -59,10 +58,8 @@ impl Region {
 
     /// Writes what is not zero of the part into a grid field of zeros: memory that nobody wrote to costs nothing.
     pub fn place(&self, part: &[f64], field: &mut Array2<f64>) {
-        let [rows, columns] = self.ranges();
-        for (line, row) in
-            field.slice_mut(s![rows, columns]).rows_mut().into_iter().zip(part.chunks_exact(self.shape[1]))
-        {
+        let mut inside = inside(field.view_mut(), self.ranges());
+        for (line, row) in inside.rows_mut().into_iter().zip(part.chunks_exact(self.shape[1])) {
             if row.iter().any(|value| *value != 0.0) {
                 for (place, value) in line.into_iter().zip(row) {
                     *place = *value;
@@ -134,4 +131,12 @@ impl Region {
         }
         region
     }
+}
+
+/// The part of a view in these rows and columns.
+fn inside<S: RawData<Elem = f64>>(
+    field: ArrayBase<S, Ix2>,
+    [rows, columns]: [Range<usize>; 2],
+) -> ArrayBase<S, Ix2> {
+    field.slice_move(s![rows, columns])
 }
