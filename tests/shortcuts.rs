@@ -78,7 +78,7 @@ pub fn difference(one: &History, other: &History) -> f64 {
 
 /// The scenes, with `cells` a side.
 pub fn scenes(cells: usize) -> Vec<Scene> {
-    use Shortcut::{Box, Coupling, LayeredResponse, Mirror, Pressure, Tangential, Transverse};
+    use Shortcut::{Box, Coupling, Digits, LayeredResponse, Mirror, Pressure, Tangential, Transverse};
     let rigid = Sphere { cells, tolerance: TOLERANCE, friction: 0.3, ..Sphere::default() };
     let equal = Sphere { identical: true, ..rigid.clone() };
     let coated = Sphere { coating: Some((4.0, 0.5)), ..rigid.clone() };
@@ -101,6 +101,8 @@ pub fn scenes(cells: usize) -> Vec<Scene> {
         ("two equal bodies, pulled: a quarter", pulled(&equal, 2, 6), Some(Mirror)),
         ("coated, no friction: a quarter", smooth.pressed(1.0, 3, "cubic"), Some(Mirror)),
         ("endless cylinder, in a scene that repeats: half", line(cells), Some(Mirror)),
+        ("coated, pulled: digits", pulled(&coated, 3, 5), Some(Digits)),
+        ("two equal bodies, pulled: digits", pulled(&equal, 2, 6), Some(Digits)),
         ("two equal bodies, wide grid, pressed and pulled", pulled(&everything, 3, 6), None),
     ];
     list.map(|(name, text, shortcut)| Scene { name, text: format!("{text}{}", keeping(1)), shortcut }).into()

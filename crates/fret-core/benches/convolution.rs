@@ -2,9 +2,9 @@
 //!
 //! Problems: `n` pressure to normal displacement (1 kernel), `t` both shear components (3 kernels, 4 blocks), `f` pressure and
 //! shear with all couplings (6 kernels, 9 blocks), `p` and `q` the periodic products of problems `n` and `t`; each on the whole
-//! grid, and on the half and the quarter in front of mirrors. The engines take turns, round
-//! after round; printed are the best time of each on one thread, its ratio to the plain line-by-line engine on rustfft (best
-//! against best), the cost of planning, and the best time of the fastest engine on two threads.
+//! grid, and on the half and the quarter in front of mirrors. The engines take turns, round after round, the fastest one also in
+//! single precision; printed are the best time of each on one thread, its ratio to the plain line-by-line engine on rustfft
+//! (best against best), the cost of planning, and the best time of the fastest engine on two threads.
 //!
 //! Arguments: the sizes to run, by default 64 128 256 512 1024.
 
@@ -14,7 +14,7 @@ use std::hint::black_box;
 use std::time::{Duration, Instant};
 
 use fret_core::spectral::{
-    Block, Convolution, Engine, Kernel, Mirrors, Parity, PeriodicProduct, Symbol, Workspace,
+    Block, Convolution, Engine, Kernel, Mirrors, Parity, PeriodicProduct, SingleProduct, Symbol, Workspace,
 };
 use ndarray::Array2;
 
@@ -70,6 +70,13 @@ impl Product {
         match self {
             Self::FreeSpace(product) => product.workspace(),
             Self::Periodic(product) => product.workspace(),
+        }
+    }
+
+    fn in_single_precision(&self) -> Option<SingleProduct> {
+        match self {
+            Self::FreeSpace(product) => product.in_single_precision(),
+            Self::Periodic(product) => product.in_single_precision(),
         }
     }
 
@@ -134,6 +141,13 @@ fn measure(
     let mut output = vec![vec![0.0; cells]; fields];
     let mut output: Vec<_> = output.iter_mut().map(Vec::as_mut_slice).collect();
 
+    let coarse = vec![vec![1.0_f32; cells]; fields];
+    let coarse: Vec<_> = coarse.iter().map(Vec::as_slice).collect();
+    let mut rounded = vec![vec![0.0_f32; cells]; fields];
+    let mut rounded: Vec<_> = rounded.iter_mut().map(Vec::as_mut_slice).collect();
+    let mut single = products[0].1.in_single_precision().ok_or("no engine for single precision")?;
+    let mut single_time = Duration::MAX;
+
     let rounds = (4_000_000 / (n * n)).clamp(5, 200);
     let mut times = vec![Duration::MAX; products.len()];
     for _ in 0..rounds {
@@ -141,6 +155,8 @@ fn measure(
             product.apply(workspace, &input, &mut output);
             *time = best(*time, || product.apply(workspace, &input, &mut output));
         }
+        single.apply(&coarse, &mut rounded);
+        single_time = best(single_time, || single.apply(&coarse, &mut rounded));
     }
     let pool = rayon::ThreadPoolBuilder::new().num_threads(2).build()?;
     let two_threads = pool.install(|| {
@@ -159,6 +175,11 @@ fn measure(
     for time in &times {
         print!("  {:8.3} ({:.3})", milliseconds(*time), milliseconds(*time) / milliseconds(lines));
     }
+    print!(
+        "   single {:8.3} ({:.3})",
+        milliseconds(single_time),
+        milliseconds(single_time) / milliseconds(lines)
+    );
     println!("   plan {:8.3}   two threads {:8.3}", milliseconds(planning), milliseconds(two_threads));
     Ok(())
 }

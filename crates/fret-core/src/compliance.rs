@@ -11,7 +11,7 @@ use ndarray::Array2;
 use crate::kernel::{InfluenceCoefficients, PeriodicSymbols};
 use crate::model::{Symmetry, TangentialField};
 use crate::spectral::{
-    Block, Convolution, ConvolutionError, Kernel, Mirrors, Parity, PeriodicProduct, Symbol,
+    Block, Convolution, ConvolutionError, Kernel, Mirrors, Parity, PeriodicProduct, SingleProduct, Symbol,
 };
 use product::Product;
 
@@ -35,6 +35,18 @@ pub trait SurfaceCompliance {
         normal: &mut [f64],
         tangential: &mut TangentialField,
     );
+
+    /// As [`tangential`](Self::tangential) in single precision: shear of a size near one, displacement divided by the number
+    /// returned. `None` where double precision is wanted.
+    fn tangential_single(&mut self, _shear: &[Vec<f32>; 2], _tangential: &mut [Vec<f32>; 2]) -> Option<f64> {
+        None
+    }
+
+    /// As [`full`](Self::full) in single precision: tractions `[pressure, along x, along y]` of a size near one, displacements
+    /// `[normal, along x, along y]` divided by the number returned. `None` where double precision is wanted.
+    fn full_single(&mut self, _tractions: &[Vec<f32>; 3], _displacements: &mut [Vec<f32>; 3]) -> Option<f64> {
+        None
+    }
 }
 
 /// Influence of a cell on itself [length/pressure].
@@ -61,6 +73,8 @@ pub struct Wanted {
     pub along: Option<usize>,
     /// Mirrors of the scene: the box is what lies in front of them.
     pub symmetry: Symmetry,
+    /// Single precision, where a solver can do with it.
+    pub single: bool,
 }
 
 /// How the surface answers, as far as a grid needs to know it.
@@ -95,10 +109,32 @@ pub struct SpectralCompliance {
     tangential: Option<Product>,
     full: Option<Product>,
     normal_from_all: Option<Product>,
+    /// The same in single precision, made when first asked for.
+    single: Singles,
     /// The one axis along which shear acts.
     along: Option<usize>,
     /// Applications so far.
     pub applications: usize,
+}
+
+/// Products in single precision: whether they are wanted, and those made so far.
+#[derive(Default)]
+struct Singles {
+    wanted: bool,
+    tangential: Option<SingleProduct>,
+    full: Option<SingleProduct>,
+}
+
+/// The product in single precision, made when there is none yet.
+fn made<'a>(
+    single: &'a mut Option<SingleProduct>,
+    product: Option<&Product>,
+    wanted: bool,
+) -> Option<&'a mut SingleProduct> {
+    if single.is_none() && wanted {
+        *single = product.and_then(Product::in_single_precision);
+    }
+    single.as_mut()
 }
 
 const NORMAL_BLOCKS: [Block; 1] = [block(0, 0, 0, 1.0)];
@@ -248,6 +284,7 @@ impl SpectralCompliance {
             tangential: build(wanted.tangential, tangential.0, sheared, tangential.1)?,
             full: build(wanted.full, full.0, all, full.1)?,
             normal_from_all: build(wanted.normal_from_all, normal_from_all.0, all, normal_from_all.1)?,
+            single: Singles { wanted: wanted.single, ..Singles::default() },
             along: wanted.along,
             applications: 0,
         })
@@ -266,11 +303,10 @@ impl SpectralCompliance {
 
     /// Memory of the operators [bytes].
     pub fn memory_bytes(&self) -> usize {
-        [&self.normal, &self.tangential, &self.full, &self.normal_from_all]
-            .into_iter()
-            .flatten()
-            .map(Product::memory_bytes)
-            .sum()
+        let products = [&self.normal, &self.tangential, &self.full, &self.normal_from_all];
+        let singles = [&self.single.tangential, &self.single.full];
+        products.into_iter().flatten().map(Product::memory_bytes).sum::<usize>()
+            + singles.into_iter().flatten().map(SingleProduct::memory_bytes).sum::<usize>()
     }
 }
 
@@ -352,4 +388,43 @@ impl SurfaceCompliance for SpectralCompliance {
             self.tangential(shear, tangential);
         }
     }
+
+    fn tangential_single(&mut self, shear: &[Vec<f32>; 2], tangential: &mut [Vec<f32>; 2]) -> Option<f64> {
+        let Singles { wanted, tangential: single, .. } = &mut self.single;
+        let product = made(single, self.tangential.as_ref(), *wanted)?;
+        self.applications += 1;
+        let [from_x, from_y] = shear;
+        let [to_x, to_y] = tangential;
+        match self.along {
+            None => product.apply(&[from_x, from_y], &mut [to_x, to_y]),
+            Some(0) => along_one([from_x], [to_x], to_y, product),
+            Some(_) => along_one([from_y], [to_y], to_x, product),
+        }
+        Some(product.unit())
+    }
+
+    fn full_single(&mut self, tractions: &[Vec<f32>; 3], displacements: &mut [Vec<f32>; 3]) -> Option<f64> {
+        let Singles { wanted, full: single, .. } = &mut self.single;
+        let product = made(single, self.full.as_ref(), *wanted)?;
+        self.applications += 1;
+        let [pressure, from_x, from_y] = tractions;
+        let [normal, to_x, to_y] = displacements;
+        match self.along {
+            None => product.apply(&[pressure, from_x, from_y], &mut [normal, to_x, to_y]),
+            Some(0) => along_one([pressure, from_x], [normal, to_x], to_y, product),
+            Some(_) => along_one([pressure, from_y], [normal, to_y], to_x, product),
+        }
+        Some(product.unit())
+    }
+}
+
+/// Applies a product without shear across an axis, where there is then no displacement.
+fn along_one<const N: usize>(
+    input: [&Vec<f32>; N],
+    output: [&mut Vec<f32>; N],
+    across: &mut [f32],
+    product: &mut SingleProduct,
+) {
+    across.fill(0.0);
+    product.apply(&input.map(Vec::as_slice), &mut output.map(Vec::as_mut_slice));
 }

@@ -181,6 +181,7 @@ impl<'a> Simulation<'a> {
             SolverSettings {
                 scheme: case.scheme,
                 leave_out: plan.leave_out,
+                six_digits: plan.six_digits,
                 ..SolverSettings::new(case.tolerance)
             },
             plan.leave_out.takes(Shortcut::Box),

@@ -1,6 +1,6 @@
 //! One product of fields with kernels, in free space or periodic, with the memory it works in.
 
-use crate::spectral::{Convolution, PeriodicProduct, Workspace};
+use crate::spectral::{Convolution, PeriodicProduct, SingleProduct, Workspace};
 
 /// A planned product and its workspace.
 pub(crate) enum Product {
@@ -25,6 +25,14 @@ impl Product {
         match self {
             Self::FreeSpace(convolution, workspace) => convolution.apply(workspace, input, output),
             Self::Periodic(product, workspace) => product.apply(workspace, input, output),
+        }
+    }
+
+    /// The same product in single precision, where there is one.
+    pub fn in_single_precision(&self) -> Option<SingleProduct> {
+        match self {
+            Self::FreeSpace(convolution, _) => convolution.in_single_precision(),
+            Self::Periodic(product, _) => product.in_single_precision(),
         }
     }
 

@@ -17,8 +17,7 @@ pub fn left_out(
     case: &Case,
     grid: &SurfaceGrid,
     coupling: Coupling,
-    along: Option<usize>,
-    symmetry: Symmetry,
+    (along, symmetry, six_digits): (Option<usize>, Symmetry, bool),
     leave_out: LeaveOut,
 ) -> Vec<LeftOut> {
     let mut list = Vec::new();
@@ -98,6 +97,13 @@ pub fn left_out(
             "cells far from the contact, in the iterations",
             "they carry nothing; whether the surfaces overlap there is checked once the box is solved",
             "the share of the grid outside the box, in every iteration",
+        );
+    }
+    if six_digits {
+        leave(
+            "all but six digits, in approximate inverses and on frozen zones",
+            "every look at the equations that follows is taken with all of them, and mends what rounding did",
+            "half of the numbers in most transforms",
         );
     }
     let unasked: Vec<_> =

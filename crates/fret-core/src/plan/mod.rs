@@ -1,5 +1,6 @@
 //! The question made numerical, before any work: grid, sizes, what is computed and what is left out and why.
 
+mod digits;
 mod extent;
 mod left_out;
 mod symmetry;
@@ -36,6 +37,8 @@ pub struct Plan {
     pub along: Option<usize>,
     /// Mirrors of scene and loads, in front of which the solver works.
     pub symmetry: Symmetry,
+    /// Six digits do on frozen zones and in approximate inverses.
+    pub six_digits: bool,
     /// The shortcuts that may be taken.
     pub leave_out: LeaveOut,
     /// What is left out.
@@ -107,7 +110,8 @@ impl Plan {
         let along = left_out::one_way(&case, &grid, &response, coupling)
             .filter(|_| leave_out.takes(Shortcut::Transverse));
         let symmetry = mirrors(&case, &grid, coupling, leave_out);
-        let left_out = left_out::left_out(&case, &grid, coupling, along, symmetry, leave_out);
+        let six_digits = leave_out.takes(Shortcut::Digits) && digits::six_digits_do(&case, &grid, &response);
+        let left_out = left_out::left_out(&case, &grid, coupling, (along, symmetry, six_digits), leave_out);
         let increments = case.increments();
         // Where the division is left to the program: one solution of the whole and two of its halves at the least.
         let least = |stage: &Stage| if stage.history_tolerance.is_some() { 3_usize } else { 1 };
@@ -125,6 +129,7 @@ impl Plan {
             coupling,
             along,
             symmetry,
+            six_digits,
             leave_out,
             left_out,
             increments,

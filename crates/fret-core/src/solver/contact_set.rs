@@ -2,6 +2,9 @@
 
 use std::ops::Range;
 
+use pulp::Arch;
+
+use super::single::{round_here, widen_here};
 use crate::model::TangentialField;
 
 /// Cells in contact, as runs along the rows of the box.
@@ -77,6 +80,36 @@ impl ContactSet {
     pub fn place_tangential(&self, packed: &TangentialField, field: &mut TangentialField) {
         self.place(&packed.x, &mut field.x);
         self.place(&packed.y, &mut field.y);
+    }
+
+    /// Writes `factor` times a packed field, rounded, into one of the box, which keeps what it holds elsewhere.
+    pub fn place_rounded(&self, packed: &[f64], factor: f64, field: &mut [f32]) {
+        Arch::new().dispatch(
+            #[inline(always)]
+            || {
+                let mut rest = packed;
+                for run in &self.runs {
+                    let (here, after) = rest.split_at(run.len());
+                    round_here(here, factor, &mut field[run.clone()]);
+                    rest = after;
+                }
+            },
+        );
+    }
+
+    /// Packs `factor` times a field of the box.
+    pub fn gather_widened(&self, field: &[f32], factor: f64, packed: &mut [f64]) {
+        Arch::new().dispatch(
+            #[inline(always)]
+            || {
+                let mut rest = packed;
+                for run in &self.runs {
+                    let (here, after) = rest.split_at_mut(run.len());
+                    widen_here(&field[run.clone()], factor, here);
+                    rest = after;
+                }
+            },
+        );
     }
 
     /// Writes a packed field into one of the box, which is zero elsewhere.

@@ -71,17 +71,17 @@ pub struct CoupledSolution {
 /// Solves the coupled equations from feasible `tractions` with their `displacements`; both end at the solution.
 pub fn solve_coupled(
     task: &CoupledTask<'_>,
-    tractions: &mut Tractions,
-    displacements: &mut Displacements,
+    (tractions, displacements): (&mut Tractions, &mut Displacements),
     compliance: &mut dyn SurfaceCompliance,
     preconditioner: &mut Preconditioner,
+    krylov: &mut KrylovMemory,
     settings: &SolverSettings,
     watch: Watch<'_>,
 ) -> Result<CoupledSolution, SolveError> {
     let cells = task.undeformed.len();
     let own = compliance.own();
     let prescribed = if task.total.is_none() { Some(task.approach) } else { None };
-    let mut krylov = KrylovMemory::new(cells);
+    krylov.begin(cells);
     let mut judge = CoulombJudge::default();
     let mut retraction = Retraction::default();
     let mut gap = vec![0.0; cells];
@@ -113,8 +113,9 @@ pub fn solve_coupled(
         if retreat.takes_back(residual, tractions, displacements) {
             continue;
         }
-        let zones =
+        let mut zones =
             Zones::classify(&packed.shear, &judge.s, &packed.bound, |cell| packed.pressure[cell] <= 0.0);
+        zones.weigh(own.tangential);
         let frozen = Frozen {
             contact: &contact,
             zones: &zones,
@@ -124,8 +125,9 @@ pub fn solve_coupled(
             most: settings.most_inner_iterations,
             floor: floor(settings.tolerance, &packed.pressure, own.normal),
             theta: patience.hears(residual),
+            exact: patience.is_at_an_end(),
         };
-        frozen.solve(&contact.packed(&gap), &judge.s, &mut krylov, compliance, preconditioner);
+        frozen.solve(&contact.packed(&gap), &judge.s, krylov, compliance, preconditioner);
         packed.add(&krylov.step);
         if !retract_pressure(&mut packed.pressure, task.total) {
             break;

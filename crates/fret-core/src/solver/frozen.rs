@@ -4,16 +4,20 @@
 use pulp::Simd;
 
 use super::contact_set::ContactSet;
+use super::elastic_answer::ElasticAnswer;
 use super::krylov::{Directions, Triple};
 use super::preconditioner::Preconditioner;
 use super::rigid::RigidModes;
-use super::shear::ETA;
-use super::tractions::{Displacements, Tractions};
-use super::zones::{RigidProjector, Zones, free_part};
+use super::shear::SIX_DIGITS;
+use super::tractions::Tractions;
+use super::zones::{RigidProjector, Zones, free_part, products};
 use crate::compliance::SurfaceCompliance;
 use crate::model::TangentialField;
 use crate::model::each_cell::{CellRule, Reals, each_cell};
 use crate::model::field::{add_scaled, largest, sum};
+
+/// Share of its start to which a frozen problem is solved at the most when something is cut.
+const ETA: f64 = 0.001;
 
 /// Feasible tractions of the cells in contact, packed.
 #[derive(Debug)]
@@ -76,30 +80,26 @@ pub struct Frozen<'a> {
     pub floor: f64,
     /// Share of the cut below which solving stops.
     pub theta: f64,
+    /// The elastic answer is wanted with all digits.
+    pub exact: bool,
 }
 
 /// Memory of the Krylov method.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub struct KrylovMemory {
     directions: Directions,
     residual: Triple,
     /// The step found, packed.
     pub step: Triple,
-    /// Tractions of the box, zero outside the contact.
-    spread: Tractions,
-    answer: Displacements,
+    /// Tangential part of the residual, without weights.
+    unweighted: TangentialField,
+    answer: ElasticAnswer,
 }
 
 impl KrylovMemory {
-    /// Memory for a box of so many cells.
-    pub fn new(cells: usize) -> Self {
-        Self {
-            directions: Directions::default(),
-            residual: Triple::default(),
-            step: Triple::default(),
-            spread: Tractions::zeros(cells),
-            answer: Displacements::zeros(cells),
-        }
+    /// Makes ready for an increment in a box of so many cells.
+    pub fn begin(&mut self, cells: usize) {
+        self.answer.begin(cells);
     }
 }
 
@@ -116,9 +116,11 @@ impl Frozen<'_> {
     ) {
         let len = self.contact.len();
         let rigid = RigidProjector::new(self.modes, self.zones);
+        let equations = RigidProjector::of_equations(self.modes, self.zones);
         preconditioner.freeze(self.zones);
         memory.directions.restart();
-        memory.spread.clear();
+        memory.answer.restart();
+        memory.answer.exact |= self.exact;
         memory.step.clear(len);
         memory.residual.clear(len);
         // Tangential equations are weighted so that shear counts in units of the pressure that carries it.
@@ -130,33 +132,27 @@ impl Frozen<'_> {
             add_scaled(to, -factor, from);
         }
         self.remove_mean(normal);
-        rigid.keep_free([x, y]);
+        equations.keep_free([x, y]);
         let start = memory.residual.norm();
         let mut first_size = 0.0;
         for depth in 0..self.most {
-            let KrylovMemory { directions, residual, step, spread, answer } = memory;
+            let KrylovMemory { directions, residual, step, unweighted, answer } = memory;
             let direction = directions.open(len);
-            self.precondition(
-                residual,
-                weight,
-                &rigid,
-                preconditioner,
-                (spread, answer),
-                &mut direction.along,
-            );
+            let [_, x, y] = residual.parts();
+            self.unweigh([x, y], weight, &rigid, unweighted);
+            self.precondition(residual, unweighted, &rigid, preconditioner, &mut direction.along);
             if depth == 0 {
                 first_size = self.size_of(&direction.along);
             }
-            let [p, x, y] = direction.along.parts();
-            self.contact.place(p, &mut spread.pressure);
-            self.contact.place(x, &mut spread.shear.x);
-            self.contact.place(y, &mut spread.shear.y);
-            compliance.full(&spread.pressure, &spread.shear, &mut answer.normal, &mut answer.tangential);
-            self.image_of(&direction.along, answer, weight, &rigid, &mut direction.image);
+            answer.full(self.contact, &direction.along, &mut direction.image, compliance);
+            self.make_image(&direction.along, weight, &equations, &mut direction.image);
             let Some(left_over) = directions.descend(residual, step) else { break };
             let cut = self.cut_of(step);
             let left = first_size * left_over / start;
-            if left_over < self.floor || (cut > 0.0 && (cut > self.theta * left || left_over < ETA * start)) {
+            if left_over < self.floor
+                || !answer.exact && left_over < SIX_DIGITS * start
+                || (cut > 0.0 && (cut > self.theta * left || left_over < ETA * start))
+            {
                 break;
             }
         }
@@ -169,24 +165,40 @@ impl Frozen<'_> {
         }
     }
 
-    /// Tractions that would remove the displacements `residual`: pressure and shear each by its own inverse, shear
-    /// following the pressure in slip, resultants kept.
+    /// The tangential displacements of a weighted residual, without what rigid motions can do.
+    fn unweigh(
+        &self,
+        [x, y]: [&[f64]; 2],
+        weight: f64,
+        rigid: &RigidProjector<'_>,
+        displacements: &mut TangentialField,
+    ) {
+        for part in displacements.each_mut() {
+            part.resize(self.contact.len(), 0.0);
+        }
+        let zones = self.zones;
+        let rotation = &self.modes.rotation;
+        let read = [&zones.stick[..], &zones.slip, &zones.weighted_slip, &rotation.x, &rotation.y, x, y];
+        let rule = Unweigh { unweight: 1.0 / weight };
+        let products = each_cell(&rule, read, displacements.parts_mut());
+        rigid.remove_resultant(displacements.parts_mut(), products);
+    }
+
+    /// Tractions that would remove the normal part of a residual and the tangential `displacements`: pressure and shear each by
+    /// its own inverse, shear following the pressure in slip, resultants kept.
     fn precondition(
         &self,
         residual: &Triple,
-        weight: f64,
+        displacements: &TangentialField,
         rigid: &RigidProjector<'_>,
         preconditioner: &mut Preconditioner,
-        (spread, answer): (&mut Tractions, &mut Displacements),
         along: &mut Triple,
     ) {
-        let [normal, x, y] = residual.parts();
+        let [normal, _, _] = residual.parts();
         let [p, qx, qy] = along.parts_mut();
-        self.contact.place(normal, &mut spread.pressure);
-        preconditioner.normal(&spread.pressure, &mut answer.normal);
-        self.contact.gather(&answer.normal, p);
+        preconditioner.pressure(normal, self.contact, p);
         self.remove_mean(p);
-        preconditioner.shear([x, y], self.contact, [qx, qy]);
+        preconditioner.shear(displacements.parts(), self.contact, [qx, qy]);
         let zones = self.zones;
         let rotation = &self.modes.rotation;
         let read = [
@@ -199,31 +211,21 @@ impl Frozen<'_> {
             &self.packed.friction,
             p,
         ];
-        let resultant = each_cell(&FreeAndFollow { unweight: 1.0 / weight }, read, [&mut *qx, &mut *qy]);
+        let resultant = each_cell(&FreeAndFollow, read, [&mut *qx, &mut *qy]);
         let amounts = rigid.amounts(resultant);
         each_cell(&Follow(amounts), read, [qx, qy]);
     }
 
-    /// Left side of the frozen equations for tractions `along` with their displacements in the box.
-    fn image_of(
-        &self,
-        along: &Triple,
-        answer: &Displacements,
-        weight: f64,
-        rigid: &RigidProjector<'_>,
-        image: &mut Triple,
-    ) {
+    /// Makes of the displacements of tractions `along` the left side of the frozen equations.
+    fn make_image(&self, along: &Triple, weight: f64, rigid: &RigidProjector<'_>, image: &mut Triple) {
         let [normal, x, y] = image.parts_mut();
-        self.contact.gather(&answer.normal, normal);
-        self.contact.gather(&answer.tangential.x, x);
-        self.contact.gather(&answer.tangential.y, y);
         self.remove_mean(normal);
         let [_, qx, qy] = along.parts();
         let zones = self.zones;
         let rotation = &self.modes.rotation;
         let read = [
             &zones.stick[..],
-            &zones.slip,
+            &zones.weighted_slip,
             &zones.direction.x,
             &zones.direction.y,
             &rotation.x,
@@ -277,10 +279,27 @@ impl CellRule<0, 1, 0> for Less {
     }
 }
 
-/// Keeps the free part of shear, without its weight; sums the resultants of it and of the shear that follows pressure.
-struct FreeAndFollow {
+/// Takes the weights off a residual.
+struct Unweigh {
     unweight: f64,
 }
+
+impl CellRule<7, 2, 3> for Unweigh {
+    #[inline(always)]
+    fn at<S: Simd>(
+        &self,
+        [stick, slip, weighted, around_x, around_y, x, y]: [Reals<S>; 7],
+        [to_x, to_y]: &mut [Reals<S>; 2],
+    ) -> [Reals<S>; 3] {
+        let zero = x.all(0.0);
+        let factor = (stick + weighted.if_at_most(zero, zero, slip / weighted)) * self.unweight;
+        [*to_x, *to_y] = [x * factor, y * factor];
+        products([*to_x, *to_y], stick + slip, [around_x, around_y])
+    }
+}
+
+/// Keeps the free part of shear; sums the resultants of it and of the shear that follows pressure.
+struct FreeAndFollow;
 
 impl CellRule<8, 2, 3> for FreeAndFollow {
     #[inline(always)]
@@ -289,7 +308,7 @@ impl CellRule<8, 2, 3> for FreeAndFollow {
         [stick, slip, along_x, along_y, around_x, around_y, friction, p]: [Reals<S>; 8],
         [x, y]: &mut [Reals<S>; 2],
     ) -> [Reals<S>; 3] {
-        [*x, *y] = free_part([*x * self.unweight, *y * self.unweight], stick, slip, [along_x, along_y]);
+        [*x, *y] = free_part([*x, *y], stick, slip, [along_x, along_y]);
         let follow = friction * p;
         let both = [*x + follow * along_x, *y + follow * along_y];
         [both[0], both[1], both[0] * around_x + both[1] * around_y]
@@ -316,8 +335,8 @@ impl CellRule<8, 2, 0> for Follow {
     }
 }
 
-/// Keeps the free part of a displacement, adds the slip stiffness times the turning shear, and weights it; sums its
-/// resultants.
+/// Keeps the free part of a displacement, adds the slip stiffness times the turning shear, and weights both; sums the products
+/// with the free parts of the motions.
 struct FreeAndStiff {
     weight: f64,
 }
@@ -332,7 +351,7 @@ impl CellRule<9, 2, 3> for FreeAndStiff {
         let turn = slip * (along_x * *y - along_y * *x + stiffness * (along_x * qy - along_y * qx));
         *x = (stick * *x - along_y * turn) * self.weight;
         *y = (stick * *y + along_x * turn) * self.weight;
-        [*x, *y, *x * around_x + *y * around_y]
+        products([*x, *y], stick + slip, [around_x, around_y])
     }
 }
 

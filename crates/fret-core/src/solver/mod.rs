@@ -8,9 +8,11 @@ mod alternating;
 mod contact_set;
 mod coulomb;
 mod coupled;
+mod elastic_answer;
 mod feasible;
 mod frozen;
 mod growth;
+mod inverse;
 mod krylov;
 mod memory;
 mod nested;
@@ -27,6 +29,7 @@ mod scene;
 mod settings;
 mod shear;
 mod shortcut;
+mod single;
 mod sweep;
 mod tractions;
 mod zones;
@@ -46,6 +49,7 @@ pub use scene::{Outcome, Resultants};
 pub use settings::{Coupling, SolveError, SolverSettings, Watch};
 pub use shortcut::{LeaveOut, Shortcut};
 
+use frozen::KrylovMemory;
 use memory::{Before, GridTractions, Settled};
 use nested::{CoarseGrids, Prescribed};
 use outside::touches_edge;
@@ -385,6 +389,8 @@ impl<'a> ContactSolver<'a> {
             operators.region = region;
             return Ok(operators);
         }
+        let waves = self.table.as_ref().map(|table| Waves { table, spacing: self.grid.spacing() });
+        let single = self.settings.six_digits;
         let wanted = Wanted {
             normal: true,
             tangential: self.coupling == Coupling::Uncoupled || self.settings.scheme == Scheme::Alternating,
@@ -392,9 +398,9 @@ impl<'a> ContactSolver<'a> {
             normal_from_all: false,
             along: self.along,
             symmetry: self.symmetry,
+            single,
         };
         let tangential = self.coupling != Coupling::Frictionless;
-        let waves = self.table.as_ref().map(|table| Waves { table, spacing: self.grid.spacing() });
         Ok(BoxOperators {
             region,
             compliance: SpectralCompliance::new(&self.response, region.shape, wanted)?,
@@ -405,7 +411,9 @@ impl<'a> ContactSolver<'a> {
                 [true, tangential],
                 self.along,
                 self.symmetry,
+                single,
             )?,
+            krylov: KrylovMemory::default(),
         })
     }
 

@@ -149,9 +149,15 @@ impl Level {
     fn is_nearly_full(&self, total: Option<f64>, cells: [usize; 2]) -> bool {
         let (true, Some(total)) = (self.response.is_periodic(), total) else { return false };
         let mean = total / (cells[0] * cells[1]) as f64;
-        let Ok(mut inverse) =
-            Preconditioner::new(&self.response, None, self.cells(), [true, false], None, self.symmetry)
-        else {
+        let Ok(mut inverse) = Preconditioner::new(
+            &self.response,
+            None,
+            self.cells(),
+            [true, false],
+            None,
+            self.symmetry,
+            false,
+        ) else {
             return false;
         };
         let undeformed = Region::whole(self.cells()).gather(&self.undeformed);
@@ -187,8 +193,10 @@ impl Level {
             let missing = |_| SolveError::OperatorsMissing;
             let mut compliance =
                 SpectralCompliance::new(&self.response, region.shape, wanted).map_err(missing)?;
+            let single = settings.six_digits;
+            let shape = region.shape;
             let mut preconditioner =
-                Preconditioner::new(&self.response, waves, region.shape, [true, false], None, symmetry)
+                Preconditioner::new(&self.response, waves, shape, [true, false], None, symmetry, single)
                     .map_err(missing)?;
             let undeformed = region.gather(&self.undeformed);
             let task = NormalTask {

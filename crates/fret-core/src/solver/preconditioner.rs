@@ -6,12 +6,13 @@ use ndarray::{Array2, s};
 use pulp::Simd;
 
 use super::contact_set::ContactSet;
+use super::inverse::{BoxFields, Inverse};
 use super::zones::Zones;
-use crate::compliance::{SurfaceResponse, mirrors, only};
+use crate::compliance::{SurfaceResponse, mirrors};
 use crate::kernel::ResponseTable;
 use crate::model::each_cell::{CellRule, Reals, each_cell};
 use crate::model::{Symmetry, TangentialField};
-use crate::spectral::{Block, ConvolutionError, Kernel, Parity, PeriodicProduct, Symbol, Workspace};
+use crate::spectral::{Block, ConvolutionError, Kernel, Parity, PeriodicProduct, Symbol};
 
 /// A pair is stiff at the surface when the longest waves of a box meet this many times the compliance times wavenumber that
 /// the shortest ones meet: a thin coating more than about five times stiffer than what lies below.
@@ -29,9 +30,9 @@ const TANGENTIAL: [Block; 4] = [
 
 /// Approximate inverses for a box.
 pub struct Preconditioner {
-    normal: Option<(PeriodicProduct, Workspace)>,
+    normal: Option<Inverse>,
     /// Inverses of the symbol, and of the symbol plus [`STIFF_LEVEL`] smallest symbols.
-    shear: Option<[(PeriodicProduct, Workspace); 2]>,
+    shear: Option<[Inverse; 2]>,
     /// Smallest symbol of the tangential response [length/pressure].
     softest: f64,
     /// The one axis along which shear acts.
@@ -41,8 +42,9 @@ pub struct Preconditioner {
     /// Levels in use: one where nothing slips stiffly.
     levels: usize,
     packed: TangentialField,
-    scaled: TangentialField,
     part: TangentialField,
+    fields: BoxFields,
+    cells: usize,
     stiff: bool,
     /// Passes so far.
     pub passes: usize,
@@ -69,7 +71,7 @@ impl Waves<'_> {
 
 impl Preconditioner {
     /// Inverses for a box of `shape` cells; normal, tangential or both. `waves` serves pressure in free space, `along` is the one
-    /// axis of shear where the other part vanishes; with mirrors the box stands for a larger one.
+    /// axis of shear where the other part vanishes; with mirrors the box stands for a larger one; `single`: six digits do.
     ///
     /// # Errors
     /// When a coefficient is missing or does not cover the box.
@@ -80,6 +82,7 @@ impl Preconditioner {
         [normal, tangential]: [bool; 2],
         along: Option<usize>,
         symmetry: Symmetry,
+        single: bool,
     ) -> Result<Self, ConvolutionError> {
         let (part, shape) = (shape, symmetry.whole_of(shape));
         let [zz, xx, yy, xy] = match response {
@@ -92,8 +95,7 @@ impl Preconditioner {
         };
         let product = |symbols: &[Symbol<'_>], fields: &[usize], blocks: &[Block]| {
             let product = PeriodicProduct::mirrored(part, symbols, blocks, mirrors(symmetry, fields))?;
-            let workspace = product.workspace();
-            Ok::<_, ConvolutionError>((product, workspace))
+            Ok::<_, ConvolutionError>(Inverse::new(product, single))
         };
         let normal = if normal {
             let mut inverse = match (response, waves, zz) {
@@ -128,7 +130,6 @@ impl Preconditioner {
         } else {
             None
         };
-        let len = part[0] * part[1];
         Ok(Self {
             normal,
             shear,
@@ -138,8 +139,9 @@ impl Preconditioner {
             weights: [Vec::new(), Vec::new()],
             levels: 1,
             packed: TangentialField::default(),
-            scaled: TangentialField::zeros(len),
-            part: TangentialField::zeros(len),
+            part: TangentialField::default(),
+            fields: BoxFields::default(),
+            cells: part[0] * part[1],
             passes: 0,
         })
     }
@@ -151,13 +153,21 @@ impl Preconditioner {
 
     /// Pressures that would remove normal displacements `right`, before any restriction to a set.
     pub fn normal(&mut self, right: &[f64], pressure: &mut [f64]) {
-        if let Some((product, workspace)) = &mut self.normal {
+        if let Some(inverse) = &mut self.normal {
             self.passes += 1;
-            product.apply(workspace, &[right], &mut [pressure]);
+            inverse.apply_to_box(right, pressure, &mut self.fields);
         }
     }
 
-    /// Prepares [`Preconditioner::shear`] for frozen zones: a partition of unity over the slip stiffness between two levels.
+    /// The same on the zones last frozen, packed over `contact`.
+    pub fn pressure(&mut self, right: &[f64], contact: &ContactSet, pressure: &mut [f64]) {
+        if let Some(inverse) = &mut self.normal {
+            self.passes += 1;
+            inverse.apply(contact, &[right], &mut [pressure], &mut self.fields);
+        }
+    }
+
+    /// Prepares [`Preconditioner::shear`] and [`Preconditioner::pressure`] for frozen zones: a partition of unity over the slip stiffness between two levels.
     pub fn freeze(&mut self, zones: &Zones) {
         let softest = self.softest;
         let largest = zones.stiffness.iter().copied().fold(0.0, f64::max);
@@ -167,29 +177,35 @@ impl Preconditioner {
         }
         let [soft, stiff] = &mut self.weights;
         each_cell(&LevelWeights { softest }, [&zones.stiffness], [soft, stiff]);
-        for part in self.packed.each_mut() {
+        let TangentialField { x, y } = &mut self.packed;
+        for part in [x, y].into_iter().chain(self.part.each_mut()) {
             part.resize(zones.len(), 0.0);
         }
-        self.scaled.clear();
+        // All inverses of a box are of one precision.
+        if let Some(inverse) = self.normal.iter().chain(self.shear.iter().flatten()).next() {
+            inverse.clear(&mut self.fields, self.cells);
+        }
     }
 
     /// Shears that would remove tangential displacements `right` on the zones last frozen, before any restriction to what
     /// these leave free. Packed over `contact`.
     pub fn shear(&mut self, [right_x, right_y]: [&[f64]; 2], contact: &ContactSet, [x, y]: [&mut [f64]; 2]) {
-        let Self { shear: Some(levels), packed, scaled, part, along, .. } = self else { return };
+        let Self { shear: Some(levels), packed, part, along, fields, .. } = self else { return };
         x.fill(0.0);
         y.fill(0.0);
-        for ((product, workspace), weights) in levels.iter_mut().zip(&self.weights).take(self.levels) {
+        for (inverse, weights) in levels.iter_mut().zip(&self.weights).take(self.levels) {
             let read = [right_x, right_y, weights];
             each_cell(&Weighted, read, [&mut packed.x, &mut packed.y]);
-            contact.place_tangential(packed, scaled);
             self.passes += 1;
             match *along {
-                Some(axis) => product.apply(workspace, &[scaled.parts()[axis]], &mut [only(axis, part)]),
-                None => product.apply(workspace, &scaled.parts(), &mut [&mut part.x, &mut part.y]),
+                // The other component stays zero.
+                Some(axis) => {
+                    let right = packed.parts()[axis];
+                    inverse.apply(contact, &[right], &mut [&mut *part.parts_mut()[axis]], fields);
+                }
+                None => inverse.apply(contact, &packed.parts(), &mut part.parts_mut(), fields),
             }
-            contact.gather_tangential(part, packed);
-            let read = [&packed.x[..], &packed.y, weights];
+            let read = [&part.x[..], &part.y, weights];
             each_cell(&AddWeighted, read, [&mut *x, &mut *y]);
         }
     }

@@ -7,6 +7,7 @@ use super::alternating::solve_alternating;
 use super::contact_set::ContactSet;
 use super::coulomb::{TangentialTask, TangentialVerdict};
 use super::coupled::{CoupledTask, solve_coupled};
+use super::frozen::KrylovMemory;
 use super::normal::{NormalTask, first_pressure, full_contact_pressure, solve_normal};
 use super::preconditioner::Preconditioner;
 use super::region::Region;
@@ -37,6 +38,8 @@ pub struct BoxOperators {
     pub compliance: SpectralCompliance,
     /// Its approximate inverse.
     pub preconditioner: Preconditioner,
+    /// Memory of the Krylov method on frozen zones.
+    pub krylov: KrylovMemory,
 }
 
 /// One increment in one box.
@@ -262,7 +265,7 @@ impl<'a> Scene<'a> {
         watch: Watch<'_>,
     ) -> Result<Solved, SolveError> {
         let len = self.region.len();
-        let BoxOperators { compliance, preconditioner, .. } = operators;
+        let BoxOperators { compliance, preconditioner, krylov, .. } = operators;
         let own = compliance.own();
         let mut displacements = Displacements::zeros(len);
         let mut before = TangentialField::zeros(len);
@@ -307,10 +310,10 @@ impl<'a> Scene<'a> {
             Scheme::Alternating => Err(SolveError::NotConverged { reached: f64::INFINITY, iterations: 0 }),
             Scheme::Together => solve_coupled(
                 &task,
-                &mut tractions,
-                &mut displacements,
+                (&mut tractions, &mut displacements),
                 compliance,
                 preconditioner,
+                krylov,
                 &together,
                 watch,
             ),

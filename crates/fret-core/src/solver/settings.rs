@@ -32,6 +32,8 @@ pub struct SolverSettings {
     pub scheme: Scheme,
     /// What is left out where the scene allows it.
     pub leave_out: LeaveOut,
+    /// Six digits do in approximate inverses and on frozen zones. Every look at the equations is in double precision.
+    pub six_digits: bool,
 }
 
 impl SolverSettings {
@@ -43,6 +45,7 @@ impl SolverSettings {
             most_inner_iterations: 30,
             scheme: Scheme::default(),
             leave_out: LeaveOut::ALL,
+            six_digits: false,
         }
     }
 }

@@ -8,6 +8,7 @@ use super::coulomb::{CoulombJudge, TangentialTask, TangentialVerdict};
 use super::preconditioner::Preconditioner;
 use super::retraction::Retraction;
 use super::settings::{SolveError, SolverSettings, Watch};
+use super::single::unit_of;
 use super::zones::{RigidProjector, Zones};
 use crate::compliance::SurfaceCompliance;
 use crate::model::TangentialField;
@@ -17,7 +18,10 @@ use crate::model::field::{norm, scale_and_add};
 /// How much of the cut a frozen problem is solved below; raised while outer steps do not pay.
 pub const THETA: f64 = 1.0;
 /// Share of its start to which a frozen problem is solved at the most when something is cut.
-pub const ETA: f64 = 0.005;
+const ETA: f64 = 0.005;
+
+/// Share of its start to which the residual of a frozen problem falls when its operator has six digits.
+pub const SIX_DIGITS: f64 = 1e-5;
 
 /// What the shear solver reached.
 #[derive(Debug)]
@@ -59,10 +63,11 @@ pub fn solve_shear(
         }
         let theta = patience.hears(verdict.residual);
         let zones = Zones::classify(shear, &judge.s, task.bound, |_| false);
+        inner.exact |= patience.is_at_an_end();
         let frozen = Frozen { task, zones: &zones, settings, theta };
         let cut = inner.solve(&frozen, &judge.s, shear, displacement, compliance, preconditioner);
         retraction.shear(shear, &zones, task);
-        if cut {
+        if cut || !inner.exact {
             contact.place_tangential(shear, &mut inner.spread);
             compliance.tangential(&inner.spread, displacement);
         }
@@ -87,6 +92,11 @@ impl Default for Patience {
 }
 
 impl Patience {
+    /// Whether several steps in a row did not pay: then nothing is left to chance.
+    pub fn is_at_an_end(&self) -> bool {
+        self.theta > 16.0 * THETA
+    }
+
     /// Takes note of a residual; returns the share of the cut below which the next frozen problem is solved.
     pub fn hears(&mut self, residual: f64) -> f64 {
         self.theta = if residual > 0.9 * self.last {
@@ -124,6 +134,10 @@ struct ConjugateGradients<'a> {
     spread: TangentialField,
     /// Displacement of the whole box.
     answer: TangentialField,
+    /// Whether the answer has all digits.
+    exact: bool,
+    /// The same fields in single precision, shear zero outside the contact.
+    single: [[Vec<f32>; 2]; 2],
 }
 
 impl<'a> ConjugateGradients<'a> {
@@ -141,7 +155,30 @@ impl<'a> ConjugateGradients<'a> {
             remembers: false,
             spread: TangentialField::zeros(cells),
             answer: TangentialField::zeros(cells),
+            exact: false,
+            single: std::array::from_fn(|_| [vec![0.0; cells], vec![0.0; cells]]),
         }
+    }
+
+    /// `image` becomes the displacement of `along`: with six digits where the operator offers them and nobody wants more.
+    fn answer(&mut self, compliance: &mut dyn SurfaceCompliance) {
+        let [spread, answer] = &mut self.single;
+        if !self.exact {
+            let unit = unit_of(self.along.norm());
+            for (part, field) in self.along.parts().into_iter().zip(spread.iter_mut()) {
+                self.contact.place_rounded(part, 1.0 / unit, field);
+            }
+            if let Some(out) = compliance.tangential_single(spread, answer) {
+                for (field, part) in answer.iter().zip(self.image.parts_mut()) {
+                    self.contact.gather_widened(field, unit * out, part);
+                }
+                return;
+            }
+        }
+        self.exact = true;
+        self.contact.place_tangential(&self.along, &mut self.spread);
+        compliance.tangential(&self.spread, &mut self.answer);
+        self.contact.gather_tangential(&self.answer, &mut self.image);
     }
 
     /// Solves until going further would be lost in the cut. Adds the step to `shear` and its image to `displacement`;
@@ -186,9 +223,7 @@ impl<'a> ConjugateGradients<'a> {
                 self.remembers = false;
                 break;
             }
-            self.contact.place_tangential(&self.along, &mut self.spread);
-            compliance.tangential(&self.spread, &mut self.answer);
-            self.contact.gather_tangential(&self.answer, &mut self.image);
+            self.answer(compliance);
             self.change.copy_from(&self.image);
             let curvature = add_slip_stiffness(&mut self.change, &self.along, &zones.stiffness);
             if !(curvature > 0.0) {
@@ -198,7 +233,9 @@ impl<'a> ConjugateGradients<'a> {
             self.remembers = true;
             let tau = downhill / curvature;
             self.step.add_scaled(tau, &self.along);
-            displacement.add_scaled(tau, &self.answer);
+            if self.exact {
+                displacement.add_scaled(tau, &self.answer);
+            }
             rigid.keep_free(self.change.parts_mut());
             self.residual.add_scaled(-tau, &self.change);
             let z_size = self.z.norm();
@@ -209,7 +246,10 @@ impl<'a> ConjugateGradients<'a> {
             cut = square.sqrt();
             let residual = self.residual.norm();
             let left = z_size * tau.abs() * (residual / start).clamp(1e-3, 1.0);
-            if residual < floor || (cut > 0.0 && (cut > theta * left || residual < ETA * start)) {
+            if residual < floor
+                || !self.exact && residual < SIX_DIGITS * start
+                || (cut > 0.0 && (cut > theta * left || residual < ETA * start))
+            {
                 break;
             }
         }

@@ -20,11 +20,13 @@ pub enum Shortcut {
     Mirror,
     /// Cells of the grid far from the contact, in every iteration.
     Box,
+    /// All but six digits, in approximate inverses and on frozen zones.
+    Digits,
 }
 
 impl Shortcut {
     /// All of them.
-    pub const ALL: [Self; 7] = [
+    pub const ALL: [Self; 8] = [
         Self::LayeredResponse,
         Self::Coupling,
         Self::Tangential,
@@ -32,6 +34,7 @@ impl Shortcut {
         Self::Transverse,
         Self::Mirror,
         Self::Box,
+        Self::Digits,
     ];
 
     /// What is left out, in words.
@@ -44,6 +47,7 @@ impl Shortcut {
             Self::Transverse => "shear across the load",
             Self::Mirror => "cells behind a mirror",
             Self::Box => "cells far from the contact",
+            Self::Digits => "digits that frozen zones do not need",
         }
     }
 }

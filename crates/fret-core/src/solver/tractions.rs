@@ -7,7 +7,7 @@ use crate::model::each_cell::{CellRule, Reals, each_cell};
 use crate::model::{TangentialField, stored};
 
 /// Tractions of a box: pressure and shear.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Default)]
 pub struct Tractions {
     /// Pressure [pressure].
     pub pressure: Vec<f64>,
@@ -42,7 +42,7 @@ impl Tractions {
 }
 
 /// Displacements of a box [length].
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct Displacements {
     /// Normal.
     #[serde(with = "stored")]

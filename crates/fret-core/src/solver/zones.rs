@@ -34,6 +34,9 @@ pub struct Zones {
     pub direction: TangentialField,
     /// Slip stiffness of slipping cells [length/pressure]: turning by tau changes the pull along the tangent by D tau.
     pub stiffness: Vec<f64>,
+    /// Weights of the equations of slipping cells, zero elsewhere: a displacement turns a stiff cell by little, and counts by
+    /// as much in the laws; see [`Zones::weigh`].
+    pub weighted_slip: Vec<f64>,
 }
 
 impl Zones {
@@ -53,6 +56,7 @@ impl Zones {
             slip: vec![0.0; len],
             direction: TangentialField::zeros(len),
             stiffness: vec![0.0; len],
+            weighted_slip: Vec::new(),
         };
         for cell in 0..len {
             let pull = s.at(cell);
@@ -78,6 +82,12 @@ impl Zones {
         zones
     }
 
+    /// Weights of the equations of slipping cells: `1 / sqrt(1 + D / own)` with a cell's `own` influence [length/pressure].
+    pub fn weigh(&mut self, own: f64) {
+        self.weighted_slip.resize(self.len(), 0.0);
+        each_cell(&Weigh { stiffness: 1.0 / own }, [&self.slip, &self.stiffness], [&mut self.weighted_slip]);
+    }
+
     fn set(&mut self, cell: usize, freedom: Freedom, along: [f64; 2]) {
         self.freedom[cell] = freedom;
         self.stick[cell] = 0.0;
@@ -94,20 +104,6 @@ impl Zones {
     pub fn len(&self) -> usize {
         self.stick.len()
     }
-
-    /// Keeps of a tangential field what the zones leave free: all in stick, the tangent part in slip, nothing elsewhere.
-    /// Returns the products of what is left with the rigid motions.
-    pub fn keep_free(&self, field: [&mut [f64]; 2], modes: &RigidModes) -> [f64; 3] {
-        let read = [
-            &self.stick,
-            &self.slip,
-            &self.direction.x,
-            &self.direction.y,
-            &modes.rotation.x,
-            &modes.rotation.y,
-        ];
-        each_cell(&KeepFree, read.map(Vec::as_slice), field)
-    }
 }
 
 /// Part of a vector that a cell is free to change.
@@ -122,6 +118,19 @@ pub fn free_part<S: Simd>(
     [stick * vector[0] - direction[1] * turn, stick * vector[1] + direction[0] * turn]
 }
 
+struct Weigh {
+    stiffness: f64,
+}
+
+impl CellRule<2, 1, 0> for Weigh {
+    #[inline(always)]
+    fn at<S: Simd>(&self, [slip, stiffness]: [Reals<S>; 2], [weighted]: &mut [Reals<S>; 1]) -> [Reals<S>; 0] {
+        *weighted = slip / (stiffness * self.stiffness + 1.0).sqrt();
+        []
+    }
+}
+
+/// Keeps the free part of a field; sums its products with the free parts of the motions.
 struct KeepFree;
 
 impl CellRule<6, 2, 3> for KeepFree {
@@ -132,55 +141,73 @@ impl CellRule<6, 2, 3> for KeepFree {
         [x, y]: &mut [Reals<S>; 2],
     ) -> [Reals<S>; 3] {
         [*x, *y] = free_part([*x, *y], stick, slip, [along_x, along_y]);
-        [*x, *y, *x * around_x + *y * around_y]
+        products([*x, *y], stick + slip, [around_x, around_y])
     }
+}
+
+/// Products of a field that is free with the free parts of the motions.
+#[inline(always)]
+pub fn products<S: Simd>(
+    [x, y]: [Reals<S>; 2],
+    weight: Reals<S>,
+    [around_x, around_y]: [Reals<S>; 2],
+) -> [Reals<S>; 3] {
+    [x * weight, y * weight, (x * around_x + y * around_y) * weight]
 }
 
 /// Takes off a field what rigid motions that follow from resultants can do on the frozen zones.
 pub struct RigidProjector<'a> {
     modes: &'a RigidModes,
     zones: &'a Zones,
+    /// Factor of the tangent part of slipping cells, zero elsewhere.
+    slip: &'a [f64],
     gram: [f64; 6],
 }
 
 impl<'a> RigidProjector<'a> {
-    /// Projector for motions and zones.
+    /// Projector of tractions and displacements.
     pub fn new(modes: &'a RigidModes, zones: &'a Zones) -> Self {
+        Self::of(modes, zones, &zones.slip)
+    }
+
+    /// Projector of weighted equations.
+    pub fn of_equations(modes: &'a RigidModes, zones: &'a Zones) -> Self {
+        Self::of(modes, zones, &zones.weighted_slip)
+    }
+
+    fn of(modes: &'a RigidModes, zones: &'a Zones, slip: &'a [f64]) -> Self {
         let gram = if modes.any_by_force() {
             let read = [
-                &zones.stick,
-                &zones.slip,
+                &zones.stick[..],
+                slip,
                 &zones.direction.x,
                 &zones.direction.y,
                 &modes.rotation.x,
                 &modes.rotation.y,
             ];
-            each_cell(&Gram, read.map(Vec::as_slice), [])
+            each_cell(&Gram, read, [])
         } else {
             [0.0; 6]
         };
-        Self { modes, zones, gram }
+        Self { modes, zones, slip, gram }
+    }
+
+    fn read(&self) -> [&[f64]; 6] {
+        let Self { modes: RigidModes { rotation, .. }, zones, slip, .. } = self;
+        [&zones.stick, slip, &zones.direction.x, &zones.direction.y, &rotation.x, &rotation.y]
     }
 
     /// Keeps the free part of a field, without what rigid motions can do.
     pub fn keep_free(&self, [x, y]: [&mut [f64]; 2]) {
-        let products = self.zones.keep_free([&mut *x, &mut *y], self.modes);
+        let products = each_cell(&KeepFree, self.read(), [&mut *x, &mut *y]);
         self.remove_resultant([x, y], products);
     }
 
-    /// Takes off the rigid motion whose resultant is `resultant`.
+    /// Takes off the rigid motion whose free part has these products with the free parts of all.
     pub fn remove_resultant(&self, field: [&mut [f64]; 2], resultant: [f64; 3]) {
         if self.modes.any_by_force() {
-            let read = [
-                &self.zones.stick,
-                &self.zones.slip,
-                &self.zones.direction.x,
-                &self.zones.direction.y,
-                &self.modes.rotation.x,
-                &self.modes.rotation.y,
-            ];
             let amounts = self.modes.solve(self.gram, resultant);
-            each_cell(&RemoveRigid(amounts), read.map(Vec::as_slice), field);
+            each_cell(&RemoveRigid(amounts), self.read(), field);
         }
     }
 
@@ -200,6 +227,7 @@ impl CellRule<6, 0, 6> for Gram {
         _: &mut [Reals<S>; 0],
     ) -> [Reals<S>; 6] {
         // Products of the free parts of the modes: 1 in stick, of the tangent parts in slip.
+        let slip = slip * slip;
         let (tx, ty) = (along_y, along_x * -1.0);
         let tr = tx * around_x + ty * around_y;
         [

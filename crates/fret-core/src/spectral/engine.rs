@@ -7,7 +7,7 @@ use super::lanes::{InstructionSet, LaneProduct};
 use super::lengths::is_good_length;
 use super::line_product::LineProduct;
 use super::mirrors::{in_front, unfolded};
-use super::{Kernel, Mirrors, Workspace};
+use super::{Kernel, Mirrors, SingleProduct, Workspace};
 
 /// A way to compute products on this machine. All give the same numbers up to rounding.
 ///
@@ -46,7 +46,7 @@ impl Engine {
 
 /// A product planned on one engine.
 pub(super) enum PlannedProduct {
-    Lanes(LaneProduct),
+    Lanes(LaneProduct<f64>),
     Lines(LineProduct),
     /// Line by line on the whole grid, whatever its mirrors.
     Unfolded(LineProduct, Terms),
@@ -106,6 +106,14 @@ impl PlannedProduct {
             Self::Lanes(product) => product.apply(workspace.lanes(product.work_len(1)), input, output),
             Self::Lines(product) => product.apply(workspace.lines(product.scratch_len()), input, output),
             Self::Unfolded(product, terms) => unfolded_product(product, terms, workspace, input, output),
+        }
+    }
+
+    /// This product, of `terms`, in single precision; `None` where it goes line by line.
+    pub fn in_single_precision(&self, terms: &Terms) -> Option<SingleProduct> {
+        match self {
+            Self::Lanes(product) => Some(SingleProduct::new(product.in_single_precision(terms))),
+            Self::Lines(_) | Self::Unfolded(..) => None,
         }
     }
 

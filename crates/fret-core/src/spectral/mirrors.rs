@@ -93,10 +93,31 @@ mod tests {
     use ndarray::Array2;
 
     use super::super::tests::{PARITIES, full_blocks};
-    use super::super::{Convolution, Engine, PeriodicProduct, Symbol};
+    use super::super::{Convolution, Engine, PeriodicProduct, SingleProduct, Symbol};
     use super::*;
 
-    const AXES: [[bool; 2]; 3] = [[true, false], [false, true], [true, true]];
+    const AXES: [[bool; 2]; 4] = [[false, false], [true, false], [false, true], [true, true]];
+
+    /// Rounding of transforms of a few hundred points, in units of the largest output.
+    const DOUBLE: f64 = 1e-13;
+    /// The same in single precision, whose numbers are 2^29 times as coarse: 1e-15 becomes 5e-7, and the worst of many cells is
+    /// some times that.
+    const SINGLE: f64 = 4e-6;
+
+    fn apply_single(mut product: SingleProduct, input: &[&[f64]], output: &mut [&mut [f64]]) {
+        #[expect(clippy::cast_possible_truncation, reason = "single precision is what is tested")]
+        let rounded = |field: &&[f64]| field.iter().map(|value| *value as f32).collect::<Vec<f32>>();
+        let fields: Vec<Vec<f32>> = input.iter().map(rounded).collect();
+        let mut results: Vec<Vec<f32>> = output.iter().map(|field| vec![f32::NAN; field.len()]).collect();
+        let from: Vec<&[f32]> = fields.iter().map(Vec::as_slice).collect();
+        let mut to: Vec<&mut [f32]> = results.iter_mut().map(Vec::as_mut_slice).collect();
+        product.apply(&from, &mut to);
+        for (field, result) in output.iter_mut().zip(&results) {
+            for (value, result) in field.iter_mut().zip(result) {
+                *value = product.unit() * f64::from(*result);
+            }
+        }
+    }
 
     /// Any numbers without symmetry.
     fn numbers(count: usize, seed: usize) -> Vec<f64> {
@@ -134,6 +155,7 @@ mod tests {
         shape: [usize; 2],
         (axes, inputs): ([bool; 2], &[Parity]),
         blocks: &[Block],
+        tolerance: f64,
         apply: impl Fn(Engine, Mirrors, &[&[f64]], &mut [&mut [f64]]),
     ) {
         let cells = shape[0] * shape[1];
@@ -164,9 +186,8 @@ mod tests {
                         if axes[axis] { index + shape[axis] } else { index }
                     });
                     let exact = exact[at[0] * whole[1] + at[1]];
-                    // rounding of transforms of a few hundred points
                     assert!(
-                        (found - exact).abs() <= 1e-13 * size,
+                        (found - exact).abs() <= tolerance * size,
                         "{engine:?} {shape:?} {axes:?} {inputs:?} {at:?}: {found} {exact}"
                     );
                 }
@@ -188,10 +209,20 @@ mod tests {
             .zip(kernels)
             .map(|(values, &parity)| Kernel { values: values.view(), parity })
             .collect();
-        check(shape, (axes, inputs), blocks, |engine, mirrors, from, to| {
+        let product = |engine, mirrors: Mirrors| {
             let shape = if mirrors.any() { shape } else { whole };
-            let product = Convolution::on(engine, shape, &kernels, blocks, mirrors).unwrap();
+            Convolution::on(engine, shape, &kernels, blocks, mirrors).unwrap()
+        };
+        check(shape, (axes, inputs), blocks, DOUBLE, |engine, mirrors, from, to| {
+            let product = product(engine, mirrors);
             product.apply(&mut product.workspace(), from, to);
+        });
+        check(shape, (axes, inputs), blocks, SINGLE, |engine, mirrors, from, to| {
+            let product = product(engine, mirrors);
+            match product.in_single_precision() {
+                Some(single) => apply_single(single, from, to),
+                None => product.apply(&mut product.workspace(), from, to),
+            }
         });
     }
 
@@ -204,17 +235,27 @@ mod tests {
             .zip(symbols)
             .map(|(values, &parity)| Symbol { values: values.view(), parity })
             .collect();
-        check(shape, (axes, inputs), blocks, |engine, mirrors, from, to| {
+        let product = |engine, mirrors: Mirrors| {
             let shape = if mirrors.any() { shape } else { whole };
-            let product = PeriodicProduct::on(engine, shape, &symbols, blocks, mirrors).unwrap();
+            PeriodicProduct::on(engine, shape, &symbols, blocks, mirrors).unwrap()
+        };
+        check(shape, (axes, inputs), blocks, DOUBLE, |engine, mirrors, from, to| {
+            let product = product(engine, mirrors);
             product.apply(&mut product.workspace(), from, to);
+        });
+        check(shape, (axes, inputs), blocks, SINGLE, |engine, mirrors, from, to| {
+            let product = product(engine, mirrors);
+            match product.in_single_precision() {
+                Some(single) => apply_single(single, from, to),
+                None => product.apply(&mut product.workspace(), from, to),
+            }
         });
     }
 
     const ONE: [Block; 1] = [Block { output: 0, input: 0, kernel: 0, sign: -1.5 }];
 
     #[test]
-    fn every_parity_behind_every_mirror_is_the_product_of_the_whole() {
+    fn every_parity_behind_every_mirror_is_the_product_of_the_whole_in_both_precisions() {
         for axes in AXES {
             for field in PARITIES {
                 for kernel in PARITIES {

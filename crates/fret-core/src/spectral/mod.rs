@@ -14,6 +14,7 @@ mod line_product;
 mod mirrors;
 mod parity;
 mod periodic_product;
+mod single_product;
 #[cfg(test)]
 mod tests;
 mod workspace;
@@ -26,4 +27,5 @@ pub use lengths::good_length;
 pub use mirrors::Mirrors;
 pub use parity::Parity;
 pub use periodic_product::PeriodicProduct;
+pub use single_product::SingleProduct;
 pub use workspace::Workspace;

@@ -5,7 +5,7 @@ use ndarray::Array2;
 use super::block::Terms;
 use super::engine::PlannedProduct;
 use super::line_product;
-use super::{Block, ConvolutionError, Engine, Kernel, Mirrors, Symbol, Workspace};
+use super::{Block, ConvolutionError, Engine, Kernel, Mirrors, SingleProduct, Symbol, Workspace};
 
 /// Product of periodic fields with real transfer functions:
 ///
@@ -81,6 +81,11 @@ impl PeriodicProduct {
     pub fn apply(&self, workspace: &mut Workspace, input: &[&[f64]], output: &mut [&mut [f64]]) {
         self.terms.check_fields(input, output);
         self.product.apply(workspace, input, output);
+    }
+
+    /// The same product in single precision, at about half the time; `None` where this machine's engine does not take it.
+    pub fn in_single_precision(&self) -> Option<SingleProduct> {
+        self.product.in_single_precision(&self.terms)
     }
 
     /// Number of cells `[nx, ny]`.

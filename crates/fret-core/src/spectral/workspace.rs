@@ -2,7 +2,7 @@
 
 use rustfft::num_complex::Complex;
 
-use super::lanes::AlignedReals;
+use super::lanes::AlignedNumbers;
 
 /// Scratch memory of a [`Convolution`](super::Convolution) or [`PeriodicProduct`](super::PeriodicProduct).
 ///
@@ -10,7 +10,7 @@ use super::lanes::AlignedReals;
 /// the pool has in which it was made. One made for another product works too: it grows, once, to what is needed.
 #[derive(Debug, Clone, Default)]
 pub struct Workspace {
-    lanes: AlignedReals,
+    lanes: AlignedNumbers<f64>,
     lines: Vec<Complex<f64>>,
 }
 
@@ -18,7 +18,7 @@ impl Workspace {
     /// At least `count` numbers of unknown content, from the start of a cache line on.
     pub(super) fn lanes(&mut self, count: usize) -> &mut [f64] {
         if self.lanes.len() < count {
-            self.lanes = AlignedReals::zeros(count);
+            self.lanes = AlignedNumbers::zeros(count);
         }
         self.lanes.as_mut_slice()
     }

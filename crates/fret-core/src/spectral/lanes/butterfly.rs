@@ -9,10 +9,10 @@
 //! see [`Complex::swapped`].
 
 use super::memory::Line;
-use super::simd::Lanes;
+use super::simd::{Lanes, Number};
 
 /// The weights of one butterfly, laid out as its radix wants them; see [`weights`].
-pub type Weights = [f64; 8];
+pub type Weights<N> = [N; 8];
 
 /// Complex numbers of all lanes.
 #[derive(Debug, Clone, Copy)]
@@ -34,7 +34,7 @@ impl<L: Lanes> Complex<L> {
 
     #[inline(always)]
     pub fn zero(lanes: L) -> Self {
-        Self { re: lanes.splat(0.0), im: lanes.splat(0.0) }
+        Self { re: lanes.zero(), im: lanes.zero() }
     }
 
     /// Real and imaginary part exchanged.
@@ -46,7 +46,7 @@ impl<L: Lanes> Complex<L> {
     /// `-self`
     #[inline(always)]
     pub fn negated(self, lanes: L) -> Self {
-        Self { re: lanes.sub(lanes.splat(0.0), self.re), im: lanes.sub(lanes.splat(0.0), self.im) }
+        Self { re: lanes.sub(lanes.zero(), self.re), im: lanes.sub(lanes.zero(), self.im) }
     }
 
     #[inline(always)]
@@ -112,7 +112,7 @@ impl<L: Lanes> Complex<L> {
 }
 
 /// Weights `exp(-i angle_s)`, `s = 1..R`, in the layout of radix `R = angles.len() + 1`.
-pub fn weights(angles: &[f64]) -> Weights {
+pub fn weights<N: Number>(angles: &[f64]) -> Weights<N> {
     let mut weights = [0.0; 8];
     match *angles {
         [a] => weights[..2].copy_from_slice(&[a.tan(), a.cos()]),
@@ -125,7 +125,7 @@ pub fn weights(angles: &[f64]) -> Weights {
             }
         }
     }
-    weights
+    weights.map(N::of)
 }
 
 /// Butterfly of radix `R`, one of 2, 3, 4, 5, with the weights in all lanes.
@@ -145,8 +145,8 @@ pub fn butterfly<L: Lanes, const R: usize>(
         3 => {
             let [b, c] = [x[1].rotated(lanes, w[0], w[1]), x[2].rotated(lanes, w[2], w[3])];
             let [sum, difference] = [b.add(lanes, c), b.sub(lanes, c)];
-            let middle = x[0].sub_scaled(lanes, lanes.splat(0.5), sum);
-            let height = lanes.splat(SINE_OF_THIRD);
+            let middle = x[0].sub_scaled(lanes, lanes.constant(0.5), sum);
+            let height = lanes.constant(SINE_OF_THIRD);
             y[0] = x[0].add(lanes, sum);
             y[1] = middle.sub_turned(lanes, height, difference);
             y[2] = middle.add_turned(lanes, height, difference);
@@ -166,8 +166,8 @@ pub fn butterfly<L: Lanes, const R: usize>(
             let [d, e] = [x[3].rotated(lanes, w[4], w[5]), x[4].rotated(lanes, w[6], w[7])];
             let [outer_sum, outer_difference] = [b.add(lanes, e), b.sub(lanes, e)];
             let [inner_sum, inner_difference] = [c.add(lanes, d), c.sub(lanes, d)];
-            let [cosine1, cosine2] = [lanes.splat(COSINE_OF_FIFTH), lanes.splat(COSINE_OF_TWO_FIFTHS)];
-            let [sine1, sine2] = [lanes.splat(SINE_OF_FIFTH), lanes.splat(SINE_OF_TWO_FIFTHS)];
+            let [cosine1, cosine2] = [lanes.constant(COSINE_OF_FIFTH), lanes.constant(COSINE_OF_TWO_FIFTHS)];
+            let [sine1, sine2] = [lanes.constant(SINE_OF_FIFTH), lanes.constant(SINE_OF_TWO_FIFTHS)];
             let near = x[0].add_scaled(lanes, cosine1, outer_sum).add_scaled(lanes, cosine2, inner_sum);
             let far = x[0].add_scaled(lanes, cosine2, outer_sum).add_scaled(lanes, cosine1, inner_sum);
             y[0] = x[0].add(lanes, outer_sum).add(lanes, inner_sum);
@@ -202,7 +202,7 @@ pub fn plain_butterfly<L: Lanes>(lanes: L, x: [Complex<L>; 4]) -> [Complex<L>; 4
 
 /// Weights in all lanes.
 #[inline(always)]
-pub fn splat<L: Lanes>(lanes: L, weights: &Weights) -> [L::Reals; 8] {
+pub fn splat<L: Lanes>(lanes: L, weights: &Weights<L::Number>) -> [L::Reals; 8] {
     // Written out, so that what a radix does not use is not even loaded.
     let [a, b, c, d, e, f, g, h] = *weights;
     [

@@ -14,34 +14,34 @@ use super::simd::{Lanes, Task};
 
 /// One term of the kernel product, in the order of the engine.
 #[derive(Debug, Clone, Copy)]
-pub struct Term {
+pub struct Term<N> {
     pub input: usize,
     pub kernel: usize,
     /// Factor in the parts at `w_k` and at `-w_k`.
-    pub factors: [f64; 2],
+    pub factors: [N; 2],
     /// Whether the factor is to be multiplied by `i`.
     pub imaginary: bool,
 }
 
 /// Strips of the spectra of `F` fields (the larger of the numbers of inputs and outputs), in `P` parts, from `first` on.
-pub struct Columns<'a, const F: usize, const P: usize> {
+pub struct Columns<'a, N, const F: usize, const P: usize> {
     pub layout: &'a Layout,
-    pub plan: &'a LinePlan,
+    pub plan: &'a LinePlan<N>,
     /// Spectra of the inputs, `[input][group][strip][row of the group]`.
-    pub inputs: &'a [f64],
+    pub inputs: &'a [N],
     /// Numbers of one input.
     pub input_len: usize,
     /// `[strip][group of four places][kernel][place of the group]`
-    pub kernels: &'a [f64],
+    pub kernels: &'a [N],
     pub kernel_count: usize,
     /// Terms of each output.
-    pub terms: &'a [Vec<Term>],
+    pub terms: &'a [Vec<Term<N>>],
     pub first: usize,
-    pub strips: &'a mut [f64],
-    pub scratch: &'a mut [f64],
+    pub strips: &'a mut [N],
+    pub scratch: &'a mut [N],
 }
 
-impl<L: Lanes, const F: usize, const P: usize> Task<L> for Columns<'_, F, P> {
+impl<L: Lanes, const F: usize, const P: usize> Task<L> for Columns<'_, L::Number, F, P> {
     #[inline(always)]
     fn run(self, lanes: L) {
         let Self { layout, plan, terms, kernel_count, .. } = self;
@@ -90,7 +90,7 @@ impl<L: Lanes, const F: usize, const P: usize> Task<L> for Columns<'_, F, P> {
 
 /// Reads one column of an input and does the outermost pass of its parts.
 pub struct OutermostForward<'a, L: Lanes, const R: usize, const P: usize> {
-    pub plan: &'a LinePlan,
+    pub plan: &'a LinePlan<L::Number>,
     pub spectrum: &'a [Line<L>],
     /// Lines from one row group to the next.
     pub stride: usize,
@@ -133,11 +133,11 @@ impl<L: Lanes, const R: usize, const P: usize> Task<L> for OutermostForward<'_, 
 
 /// Innermost forward pass, kernels, innermost inverse pass, on some places of all columns.
 struct Multiply<'a, L: Lanes, const F: usize, const P: usize> {
-    plan: &'a LinePlan,
+    plan: &'a LinePlan<L::Number>,
     inputs: usize,
     kernels: &'a [L::Reals],
     kernel_count: usize,
-    terms: &'a [Vec<Term>],
+    terms: &'a [Vec<Term<L::Number>>],
     places: Range<usize>,
     lines: &'a mut [Line<L>],
 }
@@ -192,7 +192,7 @@ impl<L: Lanes, const F: usize, const P: usize> Task<L> for Multiply<'_, L, F, P>
 
 /// Outermost inverse pass of the parts of one column, their sum, and out.
 pub struct OutermostInverse<'a, L: Lanes, const R: usize, const P: usize> {
-    pub plan: &'a LinePlan,
+    pub plan: &'a LinePlan<L::Number>,
     pub lines: &'a mut [Line<L>],
     pub output: &'a mut [Line<L>],
 }

@@ -2,10 +2,15 @@
 
 use pulp::bytemuck;
 
-use super::simd::Lanes;
+use super::simd::{Lanes, Number};
+
+/// Bytes in one cache line.
+const CACHE_LINE: usize = 64;
 
 /// Numbers in one cache line.
-pub const CACHE_LINE: usize = 8;
+pub const fn numbers_in_cache_line<N>() -> usize {
+    CACHE_LINE / size_of::<N>()
+}
 
 /// One complex number of all lanes in memory: real parts, then imaginary parts.
 pub type Line<L> = [<L as Lanes>::Reals; 2];
@@ -16,16 +21,16 @@ pub type Line<L> = [<L as Lanes>::Reals; 2];
 #[repr(align(64))]
 pub struct OnCacheLine<T>(pub T);
 
-/// Real numbers whose first one starts a cache line.
+/// Numbers whose first one starts a cache line.
 #[derive(Debug, Clone, Default)]
-pub struct AlignedReals {
-    numbers: Vec<f64>,
+pub struct AlignedNumbers<N> {
+    numbers: Vec<N>,
     len: usize,
 }
 
-impl AlignedReals {
+impl<N: Number> AlignedNumbers<N> {
     pub fn zeros(len: usize) -> Self {
-        Self { numbers: vec![0.0; len + CACHE_LINE], len }
+        Self { numbers: vec![N::default(); len + numbers_in_cache_line::<N>()], len }
     }
 
     pub fn len(&self) -> usize {
@@ -34,43 +39,43 @@ impl AlignedReals {
 
     fn start(&self) -> usize {
         // Alignment is a matter of speed only.
-        self.numbers.as_ptr().align_offset(CACHE_LINE * size_of::<f64>()).min(self.numbers.len() - self.len)
+        self.numbers.as_ptr().align_offset(CACHE_LINE).min(self.numbers.len() - self.len)
     }
 
-    pub fn as_slice(&self) -> &[f64] {
+    pub fn as_slice(&self) -> &[N] {
         let start = self.start();
         &self.numbers[start..start + self.len]
     }
 
-    pub fn as_mut_slice(&mut self) -> &mut [f64] {
+    pub fn as_mut_slice(&mut self) -> &mut [N] {
         let start = self.start();
         &mut self.numbers[start..start + self.len]
     }
 
     /// Memory held, in bytes.
     pub fn memory_bytes(&self) -> usize {
-        self.numbers.capacity() * size_of::<f64>()
+        self.numbers.capacity() * size_of::<N>()
     }
 }
 
 /// Numbers as vectors; the length must be a multiple of the width.
 #[inline(always)]
-pub fn as_vectors<L: Lanes>(numbers: &[f64]) -> &[L::Reals] {
+pub fn as_vectors<L: Lanes>(numbers: &[L::Number]) -> &[L::Reals] {
     bytemuck::cast_slice(numbers)
 }
 
 #[inline(always)]
-pub fn as_vectors_mut<L: Lanes>(numbers: &mut [f64]) -> &mut [L::Reals] {
+pub fn as_vectors_mut<L: Lanes>(numbers: &mut [L::Number]) -> &mut [L::Reals] {
     bytemuck::cast_slice_mut(numbers)
 }
 
 /// Numbers as complex vectors; the length must be a multiple of twice the width.
 #[inline(always)]
-pub fn as_lines<L: Lanes>(numbers: &[f64]) -> &[Line<L>] {
+pub fn as_lines<L: Lanes>(numbers: &[L::Number]) -> &[Line<L>] {
     bytemuck::cast_slice(numbers)
 }
 
 #[inline(always)]
-pub fn as_lines_mut<L: Lanes>(numbers: &mut [f64]) -> &mut [Line<L>] {
+pub fn as_lines_mut<L: Lanes>(numbers: &mut [L::Number]) -> &mut [Line<L>] {
     bytemuck::cast_slice_mut(numbers)
 }

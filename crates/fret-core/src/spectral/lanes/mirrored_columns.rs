@@ -19,20 +19,20 @@ use super::simd::{Lanes, Task};
 
 /// Where the number of a slot comes from.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct SlotTerm {
+pub struct SlotTerm<N> {
     /// Slot of the input.
     pub source: usize,
     /// Table of the kernel, at the frequencies of the slot.
     pub table: usize,
     /// Factor beside the table.
-    pub factor: f64,
+    pub factor: N,
 }
 
 /// One term of the kernel product.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct MirroredTerm {
+pub struct MirroredTerm<N> {
     pub input: usize,
-    pub slots: [SlotTerm; 4],
+    pub slots: [SlotTerm<N>; 4],
 }
 
 /// How the fields lie to a mirror across the columns, at most three of each kind.
@@ -44,27 +44,27 @@ pub struct Sides {
 
 /// Strips of the spectra of `F` fields (the larger of the numbers of inputs and outputs), in `P` parts, from `first` on:
 /// two parts in free space, one where the scene repeats.
-pub struct MirroredColumns<'a, const F: usize, const P: usize> {
+pub struct MirroredColumns<'a, N, const F: usize, const P: usize> {
     pub layout: &'a Layout,
-    pub plan: &'a LinePlan,
+    pub plan: &'a LinePlan<N>,
     pub sides: Sides,
     /// Spectra of the inputs, `[input][group][strip][row of the group]`.
-    pub inputs: &'a [f64],
+    pub inputs: &'a [N],
     /// Numbers of one input.
     pub input_len: usize,
     /// `[strip][group of four places][table][place of the group]`, or `[strip][frequency][table]` where the scene repeats.
-    pub kernels: &'a [f64],
+    pub kernels: &'a [N],
     pub table_count: usize,
     /// Places of the frequencies `0..=n/2` along `x`, where the scene repeats.
     pub places: &'a [Places],
     /// Terms of each output.
-    pub terms: &'a [Vec<MirroredTerm>],
+    pub terms: &'a [Vec<MirroredTerm<N>>],
     pub first: usize,
-    pub strips: &'a mut [f64],
-    pub scratch: &'a mut [f64],
+    pub strips: &'a mut [N],
+    pub scratch: &'a mut [N],
 }
 
-impl<L: Lanes, const F: usize, const P: usize> Task<L> for MirroredColumns<'_, F, P> {
+impl<L: Lanes, const F: usize, const P: usize> Task<L> for MirroredColumns<'_, L::Number, F, P> {
     #[inline(always)]
     fn run(self, lanes: L) {
         let Self { layout, plan, terms, table_count, sides, places, .. } = self;
@@ -147,7 +147,7 @@ impl<L: Lanes, const F: usize, const P: usize> Task<L> for MirroredColumns<'_, F
 
 /// Reads one column of an input in the order of a mirrored line and does the outermost pass of its parts.
 struct MirroredForward<'a, L: Lanes, const R: usize, const P: usize> {
-    plan: &'a LinePlan,
+    plan: &'a LinePlan<L::Number>,
     side: Side,
     spectrum: &'a [Line<L>],
     /// Lines from one row group to the next.
@@ -161,7 +161,7 @@ impl<L: Lanes, const R: usize, const P: usize> Task<L> for MirroredForward<'_, L
         let Self { plan, side, spectrum, stride, lines } = self;
         let places = plan.inner_length();
         let weights = splat(lanes, &plan.forward(0)[0]);
-        let sign = lanes.splat(side.backward_sign());
+        let sign = lanes.constant(side.backward_sign());
         let (direct, exchanged) = lines.split_at_mut(plan.length());
         let direct = parts::<L, R>(direct, places);
         let exchanged = parts::<L, R>(exchanged, places);
@@ -197,7 +197,7 @@ impl<L: Lanes, const R: usize, const P: usize> Task<L> for MirroredForward<'_, L
 #[inline(always)]
 fn taken_backwards<L: Lanes, const P: usize>(lanes: L, sign: L::Reals, x: Complex<L>) -> Complex<L> {
     if P == 2 {
-        Complex { re: lanes.sub(lanes.splat(0.0), lanes.mul(sign, x.im)), im: lanes.mul(sign, x.re) }
+        Complex { re: lanes.sub(lanes.zero(), lanes.mul(sign, x.im)), im: lanes.mul(sign, x.re) }
     } else {
         Complex { re: lanes.mul(sign, x.re), im: lanes.mul(sign, x.im) }
     }
@@ -205,7 +205,7 @@ fn taken_backwards<L: Lanes, const P: usize>(lanes: L, sign: L::Reals, x: Comple
 
 /// Outermost inverse pass of the parts of one mirrored column, and out in the order of the rows.
 struct MirroredInverse<'a, L: Lanes, const R: usize, const P: usize> {
-    plan: &'a LinePlan,
+    plan: &'a LinePlan<L::Number>,
     side: Side,
     lines: &'a mut [Line<L>],
     output: &'a mut [Line<L>],
@@ -217,7 +217,7 @@ impl<L: Lanes, const R: usize, const P: usize> Task<L> for MirroredInverse<'_, L
         let Self { plan, side, lines, output } = self;
         let places = plan.inner_length();
         let turns = plan.output_turns();
-        let sign = lanes.splat(side.backward_sign());
+        let sign = lanes.constant(side.backward_sign());
         let (direct, exchanged) = lines.split_at_mut(plan.length());
         let direct = parts::<L, R>(direct, places);
         let exchanged = parts::<L, R>(exchanged, places);
@@ -267,12 +267,12 @@ impl<L: Lanes, const R: usize, const P: usize> Task<L> for MirroredInverse<'_, L
 
 /// Innermost forward pass, kernels, innermost inverse pass, on some places of both parts of all columns in free space.
 struct MultiplyParts<'a, L: Lanes, const F: usize> {
-    plan: &'a LinePlan,
+    plan: &'a LinePlan<L::Number>,
     mirrored: bool,
     inputs: usize,
     kernels: &'a [L::Reals],
     table_count: usize,
-    terms: &'a [Vec<MirroredTerm>],
+    terms: &'a [Vec<MirroredTerm<L::Number>>],
     places: Range<usize>,
     lines: &'a mut [Line<L>],
 }
@@ -283,7 +283,7 @@ impl<L: Lanes, const F: usize> Task<L> for MultiplyParts<'_, L, F> {
         let n = self.plan.length();
         let count = self.table_count;
         let lines = self.lines;
-        let zero = lanes.splat(0.0);
+        let zero = lanes.zero();
         let mut slots = OnCacheLine([[[zero; 4]; 4]; F]);
         for place in self.places.step_by(4) {
             let weights = splat(lanes, &self.plan.innermost_forward()[place / 4]);
@@ -331,7 +331,8 @@ impl<L: Lanes, const F: usize> Task<L> for MultiplyParts<'_, L, F> {
                         im: lanes.add(sums[0][m], sums[3][m]),
                     };
                     if self.mirrored {
-                        let [cosine, sine] = [lanes.splat(turns[m][0]), lanes.splat(-turns[m][1])];
+                        let [cosine, sine] =
+                            [lanes.splat(turns[m][0]), lanes.sub(zero, lanes.splat(turns[m][1]))];
                         d[m] = d[m].rotated(lanes, cosine, sine);
                         e[m] = e[m].rotated(lanes, cosine, sine);
                     }
@@ -352,12 +353,12 @@ impl<L: Lanes, const F: usize> Task<L> for MultiplyParts<'_, L, F> {
 /// Innermost forward pass, kernels, innermost inverse pass on whole columns of a product that repeats, pair by pair of
 /// opposite frequencies.
 struct MultiplyPairs<'a, L: Lanes, const F: usize> {
-    plan: &'a LinePlan,
+    plan: &'a LinePlan<L::Number>,
     mirrored: bool,
     inputs: usize,
     kernels: &'a [L::Reals],
     table_count: usize,
-    terms: &'a [Vec<MirroredTerm>],
+    terms: &'a [Vec<MirroredTerm<L::Number>>],
     places: &'a [Places],
     lines: &'a mut [Line<L>],
 }
@@ -368,7 +369,7 @@ impl<L: Lanes, const F: usize> Task<L> for MultiplyPairs<'_, L, F> {
         let n = self.plan.length();
         let count = self.table_count;
         let lines = self.lines;
-        let zero = lanes.splat(0.0);
+        let zero = lanes.zero();
         for column in lines.chunks_exact_mut(n).take(self.inputs.min(F)) {
             for (quad, weights) in column.chunks_exact_mut(4).zip(self.plan.innermost_forward()) {
                 let y = butterfly(lanes, load_quad(lanes, quad), &splat(lanes, weights));
@@ -381,7 +382,8 @@ impl<L: Lanes, const F: usize> Task<L> for MultiplyPairs<'_, L, F> {
         for (places, kernels) in self.places.iter().zip(self.kernels.chunks_exact(count)) {
             let [cosine, sine] = self.plan.mirror_turns()[places.direct];
             let cosine = lanes.splat(cosine);
-            let (forward, back) = (lanes.splat(sine), lanes.splat(-sine));
+            let forward = lanes.splat(sine);
+            let back = lanes.sub(zero, forward);
             for field in 0..self.inputs.min(F) {
                 let d = Complex::<L>::load(&lines[field * n + places.direct]);
                 let e = Complex::<L>::load(&lines[field * n + places.mirrored]);

@@ -2,7 +2,7 @@
 //!
 //! Lines are transformed [`Lanes::WIDTH`](simd::Lanes::WIDTH) at a time, so that SIMD code is one vector operation per
 //! scalar one. Frequencies stay in the order in which they come out; kernels are stored in that order. Per strip of
-//! columns, forward transform, kernels and inverse transform are done in cache. From the ground: `simd` and
+//! columns, forward transform, kernels and inverse transform are done in cache. From the ground: `simd`, `x86` and
 //! `butterfly` (arithmetic), `plan` (tables), `passes` (one line transform), `rows`, `paired_rows`, `columns` and
 //! `mirrored_columns` (the stages of a product), `spectrum` (kernels in the order of the engine), `reflection` (what mirrors change), `product` (the whole).
 
@@ -25,6 +25,8 @@ mod rows;
 mod simd;
 mod spectrum;
 mod threads;
+#[cfg(target_arch = "x86_64")]
+mod x86;
 
-pub(super) use memory::AlignedReals;
+pub(super) use memory::AlignedNumbers;
 pub(super) use product::{InstructionSet, LaneProduct};

@@ -9,7 +9,7 @@ use super::memory::{Line, as_lines_mut, as_vectors_mut};
 use super::passes::{forward_middle, inverse_middle, load_quad, parts, with_radix};
 use super::plan::LinePlan;
 use super::rows::{Layout, Side, gather_rows, mirrored_point, rows_of_strip, scatter_rows};
-use super::simd::{Lanes, MAX_WIDTH, Task};
+use super::simd::{Lanes, Number, Task};
 
 /// Where the frequencies `k` and `-k` come out of the transform of a pair of rows.
 #[derive(Debug, Clone, Copy)]
@@ -31,18 +31,18 @@ pub fn places(order: &[usize], count: usize) -> Vec<Places> {
 }
 
 /// Rows of a field to pairs of groups of the spectrum, from pair `first` on.
-pub struct PairsForward<'a> {
+pub struct PairsForward<'a, N> {
     pub layout: &'a Layout,
-    pub plan: &'a LinePlan,
+    pub plan: &'a LinePlan<N>,
     pub side: Side,
     pub places: &'a [Places],
-    pub field: &'a [f64],
+    pub field: &'a [N],
     pub first: usize,
-    pub pairs: &'a mut [f64],
-    pub scratch: &'a mut [f64],
+    pub pairs: &'a mut [N],
+    pub scratch: &'a mut [N],
 }
 
-impl<L: Lanes> Task<L> for PairsForward<'_> {
+impl<L: Lanes> Task<L> for PairsForward<'_, L::Number> {
     #[inline(always)]
     fn run(self, lanes: L) {
         let Self { layout, plan, side, places, field, first, pairs, scratch } = self;
@@ -70,7 +70,7 @@ impl<L: Lanes> Task<L> for PairsForward<'_> {
 
 /// Innermost forward pass, and the spectra of both rows from that of the pair.
 struct Separate<'a, L: Lanes> {
-    plan: &'a LinePlan,
+    plan: &'a LinePlan<L::Number>,
     side: Side,
     places: &'a [Places],
     /// One line more than the transform has.
@@ -91,8 +91,8 @@ impl<L: Lanes> Task<L> for Separate<'_, L> {
         }
         let groups = self.group_a.chunks_exact_mut(L::WIDTH).zip(self.group_b.chunks_exact_mut(L::WIDTH));
         for (places, (group_a, group_b)) in self.places.chunks_exact(L::WIDTH).zip(groups) {
-            let mut a = [[lanes.splat(0.0); MAX_WIDTH]; 2];
-            let mut b = [[lanes.splat(0.0); MAX_WIDTH]; 2];
+            let mut a = [lanes.block(lanes.zero()); 2];
+            let mut b = [lanes.block(lanes.zero()); 2];
             for lane in 0..L::WIDTH {
                 let z = lines[places[lane].direct];
                 let mirrored = lines[places[lane].mirrored];
@@ -101,7 +101,7 @@ impl<L: Lanes> Task<L> for Separate<'_, L> {
                 b[0][lane] = lanes.add(z[1], mirrored[1]);
                 b[1][lane] = lanes.sub(mirrored[0], z[0]);
                 if self.side.is_mirrored() {
-                    let turn = turn_at(self.plan, places[lane], 1.0);
+                    let turn = turn_at(lanes, self.plan, places[lane], 1.0);
                     turned(lanes, &mut a, lane, turn);
                     turned(lanes, &mut b, lane, turn);
                 }
@@ -119,19 +119,19 @@ impl<L: Lanes> Task<L> for Separate<'_, L> {
 }
 
 /// Rows of an output from the strips of its spectrum, from pair `first` of row groups on.
-pub struct PairsInverse<'a> {
+pub struct PairsInverse<'a, N> {
     pub layout: &'a Layout,
-    pub plan: &'a LinePlan,
+    pub plan: &'a LinePlan<N>,
     pub side: Side,
     pub places: &'a [Places],
     /// Spectra from the first strip of this output on.
-    pub spectrum: &'a [f64],
+    pub spectrum: &'a [N],
     pub first: usize,
-    pub rows: &'a mut [f64],
-    pub scratch: &'a mut [f64],
+    pub rows: &'a mut [N],
+    pub scratch: &'a mut [N],
 }
 
-impl<L: Lanes> Task<L> for PairsInverse<'_> {
+impl<L: Lanes> Task<L> for PairsInverse<'_, L::Number> {
     #[inline(always)]
     fn run(self, lanes: L) {
         let Self { layout, plan, side, places, spectrum, first, rows, scratch } = self;
@@ -156,9 +156,9 @@ impl<L: Lanes> Task<L> for PairsInverse<'_> {
 /// The spectrum of a pair of rows from those of both, with real and imaginary part exchanged, and innermost inverse pass.
 struct Join<'a, L: Lanes> {
     layout: &'a Layout,
-    plan: &'a LinePlan,
+    plan: &'a LinePlan<L::Number>,
     side: Side,
-    spectrum: &'a [f64],
+    spectrum: &'a [L::Number],
     places: &'a [Places],
     pair: usize,
     /// One line more than the transform has.
@@ -170,16 +170,19 @@ impl<L: Lanes> Task<L> for Join<'_, L> {
     fn run(self, lanes: L) {
         let Self { layout, plan, side, spectrum, places, pair, lines } = self;
         for (strip, places) in places.chunks_exact(L::WIDTH).enumerate() {
-            let (mut a, mut b) = ([[lanes.splat(0.0); MAX_WIDTH]; 2], [[lanes.splat(0.0); MAX_WIDTH]; 2]);
-            [a[0], a[1]] = rows_of_strip(lanes, layout, spectrum, strip, 2 * pair).into();
-            [b[0], b[1]] = rows_of_strip(lanes, layout, spectrum, strip, 2 * pair + 1).into();
+            let mut a = [lanes.block(lanes.zero()); 2];
+            let mut b = [lanes.block(lanes.zero()); 2];
+            let [a_re, a_im] = &mut a;
+            rows_of_strip::<L>(layout, spectrum, strip, 2 * pair, a_re, a_im);
+            let [b_re, b_im] = &mut b;
+            rows_of_strip::<L>(layout, spectrum, strip, 2 * pair + 1, b_re, b_im);
             lanes.transpose(&mut a[0]);
             lanes.transpose(&mut a[1]);
             lanes.transpose(&mut b[0]);
             lanes.transpose(&mut b[1]);
             for lane in 0..L::WIDTH {
                 if side.is_mirrored() {
-                    let turn = turn_at(plan, places[lane], -1.0);
+                    let turn = turn_at(lanes, plan, places[lane], -1.0);
                     turned(lanes, &mut a, lane, turn);
                     turned(lanes, &mut b, lane, turn);
                 }
@@ -201,27 +204,25 @@ impl<L: Lanes> Task<L> for Join<'_, L> {
 
 /// Phase of a mirrored line at the frequency of some places, forward or (`sign = -1`) back.
 #[inline(always)]
-fn turn_at(plan: &LinePlan, places: Places, sign: f64) -> [f64; 2] {
-    plan.mirror_turns().get(places.direct).map_or([1.0, 0.0], |[cosine, sine]| [*cosine, sign * sine])
+fn turn_at<L: Lanes>(lanes: L, plan: &LinePlan<L::Number>, places: Places, sign: f64) -> [L::Reals; 2] {
+    let turn = plan.mirror_turns().get(places.direct);
+    turn.map_or([lanes.constant(1.0), lanes.zero()], |[cosine, sine]| {
+        [lanes.splat(*cosine), lanes.mul(lanes.constant(sign), lanes.splat(*sine))]
+    })
 }
 
 /// Turns the complex number of one lane index.
 #[inline(always)]
-fn turned<L: Lanes>(
-    lanes: L,
-    numbers: &mut [[L::Reals; MAX_WIDTH]; 2],
-    index: usize,
-    [cosine, sine]: [f64; 2],
-) {
+fn turned<L: Lanes>(lanes: L, numbers: &mut [L::Block; 2], index: usize, [cosine, sine]: [L::Reals; 2]) {
     let number = Complex::<L> { re: numbers[0][index], im: numbers[1][index] };
-    let number = number.rotated(lanes, lanes.splat(cosine), lanes.splat(sine));
+    let number = number.rotated(lanes, cosine, sine);
     numbers[0][index] = number.re;
     numbers[1][index] = number.im;
 }
 
 /// The point of a row at a place of its transform, and its factor.
 #[inline(always)]
-fn point_at(plan: &LinePlan, side: Side, place: usize) -> (usize, f64) {
+fn point_at<N: Number>(plan: &LinePlan<N>, side: Side, place: usize) -> (usize, f64) {
     if !side.is_mirrored() {
         return (place, 1.0);
     }
@@ -232,7 +233,7 @@ fn point_at(plan: &LinePlan, side: Side, place: usize) -> (usize, f64) {
 #[inline(always)]
 fn outermost_forward<L: Lanes, const R: usize>(
     lanes: L,
-    plan: &LinePlan,
+    plan: &LinePlan<L::Number>,
     side: Side,
     [real, imaginary]: [&[L::Reals]; 2],
     lines: &mut [Line<L>],
@@ -259,7 +260,7 @@ fn outermost_forward<L: Lanes, const R: usize>(
 #[inline(always)]
 fn outermost_inverse<L: Lanes, const R: usize>(
     lanes: L,
-    plan: &LinePlan,
+    plan: &LinePlan<L::Number>,
     side: Side,
     lines: &mut [Line<L>],
     [real, imaginary]: [&mut [L::Reals]; 2],

@@ -32,7 +32,7 @@ pub(super) use with_radix;
 
 /// Forward passes on the lines of one block of the outermost pass, in place.
 #[inline(always)]
-pub fn forward_middle<L: Lanes>(lanes: L, plan: &LinePlan, block: usize, lines: &mut [Line<L>]) {
+pub fn forward_middle<L: Lanes>(lanes: L, plan: &LinePlan<L::Number>, block: usize, lines: &mut [Line<L>]) {
     for (pass, radix) in plan.middle_passes() {
         let weights = plan.forward(pass);
         let count = weights.len() / plan.outermost();
@@ -43,7 +43,7 @@ pub fn forward_middle<L: Lanes>(lanes: L, plan: &LinePlan, block: usize, lines: 
 
 /// Inverse passes on the lines of one block of the outermost pass, in place, on swapped numbers.
 #[inline(always)]
-pub fn inverse_middle<L: Lanes>(lanes: L, plan: &LinePlan, lines: &mut [Line<L>]) {
+pub fn inverse_middle<L: Lanes>(lanes: L, plan: &LinePlan<L::Number>, lines: &mut [Line<L>]) {
     for (pass, radix) in plan.middle_passes().rev() {
         let weights = plan.inverse(pass);
         with_radix!(radix, R => lanes.enter(InversePass::<L, R> { lines, weights }));
@@ -54,7 +54,7 @@ pub fn inverse_middle<L: Lanes>(lanes: L, plan: &LinePlan, lines: &mut [Line<L>]
 struct ForwardPass<'a, L: Lanes, const R: usize> {
     lines: &'a mut [Line<L>],
     /// One per block.
-    weights: &'a [Weights],
+    weights: &'a [Weights<L::Number>],
 }
 
 impl<L: Lanes, const R: usize> Task<L> for ForwardPass<'_, L, R> {
@@ -82,7 +82,7 @@ impl<L: Lanes, const R: usize> Task<L> for ForwardPass<'_, L, R> {
 struct InversePass<'a, L: Lanes, const R: usize> {
     lines: &'a mut [Line<L>],
     /// One per place.
-    weights: &'a [Weights],
+    weights: &'a [Weights<L::Number>],
 }
 
 impl<L: Lanes, const R: usize> Task<L> for InversePass<'_, L, R> {

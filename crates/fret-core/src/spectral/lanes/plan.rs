@@ -11,32 +11,32 @@
 use std::f64::consts::TAU;
 
 use super::butterfly::{Weights, weights};
-use super::simd::MAX_WIDTH;
+use super::simd::{MAX_WIDTH, Number};
 
 /// Tables of the transform of lines of one length, which is a multiple of 4 greater than 4.
 #[derive(Debug)]
-pub struct LinePlan {
+pub struct LinePlan<N> {
     length: usize,
     /// Outermost first; the last is always 4.
     radices: Vec<usize>,
     /// `[pass][block]`
-    forward: Vec<Vec<Weights>>,
+    forward: Vec<Vec<Weights<N>>>,
     /// `[pass][place in the block]`
-    inverse: Vec<Vec<Weights>>,
+    inverse: Vec<Vec<Weights<N>>>,
     /// Cosine and sine of `2 pi f j / n`, the half-shift of the first input of the outermost inverse butterflies.
-    first_turns: Vec<[f64; 2]>,
+    first_turns: Vec<[N; 2]>,
     /// Cosine and sine of `2 pi f m / r_0`, the half-shift of their outputs.
-    output_turns: Vec<[f64; 2]>,
+    output_turns: Vec<[N; 2]>,
     /// Cosine and sine of `pi (k + f) / (2n)` at the position of each frequency: the phase between the first point and the
     /// plane of a mirror half a cell of the mirrored line before it.
-    mirror_turns: Vec<[f64; 2]>,
+    mirror_turns: Vec<[N; 2]>,
 }
 
-impl LinePlan {
+impl<N: Number> LinePlan<N> {
     /// Tables for lines of `length = 4 * 2^a * 3^b * 5^c >= 8` at frequencies `2 pi (k + fraction) / length`.
     pub fn new(length: usize, fraction: f64) -> Self {
         let radices = radices(length);
-        let mut forward: Vec<Vec<Weights>> = Vec::new();
+        let mut forward: Vec<Vec<Weights<N>>> = Vec::new();
         let mut inverse = Vec::new();
         let mut fractions = vec![fraction];
         let mut span = length;
@@ -54,9 +54,9 @@ impl LinePlan {
         }
         // The innermost pass takes as many lines at a time as the widest vectors have lanes.
         if let Some(innermost) = forward.last_mut() {
-            innermost.resize(innermost.len().next_multiple_of(MAX_WIDTH / 4), [0.0; 8]);
+            innermost.resize(innermost.len().next_multiple_of(MAX_WIDTH / 4), [N::default(); 8]);
         }
-        let turn = |part: f64| [(TAU * part).cos(), (TAU * part).sin()];
+        let turn = |part: f64| [N::of((TAU * part).cos()), N::of((TAU * part).sin())];
         let outermost = radices[0];
         let first_turns =
             (0..length / outermost).map(|j| turn(fraction * j as f64 / length as f64)).collect();
@@ -65,7 +65,7 @@ impl LinePlan {
             Self { length, radices, forward, inverse, first_turns, output_turns, mirror_turns: Vec::new() };
         let quarter = |k: usize| turn(0.25 * (k as f64 + fraction) / length as f64);
         plan.mirror_turns = plan.order().into_iter().map(quarter).collect();
-        plan.mirror_turns.resize(plan.padded_length(), [1.0, 0.0]);
+        plan.mirror_turns.resize(plan.padded_length(), [N::of(1.0), N::default()]);
         plan
     }
 
@@ -89,7 +89,7 @@ impl LinePlan {
     }
 
     /// Weights of a forward pass, one per block.
-    pub fn forward(&self, pass: usize) -> &[Weights] {
+    pub fn forward(&self, pass: usize) -> &[Weights<N>] {
         &self.forward[pass]
     }
 
@@ -99,25 +99,25 @@ impl LinePlan {
     }
 
     /// Weights of the innermost forward pass, one per group of four lines of the padded line.
-    pub fn innermost_forward(&self) -> &[Weights] {
+    pub fn innermost_forward(&self) -> &[Weights<N>] {
         &self.forward[self.radices.len() - 1]
     }
 
     /// Weights of an inverse pass, one per place in a block.
-    pub fn inverse(&self, pass: usize) -> &[Weights] {
+    pub fn inverse(&self, pass: usize) -> &[Weights<N>] {
         &self.inverse[pass]
     }
 
-    pub fn first_turns(&self) -> &[[f64; 2]] {
+    pub fn first_turns(&self) -> &[[N; 2]] {
         &self.first_turns
     }
 
-    pub fn output_turns(&self) -> &[[f64; 2]] {
+    pub fn output_turns(&self) -> &[[N; 2]] {
         &self.output_turns
     }
 
     /// One per position of the padded line.
-    pub fn mirror_turns(&self) -> &[[f64; 2]] {
+    pub fn mirror_turns(&self) -> &[[N; 2]] {
         &self.mirror_turns
     }
 
@@ -151,7 +151,7 @@ fn radices(length: usize) -> Vec<usize> {
 }
 
 /// Weights for the turns `s * turn + shift`, `s = 1..radix`.
-fn weights_of(radix: usize, turn: f64, shift: f64) -> Weights {
+fn weights_of<N: Number>(radix: usize, turn: f64, shift: f64) -> Weights<N> {
     let mut angles = [0.0; 4];
     for (s, angle) in (1..radix).zip(&mut angles) {
         *angle = TAU * (s as f64 * turn + shift);
@@ -179,7 +179,7 @@ mod tests {
     #[test]
     fn every_frequency_comes_out_once() {
         for length in [8, 12, 20, 48, 64, 360] {
-            let mut order = LinePlan::new(length, 0.25).order();
+            let mut order = LinePlan::<f64>::new(length, 0.25).order();
             assert_eq!(order.len(), length);
             order.sort_unstable();
             assert!(order.into_iter().eq(0..length));

@@ -1,6 +1,7 @@
 //! The products of the lane engine: tables, kernels, and the order of the stages.
 
 mod mirrored;
+mod single;
 
 use ndarray::s;
 
@@ -9,13 +10,13 @@ use super::super::lengths::good_length;
 use super::super::line_product::folded_indices;
 use super::super::{Kernel, Parity};
 use super::columns::{Columns, Term};
-use super::memory::{AlignedReals, CACHE_LINE};
+use super::memory::{AlignedNumbers, numbers_in_cache_line};
 use super::mirrored_columns::MirroredColumns;
 use super::paired_rows::{PairsForward, PairsInverse, Places, places};
 use super::plan::LinePlan;
 use super::reflection::{Reflection, tables};
 use super::rows::{Layout, RowsForward, RowsInverse, Side};
-use super::simd::{Lanes, Portable};
+use super::simd::{Lanes, Number};
 use super::spectrum::KernelColumns;
 use super::threads::{Scratch, divide, pieces};
 
@@ -59,13 +60,13 @@ impl InstructionSet {
         }
     }
 
-    fn width(self) -> usize {
+    fn width<N: Number>(self) -> usize {
         match self {
-            Self::Portable => Portable::WIDTH,
+            Self::Portable => N::Portable::WIDTH,
             #[cfg(target_arch = "x86_64")]
-            Self::Avx2(_) => pulp::x86::V3::WIDTH,
+            Self::Avx2(_) => N::Avx2::WIDTH,
             #[cfg(target_arch = "x86_64")]
-            Self::Avx512(_) => pulp::x86::V4::WIDTH,
+            Self::Avx512(_) => N::Avx512::WIDTH,
         }
     }
 }
@@ -77,15 +78,15 @@ fn scaled(factor: f64, from: &[f64], to: &mut [f64]) {
     }
 }
 
-/// Runs a task on an instruction set.
+/// Runs a task on an instruction set, on numbers `$number`.
 macro_rules! enter {
-    ($set:expr, $task:expr) => {
+    ($set:expr, $number:ty, $task:expr) => {
         match $set {
-            InstructionSet::Portable => Portable.enter($task),
+            InstructionSet::Portable => <$number as Number>::Portable::default().enter($task),
             #[cfg(target_arch = "x86_64")]
-            InstructionSet::Avx2(lanes) => lanes.enter($task),
+            InstructionSet::Avx2(set) => <$number as Number>::Avx2::from(set).enter($task),
             #[cfg(target_arch = "x86_64")]
-            InstructionSet::Avx512(lanes) => lanes.enter($task),
+            InstructionSet::Avx512(set) => <$number as Number>::Avx512::from(set).enter($task),
         }
     };
 }
@@ -99,25 +100,43 @@ enum Boundary {
     },
 }
 
-/// A product on the lane engine.
-pub struct LaneProduct {
+impl Boundary {
+    /// Shift of the frequencies, in units of their distance.
+    fn fraction(&self) -> f64 {
+        match self {
+            Self::FreeSpace => 0.25,
+            Self::Periodic { .. } => 0.0,
+        }
+    }
+
+    /// Frequencies of a row of `length` points that are worked on.
+    fn frequencies(&self, length: usize) -> usize {
+        match self {
+            Self::FreeSpace => length,
+            Self::Periodic { .. } => length / 2 + 1,
+        }
+    }
+}
+
+/// A product on the lane engine, on fields of numbers `N`.
+pub struct LaneProduct<N> {
     set: InstructionSet,
     boundary: Boundary,
     layout: Layout,
-    along_x: LinePlan,
-    along_y: LinePlan,
+    along_x: LinePlan<N>,
+    along_y: LinePlan<N>,
     inputs: usize,
     outputs: usize,
     /// Per output.
-    terms: Vec<Vec<Term>>,
+    terms: Vec<Vec<Term<N>>>,
     /// What mirrors change.
-    reflection: Option<Reflection>,
+    reflection: Option<Reflection<N>>,
     /// Of each place: kernels, or their tables with mirrors.
     kernel_count: usize,
-    kernels: AlignedReals,
+    kernels: AlignedNumbers<N>,
 }
 
-impl LaneProduct {
+impl LaneProduct<f64> {
     /// Whether the engine takes as many fields.
     pub fn takes(terms: &Terms) -> bool {
         terms.inputs <= MAX_FIELDS && terms.outputs <= MAX_FIELDS
@@ -129,27 +148,27 @@ impl LaneProduct {
         if terms.mirrors.any() {
             return Self::free_space_mirrored(set, terms, kernels, lengths);
         }
-        let mut product = Self::planned(set, terms, Boundary::FreeSpace, lengths, 0.25, lengths[1]);
+        let mut product = Self::planned(set, terms, Boundary::FreeSpace, lengths);
         product.transform(kernels, 1.0 / (2.0 * lengths[0] as f64 * lengths[1] as f64));
         product
     }
 
     /// The kernels of a free-space product without mirrors, times `scale`.
     fn transform(&mut self, kernels: &[Kernel<'_>], scale: f64) {
-        let mut rows = AlignedReals::zeros(self.input_len());
-        let mut scratch = AlignedReals::zeros(self.scratch_len());
+        let mut rows = AlignedNumbers::zeros(self.input_len());
+        let mut scratch = AlignedNumbers::zeros(self.scratch_len());
         let Self { set, layout, along_x, along_y, kernel_count, kernels: transformed, .. } = self;
         let (set, side) = (*set, Side::Plain);
         let [cells_x, cells_y] = layout.shape;
         let (rows, scratch) = (rows.as_mut_slice(), scratch.as_mut_slice());
-        let mut quadrant = vec![0.0; set.width() * cells_y];
+        let mut quadrant = vec![0.0; set.width::<f64>() * cells_y];
         for (kernel, &Kernel { values, parity }) in kernels.iter().enumerate() {
             // Twice the values, but those on the axes once: the transform of a quadrant stands for all four.
             let sign = if parity == Parity::OddOdd { -4.0 * scale } else { 4.0 * scale };
             let values = values.slice(s![..cells_x, ..cells_y]);
             for (group, groups) in rows.chunks_exact_mut(layout.group_stride).enumerate() {
-                let first = (group * set.width()).min(cells_x);
-                let values = values.slice(s![first..(first + set.width()).min(cells_x), ..]);
+                let first = (group * set.width::<f64>()).min(cells_x);
+                let values = values.slice(s![first..(first + set.width::<f64>()).min(cells_x), ..]);
                 for (row, values) in quadrant.chunks_exact_mut(cells_y).zip(values.rows()) {
                     match values.as_slice() {
                         Some(values) => scaled(sign, values, row),
@@ -166,11 +185,19 @@ impl LaneProduct {
                 }
                 let layout = &Layout { shape: [values.nrows(), cells_y], ..*layout };
                 let field = quadrant.as_slice();
-                enter!(set, RowsForward { layout, plan: &*along_y, side, field, first: 0, groups, scratch });
+                enter!(
+                    set,
+                    f64,
+                    RowsForward { layout, plan: &*along_y, side, field, first: 0, groups, scratch }
+                );
             }
             let (layout, plan, kernel_count, odd) = (&*layout, &*along_x, *kernel_count, parity.odd());
             let kernels = transformed.as_mut_slice();
-            enter!(set, KernelColumns { layout, plan, rows, odd, kernel, kernel_count, kernels, scratch });
+            enter!(
+                set,
+                f64,
+                KernelColumns { layout, plan, rows, odd, kernel, kernel_count, kernels, scratch }
+            );
         }
     }
 
@@ -181,11 +208,11 @@ impl LaneProduct {
         }
         let [nx, ny] = terms.shape;
         let boundary = Boundary::Periodic { places: Vec::new() };
-        let mut product = Self::planned(set, terms, boundary, [nx, ny], 0.0, ny / 2 + 1);
-        let count = product.layout.strips * set.width();
+        let mut product = Self::planned(set, terms, boundary, [nx, ny]);
+        let count = product.layout.strips * set.width::<f64>();
         product.boundary = Boundary::Periodic { places: places(&product.along_y.order(), count) };
         let order = product.along_x.order();
-        let width = set.width();
+        let width = set.width::<f64>();
         // The transforms of paired rows come out doubled.
         let scale = 0.5 / (nx as f64 * ny as f64);
         let count = product.kernel_count;
@@ -208,19 +235,15 @@ impl LaneProduct {
         }
         product
     }
+}
 
-    fn planned(
-        set: InstructionSet,
-        terms: &Terms,
-        boundary: Boundary,
-        [nx, ny]: [usize; 2],
-        fraction: f64,
-        frequencies: usize,
-    ) -> Self {
-        let width = set.width();
-        let strips = frequencies.div_ceil(width);
+impl<N: Number> LaneProduct<N> {
+    fn planned(set: InstructionSet, terms: &Terms, boundary: Boundary, [nx, ny]: [usize; 2]) -> Self {
+        let width = set.width::<N>();
+        let fraction = boundary.fraction();
+        let strips = boundary.frequencies(ny).div_ceil(width);
         // A cache line or two between groups and strips, against strides that are powers of two.
-        let padding = 2 * CACHE_LINE.max(width);
+        let padding = 2 * numbers_in_cache_line::<N>().max(width);
         let layout = Layout {
             shape: terms.shape,
             column_len: nx,
@@ -234,7 +257,8 @@ impl LaneProduct {
                 let parity = terms.parities[block.kernel];
                 let mirrored = if parity.odd()[1] { -block.sign } else { block.sign };
                 let imaginary = parity.is_imaginary();
-                Term { input: block.input, kernel: block.kernel, factors: [block.sign, mirrored], imaginary }
+                let factors = [N::of(block.sign), N::of(mirrored)];
+                Term { input: block.input, kernel: block.kernel, factors, imaginary }
             });
             terms.collect()
         };
@@ -250,7 +274,7 @@ impl LaneProduct {
             terms: (0..terms.outputs).map(order).collect(),
             reflection: None,
             kernel_count,
-            kernels: AlignedReals::zeros(strips * nx * kernel_count * width),
+            kernels: AlignedNumbers::zeros(strips * nx * kernel_count * width),
         }
     }
 
@@ -273,16 +297,17 @@ impl LaneProduct {
     }
 
     fn input_len(&self) -> usize {
-        let groups = self.along_x.length().div_ceil(self.set.width()).next_multiple_of(self.paired());
+        let groups = self.along_x.length().div_ceil(self.set.width::<N>()).next_multiple_of(self.paired());
         groups * self.layout.group_stride
     }
 
     fn scratch_len(&self) -> usize {
-        let width = self.set.width();
+        let width = self.set.width::<N>();
         let rows = (2 + self.paired()) * self.along_y.padded_length();
         let fields = self.inputs.max(self.outputs);
         let columns = 2 * fields * self.parts() * self.along_x.length();
-        (rows.max(columns) * width).next_multiple_of(CACHE_LINE) + 2 * CACHE_LINE
+        let line = numbers_in_cache_line::<N>();
+        (rows.max(columns) * width).next_multiple_of(line) + 2 * line
     }
 
     /// Numbers of work space for as many threads.
@@ -293,7 +318,7 @@ impl LaneProduct {
     }
 
     /// `output = sum of blocks`, with work space for at least one thread.
-    pub fn apply(&self, work: &mut [f64], input: &[&[f64]], output: &mut [&mut [f64]]) {
+    pub fn apply(&self, work: &mut [N], input: &[&[N]], output: &mut [&mut [N]]) {
         match self.inputs.max(self.outputs) {
             1 => self.apply_to::<1>(work, input, output),
             2 => self.apply_to::<2>(work, input, output),
@@ -301,7 +326,7 @@ impl LaneProduct {
         }
     }
 
-    fn apply_to<const F: usize>(&self, work: &mut [f64], input: &[&[f64]], output: &mut [&mut [f64]]) {
+    fn apply_to<const F: usize>(&self, work: &mut [N], input: &[&[N]], output: &mut [&mut [N]]) {
         let (spectra, work) = work.split_at_mut(self.inputs * self.input_len());
         let (strips, numbers) = work.split_at_mut(self.layout.strips * self.layout.strip_stride);
         let piece_len = self.scratch_len();
@@ -321,7 +346,7 @@ impl LaneProduct {
             Boundary::FreeSpace => self.columns::<F, 2>(spectra, strips, scratch, pieces),
             Boundary::Periodic { .. } => self.columns::<F, 1>(spectra, strips, scratch, pieces),
         }
-        let output_len = self.layout.column_len * 2 * self.set.width();
+        let output_len = self.layout.column_len * 2 * self.set.width::<N>();
         for (index, field) in output.iter_mut().enumerate() {
             let side = side(sides.map(|sides| sides.outputs), index);
             self.rows_inverse(
@@ -336,45 +361,42 @@ impl LaneProduct {
 
     fn rows_forward(
         &self,
-        field: &[f64],
+        field: &[N],
         side: Side,
-        spectrum: &mut [f64],
-        scratch: Scratch<'_>,
+        spectrum: &mut [N],
+        scratch: Scratch<'_, N>,
         pieces: usize,
     ) {
         let Self { layout, along_y: plan, .. } = self;
         let chunk = self.paired() * layout.group_stride;
-        divide(
-            spectrum,
-            chunk,
-            scratch,
-            pieces,
-            &|first, groups: &mut [f64], scratch: &mut [f64]| match &self.boundary {
-                Boundary::FreeSpace => {
-                    enter!(self.set, RowsForward { layout, plan, side, field, first, groups, scratch });
-                }
-                Boundary::Periodic { places } => {
-                    let pairs = groups;
-                    enter!(
-                        self.set,
-                        PairsForward { layout, plan, side, places, field, first, pairs, scratch }
-                    );
-                }
-            },
-        );
+        divide(spectrum, chunk, scratch, pieces, &|first, groups: &mut [N], scratch: &mut [N]| match &self
+            .boundary
+        {
+            Boundary::FreeSpace => {
+                enter!(self.set, N, RowsForward { layout, plan, side, field, first, groups, scratch });
+            }
+            Boundary::Periodic { places } => {
+                let pairs = groups;
+                enter!(
+                    self.set,
+                    N,
+                    PairsForward { layout, plan, side, places, field, first, pairs, scratch }
+                );
+            }
+        });
     }
 
     fn columns<const F: usize, const P: usize>(
         &self,
-        inputs: &[f64],
-        strips: &mut [f64],
-        scratch: Scratch<'_>,
+        inputs: &[N],
+        strips: &mut [N],
+        scratch: Scratch<'_, N>,
         pieces: usize,
     ) {
         let chunk = self.layout.strip_stride;
-        divide(strips, chunk, scratch, pieces, &|first, strips: &mut [f64], scratch: &mut [f64]| {
+        divide(strips, chunk, scratch, pieces, &|first, strips: &mut [N], scratch: &mut [N]| {
             if let Some(reflection) = &self.reflection {
-                let columns = MirroredColumns::<F, P> {
+                let columns = MirroredColumns::<N, F, P> {
                     layout: &self.layout,
                     plan: &self.along_x,
                     sides: reflection.columns,
@@ -388,10 +410,10 @@ impl LaneProduct {
                     strips,
                     scratch,
                 };
-                enter!(self.set, columns);
+                enter!(self.set, N, columns);
                 return;
             }
-            let columns = Columns::<F, P> {
+            let columns = Columns::<N, F, P> {
                 layout: &self.layout,
                 plan: &self.along_x,
                 inputs,
@@ -403,29 +425,37 @@ impl LaneProduct {
                 strips,
                 scratch,
             };
-            enter!(self.set, columns);
+            enter!(self.set, N, columns);
         });
     }
 
     fn rows_inverse(
         &self,
-        spectrum: &[f64],
+        spectrum: &[N],
         side: Side,
-        field: &mut [f64],
-        scratch: Scratch<'_>,
+        field: &mut [N],
+        scratch: Scratch<'_, N>,
         pieces: usize,
     ) {
         let Self { layout, along_y: plan, .. } = self;
-        let chunk = self.paired() * self.set.width() * layout.shape[1];
-        divide(field, chunk, scratch, pieces, &|first, rows: &mut [f64], scratch: &mut [f64]| match &self
-            .boundary
-        {
-            Boundary::FreeSpace => {
-                enter!(self.set, RowsInverse { layout, plan, side, spectrum, first, rows, scratch });
-            }
-            Boundary::Periodic { places } => {
-                enter!(self.set, PairsInverse { layout, plan, side, places, spectrum, first, rows, scratch });
-            }
-        });
+        let chunk = self.paired() * self.set.width::<N>() * layout.shape[1];
+        divide(
+            field,
+            chunk,
+            scratch,
+            pieces,
+            &|first, rows: &mut [N], scratch: &mut [N]| match &self.boundary {
+                Boundary::FreeSpace => {
+                    enter!(self.set, N, RowsInverse { layout, plan, side, spectrum, first, rows, scratch });
+                }
+                Boundary::Periodic { places } => {
+                    enter!(
+                        self.set,
+                        N,
+                        PairsInverse { layout, plan, side, places, spectrum, first, rows, scratch }
+                    );
+                }
+            },
+        );
     }
 }

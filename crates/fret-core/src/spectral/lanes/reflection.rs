@@ -4,11 +4,12 @@ use super::super::block::Terms;
 use super::mirrored_columns::{MirroredTerm, Sides, SlotTerm};
 use super::paired_rows::Places;
 use super::rows::Side;
+use super::simd::Number;
 
 /// What a product on the part of a grid in front of its mirrors needs beside the passes.
-pub struct Reflection {
+pub struct Reflection<N> {
     /// Per output.
-    pub terms: Vec<Vec<MirroredTerm>>,
+    pub terms: Vec<Vec<MirroredTerm<N>>>,
     /// How the fields lie to a mirror across the rows.
     pub rows: Sides,
     /// How they lie to one across the columns.
@@ -48,7 +49,7 @@ fn on_pair(mirrored: bool, odd_field: bool, odd_kernel: bool) -> [FromPair; 2] {
     }
 }
 
-impl Reflection {
+impl<N: Number> Reflection<N> {
     /// Of the terms of a product with mirrors.
     pub fn new(terms: &Terms, places: Vec<Places>) -> Self {
         let axes = terms.mirrors.axes;
@@ -77,7 +78,7 @@ impl Reflection {
                     SlotTerm {
                         source: 2 * from_y + from_x,
                         table: block.kernel * tables(axes) + within,
-                        factor: block.sign * sign_x * sign_y,
+                        factor: N::of(block.sign * sign_x * sign_y),
                     }
                 });
                 MirroredTerm { input: block.input, slots }

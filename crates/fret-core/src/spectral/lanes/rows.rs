@@ -59,17 +59,17 @@ pub struct Layout {
 }
 
 /// Rows of a field to groups of the spectrum, from group `first` on.
-pub struct RowsForward<'a> {
+pub struct RowsForward<'a, N> {
     pub layout: &'a Layout,
-    pub plan: &'a LinePlan,
+    pub plan: &'a LinePlan<N>,
     pub side: Side,
-    pub field: &'a [f64],
+    pub field: &'a [N],
     pub first: usize,
-    pub groups: &'a mut [f64],
-    pub scratch: &'a mut [f64],
+    pub groups: &'a mut [N],
+    pub scratch: &'a mut [N],
 }
 
-impl<L: Lanes> Task<L> for RowsForward<'_> {
+impl<L: Lanes> Task<L> for RowsForward<'_, L::Number> {
     #[inline(always)]
     fn run(self, lanes: L) {
         let Self { layout, plan, side, field, first, groups, scratch } = self;
@@ -81,7 +81,7 @@ impl<L: Lanes> Task<L> for RowsForward<'_> {
             let spectrum = as_lines_mut::<L>(spectrum);
             let rows = nx.saturating_sub(group * L::WIDTH).min(L::WIDTH);
             if rows == 0 {
-                spectrum.fill([lanes.splat(0.0); 2]);
+                spectrum.fill([lanes.zero(); 2]);
                 continue;
             }
             gather_rows(lanes, &field[group * L::WIDTH * ny..][..rows * ny], ny, staging);
@@ -96,7 +96,7 @@ impl<L: Lanes> Task<L> for RowsForward<'_> {
 
 /// Innermost forward pass, and the turn from vectors across rows to vectors across frequencies.
 struct InnermostForward<'a, L: Lanes> {
-    plan: &'a LinePlan,
+    plan: &'a LinePlan<L::Number>,
     side: Side,
     lines: &'a [Line<L>],
     spectrum: &'a mut [Line<L>],
@@ -109,8 +109,8 @@ impl<L: Lanes> Task<L> for InnermostForward<'_, L> {
         let turns = self.plan.mirror_turns().chunks_exact(L::WIDTH);
         let strips = self.lines.chunks_exact(L::WIDTH).zip(weights).zip(turns);
         for (((lines, weights), turns), strip) in strips.zip(self.spectrum.chunks_exact_mut(L::WIDTH)) {
-            let mut re = [lanes.splat(0.0); MAX_WIDTH];
-            let mut im = [lanes.splat(0.0); MAX_WIDTH];
+            let mut re = lanes.block(lanes.zero());
+            let mut im = lanes.block(lanes.zero());
             for quad in 0..L::WIDTH / 4 {
                 let x = load_quad(lanes, &lines[4 * quad..4 * quad + 4]);
                 let y = butterfly(lanes, x, &splat(lanes, &weights[quad]));
@@ -134,18 +134,18 @@ impl<L: Lanes> Task<L> for InnermostForward<'_, L> {
 }
 
 /// Rows of an output from the strips of its spectrum, from row group `first` on.
-pub struct RowsInverse<'a> {
+pub struct RowsInverse<'a, N> {
     pub layout: &'a Layout,
-    pub plan: &'a LinePlan,
+    pub plan: &'a LinePlan<N>,
     pub side: Side,
     /// Spectra from the first strip of this output on.
-    pub spectrum: &'a [f64],
+    pub spectrum: &'a [N],
     pub first: usize,
-    pub rows: &'a mut [f64],
-    pub scratch: &'a mut [f64],
+    pub rows: &'a mut [N],
+    pub scratch: &'a mut [N],
 }
 
-impl<L: Lanes> Task<L> for RowsInverse<'_> {
+impl<L: Lanes> Task<L> for RowsInverse<'_, L::Number> {
     #[inline(always)]
     fn run(self, lanes: L) {
         let Self { layout, plan, side, spectrum, first, rows, scratch } = self;
@@ -167,9 +167,9 @@ impl<L: Lanes> Task<L> for RowsInverse<'_> {
 /// The turn from vectors across frequencies to vectors across rows, and innermost inverse pass.
 struct InnermostInverse<'a, L: Lanes> {
     layout: &'a Layout,
-    plan: &'a LinePlan,
+    plan: &'a LinePlan<L::Number>,
     side: Side,
-    spectrum: &'a [f64],
+    spectrum: &'a [L::Number],
     group: usize,
     lines: &'a mut [Line<L>],
 }
@@ -179,7 +179,9 @@ impl<L: Lanes> Task<L> for InnermostInverse<'_, L> {
     fn run(self, lanes: L) {
         let Self { layout, plan, side, spectrum, group, lines } = self;
         for (strip, lines) in lines.chunks_exact_mut(L::WIDTH).take(layout.strips).enumerate() {
-            let (mut re, mut im) = rows_of_strip(lanes, layout, spectrum, strip, group);
+            let mut re = lanes.block(lanes.zero());
+            let mut im = lanes.block(lanes.zero());
+            rows_of_strip::<L>(layout, spectrum, strip, group, &mut re, &mut im);
             lanes.transpose(&mut re);
             lanes.transpose(&mut im);
             for quad in 0..L::WIDTH / 4 {
@@ -201,17 +203,16 @@ impl<L: Lanes> Task<L> for InnermostInverse<'_, L> {
     }
 }
 
-/// The rows of one group in one strip of the outputs' spectra, real and imaginary parts.
+/// Real and imaginary parts of the rows of one group in one strip of the outputs' spectra, in place of zeros.
 #[inline(always)]
 pub fn rows_of_strip<L: Lanes>(
-    lanes: L,
     layout: &Layout,
-    spectrum: &[f64],
+    spectrum: &[L::Number],
     strip: usize,
     group: usize,
-) -> ([L::Reals; MAX_WIDTH], [L::Reals; MAX_WIDTH]) {
-    let mut re = [lanes.splat(0.0); MAX_WIDTH];
-    let mut im = [lanes.splat(0.0); MAX_WIDTH];
+    re: &mut L::Block,
+    im: &mut L::Block,
+) {
     let first = group * L::WIDTH;
     let rows = layout.column_len.saturating_sub(first).min(L::WIDTH);
     if rows > 0 {
@@ -228,17 +229,16 @@ pub fn rows_of_strip<L: Lanes>(
             }
         }
     }
-    (re, im)
 }
 
 /// Real rows of `ny` numbers to vectors across the rows; what is not there is zero.
 #[inline(always)]
-pub fn gather_rows<L: Lanes>(lanes: L, rows: &[f64], ny: usize, staging: &mut [L::Reals]) {
+pub fn gather_rows<L: Lanes>(lanes: L, rows: &[L::Number], ny: usize, staging: &mut [L::Reals]) {
     lanes.enter(GatherRows::<L> { rows, ny, staging });
 }
 
 struct GatherRows<'a, L: Lanes> {
-    rows: &'a [f64],
+    rows: &'a [L::Number],
     ny: usize,
     staging: &'a mut [L::Reals],
 }
@@ -248,14 +248,14 @@ impl<L: Lanes> Task<L> for GatherRows<'_, L> {
     fn run(self, lanes: L) {
         let full = self.ny / L::WIDTH;
         let mut whole: [&[L::Reals]; MAX_WIDTH] = [&[]; MAX_WIDTH];
-        let mut rest: [&[f64]; MAX_WIDTH] = [&[]; MAX_WIDTH];
+        let mut rest: [&[L::Number]; MAX_WIDTH] = [&[]; MAX_WIDTH];
         for (row, (whole, rest)) in self.rows.chunks_exact(self.ny).zip(whole.iter_mut().zip(&mut rest)) {
             let (vectors, numbers) = row.split_at(full * L::WIDTH);
             (*whole, *rest) = (as_vectors::<L>(vectors), numbers);
         }
         let mut blocks = self.staging.chunks_exact_mut(L::WIDTH);
         for (index, vectors) in (&mut blocks).take(full).enumerate() {
-            let mut block = [lanes.splat(0.0); MAX_WIDTH];
+            let mut block = lanes.block(lanes.zero());
             for row in 0..L::WIDTH {
                 if let Some(vector) = whole[row].get(index) {
                     block[row] = *vector;
@@ -267,9 +267,9 @@ impl<L: Lanes> Task<L> for GatherRows<'_, L> {
             }
         }
         for vectors in blocks {
-            let mut block = [lanes.splat(0.0); MAX_WIDTH];
+            let mut block = lanes.block(lanes.zero());
             for row in 0..L::WIDTH {
-                let mut padded = [0.0; MAX_WIDTH];
+                let mut padded = [L::Number::default(); MAX_WIDTH];
                 for (to, from) in padded.iter_mut().zip(rest[row]) {
                     *to = *from;
                 }
@@ -286,13 +286,13 @@ impl<L: Lanes> Task<L> for GatherRows<'_, L> {
 
 /// Vectors across rows back to rows of `ny` numbers.
 #[inline(always)]
-pub fn scatter_rows<L: Lanes>(lanes: L, staging: &[L::Reals], rows: &mut [f64], ny: usize) {
+pub fn scatter_rows<L: Lanes>(lanes: L, staging: &[L::Reals], rows: &mut [L::Number], ny: usize) {
     lanes.enter(ScatterRows::<L> { staging, rows, ny });
 }
 
 struct ScatterRows<'a, L: Lanes> {
     staging: &'a [L::Reals],
-    rows: &'a mut [f64],
+    rows: &'a mut [L::Number],
     ny: usize,
 }
 
@@ -301,13 +301,13 @@ impl<L: Lanes> Task<L> for ScatterRows<'_, L> {
     fn run(self, lanes: L) {
         let full = self.ny / L::WIDTH;
         let mut whole: [&mut [L::Reals]; MAX_WIDTH] = std::array::from_fn(|_| Default::default());
-        let mut rest: [&mut [f64]; MAX_WIDTH] = std::array::from_fn(|_| Default::default());
+        let mut rest: [&mut [L::Number]; MAX_WIDTH] = std::array::from_fn(|_| Default::default());
         for (row, (whole, rest)) in self.rows.chunks_exact_mut(self.ny).zip(whole.iter_mut().zip(&mut rest)) {
             let (vectors, numbers) = row.split_at_mut(full * L::WIDTH);
             (*whole, *rest) = (as_vectors_mut::<L>(vectors), numbers);
         }
         for (index, vectors) in self.staging.chunks_exact(L::WIDTH).enumerate().take(full + 1) {
-            let mut block = [lanes.splat(0.0); MAX_WIDTH];
+            let mut block = lanes.block(lanes.zero());
             for row in 0..L::WIDTH {
                 block[row] = vectors[row];
             }
@@ -320,7 +320,7 @@ impl<L: Lanes> Task<L> for ScatterRows<'_, L> {
                 }
             } else {
                 for row in 0..L::WIDTH {
-                    let mut padded = [0.0; MAX_WIDTH];
+                    let mut padded = [L::Number::default(); MAX_WIDTH];
                     as_vectors_mut::<L>(&mut padded)[0] = block[row];
                     for (to, from) in rest[row].iter_mut().zip(&padded) {
                         *to = *from;
@@ -335,14 +335,14 @@ impl<L: Lanes> Task<L> for ScatterRows<'_, L> {
 #[inline(always)]
 fn outermost_forward<L: Lanes, const R: usize>(
     lanes: L,
-    plan: &LinePlan,
+    plan: &LinePlan<L::Number>,
     side: Side,
     staging: &[L::Reals],
     lines: &mut [Line<L>],
 ) {
     let places = plan.inner_length();
     let weights = splat(lanes, &plan.forward(0)[0]);
-    let sign = lanes.splat(side.backward_sign());
+    let sign = lanes.constant(side.backward_sign());
     let parts = parts::<L, R>(&mut lines[..R * places], places);
     for j in 0..places {
         let mut x = [Complex::zero(lanes); R];
@@ -371,14 +371,14 @@ fn outermost_forward<L: Lanes, const R: usize>(
 #[inline(always)]
 fn outermost_inverse<L: Lanes, const R: usize>(
     lanes: L,
-    plan: &LinePlan,
+    plan: &LinePlan<L::Number>,
     side: Side,
     lines: &mut [Line<L>],
     staging: &mut [L::Reals],
 ) {
     let places = plan.inner_length();
     let turns = plan.output_turns();
-    let sign = lanes.splat(side.backward_sign());
+    let sign = lanes.constant(side.backward_sign());
     let parts = parts::<L, R>(&mut lines[..R * places], places);
     for (j, (weights, [cosine, sine])) in plan.inverse(0).iter().zip(plan.first_turns()).enumerate() {
         let mut x = [Complex::zero(lanes); R];

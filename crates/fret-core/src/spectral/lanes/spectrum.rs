@@ -8,20 +8,20 @@ use super::rows::Layout;
 use super::simd::{Lanes, Task};
 
 /// Transforms along `x` of one kernel whose rows have been transformed already, all strips.
-pub struct KernelColumns<'a> {
+pub struct KernelColumns<'a, N> {
     pub layout: &'a Layout,
-    pub plan: &'a LinePlan,
+    pub plan: &'a LinePlan<N>,
     /// `[group][strip][row of the group]`
-    pub rows: &'a [f64],
+    pub rows: &'a [N],
     /// Whether the kernel is odd along `[x, y]`: then the imaginary part is kept, else the real part.
     pub odd: [bool; 2],
     pub kernel: usize,
     pub kernel_count: usize,
-    pub kernels: &'a mut [f64],
-    pub scratch: &'a mut [f64],
+    pub kernels: &'a mut [N],
+    pub scratch: &'a mut [N],
 }
 
-impl<L: Lanes> Task<L> for KernelColumns<'_> {
+impl<L: Lanes> Task<L> for KernelColumns<'_, L::Number> {
     #[inline(always)]
     fn run(self, lanes: L) {
         let Self { layout, plan, rows, odd, kernel, kernel_count, kernels, scratch } = self;
@@ -51,7 +51,7 @@ impl<L: Lanes> Task<L> for KernelColumns<'_> {
 fn outermost<L: Lanes, const R: usize>(
     lanes: L,
     layout: &Layout,
-    plan: &LinePlan,
+    plan: &LinePlan<L::Number>,
     rows: &[Line<L>],
     kept: usize,
     lines: &mut [Line<L>],

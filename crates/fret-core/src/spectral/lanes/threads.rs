@@ -1,5 +1,7 @@
 //! Dividing independent work among the threads of the current pool.
 
+use super::simd::Number;
+
 /// Pieces worth making on a grid of `shape`, at most `most`: one, unless the caller already is inside a pool with more
 /// threads and the grid is large enough to pay for waking them.
 pub fn pieces(shape: [usize; 2], most: usize) -> usize {
@@ -11,8 +13,8 @@ pub fn pieces(shape: [usize; 2], most: usize) -> usize {
 }
 
 /// Scratch memory of all pieces, and how much of it one piece gets.
-pub struct Scratch<'a> {
-    pub numbers: &'a mut [f64],
+pub struct Scratch<'a, N> {
+    pub numbers: &'a mut [N],
     pub piece_len: usize,
 }
 
@@ -20,22 +22,24 @@ pub struct Scratch<'a> {
 /// `work(index of the first chunk, run, scratch)` for each, in parallel.
 ///
 /// What is computed for a chunk must not depend on the run it is in; then nothing depends on the number of pieces.
-pub fn divide<W>(data: &mut [f64], chunk_len: usize, scratch: Scratch<'_>, pieces: usize, work: &W)
+pub fn divide<N, W>(data: &mut [N], chunk_len: usize, scratch: Scratch<'_, N>, pieces: usize, work: &W)
 where
-    W: Fn(usize, &mut [f64], &mut [f64]) + Sync,
+    N: Number,
+    W: Fn(usize, &mut [N], &mut [N]) + Sync,
 {
     divide_from(0, data, chunk_len, scratch, pieces, work);
 }
 
-fn divide_from<W>(
+fn divide_from<N, W>(
     first: usize,
-    data: &mut [f64],
+    data: &mut [N],
     chunk_len: usize,
-    scratch: Scratch<'_>,
+    scratch: Scratch<'_, N>,
     pieces: usize,
     work: &W,
 ) where
-    W: Fn(usize, &mut [f64], &mut [f64]) + Sync,
+    N: Number,
+    W: Fn(usize, &mut [N], &mut [N]) + Sync,
 {
     let Scratch { numbers, piece_len } = scratch;
     if pieces <= 1 {

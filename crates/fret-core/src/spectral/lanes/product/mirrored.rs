@@ -2,13 +2,13 @@
 
 use super::super::super::block::Terms;
 use super::super::super::{Kernel, Mirrors, Parity};
-use super::super::memory::AlignedReals;
+use super::super::memory::AlignedNumbers;
 use super::super::paired_rows::places;
 use super::super::plan::LinePlan;
 use super::super::reflection::{Reflection, second_of_table, tables};
 use super::{Boundary, InstructionSet, LaneProduct};
 
-impl LaneProduct {
+impl LaneProduct<f64> {
     /// Free-space product in front of mirrors, from the kernels of the whole grid.
     ///
     /// The frequencies of a line of `n` points before a mirror are half of those of the whole line of `2n` points; the other half,
@@ -20,14 +20,14 @@ impl LaneProduct {
         lengths: [usize; 2],
     ) -> Self {
         let axes = terms.mirrors.axes;
-        let mut product = Self::planned(set, terms, Boundary::FreeSpace, lengths, 0.25, lengths[1]);
+        let mut product = Self::planned(set, terms, Boundary::FreeSpace, lengths);
         product.reflection = Some(Reflection::new(terms, Vec::new()));
         let wide = Terms { shape: terms.mirrors.whole(terms.shape), ..terms.clone() };
         let wide = Terms { mirrors: Mirrors::NONE, ..wide };
         let wide_lengths = terms.mirrors.whole(lengths);
-        let mut whole = Self::planned(set, &wide, Boundary::FreeSpace, wide_lengths, 0.25, wide_lengths[1]);
+        let mut whole = Self::planned(set, &wide, Boundary::FreeSpace, wide_lengths);
         whole.transform(kernels, 0.25 / (lengths[0] as f64 * lengths[1] as f64));
-        let position = |plan: &LinePlan| {
+        let position = |plan: &LinePlan<f64>| {
             let mut positions = vec![0; plan.length()];
             for (position, frequency) in plan.order().into_iter().enumerate() {
                 positions[frequency] = position;
@@ -36,7 +36,7 @@ impl LaneProduct {
         };
         let places = [position(&whole.along_x), position(&whole.along_y)];
         let orders = [product.along_x.order(), product.along_y.order()];
-        let (width, count) = (set.width(), product.kernel_count);
+        let (width, count) = (set.width::<f64>(), product.kernel_count);
         let source = whole.kernels.as_slice();
         for (kernel, &Kernel { parity, .. }) in kernels.iter().enumerate() {
             let sign = if parity == Parity::EvenEven { 1.0 } else { -1.0 };
@@ -73,14 +73,14 @@ impl LaneProduct {
         let [nx, ny] = terms.shape;
         let axes = terms.mirrors.axes;
         let boundary = Boundary::Periodic { places: Vec::new() };
-        let mut product = Self::planned(set, terms, boundary, [nx, ny], 0.0, ny / 2 + 1);
-        let (width, count) = (set.width(), product.kernel_count);
+        let mut product = Self::planned(set, terms, boundary, [nx, ny]);
+        let (width, count) = (set.width::<f64>(), product.kernel_count);
         let strips = product.layout.strips;
         product.boundary = Boundary::Periodic { places: places(&product.along_y.order(), strips * width) };
         let waves = nx / 2 + 1;
         let along_x = places(&product.along_x.order(), waves);
         product.reflection = Some(Reflection::new(terms, along_x));
-        product.kernels = AlignedReals::zeros(strips * waves * count * width);
+        product.kernels = AlignedNumbers::zeros(strips * waves * count * width);
         // Rows come out doubled, and so do pairs of opposite frequencies.
         let scale = 0.25 / (nx as f64 * ny as f64);
         for (kernel, symbol) in symbols.iter().enumerate() {
