@@ -4,9 +4,10 @@
     cargo bench -p fret-core --bench normal_contact --no-run     # prints the path of the binary
     python benches/normal_against_others.py PATH_OF_THE_BINARY
 
-Ours is the benchmark binary (`time`): influence coefficients, coarse grids and the final check on the whole grid included, to
-a residual of 1e-8. Tamaas runs to the tolerance at which its pressure is as near to Hertz's as ours; what it precomputes once per
-grid is not counted. aspher (nested grids on a free half-space, the fastest of its settings) runs to 1e-8 and counts everything.
+The gap is given to all. Ours is the benchmark binary (`time`): influence coefficients, coarse grids and the final check on the
+whole grid included, to a residual of 1e-8. Tamaas runs to the tolerance at which its pressure is as near to Hertz's as ours; what
+it precomputes once per grid is not counted. aspher (nested grids on a free half-space, the fastest of its settings) runs to 1e-8
+and counts everything.
 """
 
 import os

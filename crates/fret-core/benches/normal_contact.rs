@@ -1,8 +1,8 @@
 //! What the normal problem costs: operator applications on the finest grid, on all levels weighted by cells, time, scene by
 //! scene. `cargo bench -p fret-core --bench normal_contact -- [CELLS,CELLS,...] [FILTER]`.
 //!
-//! With the argument `time` it prints CPU seconds of Hertz contacts, influence coefficients included, in front of their mirrors and
-//! on the whole grid, for `benches/normal_against_others.py`.
+//! With the argument `time` it prints CPU seconds of Hertz contacts, the gap given, influence coefficients included, in front of
+//! their mirrors and on the whole grid, for `benches/normal_against_others.py`.
 
 #![expect(clippy::print_stdout, reason = "a benchmark answers on the terminal")]
 
@@ -65,7 +65,7 @@ fn main() -> Answer<()> {
         }
         print!("| {} |", scene.name);
         for &n in &cells {
-            match solve(&scene, n, 1e-8, false) {
+            match solve(&scene, gap_of(&scene, n)?, 1e-8, false) {
                 Ok(cost) if cost.residual < 1e-8 => print!(" {:.1} |", cost.work.full_grid_convolutions),
                 Ok(cost) => print!(" residual {:.0e} |", cost.residual),
                 Err(error) => print!(" {error} |"),
@@ -89,13 +89,14 @@ fn times(cells: &[usize]) -> Answer<()> {
     rayon::ThreadPoolBuilder::new().num_threads(1).use_current_thread().build_global()?;
     for &n in cells {
         let scene = hertz(4.0)?;
+        let gap = gap_of(&scene, n)?;
         let mut line = format!("{n}");
         for mirrors in [true, false] {
             // In the mean of many runs: the system counts a thread's time in ticks of some milliseconds.
             let started = cpu_seconds();
             let mut runs = 0;
             while runs < 3 || cpu_seconds() - started < 3.0 {
-                solve(&scene, n, 1e-8, mirrors)?;
+                solve(&scene, gap.clone(), 1e-8, mirrors)?;
                 runs += 1;
             }
             let mean = (cpu_seconds() - started) / f64::from(runs);
@@ -155,7 +156,7 @@ fn coated(name: String, pair: ContactPair, force: f64) -> Scene {
         periodic: false,
     };
     for _ in 0..4 {
-        match solve(&scene, 64, 1e-4, true) {
+        match gap_of(&scene, 64).and_then(|gap| solve(&scene, gap, 1e-4, true)) {
             Ok(cost) => scene.side *= 3.0 * (cost.contact_cells as f64 / PI).sqrt() / 64.0,
             Err(_) => scene.side *= 2.0,
         }
@@ -240,12 +241,19 @@ fn waves(side: f64, numbers: std::ops::Range<u32>, slope: f64) -> impl Fn(f64, f
 }
 
 /// Solves a scene; in front of its mirrors, where it has any and that is wanted.
-fn solve(scene: &Scene, n: usize, tolerance: f64, mirrors: bool) -> Answer<Cost> {
-    let side = scene.side / n as f64;
-    let grid = SurfaceGrid::new([n, n], [side; 2])?;
+/// Gap of a scene on `n` cells a side.
+fn gap_of(scene: &Scene, n: usize) -> Answer<Array2<f64>> {
+    let grid = SurfaceGrid::new([n, n], [scene.side / n as f64; 2])?;
     let mut gap = Array2::from_shape_fn((n, n), |(i, j)| (scene.gap)(grid.centre(0, i), grid.centre(1, j)));
     let lowest = gap.iter().copied().fold(f64::INFINITY, f64::min);
     gap -= lowest;
+    Ok(gap)
+}
+
+fn solve(scene: &Scene, gap: Array2<f64>, tolerance: f64, mirrors: bool) -> Answer<Cost> {
+    let n = gap.nrows();
+    let side = scene.side / n as f64;
+    let grid = SurfaceGrid::new([n, n], [side; 2])?;
     let response = if scene.periodic {
         SurfaceResponse::Periodic(periodic_symbols(&scene.pair, [n, n], [side; 2], Components::NORMAL, 0))
     } else {

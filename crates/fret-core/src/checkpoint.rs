@@ -2,6 +2,7 @@
 //! taken up again with the bits it would have had.
 
 use ndarray::Array2;
+use postcard::ser_flavors::Flavor;
 use serde::{Deserialize, Serialize};
 
 use crate::case::{Case, Stage};
@@ -12,7 +13,7 @@ use crate::solver::{Resultants, SolverMemory};
 use crate::wear::{Collected, WornThrough};
 
 /// Version of the bytes; another layout of what is stored gets another one.
-const FORMAT: u32 = 4;
+const FORMAT: u32 = 5;
 
 /// How far a run has come in its stages.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -76,6 +77,27 @@ pub enum CheckpointError {
     Foreign,
 }
 
+/// Bytes behind others, copied field by field.
+struct Appended(Vec<u8>);
+
+impl Flavor for Appended {
+    type Output = Vec<u8>;
+
+    fn try_push(&mut self, byte: u8) -> postcard::Result<()> {
+        self.0.push(byte);
+        Ok(())
+    }
+
+    fn try_extend(&mut self, bytes: &[u8]) -> postcard::Result<()> {
+        self.0.extend_from_slice(bytes);
+        Ok(())
+    }
+
+    fn finalize(self) -> postcard::Result<Vec<u8>> {
+        Ok(self.0)
+    }
+}
+
 impl Waypoint<'_> {
     /// Increments solved in the whole history.
     pub fn solved(&self) -> usize {
@@ -87,7 +109,7 @@ impl Waypoint<'_> {
     /// # Errors
     /// Never, for what a run holds; the encoder's words otherwise.
     pub fn write(&self, bytes: Vec<u8>) -> Result<Vec<u8>, CheckpointError> {
-        postcard::to_extend(&(FORMAT, self), bytes)
+        postcard::serialize_with_flavor(&(FORMAT, self), Appended(bytes))
             .map_err(|error| CheckpointError::Damaged(error.to_string()))
     }
 }

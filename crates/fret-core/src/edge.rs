@@ -1,7 +1,9 @@
 //! The edge of contact between the cells: area from the zero line of one level function.
 //! Near an edge both `p^2` inside and `gap^(2/3)` outside are linear in the distance to it.
 
-use ndarray::{Array2, ArrayView2, Axis, Slice};
+use std::array::from_fn;
+
+use ndarray::{Array2, ArrayView2};
 
 /// The zero line lies this share of a cell inside the true edge (measured on Hertz contacts, confirmed on coated ones).
 const OFFSET: f64 = 0.024;
@@ -18,52 +20,27 @@ pub fn level_function(
     beyond: f64,
 ) -> Option<Array2<f64>> {
     let (nx, ny) = pressure.dim();
-    let inside = |i: usize, j: usize| pressure[[i, j]] > 0.0;
-    let near = spread(&pressure.mapv(|p| p > 0.0));
-    let mut level = Array2::zeros((nx, ny));
-    for ((i, j), value) in level.indexed_iter_mut() {
-        *value = if inside(i, j) {
-            pressure[[i, j]].powi(2)
-        } else if near[[i, j]] && gap[[i, j]] <= beyond {
-            -libm::cbrt(gap[[i, j]].max(0.0).powi(2))
+    let near = near_the_contact(pressure);
+    let value = |((&p, &gap), near): ((&f64, &f64), bool)| {
+        if p > 0.0 {
+            p.powi(2)
+        } else if near && gap <= beyond {
+            -libm::cbrt(gap.max(0.0).powi(2))
         } else {
             f64::NEG_INFINITY
-        };
-    }
-    let mut rises = Vec::new();
-    let mut falls = Vec::new();
-    let mut crossing = |cells: [[usize; 2]; 4]| {
-        let [a, b, c, d] = cells;
-        let open = |cell: [usize; 2]| level[cell] <= 0.0 && level[cell] > f64::NEG_INFINITY;
-        if level[a] > 0.0 && level[b] > 0.0 && open(c) && open(d) {
-            rises.push((level[a] - level[b]).abs());
-            falls.push((level[d] - level[c]).abs());
         }
     };
-    for i in 0..nx {
-        for j in 0..ny {
-            if !inside(i, j) {
-                continue;
-            }
-            if i + 3 < nx {
-                crossing([[i, j], [i + 1, j], [i + 2, j], [i + 3, j]]);
-            }
-            if i >= 3 {
-                crossing([[i, j], [i - 1, j], [i - 2, j], [i - 3, j]]);
-            }
-            if j + 3 < ny {
-                crossing([[i, j], [i, j + 1], [i, j + 2], [i, j + 3]]);
-            }
-            if j >= 3 {
-                crossing([[i, j], [i, j - 1], [i, j - 2], [i, j - 3]]);
-            }
+    let mut level: Vec<f64> = pressure.iter().zip(gap).zip(near).map(value).collect();
+    let mut slopes = Slopes::default();
+    for line in level.chunks_exact(ny) {
+        for four in line.windows(4) {
+            slopes.read([four[0], four[1], four[2], four[3]]);
         }
     }
-    let (rise, fall) = (median(&mut rises)?, median(&mut falls)?);
-    if !(rise > 0.0 && fall > 0.0) {
-        return None;
+    for four in level.windows(3 * ny + 1) {
+        slopes.read([four[0], four[ny], four[2 * ny], four[3 * ny]]);
     }
-    let kappa = rise / fall;
+    let kappa = slopes.ratio()?;
     let mut lowest = 0.0_f64;
     for value in &mut level {
         if *value <= 0.0 && *value > f64::NEG_INFINITY {
@@ -71,29 +48,64 @@ pub fn level_function(
             lowest = lowest.min(*value);
         }
     }
-    level.mapv_inplace(|value| value.max(lowest));
-    Some(level)
+    for value in &mut level {
+        *value = value.max(lowest);
+    }
+    Array2::from_shape_vec((nx, ny), level).ok()
 }
 
-/// Cells with a marked one at most [`NEAR`] away along both axes.
-fn spread(marked: &Array2<bool>) -> Array2<bool> {
-    let mut result = marked.clone();
-    for axis in 0..2 {
-        let before = result.clone();
-        let len = before.len_of(Axis(axis));
-        for distance in 1..=NEAR.min(len.saturating_sub(1)) {
-            let (far, near) = (len - distance, distance as isize);
-            let low = before.slice_axis(Axis(axis), Slice::from(..far as isize));
-            let high = before.slice_axis(Axis(axis), Slice::from(near..));
-            result
-                .slice_axis_mut(Axis(axis), Slice::from(near..))
-                .zip_mut_with(&low, |to, from| *to |= *from);
-            result
-                .slice_axis_mut(Axis(axis), Slice::from(..far as isize))
-                .zip_mut_with(&high, |to, from| *to |= *from);
+/// Slopes of both sides of the level function along grid lines across the edge.
+#[derive(Default)]
+struct Slopes {
+    rises: Vec<f64>,
+    falls: Vec<f64>,
+}
+
+impl Slopes {
+    /// Reads four neighbours of a grid line: two loaded and two open ones tell of an edge, from either side.
+    fn read(&mut self, [a, b, c, d]: [f64; 4]) {
+        if (a > 0.0) == (d > 0.0) {
+            return;
+        }
+        let [a, b, c, d] = if a > 0.0 { [a, b, c, d] } else { [d, c, b, a] };
+        let is_open = |value: f64| value <= 0.0 && value > f64::NEG_INFINITY;
+        if b > 0.0 && is_open(c) && is_open(d) {
+            self.rises.push((a - b).abs());
+            self.falls.push((d - c).abs());
         }
     }
-    result
+
+    /// Median slope inside over the one outside, where there are any.
+    fn ratio(mut self) -> Option<f64> {
+        let (rise, fall) = (median(&mut self.rises)?, median(&mut self.falls)?);
+        (rise > 0.0 && fall > 0.0).then(|| rise / fall)
+    }
+}
+
+/// Cells with a loaded one at most [`NEAR`] away along both axes.
+fn near_the_contact(pressure: &ArrayView2<'_, f64>) -> Vec<bool> {
+    let columns = pressure.ncols();
+    let mut near: Vec<bool> = pressure.iter().map(|p| *p > 0.0).collect();
+    let mut before = near.clone();
+    spread(&mut near, columns, &mut before);
+    for line in near.chunks_exact_mut(columns) {
+        spread(line, 1, &mut before[..columns]);
+    }
+    near
+}
+
+/// Marks what has a marked neighbour at most [`NEAR`] places of `stride` away. `before`: room for the marks before.
+fn spread(marks: &mut [bool], stride: usize, before: &mut [bool]) {
+    before.copy_from_slice(marks);
+    for distance in 1..=NEAR {
+        let shift = (distance * stride).min(marks.len());
+        for (to, from) in marks[shift..].iter_mut().zip(&*before) {
+            *to |= *from;
+        }
+        for (to, from) in marks.iter_mut().zip(&before[shift..]) {
+            *to |= *from;
+        }
+    }
 }
 
 /// Contact area in units of one cell, from pressure and gap on a grid (or a box of it). Good to about 0.05 cells along the
@@ -104,33 +116,52 @@ pub fn contact_cells(pressure: &ArrayView2<'_, f64>, gap: &ArrayView2<'_, f64>, 
     let Some(level) = level_function(pressure, gap, beyond) else {
         return pressure.iter().filter(|p| **p > 0.0).count() as f64;
     };
+    let kind = |(level, gap): (&f64, &f64)| match *level > 0.0 {
+        _ if *gap > beyond => BEYOND,
+        true => LOADED,
+        false => OPEN,
+    };
+    let kinds: Vec<u8> = level.iter().zip(gap).map(kind).collect();
+    let line = |i: usize| &kinds[i * ny..][..ny];
+    let mut threes = vec![0; ny];
     let mut area = 0.0;
     for i in 0..nx {
         let rows = [i.saturating_sub(1), i, (i + 1).min(nx - 1)];
+        let [low, here, high] = rows.map(line);
+        for (((three, low), here), high) in threes.iter_mut().zip(low).zip(here).zip(high) {
+            *three = low | here | high;
+        }
         for j in 0..ny {
-            if gap[[i, j]] > beyond {
-                continue;
-            }
             let columns = [j.saturating_sub(1), j, (j + 1).min(ny - 1)];
-            let mut near = [0.0; 9];
-            for (place, value) in near.iter_mut().enumerate() {
-                let at = [rows[place / 3], columns[place % 3]];
-                // Beyond the end of a body the level function goes on as here: it has no edge of its own there.
-                *value = if gap[at] > beyond { level[[i, j]] } else { level[at] };
-            }
-            if near.iter().all(|value| *value > 0.0) {
-                area += 1.0;
-            } else if near.iter().any(|value| *value > 0.0) {
-                area += filled(&near);
+            match threes[columns[0]] | threes[j] | threes[columns[2]] {
+                LOADED => area += 1.0,
+                OPEN => {}
+                _ if here[j] == BEYOND => {}
+                _ => {
+                    // Beyond the end of a body the level function goes on as here: it has no edge of its own there.
+                    let at = |cell: [usize; 2]| level[if gap[cell] > beyond { [i, j] } else { cell }];
+                    area += filled(&from_fn(|place| at([rows[place / 3], columns[place % 3]])));
+                }
             }
         }
     }
     area
 }
 
+/// What there is in a cell, as marks of which several may be set among neighbours.
+const LOADED: u8 = 1;
+const OPEN: u8 = 2;
+const BEYOND: u8 = 4;
+
 /// Filled share of a cell from the level function at it and its eight neighbours: bilinear on quarter cells.
-fn filled(near: &[f64]) -> f64 {
+fn filled(near: &[f64; 9]) -> f64 {
     const PARTS: usize = 4;
+    if near.iter().all(|value| *value > 0.0) {
+        return 1.0;
+    }
+    if near.iter().all(|value| *value <= 0.0) {
+        return 0.0;
+    }
     let at = |x: f64, y: f64| {
         // x, y in cells from the middle of the cell, -0.5..0.5
         let (i, j) = (usize::from(x >= 0.0), usize::from(y >= 0.0));

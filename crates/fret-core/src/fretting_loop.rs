@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::cycle::{CycleRecord, CycleRegime, Drive, SLIDING_ENERGY_RATIO};
 use crate::history::{Regime, StepRecord};
-use crate::model::{ContactState, CoulombFriction};
+use crate::model::{ContactState, CoulombFriction, stored};
 
 /// Force and moment, shift and twist at the end of an increment.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -19,7 +19,9 @@ struct Point {
 /// What the end of a cycle is compared with, besides the first point.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 struct Start {
+    #[serde(with = "stored")]
     pressure: Array2<f64>,
+    #[serde(with = "stored")]
     shear: [Array2<f64>; 2],
     approach: f64,
     dissipated_energy: f64,

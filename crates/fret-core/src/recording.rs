@@ -8,7 +8,12 @@ use crate::solver::Increment;
 pub fn record(solved: &Increment, increment: usize, stage: usize, parts: usize, wall_s: f64) -> StepRecord {
     let state = &solved.state;
     let outcome = &solved.outcome;
-    let max_shear = state.shear[0].iter().zip(&state.shear[1]).map(|(x, y)| x.hypot(*y)).fold(0.0, f64::max);
+    let [qx, qy] = &state.shear;
+    // A root only where it may be the largest.
+    let larger = |most: f64, (x, y): (&f64, &f64)| {
+        if x.abs() + y.abs() > most { most.max(x.hypot(*y)) } else { most }
+    };
+    let max_shear = qx.iter().zip(qy).fold(0.0, larger);
     StepRecord {
         increment,
         stage,

@@ -3,7 +3,7 @@
 use ndarray::{Array2, Zip};
 use serde::{Deserialize, Serialize};
 
-use crate::model::{ContactState, CoulombFriction, SurfaceGrid, WearLaw, WearRule};
+use crate::model::{ContactState, CoulombFriction, SurfaceGrid, WearLaw, WearRule, stored};
 
 /// Share of a cell's pressure that a block may take off at the most, as far as the cell's own compliance tells. Above 0.8
 /// neighbouring cells would take turns in carrying the load.
@@ -35,8 +35,10 @@ pub struct TooFast {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Collected {
     /// Depth worn off [length].
+    #[serde(with = "stored")]
     depth: Array2<f64>,
     /// Length of the way slipped [length].
+    #[serde(with = "stored")]
     path: Array2<f64>,
 }
 

@@ -1,17 +1,22 @@
 //! Pressure alone on homogeneous bodies: the kernel is `1/r`, so that coefficients need no table.
 
 use ndarray::Array2;
-use pulp::Arch;
+use pulp::{Arch, Simd};
 use rayon::prelude::*;
 use std::f64::consts::TAU;
 
 use super::quadrature::GaussRule;
+use crate::model::each_cell::{CellRule, Reals, each_cell};
 
 /// Cells nearer than this many longer sides are integrated in closed form, whose corner differences lose the square of
-/// distance over side; beyond, Gauss points converge like `(side/(4 distance))^(2 points)`.
+/// distance over side.
 const NEAR: f64 = 6.0;
-/// Points along either side up to a distance in longer sides.
-const RULES: [(f64, usize); 4] = [(12.0, 6), (24.0, 5), (100.0, 4), (f64::INFINITY, 3)];
+/// Cells nearer than this many longer sides are integrated by Gauss points, which converge like `(side/(4 distance))^(2 points)`.
+const FAR: f64 = 12.0;
+/// Points along either side.
+const POINTS: usize = 6;
+/// Powers of `(side/distance)^2` kept beyond: what is left is 1e-16 of the whole at [`FAR`].
+const POWERS: usize = 5;
 
 /// Whether cells of these sides are square enough for the rules.
 pub(super) fn serves(spacing: [f64; 2]) -> bool {
@@ -22,7 +27,9 @@ pub(super) fn serves(spacing: [f64; 2]) -> bool {
 pub(super) fn normal_coefficients(times_k: f64, cells: [usize; 2], spacing: [f64; 2]) -> Array2<f64> {
     let [nx, ny] = cells;
     let symmetric = nx == ny && spacing[0] == spacing[1];
-    let rules = RULES.map(|(limit, count)| (limit, scaled_rule(count, spacing, times_k / TAU)));
+    let points = scaled_rule(POINTS, spacing, times_k / TAU);
+    let multipoles = Multipoles::new(spacing, times_k / TAU);
+    let along_y: Vec<f64> = (0..ny).map(|j| j as f64 * spacing[1]).collect();
     let mut values = Array2::zeros(cells);
     let Some(flat) = values.as_slice_mut() else { unreachable!("a new array is contiguous") };
     let longer = spacing[0].max(spacing[1]);
@@ -34,16 +41,14 @@ pub(super) fn normal_coefficients(times_k: f64, cells: [usize; 2], spacing: [f64
             let rest = (distance * longer).powi(2) - x * x;
             if rest <= 0.0 { 0 } else { ((rest.sqrt() / spacing[1]).ceil()).min(row.len() as f64) as usize }
         };
-        let mut first = beyond(NEAR);
-        let ends: Vec<usize> = rules.iter().map(|(limit, _)| beyond(*limit)).collect();
-        for (j, value) in row[..first].iter_mut().enumerate() {
-            *value = times_k / TAU * near_cell([x, j as f64 * spacing[1]], spacing);
+        let near = beyond(NEAR);
+        let far = beyond(FAR).max(near);
+        for (j, value) in row[..near].iter_mut().enumerate() {
+            *value = times_k / TAU * near_cell([x, along_y[j]], spacing);
         }
-        for ((_, points), end) in rules.iter().zip(ends) {
-            let end = end.max(first);
-            add_points(&mut row[first..end], points, x, first, spacing[1]);
-            first = end;
-        }
+        add_points(&mut row[near..far], &points, x, near, spacing[1]);
+        let end = row.len();
+        each_cell(&FarCells { multipoles: &multipoles, x }, [&along_y[far..end]], [&mut row[far..]]);
     });
     if symmetric {
         for i in 0..nx {
@@ -76,6 +81,74 @@ fn add_points(row: &mut [f64], points: &[[f64; 3]], x: f64, first: usize, side: 
             }
         },
     );
+}
+
+/// `1/r` over a far cell by powers of side over distance: `1/|r - s| = sum_l s^l/r^(l+1) P_l(cos gamma)`, gamma between r and s, and
+/// `P_l(cos gamma) = sum_j a_j a_(l-j) cos((l-2j) gamma)` with `a_j = (2j)!/(2^j j!)^2` (Whittaker and Watson, A Course of Modern
+/// Analysis, 15.1). Of a rectangle even powers and even multiples of the angle are left.
+struct Multipoles {
+    /// Factor of `(longer/r)^(2p) cos(2 k theta)` at `[p][k]`.
+    moments: [[f64; POWERS + 1]; POWERS + 1],
+    /// Length of the longer side.
+    longer: f64,
+    /// Factor of all.
+    size: f64,
+}
+
+impl Multipoles {
+    fn new(sides: [f64; 2], factor: f64) -> Self {
+        let longer = sides[0].max(sides[1]);
+        let mut shares = [1.0; 2 * POWERS + 1];
+        for j in 1..=2 * POWERS {
+            shares[j] = shares[j - 1] * (2 * j - 1) as f64 / (2 * j) as f64;
+        }
+        let mut moments = [[0.0; POWERS + 1]; POWERS + 1];
+        // exact for all powers
+        for [x, y, weight] in scaled_rule(POWERS + 1, sides.map(|side| side / longer), 1.0) {
+            let (square, angle) = (x * x + y * y, libm::atan2(y, x));
+            for p in 0..=POWERS {
+                for k in 0..=p {
+                    let both_signs = if k == 0 { 1.0 } else { 2.0 };
+                    let share = both_signs * shares[p - k] * shares[p + k];
+                    moments[p][k] +=
+                        weight * share * square.powi(p as i32) * libm::cos((2 * k) as f64 * angle);
+                }
+            }
+        }
+        Self { moments, longer, size: factor * longer * longer }
+    }
+}
+
+/// Integrals over far cells of a row at `x`, from their places along y.
+struct FarCells<'a> {
+    multipoles: &'a Multipoles,
+    x: f64,
+}
+
+impl CellRule<1, 1, 0> for FarCells<'_> {
+    #[inline(always)]
+    fn at<S: Simd>(&self, [y]: [Reals<S>; 1], [value]: &mut [Reals<S>; 1]) -> [Reals<S>; 0] {
+        let Multipoles { moments, longer, size } = self.multipoles;
+        let along_x = y.all(self.x * self.x);
+        let square = along_x + y * y;
+        let per_square = y.all(1.0) / square;
+        let ratio = per_square * (longer * longer);
+        // cos(2 k theta)
+        let mut cosines = [y.all(1.0); POWERS + 1];
+        cosines[1] = (along_x - y * y) * per_square;
+        for k in 2..=POWERS {
+            cosines[k] = cosines[1] * cosines[k - 1] * 2.0 - cosines[k - 2];
+        }
+        let mut sum = y.all(0.0);
+        for p in (0..=POWERS).rev() {
+            sum = sum * ratio;
+            for k in 0..=p {
+                sum = sum + cosines[k] * moments[p][k];
+            }
+        }
+        *value = sum * square.sqrt() * per_square * *size;
+        []
+    }
 }
 
 /// Integral of `1/r` over a cell at `offset` (Love 1929).

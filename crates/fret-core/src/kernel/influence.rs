@@ -61,7 +61,7 @@ pub struct InfluenceCoefficients {
 /// Fails in meaning, not in digits, where point collocation itself fails (a plan refuses such grids): see
 /// [`cells_too_coarse_for_incompressible_film`](super::collocation::cells_too_coarse_for_incompressible_film).
 /// The same bits for any number of threads. Cost about 0.3 microseconds per cell; for pressure alone on homogeneous bodies a
-/// twentieth of that.
+/// fortieth of that.
 pub fn influence_coefficients(
     pair: &ContactPair,
     cells: [usize; 2],

@@ -118,6 +118,14 @@ impl ResponseTable {
         }
     }
 
+    #[inline]
+    fn normal_at_square(&self, square: f64) -> f64 {
+        match &self.values {
+            Values::Constant([zz, ..]) => *zz,
+            Values::Tabulated(_) => self.at_square(square)[0],
+        }
+    }
+
     /// Response of the cells of a grid at the grid's own wavenumbers.
     ///
     /// With `aliases = 0` the response times the cell's factors `sin(k d/2)/(k d/2)`: the operator of a periodic scene whose
@@ -162,7 +170,7 @@ impl ResponseTable {
         let knots = [axis_waves(2 * KNOTS, spacing[0], ALIASES), axis_waves(2 * KNOTS, spacing[1], ALIASES)];
         let own = [axis_waves(2 * KNOTS, spacing[0], 0), axis_waves(2 * KNOTS, spacing[1], 0)];
         let aliases = Array2::from_shape_fn([KNOTS + 1; 2], |(a, b)| {
-            self.symbol(&knots[0][a], &knots[1][b]).zz - self.symbol(&own[0][a], &own[1][b]).zz
+            self.normal_symbol(&knots[0][a], &knots[1][b]) - self.normal_symbol(&own[0][a], &own[1][b])
         });
         let [along_x, along_y] = [0, 1].map(|axis| {
             let place = |index: usize| {
@@ -182,8 +190,22 @@ impl ResponseTable {
             }
             let low = (1.0 - t) * aliases[[i, j]] + t * aliases[[i, j + 1]];
             let high = (1.0 - t) * aliases[[i + 1, j]] + t * aliases[[i + 1, j + 1]];
-            factor_x * factor_y * self.at_square(square)[0] / square.sqrt() + (1.0 - s) * low + s * high
+            factor_x * factor_y * self.normal_at_square(square) / square.sqrt() + (1.0 - s) * low + s * high
         })
+    }
+
+    /// `zz` alone.
+    fn normal_symbol(&self, x: &AxisWaves, y: &AxisWaves) -> f64 {
+        let mut sum = 0.0;
+        for &(kx, factor_x) in &x.waves {
+            for &(ky, factor_y) in &y.waves {
+                let square = kx * kx + ky * ky;
+                if square != 0.0 {
+                    sum += factor_x * factor_y * (1.0 / square.sqrt()) * self.normal_at_square(square);
+                }
+            }
+        }
+        sum
     }
 
     fn symbol(&self, x: &AxisWaves, y: &AxisWaves) -> Symbol {

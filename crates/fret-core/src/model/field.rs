@@ -4,6 +4,7 @@ use pulp::Simd;
 use serde::{Deserialize, Serialize};
 
 use super::each_cell::{CellRule, Reals, each_cell};
+use super::stored;
 
 /// Sum of a field.
 pub fn sum(a: &[f64]) -> f64 {
@@ -79,8 +80,10 @@ pub fn largest(a: &[f64]) -> f64 {
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct TangentialField {
     /// Component along x.
+    #[serde(with = "stored")]
     pub x: Vec<f64>,
     /// Component along y.
+    #[serde(with = "stored")]
     pub y: Vec<f64>,
 }
 

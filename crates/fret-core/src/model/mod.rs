@@ -12,6 +12,7 @@ pub mod profile;
 pub mod scheme;
 pub mod shape;
 pub mod state;
+pub(crate) mod stored;
 pub mod symmetry;
 pub mod wear;
 

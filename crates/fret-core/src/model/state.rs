@@ -1,7 +1,11 @@
 //! All that an increment leaves behind for the next one: history lives here and nowhere else.
 
+use std::borrow::Cow;
+
 use ndarray::Array2;
 use serde::{Deserialize, Serialize};
+
+use super::stored::{self, Number};
 
 /// What a cell of the surface does.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
@@ -16,18 +20,34 @@ pub enum Zone {
     Slip = 2,
 }
 
+impl Number for Zone {
+    fn bytes(zones: &[Self]) -> Cow<'_, [u8]> {
+        Cow::Owned(zones.iter().map(|&zone| zone as u8).collect())
+    }
+
+    fn numbers(bytes: &[u8]) -> Option<Vec<Self>> {
+        let zones = [Self::Open, Self::Stick, Self::Slip];
+        bytes.iter().map(|&byte| zones.get(usize::from(byte)).copied()).collect()
+    }
+}
+
 /// Tractions, displacements and rigid motions at the end of an increment. Fields have shape `(nx, ny)`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct ContactState {
     /// Contact pressure [pressure], compression positive.
+    #[serde(with = "stored")]
     pub pressure: Array2<f64>,
     /// Shear traction on the lower body along x and y [pressure].
+    #[serde(with = "stored")]
     pub shear: [Array2<f64>; 2],
     /// Slip accumulated along its path: sum of the increments of the upper point relative to the lower, x and y [length].
+    #[serde(with = "stored")]
     pub slip: [Array2<f64>; 2],
     /// What each cell did in the last increment.
+    #[serde(with = "stored")]
     pub zone: Array2<Zone>,
     /// Depth worn off both bodies together [length]; `None` where nothing wears.
+    #[serde(with = "stored")]
     pub worn_depth: Option<Array2<f64>>,
     /// Rigid normal approach [length].
     pub approach: f64,

@@ -1,6 +1,6 @@
 //! Mirror symmetry of a scene: the part of the grid in front of its mirrors stands for the whole.
 
-use ndarray::{Array2, ArrayView2, s};
+use ndarray::{Array2, ArrayView1, ArrayView2, Axis, Zip, s};
 use serde::Serialize;
 
 use super::friction::CoulombFriction;
@@ -63,16 +63,20 @@ impl Symmetry {
         let axes = self.axes();
         let (nx, ny) = field.dim();
         let even = [nx, ny].iter().zip(axes).all(|(cells, mirrored)| !mirrored || cells % 2 == 0);
-        let same = |image: ArrayView2<'_, f64>| image.iter().zip(field).all(|(a, b)| a == b);
-        even && (!axes[0] || same(field.slice(s![..;-1, ..])))
-            && (!axes[1] || same(field.slice(s![.., ..;-1])))
+        let kept_along_x = || (0..nx / 2).all(|i| field.row(i) == field.row(nx - 1 - i));
+        let kept_along_y = || {
+            let is_kept =
+                |row: ArrayView1<'_, f64>| row.iter().zip(row.iter().rev()).take(ny / 2).all(|(a, b)| a == b);
+            field.rows().into_iter().all(is_kept)
+        };
+        even && (!axes[0] || kept_along_x()) && (!axes[1] || kept_along_y())
     }
 
     /// The part of a field in front of the mirrors.
-    pub fn part<T: Copy>(&self, field: &Array2<T>) -> Array2<T> {
+    pub fn part<T: Clone>(&self, field: &Array2<T>) -> Array2<T> {
         let (nx, ny) = field.dim();
         let [mx, my] = self.part_of([nx, ny]);
-        Array2::from_shape_fn((mx, my), |(i, j)| field[[nx - mx + i, ny - my + j]])
+        field.slice(s![nx - mx.., ny - my..]).as_standard_layout().into_owned()
     }
 
     /// The whole of a field that goes on behind the mirrors, with the other sign along axes where it is odd.
@@ -165,12 +169,11 @@ fn made_whole<T: Copy + PartialEq + Default>(
         }
         let rows = [Some((nx - mx + i, false)), (nx > mx).then(|| (mx - 1 - i, true))];
         for (to, behind_x) in rows.into_iter().flatten() {
-            let mut line = whole.row_mut(to);
-            for (j, &value) in row.iter().enumerate() {
-                line[ny - my + j] = seen(value, [behind_x, false]);
-                if ny > my {
-                    line[my - 1 - j] = seen(value, [behind_x, true]);
-                }
+            let (mut behind, before) = whole.row_mut(to).split_at(Axis(0), ny - my);
+            Zip::from(before).and(row).for_each(|to, value| *to = seen(*value, [behind_x, false]));
+            if ny > my {
+                let mirrored = behind.slice_mut(s![..;-1]);
+                Zip::from(mirrored).and(row).for_each(|to, value| *to = seen(*value, [behind_x, true]));
             }
         }
     }

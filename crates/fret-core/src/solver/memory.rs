@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 
 use super::region::Region;
 use super::tractions::Displacements;
-use crate::model::{ContactState, LoadStep};
+use crate::model::{ContactState, LoadStep, stored};
 
 /// All that later increments depend on besides the last state.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
@@ -36,7 +36,9 @@ pub(super) struct Before {
 /// Tractions of a state on the whole grid.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(super) struct GridTractions {
+    #[serde(with = "stored")]
     pub pressure: Array2<f64>,
+    #[serde(with = "stored")]
     pub shear: [Array2<f64>; 2],
 }
 
@@ -61,6 +63,7 @@ fn copied(field: &Array2<f64>) -> Array2<f64> {
 pub(super) struct Settled {
     pub region: Region,
     pub displacements: Displacements,
+    #[serde(with = "stored")]
     pub gap: Array2<f64>,
     pub contact_area: f64,
     pub load: LoadStep,

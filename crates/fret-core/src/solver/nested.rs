@@ -270,7 +270,9 @@ impl SolvedLevel {
                 let here = height[[i, j]];
                 let along_x = height[[(i + 1).min(nx - 1), j]] - height[[i.saturating_sub(1), j]];
                 let along_y = height[[i, (j + 1).min(ny - 1)]] - height[[i, j.saturating_sub(1)]];
-                let slope = 0.5 * along_x.hypot(along_y);
+                // A root only where it may tell: near the edge.
+                let is_far = here.abs() >= along_x.abs() + along_y.abs();
+                let slope = if is_far { 0.0 } else { 0.5 * along_x.hypot(along_y) };
                 let shifted = if here.abs() < 2.0 * slope { here + self.shift * slope } else { here };
                 if shifted > 0.0 {
                     let p = shifted.sqrt();

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use ndarray::Array2;
+use ndarray::{Array2, ArrayBase, Ix2, RawData, s};
 use serde::{Deserialize, Serialize};
 
 use crate::model::field::TangentialField;
@@ -37,12 +37,12 @@ impl Region {
 
     /// The part of a grid field, as flat rows.
     pub fn gather(&self, field: &Array2<f64>) -> Vec<f64> {
-        let mut part = Vec::with_capacity(self.len());
-        for i in 0..self.shape[0] {
-            let row = field.row(self.origin[0] + i);
-            part.extend(row.iter().skip(self.origin[1]).take(self.shape[1]));
-        }
-        part
+        let part = inside(field.view(), self.ranges()).as_standard_layout().into_owned();
+        part.into_raw_vec_and_offset().0
+    }
+
+    fn ranges(&self) -> [Range<usize>; 2] {
+        [0, 1].map(|axis| self.origin[axis]..self.origin[axis] + self.shape[axis])
     }
 
     /// The part of a tangential grid field.
@@ -58,10 +58,10 @@ impl Region {
 
     /// Writes what is not zero of the part into a grid field of zeros: memory that nobody wrote to costs nothing.
     pub fn place(&self, part: &[f64], field: &mut Array2<f64>) {
-        for (i, row) in part.chunks_exact(self.shape[1]).enumerate() {
+        let mut inside = inside(field.view_mut(), self.ranges());
+        for (line, row) in inside.rows_mut().into_iter().zip(part.chunks_exact(self.shape[1])) {
             if row.iter().any(|value| *value != 0.0) {
-                let mut line = field.row_mut(self.origin[0] + i);
-                for (place, value) in line.iter_mut().skip(self.origin[1]).zip(row) {
+                for (place, value) in line.into_iter().zip(row) {
                     *place = *value;
                 }
             }
@@ -70,8 +70,8 @@ impl Region {
 
     /// Whether a cell of the grid lies inside.
     pub fn contains(&self, i: usize, j: usize) -> bool {
-        (self.origin[0]..self.origin[0] + self.shape[0]).contains(&i)
-            && (self.origin[1]..self.origin[1] + self.shape[1]).contains(&j)
+        let [rows, columns] = self.ranges();
+        rows.contains(&i) && columns.contains(&j)
     }
 
     /// Whether another box lies inside.
@@ -91,11 +91,11 @@ impl Region {
         let mut low = [usize::MAX; 2];
         let mut high = [0_usize; 2];
         for i in 0..cells[0] {
-            for j in 0..cells[1] {
-                if wanted(i, j) {
-                    low = [low[0].min(i), low[1].min(j)];
-                    high = [high[0].max(i), high[1].max(j)];
-                }
+            let is_wanted = |j: &usize| wanted(i, *j);
+            if let Some(first) = (0..cells[1]).find(is_wanted) {
+                let last = (first..cells[1]).rfind(is_wanted).unwrap_or(first);
+                low = [low[0].min(i), low[1].min(first)];
+                high = [i, high[1].max(last)];
             }
         }
         (low[0] < usize::MAX)
@@ -131,4 +131,12 @@ impl Region {
         }
         region
     }
+}
+
+/// The part of a view in these rows and columns.
+fn inside<S: RawData<Elem = f64>>(
+    field: ArrayBase<S, Ix2>,
+    [rows, columns]: [Range<usize>; 2],
+) -> ArrayBase<S, Ix2> {
+    field.slice_move(s![rows, columns])
 }

@@ -3,8 +3,8 @@
 use pulp::Simd;
 use serde::{Deserialize, Serialize};
 
-use crate::model::TangentialField;
 use crate::model::each_cell::{CellRule, Reals, each_cell};
+use crate::model::{TangentialField, stored};
 
 /// Tractions of a box: pressure and shear.
 #[derive(Debug, Clone, Default)]
@@ -45,6 +45,7 @@ impl Tractions {
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct Displacements {
     /// Normal.
+    #[serde(with = "stored")]
     pub normal: Vec<f64>,
     /// Tangential.
     pub tangential: TangentialField,
