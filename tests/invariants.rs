@@ -51,7 +51,8 @@ fn relative(a: &StepRecord, b: &StepRecord, length: f64, modulus: f64) -> [f64; 
 
 #[test]
 fn mirrors_of_the_scene_are_mirrors_of_the_fields() {
-    let text = coupled_text(1.0, 1.0).replace("1e-10", "1e-9");
+    // Six digits on frozen zones are rounded differently on either side: what the laws leave open must lie below the bound.
+    let text = coupled_text(1.0, 1.0).replace("1e-10", "1e-11");
     let history = shortcuts::solved(&text, LeaveOut::all_but(Shortcut::Mirror)).history;
     let kept = history.fields.last().unwrap();
     let [nx, ny] = history.grid.cells();

@@ -106,22 +106,24 @@ pub fn left_out(
             "half of the numbers in most transforms",
         );
     }
-    let unasked: Vec<_> =
-        FIELDS.iter().filter(|(name, _)| !case.output.fields.iter().any(|asked| asked == name)).collect();
-    if !unasked.is_empty() {
-        let names: Vec<&str> = unasked.iter().map(|(name, _)| *name).collect();
-        let bytes: usize = unasked.iter().map(|(_, bytes)| bytes * grid.len()).sum();
-        let kept = case.kept_increments().len();
-        leave(
-            &format!("kept fields of {}", names.join(", ")),
-            "nobody asked for them",
-            &format!("{bytes} bytes in each of {kept} kept increments"),
-        );
+    if let Some((what, saves)) = unasked_fields(case, grid) {
+        leave(&what, "nobody asked for them", &saves);
     }
     if case.stress.is_none() {
         leave("stress under the surface", "the case has no table [stress]", "its operators, depth by depth");
     }
     list
+}
+
+/// The kept fields that nobody asked for, and what they would take.
+fn unasked_fields(case: &Case, grid: &SurfaceGrid) -> Option<(String, String)> {
+    let unasked: Vec<_> =
+        FIELDS.iter().filter(|(name, _)| !case.output.fields.iter().any(|asked| asked == name)).collect();
+    let names: Vec<&str> = unasked.iter().map(|(name, _)| *name).collect();
+    let bytes: usize = unasked.iter().map(|(_, bytes)| bytes * grid.len()).sum();
+    let kept = case.kept_increments().len();
+    let saves = format!("{bytes} bytes in each of {kept} kept increments");
+    (!names.is_empty()).then(|| (format!("kept fields of {}", names.join(", ")), saves))
 }
 
 /// Increments of the stages before the first that names a tangential control; none when the first one does.

@@ -42,13 +42,11 @@ impl<T: Copy + Default> Sides<T> {
 impl Inverse {
     /// Of a product; in single precision where that is wanted and there.
     pub fn new(product: PeriodicProduct, single: bool) -> Self {
-        match product.in_single_precision().filter(|_| single) {
-            Some(product) => Self::Single(product),
-            None => {
-                let workspace = product.workspace();
-                Self::Double(product, workspace)
-            }
+        if single && let Some(product) = product.in_single_precision() {
+            return Self::Single(product);
         }
+        let workspace = product.workspace();
+        Self::Double(product, workspace)
     }
 
     /// Forgets in `fields` what an earlier contact left, in a box of so many cells.

@@ -6,11 +6,7 @@
 //! `butterfly` (arithmetic), `plan` (tables), `passes` (one line transform), `rows`, `paired_rows`, `columns` and
 //! `mirrored_columns` (the stages of a product), `spectrum` (kernels in the order of the engine), `reflection` (what mirrors change), `product` (the whole).
 
-#![expect(
-    clippy::needless_range_loop,
-    clippy::manual_memcpy,
-    reason = "an index runs over several arrays of lanes at once, and vectors must be moved in registers, not by calls"
-)]
+#![expect(clippy::needless_range_loop, reason = "an index runs over several arrays of lanes at once")]
 
 mod butterfly;
 mod columns;
