@@ -17,7 +17,7 @@ use crate::model::each_cell::{CellRule, Reals, each_cell};
 use crate::model::field::{add_scaled, largest, sum};
 
 /// Share of its start to which a frozen problem is solved at the most when something is cut.
-const ETA: f64 = 0.001;
+const ETA: f64 = 0.01;
 
 /// Feasible tractions of the cells in contact, packed.
 #[derive(Debug)]

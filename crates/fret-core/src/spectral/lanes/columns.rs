@@ -55,7 +55,8 @@ impl<L: Lanes, const F: usize, const P: usize> Task<L> for Columns<'_, L::Number
             {
                 let spectrum = &as_lines::<L>(input)[strip * L::WIDTH..];
                 with_radix!(plan.outermost(), R => {
-                    lanes.enter(OutermostForward::<L, R, P> { plan, spectrum, stride, lines });
+                    let rows = layout.rows_read;
+                    lanes.enter(OutermostForward::<L, R, P> { plan, spectrum, stride, rows, lines });
                 });
             }
             let kernels = as_vectors::<L>(&self.kernels[strip * kernel_len..][..kernel_len]);
@@ -94,13 +95,15 @@ pub struct OutermostForward<'a, L: Lanes, const R: usize, const P: usize> {
     pub spectrum: &'a [Line<L>],
     /// Lines from one row group to the next.
     pub stride: usize,
+    /// Rows to be read; the others are zero.
+    pub rows: usize,
     pub lines: &'a mut [Line<L>],
 }
 
 impl<L: Lanes, const R: usize, const P: usize> Task<L> for OutermostForward<'_, L, R, P> {
     #[inline(always)]
     fn run(self, lanes: L) {
-        let Self { plan, spectrum, stride, lines } = self;
+        let Self { plan, spectrum, stride, rows, lines } = self;
         let places = plan.inner_length();
         let weights = splat(lanes, &plan.forward(0)[0]);
         let (direct, mirrored) = lines.split_at_mut(plan.length());
@@ -110,9 +113,11 @@ impl<L: Lanes, const R: usize, const P: usize> Task<L> for OutermostForward<'_, 
             let mut x = [Complex::zero(lanes); R];
             for m in 0..R {
                 let row = m * places + j;
-                x[m] = Complex::load(
-                    &spectrum[(row / L::WIDTH).wrapping_mul(stride).wrapping_add(row % L::WIDTH)],
-                );
+                if m * places < rows {
+                    x[m] = Complex::load(
+                        &spectrum[(row / L::WIDTH).wrapping_mul(stride).wrapping_add(row % L::WIDTH)],
+                    );
+                }
             }
             let y = butterfly(lanes, x, &weights);
             for m in 0..R {

@@ -84,7 +84,8 @@ impl<L: Lanes, const F: usize, const P: usize> Task<L> for MirroredColumns<'_, L
                     if mirrored {
                         lanes.enter(MirroredForward::<L, R, P> { plan, side, spectrum, stride, lines });
                     } else {
-                        lanes.enter(OutermostForward::<L, R, P> { plan, spectrum, stride, lines });
+                        let rows = layout.rows_read;
+                        lanes.enter(OutermostForward::<L, R, P> { plan, spectrum, stride, rows, lines });
                     }
                 });
             }

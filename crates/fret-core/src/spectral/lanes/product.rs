@@ -244,9 +244,13 @@ impl<N: Number> LaneProduct<N> {
         let strips = boundary.frequencies(ny).div_ceil(width);
         // A cache line or two between groups and strips, against strides that are powers of two.
         let padding = 2 * numbers_in_cache_line::<N>().max(width);
+        let along_x = LinePlan::new(nx, fraction);
+        // A mirrored line has cells in every part.
+        let places = if terms.mirrors.axes[0] { nx } else { along_x.inner_length() };
         let layout = Layout {
             shape: terms.shape,
             column_len: nx,
+            rows_read: terms.shape[0].next_multiple_of(places).min(nx),
             strips,
             group_stride: strips * width * 2 * width + padding,
             strip_stride: terms.outputs * nx * 2 * width + padding,
@@ -267,7 +271,7 @@ impl<N: Number> LaneProduct<N> {
             set,
             boundary,
             layout,
-            along_x: LinePlan::new(nx, fraction),
+            along_x,
             along_y: LinePlan::new(ny, fraction),
             inputs: terms.inputs,
             outputs: terms.outputs,

@@ -50,6 +50,8 @@ pub struct Layout {
     pub shape: [usize; 2],
     /// Lines of a column: the transform length along `x`.
     pub column_len: usize,
+    /// Rows that the column stage reads: the cells and, up to a whole part of its outermost pass, zeros.
+    pub rows_read: usize,
     /// Strips of frequencies along `y`.
     pub strips: usize,
     /// Numbers from one row group to the next, in the spectrum of one input: `[group][strip][row of the group]`.
@@ -81,7 +83,9 @@ impl<L: Lanes> Task<L> for RowsForward<'_, L::Number> {
             let spectrum = as_lines_mut::<L>(spectrum);
             let rows = nx.saturating_sub(group * L::WIDTH).min(L::WIDTH);
             if rows == 0 {
-                spectrum.fill([lanes.zero(); 2]);
+                if group * L::WIDTH < layout.rows_read {
+                    spectrum.fill([lanes.zero(); 2]);
+                }
                 continue;
             }
             gather_rows(lanes, &field[group * L::WIDTH * ny..][..rows * ny], ny, staging);

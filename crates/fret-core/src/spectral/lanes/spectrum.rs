@@ -64,7 +64,9 @@ fn outermost<L: Lanes, const R: usize>(
         let mut x = [Complex::zero(lanes); R];
         for m in 0..R {
             let row = m * places + j;
-            x[m].re = rows[row / L::WIDTH * stride + row % L::WIDTH][kept];
+            if m * places < layout.rows_read {
+                x[m].re = rows[row / L::WIDTH * stride + row % L::WIDTH][kept];
+            }
         }
         let y = butterfly(lanes, x, &weights);
         for m in 0..R {
