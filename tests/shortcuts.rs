@@ -88,6 +88,21 @@ pub fn scenes(cells: usize) -> Vec<Scene> {
     let everything = Sphere { size: 6.0, ..straight.clone() };
     let pulled =
         |sphere: &Sphere, press, pull| sphere.pulled(&sphere.pressed(1.0, press, "linear"), 0.7, pull, None);
+    let fine = Sphere { cells: 128, size: 5.0, ..coated.clone() };
+    let fine_equal = Sphere { cells: 128, size: 5.0, ..equal.clone() };
+    // The contact shrinks to less than half within one increment, by more cells than boxes keep free, and what slips does so from
+    // the shear of the larger one.
+    let unloaded = |sphere: &Sphere| {
+        let force = sphere.force();
+        format!(
+            "{}[[load]]\nnormal_force = {:e}\ntangential_force = [{:e}, 0.0]\nincrements = 1\n[[load]]\ntangential_force = [{:e}, 0.0]\n\
+             increments = 2\n",
+            pulled(sphere, 2, 2),
+            0.3 * force,
+            0.05 * force,
+            -0.05 * force
+        )
+    };
     let list = [
         ("rigid sphere on a plain half-space", pulled(&rigid, 2, 4), Some(LayeredResponse)),
         ("two equal bodies", pulled(&equal, 2, 4), Some(Coupling)),
@@ -101,6 +116,8 @@ pub fn scenes(cells: usize) -> Vec<Scene> {
         ("two equal bodies, pulled: a quarter", pulled(&equal, 2, 6), Some(Mirror)),
         ("coated, no friction: a quarter", smooth.pressed(1.0, 3, "cubic"), Some(Mirror)),
         ("endless cylinder, in a scene that repeats: half", line(cells), Some(Mirror)),
+        ("two equal bodies, unloaded at once on a wide grid", unloaded(&fine_equal), Some(Box)),
+        ("coated, unloaded at once on a wide grid", unloaded(&fine), Some(Box)),
         ("coated, pulled: digits", pulled(&coated, 3, 5), Some(Digits)),
         ("two equal bodies, pulled: digits", pulled(&equal, 2, 6), Some(Digits)),
         ("two equal bodies, wide grid, pressed and pulled", pulled(&everything, 3, 6), None),

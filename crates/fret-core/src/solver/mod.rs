@@ -252,7 +252,7 @@ impl<'a> ContactSolver<'a> {
         self.check_sliding(load)?;
         let mut start = self.nested_start(state, load, work, watch)?;
         let mut region = match &start {
-            Some(pressure) => self.region_around(pressure),
+            Some(pressure) => self.region_around(pressure, state),
             None => self.region_for(state, load),
         };
         let area_before = self.memory.settled.as_ref().map_or(0.0, |settled| settled.contact_area);
@@ -347,7 +347,9 @@ impl<'a> ContactSolver<'a> {
             }
             _ => true,
         };
-        if touched && (!far || self.coupling == Coupling::Coupled) {
+        // A coupled contact that has grown before goes on from itself.
+        let knows = self.coupling == Coupling::Coupled && self.memory.before.is_some();
+        if touched && (!far || knows) {
             return Ok(None);
         }
         let lowest = self.undeformed.iter().copied().fold(f64::INFINITY, f64::min);
@@ -444,7 +446,9 @@ impl<'a> ContactSolver<'a> {
             let (after, outcome) = scene.settle(&solved);
             return Ok((solved, after, outcome));
         }
-        let predicted = self.predicted(state, load);
+        let coupled = self.coupling == Coupling::Coupled;
+        let grown = start.filter(|_| coupled).and_then(|pressure| self.grown_to(pressure, state));
+        let predicted = grown.unwrap_or_else(|| self.predicted(state, load));
         let tractions = Tractions {
             pressure: region.gather(&predicted.0),
             shear: region.gather_tangential(&predicted.1),

@@ -15,13 +15,15 @@ const MARGIN_SHARE: usize = 12;
 const LEAST_MARGIN: usize = 3;
 
 impl ContactSolver<'_> {
-    /// The box of an increment that starts from a pressure on coarser grids.
-    pub(super) fn region_around(&self, pressure: &Array2<f64>) -> Region {
+    /// The box of an increment that starts from a pressure on coarser grids. What sheared the surfaces before lies inside: slip is
+    /// counted from its displacements.
+    pub(super) fn region_around(&self, pressure: &Array2<f64>, state: &ContactState) -> Region {
         let cells = self.grid.cells();
         if !self.boxed || self.response.is_periodic() {
             return Region::whole(cells);
         }
-        let loaded = |i: usize, j: usize| pressure[[i, j]] > 0.0;
+        let rubs = self.coupling != Coupling::Frictionless;
+        let loaded = |i: usize, j: usize| pressure[[i, j]] > 0.0 || rubs && state.pressure[[i, j]] > 0.0;
         let axes = self.symmetry.axes();
         let margin = if self.coupling == Coupling::Coupled {
             (self.width(&Region::around(cells, axes, 1, |n| n, loaded)) / MARGIN_SHARE).max(MARGIN)
@@ -120,6 +122,23 @@ impl ContactSolver<'_> {
             Growth { widening: area.sqrt(), strengthening: force / area, mirrored: self.symmetry.axes() }
                 .of(state, &settled.gap),
         )
+    }
+
+    /// Tractions of a contact that grows for the first time, to the area and force of a `pressure` from coarser grids without
+    /// shear; `None` before there is a contact.
+    pub(super) fn grown_to(
+        &self,
+        pressure: &Array2<f64>,
+        state: &ContactState,
+    ) -> Option<(Array2<f64>, [Array2<f64>; 2])> {
+        let settled = self.memory.settled.as_ref()?;
+        let cells = |field: &Array2<f64>| field.iter().filter(|p| **p > 0.0).count() as f64;
+        let area = cells(pressure) / cells(&state.pressure);
+        let force = sum_of(pressure) / sum_of(&state.pressure);
+        (area.is_finite() && area > 0.0 && force > 0.0).then(|| {
+            Growth { widening: area.sqrt(), strengthening: force / area, mirrored: self.symmetry.axes() }
+                .of(state, &settled.gap)
+        })
     }
 
     /// Ratio of this load increment to the last one when it goes on in the same direction.
