@@ -69,7 +69,7 @@ fn what_is_left_out_is_said_and_nothing_is_said_of_what_is_computed() {
         (Shortcut::Box, "cells far from the contact"),
         (Shortcut::Digits, "all but six digits"),
     ];
-    let text = &scenes(16).pop().expect("the last has all").text;
+    let text = &scenes(64).pop().expect("the last has all").text;
     let said = |leave_out| {
         let case = Case::from_toml(text, "case.toml").unwrap_or_else(|error| panic!("{error}"));
         let plan = Plan::leaving_out(case, leave_out).unwrap_or_else(|error| panic!("{error}"));

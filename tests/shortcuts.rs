@@ -118,8 +118,16 @@ pub fn scenes(cells: usize) -> Vec<Scene> {
         ("endless cylinder, in a scene that repeats: half", line(cells), Some(Mirror)),
         ("two equal bodies, unloaded at once on a wide grid", unloaded(&fine_equal), Some(Box)),
         ("coated, unloaded at once on a wide grid", unloaded(&fine), Some(Box)),
-        ("coated, pulled: digits", pulled(&coated, 3, 5), Some(Digits)),
-        ("two equal bodies, pulled: digits", pulled(&equal, 2, 6), Some(Digits)),
+        (
+            "coated, pulled: digits",
+            pulled(&Sphere { cells: cells.max(64), ..coated.clone() }, 3, 5),
+            Some(Digits),
+        ),
+        (
+            "two equal bodies, pulled: digits",
+            pulled(&Sphere { cells: cells.max(64), ..equal.clone() }, 2, 6),
+            Some(Digits),
+        ),
         ("two equal bodies, wide grid, pressed and pulled", pulled(&everything, 3, 6), None),
     ];
     list.map(|(name, text, shortcut)| Scene { name, text: format!("{text}{}", keeping(1)), shortcut }).into()

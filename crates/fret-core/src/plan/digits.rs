@@ -5,16 +5,27 @@ use std::f64::consts::{PI, TAU};
 use crate::case::Case;
 use crate::kernel::PairResponse;
 use crate::model::SurfaceGrid;
+use crate::solver::Coupling;
 
 /// Six digits do when long and short waves move the surfaces alike up to this factor: rounding, which is relative to the waves
 /// that move most, then leaves four to those that move least.
 const ALIKE: f64 = 100.0;
+/// With less friction than this, what pressure does to shear in a coupled contact drowns what shear does.
+const LEAST_FRICTION: f64 = 0.01;
+/// On fewer cells transforms are too short to gain anything.
+const LEAST_CELLS: usize = 64 * 64;
 
 /// Whether six digits do on frozen zones and in approximate inverses: not in scenes that repeat, where the inverse is exact and
-/// solves full contact at once, and not over coatings much stiffer or softer than what lies below.
-pub fn six_digits_do(case: &Case, grid: &SurfaceGrid, response: &PairResponse) -> bool {
+/// solves full contact at once, not over coatings much stiffer or softer than what lies below, not where pressure and shear act on
+/// each other with hardly any friction.
+pub fn six_digits_do(case: &Case, grid: &SurfaceGrid, response: &PairResponse, coupling: Coupling) -> bool {
     let [longest, shortest] = [grid.size(), grid.spacing()].map(|[x, y]| (x.max(y), x.min(y)));
     let at = |k: f64| response.times_k(k).zz;
     let softening = at(TAU / longest.0) / at(PI / shortest.1);
-    !case.periodic && softening < ALIKE && softening > 1.0 / ALIKE
+    let mut frictions =
+        case.stages.iter().filter_map(|stage| stage.friction.as_ref()).chain([&case.friction]);
+    let rubs =
+        coupling != Coupling::Coupled || frictions.all(|friction| friction.largest() >= LEAST_FRICTION);
+    let alike = softening < ALIKE && softening > 1.0 / ALIKE;
+    !case.periodic && grid.len() >= LEAST_CELLS && alike && rubs
 }

@@ -110,7 +110,8 @@ impl Plan {
         let along = left_out::one_way(&case, &grid, &response, coupling)
             .filter(|_| leave_out.takes(Shortcut::Transverse));
         let symmetry = mirrors(&case, &grid, coupling, leave_out);
-        let six_digits = leave_out.takes(Shortcut::Digits) && digits::six_digits_do(&case, &grid, &response);
+        let six_digits =
+            leave_out.takes(Shortcut::Digits) && digits::six_digits_do(&case, &grid, &response, coupling);
         let left_out = left_out::left_out(&case, &grid, coupling, (along, symmetry, six_digits), leave_out);
         let increments = case.increments();
         // Where the division is left to the program: one solution of the whole and two of its halves at the least.
