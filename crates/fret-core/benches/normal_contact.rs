@@ -240,7 +240,6 @@ fn waves(side: f64, numbers: std::ops::Range<u32>, slope: f64) -> impl Fn(f64, f
     move |x, y| factor * list.iter().map(|(k, phase, a)| a * (k[0] * x + k[1] * y + phase).cos()).sum::<f64>()
 }
 
-/// Solves a scene; in front of its mirrors, where it has any and that is wanted.
 /// Gap of a scene on `n` cells a side.
 fn gap_of(scene: &Scene, n: usize) -> Answer<Array2<f64>> {
     let grid = SurfaceGrid::new([n, n], [scene.side / n as f64; 2])?;
@@ -250,6 +249,7 @@ fn gap_of(scene: &Scene, n: usize) -> Answer<Array2<f64>> {
     Ok(gap)
 }
 
+/// Solves a scene with its gap; in front of its mirrors, where it has any and that is wanted.
 fn solve(scene: &Scene, gap: Array2<f64>, tolerance: f64, mirrors: bool) -> Answer<Cost> {
     let n = gap.nrows();
     let side = scene.side / n as f64;

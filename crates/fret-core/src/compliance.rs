@@ -326,7 +326,7 @@ pub(crate) fn mirrors(symmetry: Symmetry, fields: &[usize]) -> Mirrors {
 }
 
 /// The part along an axis; the other is none.
-pub(crate) fn only(axis: usize, field: &mut TangentialField) -> &mut [f64] {
+fn only(axis: usize, field: &mut TangentialField) -> &mut [f64] {
     let [x, y] = field.each_mut();
     let (along, across) = if axis == 0 { (x, y) } else { (y, x) };
     across.fill(0.0);

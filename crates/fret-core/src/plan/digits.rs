@@ -7,12 +7,13 @@ use crate::kernel::PairResponse;
 use crate::model::SurfaceGrid;
 use crate::solver::Coupling;
 
-/// Six digits do when long and short waves move the surfaces alike up to this factor: rounding, which is relative to the waves
-/// that move most, then leaves four to those that move least.
-const ALIKE: f64 = 100.0;
-/// With less friction than this, what pressure does to shear in a coupled contact drowns what shear does.
+/// Six digits do when long and short waves move the surfaces alike up to this factor: rounding is relative to the waves that move
+/// most. Thin coatings thirty times stiffer took a third more steps.
+const ALIKE: f64 = 4.0;
+/// With hardly any friction, what pressure does to shear in a coupled contact drowns what shear does: at 1e-6 the answer suffered,
+/// at 0.01 the steps are as many as with all digits.
 const LEAST_FRICTION: f64 = 0.01;
-/// On fewer cells transforms are too short to gain anything.
+/// On fewer cells (32, 48 and 64 a side were measured) nothing is gained.
 const LEAST_CELLS: usize = 64 * 64;
 
 /// Whether six digits do on frozen zones and in approximate inverses: not in scenes that repeat, where the inverse is exact and

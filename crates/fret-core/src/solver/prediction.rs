@@ -124,7 +124,7 @@ impl ContactSolver<'_> {
         )
     }
 
-    /// Tractions of a contact that grows for the first time, to the area and force of a `pressure` from coarser grids without
+    /// Tractions of a contact that grows or shrinks for the first time, to the area and force of a `pressure` from coarser grids without
     /// shear; `None` before there is a contact.
     pub(super) fn grown_to(
         &self,
