@@ -113,9 +113,10 @@ fn convolution_seconds(coefficients: &InfluenceCoefficients, n: usize) -> Result
     let mut compliance =
         SpectralCompliance::new(&SurfaceResponse::FreeSpace(coefficients.clone()), [n, n], wanted)?;
     let pressure = vec![1.0; n * n];
-    let shear = TangentialField { x: vec![0.3; n * n], y: vec![-0.2; n * n] };
-    let (mut normal, mut tangential) = (vec![0.0; n * n], TangentialField::zeros(n * n));
-    let (seconds, ()) = timed(|| compliance.full(&pressure, &shear, &mut normal, &mut tangential));
+    let shear = [vec![0.3; n * n], vec![-0.2; n * n]];
+    let [mut normal, mut x, mut y] = [0; 3].map(|_| vec![0.0; n * n]);
+    let tractions = [&pressure[..], &shear[0], &shear[1]];
+    let (seconds, ()) = timed(|| compliance.full(tractions, [&mut normal, &mut x, &mut y]));
     Ok(seconds)
 }
 

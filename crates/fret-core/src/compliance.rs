@@ -26,26 +26,57 @@ pub trait SurfaceCompliance {
     /// `u_z` from pressure alone.
     fn normal(&mut self, pressure: &[f64], normal: &mut [f64]);
     /// `(u_x, u_y)` from shear alone.
-    fn tangential(&mut self, shear: &TangentialField, tangential: &mut TangentialField);
-    /// All displacements from all tractions.
-    fn full(
-        &mut self,
-        pressure: &[f64],
-        shear: &TangentialField,
-        normal: &mut [f64],
-        tangential: &mut TangentialField,
-    );
+    fn tangential(&mut self, shear: [&[f64]; 2], tangential: [&mut [f64]; 2]);
+    /// All displacements `[normal, along x, along y]` from all tractions `[pressure, along x, along y]`.
+    fn full(&mut self, tractions: [&[f64]; 3], displacements: [&mut [f64]; 3]);
 
-    /// As [`tangential`](Self::tangential) in single precision: shear of a size near one, displacement divided by the number
-    /// returned. `None` where double precision is wanted.
-    fn tangential_single(&mut self, _shear: &[Vec<f32>; 2], _tangential: &mut [Vec<f32>; 2]) -> Option<f64> {
+    /// [`tangential`](Self::tangential) in single precision, for shear of a size near one; `None` where double precision is wanted.
+    fn tangential_single(&mut self) -> Option<SingleAnswer<'_>> {
         None
     }
 
-    /// As [`full`](Self::full) in single precision: tractions `[pressure, along x, along y]` of a size near one, displacements
-    /// `[normal, along x, along y]` divided by the number returned. `None` where double precision is wanted.
-    fn full_single(&mut self, _tractions: &[Vec<f32>; 3], _displacements: &mut [Vec<f32>; 3]) -> Option<f64> {
+    /// [`full`](Self::full) in single precision, for tractions of a size near one; `None` where double precision is wanted.
+    fn full_single(&mut self) -> Option<SingleAnswer<'_>> {
         None
+    }
+}
+
+/// An elastic answer in single precision.
+pub struct SingleAnswer<'a> {
+    product: &'a mut SingleProduct,
+    along: Option<usize>,
+    applications: &'a mut usize,
+}
+
+impl SingleAnswer<'_> {
+    /// What the displacements are to be multiplied with [length/pressure], a power of two.
+    pub fn unit(&self) -> f64 {
+        self.product.unit()
+    }
+
+    /// The displacements, divided by [`unit`](Self::unit), of tractions.
+    pub fn apply(&mut self, tractions: &[&[f32]], displacements: &mut [&mut [f32]]) {
+        *self.applications += 1;
+        along_one(self.along, tractions, displacements, |from, to| self.product.apply(from, to));
+    }
+}
+
+/// Applies a product of which only one axis of shear takes part when that is so: across it there is no displacement. Components
+/// along x and y come last.
+fn along_one<T: Copy + Default>(
+    along: Option<usize>,
+    tractions: &[&[T]],
+    displacements: &mut [&mut [T]],
+    apply: impl FnOnce(&[&[T]], &mut [&mut [T]]),
+) {
+    let (Some(axis), Some((normal, [x, y]))) = (along, displacements.split_last_chunk_mut()) else {
+        return apply(tractions, displacements);
+    };
+    let (along, across) = if axis == 0 { (x, y) } else { (y, x) };
+    across.fill(T::default());
+    match normal {
+        [] => apply(&[tractions[axis]], &mut [along]),
+        [normal, ..] => apply(&[tractions[0], tractions[1 + axis]], &mut [normal, along]),
     }
 }
 
@@ -325,14 +356,6 @@ pub(crate) fn mirrors(symmetry: Symmetry, fields: &[usize]) -> Mirrors {
     Mirrors { axes: symmetry.axes(), inputs: fields.iter().map(parity).collect() }
 }
 
-/// The part along an axis; the other is none.
-fn only(axis: usize, field: &mut TangentialField) -> &mut [f64] {
-    let [x, y] = field.each_mut();
-    let (along, across) = if axis == 0 { (x, y) } else { (y, x) };
-    across.fill(0.0);
-    along
-}
-
 impl SurfaceCompliance for SpectralCompliance {
     fn shape(&self) -> [usize; 2] {
         self.shape
@@ -347,84 +370,45 @@ impl SurfaceCompliance for SpectralCompliance {
             self.applications += 1;
             product.apply(&[pressure], &mut [normal]);
         } else {
-            let zero = TangentialField::zeros(pressure.len());
-            let mut aside = TangentialField::zeros(pressure.len());
-            self.full(pressure, &zero, normal, &mut aside);
+            let zero = vec![0.0; pressure.len()];
+            let [mut x, mut y] = [zero.clone(), zero.clone()];
+            self.full([pressure, &zero, &zero], [normal, &mut x, &mut y]);
         }
     }
 
-    fn tangential(&mut self, shear: &TangentialField, tangential: &mut TangentialField) {
+    fn tangential(&mut self, shear: [&[f64]; 2], mut tangential: [&mut [f64]; 2]) {
         if let Some(product) = &mut self.tangential {
             self.applications += 1;
-            match self.along {
-                Some(axis) => product.apply(&[shear.parts()[axis]], &mut [only(axis, tangential)]),
-                None => product.apply(&shear.parts(), &mut [&mut tangential.x, &mut tangential.y]),
-            }
+            along_one(self.along, &shear, &mut tangential, |from, to| product.apply(from, to));
         } else {
-            let zero = vec![0.0; shear.x.len()];
-            let mut aside = vec![0.0; shear.x.len()];
-            self.full(&zero, shear, &mut aside, tangential);
+            let zero = vec![0.0; shear[0].len()];
+            let mut aside = zero.clone();
+            let ([from_x, from_y], [to_x, to_y]) = (shear, tangential);
+            self.full([&zero, from_x, from_y], [&mut aside, to_x, to_y]);
         }
     }
 
-    fn full(
-        &mut self,
-        pressure: &[f64],
-        shear: &TangentialField,
-        normal: &mut [f64],
-        tangential: &mut TangentialField,
-    ) {
+    fn full(&mut self, tractions: [&[f64]; 3], mut displacements: [&mut [f64]; 3]) {
         if let Some(product) = &mut self.full {
             self.applications += 1;
-            if let Some(axis) = self.along {
-                product.apply(&[pressure, shear.parts()[axis]], &mut [normal, only(axis, tangential)]);
-                return;
-            }
-            let input = [pressure, &shear.x, &shear.y];
-            product.apply(&input, &mut [normal, &mut tangential.x, &mut tangential.y]);
+            along_one(self.along, &tractions, &mut displacements, |from, to| product.apply(from, to));
         } else {
             debug_assert!(self.normal.is_some() && self.tangential.is_some(), "no operator was asked for");
+            let ([pressure, from_x, from_y], [normal, to_x, to_y]) = (tractions, displacements);
             self.normal(pressure, normal);
-            self.tangential(shear, tangential);
+            self.tangential([from_x, from_y], [to_x, to_y]);
         }
     }
 
-    fn tangential_single(&mut self, shear: &[Vec<f32>; 2], tangential: &mut [Vec<f32>; 2]) -> Option<f64> {
-        let Singles { wanted, tangential: single, .. } = &mut self.single;
-        let product = made(single, self.tangential.as_ref(), *wanted)?;
-        self.applications += 1;
-        let [from_x, from_y] = shear;
-        let [to_x, to_y] = tangential;
-        match self.along {
-            None => product.apply(&[from_x, from_y], &mut [to_x, to_y]),
-            Some(0) => along_one([from_x], [to_x], to_y, product),
-            Some(_) => along_one([from_y], [to_y], to_x, product),
-        }
-        Some(product.unit())
+    fn tangential_single(&mut self) -> Option<SingleAnswer<'_>> {
+        let Self { single: Singles { wanted, tangential, .. }, along, applications, .. } = self;
+        let product = made(tangential, self.tangential.as_ref(), *wanted)?;
+        Some(SingleAnswer { product, along: *along, applications })
     }
 
-    fn full_single(&mut self, tractions: &[Vec<f32>; 3], displacements: &mut [Vec<f32>; 3]) -> Option<f64> {
-        let Singles { wanted, full: single, .. } = &mut self.single;
-        let product = made(single, self.full.as_ref(), *wanted)?;
-        self.applications += 1;
-        let [pressure, from_x, from_y] = tractions;
-        let [normal, to_x, to_y] = displacements;
-        match self.along {
-            None => product.apply(&[pressure, from_x, from_y], &mut [normal, to_x, to_y]),
-            Some(0) => along_one([pressure, from_x], [normal, to_x], to_y, product),
-            Some(_) => along_one([pressure, from_y], [normal, to_y], to_x, product),
-        }
-        Some(product.unit())
+    fn full_single(&mut self) -> Option<SingleAnswer<'_>> {
+        let Self { single: Singles { wanted, full, .. }, along, applications, .. } = self;
+        let product = made(full, self.full.as_ref(), *wanted)?;
+        Some(SingleAnswer { product, along: *along, applications })
     }
-}
-
-/// Applies a product without shear across an axis, where there is then no displacement.
-fn along_one<const N: usize>(
-    input: [&Vec<f32>; N],
-    output: [&mut Vec<f32>; N],
-    across: &mut [f32],
-    product: &mut SingleProduct,
-) {
-    across.fill(0.0);
-    product.apply(&input.map(Vec::as_slice), &mut output.map(Vec::as_mut_slice));
 }

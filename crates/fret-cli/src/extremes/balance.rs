@@ -95,7 +95,8 @@ impl Accounts {
         let (pressure, shear, slip) = (flat(&state.pressure), pair(&state.shear), pair(&state.slip));
         let mut normal = vec![0.0; pressure.len()];
         let mut aside = TangentialField::zeros(pressure.len());
-        self.compliance.full(&pressure, &shear, &mut normal, &mut aside);
+        let [along_x, along_y] = aside.parts_mut();
+        self.compliance.full([&pressure, &shear.x, &shear.y], [&mut normal, along_x, along_y]);
         let gap = self.undeformed.iter().zip(&normal).map(|(gap, u)| gap + u - state.approach).collect();
         let sum = |field: &[f64]| self.area * field.iter().sum::<f64>();
         let forces = [sum(&pressure), sum(&shear.x), sum(&shear.y)];

@@ -2,7 +2,7 @@
 
 use fret_core::compliance::{SpectralCompliance, SurfaceCompliance, SurfaceResponse, Wanted};
 use fret_core::kernel::{Components, influence_coefficients, periodic_symbols};
-use fret_core::model::{ContactPair, TangentialField};
+use fret_core::model::ContactPair;
 use fret_core::spectral::ConvolutionError;
 
 /// Cells a side.
@@ -33,14 +33,12 @@ pub fn shown(pair: &ContactPair, spacing: [f64; 2], periodic: bool) -> Result<Sh
     for column in 0..3 * cells {
         let mut traction = vec![0.0; 3 * cells];
         traction[column] = 1.0;
-        let shear =
-            TangentialField { x: traction[cells..2 * cells].to_vec(), y: traction[2 * cells..].to_vec() };
-        let mut normal = vec![0.0; cells];
-        let mut aside = TangentialField::zeros(cells);
-        compliance.full(&traction[..cells], &shear, &mut normal, &mut aside);
-        normal.extend(aside.x);
-        normal.extend(aside.y);
-        matrix.push(normal);
+        let mut displacement = vec![0.0; 3 * cells];
+        let (pressure, [x, y]) = (&traction[..cells], [1, 2].map(|part| &traction[part * cells..][..cells]));
+        let (normal, tangential) = displacement.split_at_mut(cells);
+        let (to_x, to_y) = tangential.split_at_mut(cells);
+        compliance.full([pressure, x, y], [normal, to_x, to_y]);
+        matrix.push(displacement);
     }
     if periodic {
         for part in 0..3 {

@@ -63,7 +63,7 @@ fn answer(compliance: &mut dyn SurfaceCompliance, traction: &Field) -> Field {
     let mut found = Field::zeros(traction.normal.len());
     // what stands in the output before must not matter
     found.parts_mut().into_iter().flatten().for_each(|value| *value = f64::NAN);
-    compliance.full(&traction.normal, &traction.tangential, &mut found.normal, &mut found.tangential);
+    compliance.full(traction.parts(), found.parts_mut());
     found
 }
 
@@ -86,7 +86,7 @@ fn conforms(compliance: &mut dyn SurfaceCompliance, random: &mut Random, name: &
 
     let mut alone = Field::zeros(len);
     compliance.normal(&one.normal, &mut alone.normal);
-    compliance.tangential(&one.tangential, &mut alone.tangential);
+    compliance.tangential(one.tangential.parts(), alone.tangential.parts_mut());
     let pressed = Field { tangential: TangentialField::zeros(len), ..one.clone() };
     let sheared = Field { normal: vec![0.0; len], ..one.clone() };
     let parts = Field {

@@ -2,7 +2,6 @@
 
 use super::{FULL_BLOCKS, Own, SurfaceCompliance, own_of, signed_kernels};
 use crate::kernel::InfluenceCoefficients;
-use crate::model::TangentialField;
 use crate::spectral::{Block, ConvolutionError};
 
 /// The elastic answer of a box of cells, summed term by term: the judge of faster ways. Coefficients that are absent count as
@@ -77,22 +76,14 @@ impl SurfaceCompliance for DirectCompliance {
         self.fill(0, [Some(pressure), None, None], normal);
     }
 
-    fn tangential(&mut self, shear: &TangentialField, tangential: &mut TangentialField) {
-        let input = [None, Some(shear.x.as_slice()), Some(shear.y.as_slice())];
-        self.fill(1, input, &mut tangential.x);
-        self.fill(2, input, &mut tangential.y);
+    fn tangential(&mut self, [x, y]: [&[f64]; 2], [to_x, to_y]: [&mut [f64]; 2]) {
+        self.fill(1, [None, Some(x), Some(y)], to_x);
+        self.fill(2, [None, Some(x), Some(y)], to_y);
     }
 
-    fn full(
-        &mut self,
-        pressure: &[f64],
-        shear: &TangentialField,
-        normal: &mut [f64],
-        tangential: &mut TangentialField,
-    ) {
-        let input = [Some(pressure), Some(shear.x.as_slice()), Some(shear.y.as_slice())];
-        self.fill(0, input, normal);
-        self.fill(1, input, &mut tangential.x);
-        self.fill(2, input, &mut tangential.y);
+    fn full(&mut self, tractions: [&[f64]; 3], displacements: [&mut [f64]; 3]) {
+        for (output, displacement) in displacements.into_iter().enumerate() {
+            self.fill(output, tractions.map(Some), displacement);
+        }
     }
 }

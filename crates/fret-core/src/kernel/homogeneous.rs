@@ -1,7 +1,7 @@
 //! Pressure alone on homogeneous bodies: the kernel is `1/r`, so that coefficients need no table.
 
 use ndarray::Array2;
-use pulp::{Arch, Simd};
+use pulp::Arch;
 use rayon::prelude::*;
 use std::f64::consts::TAU;
 
@@ -127,7 +127,7 @@ struct FarCells<'a> {
 
 impl CellRule<1, 1, 0> for FarCells<'_> {
     #[inline(always)]
-    fn at<S: Simd>(&self, [y]: [Reals<S>; 1], [value]: &mut [Reals<S>; 1]) -> [Reals<S>; 0] {
+    fn at<R: Reals>(&self, [y]: [R; 1], [value]: &mut [R; 1]) -> [R; 0] {
         let Multipoles { moments, longer, size } = self.multipoles;
         let along_x = y.all(self.x * self.x);
         let square = along_x + y * y;

@@ -1,108 +1,223 @@
-//! Arithmetic on all cells of fields at once, with the vector instructions of the machine.
+//! Arithmetic on all cells of fields at once, with the vector instructions of the machine, in double or single precision.
 
 use std::ops::{Add, Div, Mul, Sub};
 
 use pulp::{Arch, Scalar, Simd, WithSimd};
 
+/// Registers after which sums go on in double precision.
+const STRIDE: usize = 64;
+
 /// Numbers of several neighbouring cells, in one register.
-#[derive(Debug, Clone, Copy)]
-pub struct Reals<S: Simd> {
-    simd: S,
-    numbers: S::f64s,
-}
-
-impl<S: Simd> Reals<S> {
+pub trait Reals:
+    Copy
+    + Add<Output = Self>
+    + Sub<Output = Self>
+    + Mul<Output = Self>
+    + Div<Output = Self>
+    + Add<f64, Output = Self>
+    + Sub<f64, Output = Self>
+    + Mul<f64, Output = Self>
+    + Div<f64, Output = Self>
+{
     /// Square roots.
-    #[inline(always)]
     #[must_use]
-    pub fn sqrt(self) -> Self {
-        Self { numbers: self.simd.sqrt_f64s(self.numbers), ..self }
-    }
-
+    fn sqrt(self) -> Self;
     /// The larger number of each cell.
-    #[inline(always)]
     #[must_use]
-    pub fn max(self, other: Self) -> Self {
-        Self { numbers: self.simd.max_f64s(self.numbers, other.numbers), ..self }
-    }
-
+    fn max(self, other: Self) -> Self;
     /// The smaller number of each cell.
-    #[inline(always)]
     #[must_use]
-    pub fn min(self, other: Self) -> Self {
-        Self { numbers: self.simd.min_f64s(self.numbers, other.numbers), ..self }
-    }
-
+    fn min(self, other: Self) -> Self;
     /// `yes` in cells where this is at most `bound`, `no` elsewhere.
-    #[inline(always)]
     #[must_use]
-    pub fn if_at_most(self, bound: Self, yes: Self, no: Self) -> Self {
-        let mask = self.simd.less_than_or_equal_f64s(self.numbers, bound.numbers);
-        Self { numbers: self.simd.select_f64s(mask, yes.numbers, no.numbers), ..self }
-    }
-
+    fn if_at_most(self, bound: Self, yes: Self, no: Self) -> Self;
     /// The same number in every cell.
-    #[inline(always)]
     #[must_use]
-    pub fn all(self, number: f64) -> Self {
-        Self { numbers: self.simd.splat_f64s(number), ..self }
-    }
+    fn all(self, number: f64) -> Self;
 }
 
-macro_rules! operator {
-    ($operator:ident, $method:ident, $instruction:ident) => {
-        impl<S: Simd> $operator for Reals<S> {
+/// A number of a field: of double or of single precision.
+pub trait Number: Copy + Default + Send + Sync + 'static {
+    /// Several of them, as they lie in memory.
+    type Group<S: Simd>: Copy;
+    /// Several of them, as rules see them.
+    type Register<S: Simd>: Reals;
+
+    /// Groups of a field, and what is left.
+    fn groups<S: Simd>(field: &[Self]) -> (&[Self::Group<S>], &[Self]);
+    /// Groups of a field, and what is left.
+    fn groups_mut<S: Simd>(field: &mut [Self]) -> (&mut [Self::Group<S>], &mut [Self]);
+    /// A register of a group.
+    fn load<S: Simd>(simd: S, group: Self::Group<S>) -> Self::Register<S>;
+    /// The group of a register.
+    fn store<S: Simd>(register: Self::Register<S>) -> Self::Group<S>;
+    /// The sum of a register.
+    fn sum<S: Simd>(register: Self::Register<S>) -> f64;
+    /// A register of one number.
+    fn load_one(self) -> Self::Register<Scalar>;
+    /// The number of a register of one.
+    fn store_one(register: Self::Register<Scalar>) -> Self;
+
+    /// `factor * value`.
+    fn of<A: Number>(value: A, factor: f64) -> Self;
+    /// `factor` times this.
+    fn to_single(self, factor: f64) -> f32;
+    /// `factor` times this.
+    fn to_double(self, factor: f64) -> f64;
+}
+
+macro_rules! numbers {
+    ($number:ident, $to:ident, $register:ident, $group:ident, $groups:ident, $groups_mut:ident, $splat:ident, $sum:ident;
+     $($operator:ident $operate:ident $instruction:ident),*; $($unary:ident $root:ident),*; $($binary:ident $choose:ident),*;
+     $at_most:ident, $select:ident) => {
+        /// Numbers of one precision in a register.
+        #[derive(Debug, Clone, Copy)]
+        pub struct $register<S: Simd> {
+            simd: S,
+            numbers: S::$group,
+        }
+
+        $(impl<S: Simd> $operator for $register<S> {
             type Output = Self;
             #[inline(always)]
-            fn $method(self, other: Self) -> Self {
+            fn $operate(self, other: Self) -> Self {
                 Self { numbers: self.simd.$instruction(self.numbers, other.numbers), ..self }
             }
         }
 
-        impl<S: Simd> $operator<f64> for Reals<S> {
+        impl<S: Simd> $operator<f64> for $register<S> {
             type Output = Self;
             #[inline(always)]
-            fn $method(self, number: f64) -> Self {
-                Self { numbers: self.simd.$instruction(self.numbers, self.simd.splat_f64s(number)), ..self }
+            fn $operate(self, number: f64) -> Self {
+                self.$operate(self.all(number))
+            }
+        })*
+
+        impl<S: Simd> Reals for $register<S> {
+            $(#[inline(always)]
+            fn $unary(self) -> Self {
+                Self { numbers: self.simd.$root(self.numbers), ..self }
+            })*
+            $(#[inline(always)]
+            fn $binary(self, other: Self) -> Self {
+                Self { numbers: self.simd.$choose(self.numbers, other.numbers), ..self }
+            })*
+            #[inline(always)]
+            fn if_at_most(self, bound: Self, yes: Self, no: Self) -> Self {
+                let mask = self.simd.$at_most(self.numbers, bound.numbers);
+                Self { numbers: self.simd.$select(mask, yes.numbers, no.numbers), ..self }
+            }
+            #[inline(always)]
+            fn all(self, number: f64) -> Self {
+                Self { numbers: self.simd.$splat($number::of(number, 1.0)), ..self }
+            }
+        }
+
+        impl Number for $number {
+            type Group<S: Simd> = S::$group;
+            type Register<S: Simd> = $register<S>;
+
+            #[inline(always)]
+            fn groups<S: Simd>(field: &[Self]) -> (&[S::$group], &[Self]) {
+                S::$groups(field)
+            }
+            #[inline(always)]
+            fn groups_mut<S: Simd>(field: &mut [Self]) -> (&mut [S::$group], &mut [Self]) {
+                S::$groups_mut(field)
+            }
+            #[inline(always)]
+            fn load<S: Simd>(simd: S, numbers: S::$group) -> $register<S> {
+                $register { simd, numbers }
+            }
+            #[inline(always)]
+            fn store<S: Simd>(register: $register<S>) -> S::$group {
+                register.numbers
+            }
+            #[inline(always)]
+            fn sum<S: Simd>($register { simd, numbers }: $register<S>) -> f64 {
+                simd.$sum(numbers).into()
+            }
+            #[inline(always)]
+            fn load_one(self) -> $register<Scalar> {
+                $register { simd: Scalar, numbers: self }
+            }
+            #[inline(always)]
+            fn store_one(register: $register<Scalar>) -> Self {
+                register.numbers
+            }
+
+            #[inline(always)]
+            fn of<A: Number>(value: A, factor: f64) -> Self {
+                value.$to(factor)
+            }
+            #[inline(always)]
+            fn to_single(self, factor: f64) -> f32 {
+                (factor as Self * self) as f32
+            }
+            #[inline(always)]
+            fn to_double(self, factor: f64) -> f64 {
+                factor * f64::from(self)
             }
         }
     };
 }
 
-operator!(Add, add, add_f64s);
-operator!(Sub, sub, sub_f64s);
-operator!(Mul, mul, mul_f64s);
-operator!(Div, div, div_f64s);
+#[expect(clippy::cast_possible_truncation, clippy::cast_lossless, reason = "this is what precisions are")]
+mod registers {
+    use super::{Add, Div, Mul, Number, Reals, Scalar, Simd, Sub};
+
+    numbers!(f64, to_double, Double, f64s, as_simd_f64s, as_mut_simd_f64s, splat_f64s, reduce_sum_f64s;
+        Add add add_f64s, Sub sub sub_f64s, Mul mul mul_f64s, Div div div_f64s; sqrt sqrt_f64s;
+        max max_f64s, min min_f64s; less_than_or_equal_f64s, select_f64s);
+    numbers!(f32, to_single, Single, f32s, as_simd_f32s, as_mut_simd_f32s, splat_f32s, reduce_sum_f32s;
+        Add add add_f32s, Sub sub sub_f32s, Mul mul mul_f32s, Div div div_f32s; sqrt sqrt_f32s;
+        max max_f32s, min min_f32s; less_than_or_equal_f32s, select_f32s);
+}
 
 /// What happens in a cell: reads `READ` fields, changes `WRITE` fields, contributes to `SUMS` sums over all cells.
 pub trait CellRule<const READ: usize, const WRITE: usize, const SUMS: usize> {
     /// The rule. A sum must not be touched by a number that is not finite, in any cell.
-    fn at<S: Simd>(&self, read: [Reals<S>; READ], write: &mut [Reals<S>; WRITE]) -> [Reals<S>; SUMS];
+    fn at<R: Reals>(&self, read: [R; READ], write: &mut [R; WRITE]) -> [R; SUMS];
+}
+
+/// `to = factor * from`, in the precision of `to`.
+pub fn convert<A: Number, B: Number>(from: &[A], factor: f64, to: &mut [B]) {
+    Arch::new().dispatch(
+        #[inline(always)]
+        || {
+            for (to, from) in to.iter_mut().zip(from) {
+                *to = B::of(*from, factor);
+            }
+        },
+    );
 }
 
 /// Applies a rule to every cell; returns its sums, taken in an order that is fixed on a machine.
 ///
 /// # Panics
 /// When the fields differ in length.
-pub fn each_cell<R, const READ: usize, const WRITE: usize, const SUMS: usize>(
+pub fn each_cell<N, R, const READ: usize, const WRITE: usize, const SUMS: usize>(
     rule: &R,
-    read: [&[f64]; READ],
-    write: [&mut [f64]; WRITE],
+    read: [&[N]; READ],
+    write: [&mut [N]; WRITE],
 ) -> [f64; SUMS]
 where
+    N: Number,
     R: CellRule<READ, WRITE, SUMS>,
 {
-    Arch::new().dispatch(Pass::<R, READ, WRITE, SUMS> { rule, read, write })
+    Arch::new().dispatch(Pass::<N, R, READ, WRITE, SUMS> { rule, read, write })
 }
 
-struct Pass<'a, R, const READ: usize, const WRITE: usize, const SUMS: usize> {
+struct Pass<'a, N, R, const READ: usize, const WRITE: usize, const SUMS: usize> {
     rule: &'a R,
-    read: [&'a [f64]; READ],
-    write: [&'a mut [f64]; WRITE],
+    read: [&'a [N]; READ],
+    write: [&'a mut [N]; WRITE],
 }
 
-impl<R, const READ: usize, const WRITE: usize, const SUMS: usize> WithSimd for Pass<'_, R, READ, WRITE, SUMS>
+impl<N, R, const READ: usize, const WRITE: usize, const SUMS: usize> WithSimd
+    for Pass<'_, N, R, READ, WRITE, SUMS>
 where
+    N: Number,
     R: CellRule<READ, WRITE, SUMS>,
 {
     type Output = [f64; SUMS];
@@ -112,41 +227,53 @@ where
         let Self { rule, read, write } = self;
         let len = read.first().map(|field| field.len()).or(write.first().map(|field| field.len()));
         let len = len.unwrap_or(0);
-        let mut whole: [&[S::f64s]; READ] = [&[]; READ];
-        let mut rest: [&[f64]; READ] = [&[]; READ];
-        for field in 0..READ {
-            assert_eq!(read[field].len(), len, "fields of one length");
-            (whole[field], rest[field]) = S::as_simd_f64s(read[field]);
+        let width = size_of::<N::Group<S>>() / size_of::<N>();
+        let count = len / width;
+        let (mut groups, mut rest) = ([&[] as &[N::Group<S>]; READ], [&[] as &[N]; READ]);
+        for (field, values) in read.into_iter().enumerate() {
+            assert_eq!(values.len(), len, "fields of one length");
+            let (whole, left) = N::groups::<S>(values);
+            (groups[field], rest[field]) = (&whole[..count], left);
         }
         let written = write.map(|field| {
             assert_eq!(field.len(), len, "fields of one length");
-            S::as_mut_simd_f64s(field)
+            let (whole, left) = N::groups_mut::<S>(field);
+            (&mut whole[..count], left)
         });
-        let mut sums = [Reals { simd, numbers: simd.splat_f64s(0.0) }; SUMS];
-        for index in 0..len / (size_of::<S::f64s>() / size_of::<f64>()) {
-            let read: [_; READ] = std::array::from_fn(|field| Reals { simd, numbers: whole[field][index] });
-            let mut changed: [_; WRITE] =
-                std::array::from_fn(|field| Reals { simd, numbers: written[field].0[index] });
-            let terms = rule.at(read, &mut changed);
-            for field in 0..WRITE {
-                written[field].0[index] = changed[field].numbers;
+        let mut totals = [0.0; SUMS];
+        let mut first = 0;
+        while first < count {
+            let end = count.min(first + STRIDE);
+            let mut sums: Option<[N::Register<S>; SUMS]> = None;
+            for index in first..end {
+                let read: [_; READ] = std::array::from_fn(|field| N::load(simd, groups[field][index]));
+                let mut changed: [_; WRITE] =
+                    std::array::from_fn(|field| N::load(simd, written[field].0[index]));
+                let terms = rule.at(read, &mut changed);
+                for field in 0..WRITE {
+                    written[field].0[index] = N::store(changed[field]);
+                }
+                sums = Some(match sums {
+                    Some(sums) => std::array::from_fn(|sum| sums[sum] + terms[sum]),
+                    None => terms,
+                });
             }
-            for sum in 0..SUMS {
-                sums[sum] = sums[sum] + terms[sum];
+            if let Some(sums) = sums {
+                for (total, sum) in totals.iter_mut().zip(sums) {
+                    *total += N::sum(sum);
+                }
             }
+            first = end;
         }
-        let mut totals = sums.map(|sum| simd.reduce_sum_f64s(sum.numbers));
-        for index in 0..len % (size_of::<S::f64s>() / size_of::<f64>()) {
-            let simd = Scalar;
-            let read: [_; READ] = std::array::from_fn(|field| Reals { simd, numbers: rest[field][index] });
-            let mut changed: [_; WRITE] =
-                std::array::from_fn(|field| Reals { simd, numbers: written[field].1[index] });
+        for index in 0..len % width {
+            let read: [_; READ] = std::array::from_fn(|field| rest[field][index].load_one());
+            let mut changed: [_; WRITE] = std::array::from_fn(|field| written[field].1[index].load_one());
             let terms = rule.at(read, &mut changed);
             for field in 0..WRITE {
-                written[field].1[index] = changed[field].numbers;
+                written[field].1[index] = N::store_one(changed[field]);
             }
-            for sum in 0..SUMS {
-                totals[sum] += terms[sum].numbers;
+            for (total, term) in totals.iter_mut().zip(terms) {
+                *total += N::store_one(term).to_double(1.0);
             }
         }
         totals

@@ -1,13 +1,13 @@
 //! Fields on the cells of a box as flat rows, index `i * ny + j`: sums and inner products in a fixed order.
 
-use pulp::Simd;
+use pulp::Arch;
 use serde::{Deserialize, Serialize};
 
-use super::each_cell::{CellRule, Reals, each_cell};
+use super::each_cell::{CellRule, Number, Reals, each_cell};
 use super::stored;
 
 /// Sum of a field.
-pub fn sum(a: &[f64]) -> f64 {
+pub fn sum<N: Number>(a: &[N]) -> f64 {
     let [total] = each_cell(&Sum, [a], []);
     total
 }
@@ -16,13 +16,13 @@ struct Sum;
 
 impl CellRule<1, 0, 1> for Sum {
     #[inline(always)]
-    fn at<S: Simd>(&self, [a]: [Reals<S>; 1], _: &mut [Reals<S>; 0]) -> [Reals<S>; 1] {
+    fn at<R: Reals>(&self, [a]: [R; 1], _: &mut [R; 0]) -> [R; 1] {
         [a]
     }
 }
 
 /// Inner product of two fields.
-pub fn dot(a: &[f64], b: &[f64]) -> f64 {
+pub fn dot<N: Number>(a: &[N], b: &[N]) -> f64 {
     let [total] = each_cell(&Dot, [a, b], []);
     total
 }
@@ -31,33 +31,45 @@ struct Dot;
 
 impl CellRule<2, 0, 1> for Dot {
     #[inline(always)]
-    fn at<S: Simd>(&self, [a, b]: [Reals<S>; 2], _: &mut [Reals<S>; 0]) -> [Reals<S>; 1] {
+    fn at<R: Reals>(&self, [a, b]: [R; 2], _: &mut [R; 0]) -> [R; 1] {
         [a * b]
     }
 }
 
 /// Euclidean norm of a field.
-pub fn norm(a: &[f64]) -> f64 {
+pub fn norm<N: Number>(a: &[N]) -> f64 {
     dot(a, a).sqrt()
 }
 
 /// `y += factor x`.
-pub fn add_scaled(y: &mut [f64], factor: f64, x: &[f64]) {
+pub fn add_scaled<N: Number>(y: &mut [N], factor: f64, x: &[N]) {
     each_cell(&AddScaled(factor), [x], [y]);
+}
+
+/// `y += factor x`, with `x` of any precision.
+pub fn add_converted<N: Number>(y: &mut [f64], factor: f64, x: &[N]) {
+    Arch::new().dispatch(
+        #[inline(always)]
+        || {
+            for (y, x) in y.iter_mut().zip(x) {
+                *y += x.to_double(factor);
+            }
+        },
+    );
 }
 
 struct AddScaled(f64);
 
 impl CellRule<1, 1, 0> for AddScaled {
     #[inline(always)]
-    fn at<S: Simd>(&self, [x]: [Reals<S>; 1], [y]: &mut [Reals<S>; 1]) -> [Reals<S>; 0] {
+    fn at<R: Reals>(&self, [x]: [R; 1], [y]: &mut [R; 1]) -> [R; 0] {
         *y = *y + x * self.0;
         []
     }
 }
 
 /// `y = x + factor y`.
-pub fn scale_and_add(y: &mut [f64], factor: f64, x: &[f64]) {
+pub fn scale_and_add<N: Number>(y: &mut [N], factor: f64, x: &[N]) {
     each_cell(&ScaleAndAdd(factor), [x], [y]);
 }
 
@@ -65,7 +77,7 @@ struct ScaleAndAdd(f64);
 
 impl CellRule<1, 1, 0> for ScaleAndAdd {
     #[inline(always)]
-    fn at<S: Simd>(&self, [x]: [Reals<S>; 1], [y]: &mut [Reals<S>; 1]) -> [Reals<S>; 0] {
+    fn at<R: Reals>(&self, [x]: [R; 1], [y]: &mut [R; 1]) -> [R; 0] {
         *y = x + *y * self.0;
         []
     }

@@ -69,12 +69,7 @@ pub fn solve_alternating(
             ..*settings
         };
         // Pressure, over the surface that the shear has displaced.
-        compliance.full(
-            &unloaded.pressure,
-            &tractions.shear,
-            &mut from_shear.normal,
-            &mut from_shear.tangential,
-        );
+        compliance.full([&unloaded.pressure, &tractions.shear.x, &tractions.shear.y], from_shear.parts_mut());
         let mut undeformed = task.undeformed.to_vec();
         add_scaled(&mut undeformed, 1.0, &from_shear.normal);
         let normal_task = NormalTask { undeformed: &undeformed, total: task.total, approach: task.approach };
@@ -89,12 +84,8 @@ pub fn solve_alternating(
             watch,
         )?;
         // Shear, under that pressure and its tangential displacement.
-        compliance.full(
-            &tractions.pressure,
-            &unloaded.shear,
-            &mut from_pressure.normal,
-            &mut from_pressure.tangential,
-        );
+        compliance
+            .full([&tractions.pressure, &unloaded.shear.x, &unloaded.shear.y], from_pressure.parts_mut());
         let contact = ContactSet::of(cells, |cell| tractions.pressure[cell] > 0.0);
         let modes = task.places.modes(&contact);
         let mut before = contact.packed_tangential(task.before);
@@ -107,7 +98,7 @@ pub fn solve_alternating(
         let zones = Zones::classify(&shear, &at_rest, &bound, |_| false);
         Retraction::default().shear(&mut shear, &zones, &tangential_task);
         contact.scatter_tangential(&shear, &mut tractions.shear);
-        compliance.tangential(&tractions.shear, &mut from_shear.tangential);
+        compliance.tangential(tractions.shear.parts(), from_shear.tangential.parts_mut());
         solve_shear(
             &tangential_task,
             &mut shear,
@@ -118,12 +109,7 @@ pub fn solve_alternating(
             watch,
         )?;
         contact.scatter_tangential(&shear, &mut tractions.shear);
-        compliance.full(
-            &tractions.pressure,
-            &tractions.shear,
-            &mut displacements.normal,
-            &mut displacements.tangential,
-        );
+        compliance.full(tractions.parts(), displacements.parts_mut());
     }
     Err(SolveError::NotConverged { reached: best, iterations: settings.most_outer_iterations })
 }

@@ -1,7 +1,5 @@
 //! The judge of the tangential side: how well shear satisfies Coulomb's law. Finds shift and twist on the way.
 
-use pulp::Simd;
-
 use super::contact_set::ContactSet;
 use super::rigid::RigidModes;
 use crate::model::TangentialField;
@@ -196,11 +194,11 @@ struct Pull {
 
 impl CellRule<9, 4, 3> for Pull {
     #[inline(always)]
-    fn at<S: Simd>(
+    fn at<R: Reals>(
         &self,
-        [ux, uy, before_x, before_y, qx, qy, around_x, around_y, bound]: [Reals<S>; 9],
-        [sx, sy, vx, vy]: &mut [Reals<S>; 4],
-    ) -> [Reals<S>; 3] {
+        [ux, uy, before_x, before_y, qx, qy, around_x, around_y, bound]: [R; 9],
+        [sx, sy, vx, vy]: &mut [R; 4],
+    ) -> [R; 3] {
         let [shift_x, shift_y, twist] = self.motion;
         *sx = ux - before_x - (around_x * twist + shift_x);
         *sy = uy - before_y - (around_y * twist + shift_y);
@@ -218,11 +216,7 @@ struct Off {
 
 impl CellRule<5, 2, 1> for Off {
     #[inline(always)]
-    fn at<S: Simd>(
-        &self,
-        [qx, qy, around_x, around_y, bound]: [Reals<S>; 5],
-        [sx, sy]: &mut [Reals<S>; 2],
-    ) -> [Reals<S>; 1] {
+    fn at<R: Reals>(&self, [qx, qy, around_x, around_y, bound]: [R; 5], [sx, sy]: &mut [R; 2]) -> [R; 1] {
         let [shift_x, shift_y, twist] = self.motion;
         *sx = *sx - (around_x * twist + shift_x);
         *sy = *sy - (around_y * twist + shift_y);
@@ -237,7 +231,7 @@ struct Straight([f64; 2]);
 
 impl CellRule<3, 0, 6> for Straight {
     #[inline(always)]
-    fn at<S: Simd>(&self, [x, y, bound]: [Reals<S>; 3], _: &mut [Reals<S>; 0]) -> [Reals<S>; 6] {
+    fn at<R: Reals>(&self, [x, y, bound]: [R; 3], _: &mut [R; 0]) -> [R; 6] {
         let on = OnDisc::new([x + self.0[0], y + self.0[1]], bound);
         let [along_x, along_y] = on.along;
         [
@@ -256,11 +250,7 @@ struct Turning([f64; 3]);
 
 impl CellRule<5, 0, 10> for Turning {
     #[inline(always)]
-    fn at<S: Simd>(
-        &self,
-        [x, y, bound, around_x, around_y]: [Reals<S>; 5],
-        _: &mut [Reals<S>; 0],
-    ) -> [Reals<S>; 10] {
+    fn at<R: Reals>(&self, [x, y, bound, around_x, around_y]: [R; 5], _: &mut [R; 0]) -> [R; 10] {
         let [shift_x, shift_y, twist] = self.0;
         let on = OnDisc::new([x + (around_x * twist + shift_x), y + (around_y * twist + shift_y)], bound);
         let [along_x, along_y] = on.along;
@@ -281,20 +271,20 @@ impl CellRule<5, 0, 10> for Turning {
 }
 
 /// A vector brought to its friction disc.
-struct OnDisc<S: Simd> {
+struct OnDisc<R> {
     /// Half the squared length inside the disc, going on linearly outside.
-    value: Reals<S>,
+    value: R,
     /// The nearest point of the disc.
-    image: [Reals<S>; 2],
+    image: [R; 2],
     /// Its share of the vector.
-    share: Reals<S>,
+    share: R,
     /// Direction of a vector outside the disc; zero inside.
-    along: [Reals<S>; 2],
+    along: [R; 2],
 }
 
-impl<S: Simd> OnDisc<S> {
+impl<R: Reals> OnDisc<R> {
     #[inline(always)]
-    fn new([x, y]: [Reals<S>; 2], bound: Reals<S>) -> Self {
+    fn new([x, y]: [R; 2], bound: R) -> Self {
         let square = x * x + y * y;
         let length = square.sqrt();
         let inverse = x.all(1.0) / length;
@@ -311,7 +301,7 @@ impl<S: Simd> OnDisc<S> {
 
 /// Nearest point of the friction disc.
 #[inline(always)]
-pub fn project<S: Simd>([x, y]: [Reals<S>; 2], bound: Reals<S>) -> [Reals<S>; 2] {
+pub fn project<R: Reals>([x, y]: [R; 2], bound: R) -> [R; 2] {
     let length = (x * x + y * y).sqrt();
     let share = length.if_at_most(bound, x.all(1.0), bound / length);
     [x * share, y * share]

@@ -1,8 +1,6 @@
 //! Pressure and shear together: zones frozen from feasible tractions, a Krylov method on the frozen problem with a
 //! flexible preconditioner, resultants held exactly; then back to feasible tractions, until all laws hold.
 
-use pulp::Simd;
-
 use super::contact_set::ContactSet;
 use super::coulomb::{CoulombJudge, TangentialTask, TangentialVerdict};
 use super::frozen::{Frozen, KrylovMemory, Packed, floor};
@@ -137,12 +135,7 @@ pub fn solve_coupled(
         retraction.shear(shear, &zones, &task.tangential(&contact, bound, &before, &modes, own.tangential));
         contact.scatter(pressure, &mut tractions.pressure);
         contact.scatter_tangential(shear, &mut tractions.shear);
-        compliance.full(
-            &tractions.pressure,
-            &tractions.shear,
-            &mut displacements.normal,
-            &mut displacements.tangential,
-        );
+        compliance.full(tractions.parts(), displacements.parts_mut());
     }
     Err(SolveError::NotConverged { reached: patience.best, iterations: settings.most_outer_iterations })
 }
@@ -186,7 +179,7 @@ struct Height;
 
 impl CellRule<2, 1, 0> for Height {
     #[inline(always)]
-    fn at<S: Simd>(&self, [u, g]: [Reals<S>; 2], [height]: &mut [Reals<S>; 1]) -> [Reals<S>; 0] {
+    fn at<R: Reals>(&self, [u, g]: [R; 2], [height]: &mut [R; 1]) -> [R; 0] {
         *height = u + g;
         []
     }

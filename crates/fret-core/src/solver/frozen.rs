@@ -1,20 +1,22 @@
 //! The coupled problem on frozen zones: pressure free on the contact, shear free in stick, turning in slip and following
 //! the pressure there.
 
-use pulp::Simd;
-
+use super::carrier::unit_of;
+use super::components::Components;
 use super::contact_set::ContactSet;
 use super::elastic_answer::ElasticAnswer;
-use super::krylov::{Directions, Triple};
-use super::preconditioner::Preconditioner;
+use super::frozen_zones::{FrozenZones, RigidProjector, free_part, parts_of, products};
+use super::krylov::Directions;
+use super::preconditioner::{Levels, Preconditioner};
 use super::rigid::RigidModes;
 use super::shear::SIX_DIGITS;
+use super::starting_shear::{StartingShear, after, taken};
 use super::tractions::Tractions;
-use super::zones::{RigidProjector, Zones, free_part, products};
+use super::zones::Zones;
 use crate::compliance::SurfaceCompliance;
 use crate::model::TangentialField;
-use crate::model::each_cell::{CellRule, Reals, each_cell};
-use crate::model::field::{add_scaled, largest, sum};
+use crate::model::each_cell::{CellRule, Number, Reals, each_cell};
+use crate::model::field::{add_scaled, largest, norm, sum};
 
 /// Share of its start to which a frozen problem is solved at the most when something is cut.
 const ETA: f64 = 0.01;
@@ -46,7 +48,7 @@ impl Packed {
     }
 
     /// Adds a step.
-    pub fn add(&mut self, step: &Triple) {
+    pub fn add(&mut self, step: &Components<f64, 3>) {
         let [p, x, y] = step.parts();
         add_scaled(&mut self.pressure, 1.0, p);
         add_scaled(&mut self.shear.x, 1.0, x);
@@ -87,19 +89,61 @@ pub struct Frozen<'a> {
 /// Memory of the Krylov method.
 #[derive(Debug, Default)]
 pub struct KrylovMemory {
-    directions: Directions,
-    residual: Triple,
+    cells: usize,
+    /// Whether all digits are wanted.
+    exact: bool,
+    right: Components<f64, 3>,
     /// The step found, packed.
-    pub step: Triple,
+    pub step: Components<f64, 3>,
+    double: Krylov<f64>,
+    single: Krylov<f32>,
+}
+
+/// The same in one precision.
+#[derive(Debug, Default)]
+struct Krylov<N> {
+    zones: FrozenZones<N>,
+    start: Start<N>,
+    levels: Levels<N>,
+    directions: Directions<N>,
+    residual: Components<N, 3>,
+    step: Components<N, 3>,
     /// Tangential part of the residual, without weights.
-    unweighted: TangentialField,
-    answer: ElasticAnswer,
+    unweighted: Components<N, 2>,
+    /// Part of the newest direction that turns shear.
+    turning: Vec<N>,
+    answer: ElasticAnswer<N, 3>,
 }
 
 impl KrylovMemory {
     /// Makes ready for an increment in a box of so many cells.
     pub fn begin(&mut self, cells: usize) {
-        self.answer.begin(cells);
+        self.cells = cells;
+        self.exact = false;
+    }
+}
+
+/// Units in which a frozen problem is solved.
+#[derive(Debug, Clone, Copy)]
+pub struct Units {
+    /// Of tractions [pressure].
+    pub pressure: f64,
+    /// Of displacements over that of tractions [length/pressure].
+    pub compliance: f64,
+}
+
+impl Units {
+    /// Those of the scene.
+    pub const SCENE: Self = Self { pressure: 1.0, compliance: 1.0 };
+
+    /// Units that bring tractions up to `most` near one.
+    pub fn near_one(most: f64, compliance: f64) -> Self {
+        Self { pressure: unit_of(most), compliance }
+    }
+
+    /// Of displacements [length].
+    pub fn length(self) -> f64 {
+        self.pressure * self.compliance
     }
 }
 
@@ -114,152 +158,183 @@ impl Frozen<'_> {
         compliance: &mut dyn SurfaceCompliance,
         preconditioner: &mut Preconditioner,
     ) {
-        let len = self.contact.len();
-        let rigid = RigidProjector::new(self.modes, self.zones);
-        let equations = RigidProjector::of_equations(self.modes, self.zones);
-        preconditioner.freeze(self.zones);
-        memory.directions.restart();
-        memory.answer.restart();
-        memory.answer.exact |= self.exact;
-        memory.step.clear(len);
-        memory.residual.clear(len);
-        // Tangential equations are weighted so that shear counts in units of the pressure that carries it.
-        let weight = 1.0 / largest(&self.packed.friction).max(f64::MIN_POSITIVE);
-        let [normal, x, y] = memory.residual.parts_mut();
-        for (to, factor, from) in
-            [(&mut *normal, 1.0, gap), (&mut *x, weight, &s.x[..]), (&mut *y, weight, &s.y[..])]
-        {
-            add_scaled(to, -factor, from);
+        let KrylovMemory { cells, exact, right, step, double, single } = memory;
+        *exact |= self.exact;
+        let weight = self.find_right(gap, s, right);
+        if !*exact && let Some(mut operator) = compliance.full_single() {
+            let most = largest(&self.packed.pressure).max(norm(gap) / operator.unit());
+            let units = Units::near_one(most, operator.unit());
+            single.take(self, right, units, *cells);
+            self.solve_in(weight, units, single, |q, u| operator.apply(&q, &mut { u }), preconditioner);
+            step.convert(single.step.parts(), units.pressure);
+        } else {
+            *exact = true;
+            double.take(self, right, Units::SCENE, *cells);
+            self.solve_in(weight, Units::SCENE, double, |q, u| compliance.full(q, u), preconditioner);
+            step.convert(double.step.parts(), 1.0);
         }
+    }
+
+    /// The right side of the equations, with the weight of the tangential ones: shear counts in units of the pressure that carries it.
+    /// The pull along slip is larger by far than what turns it: with six digits little of this would be left.
+    fn find_right(&self, gap: &[f64], s: &TangentialField, right: &mut Components<f64, 3>) -> f64 {
+        let weight = 1.0 / largest(&self.packed.friction).max(f64::MIN_POSITIVE);
+        right.convert([gap, &s.x, &s.y], -1.0);
+        let [normal, x, y] = right.parts_mut();
         self.remove_mean(normal);
-        equations.keep_free([x, y]);
-        let start = memory.residual.norm();
+        each_cell(&Times(weight), [], [&mut *x, &mut *y]);
+        let parts = parts_of(self.zones, self.modes);
+        RigidProjector::weighted(self.modes, parts, &self.zones.weighted_slip).keep_free([x, y]);
+        weight
+    }
+
+    /// The same in one precision and in its units.
+    fn solve_in<N: Number>(
+        &self,
+        weight: f64,
+        units: Units,
+        memory: &mut Krylov<N>,
+        mut apply: impl FnMut([&[N]; 3], [&mut [N]; 3]),
+        preconditioner: &mut Preconditioner,
+    ) {
+        let Krylov { zones, start, levels, directions, residual, step, unweighted, turning, answer } = memory;
+        let problem = Problem {
+            frozen: self,
+            zones,
+            start,
+            weight,
+            rigid: RigidProjector::new(self.modes, zones.parts()),
+            equations: RigidProjector::weighted(self.modes, zones.parts(), &zones.weighted_slip),
+        };
+        preconditioner.freeze(zones, units.compliance, levels);
+        directions.restart();
+        step.clear(self.contact.len());
+        let first = residual.norm();
+        let floor = self.floor / units.length();
         let mut first_size = 0.0;
         for depth in 0..self.most {
-            let KrylovMemory { directions, residual, step, unweighted, answer } = memory;
-            let direction = directions.open(len);
-            let [_, x, y] = residual.parts();
-            self.unweigh([x, y], weight, &rigid, unweighted);
-            self.precondition(residual, unweighted, &rigid, preconditioner, &mut direction.along);
+            let direction = directions.open(self.contact.len());
+            problem.unweigh(residual, unweighted);
+            problem.precondition(residual, unweighted, preconditioner, levels, &mut direction.along, turning);
             if depth == 0 {
-                first_size = self.size_of(&direction.along);
+                first_size = problem.size_of(&direction.along);
             }
-            answer.full(self.contact, &direction.along, &mut direction.image, compliance);
-            self.make_image(&direction.along, weight, &equations, &mut direction.image);
+            answer.find(self.contact, &direction.along, &mut direction.image, &mut apply);
+            problem.make_image(turning, &mut direction.image);
             let Some(left_over) = directions.descend(residual, step) else { break };
-            let cut = self.cut_of(step);
-            let left = first_size * left_over / start;
-            if left_over < self.floor
-                || !answer.exact && left_over < SIX_DIGITS * start
-                || (cut > 0.0 && (cut > self.theta * left || left_over < ETA * start))
+            let cut = problem.cut_of(step);
+            let left = first_size * left_over / first;
+            let six_digits = size_of::<N>() < size_of::<f64>() && left_over < SIX_DIGITS * first;
+            if left_over < floor
+                || six_digits
+                || (cut > 0.0 && (cut > self.theta * left || left_over < ETA * first))
             {
                 break;
             }
         }
     }
 
-    fn remove_mean(&self, field: &mut [f64]) {
+    fn remove_mean<N: Number>(&self, field: &mut [N]) {
         if self.holds_force {
             let mean = sum(field) / field.len().max(1) as f64;
             each_cell(&Less(mean), [], [field]);
         }
     }
+}
 
+impl<N: Number> Krylov<N> {
+    fn take(&mut self, frozen: &Frozen<'_>, right: &Components<f64, 3>, units: Units, cells: usize) {
+        self.residual.convert(right.parts(), 1.0 / units.length());
+        self.zones.take(frozen.zones, frozen.modes, units.compliance);
+        let Packed { pressure, shear, friction, bound } = frozen.packed;
+        taken(pressure, 1.0 / units.pressure, &mut self.start.pressure);
+        taken(friction, 1.0, &mut self.start.friction);
+        self.start.shear.take(shear, bound, units.pressure);
+        self.answer.restart(cells);
+    }
+}
+
+/// Tractions that a frozen problem starts from.
+#[derive(Debug, Default)]
+struct Start<N> {
+    pressure: Vec<N>,
+    friction: Vec<N>,
+    shear: StartingShear<N>,
+}
+
+/// A frozen problem in one precision.
+struct Problem<'a, N> {
+    frozen: &'a Frozen<'a>,
+    zones: &'a FrozenZones<N>,
+    start: &'a Start<N>,
+    /// Weight of the tangential equations.
+    weight: f64,
+    rigid: RigidProjector<'a, N>,
+    equations: RigidProjector<'a, N>,
+}
+
+impl<N: Number> Problem<'_, N> {
     /// The tangential displacements of a weighted residual, without what rigid motions can do.
-    fn unweigh(
-        &self,
-        [x, y]: [&[f64]; 2],
-        weight: f64,
-        rigid: &RigidProjector<'_>,
-        displacements: &mut TangentialField,
-    ) {
-        for part in displacements.each_mut() {
-            part.resize(self.contact.len(), 0.0);
-        }
-        let zones = self.zones;
-        let rotation = &self.modes.rotation;
-        let read = [&zones.stick[..], &zones.slip, &zones.weighted_slip, &rotation.x, &rotation.y, x, y];
-        let rule = Unweigh { unweight: 1.0 / weight };
+    fn unweigh(&self, residual: &Components<N, 3>, displacements: &mut Components<N, 2>) {
+        displacements.reset(self.zones.len());
+        let [stick, slip, _, _, around_x, around_y] = self.zones.parts();
+        let [_, x, y] = residual.parts();
+        let read = [stick, slip, &self.zones.weighted_slip, around_x, around_y, x, y];
+        let rule = Unweigh { unweight: 1.0 / self.weight };
         let products = each_cell(&rule, read, displacements.parts_mut());
-        rigid.remove_resultant(displacements.parts_mut(), products);
+        self.rigid.remove_resultant(displacements.parts_mut(), products);
     }
 
     /// Tractions that would remove the normal part of a residual and the tangential `displacements`: pressure and shear each by
-    /// its own inverse, shear following the pressure in slip, resultants kept.
+    /// its own inverse, shear following the pressure in slip, resultants kept. `turning` is the part of the shear of slipping cells
+    /// that turns it, before the other part makes it lose digits.
     fn precondition(
         &self,
-        residual: &Triple,
-        displacements: &TangentialField,
-        rigid: &RigidProjector<'_>,
+        residual: &Components<N, 3>,
+        displacements: &Components<N, 2>,
         preconditioner: &mut Preconditioner,
-        along: &mut Triple,
+        levels: &mut Levels<N>,
+        along: &mut Components<N, 3>,
+        turning: &mut Vec<N>,
     ) {
+        let contact = self.frozen.contact;
         let [normal, _, _] = residual.parts();
         let [p, qx, qy] = along.parts_mut();
-        preconditioner.pressure(normal, self.contact, p);
-        self.remove_mean(p);
-        preconditioner.shear(displacements.parts(), self.contact, [qx, qy]);
-        let zones = self.zones;
-        let rotation = &self.modes.rotation;
-        let read = [
-            &zones.stick[..],
-            &zones.slip,
-            &zones.direction.x,
-            &zones.direction.y,
-            &rotation.x,
-            &rotation.y,
-            &self.packed.friction,
-            p,
-        ];
+        preconditioner.pressure(normal, contact, p, levels);
+        self.frozen.remove_mean(p);
+        preconditioner.shear(displacements.parts(), contact, [qx, qy], levels);
+        let [stick, slip, along_x, along_y, around_x, around_y] = self.zones.parts();
+        let read = [stick, slip, along_x, along_y, around_x, around_y, &self.start.friction, p];
         let resultant = each_cell(&FreeAndFollow, read, [&mut *qx, &mut *qy]);
-        let amounts = rigid.amounts(resultant);
-        each_cell(&Follow(amounts), read, [qx, qy]);
+        let amounts = self.rigid.amounts(resultant);
+        turning.resize(qx.len(), N::default());
+        each_cell(&Follow(amounts), read, [qx, qy, turning]);
     }
 
-    /// Makes of the displacements of tractions `along` the left side of the frozen equations.
-    fn make_image(&self, along: &Triple, weight: f64, rigid: &RigidProjector<'_>, image: &mut Triple) {
+    /// Makes of the displacements of tractions the left side of the frozen equations.
+    fn make_image(&self, turning: &[N], image: &mut Components<N, 3>) {
         let [normal, x, y] = image.parts_mut();
-        self.remove_mean(normal);
-        let [_, qx, qy] = along.parts();
-        let zones = self.zones;
-        let rotation = &self.modes.rotation;
-        let read = [
-            &zones.stick[..],
-            &zones.weighted_slip,
-            &zones.direction.x,
-            &zones.direction.y,
-            &rotation.x,
-            &rotation.y,
-            &zones.stiffness,
-            qx,
-            qy,
-        ];
-        let resultant = each_cell(&FreeAndStiff { weight }, read, [&mut *x, &mut *y]);
-        rigid.remove_resultant([x, y], resultant);
+        self.frozen.remove_mean(normal);
+        let FrozenZones { weighted_slip, stiffness, .. } = self.zones;
+        let [stick, _, along_x, along_y, around_x, around_y] = self.zones.parts();
+        let read = [stick, weighted_slip, along_x, along_y, around_x, around_y, stiffness, turning];
+        let resultant = each_cell(&FreeAndStiff { weight: self.weight }, read, [&mut *x, &mut *y]);
+        self.equations.remove_resultant([x, y], resultant);
     }
 
     /// Distance of tractions + step from feasible ones, in units of pressure.
-    fn cut_of(&self, step: &Triple) -> f64 {
+    fn cut_of(&self, step: &Components<N, 3>) -> f64 {
         let [p, qx, qy] = step.parts();
-        let packed = self.packed;
-        let read = [
-            &packed.pressure[..],
-            &packed.shear.x,
-            &packed.shear.y,
-            &packed.friction,
-            &self.zones.stick,
-            p,
-            qx,
-            qy,
-        ];
+        let Start { pressure, friction, shear: StartingShear { shear: [x, y], size, excess } } = self.start;
+        let read = [pressure, x, y, size, excess, friction, &self.zones.stick, p, qx, qy];
         let [square] = each_cell(&Cut, read, []);
         square.sqrt()
     }
 
     /// Size of tractions in units of pressure.
-    fn size_of(&self, tractions: &Triple) -> f64 {
+    fn size_of(&self, tractions: &Components<N, 3>) -> f64 {
         let [p, qx, qy] = tractions.parts();
-        let [square] = each_cell(&Size, [&self.packed.friction, p, qx, qy], []);
+        let [square] = each_cell(&Size, [&self.start.friction, p, qx, qy], []);
         square.sqrt()
     }
 }
@@ -269,11 +344,23 @@ pub fn floor(tolerance: f64, pressure: &[f64], own: f64) -> f64 {
     0.02 * tolerance * largest(pressure) * own
 }
 
+/// Times a number.
+struct Times(f64);
+
+impl CellRule<0, 2, 0> for Times {
+    #[inline(always)]
+    fn at<R: Reals>(&self, _: [R; 0], [x, y]: &mut [R; 2]) -> [R; 0] {
+        *x = *x * self.0;
+        *y = *y * self.0;
+        []
+    }
+}
+
 struct Less(f64);
 
 impl CellRule<0, 1, 0> for Less {
     #[inline(always)]
-    fn at<S: Simd>(&self, _: [Reals<S>; 0], [value]: &mut [Reals<S>; 1]) -> [Reals<S>; 0] {
+    fn at<R: Reals>(&self, _: [R; 0], [value]: &mut [R; 1]) -> [R; 0] {
         *value = *value - self.0;
         []
     }
@@ -286,11 +373,11 @@ struct Unweigh {
 
 impl CellRule<7, 2, 3> for Unweigh {
     #[inline(always)]
-    fn at<S: Simd>(
+    fn at<R: Reals>(
         &self,
-        [stick, slip, weighted, around_x, around_y, x, y]: [Reals<S>; 7],
-        [to_x, to_y]: &mut [Reals<S>; 2],
-    ) -> [Reals<S>; 3] {
+        [stick, slip, weighted, around_x, around_y, x, y]: [R; 7],
+        [to_x, to_y]: &mut [R; 2],
+    ) -> [R; 3] {
         let zero = x.all(0.0);
         let factor = (stick + weighted.if_at_most(zero, zero, slip / weighted)) * self.unweight;
         [*to_x, *to_y] = [x * factor, y * factor];
@@ -303,11 +390,11 @@ struct FreeAndFollow;
 
 impl CellRule<8, 2, 3> for FreeAndFollow {
     #[inline(always)]
-    fn at<S: Simd>(
+    fn at<R: Reals>(
         &self,
-        [stick, slip, along_x, along_y, around_x, around_y, friction, p]: [Reals<S>; 8],
-        [x, y]: &mut [Reals<S>; 2],
-    ) -> [Reals<S>; 3] {
+        [stick, slip, along_x, along_y, around_x, around_y, friction, p]: [R; 8],
+        [x, y]: &mut [R; 2],
+    ) -> [R; 3] {
         [*x, *y] = free_part([*x, *y], stick, slip, [along_x, along_y]);
         let follow = friction * p;
         let both = [*x + follow * along_x, *y + follow * along_y];
@@ -315,22 +402,24 @@ impl CellRule<8, 2, 3> for FreeAndFollow {
     }
 }
 
-/// Takes the free part of a rigid motion off, and adds the shear that follows pressure.
+/// Takes the free part of a rigid motion off, and adds the shear that follows pressure; tells what turns before that.
 struct Follow([f64; 3]);
 
-impl CellRule<8, 2, 0> for Follow {
+impl CellRule<8, 3, 0> for Follow {
     #[inline(always)]
-    fn at<S: Simd>(
+    fn at<R: Reals>(
         &self,
-        [stick, slip, along_x, along_y, around_x, around_y, friction, p]: [Reals<S>; 8],
-        [x, y]: &mut [Reals<S>; 2],
-    ) -> [Reals<S>; 0] {
+        [stick, slip, along_x, along_y, around_x, around_y, friction, p]: [R; 8],
+        [x, y, turning]: &mut [R; 3],
+    ) -> [R; 0] {
         let [shift_x, shift_y, twist] = self.0;
         let rigid = [around_x * twist + shift_x, around_y * twist + shift_y];
         let part = free_part(rigid, stick, slip, [along_x, along_y]);
         let follow = friction * p;
-        *x = *x - part[0] + follow * along_x;
-        *y = *y - part[1] + follow * along_y;
+        let free = [*x - part[0], *y - part[1]];
+        *turning = slip * (along_x * free[1] - along_y * free[0]);
+        *x = free[0] + follow * along_x;
+        *y = free[1] + follow * along_y;
         []
     }
 }
@@ -341,14 +430,14 @@ struct FreeAndStiff {
     weight: f64,
 }
 
-impl CellRule<9, 2, 3> for FreeAndStiff {
+impl CellRule<8, 2, 3> for FreeAndStiff {
     #[inline(always)]
-    fn at<S: Simd>(
+    fn at<R: Reals>(
         &self,
-        [stick, slip, along_x, along_y, around_x, around_y, stiffness, qx, qy]: [Reals<S>; 9],
-        [x, y]: &mut [Reals<S>; 2],
-    ) -> [Reals<S>; 3] {
-        let turn = slip * (along_x * *y - along_y * *x + stiffness * (along_x * qy - along_y * qx));
+        [stick, slip, along_x, along_y, around_x, around_y, stiffness, turning]: [R; 8],
+        [x, y]: &mut [R; 2],
+    ) -> [R; 3] {
+        let turn = slip * (along_x * *y - along_y * *x + stiffness * turning);
         *x = (stick * *x - along_y * turn) * self.weight;
         *y = (stick * *y + along_x * turn) * self.weight;
         products([*x, *y], stick + slip, [around_x, around_y])
@@ -357,19 +446,18 @@ impl CellRule<9, 2, 3> for FreeAndStiff {
 
 struct Cut;
 
-impl CellRule<8, 0, 1> for Cut {
+impl CellRule<10, 0, 1> for Cut {
     #[inline(always)]
-    fn at<S: Simd>(
+    fn at<R: Reals>(
         &self,
-        [p, qx, qy, friction, stick, dp, dx, dy]: [Reals<S>; 8],
-        _: &mut [Reals<S>; 0],
-    ) -> [Reals<S>; 1] {
+        [p, qx, qy, size, excess, friction, stick, dp, dx, dy]: [R; 10],
+        _: &mut [R; 0],
+    ) -> [R; 1] {
         let (zero, one) = (p.all(0.0), p.all(1.0));
         let pressure = p + dp;
         let tension = pressure.min(zero);
-        let vector = [qx + dx, qy + dy];
-        let size = (vector[0] * vector[0] + vector[1] * vector[1]).sqrt();
-        let off = size - friction * pressure.max(zero);
+        let (moved, growth) = after([qx, qy], size, [dx, dy]);
+        let off = pressure.if_at_most(zero, moved, excess + growth - friction * dp);
         let counts = off.if_at_most(zero, one - stick, one);
         let share = friction.if_at_most(zero, zero, counts * off / friction);
         [tension * tension + share * share]
@@ -380,7 +468,7 @@ struct Size;
 
 impl CellRule<4, 0, 1> for Size {
     #[inline(always)]
-    fn at<S: Simd>(&self, [friction, p, x, y]: [Reals<S>; 4], _: &mut [Reals<S>; 0]) -> [Reals<S>; 1] {
+    fn at<R: Reals>(&self, [friction, p, x, y]: [R; 4], _: &mut [R; 0]) -> [R; 1] {
         let zero = p.all(0.0);
         let shear = friction.if_at_most(zero, zero, (x * x + y * y) / (friction * friction));
         [p * p + shear]

@@ -1,7 +1,8 @@
 //! One approximate inverse on the cells of a box, in the precision it deserves.
 
+use super::carrier::{Carrier, unit_of};
 use super::contact_set::ContactSet;
-use super::single::{Rounding, round, unit_of, widen};
+use crate::model::each_cell::{Number, convert};
 use crate::model::field::{dot, norm};
 use crate::spectral::{PeriodicProduct, SingleProduct, Workspace};
 
@@ -18,23 +19,46 @@ pub enum Inverse {
 pub struct BoxFields {
     double: Sides<f64>,
     single: Sides<f32>,
-    rounding: Rounding,
 }
 
 #[derive(Default)]
-struct Sides<T> {
-    before: [Vec<T>; 2],
-    after: [Vec<T>; 2],
+struct Sides<B> {
+    before: [Vec<B>; 2],
+    after: [Vec<B>; 2],
+    carrier: Carrier<B>,
 }
 
-impl<T: Copy + Default> Sides<T> {
+impl<B: Number> Sides<B> {
     fn clear(&mut self, cells: usize) {
         for field in &mut self.before {
             field.clear();
-            field.resize(cells, T::default());
+            field.resize(cells, B::default());
         }
         for field in &mut self.after {
-            field.resize(cells, T::default());
+            field.resize(cells, B::default());
+        }
+    }
+
+    /// Carries packed fields divided by `unit` to the box and through `product`, and `factor` times what comes out back.
+    fn through<N: Number>(
+        &mut self,
+        contact: &ContactSet,
+        right: &[&[N]],
+        left: &mut [&mut [N]],
+        [unit, factor]: [f64; 2],
+        product: impl FnOnce(&[&[B]], &mut [&mut [B]]),
+    ) {
+        let Self { before, after, carrier } = self;
+        for (right, field) in right.iter().zip(before.iter_mut()) {
+            carrier.place(contact, right, 1.0 / unit, field);
+        }
+        let count = right.len();
+        product(
+            &before.each_ref().map(Vec::as_slice)[..count],
+            &mut after.each_mut().map(Vec::as_mut_slice)[..count],
+        );
+        for (left, field) in left.iter_mut().zip(after) {
+            carrier.gather(contact, field, factor, left);
         }
     }
 }
@@ -57,40 +81,25 @@ impl Inverse {
         }
     }
 
-    /// What would remove `right`, before any restriction; one or two fields packed over a contact.
-    pub fn apply(
+    /// `factor` times what would remove `right`, before any restriction; one or two fields packed over a contact.
+    pub fn apply<N: Number>(
         &mut self,
         contact: &ContactSet,
-        right: &[&[f64]],
-        left: &mut [&mut [f64]],
+        right: &[&[N]],
+        left: &mut [&mut [N]],
+        factor: f64,
         fields: &mut BoxFields,
     ) {
-        let count = right.len();
         match self {
             Self::Double(product, workspace) => {
-                let Sides { before, after } = &mut fields.double;
-                for (right, field) in right.iter().zip(before.iter_mut()) {
-                    contact.place(right, field);
-                }
-                let before = before.each_ref().map(Vec::as_slice);
-                let mut after = after.each_mut().map(Vec::as_mut_slice);
-                product.apply(workspace, &before[..count], &mut after[..count]);
-                for (left, field) in left.iter_mut().zip(after) {
-                    contact.gather(field, left);
-                }
+                let apply = |from: &[&[f64]], to: &mut [&mut [f64]]| product.apply(workspace, from, to);
+                fields.double.through(contact, right, left, [1.0, factor], apply);
             }
             Self::Single(product) => {
-                let BoxFields { single: Sides { before, after }, rounding, .. } = fields;
                 let unit = unit_of(right.iter().map(|part| dot(part, part)).sum::<f64>().sqrt());
-                for (right, field) in right.iter().zip(before.iter_mut()) {
-                    rounding.place(contact, right, 1.0 / unit, field);
-                }
-                let before = before.each_ref().map(Vec::as_slice);
-                let mut after = after.each_mut().map(Vec::as_mut_slice);
-                product.apply(&before[..count], &mut after[..count]);
-                for (left, field) in left.iter_mut().zip(after) {
-                    rounding.gather(contact, field, unit * product.unit(), left);
-                }
+                let factors = [unit, factor * unit * product.unit()];
+                let apply = |from: &[&[f32]], to: &mut [&mut [f32]]| product.apply(from, to);
+                fields.single.through(contact, right, left, factors, apply);
             }
         }
     }
@@ -100,14 +109,14 @@ impl Inverse {
         match self {
             Self::Double(product, workspace) => product.apply(workspace, &[right], &mut [left]),
             Self::Single(product) => {
-                let Sides { before: [before, _], after: [after, _] } = &mut fields.single;
+                let Sides { before: [before, _], after: [after, _], .. } = &mut fields.single;
                 for field in [&mut *before, &mut *after] {
                     field.resize(right.len(), 0.0);
                 }
                 let unit = unit_of(norm(right));
-                round(right, 1.0 / unit, before);
+                convert(right, 1.0 / unit, before);
                 product.apply(&[before], &mut [after]);
-                widen(after, unit * product.unit(), left);
+                convert(after, unit * product.unit(), left);
             }
         }
     }

@@ -1,81 +1,34 @@
 //! Directions of a Krylov method for pressure and both shears at once: generalised conjugate residuals.
 
-use pulp::Simd;
-
-use crate::model::each_cell::{CellRule, Reals, each_cell};
-use crate::model::field::{add_scaled, dot};
-
-/// Pressure and both components of shear, or the displacements against them, packed one after the other.
-#[derive(Debug, Clone, Default)]
-pub struct Triple {
-    values: Vec<f64>,
-    len: usize,
-}
-
-impl Triple {
-    /// Makes room for `len` cells; what it held is lost.
-    pub fn reset(&mut self, len: usize) {
-        self.len = len;
-        self.values.resize(3 * len, 0.0);
-    }
-
-    /// All zero, for `len` cells.
-    pub fn clear(&mut self, len: usize) {
-        self.reset(len);
-        self.values.fill(0.0);
-    }
-
-    /// Normal part and both tangential parts.
-    pub fn parts(&self) -> [&[f64]; 3] {
-        let (normal, rest) = self.values.split_at(self.len);
-        let (x, y) = rest.split_at(self.len);
-        [normal, x, y]
-    }
-
-    /// Normal part and both tangential parts.
-    pub fn parts_mut(&mut self) -> [&mut [f64]; 3] {
-        let (normal, rest) = self.values.split_at_mut(self.len);
-        let (x, y) = rest.split_at_mut(self.len);
-        [normal, x, y]
-    }
-
-    /// Inner product.
-    pub fn dot(&self, other: &Self) -> f64 {
-        dot(&self.values, &other.values)
-    }
-
-    /// Euclidean norm.
-    pub fn norm(&self) -> f64 {
-        self.dot(self).sqrt()
-    }
-}
+use super::components::Components;
+use crate::model::each_cell::{CellRule, Number, Reals, each_cell};
 
 /// One direction with its image under the frozen equations.
 #[derive(Debug, Default)]
-pub struct Direction {
+pub struct Direction<N> {
     /// Tractions.
-    pub along: Triple,
+    pub along: Components<N, 3>,
     /// Their image, orthogonal to the images of the directions before.
-    pub image: Triple,
+    pub image: Components<N, 3>,
     /// Squared norm of the image.
     square: f64,
 }
 
 /// Directions whose images are orthogonal to each other; their memory is used again after a restart.
 #[derive(Debug, Default)]
-pub struct Directions {
-    all: Vec<Direction>,
+pub struct Directions<N> {
+    all: Vec<Direction<N>>,
     used: usize,
 }
 
-impl Directions {
+impl<N: Number> Directions<N> {
     /// Forgets all directions.
     pub fn restart(&mut self) {
         self.used = 0;
     }
 
     /// A new direction of `len` cells, to be filled.
-    pub fn open(&mut self, len: usize) -> &mut Direction {
+    pub fn open(&mut self, len: usize) -> &mut Direction<N> {
         if self.used == self.all.len() {
             self.all.push(Direction::default());
         }
@@ -88,40 +41,33 @@ impl Directions {
 
     /// Makes the newest image orthogonal to the others; takes its part off `residual` and adds the direction to `step`.
     /// Returns the norm of the residual, `None` when nothing of the image is left.
-    pub fn descend(&mut self, residual: &mut Triple, step: &mut Triple) -> Option<f64> {
+    pub fn descend(&mut self, residual: &mut Components<N, 3>, step: &mut Components<N, 3>) -> Option<f64> {
         let (before, newest) = self.all[..self.used].split_at_mut(self.used - 1);
         let Direction { along, image, square } = newest.first_mut()?;
         for group in before.chunks(4) {
-            let image = &mut image.values;
-            let along = &mut along.values;
             if let [a, b, c, d] = group {
-                let [da, db, dc, dd] = each_cell(
-                    &FourProducts,
-                    [image, &a.image.values, &b.image.values, &c.image.values, &d.image.values],
-                    [],
-                );
-                let shares = [da / a.square, db / b.square, dc / c.square, dd / d.square];
-                let rule = WithoutFour(shares);
-                let images = [a, b, c, d].map(|other| &other.image.values[..]);
-                each_cell(&rule, images, [image]);
-                let alongs = [a, b, c, d].map(|other| &other.along.values[..]);
-                each_cell(&rule, alongs, [along]);
+                let [one, two, three, four] = [a, b, c, d].map(|other| other.image.values());
+                let products = each_cell(&FourProducts, [image.values(), one, two, three, four], []);
+                let squares = [a, b, c, d].map(|other| other.square);
+                let rule = WithoutFour(std::array::from_fn(|other| products[other] / squares[other]));
+                each_cell(&rule, [one, two, three, four], [image.values_mut()]);
+                each_cell(&rule, [a, b, c, d].map(|other| other.along.values()), [along.values_mut()]);
             } else {
                 for other in group {
-                    let share = dot(image, &other.image.values) / other.square;
-                    add_scaled(image, -share, &other.image.values);
-                    add_scaled(along, -share, &other.along.values);
+                    let share = image.dot(&other.image) / other.square;
+                    image.add_scaled(-share, &other.image);
+                    along.add_scaled(-share, &other.along);
                 }
             }
         }
-        let [own, product] = each_cell(&OwnAndProduct, [&image.values, &residual.values], []);
+        let [own, product] = each_cell(&OwnAndProduct, [image.values(), residual.values()], []);
         *square = own;
         if !(own > 0.0 && own.is_finite()) {
             return None;
         }
         let share = product / own;
-        add_scaled(&mut step.values, share, &along.values);
-        let [left] = each_cell(&AddScaledSquare(-share), [&image.values], [&mut residual.values]);
+        step.add_scaled(share, along);
+        let [left] = each_cell(&AddScaledSquare(-share), [image.values()], [residual.values_mut()]);
         Some(left.sqrt())
     }
 }
@@ -130,7 +76,7 @@ struct FourProducts;
 
 impl CellRule<5, 0, 4> for FourProducts {
     #[inline(always)]
-    fn at<S: Simd>(&self, [v, a, b, c, d]: [Reals<S>; 5], _: &mut [Reals<S>; 0]) -> [Reals<S>; 4] {
+    fn at<R: Reals>(&self, [v, a, b, c, d]: [R; 5], _: &mut [R; 0]) -> [R; 4] {
         [v * a, v * b, v * c, v * d]
     }
 }
@@ -139,7 +85,7 @@ struct WithoutFour([f64; 4]);
 
 impl CellRule<4, 1, 0> for WithoutFour {
     #[inline(always)]
-    fn at<S: Simd>(&self, [a, b, c, d]: [Reals<S>; 4], [v]: &mut [Reals<S>; 1]) -> [Reals<S>; 0] {
+    fn at<R: Reals>(&self, [a, b, c, d]: [R; 4], [v]: &mut [R; 1]) -> [R; 0] {
         let shares = self.0;
         *v = *v - (a * shares[0] + b * shares[1]) - (c * shares[2] + d * shares[3]);
         []
@@ -150,7 +96,7 @@ struct OwnAndProduct;
 
 impl CellRule<2, 0, 2> for OwnAndProduct {
     #[inline(always)]
-    fn at<S: Simd>(&self, [a, b]: [Reals<S>; 2], _: &mut [Reals<S>; 0]) -> [Reals<S>; 2] {
+    fn at<R: Reals>(&self, [a, b]: [R; 2], _: &mut [R; 0]) -> [R; 2] {
         [a * a, a * b]
     }
 }
@@ -159,7 +105,7 @@ struct AddScaledSquare(f64);
 
 impl CellRule<1, 1, 1> for AddScaledSquare {
     #[inline(always)]
-    fn at<S: Simd>(&self, [x]: [Reals<S>; 1], [y]: &mut [Reals<S>; 1]) -> [Reals<S>; 1] {
+    fn at<R: Reals>(&self, [x]: [R; 1], [y]: &mut [R; 1]) -> [R; 1] {
         *y = *y + x * self.0;
         [*y * *y]
     }

@@ -5,12 +5,15 @@
 
 mod active_set;
 mod alternating;
+mod carrier;
+mod components;
 mod contact_set;
 mod coulomb;
 mod coupled;
 mod elastic_answer;
 mod feasible;
 mod frozen;
+mod frozen_zones;
 mod growth;
 mod inverse;
 mod krylov;
@@ -29,7 +32,7 @@ mod scene;
 mod settings;
 mod shear;
 mod shortcut;
-mod single;
+mod starting_shear;
 mod sweep;
 mod tractions;
 mod zones;

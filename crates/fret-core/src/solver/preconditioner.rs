@@ -3,15 +3,15 @@
 //! cells with the slip stiffness added.
 
 use ndarray::{Array2, s};
-use pulp::Simd;
 
+use super::components::Components;
 use super::contact_set::ContactSet;
+use super::frozen_zones::FrozenZones;
 use super::inverse::{BoxFields, Inverse};
-use super::zones::Zones;
 use crate::compliance::{SurfaceResponse, mirrors};
 use crate::kernel::ResponseTable;
-use crate::model::each_cell::{CellRule, Reals, each_cell};
-use crate::model::{Symmetry, TangentialField};
+use crate::model::Symmetry;
+use crate::model::each_cell::{CellRule, Number, Reals, each_cell};
 use crate::spectral::{Block, ConvolutionError, Kernel, Parity, PeriodicProduct, Symbol};
 
 /// A pair is stiff at the surface when the longest waves of a box meet this many times the compliance times wavenumber that
@@ -37,17 +37,24 @@ pub struct Preconditioner {
     softest: f64,
     /// The one axis along which shear acts.
     along: Option<usize>,
-    /// Weights of the two levels in the cells of the frozen zones.
-    weights: [Vec<f64>; 2],
-    /// Levels in use: one where nothing slips stiffly.
-    levels: usize,
-    packed: TangentialField,
-    part: TangentialField,
     fields: BoxFields,
     cells: usize,
     stiff: bool,
     /// Passes so far.
     pub passes: usize,
+}
+
+/// Slip stiffness as the preconditioner sees it: shares of two levels; with the memory that goes with them.
+#[derive(Debug, Default)]
+pub struct Levels<N> {
+    /// Weights of the two levels in the cells of the frozen zones.
+    weights: [Vec<N>; 2],
+    /// Levels in use: one where nothing slips stiffly.
+    used: usize,
+    /// Unit of displacements over that of tractions [length/pressure].
+    compliance: f64,
+    weighted: Components<N, 2>,
+    part: Components<N, 2>,
 }
 
 /// How a pair answers waves on the cells of a box: what the coefficients, cut off at the box's sides, no longer tell.
@@ -136,10 +143,6 @@ impl Preconditioner {
             softest,
             along,
             stiff: waves.is_some_and(|waves| waves.are_stiff(shape)),
-            weights: [Vec::new(), Vec::new()],
-            levels: 1,
-            packed: TangentialField::default(),
-            part: TangentialField::default(),
             fields: BoxFields::default(),
             cells: part[0] * part[1],
             passes: 0,
@@ -159,54 +162,62 @@ impl Preconditioner {
         }
     }
 
-    /// The same on the zones last frozen, packed over `contact`.
-    pub fn pressure(&mut self, right: &[f64], contact: &ContactSet, pressure: &mut [f64]) {
-        if let Some(inverse) = &mut self.normal {
-            self.passes += 1;
-            inverse.apply(contact, &[right], &mut [pressure], &mut self.fields);
+    /// Prepares [`Preconditioner::shear`] and [`Preconditioner::pressure`] for frozen zones: a partition of unity over the slip
+    /// stiffness between two levels. `compliance` is the unit of displacements over that of tractions [length/pressure].
+    pub fn freeze<N: Number>(&mut self, zones: &FrozenZones<N>, compliance: f64, levels: &mut Levels<N>) {
+        let softest = self.softest / compliance;
+        let stiff = zones.stiffness.iter().any(|stiffness| stiffness.to_double(1.0) > softest);
+        levels.used = if stiff { 2 } else { 1 };
+        levels.compliance = compliance;
+        for weights in &mut levels.weights {
+            weights.resize(zones.len(), N::default());
         }
-    }
-
-    /// Prepares [`Preconditioner::shear`] and [`Preconditioner::pressure`] for frozen zones: a partition of unity over the slip stiffness between two levels.
-    pub fn freeze(&mut self, zones: &Zones) {
-        let softest = self.softest;
-        let largest = zones.stiffness.iter().copied().fold(0.0, f64::max);
-        self.levels = if largest > softest { 2 } else { 1 };
-        for weights in &mut self.weights {
-            weights.resize(zones.len(), 0.0);
-        }
-        let [soft, stiff] = &mut self.weights;
+        let [soft, stiff] = &mut levels.weights;
         each_cell(&LevelWeights { softest }, [&zones.stiffness], [soft, stiff]);
-        let TangentialField { x, y } = &mut self.packed;
-        for part in [x, y].into_iter().chain(self.part.each_mut()) {
-            part.resize(zones.len(), 0.0);
-        }
+        levels.weighted.reset(zones.len());
+        levels.part.reset(zones.len());
         // All inverses of a box are of one precision.
         if let Some(inverse) = self.normal.iter().chain(self.shear.iter().flatten()).next() {
             inverse.clear(&mut self.fields, self.cells);
         }
     }
 
+    /// Pressures that would remove normal displacements `right` on the zones last frozen, packed over `contact`.
+    pub fn pressure<N: Number>(
+        &mut self,
+        right: &[N],
+        contact: &ContactSet,
+        pressure: &mut [N],
+        levels: &Levels<N>,
+    ) {
+        if let Some(inverse) = &mut self.normal {
+            self.passes += 1;
+            inverse.apply(contact, &[right], &mut [pressure], levels.compliance, &mut self.fields);
+        }
+    }
+
     /// Shears that would remove tangential displacements `right` on the zones last frozen, before any restriction to what
     /// these leave free. Packed over `contact`.
-    pub fn shear(&mut self, [right_x, right_y]: [&[f64]; 2], contact: &ContactSet, [x, y]: [&mut [f64]; 2]) {
-        let Self { shear: Some(levels), packed, part, along, fields, .. } = self else { return };
-        x.fill(0.0);
-        y.fill(0.0);
-        for (inverse, weights) in levels.iter_mut().zip(&self.weights).take(self.levels) {
-            let read = [right_x, right_y, weights];
-            each_cell(&Weighted, read, [&mut packed.x, &mut packed.y]);
+    pub fn shear<N: Number>(
+        &mut self,
+        [right_x, right_y]: [&[N]; 2],
+        contact: &ContactSet,
+        [x, y]: [&mut [N]; 2],
+        levels: &mut Levels<N>,
+    ) {
+        let Self { shear: Some(inverses), along, fields, .. } = self else { return };
+        let Levels { weights, used, compliance, weighted, part } = levels;
+        x.fill(N::default());
+        y.fill(N::default());
+        for (inverse, weights) in inverses.iter_mut().zip(weights).take(*used) {
+            each_cell(&Weighted, [right_x, right_y, weights], weighted.parts_mut());
             self.passes += 1;
-            match *along {
-                // The other component stays zero.
-                Some(axis) => {
-                    let right = packed.parts()[axis];
-                    inverse.apply(contact, &[right], &mut [&mut *part.parts_mut()[axis]], fields);
-                }
-                None => inverse.apply(contact, &packed.parts(), &mut part.parts_mut(), fields),
-            }
-            let read = [&part.x[..], &part.y, weights];
-            each_cell(&AddWeighted, read, [&mut *x, &mut *y]);
+            // Where shear acts along one axis the other component stays zero.
+            let axes = along.map_or(0..2, |axis| axis..axis + 1);
+            let (right, mut left) = (weighted.parts(), part.parts_mut());
+            inverse.apply(contact, &right[axes.clone()], &mut left[axes], *compliance, fields);
+            let [part_x, part_y] = part.parts();
+            each_cell(&AddWeighted, [part_x, part_y, weights], [&mut *x, &mut *y]);
         }
     }
 }
@@ -218,7 +229,7 @@ struct LevelWeights {
 
 impl CellRule<1, 2, 0> for LevelWeights {
     #[inline(always)]
-    fn at<S: Simd>(&self, [stiffness]: [Reals<S>; 1], [soft, stiff]: &mut [Reals<S>; 2]) -> [Reals<S>; 0] {
+    fn at<R: Reals>(&self, [stiffness]: [R; 1], [soft, stiff]: &mut [R; 2]) -> [R; 0] {
         let one = stiffness.all(1.0);
         // A share that grows like the logarithm, from 0 at the softest to 1 at the second level.
         let root = (stiffness / self.softest).sqrt().max(one).min(stiffness.all(STIFF_LEVEL.sqrt()));
@@ -235,11 +246,7 @@ struct Weighted;
 
 impl CellRule<3, 2, 0> for Weighted {
     #[inline(always)]
-    fn at<S: Simd>(
-        &self,
-        [from_x, from_y, weight]: [Reals<S>; 3],
-        [x, y]: &mut [Reals<S>; 2],
-    ) -> [Reals<S>; 0] {
+    fn at<R: Reals>(&self, [from_x, from_y, weight]: [R; 3], [x, y]: &mut [R; 2]) -> [R; 0] {
         *x = from_x * weight;
         *y = from_y * weight;
         []
@@ -250,11 +257,7 @@ struct AddWeighted;
 
 impl CellRule<3, 2, 0> for AddWeighted {
     #[inline(always)]
-    fn at<S: Simd>(
-        &self,
-        [from_x, from_y, weight]: [Reals<S>; 3],
-        [x, y]: &mut [Reals<S>; 2],
-    ) -> [Reals<S>; 0] {
+    fn at<R: Reals>(&self, [from_x, from_y, weight]: [R; 3], [x, y]: &mut [R; 2]) -> [R; 0] {
         *x = *x + from_x * weight;
         *y = *y + from_y * weight;
         []

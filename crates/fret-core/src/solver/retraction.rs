@@ -1,7 +1,5 @@
 //! The way back to tractions that the laws allow: no tension, no shear above mu p, resultants exact.
 
-use pulp::Simd;
-
 use super::coulomb::TangentialTask;
 use super::zones::Zones;
 use crate::model::each_cell::{CellRule, Reals, each_cell};
@@ -131,11 +129,11 @@ struct ToDiscs;
 
 impl CellRule<6, 3, 9> for ToDiscs {
     #[inline(always)]
-    fn at<S: Simd>(
+    fn at<R: Reals>(
         &self,
-        [bound, stick, along_x, along_y, around_x, around_y]: [Reals<S>; 6],
-        [x, y, on]: &mut [Reals<S>; 3],
-    ) -> [Reals<S>; 9] {
+        [bound, stick, along_x, along_y, around_x, around_y]: [R; 6],
+        [x, y, on]: &mut [R; 3],
+    ) -> [R; 9] {
         let (zero, one) = (x.all(0.0), x.all(1.0));
         let size = (*x * *x + *y * *y).sqrt();
         let outside = size.if_at_most(bound, zero, one);
@@ -156,11 +154,7 @@ struct Push([f64; 3]);
 
 impl CellRule<3, 3, 9> for Push {
     #[inline(always)]
-    fn at<S: Simd>(
-        &self,
-        [bound, around_x, around_y]: [Reals<S>; 3],
-        [x, y, on]: &mut [Reals<S>; 3],
-    ) -> [Reals<S>; 9] {
+    fn at<R: Reals>(&self, [bound, around_x, around_y]: [R; 3], [x, y, on]: &mut [R; 3]) -> [R; 9] {
         let (zero, one) = (x.all(0.0), x.all(1.0));
         let [shift_x, shift_y, twist] = self.0;
         let push = [(around_x * twist + shift_x) * bound, (around_y * twist + shift_y) * bound];
@@ -179,12 +173,7 @@ impl CellRule<3, 3, 9> for Push {
 
 /// Contributions of a cell to the resultants, and to their answer to a push.
 #[inline(always)]
-fn balance_terms<S: Simd>(
-    [x, y]: [Reals<S>; 2],
-    on: Reals<S>,
-    bound: Reals<S>,
-    [around_x, around_y]: [Reals<S>; 2],
-) -> [Reals<S>; 9] {
+fn balance_terms<R: Reals>([x, y]: [R; 2], on: R, bound: R, [around_x, around_y]: [R; 2]) -> [R; 9] {
     let zero = x.all(0.0);
     let inverse = bound.if_at_most(zero, zero, on / bound);
     let along = [x * inverse, y * inverse];

@@ -288,12 +288,7 @@ impl<'a> Scene<'a> {
             )?;
             self.feasible(&mut tractions, own.tangential);
         }
-        compliance.full(
-            &tractions.pressure,
-            &tractions.shear,
-            &mut displacements.normal,
-            &mut displacements.tangential,
-        );
+        compliance.full(tractions.parts(), displacements.parts_mut());
         let task = CoupledTask {
             undeformed: &self.undeformed,
             friction: &self.friction,
@@ -322,12 +317,7 @@ impl<'a> Scene<'a> {
             // Zones that keep changing together may settle in turn.
             if iterations > 0 {
                 tractions = start;
-                compliance.full(
-                    &tractions.pressure,
-                    &tractions.shear,
-                    &mut displacements.normal,
-                    &mut displacements.tangential,
-                );
+                compliance.full(tractions.parts(), displacements.parts_mut());
             }
             solution = solve_alternating(
                 &task,
@@ -366,9 +356,10 @@ impl<'a> Scene<'a> {
         if with_pressure {
             let pressure = self.region.gather(&self.state.pressure);
             let mut aside = vec![0.0; self.region.len()];
-            compliance.full(&pressure, &shear, &mut aside, &mut before);
+            let ([from_x, from_y], [to_x, to_y]) = (shear.parts(), before.parts_mut());
+            compliance.full([&pressure, from_x, from_y], [&mut aside, to_x, to_y]);
         } else if shear.x.iter().chain(&shear.y).any(|q| *q != 0.0) {
-            compliance.tangential(&shear, &mut before);
+            compliance.tangential(shear.parts(), before.parts_mut());
         }
         before
     }
@@ -425,7 +416,7 @@ impl<'a> Scene<'a> {
         } else {
             let before = self.displaced_before(settled, compliance, false);
             self.feasible_shear(&mut tractions, own.tangential);
-            compliance.tangential(&tractions.shear, &mut displacements.tangential);
+            compliance.tangential(tractions.shear.parts(), displacements.tangential.parts_mut());
             let contact = loaded(&tractions.pressure);
             let bound = contact.packed(&self.bound(&tractions.pressure));
             let before = contact.packed_tangential(&before);

@@ -1,19 +1,20 @@
 //! Shear alone, at given pressure: stick and slip zones frozen from feasible shear, conjugate gradients on the frozen
 //! problem with the resultants held exactly, back to the friction discs; again until Coulomb's law holds.
 
-use pulp::Simd;
-
-use super::contact_set::ContactSet;
+use super::components::Components;
 use super::coulomb::{CoulombJudge, TangentialTask, TangentialVerdict};
-use super::preconditioner::Preconditioner;
+use super::elastic_answer::ElasticAnswer;
+use super::frozen::Units;
+use super::frozen_zones::{FrozenZones, RigidProjector, parts_of};
+use super::preconditioner::{Levels, Preconditioner};
 use super::retraction::Retraction;
 use super::settings::{SolveError, SolverSettings, Watch};
-use super::single::{Rounding, unit_of};
-use super::zones::{RigidProjector, Zones};
+use super::starting_shear::{StartingShear, after, taken};
+use super::zones::Zones;
 use crate::compliance::SurfaceCompliance;
 use crate::model::TangentialField;
-use crate::model::each_cell::{CellRule, Reals, each_cell};
-use crate::model::field::{norm, scale_and_add};
+use crate::model::each_cell::{CellRule, Number, Reals, each_cell};
+use crate::model::field::{add_converted, add_scaled, largest, norm};
 
 /// How much of the cut a frozen problem is solved below; raised while outer steps do not pay.
 pub const THETA: f64 = 1.0;
@@ -48,8 +49,10 @@ pub fn solve_shear(
     let mut judge = CoulombJudge::default();
     let mut retraction = Retraction::default();
     let contact = task.contact;
+    let cells = displacement.x.len();
     let mut here = contact.packed_tangential(displacement);
-    let mut inner = ConjugateGradients::new(contact, displacement.x.len());
+    let mut spread = TangentialField::zeros(cells);
+    let mut gradients = Gradients::default();
     let mut motion = [0.0; 3];
     let mut patience = Patience::default();
     for iteration in 0..settings.most_outer_iterations {
@@ -62,14 +65,14 @@ pub fn solve_shear(
             return Ok(ShearSolution { verdict, s: judge.s, iterations: iteration });
         }
         let theta = patience.hears(verdict.residual);
+        gradients.exact |= patience.is_at_an_end();
         let zones = Zones::classify(shear, &judge.s, task.bound, |_| false);
-        inner.exact |= patience.is_at_an_end();
-        let frozen = Frozen { task, zones: &zones, settings, theta };
-        let cut = inner.solve(&frozen, &judge.s, shear, displacement, compliance, preconditioner);
+        let frozen = Frozen { task, zones: &zones, settings, theta, cells };
+        let cut = frozen.solve(&judge.s, shear, displacement, &mut gradients, compliance, preconditioner);
         retraction.shear(shear, &zones, task);
-        if cut || !inner.exact {
-            contact.place_tangential(shear, &mut inner.spread);
-            compliance.tangential(&inner.spread, displacement);
+        if cut {
+            contact.place_tangential(shear, &mut spread);
+            compliance.tangential(spread.parts(), displacement.parts_mut());
         }
         contact.gather_tangential(displacement, &mut here);
     }
@@ -116,162 +119,215 @@ struct Frozen<'a> {
     zones: &'a Zones,
     settings: &'a SolverSettings,
     theta: f64,
+    /// Cells of the box.
+    cells: usize,
 }
 
-/// Conjugate gradients on frozen zones, and their memory; fields are packed but for `spread` and `answer`.
-struct ConjugateGradients<'a> {
-    contact: &'a ContactSet,
-    residual: TangentialField,
-    z: TangentialField,
-    z_before: TangentialField,
-    step: TangentialField,
-    along: TangentialField,
-    image: TangentialField,
-    change: TangentialField,
+/// Conjugate gradients on frozen zones.
+#[derive(Default)]
+struct Gradients {
+    /// Whether all digits are wanted.
+    exact: bool,
+    double: ConjugateGradients<f64>,
+    single: ConjugateGradients<f32>,
+}
+
+/// Their memory in one precision; fields are packed.
+#[derive(Default)]
+struct ConjugateGradients<N> {
+    zones: FrozenZones<N>,
+    start: StartingShear<N>,
+    bound: Vec<N>,
+    levels: Levels<N>,
+    residual: Components<N, 2>,
+    z: Components<N, 2>,
+    z_before: Components<N, 2>,
+    step: Components<N, 2>,
+    along: Components<N, 2>,
+    image: Components<N, 2>,
+    change: Components<N, 2>,
     /// Whether `along` and `image` hold a direction.
     remembers: bool,
-    /// A field of the whole box, zero outside the contact.
-    spread: TangentialField,
-    /// Displacement of the whole box.
-    answer: TangentialField,
-    /// Whether the answer has all digits.
-    exact: bool,
-    /// The same fields in single precision, shear zero outside the contact.
-    single: [[Vec<f32>; 2]; 2],
-    rounding: Rounding,
+    answer: ElasticAnswer<N, 2>,
 }
 
-impl<'a> ConjugateGradients<'a> {
-    fn new(contact: &'a ContactSet, cells: usize) -> Self {
-        let packed = || TangentialField::zeros(contact.len());
-        Self {
-            contact,
-            residual: packed(),
-            z: packed(),
-            z_before: packed(),
-            step: packed(),
-            along: packed(),
-            image: packed(),
-            change: packed(),
-            remembers: false,
-            spread: TangentialField::zeros(cells),
-            answer: TangentialField::zeros(cells),
-            exact: false,
-            single: std::array::from_fn(|_| [vec![0.0; cells], vec![0.0; cells]]),
-            rounding: Rounding::default(),
-        }
-    }
-
-    /// `image` becomes the displacement of `along`: with six digits where the operator offers them and nobody wants more.
-    fn answer(&mut self, compliance: &mut dyn SurfaceCompliance) {
-        let [spread, answer] = &mut self.single;
-        if !self.exact {
-            let unit = unit_of(self.along.norm());
-            for (part, field) in self.along.parts().into_iter().zip(spread.iter_mut()) {
-                self.rounding.place(self.contact, part, 1.0 / unit, field);
-            }
-            if let Some(out) = compliance.tangential_single(spread, answer) {
-                for (field, part) in answer.iter().zip(self.image.parts_mut()) {
-                    self.rounding.gather(self.contact, field, unit * out, part);
-                }
-                return;
-            }
-        }
-        self.exact = true;
-        self.contact.place_tangential(&self.along, &mut self.spread);
-        compliance.tangential(&self.spread, &mut self.answer);
-        self.contact.gather_tangential(&self.answer, &mut self.image);
-    }
-
-    /// Solves until going further would be lost in the cut. Adds the step to `shear` and its image to `displacement`;
-    /// tells whether the step leaves the feasible set, so that the image must be computed anew.
+impl Frozen<'_> {
+    /// Solves until going further would be lost in the cut. Adds the step to `shear` and, when it stays in the feasible set, its
+    /// image to `displacement`; tells whether the image must be computed anew.
     fn solve(
-        &mut self,
-        frozen: &Frozen<'_>,
+        &self,
         s: &TangentialField,
         shear: &mut TangentialField,
         displacement: &mut TangentialField,
+        gradients: &mut Gradients,
         compliance: &mut dyn SurfaceCompliance,
         preconditioner: &mut Preconditioner,
     ) -> bool {
-        let Frozen { task, zones, settings, theta } = *frozen;
-        let rigid = RigidProjector::new(task.modes, zones);
-        preconditioner.freeze(zones);
-        self.residual.clear();
-        self.residual.add_scaled(-1.0, s);
-        rigid.keep_free(self.residual.parts_mut());
-        self.step.clear();
-        let start = self.residual.norm();
-        let floor = 0.1 * settings.tolerance * norm(task.bound) * task.own;
+        let mut right = Components::default();
+        // The pull along slip is larger by far than what turns it: with six digits little of this would be left.
+        right.convert(s.parts(), -1.0);
+        let parts = parts_of(self.zones, self.task.modes);
+        RigidProjector::new(self.task.modes, parts).keep_free(right.parts_mut());
+        if !gradients.exact
+            && let Some(mut operator) = compliance.tangential_single()
+        {
+            let units = Units::near_one(largest(self.task.bound), operator.unit());
+            let memory = &mut gradients.single;
+            memory.take(self, &right, shear, units);
+            self.solve_in(units, memory, |q, u| operator.apply(&q, &mut { u }), |_, _| (), preconditioner);
+            for (shear, step) in shear.parts_mut().into_iter().zip(memory.step.parts()) {
+                add_converted(shear, units.pressure, step);
+            }
+            true
+        } else {
+            gradients.exact = true;
+            let memory = &mut gradients.double;
+            memory.take(self, &right, shear, Units::SCENE);
+            let moved = |tau: f64, [x, y]: &[Vec<f64>; 2]| {
+                add_scaled(&mut displacement.x, tau, x);
+                add_scaled(&mut displacement.y, tau, y);
+            };
+            let apply = |q: [&[f64]; 2], u: [&mut [f64]; 2]| compliance.tangential(q, u);
+            let cut = self.solve_in(Units::SCENE, memory, apply, moved, preconditioner);
+            let [x, y] = memory.step.parts();
+            add_scaled(&mut shear.x, 1.0, x);
+            add_scaled(&mut shear.y, 1.0, y);
+            cut
+        }
+    }
+
+    /// The same in one precision and in its units; `moved` is told the share and the displacements of each direction. Returns
+    /// whether the step leaves the feasible set.
+    fn solve_in<N: Number>(
+        &self,
+        units: Units,
+        memory: &mut ConjugateGradients<N>,
+        mut apply: impl FnMut([&[N]; 2], [&mut [N]; 2]),
+        mut moved: impl FnMut(f64, &[Vec<N>; 2]),
+        preconditioner: &mut Preconditioner,
+    ) -> bool {
+        let Self { task, settings, theta, .. } = *self;
+        let ConjugateGradients {
+            zones,
+            start,
+            bound,
+            levels,
+            residual,
+            z,
+            z_before,
+            step,
+            along,
+            image,
+            change,
+            remembers,
+            answer,
+        } = memory;
+        let rigid = RigidProjector::new(task.modes, zones.parts());
+        preconditioner.freeze(zones, units.compliance, levels);
+        step.clear(zones.len());
+        z.reset(zones.len());
+        z_before.reset(zones.len());
+        along.reset(zones.len());
+        image.reset(zones.len());
+        let first = residual.norm();
+        let floor = 0.1 * settings.tolerance * norm(task.bound) * task.own / units.length();
         let mut product_before: Option<f64> = None;
         let mut cut = 0.0;
         for _ in 0..settings.most_inner_iterations {
-            preconditioner.shear(self.residual.parts(), self.contact, self.z.parts_mut());
-            rigid.keep_free(self.z.parts_mut());
-            let product = self.z.dot(&self.residual);
+            preconditioner.shear(residual.parts(), task.contact, z.parts_mut(), levels);
+            rigid.keep_free(z.parts_mut());
+            let product = z.dot(residual);
             let beta = match product_before {
-                Some(before) => ((product - self.z_before.dot(&self.residual)) / before).max(0.0),
-                None if self.remembers => self.conjugate_to_last(zones, &rigid),
+                Some(before) => ((product - z_before.dot(residual)) / before).max(0.0),
+                None if *remembers => conjugate_to_last(z, along, image, change, &zones.stiffness, &rigid),
                 None => 0.0,
             };
-            scale_and_add(&mut self.along.x, beta, &self.z.x);
-            scale_and_add(&mut self.along.y, beta, &self.z.y);
-            let mut downhill = self.along.dot(&self.residual);
+            along.scale_and_add(beta, z);
+            let mut downhill = along.dot(residual);
             if downhill <= 0.1 * product {
-                self.along.copy_from(&self.z);
+                along.copy_from(z);
                 downhill = product;
             }
             if !(downhill > 0.0) {
-                self.remembers = false;
+                *remembers = false;
                 break;
             }
-            self.answer(compliance);
-            self.change.copy_from(&self.image);
-            let curvature = add_slip_stiffness(&mut self.change, &self.along, &zones.stiffness);
+            answer.find(task.contact, along, image, &mut apply);
+            change.copy_from(image);
+            let curvature = add_slip_stiffness(change, along, &zones.stiffness);
             if !(curvature > 0.0) {
-                self.remembers = false;
+                *remembers = false;
                 break;
             }
-            self.remembers = true;
+            *remembers = true;
             let tau = downhill / curvature;
-            self.step.add_scaled(tau, &self.along);
-            if self.exact {
-                displacement.add_scaled(tau, &self.answer);
-            }
-            rigid.keep_free(self.change.parts_mut());
-            self.residual.add_scaled(-tau, &self.change);
-            let z_size = self.z.norm();
-            std::mem::swap(&mut self.z, &mut self.z_before);
+            step.add_scaled(tau, along);
+            moved(tau, answer.in_box());
+            rigid.keep_free(change.parts_mut());
+            residual.add_scaled(-tau, change);
+            let z_size = z.norm();
+            std::mem::swap(z, z_before);
             product_before = Some(product);
-            let read = [&shear.x[..], &shear.y, &self.step.x, &self.step.y, task.bound, &zones.slip];
-            let [square] = each_cell(&Cut, read, []);
-            cut = square.sqrt();
-            let residual = self.residual.norm();
-            let left = z_size * tau.abs() * (residual / start).clamp(1e-3, 1.0);
-            if residual < floor
-                || !self.exact && residual < SIX_DIGITS * start
-                || (cut > 0.0 && (cut > theta * left || residual < ETA * start))
-            {
+            cut = cut_of(start, bound, &zones.slip, step);
+            let here = residual.norm();
+            let left = z_size * tau.abs() * (here / first).clamp(1e-3, 1.0);
+            let six_digits = size_of::<N>() < size_of::<f64>() && here < SIX_DIGITS * first;
+            if here < floor || six_digits || (cut > 0.0 && (cut > theta * left || here < ETA * first)) {
                 break;
             }
         }
-        shear.add_scaled(1.0, &self.step);
         cut > 0.0
-    }
-
-    /// Share of the last direction of the problem before, made tangential, that the first one takes up.
-    fn conjugate_to_last(&mut self, zones: &Zones, rigid: &RigidProjector<'_>) -> f64 {
-        rigid.keep_free(self.along.parts_mut());
-        let mut stiff = self.image.clone();
-        let curvature = add_slip_stiffness(&mut stiff, &self.along, &zones.stiffness);
-        if curvature > 0.0 { -self.z.dot(&stiff) / curvature } else { 0.0 }
     }
 }
 
+/// Share of the last direction of the problem before, made tangential, that the first one takes up.
+fn conjugate_to_last<N: Number>(
+    z: &Components<N, 2>,
+    along: &mut Components<N, 2>,
+    image: &Components<N, 2>,
+    stiff: &mut Components<N, 2>,
+    stiffness: &[N],
+    rigid: &RigidProjector<'_, N>,
+) -> f64 {
+    rigid.keep_free(along.parts_mut());
+    stiff.copy_from(image);
+    let curvature = add_slip_stiffness(stiff, along, stiffness);
+    if curvature > 0.0 { -z.dot(stiff) / curvature } else { 0.0 }
+}
+
+impl<N: Number> ConjugateGradients<N> {
+    fn take(
+        &mut self,
+        frozen: &Frozen<'_>,
+        right: &Components<f64, 2>,
+        shear: &TangentialField,
+        units: Units,
+    ) {
+        self.residual.convert(right.parts(), 1.0 / units.length());
+        let Frozen { task, zones, cells, .. } = frozen;
+        self.zones.take(zones, task.modes, units.compliance);
+        self.start.take(shear, task.bound, units.pressure);
+        taken(task.bound, 1.0 / units.pressure, &mut self.bound);
+        self.answer.restart(*cells);
+    }
+}
+
+/// Distance of shear + step from the discs and circles it has to go back to.
+fn cut_of<N: Number>(start: &StartingShear<N>, bound: &[N], slip: &[N], step: &Components<N, 2>) -> f64 {
+    let StartingShear { shear: [x, y], size, excess } = start;
+    let [step_x, step_y] = step.parts();
+    let [square] = each_cell(&Cut, [x, y, size, excess, bound, slip, step_x, step_y], []);
+    square.sqrt()
+}
+
 /// Adds the slip stiffness times a (free) field to its image; returns their product with the field.
-pub fn add_slip_stiffness(image: &mut TangentialField, field: &TangentialField, stiffness: &[f64]) -> f64 {
-    let read = [&field.x[..], &field.y, stiffness];
-    let [product] = each_cell(&AddStiffness, read, [&mut image.x, &mut image.y]);
+fn add_slip_stiffness<N: Number>(
+    image: &mut Components<N, 2>,
+    field: &Components<N, 2>,
+    stiffness: &[N],
+) -> f64 {
+    let [x, y] = field.parts();
+    let [product] = each_cell(&AddStiffness, [x, y, stiffness], image.parts_mut());
     product
 }
 
@@ -279,11 +335,7 @@ struct AddStiffness;
 
 impl CellRule<3, 2, 1> for AddStiffness {
     #[inline(always)]
-    fn at<S: Simd>(
-        &self,
-        [x, y, stiffness]: [Reals<S>; 3],
-        [image_x, image_y]: &mut [Reals<S>; 2],
-    ) -> [Reals<S>; 1] {
+    fn at<R: Reals>(&self, [x, y, stiffness]: [R; 3], [image_x, image_y]: &mut [R; 2]) -> [R; 1] {
         *image_x = *image_x + stiffness * x;
         *image_y = *image_y + stiffness * y;
         [x * *image_x + y * *image_y]
@@ -293,16 +345,16 @@ impl CellRule<3, 2, 1> for AddStiffness {
 /// Squared distance of `shear + step` from the discs and circles it has to go back to.
 struct Cut;
 
-impl CellRule<6, 0, 1> for Cut {
+impl CellRule<8, 0, 1> for Cut {
     #[inline(always)]
-    fn at<S: Simd>(
+    fn at<R: Reals>(
         &self,
-        [x, y, step_x, step_y, bound, slip]: [Reals<S>; 6],
-        _: &mut [Reals<S>; 0],
-    ) -> [Reals<S>; 1] {
+        [x, y, size, excess, bound, slip, step_x, step_y]: [R; 8],
+        _: &mut [R; 0],
+    ) -> [R; 1] {
         let (zero, one) = (x.all(0.0), x.all(1.0));
-        let moved = [x + step_x, y + step_y];
-        let off = (moved[0] * moved[0] + moved[1] * moved[1]).sqrt() - bound;
+        let (_, growth) = after([x, y], size, [step_x, step_y]);
+        let off = excess + growth;
         let moves = (step_x * step_x + step_y * step_y).if_at_most(zero, zero, slip);
         let counts = off.if_at_most(zero, moves, one);
         let square = off * off;

@@ -1,6 +1,5 @@
 //! Pressure and shear of a box, and the displacements they cause.
 
-use pulp::Simd;
 use serde::{Deserialize, Serialize};
 
 use crate::model::each_cell::{CellRule, Reals, each_cell};
@@ -21,10 +20,9 @@ impl Tractions {
         Self { pressure: vec![0.0; len], shear: TangentialField::zeros(len) }
     }
 
-    /// No traction anywhere, keeping the memory.
-    pub fn clear(&mut self) {
-        self.pressure.fill(0.0);
-        self.shear.clear();
+    /// Pressure and both components of shear.
+    pub fn parts(&self) -> [&[f64]; 3] {
+        [&self.pressure, &self.shear.x, &self.shear.y]
     }
 
     /// Halfway to other tractions.
@@ -57,6 +55,12 @@ impl Displacements {
         Self { normal: vec![0.0; len], tangential: TangentialField::zeros(len) }
     }
 
+    /// Normal part and both tangential parts.
+    pub fn parts_mut(&mut self) -> [&mut [f64]; 3] {
+        let [x, y] = self.tangential.parts_mut();
+        [&mut self.normal, x, y]
+    }
+
     /// Halfway to other displacements.
     pub fn average_with(&mut self, other: &Self) {
         average(&mut self.normal, &other.normal);
@@ -79,7 +83,7 @@ struct Average;
 
 impl CellRule<1, 1, 0> for Average {
     #[inline(always)]
-    fn at<S: Simd>(&self, [other]: [Reals<S>; 1], [value]: &mut [Reals<S>; 1]) -> [Reals<S>; 0] {
+    fn at<R: Reals>(&self, [other]: [R; 1], [value]: &mut [R; 1]) -> [R; 0] {
         *value = (*value + other) * 0.5;
         []
     }

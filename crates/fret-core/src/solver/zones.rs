@@ -1,9 +1,6 @@
 //! Contact, stick and slip, taken from feasible tractions: a cell slips only when it is on its friction circle and the
 //! surfaces pull it along; it sticks again only when they pull it inward.
 
-use pulp::Simd;
-
-use super::rigid::RigidModes;
 use crate::model::TangentialField;
 use crate::model::each_cell::{CellRule, Reals, each_cell};
 
@@ -106,155 +103,14 @@ impl Zones {
     }
 }
 
-/// Part of a vector that a cell is free to change.
-#[inline(always)]
-pub fn free_part<S: Simd>(
-    vector: [Reals<S>; 2],
-    stick: Reals<S>,
-    slip: Reals<S>,
-    direction: [Reals<S>; 2],
-) -> [Reals<S>; 2] {
-    let turn = slip * (direction[0] * vector[1] - direction[1] * vector[0]);
-    [stick * vector[0] - direction[1] * turn, stick * vector[1] + direction[0] * turn]
-}
-
 struct Weigh {
     stiffness: f64,
 }
 
 impl CellRule<2, 1, 0> for Weigh {
     #[inline(always)]
-    fn at<S: Simd>(&self, [slip, stiffness]: [Reals<S>; 2], [weighted]: &mut [Reals<S>; 1]) -> [Reals<S>; 0] {
+    fn at<R: Reals>(&self, [slip, stiffness]: [R; 2], [weighted]: &mut [R; 1]) -> [R; 0] {
         *weighted = slip / (stiffness * self.stiffness + 1.0).sqrt();
-        []
-    }
-}
-
-/// Keeps the free part of a field; sums its products with the free parts of the motions.
-struct KeepFree;
-
-impl CellRule<6, 2, 3> for KeepFree {
-    #[inline(always)]
-    fn at<S: Simd>(
-        &self,
-        [stick, slip, along_x, along_y, around_x, around_y]: [Reals<S>; 6],
-        [x, y]: &mut [Reals<S>; 2],
-    ) -> [Reals<S>; 3] {
-        [*x, *y] = free_part([*x, *y], stick, slip, [along_x, along_y]);
-        products([*x, *y], stick + slip, [around_x, around_y])
-    }
-}
-
-/// Products of a field that is free with the free parts of the motions.
-#[inline(always)]
-pub fn products<S: Simd>(
-    [x, y]: [Reals<S>; 2],
-    weight: Reals<S>,
-    [around_x, around_y]: [Reals<S>; 2],
-) -> [Reals<S>; 3] {
-    [x * weight, y * weight, (x * around_x + y * around_y) * weight]
-}
-
-/// Takes off a field what rigid motions that follow from resultants can do on the frozen zones.
-pub struct RigidProjector<'a> {
-    modes: &'a RigidModes,
-    zones: &'a Zones,
-    /// Factor of the tangent part of slipping cells, zero elsewhere.
-    slip: &'a [f64],
-    gram: [f64; 6],
-}
-
-impl<'a> RigidProjector<'a> {
-    /// Projector of tractions and displacements.
-    pub fn new(modes: &'a RigidModes, zones: &'a Zones) -> Self {
-        Self::of(modes, zones, &zones.slip)
-    }
-
-    /// Projector of weighted equations.
-    pub fn of_equations(modes: &'a RigidModes, zones: &'a Zones) -> Self {
-        Self::of(modes, zones, &zones.weighted_slip)
-    }
-
-    fn of(modes: &'a RigidModes, zones: &'a Zones, slip: &'a [f64]) -> Self {
-        let gram = if modes.any_by_force() {
-            let read = [
-                &zones.stick[..],
-                slip,
-                &zones.direction.x,
-                &zones.direction.y,
-                &modes.rotation.x,
-                &modes.rotation.y,
-            ];
-            each_cell(&Gram, read, [])
-        } else {
-            [0.0; 6]
-        };
-        Self { modes, zones, slip, gram }
-    }
-
-    fn read(&self) -> [&[f64]; 6] {
-        let Self { modes: RigidModes { rotation, .. }, zones, slip, .. } = self;
-        [&zones.stick, slip, &zones.direction.x, &zones.direction.y, &rotation.x, &rotation.y]
-    }
-
-    /// Keeps the free part of a field, without what rigid motions can do.
-    pub fn keep_free(&self, [x, y]: [&mut [f64]; 2]) {
-        let products = each_cell(&KeepFree, self.read(), [&mut *x, &mut *y]);
-        self.remove_resultant([x, y], products);
-    }
-
-    /// Takes off the rigid motion whose free part has these products with the free parts of all.
-    pub fn remove_resultant(&self, field: [&mut [f64]; 2], resultant: [f64; 3]) {
-        if self.modes.any_by_force() {
-            let amounts = self.modes.solve(self.gram, resultant);
-            each_cell(&RemoveRigid(amounts), self.read(), field);
-        }
-    }
-
-    /// Amounts of the motions whose free parts have `resultant`; the field that [`Self::remove_resultant`] takes off.
-    pub fn amounts(&self, resultant: [f64; 3]) -> [f64; 3] {
-        if self.modes.any_by_force() { self.modes.solve(self.gram, resultant) } else { [0.0; 3] }
-    }
-}
-
-struct Gram;
-
-impl CellRule<6, 0, 6> for Gram {
-    #[inline(always)]
-    fn at<S: Simd>(
-        &self,
-        [stick, slip, along_x, along_y, around_x, around_y]: [Reals<S>; 6],
-        _: &mut [Reals<S>; 0],
-    ) -> [Reals<S>; 6] {
-        // Products of the free parts of the modes: 1 in stick, of the tangent parts in slip.
-        let slip = slip * slip;
-        let (tx, ty) = (along_y, along_x * -1.0);
-        let tr = tx * around_x + ty * around_y;
-        [
-            stick + slip * tx * tx,
-            stick + slip * ty * ty,
-            stick * (around_x * around_x + around_y * around_y) + slip * tr * tr,
-            slip * tx * ty,
-            stick * around_x + slip * tx * tr,
-            stick * around_y + slip * ty * tr,
-        ]
-    }
-}
-
-struct RemoveRigid([f64; 3]);
-
-impl CellRule<6, 2, 0> for RemoveRigid {
-    #[inline(always)]
-    fn at<S: Simd>(
-        &self,
-        [stick, slip, along_x, along_y, around_x, around_y]: [Reals<S>; 6],
-        [x, y]: &mut [Reals<S>; 2],
-    ) -> [Reals<S>; 0] {
-        let [shift_x, shift_y, twist] = self.0;
-        let rigid = [around_x * twist + shift_x, around_y * twist + shift_y];
-        let part = free_part(rigid, stick, slip, [along_x, along_y]);
-        *x = *x - part[0];
-        *y = *y - part[1];
         []
     }
 }
