@@ -15,8 +15,7 @@ use fret_core::kernel::{
     Components, InfluenceCoefficients, influence_coefficients, layered_half_space, sampled_coefficients,
 };
 use fret_core::model::{
-    Base, Body, Coating, ContactPair, ElasticMaterial, GradedCoating, HalfSpace, Layer, TangentialField,
-    YoungGradient,
+    Base, Body, Coating, ContactPair, ElasticMaterial, GradedCoating, HalfSpace, Layer, YoungGradient,
 };
 
 /// Cells a side of the error table.

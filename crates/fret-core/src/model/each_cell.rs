@@ -162,7 +162,7 @@ macro_rules! numbers {
     };
 }
 
-#[expect(clippy::cast_possible_truncation, clippy::cast_lossless, reason = "this is what precisions are")]
+#[expect(clippy::cast_possible_truncation, reason = "this is what precisions are")]
 mod registers {
     use super::{Add, Div, Mul, Number, Reals, Scalar, Simd, Sub};
 
