@@ -1,6 +1,7 @@
 //! Pressure and shear together: zones frozen from feasible tractions, a Krylov method on the frozen problem with a
 //! flexible preconditioner, resultants held exactly; then back to feasible tractions, until all laws hold.
 
+use super::alternating::solve_alternating;
 use super::contact_set::ContactSet;
 use super::coulomb::{CoulombJudge, TangentialTask, TangentialVerdict};
 use super::frozen::{Frozen, KrylovMemory, Packed, floor};
@@ -66,8 +67,57 @@ pub struct CoupledSolution {
     pub iterations: usize,
 }
 
-/// Solves the coupled equations from feasible `tractions` with their `displacements`; both end at the solution.
-pub fn solve_coupled(
+/// Changes of the zones that pressure and shear are given together before they are solved in turn.
+const TOGETHER_AT_MOST: usize = 60;
+/// The zones are lost when so many changes have not brought the residual below [`FAR`].
+const LOST_AFTER: usize = 15;
+/// A residual at which the zones are not yet those of the solution.
+const FAR: f64 = 0.1;
+/// Residuals to which lost zones are brought in turn before they are followed together again.
+const NEAR: [f64; 2] = [1e-2, 1e-4];
+
+/// Solves the coupled equations from feasible `tractions` with their `displacements`; both end at the solution. Together; zones
+/// that are lost so are brought near the solution in turn, which wanders less, and go on together from there.
+pub fn solve_together(
+    task: &CoupledTask<'_>,
+    (tractions, displacements): (&mut Tractions, &mut Displacements),
+    compliance: &mut dyn SurfaceCompliance,
+    preconditioner: &mut Preconditioner,
+    krylov: &mut KrylovMemory,
+    settings: &SolverSettings,
+    watch: Watch<'_>,
+) -> Result<CoupledSolution, SolveError> {
+    let together = SolverSettings { most_outer_iterations: TOGETHER_AT_MOST, ..*settings };
+    let mut near = tractions.clone();
+    for tolerance in NEAR.map(Some).into_iter().chain([None]) {
+        let solution = solve_coupled(
+            task,
+            (&mut *tractions, &mut *displacements),
+            compliance,
+            preconditioner,
+            krylov,
+            &together,
+            watch,
+        );
+        let Err(SolveError::NotConverged { .. }) = solution else { return solution };
+        let Some(tolerance) = tolerance else { break };
+        tractions.copy_from(&near);
+        compliance.full(tractions.parts(), displacements.parts_mut());
+        let rough = SolverSettings { tolerance, most_outer_iterations: TOGETHER_AT_MOST, ..*settings };
+        if let Err(SolveError::Stopped) =
+            solve_alternating(task, tractions, displacements, compliance, preconditioner, &rough, watch)
+        {
+            return Err(SolveError::Stopped);
+        }
+        near.copy_from(tractions);
+    }
+    tractions.copy_from(&near);
+    compliance.full(tractions.parts(), displacements.parts_mut());
+    solve_alternating(task, tractions, displacements, compliance, preconditioner, settings, watch)
+}
+
+/// Follows pressure and shear together from feasible `tractions` with their `displacements`.
+fn solve_coupled(
     task: &CoupledTask<'_>,
     (tractions, displacements): (&mut Tractions, &mut Displacements),
     compliance: &mut dyn SurfaceCompliance,
@@ -108,9 +158,13 @@ pub fn solve_coupled(
             contact.scatter_tangential(&judge.s, &mut s);
             return Ok(CoupledSolution { normal, tangential, gap, s, iterations: iteration });
         }
+        if iteration >= LOST_AFTER && patience.best > FAR {
+            break;
+        }
         if retreat.takes_back(residual, tractions, displacements) {
             continue;
         }
+        let theta = patience.hears(residual);
         let mut zones =
             Zones::classify(&packed.shear, &judge.s, &packed.bound, |cell| packed.pressure[cell] <= 0.0);
         zones.weigh(own.tangential);
@@ -122,7 +176,7 @@ pub fn solve_coupled(
             holds_force: task.total.is_some(),
             most: settings.most_inner_iterations,
             floor: floor(settings.tolerance, &packed.pressure, own.normal),
-            theta: patience.hears(residual),
+            theta,
             exact: patience.is_at_an_end(),
         };
         frozen.solve(&contact.packed(&gap), &judge.s, krylov, compliance, preconditioner);

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use super::alternating::solve_alternating;
 use super::contact_set::ContactSet;
 use super::coulomb::{TangentialTask, TangentialVerdict};
-use super::coupled::{CoupledTask, solve_coupled};
+use super::coupled::{CoupledTask, solve_together};
 use super::frozen::KrylovMemory;
 use super::normal::{NormalTask, first_pressure, full_contact_pressure, solve_normal};
 use super::preconditioner::Preconditioner;
@@ -27,9 +27,6 @@ use crate::model::{
 
 /// Residual to which the frictionless start of a coupled contact is solved.
 const ROUGH: f64 = 1e-2;
-/// Changes of the zones that pressure and shear are given together before they are solved in turn.
-const TOGETHER_AT_MOST: usize = 60;
-
 /// The operators of a box.
 pub struct BoxOperators {
     /// Where the box lies.
@@ -299,37 +296,24 @@ impl<'a> Scene<'a> {
             motion: self.motion,
             resultant: self.resultant,
         };
-        let start = tractions.clone();
-        let together = SolverSettings { most_outer_iterations: TOGETHER_AT_MOST, ..*settings };
-        let mut solution = match settings.scheme {
-            Scheme::Alternating => Err(SolveError::NotConverged { reached: f64::INFINITY, iterations: 0 }),
-            Scheme::Together => solve_coupled(
-                &task,
-                (&mut tractions, &mut displacements),
-                compliance,
-                preconditioner,
-                krylov,
-                &together,
-                watch,
-            ),
-        };
-        if let Err(SolveError::NotConverged { iterations, .. }) = solution {
-            // Zones that keep changing together may settle in turn.
-            if iterations > 0 {
-                tractions = start;
-                compliance.full(tractions.parts(), displacements.parts_mut());
+        let unsolved = (&mut tractions, &mut displacements);
+        let solution = match settings.scheme {
+            Scheme::Alternating => {
+                let (tractions, displacements) = unsolved;
+                solve_alternating(
+                    &task,
+                    tractions,
+                    displacements,
+                    compliance,
+                    preconditioner,
+                    settings,
+                    watch,
+                )
             }
-            solution = solve_alternating(
-                &task,
-                &mut tractions,
-                &mut displacements,
-                compliance,
-                preconditioner,
-                settings,
-                watch,
-            );
-        }
-        let solution = solution?;
+            Scheme::Together => {
+                solve_together(&task, unsolved, compliance, preconditioner, krylov, settings, watch)
+            }
+        }?;
         Ok(Solved {
             tractions,
             displacements,
