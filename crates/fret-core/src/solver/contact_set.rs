@@ -2,7 +2,10 @@
 
 use std::ops::Range;
 
+use pulp::Arch;
+
 use crate::model::TangentialField;
+use crate::model::each_cell::Number;
 
 /// Cells in contact, as runs along the rows of the box.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -44,6 +47,23 @@ impl ContactSet {
         }
     }
 
+    /// The same times a factor, into a packed field of any precision.
+    pub fn gather_scaled<A: Number, B: Number>(&self, field: &[A], factor: f64, packed: &mut [B]) {
+        Arch::new().dispatch(
+            #[inline(always)]
+            || {
+                let mut first = 0;
+                for run in &self.runs {
+                    let to = &mut packed[first..first + run.len()];
+                    for (to, from) in to.iter_mut().zip(&field[run.clone()]) {
+                        *to = B::of(*from, factor);
+                    }
+                    first += run.len();
+                }
+            },
+        );
+    }
+
     /// A packed copy of a field of the box.
     pub fn packed(&self, field: &[f64]) -> Vec<f64> {
         let mut packed = Vec::with_capacity(self.len);
@@ -71,6 +91,23 @@ impl ContactSet {
             field[run.clone()].copy_from_slice(&packed[first..first + run.len()]);
             first += run.len();
         }
+    }
+
+    /// The same times a factor, into a field of any precision.
+    pub fn place_scaled<A: Number, B: Number>(&self, packed: &[A], factor: f64, field: &mut [B]) {
+        Arch::new().dispatch(
+            #[inline(always)]
+            || {
+                let mut first = 0;
+                for run in &self.runs {
+                    let from = &packed[first..first + run.len()];
+                    for (to, from) in field[run.clone()].iter_mut().zip(from) {
+                        *to = B::of(*from, factor);
+                    }
+                    first += run.len();
+                }
+            },
+        );
     }
 
     /// Writes a packed tangential field into one of the box, which keeps what it holds elsewhere.

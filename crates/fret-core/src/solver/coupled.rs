@@ -134,6 +134,7 @@ fn solve_coupled(
     let mut retraction = Retraction::default();
     let mut gap = vec![0.0; cells];
     let mut motion = [0.0; 3];
+    let mut zones = Zones::default();
     let mut patience = Patience::default();
     let mut retreat = Retreat::default();
     for iteration in 0..settings.most_outer_iterations {
@@ -165,9 +166,7 @@ fn solve_coupled(
             continue;
         }
         let theta = patience.hears(residual);
-        let mut zones =
-            Zones::classify(&packed.shear, &judge.s, &packed.bound, |cell| packed.pressure[cell] <= 0.0);
-        zones.weigh(own.tangential);
+        zones.classify(&packed.shear, &judge.s, &packed.bound, own.tangential);
         let frozen = Frozen {
             contact: &contact,
             zones: &zones,

@@ -1,11 +1,11 @@
 //! The coupled problem on frozen zones: pressure free on the contact, shear free in stick, turning in slip and following
 //! the pressure there.
 
-use super::carrier::unit_of;
 use super::components::Components;
 use super::contact_set::ContactSet;
 use super::elastic_answer::ElasticAnswer;
 use super::frozen_zones::{FrozenZones, RigidProjector, free_part, parts_of, products};
+use super::inverse::unit_of;
 use super::krylov::Directions;
 use super::preconditioner::{Levels, Preconditioner};
 use super::rigid::RigidModes;

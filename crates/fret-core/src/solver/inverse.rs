@@ -1,6 +1,5 @@
 //! One approximate inverse on the cells of a box, in the precision it deserves.
 
-use super::carrier::{Carrier, unit_of};
 use super::contact_set::ContactSet;
 use crate::model::each_cell::{Number, convert};
 use crate::model::field::{dot, norm};
@@ -14,6 +13,11 @@ pub enum Inverse {
     Single(SingleProduct),
 }
 
+/// The power of two nearest below a size; one where there is none.
+pub fn unit_of(size: f64) -> f64 {
+    if size > 0.0 && size.is_finite() { size.log2().floor().exp2() } else { 1.0 }
+}
+
 /// Fields of the box that inverses work on, on both sides; those before an inverse are zero outside the contact.
 #[derive(Default)]
 pub struct BoxFields {
@@ -25,7 +29,6 @@ pub struct BoxFields {
 struct Sides<B> {
     before: [Vec<B>; 2],
     after: [Vec<B>; 2],
-    carrier: Carrier<B>,
 }
 
 impl<B: Number> Sides<B> {
@@ -48,9 +51,9 @@ impl<B: Number> Sides<B> {
         [unit, factor]: [f64; 2],
         product: impl FnOnce(&[&[B]], &mut [&mut [B]]),
     ) {
-        let Self { before, after, carrier } = self;
+        let Self { before, after } = self;
         for (right, field) in right.iter().zip(before.iter_mut()) {
-            carrier.place(contact, right, 1.0 / unit, field);
+            contact.place_scaled(right, 1.0 / unit, field);
         }
         let count = right.len();
         product(
@@ -58,7 +61,7 @@ impl<B: Number> Sides<B> {
             &mut after.each_mut().map(Vec::as_mut_slice)[..count],
         );
         for (left, field) in left.iter_mut().zip(after) {
-            carrier.gather(contact, field, factor, left);
+            contact.gather_scaled(field, factor, left);
         }
     }
 }
@@ -109,7 +112,7 @@ impl Inverse {
         match self {
             Self::Double(product, workspace) => product.apply(workspace, &[right], &mut [left]),
             Self::Single(product) => {
-                let Sides { before: [before, _], after: [after, _], .. } = &mut fields.single;
+                let Sides { before: [before, _], after: [after, _] } = &mut fields.single;
                 for field in [&mut *before, &mut *after] {
                     field.resize(right.len(), 0.0);
                 }

@@ -5,7 +5,6 @@
 
 mod active_set;
 mod alternating;
-mod carrier;
 mod components;
 mod contact_set;
 mod coulomb;

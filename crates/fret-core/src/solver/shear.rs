@@ -53,6 +53,7 @@ pub fn solve_shear(
     let mut here = contact.packed_tangential(displacement);
     let mut spread = TangentialField::zeros(cells);
     let mut gradients = Gradients::default();
+    let mut zones = Zones::default();
     let mut motion = [0.0; 3];
     let mut patience = Patience::default();
     for iteration in 0..settings.most_outer_iterations {
@@ -66,7 +67,7 @@ pub fn solve_shear(
         }
         let theta = patience.hears(verdict.residual);
         gradients.exact |= patience.is_at_an_end();
-        let zones = Zones::classify(shear, &judge.s, task.bound, |_| false);
+        zones.classify(shear, &judge.s, task.bound, task.own);
         let frozen = Frozen { task, zones: &zones, settings, theta, cells };
         let cut = frozen.solve(&judge.s, shear, displacement, &mut gradients, compliance, preconditioner);
         retraction.shear(shear, &zones, task);

@@ -3,26 +3,16 @@
 
 use crate::model::TangentialField;
 use crate::model::each_cell::{CellRule, Reals, each_cell};
+use crate::model::field::largest;
 
 /// On the circle up to this share of its radius.
 const ON_CIRCLE: f64 = 1e-10;
 
-/// What a cell in contact does, frozen for the inner solver.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Freedom {
-    /// Both components of the shear are unknown.
-    Stick,
-    /// The shear is on its circle and can only turn.
-    Slip,
-    /// The shear follows pressure in a given direction: the cell just enters contact, or has no friction.
-    Follow,
-}
-
-/// Frozen zones of the cells in contact.
-#[derive(Debug, Clone)]
+/// Frozen zones of the cells in contact. A cell sticks: both components of its shear are unknown; or slips: its shear is on its
+/// circle and can only turn; or follows: its shear follows pressure in a given direction, since it just enters contact or has no
+/// friction.
+#[derive(Debug, Clone, Default)]
 pub struct Zones {
-    /// Freedom of every cell.
-    pub freedom: Vec<Freedom>,
     /// 1 where a cell sticks, 0 elsewhere.
     pub stick: Vec<f64>,
     /// 1 where a cell slips, 0 elsewhere.
@@ -31,70 +21,35 @@ pub struct Zones {
     pub direction: TangentialField,
     /// Slip stiffness of slipping cells [length/pressure]: turning by tau changes the pull along the tangent by D tau.
     pub stiffness: Vec<f64>,
-    /// Weights of the equations of slipping cells, zero elsewhere: a displacement turns a stiff cell by little, and counts by
-    /// as much in the laws; see [`Zones::weigh`].
+    /// Weights of the equations of slipping cells, `1 / sqrt(1 + D / own)` with a cell's own influence, zero elsewhere: a
+    /// displacement turns a stiff cell by little, and counts by as much in the laws.
     pub weighted_slip: Vec<f64>,
 }
 
 impl Zones {
-    /// Zones from shear `q`, friction bound `mu p` and `s` = minus the slip increment, all packed; `entering` tells cells
-    /// without pressure that join the contact.
-    pub fn classify(
-        q: &TangentialField,
-        s: &TangentialField,
-        bound: &[f64],
-        entering: impl Fn(usize) -> bool,
-    ) -> Self {
-        let len = bound.len();
-        let floor = 1e-6 * bound.iter().copied().fold(0.0, f64::max);
-        let mut zones = Self {
-            freedom: vec![Freedom::Stick; len],
-            stick: vec![1.0; len],
-            slip: vec![0.0; len],
-            direction: TangentialField::zeros(len),
-            stiffness: vec![0.0; len],
-            weighted_slip: Vec::new(),
-        };
-        for cell in 0..len {
-            let pull = s.at(cell);
-            if entering(cell) {
-                let size = pull[0].hypot(pull[1]);
-                let along = if size > 0.0 { [-pull[0] / size, -pull[1] / size] } else { [1.0, 0.0] };
-                zones.set(cell, Freedom::Follow, along);
-                continue;
-            }
-            let shear = q.at(cell);
-            let size = (shear[0] * shear[0] + shear[1] * shear[1]).sqrt();
-            if size > 0.0 && size >= bound[cell] * (1.0 - ON_CIRCLE) {
-                let along = [shear[0] / size, shear[1] / size];
-                let outward = -(pull[0] * along[0] + pull[1] * along[1]);
-                if outward > 0.0 {
-                    zones.set(cell, Freedom::Slip, along);
-                    zones.stiffness[cell] = outward / bound[cell].max(floor);
-                }
-            } else if bound[cell] <= 0.0 {
-                zones.set(cell, Freedom::Follow, [1.0, 0.0]);
-            }
-        }
+    /// Zones from shear `q`, friction bound `mu p`, `s` = minus the slip increment, all packed, and a cell's `own` influence
+    /// [length/pressure].
+    pub fn of(q: &TangentialField, s: &TangentialField, bound: &[f64], own: f64) -> Self {
+        let mut zones = Self::default();
+        zones.classify(q, s, bound, own);
         zones
     }
 
-    /// Weights of the equations of slipping cells: `1 / sqrt(1 + D / own)` with a cell's `own` influence [length/pressure].
-    pub fn weigh(&mut self, own: f64) {
-        self.weighted_slip.resize(self.len(), 0.0);
-        each_cell(&Weigh { stiffness: 1.0 / own }, [&self.slip, &self.stiffness], [&mut self.weighted_slip]);
-    }
-
-    fn set(&mut self, cell: usize, freedom: Freedom, along: [f64; 2]) {
-        self.freedom[cell] = freedom;
-        self.stick[cell] = 0.0;
-        self.slip[cell] = if freedom == Freedom::Slip { 1.0 } else { 0.0 };
-        self.direction.set(cell, along);
+    /// Takes over the zones of other tractions, keeping the memory.
+    pub fn classify(&mut self, q: &TangentialField, s: &TangentialField, bound: &[f64], own: f64) {
+        let Self { stick, slip, direction, stiffness, weighted_slip } = self;
+        let [along_x, along_y] = direction.each_mut();
+        let mut write = [stick, slip, along_x, along_y, stiffness, weighted_slip];
+        for field in &mut write {
+            field.resize(bound.len(), 0.0);
+        }
+        let rule = Classify { least: 1e-6 * largest(bound), stiffness: 1.0 / own };
+        each_cell(&rule, [&q.x, &q.y, &s.x, &s.y, bound], write.map(Vec::as_mut_slice));
     }
 
     /// Whether the shear of a cell lies on its circle and grows with pressure.
     pub fn is_on_circle(&self, cell: usize) -> bool {
-        self.freedom[cell] != Freedom::Stick
+        self.stick[cell] == 0.0
     }
 
     /// Number of cells in contact.
@@ -103,14 +58,38 @@ impl Zones {
     }
 }
 
-struct Weigh {
+struct Classify {
+    /// Friction bound below which slip stiffness grows no more [pressure].
+    least: f64,
+    /// Of a cell [pressure/length].
     stiffness: f64,
 }
 
-impl CellRule<2, 1, 0> for Weigh {
+impl CellRule<5, 6, 0> for Classify {
     #[inline(always)]
-    fn at<R: Reals>(&self, [slip, stiffness]: [R; 2], [weighted]: &mut [R; 1]) -> [R; 0] {
-        *weighted = slip / (stiffness * self.stiffness + 1.0).sqrt();
+    fn at<R: Reals>(
+        &self,
+        [qx, qy, sx, sy, bound]: [R; 5],
+        [stick, slip, along_x, along_y, stiffness, weighted]: &mut [R; 6],
+    ) -> [R; 0] {
+        let (zero, one) = (qx.all(0.0), qx.all(1.0));
+        let size = (qx * qx + qy * qy).sqrt();
+        let towards = [qx / size, qy / size];
+        let outward = (sx * towards[0] + sy * towards[1]) * -1.0;
+        let on_circle = (bound * (1.0 - ON_CIRCLE)).if_at_most(size, one, zero);
+        let pulled = outward.if_at_most(zero, zero, on_circle);
+        *slip = size.if_at_most(zero, zero, bound.if_at_most(zero, zero, pulled));
+        let follows = bound.if_at_most(zero, one, zero);
+        *stick = one - *slip - follows;
+        // What just enters goes against its pull.
+        let pull = (sx * sx + sy * sy).sqrt();
+        let against =
+            [pull.if_at_most(zero, one, sx / pull * -1.0), pull.if_at_most(zero, zero, sy / pull * -1.0)];
+        let slips =
+            |along: R, entering: R| slip.if_at_most(zero, follows.if_at_most(zero, zero, entering), along);
+        [*along_x, *along_y] = [slips(towards[0], against[0]), slips(towards[1], against[1])];
+        *stiffness = slip.if_at_most(zero, zero, outward / bound.max(bound.all(self.least)));
+        *weighted = *slip / (*stiffness * self.stiffness + 1.0).sqrt();
         []
     }
 }
