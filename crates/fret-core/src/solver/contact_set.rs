@@ -8,7 +8,7 @@ use crate::model::TangentialField;
 use crate::model::each_cell::Number;
 
 /// Cells in contact, as runs along the rows of the box.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct ContactSet {
     runs: Vec<Range<usize>>,
     len: usize,
@@ -67,10 +67,22 @@ impl ContactSet {
     /// A packed copy of a field of the box.
     pub fn packed(&self, field: &[f64]) -> Vec<f64> {
         let mut packed = Vec::with_capacity(self.len);
+        self.pack(field, &mut packed);
+        packed
+    }
+
+    /// Packs a field of the box into one of any length, keeping the memory.
+    pub fn pack(&self, field: &[f64], packed: &mut Vec<f64>) {
+        packed.clear();
         for run in &self.runs {
             packed.extend_from_slice(&field[run.clone()]);
         }
-        packed
+    }
+
+    /// Packs a tangential field of the box into one of any length, keeping the memory.
+    pub fn pack_tangential(&self, field: &TangentialField, packed: &mut TangentialField) {
+        self.pack(&field.x, &mut packed.x);
+        self.pack(&field.y, &mut packed.y);
     }
 
     /// Packs a tangential field of the box.

@@ -134,17 +134,27 @@ fn solve_coupled(
     let mut retraction = Retraction::default();
     let mut gap = vec![0.0; cells];
     let mut motion = [0.0; 3];
+    let mut contact = ContactSet::default();
+    let mut modes = task.places.modes(&contact);
+    let mut packed = Packed::default();
+    let [mut before, mut displaced] = [TangentialField::default(), TangentialField::default()];
+    let mut heights = Vec::new();
     let mut zones = Zones::default();
     let mut patience = Patience::default();
-    let mut retreat = Retreat::default();
+    let mut retreat = Retreat::new(cells);
     for iteration in 0..settings.most_outer_iterations {
         each_cell(&Height, [&displacements.normal, task.undeformed], [&mut gap]);
         let normal = judge_normal(&tractions.pressure, &mut gap, task.undeformed, own.normal, prescribed);
-        let contact = ContactSet::of(cells, |cell| tractions.pressure[cell] > 0.0 || gap[cell] < 0.0);
-        let mut packed = Packed::new(&contact, tractions, task.friction);
-        let modes = task.places.modes(&contact);
-        let before = contact.packed_tangential(task.before);
-        let displaced = contact.packed_tangential(&displacements.tangential);
+        let touching = ContactSet::of(cells, |cell| tractions.pressure[cell] > 0.0 || gap[cell] < 0.0);
+        let changed = iteration == 0 || touching != contact;
+        if changed {
+            contact = touching;
+            modes = task.places.modes(&contact);
+            before = contact.packed_tangential(task.before);
+            packed.friction = contact.packed(task.friction);
+        }
+        packed.take(&contact, tractions);
+        contact.pack_tangential(&displacements.tangential, &mut displaced);
         let tangential = {
             let judged = task.tangential(&contact, &packed.bound, &before, &modes, own.tangential);
             judge.judge(&judged, &packed.shear, &displaced, motion)
@@ -177,8 +187,10 @@ fn solve_coupled(
             floor: floor(settings.tolerance, &packed.pressure, own.normal),
             theta,
             exact: patience.is_at_an_end(),
+            changed,
         };
-        frozen.solve(&contact.packed(&gap), &judge.s, krylov, compliance, preconditioner);
+        contact.pack(&gap, &mut heights);
+        frozen.solve(&heights, &judge.s, krylov, compliance, preconditioner);
         packed.add(&krylov.step);
         if !retract_pressure(&mut packed.pressure, task.total) {
             break;
@@ -186,6 +198,7 @@ fn solve_coupled(
         packed.find_bound();
         let Packed { pressure, shear, bound, .. } = &mut packed;
         retraction.shear(shear, &zones, &task.tangential(&contact, bound, &before, &modes, own.tangential));
+        retreat.keep(tractions, displacements);
         contact.scatter(pressure, &mut tractions.pressure);
         contact.scatter_tangential(shear, &mut tractions.shear);
         compliance.full(tractions.parts(), displacements.parts_mut());
@@ -194,37 +207,40 @@ fn solve_coupled(
 }
 
 /// Takes back by half a step that made things much worse.
-#[derive(Default)]
 struct Retreat {
-    kept: Option<(Tractions, Displacements)>,
+    kept: (Tractions, Displacements),
     residual: f64,
     halvings: usize,
 }
 
 impl Retreat {
-    /// Keeps what was reached, or goes halfway back to what was kept; tells which.
+    fn new(cells: usize) -> Self {
+        let kept = (Tractions::zeros(cells), Displacements::zeros(cells));
+        Self { kept, residual: f64::INFINITY, halvings: 0 }
+    }
+
+    /// Goes halfway back to what was kept; tells whether.
     fn takes_back(
         &mut self,
         residual: f64,
         tractions: &mut Tractions,
         displacements: &mut Displacements,
     ) -> bool {
-        match &mut self.kept {
-            Some((before, displaced)) if residual > 4.0 * self.residual && self.halvings < 4 => {
-                self.halvings += 1;
-                tractions.average_with(before);
-                displacements.average_with(displaced);
-                return true;
-            }
-            Some((before, displaced)) => {
-                before.copy_from(tractions);
-                displaced.copy_from(displacements);
-            }
-            None => self.kept = Some((tractions.clone(), displacements.clone())),
+        if residual > 4.0 * self.residual && self.halvings < 4 {
+            self.halvings += 1;
+            tractions.average_with(&self.kept.0);
+            displacements.average_with(&self.kept.1);
+            return true;
         }
         self.residual = residual;
         self.halvings = 0;
         false
+    }
+
+    /// Keeps what was reached; leaves fields to be overwritten.
+    fn keep(&mut self, tractions: &mut Tractions, displacements: &mut Displacements) {
+        std::mem::swap(&mut self.kept.0, tractions);
+        std::mem::swap(&mut self.kept.1, displacements);
     }
 }
 

@@ -18,10 +18,12 @@ impl<N, const K: usize> Default for ElasticAnswer<N, K> {
 }
 
 impl<N: Number, const K: usize> ElasticAnswer<N, K> {
-    /// Forgets the contact before, in a box of so many cells.
-    pub fn restart(&mut self, cells: usize) {
+    /// Makes ready for a box of so many cells; forgets the contact before when it has `changed`.
+    pub fn begin(&mut self, cells: usize, changed: bool) {
         for field in &mut self.tractions {
-            field.clear();
+            if changed {
+                field.clear();
+            }
             field.resize(cells, N::default());
         }
         for field in &mut self.displacements {

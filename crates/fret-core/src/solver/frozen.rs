@@ -22,7 +22,7 @@ use crate::model::field::{add_scaled, largest, norm, sum};
 const ETA: f64 = 0.01;
 
 /// Feasible tractions of the cells in contact, packed.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub struct Packed {
     /// Pressure [pressure].
     pub pressure: Vec<f64>,
@@ -35,16 +35,11 @@ pub struct Packed {
 }
 
 impl Packed {
-    /// Packs the tractions of a box.
-    pub fn new(contact: &ContactSet, tractions: &Tractions, friction: &[f64]) -> Self {
-        let mut packed = Self {
-            pressure: contact.packed(&tractions.pressure),
-            shear: contact.packed_tangential(&tractions.shear),
-            friction: contact.packed(friction),
-            bound: vec![0.0; contact.len()],
-        };
-        packed.find_bound();
-        packed
+    /// Packs the tractions of a box; the friction coefficients are those of the contact.
+    pub fn take(&mut self, contact: &ContactSet, tractions: &Tractions) {
+        contact.pack(&tractions.pressure, &mut self.pressure);
+        contact.pack_tangential(&tractions.shear, &mut self.shear);
+        self.find_bound();
     }
 
     /// Adds a step.
@@ -57,6 +52,7 @@ impl Packed {
 
     /// The friction bound of the pressure.
     pub fn find_bound(&mut self) {
+        self.bound.resize(self.pressure.len(), 0.0);
         for ((bound, p), mu) in self.bound.iter_mut().zip(&self.pressure).zip(&self.friction) {
             *bound = p * mu;
         }
@@ -84,6 +80,8 @@ pub struct Frozen<'a> {
     pub theta: f64,
     /// The elastic answer is wanted with all digits.
     pub exact: bool,
+    /// The contact is not that of the frozen problem before.
+    pub changed: bool,
 }
 
 /// Memory of the Krylov method.
@@ -164,12 +162,14 @@ impl Frozen<'_> {
         if !*exact && let Some(mut operator) = compliance.full_single() {
             let most = largest(&self.packed.pressure).max(norm(gap) / operator.unit());
             let units = Units::near_one(most, operator.unit());
-            single.take(self, right, units, *cells);
+            single.take(self, right, units);
+            single.answer.begin(*cells, self.changed);
             self.solve_in(weight, units, single, |q, u| operator.apply(&q, &mut { u }), preconditioner);
             step.convert(single.step.parts(), units.pressure);
         } else {
-            *exact = true;
-            double.take(self, right, Units::SCENE, *cells);
+            let first = !std::mem::replace(exact, true);
+            double.take(self, right, Units::SCENE);
+            double.answer.begin(*cells, first || self.changed);
             self.solve_in(weight, Units::SCENE, double, |q, u| compliance.full(q, u), preconditioner);
             step.convert(double.step.parts(), 1.0);
         }
@@ -206,7 +206,7 @@ impl Frozen<'_> {
             rigid: RigidProjector::new(self.modes, zones.parts()),
             equations: RigidProjector::weighted(self.modes, zones.parts(), &zones.weighted_slip),
         };
-        preconditioner.freeze(zones, units.compliance, levels);
+        preconditioner.freeze(zones, units.compliance, self.changed, levels);
         directions.restart();
         step.clear(self.contact.len());
         let first = residual.norm();
@@ -243,14 +243,13 @@ impl Frozen<'_> {
 }
 
 impl<N: Number> Krylov<N> {
-    fn take(&mut self, frozen: &Frozen<'_>, right: &Components<f64, 3>, units: Units, cells: usize) {
+    fn take(&mut self, frozen: &Frozen<'_>, right: &Components<f64, 3>, units: Units) {
         self.residual.convert(right.parts(), 1.0 / units.length());
         self.zones.take(frozen.zones, frozen.modes, units.compliance);
         let Packed { pressure, shear, friction, bound } = frozen.packed;
         taken(pressure, 1.0 / units.pressure, &mut self.start.pressure);
         taken(friction, 1.0, &mut self.start.friction);
         self.start.shear.take(shear, bound, units.pressure);
-        self.answer.restart(cells);
     }
 }
 
@@ -325,7 +324,8 @@ impl<N: Number> Problem<'_, N> {
     /// Distance of tractions + step from feasible ones, in units of pressure.
     fn cut_of(&self, step: &Components<N, 3>) -> f64 {
         let [p, qx, qy] = step.parts();
-        let Start { pressure, friction, shear: StartingShear { shear: [x, y], size, excess } } = self.start;
+        let Start { pressure, friction, shear: StartingShear { shear: [x, y], size, excess, .. } } =
+            self.start;
         let read = [pressure, x, y, size, excess, friction, &self.zones.stick, p, qx, qy];
         let [square] = each_cell(&Cut, read, []);
         square.sqrt()

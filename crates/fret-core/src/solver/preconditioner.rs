@@ -163,8 +163,15 @@ impl Preconditioner {
     }
 
     /// Prepares [`Preconditioner::shear`] and [`Preconditioner::pressure`] for frozen zones: a partition of unity over the slip
-    /// stiffness between two levels. `compliance` is the unit of displacements over that of tractions [length/pressure].
-    pub fn freeze<N: Number>(&mut self, zones: &FrozenZones<N>, compliance: f64, levels: &mut Levels<N>) {
+    /// stiffness between two levels. `compliance` is the unit of displacements over that of tractions [length/pressure]; `changed`: the contact
+    /// is not that of the zones before.
+    pub fn freeze<N: Number>(
+        &mut self,
+        zones: &FrozenZones<N>,
+        compliance: f64,
+        changed: bool,
+        levels: &mut Levels<N>,
+    ) {
         let softest = self.softest / compliance;
         let stiff = zones.stiffness.iter().any(|stiffness| stiffness.to_double(1.0) > softest);
         levels.used = if stiff { 2 } else { 1 };
@@ -177,7 +184,7 @@ impl Preconditioner {
         levels.weighted.reset(zones.len());
         levels.part.reset(zones.len());
         // All inverses of a box are of one precision.
-        if let Some(inverse) = self.normal.iter().chain(self.shear.iter().flatten()).next() {
+        if changed && let Some(inverse) = self.normal.iter().chain(self.shear.iter().flatten()).next() {
             inverse.clear(&mut self.fields, self.cells);
         }
     }

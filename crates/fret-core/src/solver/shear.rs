@@ -68,7 +68,7 @@ pub fn solve_shear(
         let theta = patience.hears(verdict.residual);
         gradients.exact |= patience.is_at_an_end();
         zones.classify(shear, &judge.s, task.bound, task.own);
-        let frozen = Frozen { task, zones: &zones, settings, theta, cells };
+        let frozen = Frozen { task, zones: &zones, settings, theta, cells, first: iteration == 0 };
         let cut = frozen.solve(&judge.s, shear, displacement, &mut gradients, compliance, preconditioner);
         retraction.shear(shear, &zones, task);
         if cut {
@@ -122,6 +122,8 @@ struct Frozen<'a> {
     theta: f64,
     /// Cells of the box.
     cells: usize,
+    /// It is the first one on this contact.
+    first: bool,
 }
 
 /// Conjugate gradients on frozen zones.
@@ -175,15 +177,17 @@ impl Frozen<'_> {
             let units = Units::near_one(largest(self.task.bound), operator.unit());
             let memory = &mut gradients.single;
             memory.take(self, &right, shear, units);
+            memory.answer.begin(self.cells, self.first);
             self.solve_in(units, memory, |q, u| operator.apply(&q, &mut { u }), |_, _| (), preconditioner);
             for (shear, step) in shear.parts_mut().into_iter().zip(memory.step.parts()) {
                 add_converted(shear, units.pressure, step);
             }
             true
         } else {
-            gradients.exact = true;
+            let first = !std::mem::replace(&mut gradients.exact, true);
             let memory = &mut gradients.double;
             memory.take(self, &right, shear, Units::SCENE);
+            memory.answer.begin(self.cells, first || self.first);
             let moved = |tau: f64, [x, y]: &[Vec<f64>; 2]| {
                 add_scaled(&mut displacement.x, tau, x);
                 add_scaled(&mut displacement.y, tau, y);
@@ -224,7 +228,7 @@ impl Frozen<'_> {
             answer,
         } = memory;
         let rigid = RigidProjector::new(task.modes, zones.parts());
-        preconditioner.freeze(zones, units.compliance, levels);
+        preconditioner.freeze(zones, units.compliance, self.first, levels);
         step.clear(zones.len());
         z.reset(zones.len());
         z_before.reset(zones.len());
@@ -305,17 +309,16 @@ impl<N: Number> ConjugateGradients<N> {
         units: Units,
     ) {
         self.residual.convert(right.parts(), 1.0 / units.length());
-        let Frozen { task, zones, cells, .. } = frozen;
+        let Frozen { task, zones, .. } = frozen;
         self.zones.take(zones, task.modes, units.compliance);
         self.start.take(shear, task.bound, units.pressure);
         taken(task.bound, 1.0 / units.pressure, &mut self.bound);
-        self.answer.restart(*cells);
     }
 }
 
 /// Distance of shear + step from the discs and circles it has to go back to.
 fn cut_of<N: Number>(start: &StartingShear<N>, bound: &[N], slip: &[N], step: &Components<N, 2>) -> f64 {
-    let StartingShear { shear: [x, y], size, excess } = start;
+    let StartingShear { shear: [x, y], size, excess, .. } = start;
     let [step_x, step_y] = step.parts();
     let [square] = each_cell(&Cut, [x, y, size, excess, bound, slip, step_x, step_y], []);
     square.sqrt()

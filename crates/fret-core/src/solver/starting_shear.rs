@@ -12,15 +12,20 @@ pub struct StartingShear<N> {
     pub size: Vec<N>,
     /// Its size less the friction bound: lost when taken in single precision.
     pub excess: Vec<N>,
+    /// Size and excess before they are taken.
+    wide: [Vec<f64>; 2],
 }
 
 impl<N: Number> StartingShear<N> {
     /// Takes over shear with its friction bound, in units of `unit`.
     pub fn take(&mut self, shear: &TangentialField, bound: &[f64], unit: f64) {
-        let [mut size, mut excess] = [vec![0.0; bound.len()], vec![0.0; bound.len()]];
-        each_cell(&SizeAndExcess, [&shear.x, &shear.y, bound], [&mut size, &mut excess]);
-        let Self { shear: [x, y], size: own_size, excess: own_excess } = self;
-        for (from, to) in [(&shear.x, x), (&shear.y, y), (&size, own_size), (&excess, own_excess)] {
+        let Self { shear: [x, y], size, excess, wide } = self;
+        for field in wide.iter_mut() {
+            field.resize(bound.len(), 0.0);
+        }
+        let [own_size, own_excess] = wide;
+        each_cell(&SizeAndExcess, [&shear.x, &shear.y, bound], [own_size, own_excess]);
+        for (from, to) in [(&shear.x, x), (&shear.y, y), (own_size, size), (own_excess, excess)] {
             taken(from, 1.0 / unit, to);
         }
     }

@@ -67,12 +67,6 @@ impl Displacements {
         average(&mut self.tangential.x, &other.tangential.x);
         average(&mut self.tangential.y, &other.tangential.y);
     }
-
-    /// Takes over other displacements, keeping the memory.
-    pub fn copy_from(&mut self, other: &Self) {
-        self.normal.clone_from(&other.normal);
-        self.tangential.copy_from(&other.tangential);
-    }
 }
 
 fn average(field: &mut [f64], other: &[f64]) {
