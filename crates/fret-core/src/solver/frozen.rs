@@ -7,7 +7,7 @@ use super::elastic_answer::ElasticAnswer;
 use super::frozen_zones::{FrozenZones, RigidProjector, free_part, parts_of, products};
 use super::inverse::unit_of;
 use super::krylov::Directions;
-use super::preconditioner::{Levels, Preconditioner};
+use super::preconditioner::{Preconditioner, SlipShares};
 use super::rigid::RigidModes;
 use super::shear::SIX_DIGITS;
 use super::starting_shear::{StartingShear, after, taken};
@@ -102,7 +102,7 @@ pub struct KrylovMemory {
 struct Krylov<N> {
     zones: FrozenZones<N>,
     start: Start<N>,
-    levels: Levels<N>,
+    shares: SlipShares<N>,
     directions: Directions<N>,
     residual: Components<N, 3>,
     step: Components<N, 3>,
@@ -197,7 +197,7 @@ impl Frozen<'_> {
         mut apply: impl FnMut([&[N]; 3], [&mut [N]; 3]),
         preconditioner: &mut Preconditioner,
     ) {
-        let Krylov { zones, start, levels, directions, residual, step, unweighted, turning, answer } = memory;
+        let Krylov { zones, start, shares, directions, residual, step, unweighted, turning, answer } = memory;
         let problem = Problem {
             frozen: self,
             zones,
@@ -206,7 +206,7 @@ impl Frozen<'_> {
             rigid: RigidProjector::new(self.modes, zones.parts()),
             equations: RigidProjector::weighted(self.modes, zones.parts(), &zones.weighted_slip),
         };
-        preconditioner.freeze(zones, units.compliance, self.changed, levels);
+        preconditioner.freeze(zones, units.compliance, self.changed, shares);
         directions.restart();
         step.clear(self.contact.len());
         let first = residual.norm();
@@ -215,7 +215,7 @@ impl Frozen<'_> {
         for depth in 0..self.most {
             let direction = directions.open(self.contact.len());
             problem.unweigh(residual, unweighted);
-            problem.precondition(residual, unweighted, preconditioner, levels, &mut direction.along, turning);
+            problem.precondition(residual, unweighted, preconditioner, shares, &mut direction.along, turning);
             if depth == 0 {
                 first_size = problem.size_of(&direction.along);
             }
@@ -292,16 +292,16 @@ impl<N: Number> Problem<'_, N> {
         residual: &Components<N, 3>,
         displacements: &Components<N, 2>,
         preconditioner: &mut Preconditioner,
-        levels: &mut Levels<N>,
+        shares: &mut SlipShares<N>,
         along: &mut Components<N, 3>,
         turning: &mut Vec<N>,
     ) {
         let contact = self.frozen.contact;
         let [normal, _, _] = residual.parts();
         let [p, qx, qy] = along.parts_mut();
-        preconditioner.pressure(normal, contact, p, levels);
+        preconditioner.pressure(normal, contact, p, shares);
         self.frozen.remove_mean(p);
-        preconditioner.shear(displacements.parts(), contact, [qx, qy], levels);
+        preconditioner.shear(displacements.parts(), contact, [qx, qy], shares);
         let [stick, slip, along_x, along_y, around_x, around_y] = self.zones.parts();
         let read = [stick, slip, along_x, along_y, around_x, around_y, &self.start.friction, p];
         let resultant = each_cell(&FreeAndFollow, read, [&mut *qx, &mut *qy]);

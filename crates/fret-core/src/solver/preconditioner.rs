@@ -1,6 +1,6 @@
 //! An approximate inverse of the elastic answer by unpadded transforms on the box, wave by wave: for pressure the response of
 //! the pair to waves where it is known; else the kernel made periodic with the nearest image of each offset only; for slipping
-//! cells with the slip stiffness added.
+//! cells their slip stiffness takes its share.
 
 use ndarray::{Array2, s};
 
@@ -17,8 +17,6 @@ use crate::spectral::{Block, ConvolutionError, Kernel, Parity, PeriodicProduct, 
 /// A pair is stiff at the surface when the longest waves of a box meet this many times the compliance times wavenumber that
 /// the shortest ones meet: a thin coating more than about five times stiffer than what lies below.
 const STIFF_ABOVE: f64 = 4.0;
-/// Second level of slip stiffness, in units of the smallest elastic symbol.
-const STIFF_LEVEL: f64 = 30.0;
 
 const NORMAL: [Block; 1] = [Block { output: 0, input: 0, kernel: 0, sign: 1.0 }];
 const TANGENTIAL: [Block; 4] = [
@@ -31,8 +29,7 @@ const TANGENTIAL: [Block; 4] = [
 /// Approximate inverses for a box.
 pub struct Preconditioner {
     normal: Option<Inverse>,
-    /// Inverses of the symbol, and of the symbol plus [`STIFF_LEVEL`] smallest symbols.
-    shear: Option<[Inverse; 2]>,
+    shear: Option<Inverse>,
     /// Smallest symbol of the tangential response [length/pressure].
     softest: f64,
     /// The one axis along which shear acts.
@@ -44,13 +41,14 @@ pub struct Preconditioner {
     pub passes: usize,
 }
 
-/// Slip stiffness as the preconditioner sees it: shares of two levels; with the memory that goes with them.
+/// Slip stiffness as the preconditioner sees it, with the memory that goes with it: where little resists turning the inverse of the
+/// elastic answer counts, where much does a cell's own slip stiffness.
 #[derive(Debug, Default)]
-pub struct Levels<N> {
-    /// Weights of the two levels in the cells of the frozen zones.
-    weights: [Vec<N>; 2],
-    /// Levels in use: one where nothing slips stiffly.
-    used: usize,
+pub struct SlipShares<N> {
+    /// Weights of the elastic inverse in the cells of the frozen zones, on both of its sides.
+    elastic: Vec<N>,
+    /// Inverses of slip stiffness, each by its share [pressure/length].
+    slip: Vec<N>,
     /// Unit of displacements over that of tractions [length/pressure].
     compliance: f64,
     weighted: Components<N, 2>,
@@ -121,19 +119,16 @@ impl Preconditioner {
             let yy = symbol(yy, Parity::EvenEven)?;
             let xy = symbol(xy, Parity::OddOdd)?;
             softest = smallest_positive(&xx).min(smallest_positive(&yy));
-            let level = |shift: f64| {
-                let [xx, yy, xy] = inverse(&xx, &yy, &xy, softest, shift);
-                let symbols = [
-                    Symbol { values: xx.view(), parity: Parity::EvenEven },
-                    Symbol { values: yy.view(), parity: Parity::EvenEven },
-                    Symbol { values: xy.view(), parity: Parity::OddOdd },
-                ];
-                match along {
-                    Some(axis) => product(&symbols[axis..=axis], &[1 + axis], &NORMAL),
-                    None => product(&symbols, &[1, 2], &TANGENTIAL),
-                }
-            };
-            Some([level(0.0)?, level(STIFF_LEVEL * softest)?])
+            let [xx, yy, xy] = inverse(&xx, &yy, &xy, softest);
+            let symbols = [
+                Symbol { values: xx.view(), parity: Parity::EvenEven },
+                Symbol { values: yy.view(), parity: Parity::EvenEven },
+                Symbol { values: xy.view(), parity: Parity::OddOdd },
+            ];
+            Some(match along {
+                Some(axis) => product(&symbols[axis..=axis], &[1 + axis], &NORMAL)?,
+                None => product(&symbols, &[1, 2], &TANGENTIAL)?,
+            })
         } else {
             None
         };
@@ -162,29 +157,25 @@ impl Preconditioner {
         }
     }
 
-    /// Prepares [`Preconditioner::shear`] and [`Preconditioner::pressure`] for frozen zones: a partition of unity over the slip
-    /// stiffness between two levels. `compliance` is the unit of displacements over that of tractions [length/pressure]; `changed`: the contact
-    /// is not that of the zones before.
+    /// Prepares [`Preconditioner::shear`] and [`Preconditioner::pressure`] for frozen zones. `compliance` is the unit of
+    /// displacements over that of tractions [length/pressure]; `changed`: the contact is not that of the zones before.
     pub fn freeze<N: Number>(
         &mut self,
         zones: &FrozenZones<N>,
         compliance: f64,
         changed: bool,
-        levels: &mut Levels<N>,
+        shares: &mut SlipShares<N>,
     ) {
-        let softest = self.softest / compliance;
-        let stiff = zones.stiffness.iter().any(|stiffness| stiffness.to_double(1.0) > softest);
-        levels.used = if stiff { 2 } else { 1 };
-        levels.compliance = compliance;
-        for weights in &mut levels.weights {
-            weights.resize(zones.len(), N::default());
+        let SlipShares { elastic, slip, .. } = shares;
+        for field in [&mut *elastic, &mut *slip] {
+            field.resize(zones.len(), N::default());
         }
-        let [soft, stiff] = &mut levels.weights;
-        each_cell(&LevelWeights { softest }, [&zones.stiffness], [soft, stiff]);
-        levels.weighted.reset(zones.len());
-        levels.part.reset(zones.len());
+        each_cell(&Share { softest: self.softest / compliance }, [&zones.stiffness], [elastic, slip]);
+        shares.compliance = compliance;
+        shares.weighted.reset(zones.len());
+        shares.part.reset(zones.len());
         // All inverses of a box are of one precision.
-        if changed && let Some(inverse) = self.normal.iter().chain(self.shear.iter().flatten()).next() {
+        if changed && let Some(inverse) = self.normal.iter().chain(&self.shear).next() {
             inverse.clear(&mut self.fields, self.cells);
         }
     }
@@ -195,11 +186,11 @@ impl Preconditioner {
         right: &[N],
         contact: &ContactSet,
         pressure: &mut [N],
-        levels: &Levels<N>,
+        shares: &SlipShares<N>,
     ) {
         if let Some(inverse) = &mut self.normal {
             self.passes += 1;
-            inverse.apply(contact, &[right], &mut [pressure], levels.compliance, &mut self.fields);
+            inverse.apply(contact, &[right], &mut [pressure], shares.compliance, &mut self.fields);
         }
     }
 
@@ -209,42 +200,42 @@ impl Preconditioner {
         &mut self,
         [right_x, right_y]: [&[N]; 2],
         contact: &ContactSet,
-        [x, y]: [&mut [N]; 2],
-        levels: &mut Levels<N>,
+        shear: [&mut [N]; 2],
+        shares: &mut SlipShares<N>,
     ) {
-        let Self { shear: Some(inverses), along, fields, .. } = self else { return };
-        let Levels { weights, used, compliance, weighted, part } = levels;
-        x.fill(N::default());
-        y.fill(N::default());
-        for (inverse, weights) in inverses.iter_mut().zip(weights).take(*used) {
-            each_cell(&Weighted, [right_x, right_y, weights], weighted.parts_mut());
-            self.passes += 1;
-            // Where shear acts along one axis the other component stays zero.
-            let axes = along.map_or(0..2, |axis| axis..axis + 1);
-            let (right, mut left) = (weighted.parts(), part.parts_mut());
-            inverse.apply(contact, &right[axes.clone()], &mut left[axes], *compliance, fields);
-            let [part_x, part_y] = part.parts();
-            each_cell(&AddWeighted, [part_x, part_y, weights], [&mut *x, &mut *y]);
-        }
+        let Self { shear: Some(inverse), along, fields, .. } = self else { return };
+        let SlipShares { elastic, slip, compliance, weighted, part } = shares;
+        each_cell(&Weighted, [right_x, right_y, elastic], weighted.parts_mut());
+        self.passes += 1;
+        // Where shear acts along one axis the other component stays zero.
+        let axes = along.map_or(0..2, |axis| axis..axis + 1);
+        inverse.apply(
+            contact,
+            &weighted.parts()[axes.clone()],
+            &mut part.parts_mut()[axes],
+            *compliance,
+            fields,
+        );
+        let [part_x, part_y] = part.parts();
+        each_cell(&Together, [part_x, part_y, right_x, right_y, elastic, slip], shear);
     }
 }
 
-/// Square roots of the shares of two levels in the slip stiffness of a cell.
-struct LevelWeights {
+/// Shares of the elastic answer and of the slip stiffness D of a cell in the inverse of both: the latter's is
+/// `s = (r - 1) / (r + 2)` with `r = sqrt(1 + D / softest)`, found by trial.
+struct Share {
     softest: f64,
 }
 
-impl CellRule<1, 2, 0> for LevelWeights {
+impl CellRule<1, 2, 0> for Share {
     #[inline(always)]
-    fn at<R: Reals>(&self, [stiffness]: [R; 1], [soft, stiff]: &mut [R; 2]) -> [R; 0] {
+    fn at<R: Reals>(&self, [stiffness]: [R; 1], [elastic, slip]: &mut [R; 2]) -> [R; 0] {
         let one = stiffness.all(1.0);
-        // A share that grows like the logarithm, from 0 at the softest to 1 at the second level.
-        let root = (stiffness / self.softest).sqrt().max(one).min(stiffness.all(STIFF_LEVEL.sqrt()));
-        let top = (STIFF_LEVEL.sqrt() + 1.0) / (STIFF_LEVEL.sqrt() - 1.0);
-        let share = (root - one) / (root + one) * top;
-        let scale = one / (stiffness / self.softest + one);
-        *soft = ((one - share).max(one * 0.0) * scale).sqrt();
-        *stiff = (share * scale * (1.0 + STIFF_LEVEL)).sqrt();
+        let both = stiffness / self.softest + 1.0;
+        let root = both.sqrt();
+        let share = (root - one) / (root + 2.0);
+        *elastic = ((one - share) / both).sqrt();
+        *slip = share / (stiffness + self.softest);
         []
     }
 }
@@ -260,13 +251,18 @@ impl CellRule<3, 2, 0> for Weighted {
     }
 }
 
-struct AddWeighted;
+/// The elastic part times its weight and the slip part.
+struct Together;
 
-impl CellRule<3, 2, 0> for AddWeighted {
+impl CellRule<6, 2, 0> for Together {
     #[inline(always)]
-    fn at<R: Reals>(&self, [from_x, from_y, weight]: [R; 3], [x, y]: &mut [R; 2]) -> [R; 0] {
-        *x = *x + from_x * weight;
-        *y = *y + from_y * weight;
+    fn at<R: Reals>(
+        &self,
+        [part_x, part_y, right_x, right_y, elastic, slip]: [R; 6],
+        [x, y]: &mut [R; 2],
+    ) -> [R; 0] {
+        *x = part_x * elastic + right_x * slip;
+        *y = part_y * elastic + right_y * slip;
         []
     }
 }
@@ -300,14 +296,8 @@ fn smallest_positive(symbol: &Array2<f64>) -> f64 {
     symbol.iter().copied().filter(|value| *value > 0.0).fold(f64::INFINITY, f64::min)
 }
 
-/// Wave by wave inverse of `[[xx, t], [t, yy]] + shift`, with the transfer function `t = -xy` of an odd-odd kernel.
-fn inverse(
-    xx: &Array2<f64>,
-    yy: &Array2<f64>,
-    xy: &Array2<f64>,
-    softest: f64,
-    shift: f64,
-) -> [Array2<f64>; 3] {
+/// Wave by wave inverse of `[[xx, t], [t, yy]]`, with the transfer function `t = -xy` of an odd-odd kernel.
+fn inverse(xx: &Array2<f64>, yy: &Array2<f64>, xy: &Array2<f64>, softest: f64) -> [Array2<f64>; 3] {
     let mut result = [xx.clone(), yy.clone(), xy.clone()];
     for (index, &cross) in xy.indexed_iter() {
         if xx[index] == 0.0 && yy[index] == 0.0 {
@@ -317,7 +307,7 @@ fn inverse(
             }
             continue;
         }
-        let (a, d) = (xx[index].max(softest) + shift, yy[index].max(softest) + shift);
+        let (a, d) = (xx[index].max(softest), yy[index].max(softest));
         let det = a * d - cross * cross;
         // Not positive: as if uncoupled.
         let (det, cross) = if det > 1e-3 * a * d { (det, cross) } else { (a * d, 0.0) };

@@ -6,7 +6,7 @@ use super::coulomb::{CoulombJudge, TangentialTask, TangentialVerdict};
 use super::elastic_answer::ElasticAnswer;
 use super::frozen::Units;
 use super::frozen_zones::{FrozenZones, RigidProjector, parts_of};
-use super::preconditioner::{Levels, Preconditioner};
+use super::preconditioner::{Preconditioner, SlipShares};
 use super::retraction::Retraction;
 use super::settings::{SolveError, SolverSettings, Watch};
 use super::starting_shear::{StartingShear, after, taken};
@@ -141,7 +141,7 @@ struct ConjugateGradients<N> {
     zones: FrozenZones<N>,
     start: StartingShear<N>,
     bound: Vec<N>,
-    levels: Levels<N>,
+    shares: SlipShares<N>,
     residual: Components<N, 2>,
     z: Components<N, 2>,
     z_before: Components<N, 2>,
@@ -216,7 +216,7 @@ impl Frozen<'_> {
             zones,
             start,
             bound,
-            levels,
+            shares,
             residual,
             z,
             z_before,
@@ -228,7 +228,7 @@ impl Frozen<'_> {
             answer,
         } = memory;
         let rigid = RigidProjector::new(task.modes, zones.parts());
-        preconditioner.freeze(zones, units.compliance, self.first, levels);
+        preconditioner.freeze(zones, units.compliance, self.first, shares);
         step.clear(zones.len());
         z.reset(zones.len());
         z_before.reset(zones.len());
@@ -239,7 +239,7 @@ impl Frozen<'_> {
         let mut product_before: Option<f64> = None;
         let mut cut = 0.0;
         for _ in 0..settings.most_inner_iterations {
-            preconditioner.shear(residual.parts(), task.contact, z.parts_mut(), levels);
+            preconditioner.shear(residual.parts(), task.contact, z.parts_mut(), shares);
             rigid.keep_free(z.parts_mut());
             let product = z.dot(residual);
             let beta = match product_before {
