@@ -90,9 +90,9 @@ impl<L: Lanes> Task<L> for Separate<'_, L> {
             }
         }
         let groups = self.group_a.chunks_exact_mut(L::WIDTH).zip(self.group_b.chunks_exact_mut(L::WIDTH));
+        let mut a = [lanes.block(lanes.zero()); 2];
+        let mut b = [lanes.block(lanes.zero()); 2];
         for (places, (group_a, group_b)) in self.places.chunks_exact(L::WIDTH).zip(groups) {
-            let mut a = [lanes.block(lanes.zero()); 2];
-            let mut b = [lanes.block(lanes.zero()); 2];
             for lane in 0..L::WIDTH {
                 let z = lines[places[lane].direct];
                 let mirrored = lines[places[lane].mirrored];
@@ -169,9 +169,10 @@ impl<L: Lanes> Task<L> for Join<'_, L> {
     #[inline(always)]
     fn run(self, lanes: L) {
         let Self { layout, plan, side, spectrum, places, pair, lines } = self;
+        // Written over strip by strip; rows that are not there keep what they hold, and nobody reads them.
+        let mut a = [lanes.block(lanes.zero()); 2];
+        let mut b = [lanes.block(lanes.zero()); 2];
         for (strip, places) in places.chunks_exact(L::WIDTH).enumerate() {
-            let mut a = [lanes.block(lanes.zero()); 2];
-            let mut b = [lanes.block(lanes.zero()); 2];
             let [a_re, a_im] = &mut a;
             rows_of_strip::<L>(layout, spectrum, strip, 2 * pair, a_re, a_im);
             let [b_re, b_im] = &mut b;
