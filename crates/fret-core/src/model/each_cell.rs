@@ -53,6 +53,8 @@ pub trait Number: Copy + Default + Send + Sync + 'static {
     fn store<S: Simd>(register: Self::Register<S>) -> Self::Group<S>;
     /// The sum of a register.
     fn sum<S: Simd>(register: Self::Register<S>) -> f64;
+    /// The largest number of a register.
+    fn largest<S: Simd>(register: Self::Register<S>) -> f64;
     /// A register of one number.
     fn load_one(self) -> Self::Register<Scalar>;
     /// The number of a register of one.
@@ -67,7 +69,7 @@ pub trait Number: Copy + Default + Send + Sync + 'static {
 }
 
 macro_rules! numbers {
-    ($number:ident, $to:ident, $register:ident, $group:ident, $groups:ident, $groups_mut:ident, $splat:ident, $sum:ident;
+    ($number:ident, $to:ident, $register:ident, $group:ident, $groups:ident, $groups_mut:ident, $splat:ident, $sum:ident, $largest:ident;
      $($operator:ident $operate:ident $instruction:ident),*; $($unary:ident $root:ident),*; $($binary:ident $choose:ident),*;
      $at_most:ident, $select:ident) => {
         /// Numbers of one precision in a register.
@@ -138,6 +140,10 @@ macro_rules! numbers {
                 simd.$sum(numbers).into()
             }
             #[inline(always)]
+            fn largest<S: Simd>($register { simd, numbers }: $register<S>) -> f64 {
+                simd.$largest(numbers).into()
+            }
+            #[inline(always)]
             fn load_one(self) -> $register<Scalar> {
                 $register { simd: Scalar, numbers: self }
             }
@@ -166,10 +172,10 @@ macro_rules! numbers {
 mod registers {
     use super::{Add, Div, Mul, Number, Reals, Scalar, Simd, Sub};
 
-    numbers!(f64, to_double, Double, f64s, as_simd_f64s, as_mut_simd_f64s, splat_f64s, reduce_sum_f64s;
+    numbers!(f64, to_double, Double, f64s, as_simd_f64s, as_mut_simd_f64s, splat_f64s, reduce_sum_f64s, reduce_max_f64s;
         Add add add_f64s, Sub sub sub_f64s, Mul mul mul_f64s, Div div div_f64s; sqrt sqrt_f64s;
         max max_f64s, min min_f64s; less_than_or_equal_f64s, select_f64s);
-    numbers!(f32, to_single, Single, f32s, as_simd_f32s, as_mut_simd_f32s, splat_f32s, reduce_sum_f32s;
+    numbers!(f32, to_single, Single, f32s, as_simd_f32s, as_mut_simd_f32s, splat_f32s, reduce_sum_f32s, reduce_max_f32s;
         Add add add_f32s, Sub sub sub_f32s, Mul mul mul_f32s, Div div div_f32s; sqrt sqrt_f32s;
         max max_f32s, min min_f32s; less_than_or_equal_f32s, select_f32s);
 }
@@ -277,5 +283,52 @@ where
             }
         }
         totals
+    }
+}
+
+/// A size of what is in a cell, not negative: of `READ` fields.
+pub trait CellSize<const READ: usize> {
+    /// The size. It must be a number in every cell.
+    fn of<R: Reals>(&self, read: [R; READ]) -> R;
+}
+
+/// The largest size of any cell, 0 where there is none.
+///
+/// # Panics
+/// When the fields differ in length.
+pub fn largest_of<N: Number, R: CellSize<READ>, const READ: usize>(size: &R, read: [&[N]; READ]) -> f64 {
+    Arch::new().dispatch(Largest { size, read })
+}
+
+struct Largest<'a, N, R, const READ: usize> {
+    size: &'a R,
+    read: [&'a [N]; READ],
+}
+
+impl<N: Number, R: CellSize<READ>, const READ: usize> WithSimd for Largest<'_, N, R, READ> {
+    type Output = f64;
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) -> f64 {
+        let Self { size, read } = self;
+        let len = read[0].len();
+        let width = size_of::<N::Group<S>>() / size_of::<N>();
+        let count = len / width;
+        let (mut groups, mut rest) = ([&[] as &[N::Group<S>]; READ], [&[] as &[N]; READ]);
+        for (field, values) in read.into_iter().enumerate() {
+            assert_eq!(values.len(), len, "fields of one length");
+            let (whole, left) = N::groups::<S>(values);
+            (groups[field], rest[field]) = (&whole[..count], left);
+        }
+        let mut most: Option<N::Register<S>> = None;
+        for index in 0..count {
+            let here = size.of(std::array::from_fn(|field| N::load(simd, groups[field][index])));
+            most = Some(most.map_or(here, |most| most.max(here)));
+        }
+        let most = most.map_or(0.0, N::largest);
+        (0..len % width).fold(most, |most, index| {
+            let here = size.of(std::array::from_fn(|field| rest[field][index].load_one()));
+            most.max(N::store_one(here).to_double(1.0))
+        })
     }
 }

@@ -6,8 +6,10 @@
 
 use super::normal_problem::{Ending, NormalProblem};
 use super::residual::NormalVerdict;
+use super::retraction::retract_pressure;
 use super::settings::SolveError;
-use super::sweep::sweep;
+use crate::model::each_cell::{CellRule, CellSize, Reals, each_cell, largest_of};
+use crate::model::field::{add_scaled, dot, sum};
 
 /// The contact changes when the residual on it is this much smaller than its violations.
 const SMALL_BESIDE: f64 = 0.3;
@@ -34,17 +36,17 @@ struct Look {
 /// When somebody stopped the iteration, or it has gone on for too long.
 pub fn iterate(problem: &mut NormalProblem<'_>) -> Result<Ending, SolveError> {
     let task = problem.task;
-    sweep([&mut problem.active], [&*problem.pressure], |[_], [p]| ([f64::from(u8::from(p > 0.0))], [], []));
+    each_cell(&Loaded, [&*problem.pressure], [&mut problem.active]);
     let mut best = f64::INFINITY;
     let mut changes = 0;
     loop {
-        let ([count], []) = sweep([], [&problem.active], |[], [active]| ([], [active], []));
+        let count = sum(&problem.active);
         if count == 0.0 {
             return Ok(give_up(problem));
         }
         let mut look = examine(problem);
         let mut slope = steepest(problem, task.total.map(|_| count));
-        sweep([&mut problem.change], [&problem.steepest], |[_], [z]| ([-z], [], []));
+        each_cell(&Descend { beta: 0.0 }, [&problem.steepest], [&mut problem.change]);
         let mut steps = 0;
         loop {
             problem.hear(look.residual)?;
@@ -57,22 +59,18 @@ pub fn iterate(problem: &mut NormalProblem<'_>) -> Result<Ending, SolveError> {
                 break;
             }
             problem.convolve_change();
-            let ([curvature], []) =
-                sweep([], [&problem.change, &problem.image], |[], [c, image]| ([], [c * image], []));
+            let curvature = dot(&problem.change, &problem.image);
             if !(curvature > 0.0 && slope > 0.0) {
                 return Ok(give_up(problem));
             }
             let share = slope / curvature;
-            sweep(
-                [&mut *problem.pressure, &mut *problem.displacement],
-                [&problem.change, &problem.image],
-                move |[p, u], [change, image]| ([p + share * change, u + share * image], [], []),
-            );
+            add_scaled(problem.pressure, share, &problem.change);
+            add_scaled(problem.displacement, share, &problem.image);
             look = examine(problem);
             let before = slope;
             slope = steepest(problem, task.total.map(|_| count));
             let beta = slope / before;
-            sweep([&mut problem.change], [&problem.steepest], move |[t], [z]| ([beta * t - z], [], []));
+            each_cell(&Descend { beta }, [&problem.steepest], [&mut problem.change]);
             steps += 1;
         }
         changes += 1;
@@ -89,24 +87,14 @@ pub fn iterate(problem: &mut NormalProblem<'_>) -> Result<Ending, SolveError> {
 /// Gap everywhere, residual on the contact, and what is wrong.
 fn examine(problem: &mut NormalProblem<'_>) -> Look {
     let own = problem.own;
-    let ([heights, count, work, load], []) = sweep(
-        [&mut problem.gap],
-        [&*problem.displacement, problem.task.undeformed, &*problem.pressure, &problem.active],
-        |[_], [u, g, p, active]| ([u + g], [active * (u + g), active, p * u, p], []),
-    );
+    let read = [&*problem.displacement, problem.task.undeformed, &*problem.pressure, &problem.active];
+    let [heights, count, work, load] = each_cell(&Heights, read, [&mut problem.gap]);
     let approach = if problem.task.total.is_some() { heights / count } else { problem.task.approach };
-    let ([inner_square, outer_square, tense], [inner, outer]) = sweep(
-        [&mut problem.gap, &mut problem.residual],
-        [&*problem.pressure, &problem.active],
-        move |[height, _], [p, active]| {
-            let gap = height - approach;
-            let (inside, under_tension) = (active * gap, active > 0.0 && p < 0.0);
-            let overlap = if active == 0.0 && gap < 0.0 { -gap } else { 0.0 };
-            let violation = if under_tension { -own * p } else { overlap };
-            let tense = f64::from(u8::from(under_tension));
-            ([gap, inside], [inside * inside, violation * violation, tense], [inside.abs(), violation])
-        },
-    );
+    let NormalProblem { gap, residual, active, pressure, .. } = &mut *problem;
+    let rule = Examine { approach, own };
+    let [inner_square, outer_square, tense] = each_cell(&rule, [pressure, active], [gap, residual]);
+    let inner = largest_of(&Size, [residual]);
+    let outer = largest_of(&Violation { own }, [gap, pressure, active]);
     let scale = if load > 0.0 { (work / load).abs() } else { 0.0 };
     let relative = |size: f64| if scale > 0.0 { size / scale } else { f64::INFINITY };
     Look {
@@ -122,48 +110,135 @@ fn examine(problem: &mut NormalProblem<'_>) -> Look {
 /// Preconditioned residual on the contact, without its mean where the force stays; its product with the residual.
 fn steepest(problem: &mut NormalProblem<'_>, count: Option<f64>) -> f64 {
     problem.precondition();
-    let ([sum], []) =
-        sweep([], [&problem.steepest, &problem.active], |[], [z, active]| ([], [z * active], []));
-    let mean = count.map_or(0.0, |count| sum / count);
-    let ([slope], []) = sweep(
-        [&mut problem.steepest],
-        [&problem.active, &problem.residual],
-        move |[z], [active, residual]| {
-            let z = active * (z - mean);
-            ([z], [z * residual], [])
-        },
-    );
+    let mean = count.map_or(0.0, |count| dot(&problem.steepest, &problem.active) / count);
+    let read = [&problem.active[..], &problem.residual];
+    let [slope] = each_cell(&WithoutMean { mean }, read, [&mut problem.steepest]);
     slope
 }
 
 /// Cells under tension leave, cells that overlap enter.
 fn change_contact(problem: &mut NormalProblem<'_>, any_tense: bool) {
-    let ([count, kept], []) =
-        sweep([&mut problem.active, &mut *problem.pressure], [&problem.gap], |[active, p], [gap]| {
-            let stays = if active > 0.0 { p >= 0.0 } else { gap < 0.0 };
-            let (now, p) = if stays { (1.0, p) } else { (0.0, 0.0) };
-            ([now, p], [now, p], [])
-        });
+    let write = [&mut problem.active[..], &mut *problem.pressure];
+    let [count, kept] = each_cell(&Change, [&problem.gap], write);
     if !any_tense {
         return;
     }
     if let Some(total) = problem.task.total {
         let lift = if count > 0.0 { (total - kept) / count } else { 0.0 };
-        sweep([&mut *problem.pressure], [&problem.active], move |[p], [active]| {
-            ([p + lift * active], [], [])
-        });
+        add_scaled(problem.pressure, lift, &problem.active);
     }
     problem.convolve_pressure();
 }
 
 /// Leaves pressures feasible, with their displacements.
 fn give_up(problem: &mut NormalProblem<'_>) -> Ending {
-    let ([found], []) = sweep([&mut *problem.pressure], [], |[p], []| {
-        let p = if p > 0.0 { p } else { 0.0 };
-        ([p], [p], [])
-    });
-    let share = problem.task.total.map_or(1.0, |total| if found > 0.0 { total / found } else { 1.0 });
-    sweep([&mut *problem.pressure], [], move |[p], []| ([share * p], [], []));
+    retract_pressure(problem.pressure, problem.task.total);
     problem.convolve_pressure();
     Ending::Stalled
+}
+
+struct Loaded;
+
+impl CellRule<1, 1, 0> for Loaded {
+    #[inline(always)]
+    fn at<R: Reals>(&self, [p]: [R; 1], [active]: &mut [R; 1]) -> [R; 0] {
+        *active = p.if_at_most(p.all(0.0), p.all(0.0), p.all(1.0));
+        []
+    }
+}
+
+/// The next change: down the preconditioned residual, conjugate to the last.
+struct Descend {
+    beta: f64,
+}
+
+impl CellRule<1, 1, 0> for Descend {
+    #[inline(always)]
+    fn at<R: Reals>(&self, [z]: [R; 1], [change]: &mut [R; 1]) -> [R; 0] {
+        *change = *change * self.beta - z;
+        []
+    }
+}
+
+/// Height; sums of it over the contact, of the contact, of work and of load.
+struct Heights;
+
+impl CellRule<4, 1, 4> for Heights {
+    #[inline(always)]
+    fn at<R: Reals>(&self, [u, undeformed, p, active]: [R; 4], [height]: &mut [R; 1]) -> [R; 4] {
+        *height = u + undeformed;
+        [active * *height, active, p * u, p]
+    }
+}
+
+/// What a cell violates: pressure under tension on the contact, as the gap it would close; overlap off it.
+#[inline(always)]
+fn violation<R: Reals>(own: f64, gap: R, p: R, active: R) -> R {
+    let zero = p.all(0.0);
+    active.if_at_most(zero, (gap * -1.0).max(zero), (p * -own).max(zero))
+}
+
+/// Gap of a height, the gap on the contact; sums of squares of it and of violations, and cells under tension.
+struct Examine {
+    approach: f64,
+    own: f64,
+}
+
+impl CellRule<2, 2, 3> for Examine {
+    #[inline(always)]
+    fn at<R: Reals>(&self, [p, active]: [R; 2], [gap, inside]: &mut [R; 2]) -> [R; 3] {
+        let zero = p.all(0.0);
+        *gap = *gap - self.approach;
+        *inside = active * *gap;
+        let off = violation(self.own, *gap, p, active);
+        [*inside * *inside, off * off, zero.if_at_most(p, zero, active)]
+    }
+}
+
+struct Size;
+
+impl CellSize<1> for Size {
+    #[inline(always)]
+    fn of<R: Reals>(&self, [a]: [R; 1]) -> R {
+        a.max(a * -1.0)
+    }
+}
+
+struct Violation {
+    own: f64,
+}
+
+impl CellSize<3> for Violation {
+    #[inline(always)]
+    fn of<R: Reals>(&self, [gap, p, active]: [R; 3]) -> R {
+        violation(self.own, gap, p, active)
+    }
+}
+
+/// The preconditioned residual on the contact without its mean; its product with the residual.
+struct WithoutMean {
+    mean: f64,
+}
+
+impl CellRule<2, 1, 1> for WithoutMean {
+    #[inline(always)]
+    fn at<R: Reals>(&self, [active, residual]: [R; 2], [z]: &mut [R; 1]) -> [R; 1] {
+        *z = active * (*z - self.mean);
+        [*z * residual]
+    }
+}
+
+/// The contact without tension and with overlaps, and its pressure; sums of both.
+struct Change;
+
+impl CellRule<1, 2, 2> for Change {
+    #[inline(always)]
+    fn at<R: Reals>(&self, [gap]: [R; 1], [active, p]: &mut [R; 2]) -> [R; 2] {
+        let (zero, one) = (p.all(0.0), p.all(1.0));
+        let holds = zero.if_at_most(*p, one, zero);
+        let overlaps = zero.if_at_most(gap, zero, one);
+        *active = active.if_at_most(zero, overlaps, holds);
+        *p = active.if_at_most(zero, zero, *p);
+        [*active, *p]
+    }
 }

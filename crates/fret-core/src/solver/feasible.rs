@@ -4,7 +4,7 @@
 use super::normal_problem::{Ending, NormalProblem};
 use super::residual::NormalVerdict;
 use super::settings::SolveError;
-use super::sweep::sweep;
+use crate::model::each_cell::{CellRule, CellSize, Reals, each_cell, largest_of};
 
 /// A loaded cell leaves when its own pressure could close less than this share of its gap.
 const LEAVE_BELOW: f64 = 0.15;
@@ -23,19 +23,10 @@ pub fn iterate(problem: &mut NormalProblem<'_>, patience: usize) -> Result<Endin
     let mut waited = 0;
     loop {
         let (approach, scale) = problem.measure();
-        let stretch = own / leave_below;
-        let ([gaps, count], [worst]) = sweep(
-            [&mut problem.gap, &mut problem.residual, &mut problem.active],
-            [&*problem.pressure],
-            move |[height, _, _], [p]| {
-                let gap = height - approach;
-                let leaves = p > 0.0 && p * stretch < gap;
-                let active = f64::from(u8::from((p > 0.0 || gap < 0.0) && !leaves));
-                let carried = own * p;
-                let off = if gap < carried { gap } else { carried };
-                ([gap, active * gap, active], [active * gap, active], [off.abs()])
-            },
-        );
+        let judge = Judge { approach, stretch: own / leave_below };
+        let NormalProblem { gap, residual, active, pressure, .. } = &mut *problem;
+        let [gaps, count] = each_cell(&judge, [pressure], [gap, residual, active]);
+        let worst = largest_of(&Complementarity { own }, [gap, pressure]);
         let residual = scale.map_or(if worst > 0.0 { 1.0 } else { 0.0 }, |scale| worst / scale);
         problem.hear(residual)?;
         if residual < problem.tolerance {
@@ -50,9 +41,7 @@ pub fn iterate(problem: &mut NormalProblem<'_>, patience: usize) -> Result<Endin
         }
         let mean = if by_force { gaps / count.max(1.0) } else { 0.0 };
         if mean != 0.0 {
-            sweep([&mut problem.residual], [&problem.active], move |[r], [active]| {
-                ([r - mean * active], [], [])
-            });
+            each_cell(&WithoutMean(mean), [&problem.active], [&mut problem.residual]);
         }
         problem.precondition();
         let along = Direction::new(problem, conjugate, by_force.then_some(count.max(1.0)));
@@ -62,14 +51,9 @@ pub fn iterate(problem: &mut NormalProblem<'_>, patience: usize) -> Result<Endin
         // Clipped before the convolution with a step guessed from the last line search, so that what is convolved is
         // feasible and the displacement stays linear in it.
         problem.convolve_change();
-        let ([curvature, slope], [steepest_fall]) = sweep(
-            [],
-            [&problem.change, &problem.image, &problem.gap, &*problem.pressure],
-            |[], [change, image, gap, p]| {
-                let fall = if change < 0.0 { -change / p } else { 0.0 };
-                ([], [change * image, gap * change], [fall])
-            },
-        );
+        let NormalProblem { change, image, gap, pressure, .. } = &mut *problem;
+        let [curvature, slope] = each_cell(&Along, [change, image, gap], []);
+        let steepest_fall = largest_of(&Fall, [change, pressure]);
         let exact = -slope / curvature;
         if !(curvature > 0.0 && exact > 0.0) {
             step *= 0.3;
@@ -101,22 +85,9 @@ impl Direction {
     /// The preconditioned residual, made conjugate to the last change where that still points down. `count`: active cells, when
     /// the sum of the pressures stays.
     fn new(problem: &NormalProblem<'_>, conjugate: bool, count: Option<f64>) -> Self {
-        let ([z, z_image, image, last, last_image, z_slope, last_slope], []) = sweep(
-            [],
-            [
-                &problem.steepest,
-                &problem.active,
-                &problem.residual,
-                &problem.last_change,
-                &problem.last_image,
-            ],
-            |[], [z, active, residual, change, image]| {
-                let (z, change) = (active * z, active * change);
-                let sums =
-                    [z, z * image, active * image, change, change * image, z * residual, change * residual];
-                ([], sums, [])
-            },
-        );
+        let NormalProblem { steepest, active, residual, last_change, last_image, .. } = problem;
+        let read = [steepest, active, residual, last_change, last_image].map(Vec::as_slice);
+        let [z, z_image, image, last, last_image, z_slope, last_slope] = each_cell(&Products, read, []);
         let mean = |sum: f64| count.map_or(0.0, |count| sum / count);
         let mut beta = 0.0;
         if conjugate && last_image > 0.0 {
@@ -132,23 +103,118 @@ impl Direction {
     /// prescribed force. False when no pressure would be left.
     fn clip(&self, problem: &mut NormalProblem<'_>, step: f64) -> bool {
         let Self { beta, constant } = *self;
-        let ([found], []) = sweep(
-            [&mut problem.change],
-            [&problem.steepest, &problem.active, &problem.last_change, &*problem.pressure],
-            move |[_], [z, active, last, p]| {
-                let target = active * (p + step * (constant - z + beta * last));
-                let target = if target > 0.0 { target } else { 0.0 };
-                ([target], [target], [])
-            },
-        );
+        let NormalProblem { steepest, active, last_change, pressure, change, .. } = &mut *problem;
+        let target = Target { step, constant, beta };
+        let [found] = each_cell(&target, [steepest, active, last_change, pressure], [change]);
         let share = match problem.task.total {
             Some(_) if !(found > 0.0) => return false,
             Some(total) => total / found,
             None => 1.0,
         };
-        sweep([&mut problem.change], [&*problem.pressure], move |[target], [p]| {
-            ([target * share - p], [], [])
-        });
+        each_cell(&ChangeTo { share }, [&*problem.pressure], [&mut problem.change]);
         true
+    }
+}
+
+/// Gap of a height, the cells where pressure is unknown, and the gap on them; sums of both.
+struct Judge {
+    approach: f64,
+    /// A loaded cell whose pressure times this is less than its gap leaves.
+    stretch: f64,
+}
+
+impl CellRule<1, 3, 2> for Judge {
+    #[inline(always)]
+    fn at<R: Reals>(&self, [p]: [R; 1], [gap, residual, active]: &mut [R; 3]) -> [R; 2] {
+        let (zero, one) = (p.all(0.0), p.all(1.0));
+        *gap = *gap - self.approach;
+        let overlaps = zero.if_at_most(*gap, zero, one);
+        let stays = gap.if_at_most(p * self.stretch, one, zero);
+        *active = p.if_at_most(zero, overlaps, stays);
+        *residual = *active * *gap;
+        [*residual, *active]
+    }
+}
+
+/// `|min(gap, K00 p)|`.
+struct Complementarity {
+    own: f64,
+}
+
+impl CellSize<2> for Complementarity {
+    #[inline(always)]
+    fn of<R: Reals>(&self, [gap, p]: [R; 2]) -> R {
+        let off = gap.min(p * self.own);
+        off.max(off * -1.0)
+    }
+}
+
+struct WithoutMean(f64);
+
+impl CellRule<1, 1, 0> for WithoutMean {
+    #[inline(always)]
+    fn at<R: Reals>(&self, [active]: [R; 1], [residual]: &mut [R; 1]) -> [R; 0] {
+        *residual = *residual - active * self.0;
+        []
+    }
+}
+
+/// Curvature and slope along a change.
+struct Along;
+
+impl CellRule<3, 0, 2> for Along {
+    #[inline(always)]
+    fn at<R: Reals>(&self, [change, image, gap]: [R; 3], _: &mut [R; 0]) -> [R; 2] {
+        [change * image, gap * change]
+    }
+}
+
+/// Share of its pressure that a cell loses.
+struct Fall;
+
+impl CellSize<2> for Fall {
+    #[inline(always)]
+    fn of<R: Reals>(&self, [change, p]: [R; 2]) -> R {
+        let zero = p.all(0.0);
+        zero.if_at_most(change, zero, change / p * -1.0)
+    }
+}
+
+struct Products;
+
+impl CellRule<5, 0, 7> for Products {
+    #[inline(always)]
+    fn at<R: Reals>(&self, [z, active, residual, change, image]: [R; 5], _: &mut [R; 0]) -> [R; 7] {
+        let (z, change) = (active * z, active * change);
+        [z, z * image, active * image, change, change * image, z * residual, change * residual]
+    }
+}
+
+/// Pressure after a step, without tension.
+struct Target {
+    step: f64,
+    constant: f64,
+    beta: f64,
+}
+
+impl CellRule<4, 1, 1> for Target {
+    #[inline(always)]
+    fn at<R: Reals>(&self, [z, active, last, p]: [R; 4], [target]: &mut [R; 1]) -> [R; 1] {
+        let moved = p + (last * self.beta - z + self.constant) * self.step;
+        *target = (active * moved).max(p.all(0.0));
+        [*target]
+    }
+}
+
+/// What brings pressure to a share of its target.
+struct ChangeTo {
+    share: f64,
+}
+
+impl CellRule<1, 1, 0> for ChangeTo {
+    #[inline(always)]
+    fn at<R: Reals>(&self, [p]: [R; 1], [target]: &mut [R; 1]) -> [R; 0] {
+        *target = *target * self.share - p;
+        []
     }
 }

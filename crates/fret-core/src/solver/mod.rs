@@ -32,7 +32,6 @@ mod settings;
 mod shear;
 mod shortcut;
 mod starting_shear;
-mod sweep;
 mod tractions;
 mod zones;
 

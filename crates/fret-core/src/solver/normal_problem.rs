@@ -3,8 +3,8 @@
 use super::preconditioner::Preconditioner;
 use super::residual::NormalVerdict;
 use super::settings::{SolveError, Watch};
-use super::sweep::sweep;
 use crate::compliance::SurfaceCompliance;
+use crate::model::each_cell::{CellRule, Reals, each_cell};
 
 /// What the normal equations of one increment ask for, over the cells of a box.
 #[derive(Debug)]
@@ -130,15 +130,8 @@ impl<'a> NormalProblem<'a> {
     /// Height `u + g0` into `gap`; the approach (mean height of the loaded cells under a force) and the mean displacement under
     /// the load. `None` when no cell is loaded.
     pub fn measure(&mut self) -> (f64, Option<f64>) {
-        let ([heights, count, work, load], []) = sweep(
-            [&mut self.gap],
-            [&*self.displacement, self.task.undeformed, &*self.pressure],
-            |[_], [u, g, p]| {
-                let height = u + g;
-                let loaded = f64::from(u8::from(p != 0.0));
-                ([height], [loaded * height, loaded, p * u, p], [])
-            },
-        );
+        let read = [&*self.displacement, self.task.undeformed, &*self.pressure];
+        let [heights, count, work, load] = each_cell(&Measure, read, [&mut self.gap]);
         let approach = match self.task.total {
             Some(_) if count > 0.0 => heights / count,
             _ => self.task.approach,
@@ -148,19 +141,39 @@ impl<'a> NormalProblem<'a> {
 
     /// Adds `share` of the change to pressures and displacements; rounding leaves no tension.
     pub fn advance(&mut self, share: f64) {
-        sweep(
-            [&mut *self.pressure, &mut *self.displacement],
-            [&self.change, &self.image],
-            move |[p, u], [change, image]| {
-                let p = p + share * change;
-                ([if p > 0.0 { p } else { 0.0 }, u + share * image], [], [])
-            },
-        );
+        let write = [&mut *self.pressure, &mut *self.displacement];
+        each_cell(&Advance { share }, [&self.change, &self.image], write);
     }
 
     /// What was changed becomes what was changed last.
     pub fn remember(&mut self) {
         std::mem::swap(&mut self.change, &mut self.last_change);
         std::mem::swap(&mut self.image, &mut self.last_image);
+    }
+}
+
+/// Height; sums of the heights of loaded cells, of these, of work and of load.
+struct Measure;
+
+impl CellRule<3, 1, 4> for Measure {
+    #[inline(always)]
+    fn at<R: Reals>(&self, [u, undeformed, p]: [R; 3], [height]: &mut [R; 1]) -> [R; 4] {
+        let (zero, one) = (p.all(0.0), p.all(1.0));
+        *height = u + undeformed;
+        let loaded = p.if_at_most(zero, zero, one);
+        [loaded * *height, loaded, p * u, p]
+    }
+}
+
+struct Advance {
+    share: f64,
+}
+
+impl CellRule<2, 2, 0> for Advance {
+    #[inline(always)]
+    fn at<R: Reals>(&self, [change, image]: [R; 2], [p, u]: &mut [R; 2]) -> [R; 0] {
+        *p = (*p + change * self.share).max(p.all(0.0));
+        *u = *u + image * self.share;
+        []
     }
 }

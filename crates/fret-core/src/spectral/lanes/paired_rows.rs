@@ -169,14 +169,13 @@ impl<L: Lanes> Task<L> for Join<'_, L> {
     #[inline(always)]
     fn run(self, lanes: L) {
         let Self { layout, plan, side, spectrum, places, pair, lines } = self;
-        // Written over strip by strip; rows that are not there keep what they hold, and nobody reads them.
         let mut a = [lanes.block(lanes.zero()); 2];
         let mut b = [lanes.block(lanes.zero()); 2];
         for (strip, places) in places.chunks_exact(L::WIDTH).enumerate() {
             let [a_re, a_im] = &mut a;
-            rows_of_strip::<L>(layout, spectrum, strip, 2 * pair, a_re, a_im);
+            rows_of_strip(lanes, layout, spectrum, strip, 2 * pair, a_re, a_im);
             let [b_re, b_im] = &mut b;
-            rows_of_strip::<L>(layout, spectrum, strip, 2 * pair + 1, b_re, b_im);
+            rows_of_strip(lanes, layout, spectrum, strip, 2 * pair + 1, b_re, b_im);
             lanes.transpose(&mut a[0]);
             lanes.transpose(&mut a[1]);
             lanes.transpose(&mut b[0]);

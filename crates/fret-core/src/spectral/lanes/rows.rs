@@ -185,7 +185,7 @@ impl<L: Lanes> Task<L> for InnermostInverse<'_, L> {
         for (strip, lines) in lines.chunks_exact_mut(L::WIDTH).take(layout.strips).enumerate() {
             let mut re = lanes.block(lanes.zero());
             let mut im = lanes.block(lanes.zero());
-            rows_of_strip::<L>(layout, spectrum, strip, group, &mut re, &mut im);
+            rows_of_strip(lanes, layout, spectrum, strip, group, &mut re, &mut im);
             lanes.transpose(&mut re);
             lanes.transpose(&mut im);
             for quad in 0..L::WIDTH / 4 {
@@ -207,9 +207,10 @@ impl<L: Lanes> Task<L> for InnermostInverse<'_, L> {
     }
 }
 
-/// Real and imaginary parts of the rows of one group in one strip of the outputs' spectra, in place of zeros.
+/// Real and imaginary parts of the rows of one group in one strip of the outputs' spectra; zero for rows that are not there.
 #[inline(always)]
 pub fn rows_of_strip<L: Lanes>(
+    lanes: L,
     layout: &Layout,
     spectrum: &[L::Number],
     strip: usize,
@@ -219,18 +220,22 @@ pub fn rows_of_strip<L: Lanes>(
 ) {
     let first = group * L::WIDTH;
     let rows = layout.column_len.saturating_sub(first).min(L::WIDTH);
+    if rows == L::WIDTH {
+        let begin = strip * layout.strip_stride + first * 2 * L::WIDTH;
+        let column = as_lines::<L>(&spectrum[begin..][..2 * L::WIDTH * L::WIDTH]);
+        for row in 0..L::WIDTH {
+            [re[row], im[row]] = column[row];
+        }
+        return;
+    }
+    for row in 0..L::WIDTH {
+        [re[row], im[row]] = [lanes.zero(); 2];
+    }
     if rows > 0 {
-        let column = as_lines::<L>(
-            &spectrum[strip * layout.strip_stride + first * 2 * L::WIDTH..][..rows * 2 * L::WIDTH],
-        );
-        if column.len() == L::WIDTH {
-            for row in 0..L::WIDTH {
-                [re[row], im[row]] = column[row];
-            }
-        } else {
-            for (row, line) in column.iter().enumerate() {
-                [re[row], im[row]] = *line;
-            }
+        let begin = strip * layout.strip_stride + first * 2 * L::WIDTH;
+        let column = as_lines::<L>(&spectrum[begin..][..rows * 2 * L::WIDTH]);
+        for (row, line) in column.iter().enumerate() {
+            [re[row], im[row]] = *line;
         }
     }
 }
