@@ -117,29 +117,6 @@ fn a_history_without_first_order_errors_is_left_in_two_parts() {
     assert!((found / wanted - 1.0).abs() < 1e-7, "{found} against {wanted}: solutions to 1e-8");
 }
 
-#[test]
-fn an_increment_that_is_not_solved_as_a_whole_is_solved_in_halves_and_says_so() {
-    // Islands of contact under a stiff film grow together, and the pull then moves all of them: one jump is more than the solver
-    // of a single increment follows.
-    let force = 2.0_f64.sqrt() * std::f64::consts::PI * 0.01 / (1.0 - 0.3 * 0.3);
-    let history = solved(&format!(
-        "[grid]\ncells = [32, 32]\nsize = [1.0, 1.0]\nperiodic = true\n[upper]\nrigid = true\n[lower]\n\
-         coatings = [{{ thickness = 0.02, young = 1000.0, poisson = 0.3 }}]\nsubstrate = {{ young = 1.0, poisson = 0.3 }}\n\
-         [profile.wave]\namplitude = 0.01\nwavelength_x = 1.0\nwavelength_y = 1.0\n[friction]\ncoefficient = 0.8\n\
-         [[load]]\nnormal_force = {:e}\nincrements = 3\n[[load]]\ntangential_force = [{:e}, 0.0]\nincrements = 4\n",
-        force,
-        0.8 * 0.8 * force
-    ));
-    let parts: Vec<usize> = history.steps.iter().map(|step| step.parts).collect();
-    println!("parts {parts:?}");
-    assert!(
-        parts.iter().any(|parts| *parts > 1),
-        "the case shall have an increment that is not solved as a whole"
-    );
-    // The residuals are those of the worst part.
-    assert!(history.steps.iter().all(|step| step.residual.largest() <= 1e-8), "{:?}", history.steps);
-}
-
 /// A rigid sphere pressed on a coated half-space, thickness aH, nu = 0.3, mu = 0.1: axisymmetric rings with exact kernels,
 /// 100 cubic increments; uncertainty about 1e-4 for r >= 0.1 aH, ring width 0.00675 aH.
 struct Coated {

@@ -217,3 +217,82 @@ impl Refinement {
         square.sqrt()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use std::ops::ControlFlow;
+
+    use ndarray::Array2;
+
+    use super::*;
+    use crate::compliance::SurfaceResponse;
+    use crate::kernel::{Components, influence_coefficients};
+    use crate::model::{
+        Base, Body, ContactPair, Control, CoulombFriction, ElasticMaterial, HalfSpace, SurfaceGrid,
+    };
+    use crate::solver::{Coupling, SolverSettings};
+
+    const CELLS: usize = 32;
+
+    /// A rigid sphere on a half-space, whose contact at force 1 has the radius 1 about.
+    fn solver(friction: &CoulombFriction, most_changes: usize) -> ContactSolver<'_> {
+        let material = ElasticMaterial::new(0.7, 0.3).unwrap();
+        let body = HalfSpace::new(Vec::new(), Base::Elastic(material)).unwrap();
+        let pair = ContactPair::new(Body::Rigid, Body::Elastic(body)).unwrap();
+        let spacing = [2.6 / CELLS as f64; 2];
+        let grid = SurfaceGrid::new([CELLS; 2], spacing).unwrap();
+        let gap = Array2::from_shape_fn((CELLS, CELLS), |(i, j)| {
+            0.5 * (grid.centre(0, i).powi(2) + grid.centre(1, j).powi(2))
+        });
+        let response =
+            SurfaceResponse::FreeSpace(influence_coefficients(&pair, [CELLS; 2], spacing, Components::ALL));
+        let settings = SolverSettings { most_outer_iterations: most_changes, ..SolverSettings::new(1e-9) };
+        ContactSolver::new(grid, gap, friction, Coupling::Coupled, response, settings, true)
+    }
+
+    fn load(normal: f64, tangential: f64) -> LoadStep {
+        LoadStep {
+            normal: Control::Force(normal),
+            tangential: [Control::Force(tangential), Control::Force(0.0)],
+            twist: Control::Motion(0.0),
+        }
+    }
+
+    #[test]
+    fn a_step_that_asks_for_too_many_changes_of_the_zones_is_solved_in_parts() {
+        let friction = CoulombFriction::Uniform(0.3);
+        let go_on: Watch<'_> = &mut |_, _| ControlFlow::Continue(());
+        let (pressed, pulled) = (load(1.0, 0.0), load(1.0, 0.28));
+        let untouched = ContactState::untouched([CELLS; 2]);
+
+        let mut patient = solver(&friction, 200);
+        let start = patient.step(&untouched, &pressed, go_on).unwrap();
+        let needed = patient.step(&start.state, &pulled, go_on).unwrap().work.outer_iterations;
+
+        // The same state, and fewer changes allowed than the whole step needs.
+        let mut hasty = solver(&friction, needed - 3);
+        hasty.remember({
+            let mut patient = solver(&friction, 200);
+            patient.step(&untouched, &pressed, go_on).unwrap();
+            patient.memory().clone()
+        });
+        let span = Span { state: &start.state, from: &pressed, to: &pulled };
+        let (end, parts) = in_halves(&mut hasty, &mut None, span, go_on).unwrap();
+        assert!(parts > 1, "{needed} changes were enough");
+        assert!(end.outcome.residual.largest() < 1e-9);
+
+        // As many steps of the same size, asked for one by one.
+        let mut patient = solver(&friction, 200);
+        let mut state = patient.step(&untouched, &pressed, go_on).unwrap().state;
+        println!("{needed} changes in one step, {parts} parts");
+        for part in 1..=parts {
+            let share = part as f64 / parts as f64;
+            state = patient.step(&state, &LoadStep::between(&pressed, &pulled, share), go_on).unwrap().state;
+        }
+        let off = (state.shift[0] / end.state.shift[0] - 1.0).abs();
+        assert!(
+            off < 1e-7,
+            "{off:e}: solutions to 1e-9, whose shift is a hundredth of what the tractions do"
+        );
+    }
+}

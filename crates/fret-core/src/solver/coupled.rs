@@ -87,7 +87,10 @@ pub fn solve_together(
     settings: &SolverSettings,
     watch: Watch<'_>,
 ) -> Result<CoupledSolution, SolveError> {
-    let together = SolverSettings { most_outer_iterations: TOGETHER_AT_MOST, ..*settings };
+    let together = SolverSettings {
+        most_outer_iterations: settings.most_outer_iterations.min(TOGETHER_AT_MOST),
+        ..*settings
+    };
     let mut near = tractions.clone();
     for tolerance in NEAR.map(Some).into_iter().chain([None]) {
         let solution = solve_coupled(
@@ -103,7 +106,7 @@ pub fn solve_together(
         let Some(tolerance) = tolerance else { break };
         tractions.copy_from(&near);
         compliance.full(tractions.parts(), displacements.parts_mut());
-        let rough = SolverSettings { tolerance, most_outer_iterations: TOGETHER_AT_MOST, ..*settings };
+        let rough = SolverSettings { tolerance, ..together };
         if let Err(SolveError::Stopped) =
             solve_alternating(task, tractions, displacements, compliance, preconditioner, &rough, watch)
         {
