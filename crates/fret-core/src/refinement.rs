@@ -270,7 +270,7 @@ mod tests {
         let needed = patient.step(&start.state, &pulled, go_on).unwrap().work.outer_iterations;
 
         // The same state, and fewer changes allowed than the whole step needs.
-        let mut hasty = solver(&friction, needed - 3);
+        let mut hasty = solver(&friction, needed - 2);
         hasty.remember({
             let mut patient = solver(&friction, 200);
             patient.step(&untouched, &pressed, go_on).unwrap();
@@ -290,9 +290,8 @@ mod tests {
             state = patient.step(&state, &LoadStep::between(&pressed, &pulled, share), go_on).unwrap().state;
         }
         let off = (state.shift[0] / end.state.shift[0] - 1.0).abs();
-        assert!(
-            off < 1e-7,
-            "{off:e}: solutions to 1e-9, whose shift is a hundredth of what the tractions do"
-        );
+        // Two halves are these steps, solved to 1e-9; more parts are of different sizes, on which slip depends a little.
+        let bound = if parts == 2 { 1e-7 } else { 1e-2 };
+        assert!(off < bound, "{off:e}, {parts} parts");
     }
 }
