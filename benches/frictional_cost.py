@@ -99,7 +99,7 @@ def main() -> None:
     seconds = {}
     for name, n, case, asked in scenes(arguments.parse_args().long):
         best, one = np.inf, np.full(2, np.inf)
-        for _ in range(1 if "figure" in name or n == 512 else 3):
+        for _ in range(3):
             one = np.minimum(one, unit(n, 200 if n <= 128 else 20))
             start = time.process_time()
             history = fretting.run(case, threads=1)

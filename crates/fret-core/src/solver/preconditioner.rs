@@ -173,7 +173,8 @@ impl Preconditioner {
         each_cell(&Share { softest: self.softest / compliance }, [&zones.stiffness], [elastic, slip]);
         shares.compliance = compliance;
         shares.weighted.reset(zones.len());
-        shares.part.reset(zones.len());
+        // Where shear acts along one axis nobody writes the other component.
+        shares.part.clear(zones.len());
         // All inverses of a box are of one precision.
         if changed && let Some(inverse) = self.normal.iter().chain(&self.shear).next() {
             inverse.clear(&mut self.fields, self.cells);
