@@ -214,6 +214,22 @@ where
     Arch::new().dispatch(Pass::<N, R, READ, WRITE, SUMS> { rule, read, write })
 }
 
+/// Groups of fields of `len` numbers, `count` of each, and what is left.
+#[inline(always)]
+fn grouped<N: Number, S: Simd, const READ: usize>(
+    read: [&[N]; READ],
+    len: usize,
+    count: usize,
+) -> ([&[N::Group<S>]; READ], [&[N]; READ]) {
+    let (mut groups, mut rest) = ([&[] as &[N::Group<S>]; READ], [&[] as &[N]; READ]);
+    for (field, values) in read.into_iter().enumerate() {
+        assert_eq!(values.len(), len, "fields of one length");
+        let (whole, left) = N::groups::<S>(values);
+        (groups[field], rest[field]) = (&whole[..count], left);
+    }
+    (groups, rest)
+}
+
 struct Pass<'a, N, R, const READ: usize, const WRITE: usize, const SUMS: usize> {
     rule: &'a R,
     read: [&'a [N]; READ],
@@ -235,12 +251,7 @@ where
         let len = len.unwrap_or(0);
         let width = size_of::<N::Group<S>>() / size_of::<N>();
         let count = len / width;
-        let (mut groups, mut rest) = ([&[] as &[N::Group<S>]; READ], [&[] as &[N]; READ]);
-        for (field, values) in read.into_iter().enumerate() {
-            assert_eq!(values.len(), len, "fields of one length");
-            let (whole, left) = N::groups::<S>(values);
-            (groups[field], rest[field]) = (&whole[..count], left);
-        }
+        let (groups, rest) = grouped::<N, S, READ>(read, len, count);
         let written = write.map(|field| {
             assert_eq!(field.len(), len, "fields of one length");
             let (whole, left) = N::groups_mut::<S>(field);
@@ -314,12 +325,7 @@ impl<N: Number, R: CellSize<READ>, const READ: usize> WithSimd for Largest<'_, N
         let len = read[0].len();
         let width = size_of::<N::Group<S>>() / size_of::<N>();
         let count = len / width;
-        let (mut groups, mut rest) = ([&[] as &[N::Group<S>]; READ], [&[] as &[N]; READ]);
-        for (field, values) in read.into_iter().enumerate() {
-            assert_eq!(values.len(), len, "fields of one length");
-            let (whole, left) = N::groups::<S>(values);
-            (groups[field], rest[field]) = (&whole[..count], left);
-        }
+        let (groups, rest) = grouped::<N, S, READ>(read, len, count);
         let mut most: Option<N::Register<S>> = None;
         for index in 0..count {
             let here = size.of(std::array::from_fn(|field| N::load(simd, groups[field][index])));

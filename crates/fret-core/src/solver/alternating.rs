@@ -95,7 +95,7 @@ pub fn solve_alternating(
             task.tangential(&contact, &bound, &before, &modes, own.tangential);
         let mut shear = contact.packed_tangential(&tractions.shear);
         let at_rest = TangentialField::zeros(contact.len());
-        let zones = Zones::of(&shear, &at_rest, &bound, own.tangential);
+        let zones = Zones::of(&shear, &at_rest, &bound);
         Retraction::default().shear(&mut shear, &zones, &tangential_task);
         contact.scatter_tangential(&shear, &mut tractions.shear);
         compliance.tangential(tractions.shear.parts(), from_shear.tangential.parts_mut());

@@ -138,6 +138,8 @@ fn solve_coupled(
     let mut gap = vec![0.0; cells];
     let mut motion = [0.0; 3];
     let mut contact = ContactSet::default();
+    // Whether the contact is another than that of the last frozen problem; between the two a step may be taken back.
+    let mut changed = true;
     let mut modes = task.places.modes(&contact);
     let mut packed = Packed::default();
     let [mut before, mut displaced] = [TangentialField::default(), TangentialField::default()];
@@ -149,8 +151,8 @@ fn solve_coupled(
         each_cell(&Height, [&displacements.normal, task.undeformed], [&mut gap]);
         let normal = judge_normal(&tractions.pressure, &mut gap, task.undeformed, own.normal, prescribed);
         let touching = ContactSet::of(cells, |cell| tractions.pressure[cell] > 0.0 || gap[cell] < 0.0);
-        let changed = iteration == 0 || touching != contact;
-        if changed {
+        if iteration == 0 || touching != contact {
+            changed = true;
             contact = touching;
             modes = task.places.modes(&contact);
             before = contact.packed_tangential(task.before);
@@ -179,7 +181,8 @@ fn solve_coupled(
             continue;
         }
         let theta = patience.hears(residual);
-        zones.classify(&packed.shear, &judge.s, &packed.bound, own.tangential);
+        zones.classify(&packed.shear, &judge.s, &packed.bound);
+        zones.weigh(own.tangential);
         let frozen = Frozen {
             contact: &contact,
             zones: &zones,
@@ -194,6 +197,7 @@ fn solve_coupled(
         };
         contact.pack(&gap, &mut heights);
         frozen.solve(&heights, &judge.s, krylov, compliance, preconditioner);
+        changed = false;
         packed.add(&krylov.step);
         if !retract_pressure(&mut packed.pressure, task.total) {
             break;

@@ -262,6 +262,7 @@ impl<'a> ContactSolver<'a> {
                 .step_in(region, start.as_ref(), (state, load), work, watch)
                 .map_err(|error| self.explained(error, state, load))?;
             self.check_equilibrium(load, &outcome)?;
+            self.check_across(&state_after)?;
             if !self.response.is_periodic() && touches_edge(&state_after.pressure, self.symmetry.axes()) {
                 return Err(SolveError::ContactAtEdge);
             }
@@ -316,6 +317,19 @@ impl<'a> ContactSolver<'a> {
         if reached <= self.settings.tolerance {
             return Ok(());
         }
+        Err(SolveError::NotConverged { reached, iterations: self.settings.most_outer_iterations })
+    }
+
+    /// Whether there is no shear across the one axis along which it acts: its displacement is left out, so that nothing else would
+    /// tell.
+    fn check_across(&self, state: &ContactState) -> Result<(), SolveError> {
+        let Some(axis) = self.along else { return Ok(()) };
+        let size = |field: &Array2<f64>| field.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
+        let (across, bound) = (size(&state.shear[1 - axis]), self.friction.largest() * size(&state.pressure));
+        if across <= self.settings.tolerance * bound {
+            return Ok(());
+        }
+        let reached = if bound > 0.0 { across / bound } else { 1.0 };
         Err(SolveError::NotConverged { reached, iterations: self.settings.most_outer_iterations })
     }
 
@@ -483,5 +497,45 @@ impl<'a> ContactSolver<'a> {
         work.outer_iterations += solved.iterations;
         let (after, outcome) = scene.settle(&solved);
         Ok((solved, after, outcome))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::ops::ControlFlow;
+
+    use super::*;
+    use crate::kernel::{Components, influence_coefficients};
+    use crate::model::{Base, Body, ContactPair, ElasticMaterial, HalfSpace};
+
+    #[test]
+    fn shear_across_the_one_axis_is_not_certified() {
+        let material = ElasticMaterial::new(1.0, 0.0).unwrap();
+        let body = || Body::Elastic(HalfSpace::new(Vec::new(), Base::Elastic(material)).unwrap());
+        let pair = ContactPair::new(body(), body()).unwrap();
+        let (cells, spacing) = ([32; 2], [2.6 / 32.0; 2]);
+        let grid = SurfaceGrid::new(cells, spacing).unwrap();
+        let gap = Array2::from_shape_fn((32, 32), |(i, j)| {
+            0.5 * (grid.centre(0, i).powi(2) + grid.centre(1, j).powi(2))
+        });
+        let response =
+            SurfaceResponse::FreeSpace(influence_coefficients(&pair, cells, spacing, Components::ALL));
+        let friction = CoulombFriction::Uniform(0.5);
+        let settings = SolverSettings::new(1e-8);
+        let mut solver =
+            ContactSolver::new(grid, gap, &friction, Coupling::Uncoupled, response, settings, true)
+                .sheared_along(Some(0));
+        let load = |pull| LoadStep {
+            normal: Control::Force(0.5),
+            tangential: [Control::Force(pull), Control::Force(0.0)],
+            twist: Control::Motion(0.0),
+        };
+        let go_on: Watch<'_> = &mut |_, _| ControlFlow::Continue(());
+        let mut state = solver.step(&ContactState::untouched(cells), &load(0.0), go_on).unwrap().state;
+        solver.step(&state, &load(0.1), go_on).unwrap();
+        // Some shear across with no resultant, well inside the friction bound.
+        state.shear[1][[15, 16]] = 1e-3;
+        state.shear[1][[16, 16]] = -1e-3;
+        assert!(matches!(solver.step(&state, &load(0.1), go_on), Err(SolveError::NotConverged { .. })));
     }
 }

@@ -247,7 +247,7 @@ impl<'a> Scene<'a> {
         let mut shear = contact.packed_tangential(&tractions.shear);
         let at_rest = TangentialField::zeros(contact.len());
         let modes = self.places.modes(&contact);
-        let zones = Zones::of(&shear, &at_rest, &bound, own);
+        let zones = Zones::of(&shear, &at_rest, &bound);
         Retraction::default().shear(&mut shear, &zones, &self.task(&contact, &bound, &at_rest, &modes, own));
         contact.scatter_tangential(&shear, &mut tractions.shear);
     }
@@ -431,7 +431,7 @@ impl<'a> Scene<'a> {
         let bound = contact.packed(&self.bound(pressure));
         let packed = contact.packed_tangential(shear);
         let s = contact.packed_tangential(&solved.s);
-        let zones = Zones::of(&packed, &s, &bound, 1.0);
+        let zones = Zones::of(&packed, &s, &bound);
         let modes = self.places.modes(&contact);
         let mut state = ContactState::untouched(self.grid.cells());
         state.worn_depth.clone_from(&self.state.worn_depth);

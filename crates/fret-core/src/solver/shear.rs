@@ -67,7 +67,7 @@ pub fn solve_shear(
         }
         let theta = patience.hears(verdict.residual);
         gradients.exact |= patience.is_at_an_end();
-        zones.classify(shear, &judge.s, task.bound, task.own);
+        zones.classify(shear, &judge.s, task.bound);
         let frozen = Frozen { task, zones: &zones, settings, theta, cells, first: iteration == 0 };
         let cut = frozen.solve(&judge.s, shear, displacement, &mut gradients, compliance, preconditioner);
         retraction.shear(shear, &zones, task);

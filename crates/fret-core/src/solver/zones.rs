@@ -22,29 +22,34 @@ pub struct Zones {
     /// Slip stiffness of slipping cells [length/pressure]: turning by tau changes the pull along the tangent by D tau.
     pub stiffness: Vec<f64>,
     /// Weights of the equations of slipping cells, `1 / sqrt(1 + D / own)` with a cell's own influence, zero elsewhere: a
-    /// displacement turns a stiff cell by little, and counts by as much in the laws.
+    /// displacement turns a stiff cell by little, and counts by as much in the laws. Found by [`Zones::weigh`].
     pub weighted_slip: Vec<f64>,
 }
 
 impl Zones {
-    /// Zones from shear `q`, friction bound `mu p`, `s` = minus the slip increment, all packed, and a cell's `own` influence
-    /// [length/pressure].
-    pub fn of(q: &TangentialField, s: &TangentialField, bound: &[f64], own: f64) -> Self {
+    /// Zones from shear `q`, friction bound `mu p` and `s` = minus the slip increment, all packed.
+    pub fn of(q: &TangentialField, s: &TangentialField, bound: &[f64]) -> Self {
         let mut zones = Self::default();
-        zones.classify(q, s, bound, own);
+        zones.classify(q, s, bound);
         zones
     }
 
     /// Takes over the zones of other tractions, keeping the memory.
-    pub fn classify(&mut self, q: &TangentialField, s: &TangentialField, bound: &[f64], own: f64) {
-        let Self { stick, slip, direction, stiffness, weighted_slip } = self;
+    pub fn classify(&mut self, q: &TangentialField, s: &TangentialField, bound: &[f64]) {
+        let Self { stick, slip, direction, stiffness, .. } = self;
         let [along_x, along_y] = direction.each_mut();
-        let mut write = [stick, slip, along_x, along_y, stiffness, weighted_slip];
+        let mut write = [stick, slip, along_x, along_y, stiffness];
         for field in &mut write {
             field.resize(bound.len(), 0.0);
         }
-        let rule = Classify { least: 1e-6 * largest(bound), stiffness: 1.0 / own };
+        let rule = Classify { least: 1e-6 * largest(bound) };
         each_cell(&rule, [&q.x, &q.y, &s.x, &s.y, bound], write.map(Vec::as_mut_slice));
+    }
+
+    /// Weights of the equations, by a cell's `own` influence [length/pressure].
+    pub fn weigh(&mut self, own: f64) {
+        self.weighted_slip.resize(self.len(), 0.0);
+        each_cell(&Weigh { stiffness: 1.0 / own }, [&self.slip, &self.stiffness], [&mut self.weighted_slip]);
     }
 
     /// Whether the shear of a cell lies on its circle and grows with pressure.
@@ -61,16 +66,14 @@ impl Zones {
 struct Classify {
     /// Friction bound below which slip stiffness grows no more [pressure].
     least: f64,
-    /// Of a cell [pressure/length].
-    stiffness: f64,
 }
 
-impl CellRule<5, 6, 0> for Classify {
+impl CellRule<5, 5, 0> for Classify {
     #[inline(always)]
     fn at<R: Reals>(
         &self,
         [qx, qy, sx, sy, bound]: [R; 5],
-        [stick, slip, along_x, along_y, stiffness, weighted]: &mut [R; 6],
+        [stick, slip, along_x, along_y, stiffness]: &mut [R; 5],
     ) -> [R; 0] {
         let (zero, one) = (qx.all(0.0), qx.all(1.0));
         let size = (qx * qx + qy * qy).sqrt();
@@ -89,7 +92,19 @@ impl CellRule<5, 6, 0> for Classify {
             |along: R, entering: R| slip.if_at_most(zero, follows.if_at_most(zero, zero, entering), along);
         [*along_x, *along_y] = [slips(towards[0], against[0]), slips(towards[1], against[1])];
         *stiffness = slip.if_at_most(zero, zero, outward / bound.max(bound.all(self.least)));
-        *weighted = *slip / (*stiffness * self.stiffness + 1.0).sqrt();
+        []
+    }
+}
+
+struct Weigh {
+    /// Of a cell [pressure/length].
+    stiffness: f64,
+}
+
+impl CellRule<2, 1, 0> for Weigh {
+    #[inline(always)]
+    fn at<R: Reals>(&self, [slip, stiffness]: [R; 2], [weighted]: &mut [R; 1]) -> [R; 0] {
+        *weighted = slip / (stiffness * self.stiffness + 1.0).sqrt();
         []
     }
 }
