@@ -10,7 +10,7 @@ use super::residual::{NormalVerdict, judge_normal};
 use super::retraction::{Retraction, retract_pressure};
 use super::rigid::{Places, RigidModes};
 use super::settings::{SolveError, SolverSettings, Watch};
-use super::shear::Patience;
+use super::shear::{Patience, enough};
 use super::tractions::{Displacements, Tractions};
 use super::zones::Zones;
 use crate::compliance::SurfaceCompliance;
@@ -191,6 +191,7 @@ fn solve_coupled(
             holds_force: task.total.is_some(),
             most: settings.most_inner_iterations,
             floor: floor(settings.tolerance, &packed.pressure, own.normal),
+            enough: enough(settings.tolerance, residual),
             theta,
             exact: patience.is_at_an_end(),
             changed,

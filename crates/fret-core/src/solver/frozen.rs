@@ -9,7 +9,7 @@ use super::inverse::unit_of;
 use super::krylov::Directions;
 use super::preconditioner::{Preconditioner, SlipShares};
 use super::rigid::RigidModes;
-use super::shear::SIX_DIGITS;
+use super::shear::{ETA, SIX_DIGITS};
 use super::starting_shear::{StartingShear, after, taken};
 use super::tractions::Tractions;
 use super::zones::Zones;
@@ -17,9 +17,6 @@ use crate::compliance::SurfaceCompliance;
 use crate::model::TangentialField;
 use crate::model::each_cell::{CellRule, Number, Reals, each_cell};
 use crate::model::field::{add_scaled, largest, norm, sum};
-
-/// Share of its start to which a frozen problem is solved at the most when something is cut.
-const ETA: f64 = 0.01;
 
 /// Feasible tractions of the cells in contact, packed.
 #[derive(Debug, Default)]
@@ -76,6 +73,8 @@ pub struct Frozen<'a> {
     pub most: usize,
     /// Size of a residual that is small beside the tolerance [length].
     pub floor: f64,
+    /// Share of its start at which the residual is small enough: see [`enough`](super::shear::enough).
+    pub enough: f64,
     /// Share of the cut below which solving stops.
     pub theta: f64,
     /// The elastic answer is wanted with all digits.
@@ -225,7 +224,7 @@ impl Frozen<'_> {
             let cut = problem.cut_of(step);
             let left = first_size * left_over / first;
             let six_digits = size_of::<N>() < size_of::<f64>() && left_over < SIX_DIGITS * first;
-            if left_over < floor
+            if left_over < floor.max(self.enough * first)
                 || six_digits
                 || (cut > 0.0 && (cut > self.theta * left || left_over < ETA * first))
             {

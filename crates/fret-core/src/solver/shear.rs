@@ -19,7 +19,7 @@ use crate::model::field::{add_converted, add_scaled, largest, norm};
 /// How much of the cut a frozen problem is solved below; raised while outer steps do not pay.
 pub const THETA: f64 = 1.0;
 /// Share of its start to which a frozen problem is solved at the most when something is cut.
-const ETA: f64 = 0.005;
+pub const ETA: f64 = 0.003;
 
 /// Share of its start to which the residual of a frozen problem falls when its operator has six digits.
 pub const SIX_DIGITS: f64 = 1e-5;
@@ -68,7 +68,8 @@ pub fn solve_shear(
         let theta = patience.hears(verdict.residual);
         gradients.exact |= patience.is_at_an_end();
         zones.classify(shear, &judge.s, task.bound);
-        let frozen = Frozen { task, zones: &zones, settings, theta, cells, first: iteration == 0 };
+        let enough = enough(settings.tolerance, verdict.residual);
+        let frozen = Frozen { task, zones: &zones, settings, enough, theta, cells, first: iteration == 0 };
         let cut = frozen.solve(&judge.s, shear, displacement, &mut gradients, compliance, preconditioner);
         retraction.shear(shear, &zones, task);
         if cut {
@@ -78,6 +79,12 @@ pub fn solve_shear(
         contact.gather_tangential(displacement, &mut here);
     }
     Err(SolveError::NotConverged { reached: patience.best, iterations: settings.most_outer_iterations })
+}
+
+/// Share to which the `residual` of a look at the equations must fall to be below the tolerance at the next one, if the zones stay: what
+/// is solved further is lost.
+pub fn enough(tolerance: f64, residual: f64) -> f64 {
+    0.7 * tolerance / residual
 }
 
 /// How far frozen problems are solved: further while outer steps do not pay.
@@ -119,6 +126,9 @@ struct Frozen<'a> {
     task: &'a TangentialTask<'a>,
     zones: &'a Zones,
     settings: &'a SolverSettings,
+    /// Share of its start at which the residual is small enough.
+    enough: f64,
+    /// Share of the cut below which solving stops.
     theta: f64,
     /// Cells of the box.
     cells: usize,
@@ -148,9 +158,6 @@ struct ConjugateGradients<N> {
     step: Components<N, 2>,
     along: Components<N, 2>,
     image: Components<N, 2>,
-    change: Components<N, 2>,
-    /// Whether `along` and `image` hold a direction.
-    remembers: bool,
     answer: ElasticAnswer<N, 2>,
 }
 
@@ -211,7 +218,7 @@ impl Frozen<'_> {
         mut moved: impl FnMut(f64, &[Vec<N>; 2]),
         preconditioner: &mut Preconditioner,
     ) -> bool {
-        let Self { task, settings, theta, .. } = *self;
+        let Self { task, settings, enough, theta, .. } = *self;
         let ConjugateGradients {
             zones,
             start,
@@ -223,8 +230,6 @@ impl Frozen<'_> {
             step,
             along,
             image,
-            change,
-            remembers,
             answer,
         } = memory;
         let rigid = RigidProjector::new(task.modes, zones.parts());
@@ -232,7 +237,6 @@ impl Frozen<'_> {
         step.clear(zones.len());
         z.reset(zones.len());
         z_before.reset(zones.len());
-        along.reset(zones.len());
         image.reset(zones.len());
         let first = residual.norm();
         let floor = 0.1 * settings.tolerance * norm(task.bound) * task.own / units.length();
@@ -242,34 +246,29 @@ impl Frozen<'_> {
             preconditioner.shear(residual.parts(), task.contact, z.parts_mut(), shares);
             rigid.keep_free(z.parts_mut());
             let product = z.dot(residual);
-            let beta = match product_before {
-                Some(before) => ((product - z_before.dot(residual)) / before).max(0.0),
-                None if *remembers => conjugate_to_last(z, along, image, change, &zones.stiffness, &rigid),
-                None => 0.0,
-            };
-            along.scale_and_add(beta, z);
-            let mut downhill = along.dot(residual);
+            let mut downhill = 0.0;
+            if let Some(before) = product_before {
+                let beta = ((product - z_before.dot(residual)) / before).max(0.0);
+                along.scale_and_add(beta, z);
+                downhill = along.dot(residual);
+            }
             if downhill <= 0.1 * product {
                 along.copy_from(z);
                 downhill = product;
             }
             if !(downhill > 0.0) {
-                *remembers = false;
                 break;
             }
             answer.find(task.contact, along, image, &mut apply);
-            change.copy_from(image);
-            let curvature = add_slip_stiffness(change, along, &zones.stiffness);
+            let curvature = add_slip_stiffness(image, along, &zones.stiffness);
             if !(curvature > 0.0) {
-                *remembers = false;
                 break;
             }
-            *remembers = true;
             let tau = downhill / curvature;
             step.add_scaled(tau, along);
             moved(tau, answer.in_box());
-            rigid.keep_free(change.parts_mut());
-            residual.add_scaled(-tau, change);
+            rigid.keep_free(image.parts_mut());
+            residual.add_scaled(-tau, image);
             let z_size = z.norm();
             std::mem::swap(z, z_before);
             product_before = Some(product);
@@ -277,27 +276,15 @@ impl Frozen<'_> {
             let here = residual.norm();
             let left = z_size * tau.abs() * (here / first).clamp(1e-3, 1.0);
             let six_digits = size_of::<N>() < size_of::<f64>() && here < SIX_DIGITS * first;
-            if here < floor || six_digits || (cut > 0.0 && (cut > theta * left || here < ETA * first)) {
+            if here < floor.max(enough * first)
+                || six_digits
+                || (cut > 0.0 && (cut > theta * left || here < ETA * first))
+            {
                 break;
             }
         }
         cut > 0.0
     }
-}
-
-/// Share of the last direction of the problem before, made tangential, that the first one takes up.
-fn conjugate_to_last<N: Number>(
-    z: &Components<N, 2>,
-    along: &mut Components<N, 2>,
-    image: &Components<N, 2>,
-    stiff: &mut Components<N, 2>,
-    stiffness: &[N],
-    rigid: &RigidProjector<'_, N>,
-) -> f64 {
-    rigid.keep_free(along.parts_mut());
-    stiff.copy_from(image);
-    let curvature = add_slip_stiffness(stiff, along, stiffness);
-    if curvature > 0.0 { -z.dot(stiff) / curvature } else { 0.0 }
 }
 
 impl<N: Number> ConjugateGradients<N> {
