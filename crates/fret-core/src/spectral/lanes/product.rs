@@ -1,9 +1,8 @@
 //! The products of the lane engine: tables, kernels, and the order of the stages.
 
+mod kernels;
 mod mirrored;
 mod single;
-
-use ndarray::s;
 
 use super::super::block::Terms;
 use super::super::lengths::good_length;
@@ -17,8 +16,8 @@ use super::plan::LinePlan;
 use super::reflection::{Reflection, tables};
 use super::rows::{Layout, RowsForward, RowsInverse, Side};
 use super::simd::{Lanes, Number};
-use super::spectrum::KernelColumns;
 use super::threads::{Scratch, divide, pieces};
+use kernels::KernelTransform;
 
 /// Most fields that go through the column stage together.
 const MAX_FIELDS: usize = 3;
@@ -71,13 +70,6 @@ impl InstructionSet {
     }
 }
 
-/// `to = factor * from`
-fn scaled(factor: f64, from: &[f64], to: &mut [f64]) {
-    for (to, from) in to.iter_mut().zip(from) {
-        *to = factor * from;
-    }
-}
-
 /// Runs a task on an instruction set, on numbers `$number`.
 macro_rules! enter {
     ($set:expr, $number:ty, $task:expr) => {
@@ -90,6 +82,7 @@ macro_rules! enter {
         }
     };
 }
+use enter;
 
 /// What differs between the two products.
 enum Boundary {
@@ -149,56 +142,16 @@ impl LaneProduct<f64> {
             return Self::free_space_mirrored(set, terms, kernels, lengths);
         }
         let mut product = Self::planned(set, terms, Boundary::FreeSpace, lengths);
-        product.transform(kernels, 1.0 / (2.0 * lengths[0] as f64 * lengths[1] as f64));
-        product
-    }
-
-    /// The kernels of a free-space product without mirrors, times `scale`.
-    fn transform(&mut self, kernels: &[Kernel<'_>], scale: f64) {
-        let mut rows = AlignedNumbers::zeros(self.input_len());
-        let mut scratch = AlignedNumbers::zeros(self.scratch_len());
-        let Self { set, layout, along_x, along_y, kernel_count, kernels: transformed, .. } = self;
-        let (set, side) = (*set, Side::Plain);
-        let [cells_x, cells_y] = layout.shape;
-        let (rows, scratch) = (rows.as_mut_slice(), scratch.as_mut_slice());
-        let mut quadrant = vec![0.0; set.width::<f64>() * cells_y];
-        for (kernel, &Kernel { values, parity }) in kernels.iter().enumerate() {
-            // Twice the values, but those on the axes once: the transform of a quadrant stands for all four.
-            let sign = if parity == Parity::OddOdd { -4.0 * scale } else { 4.0 * scale };
-            let values = values.slice(s![..cells_x, ..cells_y]);
-            for (group, groups) in rows.chunks_exact_mut(layout.group_stride).enumerate() {
-                let first = (group * set.width::<f64>()).min(cells_x);
-                let values = values.slice(s![first..(first + set.width::<f64>()).min(cells_x), ..]);
-                for (row, values) in quadrant.chunks_exact_mut(cells_y).zip(values.rows()) {
-                    match values.as_slice() {
-                        Some(values) => scaled(sign, values, row),
-                        None => {
-                            for (to, &from) in row.iter_mut().zip(values) {
-                                *to = sign * from;
-                            }
-                        }
-                    }
-                    row[0] *= 0.5;
-                }
-                if group == 0 {
-                    quadrant[..cells_y].iter_mut().for_each(|value| *value *= 0.5);
-                }
-                let layout = &Layout { shape: [values.nrows(), cells_y], ..*layout };
-                let field = quadrant.as_slice();
-                enter!(
-                    set,
-                    f64,
-                    RowsForward { layout, plan: &*along_y, side, field, first: 0, groups, scratch }
-                );
+        let transform = KernelTransform::new(set, terms.shape, lengths);
+        let scale = 1.0 / (2.0 * lengths[0] as f64 * lengths[1] as f64);
+        let (width, count) = (set.width::<f64>(), product.kernel_count);
+        transform.each_strip(kernels, scale, |kernel, strip, values| {
+            let all = &mut product.kernels.as_mut_slice()[strip * lengths[0] * count * width..];
+            for (group, values) in values.chunks_exact(4 * width).enumerate() {
+                all[(group * count + kernel) * 4 * width..][..4 * width].copy_from_slice(values);
             }
-            let (layout, plan, kernel_count, odd) = (&*layout, &*along_x, *kernel_count, parity.odd());
-            let kernels = transformed.as_mut_slice();
-            enter!(
-                set,
-                f64,
-                KernelColumns { layout, plan, rows, odd, kernel, kernel_count, kernels, scratch }
-            );
-        }
+        });
+        product
     }
 
     /// Periodic product from the quadrants of the symbols; lengths must be good and at least 8.

@@ -30,6 +30,11 @@ pub fn second_of_table(mirrored: [bool; 2], table: usize) -> [bool; 2] {
     [table % along_x == 1, table / along_x == 1]
 }
 
+/// The table of a kernel that holds the second frequencies along `[x, y]` or not.
+pub fn table_of_second(mirrored: [bool; 2], second: [bool; 2]) -> usize {
+    usize::from(second[1]) * (1 + usize::from(mirrored[0])) + usize::from(second[0])
+}
+
 /// What one number of a pair becomes: taken from which, with which sign, at the second frequency or not.
 type FromPair = (usize, f64, bool);
 
@@ -74,7 +79,7 @@ impl<N: Number> Reflection<N> {
                 let slots = [0, 1, 2, 3].map(|slot| {
                     let (from_x, sign_x, second_x) = along_x[slot % 2];
                     let (from_y, sign_y, second_y) = along_y[slot / 2];
-                    let within = usize::from(second_y) * (1 + usize::from(axes[0])) + usize::from(second_x);
+                    let within = table_of_second(axes, [second_x, second_y]);
                     SlotTerm {
                         source: 2 * from_y + from_x,
                         table: block.kernel * tables(axes) + within,

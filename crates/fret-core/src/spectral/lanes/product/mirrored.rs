@@ -1,11 +1,12 @@
 //! Planning of products in front of mirrors: where each frequency of the half and of the quarter finds its kernel.
 
 use super::super::super::block::Terms;
-use super::super::super::{Kernel, Mirrors, Parity};
+use super::super::super::{Kernel, Parity};
 use super::super::memory::AlignedNumbers;
 use super::super::paired_rows::places;
 use super::super::plan::LinePlan;
-use super::super::reflection::{Reflection, second_of_table, tables};
+use super::super::reflection::{Reflection, second_of_table, table_of_second, tables};
+use super::kernels::KernelTransform;
 use super::{Boundary, InstructionSet, LaneProduct};
 
 impl LaneProduct<f64> {
@@ -22,51 +23,42 @@ impl LaneProduct<f64> {
         let axes = terms.mirrors.axes;
         let mut product = Self::planned(set, terms, Boundary::FreeSpace, lengths);
         product.reflection = Some(Reflection::new(terms, Vec::new()));
-        let wide = Terms { shape: terms.mirrors.whole(terms.shape), ..terms.clone() };
-        let wide = Terms { mirrors: Mirrors::NONE, ..wide };
-        let wide_lengths = terms.mirrors.whole(lengths);
-        let mut whole = Self::planned(set, &wide, Boundary::FreeSpace, wide_lengths);
-        whole.transform(kernels, 0.25 / (lengths[0] as f64 * lengths[1] as f64));
-        let position = |plan: &LinePlan<f64>| {
-            let mut positions = vec![0; plan.length()];
-            for (position, frequency) in plan.order().into_iter().enumerate() {
-                positions[frequency] = position;
+        let whole = terms.mirrors.whole(lengths);
+        let transform = KernelTransform::new(set, terms.mirrors.whole(terms.shape), whole);
+        // Where the numbers at each place of the whole line go: whether to a table of second frequencies, and their place there.
+        let goals = |axis: usize, part: &LinePlan<f64>, wide: &LinePlan<f64>| -> Vec<(bool, usize)> {
+            let mut places = vec![0; part.length()];
+            for (place, frequency) in part.order().into_iter().enumerate() {
+                places[frequency] = place;
             }
-            positions
+            let goal = |frequency: usize| match frequency.checked_sub(lengths[axis]) {
+                Some(behind) => (true, places[behind]),
+                None => (false, places[frequency]),
+            };
+            wide.order().into_iter().map(goal).collect()
         };
-        let places = [position(&whole.along_x), position(&whole.along_y)];
-        let orders = [product.along_x.order(), product.along_y.order()];
+        let along_x = goals(0, &product.along_x, &transform.along_x);
+        let along_y = goals(1, &product.along_y, &transform.along_y);
         let (width, count) = (set.width::<f64>(), product.kernel_count);
-        let source = whole.kernels.as_slice();
-        for (kernel, &Kernel { parity, .. }) in kernels.iter().enumerate() {
-            let sign = if parity == Parity::EvenEven { 1.0 } else { -1.0 };
-            for table in 0..tables(axes) {
-                let second = second_of_table(axes, table);
-                let sign =
-                    (0..2).filter(|axis| second[*axis] && parity.odd()[*axis]).fold(sign, |sign, _| -sign);
-                let of_axis = |axis: usize| -> Vec<usize> {
-                    let behind = if second[axis] { lengths[axis] } else { 0 };
-                    orders[axis].iter().map(|k| places[axis][k + behind]).collect()
-                };
-                let from_x = of_axis(0);
-                let strip_len = wide_lengths[0] * kernels.len() * width;
-                let from_y: Vec<usize> =
-                    of_axis(1).into_iter().map(|y| y / width * strip_len + y % width).collect();
-                let at = kernel * tables(axes) + table;
-                let strips = product.kernels.as_mut_slice().chunks_exact_mut(lengths[0] * count * width);
-                for (strip, values) in strips.enumerate() {
-                    let columns = &from_y[(strip * width).min(from_y.len())..];
-                    for (place, &x) in from_x.iter().enumerate() {
-                        let values =
-                            &mut values[((place / 4 * count + at) * 4 + place % 4) * width..][..width];
-                        let first = ((x / 4 * kernels.len() + kernel) * 4 + x % 4) * width;
-                        for (value, &y) in values.iter_mut().zip(columns) {
-                            *value = sign * source[first + y];
-                        }
-                    }
+        let along_x: Vec<_> =
+            along_x.into_iter().map(|(second, x)| (second, (x / 4 * count * 4 + x % 4) * width)).collect();
+        let strip_len = lengths[0] * count * width;
+        let scale = 0.25 / (lengths[0] as f64 * lengths[1] as f64);
+        transform.each_strip(kernels, scale, |kernel, strip, values| {
+            let (parity, first) = (kernels[kernel].parity, kernel * tables(axes));
+            let columns = &along_y[strip * width..along_y.len().min((strip + 1) * width)];
+            for (lane, &(second_y, y)) in columns.iter().enumerate() {
+                let to = &mut product.kernels.as_mut_slice()[y / width * strip_len + y % width..];
+                let tables = [false, true].map(|second_x| {
+                    let second = [second_x, second_y];
+                    ((first + table_of_second(axes, second)) * 4 * width, sign_of(parity, second))
+                });
+                for (values, &(second_x, at)) in values.chunks_exact(width).zip(&along_x) {
+                    let (table, sign) = tables[usize::from(second_x)];
+                    to[at + table] = sign * values[lane];
                 }
             }
-        }
+        });
         product
     }
 
@@ -112,4 +104,12 @@ impl LaneProduct<f64> {
         }
         product
     }
+}
+
+/// Sign of a kernel's table: of an odd one minus at the first frequencies, and again along each odd axis with the second.
+fn sign_of(parity: Parity, second: [bool; 2]) -> f64 {
+    let odd = parity.odd();
+    let turns = usize::from(parity != Parity::EvenEven)
+        + (0..2).filter(|axis| second[*axis] && odd[*axis]).count();
+    if turns.is_multiple_of(2) { 1.0 } else { -1.0 }
 }
