@@ -58,6 +58,18 @@ pub fn add_converted<N: Number>(y: &mut [f64], factor: f64, x: &[N]) {
     );
 }
 
+/// `to = factor (a - b)`, in any precision.
+pub fn difference<N: Number>(a: &[f64], b: &[f64], factor: f64, to: &mut [N]) {
+    Arch::new().dispatch(
+        #[inline(always)]
+        || {
+            for ((to, a), b) in to.iter_mut().zip(a).zip(b) {
+                *to = N::of(a - b, factor);
+            }
+        },
+    );
+}
+
 struct AddScaled(f64);
 
 impl CellRule<1, 1, 0> for AddScaled {

@@ -169,6 +169,10 @@ fn solve_coupled(
         if watch(iteration, residual).is_break() {
             return Err(SolveError::Stopped);
         }
+        if krylov.rough.is_too_rough(residual, settings.tolerance) {
+            krylov.rough.with_all_digits(tractions, displacements, compliance);
+            continue;
+        }
         if residual < settings.tolerance {
             let mut s = TangentialField::zeros(cells);
             contact.scatter_tangential(&judge.s, &mut s);
@@ -178,6 +182,7 @@ fn solve_coupled(
             break;
         }
         if retreat.takes_back(residual, tractions, displacements) {
+            krylov.rough.averaged();
             continue;
         }
         let theta = patience.hears(residual);
@@ -209,7 +214,14 @@ fn solve_coupled(
         retreat.keep(tractions, displacements);
         contact.scatter(pressure, &mut tractions.pressure);
         contact.scatter_tangential(shear, &mut tractions.shear);
-        compliance.full(tractions.parts(), displacements.parts_mut());
+        let (tractions_before, before) = &retreat.kept;
+        krylov.rough.follow(
+            residual,
+            settings.tolerance,
+            (&*tractions, &mut *displacements),
+            (tractions_before, before),
+            compliance,
+        );
     }
     Err(SolveError::NotConverged { reached: patience.best, iterations: settings.most_outer_iterations })
 }

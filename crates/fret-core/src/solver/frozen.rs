@@ -9,6 +9,7 @@ use super::inverse::unit_of;
 use super::krylov::Directions;
 use super::preconditioner::{Preconditioner, SlipShares};
 use super::rigid::RigidModes;
+use super::rough_look::RoughLook;
 use super::shear::{ETA, SIX_DIGITS};
 use super::starting_shear::{StartingShear, after, taken};
 use super::tractions::Tractions;
@@ -90,6 +91,8 @@ pub struct KrylovMemory {
     /// Whether all digits are wanted.
     exact: bool,
     right: Components<f64, 3>,
+    /// Looks at the equations in six digits.
+    pub rough: RoughLook,
     /// The step found, packed.
     pub step: Components<f64, 3>,
     double: Krylov<f64>,
@@ -117,6 +120,7 @@ impl KrylovMemory {
     pub fn begin(&mut self, cells: usize) {
         self.cells = cells;
         self.exact = false;
+        self.rough.begin(cells);
     }
 }
 
@@ -155,7 +159,7 @@ impl Frozen<'_> {
         compliance: &mut dyn SurfaceCompliance,
         preconditioner: &mut Preconditioner,
     ) {
-        let KrylovMemory { cells, exact, right, step, double, single } = memory;
+        let KrylovMemory { cells, exact, right, step, double, single, .. } = memory;
         *exact |= self.exact;
         let weight = self.find_right(gap, s, right);
         if !*exact && let Some(mut operator) = compliance.full_single() {

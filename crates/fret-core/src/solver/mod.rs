@@ -27,6 +27,7 @@ mod region;
 mod residual;
 mod retraction;
 mod rigid;
+mod rough_look;
 mod scene;
 mod settings;
 mod shear;

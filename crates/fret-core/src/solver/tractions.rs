@@ -61,6 +61,12 @@ impl Displacements {
         [&mut self.normal, x, y]
     }
 
+    /// Takes over other displacements, keeping the memory.
+    pub fn copy_from(&mut self, other: &Self) {
+        self.normal.clone_from(&other.normal);
+        self.tangential.copy_from(&other.tangential);
+    }
+
     /// Halfway to other displacements.
     pub fn average_with(&mut self, other: &Self) {
         average(&mut self.normal, &other.normal);

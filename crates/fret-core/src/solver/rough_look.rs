@@ -1,0 +1,85 @@
+//! Looks at the equations while their residual is still large: displacements follow the change of the tractions in six digits.
+
+use super::elastic_answer::ElasticAnswer;
+use super::frozen::Units;
+use super::shear::ETA;
+use super::tractions::{Displacements, Tractions};
+use crate::compliance::SurfaceCompliance;
+use crate::model::field::{add_converted, difference, largest};
+
+/// Share of the residual at the last look with all digits below which the next look has all digits again: what changes of
+/// tractions leave in the seventh digit is a hundred times smaller.
+const NEAR: f64 = 0.06;
+const TOO_NEAR: f64 = 1e-4;
+
+/// Which looks have six digits, and the memory for them.
+#[derive(Debug, Default)]
+pub struct RoughLook {
+    answer: ElasticAnswer<f32, 3>,
+    /// Residual at the last look with all digits; `None` before there was one.
+    exact: Option<f64>,
+    rough: bool,
+}
+
+impl RoughLook {
+    /// Makes ready for an increment in a box of so many cells, whose first displacements have all digits.
+    pub fn begin(&mut self, cells: usize) {
+        self.answer.begin(cells, false);
+        (self.exact, self.rough) = (None, false);
+    }
+
+    /// Whether six digits are too few for a residual that was found with them.
+    pub fn is_too_rough(&mut self, residual: f64, tolerance: f64) -> bool {
+        if !self.rough {
+            self.exact = Some(residual);
+        }
+        self.rough && (residual < tolerance || self.exact.is_none_or(|exact| residual < TOO_NEAR * exact))
+    }
+
+    /// Displacements were averaged with earlier ones, whose digits nobody knows.
+    pub fn averaged(&mut self) {
+        self.rough = true;
+    }
+
+    /// All displacements anew.
+    pub fn with_all_digits(
+        &mut self,
+        tractions: &Tractions,
+        displacements: &mut Displacements,
+        compliance: &mut dyn SurfaceCompliance,
+    ) {
+        compliance.full(tractions.parts(), displacements.parts_mut());
+        self.rough = false;
+    }
+
+    /// Displacements of tractions after a look that found `residual`, from those before: in six digits where the next look is still
+    /// far from the solution.
+    pub fn follow(
+        &mut self,
+        residual: f64,
+        tolerance: f64,
+        (tractions, displacements): (&Tractions, &mut Displacements),
+        (tractions_before, before): (&Tractions, &Displacements),
+        compliance: &mut dyn SurfaceCompliance,
+    ) {
+        let far = self.exact.is_some_and(|exact| residual > NEAR * exact) && ETA * residual > 10.0 * tolerance;
+        let operator = if far { compliance.full_single() } else { None };
+        let Some(mut operator) = operator else {
+            return self.with_all_digits(tractions, displacements, compliance);
+        };
+        let units = Units::near_one(largest(&tractions.pressure), operator.unit());
+        let [changes, answers] = self.answer.parts_mut();
+        for ((change, now), then) in changes.iter_mut().zip(tractions.parts()).zip(tractions_before.parts()) {
+            difference(now, then, 1.0 / units.pressure, change);
+        }
+        operator.apply(
+            &changes.each_ref().map(Vec::as_slice),
+            &mut answers.each_mut().map(Vec::as_mut_slice),
+        );
+        displacements.copy_from(before);
+        for (field, answer) in displacements.parts_mut().into_iter().zip(answers) {
+            add_converted(field, units.length(), answer);
+        }
+        self.rough = true;
+    }
+}
