@@ -214,13 +214,16 @@ where
     Arch::new().dispatch(Pass::<N, R, READ, WRITE, SUMS> { rule, read, write })
 }
 
+/// Fields as groups of numbers, and what is left of each.
+type Grouped<'a, N, S, const READ: usize> = ([&'a [<N as Number>::Group<S>]; READ], [&'a [N]; READ]);
+
 /// Groups of fields of `len` numbers, `count` of each, and what is left.
 #[inline(always)]
 fn grouped<N: Number, S: Simd, const READ: usize>(
     read: [&[N]; READ],
     len: usize,
     count: usize,
-) -> ([&[N::Group<S>]; READ], [&[N]; READ]) {
+) -> Grouped<'_, N, S, READ> {
     let (mut groups, mut rest) = ([&[] as &[N::Group<S>]; READ], [&[] as &[N]; READ]);
     for (field, values) in read.into_iter().enumerate() {
         assert_eq!(values.len(), len, "fields of one length");

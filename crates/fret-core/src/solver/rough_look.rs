@@ -62,7 +62,8 @@ impl RoughLook {
         (tractions_before, before): (&Tractions, &Displacements),
         compliance: &mut dyn SurfaceCompliance,
     ) {
-        let far = self.exact.is_some_and(|exact| residual > NEAR * exact) && ETA * residual > 10.0 * tolerance;
+        let far =
+            self.exact.is_some_and(|exact| residual > NEAR * exact) && ETA * residual > 10.0 * tolerance;
         let operator = if far { compliance.full_single() } else { None };
         let Some(mut operator) = operator else {
             return self.with_all_digits(tractions, displacements, compliance);
@@ -72,10 +73,8 @@ impl RoughLook {
         for ((change, now), then) in changes.iter_mut().zip(tractions.parts()).zip(tractions_before.parts()) {
             difference(now, then, 1.0 / units.pressure, change);
         }
-        operator.apply(
-            &changes.each_ref().map(Vec::as_slice),
-            &mut answers.each_mut().map(Vec::as_mut_slice),
-        );
+        operator
+            .apply(&changes.each_ref().map(Vec::as_slice), &mut answers.each_mut().map(Vec::as_mut_slice));
         displacements.copy_from(before);
         for (field, answer) in displacements.parts_mut().into_iter().zip(answers) {
             add_converted(field, units.length(), answer);

@@ -109,7 +109,7 @@ impl LaneProduct<f64> {
 /// Sign of a kernel's table: of an odd one minus at the first frequencies, and again along each odd axis with the second.
 fn sign_of(parity: Parity, second: [bool; 2]) -> f64 {
     let odd = parity.odd();
-    let turns = usize::from(parity != Parity::EvenEven)
-        + (0..2).filter(|axis| second[*axis] && odd[*axis]).count();
+    let turns =
+        usize::from(parity != Parity::EvenEven) + (0..2).filter(|axis| second[*axis] && odd[*axis]).count();
     if turns.is_multiple_of(2) { 1.0 } else { -1.0 }
 }
