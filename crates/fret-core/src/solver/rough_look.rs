@@ -82,3 +82,19 @@ impl RoughLook {
         self.rough = true;
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn six_digits_certify_nothing() {
+        let mut look = RoughLook::default();
+        look.begin(4);
+        assert!(!look.is_too_rough(0.5, 1e-8));
+        look.averaged();
+        assert!(!look.is_too_rough(0.1, 1e-8));
+        assert!(look.is_too_rough(0.4 * TOO_NEAR, 1e-8));
+        assert!(look.is_too_rough(0.1, 0.2));
+    }
+}
