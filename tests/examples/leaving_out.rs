@@ -25,7 +25,7 @@ answer does not change, the work does.
 | shear across the load | nothing loads it, and shear moves nothing across it: bodies without lateral contraction, or a line contact |
 | cells behind a mirror | gap, friction and loads are their own mirror images: half of the grid in general, a quarter without pull or where the bodies do not couple |
 | cells far from the contact | always, but in scenes that repeat; they are checked once an increment |
-| all but six digits | on frozen zones and in approximate inverses, from 64 x 64 cells on, unless the scene repeats, long waves move a surface four times more or less than short ones, or bodies couple under hardly any friction; every look at the equations has all digits |
+| all but six digits | on frozen zones and in approximate inverses, from 64 x 64 cells on, unless the scene repeats, long waves move a surface four times more or less than short ones, or bodies couple under hardly any friction; of coupled bodies also in looks far from the solution; what is accepted was judged with all digits |
 | fields, stresses | nobody asked for them |
 
 ";

@@ -102,7 +102,7 @@ pub fn left_out(
     if six_digits {
         leave(
             "all but six digits, in approximate inverses and on frozen zones",
-            "every look at the equations that follows is taken with all of them, and mends what rounding did",
+            "looks at the equations near the solution are taken with all of them, and mend what rounding did; none with six is accepted",
             "half of the numbers in most transforms",
         );
     }

@@ -32,7 +32,7 @@ pub struct SolverSettings {
     pub scheme: Scheme,
     /// What is left out where the scene allows it.
     pub leave_out: LeaveOut,
-    /// Six digits do in approximate inverses and on frozen zones. Every look at the equations is in double precision.
+    /// Six digits do in approximate inverses and on frozen zones. What is accepted was judged in double precision.
     pub six_digits: bool,
 }
 
