@@ -49,11 +49,6 @@ impl<N: Number, const K: usize> ElasticAnswer<N, K> {
         }
     }
 
-    /// Tractions and displacements of the whole box.
-    pub fn parts_mut(&mut self) -> [&mut [Vec<N>; K]; 2] {
-        [&mut self.tractions, &mut self.displacements]
-    }
-
     /// The displacements last found, in the whole box.
     pub fn in_box(&self) -> &[Vec<N>; K] {
         &self.displacements

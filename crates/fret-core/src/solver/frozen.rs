@@ -5,14 +5,14 @@ use super::components::Components;
 use super::contact_set::ContactSet;
 use super::elastic_answer::ElasticAnswer;
 use super::frozen_zones::{FrozenZones, RigidProjector, free_part, parts_of, products};
-use super::inverse::unit_of;
 use super::krylov::Directions;
+use super::patience::{ETA, SIX_DIGITS};
 use super::preconditioner::{Preconditioner, SlipShares};
 use super::rigid::RigidModes;
 use super::rough_look::RoughLook;
-use super::shear::{ETA, SIX_DIGITS};
 use super::starting_shear::{StartingShear, after, taken};
 use super::tractions::Tractions;
+use super::units::Units;
 use super::zones::Zones;
 use crate::compliance::SurfaceCompliance;
 use crate::model::TangentialField;
@@ -74,7 +74,7 @@ pub struct Frozen<'a> {
     pub most: usize,
     /// Size of a residual that is small beside the tolerance [length].
     pub floor: f64,
-    /// Share of its start at which the residual is small enough: see [`enough`](super::shear::enough).
+    /// Share of its start at which the residual is small enough: see [`enough`](super::patience::enough).
     pub enough: f64,
     /// Share of the cut below which solving stops.
     pub theta: f64,
@@ -120,31 +120,7 @@ impl KrylovMemory {
     pub fn begin(&mut self, cells: usize) {
         self.cells = cells;
         self.exact = false;
-        self.rough.begin(cells);
-    }
-}
-
-/// Units in which a frozen problem is solved.
-#[derive(Debug, Clone, Copy)]
-pub struct Units {
-    /// Of tractions [pressure].
-    pub pressure: f64,
-    /// Of displacements over that of tractions [length/pressure].
-    pub compliance: f64,
-}
-
-impl Units {
-    /// Those of the scene.
-    pub const SCENE: Self = Self { pressure: 1.0, compliance: 1.0 };
-
-    /// Units that bring tractions up to `most` near one.
-    pub fn near_one(most: f64, compliance: f64) -> Self {
-        Self { pressure: unit_of(most), compliance }
-    }
-
-    /// Of displacements [length].
-    pub fn length(self) -> f64 {
-        self.pressure * self.compliance
+        self.rough.begin();
     }
 }
 

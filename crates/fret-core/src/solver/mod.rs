@@ -21,6 +21,7 @@ mod nested;
 mod normal;
 mod normal_problem;
 mod outside;
+mod patience;
 mod preconditioner;
 mod prediction;
 mod region;
@@ -34,6 +35,7 @@ mod shear;
 mod shortcut;
 mod starting_shear;
 mod tractions;
+mod units;
 mod zones;
 
 use std::borrow::Cow;

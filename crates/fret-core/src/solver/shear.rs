@@ -4,25 +4,18 @@
 use super::components::Components;
 use super::coulomb::{CoulombJudge, TangentialTask, TangentialVerdict};
 use super::elastic_answer::ElasticAnswer;
-use super::frozen::Units;
 use super::frozen_zones::{FrozenZones, RigidProjector, parts_of};
+use super::patience::{ETA, Patience, SIX_DIGITS, enough};
 use super::preconditioner::{Preconditioner, SlipShares};
 use super::retraction::Retraction;
 use super::settings::{SolveError, SolverSettings, Watch};
 use super::starting_shear::{StartingShear, after, taken};
+use super::units::Units;
 use super::zones::Zones;
 use crate::compliance::SurfaceCompliance;
 use crate::model::TangentialField;
 use crate::model::each_cell::{CellRule, Number, Reals, each_cell};
 use crate::model::field::{add_converted, add_scaled, largest, norm};
-
-/// How much of the cut a frozen problem is solved below; raised while outer steps do not pay.
-pub const THETA: f64 = 1.0;
-/// Share of its start to which a frozen problem is solved at the most when something is cut.
-pub const ETA: f64 = 0.003;
-
-/// Share of its start to which the residual of a frozen problem falls when its operator has six digits.
-pub const SIX_DIGITS: f64 = 1e-5;
 
 /// What the shear solver reached.
 #[derive(Debug)]
@@ -79,46 +72,6 @@ pub fn solve_shear(
         contact.gather_tangential(displacement, &mut here);
     }
     Err(SolveError::NotConverged { reached: patience.best, iterations: settings.most_outer_iterations })
-}
-
-/// Share to which the `residual` of a look at the equations must fall to be below the tolerance at the next one, if the zones stay: what
-/// is solved further is lost.
-pub fn enough(tolerance: f64, residual: f64) -> f64 {
-    0.7 * tolerance / residual
-}
-
-/// How far frozen problems are solved: further while outer steps do not pay.
-#[derive(Debug)]
-pub struct Patience {
-    theta: f64,
-    last: f64,
-    /// Smallest residual so far.
-    pub best: f64,
-}
-
-impl Default for Patience {
-    fn default() -> Self {
-        Self { theta: THETA, last: f64::INFINITY, best: f64::INFINITY }
-    }
-}
-
-impl Patience {
-    /// Whether several steps in a row did not pay: then nothing is left to chance.
-    pub fn is_at_an_end(&self) -> bool {
-        self.theta > 16.0 * THETA
-    }
-
-    /// Takes note of a residual; returns the share of the cut below which the next frozen problem is solved.
-    pub fn hears(&mut self, residual: f64) -> f64 {
-        self.theta = if residual > 0.9 * self.last {
-            (4.0 * self.theta).min(300.0)
-        } else {
-            (self.theta / 2.0).max(THETA)
-        };
-        self.last = residual;
-        self.best = self.best.min(residual);
-        self.theta
-    }
 }
 
 /// The tangential problem on frozen zones.
