@@ -269,16 +269,22 @@ mod tests {
         let start = patient.step(&untouched, &pressed, go_on).unwrap();
         let needed = patient.step(&start.state, &pulled, go_on).unwrap().work.outer_iterations;
 
-        // The same state, and fewer changes allowed than the whole step needs.
-        let mut hasty = solver(&friction, needed - 2);
-        hasty.remember({
+        // The same state, and fewer changes allowed than the whole step takes, even when it is tried in turn.
+        let hasty_one = |most: usize| {
             let mut patient = solver(&friction, 200);
-            patient.step(&untouched, &pressed, go_on).unwrap();
-            patient.memory().clone()
-        });
+            patient.step(&untouched, &pressed, &mut |_, _| ControlFlow::Continue(())).unwrap();
+            let mut hasty = solver(&friction, most);
+            hasty.remember(patient.memory().clone());
+            hasty
+        };
+        let is_too_few = |most: &usize| {
+            hasty_one(*most).step(&start.state, &pulled, &mut |_, _| ControlFlow::Continue(())).is_err()
+        };
+        let too_few = (1..needed).rev().find(is_too_few).unwrap();
+        let mut hasty = hasty_one(too_few);
         let span = Span { state: &start.state, from: &pressed, to: &pulled };
         let (end, parts) = in_halves(&mut hasty, &mut None, span, go_on).unwrap();
-        assert!(parts > 1, "{needed} changes were enough");
+        assert!(parts > 1, "{too_few} changes were enough");
         assert!(end.outcome.residual.largest() < 1e-9);
 
         // As many steps of the same size, asked for one by one.

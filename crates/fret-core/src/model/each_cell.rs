@@ -47,6 +47,8 @@ pub trait Number: Copy + Default + Send + Sync + 'static {
     fn groups<S: Simd>(field: &[Self]) -> (&[Self::Group<S>], &[Self]);
     /// Groups of a field, and what is left.
     fn groups_mut<S: Simd>(field: &mut [Self]) -> (&mut [Self::Group<S>], &mut [Self]);
+    /// A register of zeros.
+    fn zero<S: Simd>(simd: S) -> Self::Register<S>;
     /// A register of a group.
     fn load<S: Simd>(simd: S, group: Self::Group<S>) -> Self::Register<S>;
     /// The group of a register.
@@ -128,6 +130,10 @@ macro_rules! numbers {
                 S::$groups_mut(field)
             }
             #[inline(always)]
+            fn zero<S: Simd>(simd: S) -> $register<S> {
+                $register { simd, numbers: simd.$splat(0.0) }
+            }
+            #[inline(always)]
             fn load<S: Simd>(simd: S, numbers: S::$group) -> $register<S> {
                 $register { simd, numbers }
             }
@@ -182,6 +188,9 @@ mod registers {
 
 /// What happens in a cell: reads `READ` fields, changes `WRITE` fields, contributes to `SUMS` sums over all cells.
 pub trait CellRule<const READ: usize, const WRITE: usize, const SUMS: usize> {
+    /// So many of the fields that are read, the last ones, may be empty: then they count as zero in every cell.
+    const OPTIONAL: usize = 0;
+
     /// The rule. A sum must not be touched by a number that is not finite, in any cell.
     fn at<R: Reals>(&self, read: [R; READ], write: &mut [R; WRITE]) -> [R; SUMS];
 }
@@ -201,7 +210,7 @@ pub fn convert<A: Number, B: Number>(from: &[A], factor: f64, to: &mut [B]) {
 /// Applies a rule to every cell; returns its sums, taken in an order that is fixed on a machine.
 ///
 /// # Panics
-/// When the fields differ in length.
+/// When the fields differ in length, but for [optional](CellRule::OPTIONAL) ones that are all empty.
 pub fn each_cell<N, R, const READ: usize, const WRITE: usize, const SUMS: usize>(
     rule: &R,
     read: [&[N]; READ],
@@ -211,21 +220,26 @@ where
     N: Number,
     R: CellRule<READ, WRITE, SUMS>,
 {
-    Arch::new().dispatch(Pass::<N, R, READ, WRITE, SUMS> { rule, read, write })
+    if R::OPTIONAL > 0 && read[READ - R::OPTIONAL..].iter().all(|field| field.is_empty()) {
+        Arch::new().dispatch(Pass::<N, R, READ, WRITE, SUMS, true> { rule, read, write })
+    } else {
+        Arch::new().dispatch(Pass::<N, R, READ, WRITE, SUMS, false> { rule, read, write })
+    }
 }
 
 /// Fields as groups of numbers, and what is left of each.
 type Grouped<'a, N, S, const READ: usize> = ([&'a [<N as Number>::Group<S>]; READ], [&'a [N]; READ]);
 
-/// Groups of fields of `len` numbers, `count` of each, and what is left.
+/// Groups of the first `given` fields, of `len` numbers, `count` of each, and what is left.
 #[inline(always)]
 fn grouped<N: Number, S: Simd, const READ: usize>(
     read: [&[N]; READ],
+    given: usize,
     len: usize,
     count: usize,
 ) -> Grouped<'_, N, S, READ> {
     let (mut groups, mut rest) = ([&[] as &[N::Group<S>]; READ], [&[] as &[N]; READ]);
-    for (field, values) in read.into_iter().enumerate() {
+    for (field, values) in read.into_iter().take(given).enumerate() {
         assert_eq!(values.len(), len, "fields of one length");
         let (whole, left) = N::groups::<S>(values);
         (groups[field], rest[field]) = (&whole[..count], left);
@@ -233,14 +247,15 @@ fn grouped<N: Number, S: Simd, const READ: usize>(
     (groups, rest)
 }
 
-struct Pass<'a, N, R, const READ: usize, const WRITE: usize, const SUMS: usize> {
+/// A rule over fields; with `LACKS` the optional ones are empty.
+struct Pass<'a, N, R, const READ: usize, const WRITE: usize, const SUMS: usize, const LACKS: bool> {
     rule: &'a R,
     read: [&'a [N]; READ],
     write: [&'a mut [N]; WRITE],
 }
 
-impl<N, R, const READ: usize, const WRITE: usize, const SUMS: usize> WithSimd
-    for Pass<'_, N, R, READ, WRITE, SUMS>
+impl<N, R, const READ: usize, const WRITE: usize, const SUMS: usize, const LACKS: bool> WithSimd
+    for Pass<'_, N, R, READ, WRITE, SUMS, LACKS>
 where
     N: Number,
     R: CellRule<READ, WRITE, SUMS>,
@@ -254,7 +269,8 @@ where
         let len = len.unwrap_or(0);
         let width = size_of::<N::Group<S>>() / size_of::<N>();
         let count = len / width;
-        let (groups, rest) = grouped::<N, S, READ>(read, len, count);
+        let given = if LACKS { READ - R::OPTIONAL } else { READ };
+        let (groups, rest) = grouped::<N, S, READ>(read, given, len, count);
         let written = write.map(|field| {
             assert_eq!(field.len(), len, "fields of one length");
             let (whole, left) = N::groups_mut::<S>(field);
@@ -266,7 +282,9 @@ where
             let end = count.min(first + STRIDE);
             let mut sums: Option<[N::Register<S>; SUMS]> = None;
             for index in first..end {
-                let read: [_; READ] = std::array::from_fn(|field| N::load(simd, groups[field][index]));
+                let read: [_; READ] = std::array::from_fn(|field| {
+                    if field < given { N::load(simd, groups[field][index]) } else { N::zero(simd) }
+                });
                 let mut changed: [_; WRITE] =
                     std::array::from_fn(|field| N::load(simd, written[field].0[index]));
                 let terms = rule.at(read, &mut changed);
@@ -286,7 +304,9 @@ where
             first = end;
         }
         for index in 0..len % width {
-            let read: [_; READ] = std::array::from_fn(|field| rest[field][index].load_one());
+            let read: [_; READ] = std::array::from_fn(|field| {
+                if field < given { rest[field][index].load_one() } else { N::zero(Scalar) }
+            });
             let mut changed: [_; WRITE] = std::array::from_fn(|field| written[field].1[index].load_one());
             let terms = rule.at(read, &mut changed);
             for field in 0..WRITE {
@@ -328,7 +348,7 @@ impl<N: Number, R: CellSize<READ>, const READ: usize> WithSimd for Largest<'_, N
         let len = read[0].len();
         let width = size_of::<N::Group<S>>() / size_of::<N>();
         let count = len / width;
-        let (groups, rest) = grouped::<N, S, READ>(read, len, count);
+        let (groups, rest) = grouped::<N, S, READ>(read, READ, len, count);
         let mut most: Option<N::Register<S>> = None;
         for index in 0..count {
             let here = size.of(std::array::from_fn(|field| N::load(simd, groups[field][index])));

@@ -58,6 +58,18 @@ pub fn add_converted<N: Number>(y: &mut [f64], factor: f64, x: &[N]) {
     );
 }
 
+/// `to = x + factor y`, with `y` of any precision.
+pub fn added_converted<N: Number>(x: &[f64], factor: f64, y: &[N], to: &mut [f64]) {
+    Arch::new().dispatch(
+        #[inline(always)]
+        || {
+            for ((to, x), y) in to.iter_mut().zip(x).zip(y) {
+                *to = x + y.to_double(factor);
+            }
+        },
+    );
+}
+
 /// `to = factor (a - b)`, in any precision.
 pub fn difference<N: Number>(a: &[f64], b: &[f64], factor: f64, to: &mut [N]) {
     Arch::new().dispatch(

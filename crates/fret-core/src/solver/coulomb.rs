@@ -8,6 +8,8 @@ use crate::model::each_cell::{CellRule, Reals, each_cell};
 /// What the tangential equations of one increment ask for; fields are packed over the cells in contact.
 #[derive(Debug, Clone, Copy)]
 pub struct TangentialTask<'a> {
+    /// Cells of the box along x and y.
+    pub shape: [usize; 2],
     /// Cells in contact; the fields below are packed over them.
     pub contact: &'a ContactSet,
     /// Friction bound mu p [pressure].
@@ -64,9 +66,9 @@ impl CoulombJudge {
             &task.before.y,
             &q.x,
             &q.y,
+            task.bound,
             &modes.rotation.x,
             &modes.rotation.y,
-            task.bound,
         ];
         let write = [&mut s.x[..], &mut s.y, &mut vectors.x, &mut vectors.y];
         let pull = Pull { motion: task.motion, stiffness };
@@ -79,7 +81,7 @@ impl CoulombJudge {
             found = found.map(|motion| motion / stiffness);
         }
         let Self { s, .. } = self;
-        let read = [&q.x[..], &q.y, &modes.rotation.x, &modes.rotation.y, task.bound];
+        let read = [&q.x[..], &q.y, task.bound, &modes.rotation.x, &modes.rotation.y];
         let [off] = each_cell(&Off { motion: found, stiffness }, read, [&mut s.x, &mut s.y]);
         let mut motion = task.motion;
         for mode in 0..3 {
@@ -193,10 +195,12 @@ struct Pull {
 }
 
 impl CellRule<9, 4, 3> for Pull {
+    const OPTIONAL: usize = 2;
+
     #[inline(always)]
     fn at<R: Reals>(
         &self,
-        [ux, uy, before_x, before_y, qx, qy, around_x, around_y, bound]: [R; 9],
+        [ux, uy, before_x, before_y, qx, qy, bound, around_x, around_y]: [R; 9],
         [sx, sy, vx, vy]: &mut [R; 4],
     ) -> [R; 3] {
         let [shift_x, shift_y, twist] = self.motion;
@@ -215,8 +219,10 @@ struct Off {
 }
 
 impl CellRule<5, 2, 1> for Off {
+    const OPTIONAL: usize = 2;
+
     #[inline(always)]
-    fn at<R: Reals>(&self, [qx, qy, around_x, around_y, bound]: [R; 5], [sx, sy]: &mut [R; 2]) -> [R; 1] {
+    fn at<R: Reals>(&self, [qx, qy, bound, around_x, around_y]: [R; 5], [sx, sy]: &mut [R; 2]) -> [R; 1] {
         let [shift_x, shift_y, twist] = self.motion;
         *sx = *sx - (around_x * twist + shift_x);
         *sy = *sy - (around_y * twist + shift_y);

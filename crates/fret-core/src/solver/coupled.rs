@@ -4,6 +4,7 @@
 use super::alternating::solve_alternating;
 use super::contact_set::ContactSet;
 use super::coulomb::{CoulombJudge, TangentialTask, TangentialVerdict};
+use super::fronts::Fronts;
 use super::frozen::{Frozen, KrylovMemory, Packed, floor};
 use super::patience::{Patience, enough};
 use super::preconditioner::Preconditioner;
@@ -48,7 +49,16 @@ impl CoupledTask<'_> {
         modes: &'a RigidModes,
         own: f64,
     ) -> TangentialTask<'a> {
-        TangentialTask { contact, bound, before, modes, motion: self.motion, resultant: self.resultant, own }
+        TangentialTask {
+            shape: self.places.shape(),
+            contact,
+            bound,
+            before,
+            modes,
+            motion: self.motion,
+            resultant: self.resultant,
+            own,
+        }
     }
 }
 
@@ -140,25 +150,30 @@ fn solve_coupled(
     let mut contact = ContactSet::default();
     // Whether the contact is another than that of the last frozen problem; between the two a step may be taken back.
     let mut changed = true;
+    // Whether what is packed is what the fields hold, on this contact; whether fields have been written on it.
+    let (mut packed_holds, mut written) = (false, false);
     let mut modes = task.places.modes(&contact);
     let mut packed = Packed::default();
     let [mut before, mut displaced] = [TangentialField::default(), TangentialField::default()];
     let mut heights = Vec::new();
     let mut zones = Zones::default();
     let mut patience = Patience::default();
+    let mut fronts = Fronts::default();
     let mut retreat = Retreat::new(cells);
     for iteration in 0..settings.most_outer_iterations {
         each_cell(&Height, [&displacements.normal, task.undeformed], [&mut gap]);
         let normal = judge_normal(&tractions.pressure, &mut gap, task.undeformed, own.normal, prescribed);
         let touching = ContactSet::of(cells, |cell| tractions.pressure[cell] > 0.0 || gap[cell] < 0.0);
         if iteration == 0 || touching != contact {
-            changed = true;
+            (changed, packed_holds, written) = (true, false, false);
             contact = touching;
             modes = task.places.modes(&contact);
             before = contact.packed_tangential(task.before);
             packed.friction = contact.packed(task.friction);
         }
-        packed.take(&contact, tractions);
+        if !packed_holds {
+            packed.take(&contact, tractions);
+        }
         contact.pack_tangential(&displacements.tangential, &mut displaced);
         let tangential = {
             let judged = task.tangential(&contact, &packed.bound, &before, &modes, own.tangential);
@@ -183,6 +198,7 @@ fn solve_coupled(
         }
         if retreat.takes_back(residual, tractions, displacements) {
             krylov.rough.averaged();
+            packed_holds = false;
             continue;
         }
         let theta = patience.hears(residual);
@@ -210,10 +226,19 @@ fn solve_coupled(
         }
         packed.find_bound();
         let Packed { pressure, shear, bound, .. } = &mut packed;
-        retraction.shear(shear, &zones, &task.tangential(&contact, bound, &before, &modes, own.tangential));
+        let judged = task.tangential(&contact, bound, &before, &modes, own.tangential);
+        fronts.carry_on(shear, &zones, &judged);
+        retraction.shear(shear, &zones, &judged);
         retreat.keep(tractions, displacements);
-        contact.scatter(pressure, &mut tractions.pressure);
-        contact.scatter_tangential(shear, &mut tractions.shear);
+        if written {
+            // The fields before the last lie on this contact as well: nothing to clear.
+            contact.place(pressure, &mut tractions.pressure);
+            contact.place_tangential(shear, &mut tractions.shear);
+        } else {
+            contact.scatter(pressure, &mut tractions.pressure);
+            contact.scatter_tangential(shear, &mut tractions.shear);
+        }
+        (packed_holds, written) = (true, true);
         let (tractions_before, before) = &retreat.kept;
         krylov.rough.follow(
             residual,

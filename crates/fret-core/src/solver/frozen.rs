@@ -257,7 +257,7 @@ impl<N: Number> Problem<'_, N> {
         displacements.reset(self.zones.len());
         let [stick, slip, _, _, around_x, around_y] = self.zones.parts();
         let [_, x, y] = residual.parts();
-        let read = [stick, slip, &self.zones.weighted_slip, around_x, around_y, x, y];
+        let read = [stick, slip, &self.zones.weighted_slip, x, y, around_x, around_y];
         let rule = Unweigh { unweight: 1.0 / self.weight };
         let products = each_cell(&rule, read, displacements.parts_mut());
         self.rigid.remove_resultant(displacements.parts_mut(), products);
@@ -282,7 +282,7 @@ impl<N: Number> Problem<'_, N> {
         self.frozen.remove_mean(p);
         preconditioner.shear(displacements.parts(), contact, [qx, qy], shares);
         let [stick, slip, along_x, along_y, around_x, around_y] = self.zones.parts();
-        let read = [stick, slip, along_x, along_y, around_x, around_y, &self.start.friction, p];
+        let read = [stick, slip, along_x, along_y, &self.start.friction, p, around_x, around_y];
         let resultant = each_cell(&FreeAndFollow, read, [&mut *qx, &mut *qy]);
         let amounts = self.rigid.amounts(resultant);
         turning.resize(qx.len(), N::default());
@@ -295,7 +295,7 @@ impl<N: Number> Problem<'_, N> {
         self.frozen.remove_mean(normal);
         let FrozenZones { weighted_slip, stiffness, .. } = self.zones;
         let [stick, _, along_x, along_y, around_x, around_y] = self.zones.parts();
-        let read = [stick, weighted_slip, along_x, along_y, around_x, around_y, stiffness, turning];
+        let read = [stick, weighted_slip, along_x, along_y, stiffness, turning, around_x, around_y];
         let resultant = each_cell(&FreeAndStiff { weight: self.weight }, read, [&mut *x, &mut *y]);
         self.equations.remove_resultant([x, y], resultant);
     }
@@ -351,10 +351,12 @@ struct Unweigh {
 }
 
 impl CellRule<7, 2, 3> for Unweigh {
+    const OPTIONAL: usize = 2;
+
     #[inline(always)]
     fn at<R: Reals>(
         &self,
-        [stick, slip, weighted, around_x, around_y, x, y]: [R; 7],
+        [stick, slip, weighted, x, y, around_x, around_y]: [R; 7],
         [to_x, to_y]: &mut [R; 2],
     ) -> [R; 3] {
         let zero = x.all(0.0);
@@ -368,10 +370,12 @@ impl CellRule<7, 2, 3> for Unweigh {
 struct FreeAndFollow;
 
 impl CellRule<8, 2, 3> for FreeAndFollow {
+    const OPTIONAL: usize = 2;
+
     #[inline(always)]
     fn at<R: Reals>(
         &self,
-        [stick, slip, along_x, along_y, around_x, around_y, friction, p]: [R; 8],
+        [stick, slip, along_x, along_y, friction, p, around_x, around_y]: [R; 8],
         [x, y]: &mut [R; 2],
     ) -> [R; 3] {
         [*x, *y] = free_part([*x, *y], stick, slip, [along_x, along_y]);
@@ -385,10 +389,12 @@ impl CellRule<8, 2, 3> for FreeAndFollow {
 struct Follow([f64; 3]);
 
 impl CellRule<8, 3, 0> for Follow {
+    const OPTIONAL: usize = 2;
+
     #[inline(always)]
     fn at<R: Reals>(
         &self,
-        [stick, slip, along_x, along_y, around_x, around_y, friction, p]: [R; 8],
+        [stick, slip, along_x, along_y, friction, p, around_x, around_y]: [R; 8],
         [x, y, turning]: &mut [R; 3],
     ) -> [R; 0] {
         let [shift_x, shift_y, twist] = self.0;
@@ -410,10 +416,12 @@ struct FreeAndStiff {
 }
 
 impl CellRule<8, 2, 3> for FreeAndStiff {
+    const OPTIONAL: usize = 2;
+
     #[inline(always)]
     fn at<R: Reals>(
         &self,
-        [stick, slip, along_x, along_y, around_x, around_y, stiffness, turning]: [R; 8],
+        [stick, slip, along_x, along_y, stiffness, turning, around_x, around_y]: [R; 8],
         [x, y]: &mut [R; 2],
     ) -> [R; 3] {
         let turn = slip * (along_x * *y - along_y * *x + stiffness * turning);

@@ -18,7 +18,7 @@ pub struct FrozenZones<N> {
     pub direction: [Vec<N>; 2],
     /// Slip stiffness, in the units of the problem.
     pub stiffness: Vec<N>,
-    /// Rotation about z.
+    /// Rotation about z; empty when the bodies do not rotate.
     pub rotation: [Vec<N>; 2],
 }
 
@@ -64,6 +64,8 @@ pub fn free_part<R: Reals>(vector: [R; 2], stick: R, slip: R, direction: [R; 2])
 struct KeepFree;
 
 impl CellRule<6, 2, 3> for KeepFree {
+    const OPTIONAL: usize = 2;
+
     #[inline(always)]
     fn at<R: Reals>(
         &self,
@@ -81,7 +83,7 @@ pub fn products<R: Reals>([x, y]: [R; 2], weight: R, [around_x, around_y]: [R; 2
     [x * weight, y * weight, (x * around_x + y * around_y) * weight]
 }
 
-/// What a rule reads of frozen zones: stick, slip, direction, rotation.
+/// What a rule reads of frozen zones: stick, slip, direction, rotation; the last is empty when the bodies do not rotate.
 pub type ZoneParts<'a, N> = [&'a [N]; 6];
 
 /// Those of zones as they were found.
@@ -133,6 +135,8 @@ impl<'a, N: Number> RigidProjector<'a, N> {
 struct Gram;
 
 impl CellRule<6, 0, 6> for Gram {
+    const OPTIONAL: usize = 2;
+
     #[inline(always)]
     fn at<R: Reals>(
         &self,
@@ -157,6 +161,8 @@ impl CellRule<6, 0, 6> for Gram {
 struct RemoveRigid([f64; 3]);
 
 impl CellRule<6, 2, 0> for RemoveRigid {
+    const OPTIONAL: usize = 2;
+
     #[inline(always)]
     fn at<R: Reals>(
         &self,

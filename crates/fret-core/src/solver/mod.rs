@@ -11,6 +11,7 @@ mod coulomb;
 mod coupled;
 mod elastic_answer;
 mod feasible;
+mod fronts;
 mod frozen;
 mod frozen_zones;
 mod growth;

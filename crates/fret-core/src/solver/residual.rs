@@ -1,6 +1,6 @@
 //! The judge of the normal side: how well pressure satisfies its laws. Finds the approach on the way.
 
-use crate::model::field::{dot, sum};
+use crate::model::each_cell::{CellRule, CellSize, Reals, each_cell, largest_of};
 
 /// Verdict on the normal side.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -19,35 +19,53 @@ pub fn judge_normal(
     own: f64,
     approach: Option<f64>,
 ) -> NormalVerdict {
-    let loaded = sum(pressure);
-    let approach = approach.unwrap_or_else(|| mean_where_loaded(pressure, height));
+    let [loaded, cells, above, work, free_work] = each_cell(&Loads, [pressure, height, undeformed], []);
+    let lowest = || height.iter().copied().fold(f64::INFINITY, f64::min);
     if loaded <= 0.0 {
-        let lowest = height.iter().copied().fold(f64::INFINITY, f64::min);
-        for gap in height.iter_mut() {
-            *gap -= approach;
-        }
-        let residual = if lowest >= approach { 0.0 } else { 1.0 };
-        return NormalVerdict { approach, residual };
+        let lowest = lowest();
+        let approach = approach.unwrap_or(lowest);
+        each_cell(&Less(approach), [], [height]);
+        return NormalVerdict { approach, residual: if lowest >= approach { 0.0 } else { 1.0 } };
     }
-    let work = dot(pressure, height) - dot(pressure, undeformed);
-    let scale = (work / loaded).abs();
-    let mut worst = 0.0_f64;
-    for (gap, &p) in height.iter_mut().zip(pressure) {
-        *gap -= approach;
-        worst = worst.max(gap.min(own * p).abs());
-    }
+    let approach = approach.unwrap_or(above / cells);
+    let scale = ((work - free_work) / loaded).abs();
+    each_cell(&Less(approach), [], [&mut *height]);
+    let worst = largest_of(&Off { own }, [height, pressure]);
     NormalVerdict { approach, residual: if scale > 0.0 { worst / scale } else { f64::INFINITY } }
 }
 
-/// Mean of a field over the loaded cells; its lowest value when none is loaded.
-fn mean_where_loaded(pressure: &[f64], field: &[f64]) -> f64 {
-    let mut total = 0.0;
-    let mut count = 0_usize;
-    for (&p, &value) in pressure.iter().zip(field) {
-        if p > 0.0 {
-            total += value;
-            count += 1;
-        }
+/// Sums of pressure, of loaded cells and of their heights, of pressure times height, and of pressure times undeformed gap.
+struct Loads;
+
+impl CellRule<3, 0, 5> for Loads {
+    #[inline(always)]
+    fn at<R: Reals>(&self, [p, height, undeformed]: [R; 3], _: &mut [R; 0]) -> [R; 5] {
+        let (zero, one) = (p.all(0.0), p.all(1.0));
+        [p, p.if_at_most(zero, zero, one), p.if_at_most(zero, zero, height), p * height, p * undeformed]
     }
-    if count > 0 { total / count as f64 } else { field.iter().copied().fold(f64::INFINITY, f64::min) }
+}
+
+/// Takes a number off.
+struct Less(f64);
+
+impl CellRule<0, 1, 0> for Less {
+    #[inline(always)]
+    fn at<R: Reals>(&self, _: [R; 0], [height]: &mut [R; 1]) -> [R; 0] {
+        *height = *height - self.0;
+        []
+    }
+}
+
+/// How far a cell is off complementarity.
+struct Off {
+    /// A cell's influence on itself [length/pressure].
+    own: f64,
+}
+
+impl CellSize<2> for Off {
+    #[inline(always)]
+    fn of<R: Reals>(&self, [gap, p]: [R; 2]) -> R {
+        let off = gap.min(p * self.own);
+        off.max(off * -1.0)
+    }
 }

@@ -1,6 +1,7 @@
 //! The way back to tractions that the laws allow: no tension, no shear above mu p, resultants exact.
 
 use super::coulomb::TangentialTask;
+use super::rigid::RigidModes;
 use super::zones::Zones;
 use crate::model::each_cell::{CellRule, Reals, each_cell};
 use crate::model::field::{TangentialField, sum};
@@ -105,11 +106,13 @@ impl Retraction {
 
     /// The trial: `shear` after a push by rigid motions, back on its discs.
     fn moved(&mut self, shear: &TangentialField, task: &TangentialTask<'_>, amounts: [f64; 3]) -> Balance {
-        self.trial.x.clone_from(&shear.x);
-        self.trial.y.clone_from(&shear.y);
-        self.trial_on.clone_from(&self.on_circle);
-        let read = [task.bound, &task.modes.rotation.x, &task.modes.rotation.y];
-        let write = [&mut self.trial.x[..], &mut self.trial.y, &mut self.trial_on];
+        let Self { on_circle, trial, trial_on } = self;
+        for field in [&mut trial.x, &mut trial.y, &mut *trial_on] {
+            field.resize(task.bound.len(), 0.0);
+        }
+        let RigidModes { rotation, .. } = task.modes;
+        let read = [task.bound, &shear.x, &shear.y, on_circle, &rotation.x, &rotation.y];
+        let write = [&mut trial.x[..], &mut trial.y, trial_on];
         balance(each_cell(&Push(amounts), read, write), task)
     }
 }
@@ -128,6 +131,8 @@ fn length(vector: &[f64; 3]) -> f64 {
 struct ToDiscs;
 
 impl CellRule<6, 3, 9> for ToDiscs {
+    const OPTIONAL: usize = 2;
+
     #[inline(always)]
     fn at<R: Reals>(
         &self,
@@ -149,25 +154,31 @@ impl CellRule<6, 3, 9> for ToDiscs {
     }
 }
 
-/// A push `mu p (sum of modes)`, along the tangent for cells on their circles, and back to the discs.
+/// Shear after a push `mu p (sum of modes)`, along the tangent for cells on their circles, and back to the discs.
 struct Push([f64; 3]);
 
-impl CellRule<3, 3, 9> for Push {
+impl CellRule<6, 3, 9> for Push {
+    const OPTIONAL: usize = 2;
+
     #[inline(always)]
-    fn at<R: Reals>(&self, [bound, around_x, around_y]: [R; 3], [x, y, on]: &mut [R; 3]) -> [R; 9] {
+    fn at<R: Reals>(
+        &self,
+        [bound, x, y, on, around_x, around_y]: [R; 6],
+        [to_x, to_y, to_on]: &mut [R; 3],
+    ) -> [R; 9] {
         let (zero, one) = (x.all(0.0), x.all(1.0));
         let [shift_x, shift_y, twist] = self.0;
         let push = [(around_x * twist + shift_x) * bound, (around_y * twist + shift_y) * bound];
-        let inverse = bound.if_at_most(zero, zero, *on / bound);
-        let along = [*x * inverse, *y * inverse];
+        let inverse = bound.if_at_most(zero, zero, on / bound);
+        let along = [x * inverse, y * inverse];
         let out = push[0] * along[0] + push[1] * along[1];
-        let moved = [*x + (push[0] - along[0] * out), *y + (push[1] - along[1] * out)];
+        let moved = [x + (push[0] - along[0] * out), y + (push[1] - along[1] * out)];
         let size = (moved[0] * moved[0] + moved[1] * moved[1]).sqrt();
-        *on = on.max(size.if_at_most(bound, zero, one));
-        let scale = size.if_at_most(zero, one, on.if_at_most(zero, one, bound / size));
-        *x = moved[0] * scale;
-        *y = moved[1] * scale;
-        balance_terms([*x, *y], *on, bound, [around_x, around_y])
+        *to_on = on.max(size.if_at_most(bound, zero, one));
+        let scale = size.if_at_most(zero, one, to_on.if_at_most(zero, one, bound / size));
+        *to_x = moved[0] * scale;
+        *to_y = moved[1] * scale;
+        balance_terms([*to_x, *to_y], *to_on, bound, [around_x, around_y])
     }
 }
 

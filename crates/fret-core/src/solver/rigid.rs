@@ -6,7 +6,7 @@ use crate::model::TangentialField;
 /// The three rigid tangential motions of the cells in contact: fields (1, 0), (0, 1) and (-y, x) / length.
 #[derive(Debug, Clone)]
 pub struct RigidModes {
-    /// Rotation field, packed; zero when the bodies do not rotate.
+    /// Rotation field, packed; empty when the bodies do not rotate: then rules take it as zero.
     pub rotation: TangentialField,
     /// Whether the bodies may rotate.
     pub rotates: bool,
@@ -33,10 +33,16 @@ impl Places {
         Self { x, y, length, rotates, by_force }
     }
 
+    /// Cells of the box along x and y.
+    pub fn shape(&self) -> [usize; 2] {
+        [self.x.len(), self.y.len()]
+    }
+
     /// The motions of the cells in contact.
     pub fn modes(&self, contact: &ContactSet) -> RigidModes {
-        let mut rotation = TangentialField::zeros(contact.len());
+        let mut rotation = TangentialField::default();
         if self.rotates {
+            rotation = TangentialField::zeros(contact.len());
             for (place, cell) in contact.cells().enumerate() {
                 let (x, y) = (self.x[cell / self.y.len()], self.y[cell % self.y.len()]);
                 rotation.set(place, [-y / self.length, x / self.length]);

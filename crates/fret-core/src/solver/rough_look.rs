@@ -4,7 +4,7 @@ use super::patience::ETA;
 use super::tractions::{Displacements, Tractions};
 use super::units::Units;
 use crate::compliance::SurfaceCompliance;
-use crate::model::field::{add_converted, difference, largest};
+use crate::model::field::{added_converted, difference, largest};
 
 /// Share of the residual at the last look with all digits below which the next look has all digits again, and share below which a look
 /// with six is repeated with all. By trial: with these 680 looks in 170 increments of the paper's figure 3, with 0.03 and 1e-3 756,
@@ -79,9 +79,8 @@ impl RoughLook {
         }
         operator
             .apply(&changes.each_ref().map(Vec::as_slice), &mut answers.each_mut().map(Vec::as_mut_slice));
-        displacements.copy_from(before);
-        for (field, answer) in displacements.parts_mut().into_iter().zip(answers) {
-            add_converted(field, units.length(), answer);
+        for ((to, before), answer) in displacements.parts_mut().into_iter().zip(before.parts()).zip(answers) {
+            added_converted(before, units.length(), answer, to);
         }
         self.rough = true;
     }

@@ -222,7 +222,16 @@ impl<'a> Scene<'a> {
         modes: &'b RigidModes,
         own: f64,
     ) -> TangentialTask<'b> {
-        TangentialTask { contact, bound, before, modes, motion: self.motion, resultant: self.resultant, own }
+        TangentialTask {
+            shape: self.region.shape,
+            contact,
+            bound,
+            before,
+            modes,
+            motion: self.motion,
+            resultant: self.resultant,
+            own,
+        }
     }
 
     /// Predicted tractions made feasible.
@@ -458,7 +467,9 @@ impl<'a> Scene<'a> {
             let q = packed.at(place);
             sums[0] += q[0];
             sums[1] += q[1];
-            sums[2] += q[0] * modes.rotation.x[place] + q[1] * modes.rotation.y[place];
+            if modes.rotates {
+                sums[2] += q[0] * modes.rotation.x[place] + q[1] * modes.rotation.y[place];
+            }
             if zones.is_on_circle(place) {
                 state.zone[at] = Zone::Slip;
                 let slip = [-s.x[place], -s.y[place]];

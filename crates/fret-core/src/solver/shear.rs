@@ -4,6 +4,7 @@
 use super::components::Components;
 use super::coulomb::{CoulombJudge, TangentialTask, TangentialVerdict};
 use super::elastic_answer::ElasticAnswer;
+use super::fronts::Fronts;
 use super::frozen_zones::{FrozenZones, RigidProjector, parts_of};
 use super::patience::{ETA, Patience, SIX_DIGITS, enough};
 use super::preconditioner::{Preconditioner, SlipShares};
@@ -49,6 +50,7 @@ pub fn solve_shear(
     let mut zones = Zones::default();
     let mut motion = [0.0; 3];
     let mut patience = Patience::default();
+    let mut fronts = Fronts::default();
     for iteration in 0..settings.most_outer_iterations {
         let verdict = judge.judge(task, shear, &here, motion);
         motion = verdict.motion;
@@ -64,8 +66,9 @@ pub fn solve_shear(
         let enough = enough(settings.tolerance, verdict.residual);
         let frozen = Frozen { task, zones: &zones, settings, enough, theta, cells, first: iteration == 0 };
         let cut = frozen.solve(&judge.s, shear, displacement, &mut gradients, compliance, preconditioner);
+        let carried = fronts.carry_on(shear, &zones, task);
         retraction.shear(shear, &zones, task);
-        if cut {
+        if cut || carried {
             contact.place_tangential(shear, &mut spread);
             compliance.tangential(spread.parts(), displacement.parts_mut());
         }

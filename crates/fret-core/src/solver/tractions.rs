@@ -61,10 +61,9 @@ impl Displacements {
         [&mut self.normal, x, y]
     }
 
-    /// Takes over other displacements, keeping the memory.
-    pub fn copy_from(&mut self, other: &Self) {
-        self.normal.clone_from(&other.normal);
-        self.tangential.copy_from(&other.tangential);
+    /// Normal part and both tangential parts.
+    pub fn parts(&self) -> [&[f64]; 3] {
+        [&self.normal, &self.tangential.x, &self.tangential.y]
     }
 
     /// Halfway to other displacements.

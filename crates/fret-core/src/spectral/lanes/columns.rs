@@ -6,7 +6,7 @@
 use std::ops::Range;
 
 use super::butterfly::{Complex, butterfly, plain_butterfly, splat};
-use super::memory::{Line, OnCacheLine, as_lines, as_lines_mut, as_vectors};
+use super::memory::{Line, OnCacheLine, as_lines, as_lines_mut, as_vectors, fetch};
 use super::passes::{forward_middle, inverse_middle, load_quad, parts, with_radix};
 use super::plan::LinePlan;
 use super::rows::Layout;
@@ -114,9 +114,11 @@ impl<L: Lanes, const R: usize, const P: usize> Task<L> for OutermostForward<'_, 
             for m in 0..R {
                 let row = m * places + j;
                 if m * places < rows {
-                    x[m] = Complex::load(
-                        &spectrum[(row / L::WIDTH).wrapping_mul(stride).wrapping_add(row % L::WIDTH)],
-                    );
+                    let at = (row / L::WIDTH).wrapping_mul(stride).wrapping_add(row % L::WIDTH);
+                    x[m] = Complex::load(&spectrum[at]);
+                    if let Some(soon) = spectrum.get(at + stride) {
+                        fetch(soon);
+                    }
                 }
             }
             let y = butterfly(lanes, x, &weights);
@@ -157,6 +159,9 @@ impl<L: Lanes, const F: usize, const P: usize> Task<L> for Multiply<'_, L, F, P>
         for place in self.places.step_by(4) {
             let weights = splat(lanes, &self.plan.innermost_forward()[place / 4]);
             let kernels = &self.kernels[place * count..(place + 4) * count];
+            if let Some(soon) = self.kernels.get((place + 8) * count..(place + 12) * count) {
+                fetch(soon);
+            }
             for field in 0..self.inputs.min(F) {
                 for part in 0..P {
                     let quad = &lines[(field * P + part) * n + place..][..4];

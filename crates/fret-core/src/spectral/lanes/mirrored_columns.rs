@@ -10,7 +10,7 @@ use std::ops::Range;
 
 use super::butterfly::{Complex, butterfly, plain_butterfly, splat};
 use super::columns::{OutermostForward, OutermostInverse};
-use super::memory::{Line, OnCacheLine, as_lines, as_lines_mut, as_vectors};
+use super::memory::{Line, OnCacheLine, as_lines, as_lines_mut, as_vectors, fetch};
 use super::paired_rows::Places;
 use super::passes::{forward_middle, inverse_middle, load_quad, parts, with_radix};
 use super::plan::LinePlan;
@@ -171,9 +171,11 @@ impl<L: Lanes, const R: usize, const P: usize> Task<L> for MirroredForward<'_, L
             let mut y = [Complex::zero(lanes); R];
             for m in 0..R {
                 let (row, backward) = mirrored_point(m * places + j, plan.length());
-                x[m] = Complex::load(
-                    &spectrum[(row / L::WIDTH).wrapping_mul(stride).wrapping_add(row % L::WIDTH)],
-                );
+                let at = (row / L::WIDTH).wrapping_mul(stride).wrapping_add(row % L::WIDTH);
+                x[m] = Complex::load(&spectrum[at]);
+                if let Some(soon) = spectrum.get(at + stride) {
+                    fetch(soon);
+                }
                 y[m] = x[m].swapped();
                 if backward {
                     x[m] = taken_backwards::<L, P>(lanes, sign, x[m]);
@@ -289,6 +291,9 @@ impl<L: Lanes, const F: usize> Task<L> for MultiplyParts<'_, L, F> {
         for place in self.places.step_by(4) {
             let weights = splat(lanes, &self.plan.innermost_forward()[place / 4]);
             let kernels = &self.kernels[place * count..(place + 4) * count];
+            if let Some(soon) = self.kernels.get((place + 8) * count..(place + 12) * count) {
+                fetch(soon);
+            }
             let turns = &self.plan.mirror_turns()[place..place + 4];
             for field in 0..self.inputs.min(F) {
                 let mut d =
