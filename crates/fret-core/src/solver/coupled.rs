@@ -5,7 +5,8 @@ use super::alternating::solve_alternating;
 use super::contact_set::ContactSet;
 use super::coulomb::{CoulombJudge, TangentialTask, TangentialVerdict};
 use super::fronts::Fronts;
-use super::frozen::{Frozen, KrylovMemory, Packed, floor};
+use super::frozen::{Frozen, KrylovMemory, floor};
+use super::packed::Packed;
 use super::patience::{Patience, enough};
 use super::preconditioner::Preconditioner;
 use super::residual::{NormalVerdict, judge_normal};
@@ -150,8 +151,6 @@ fn solve_coupled(
     let mut contact = ContactSet::default();
     // Whether the contact is another than that of the last frozen problem; between the two a step may be taken back.
     let mut changed = true;
-    // Whether what is packed is what the fields hold, on this contact; whether fields have been written on it.
-    let (mut packed_holds, mut written) = (false, false);
     let mut modes = task.places.modes(&contact);
     let mut packed = Packed::default();
     let [mut before, mut displaced] = [TangentialField::default(), TangentialField::default()];
@@ -165,15 +164,13 @@ fn solve_coupled(
         let normal = judge_normal(&tractions.pressure, &mut gap, task.undeformed, own.normal, prescribed);
         let touching = ContactSet::of(cells, |cell| tractions.pressure[cell] > 0.0 || gap[cell] < 0.0);
         if iteration == 0 || touching != contact {
-            (changed, packed_holds, written) = (true, false, false);
+            changed = true;
             contact = touching;
             modes = task.places.modes(&contact);
             before = contact.packed_tangential(task.before);
-            packed.friction = contact.packed(task.friction);
+            packed.change_contact(&contact, task.friction);
         }
-        if !packed_holds {
-            packed.take(&contact, tractions);
-        }
+        packed.take(&contact, tractions);
         contact.pack_tangential(&displacements.tangential, &mut displaced);
         let tangential = {
             let judged = task.tangential(&contact, &packed.bound, &before, &modes, own.tangential);
@@ -198,7 +195,7 @@ fn solve_coupled(
         }
         if retreat.takes_back(residual, tractions, displacements) {
             krylov.rough.averaged();
-            packed_holds = false;
+            packed.forget();
             continue;
         }
         let theta = patience.hears(residual);
@@ -225,20 +222,12 @@ fn solve_coupled(
             break;
         }
         packed.find_bound();
-        let Packed { pressure, shear, bound, .. } = &mut packed;
+        let Packed { shear, bound, .. } = &mut packed;
         let judged = task.tangential(&contact, bound, &before, &modes, own.tangential);
         fronts.carry_on(shear, &zones, &judged);
         retraction.shear(shear, &zones, &judged);
         retreat.keep(tractions, displacements);
-        if written {
-            // The fields before the last lie on this contact as well: nothing to clear.
-            contact.place(pressure, &mut tractions.pressure);
-            contact.place_tangential(shear, &mut tractions.shear);
-        } else {
-            contact.scatter(pressure, &mut tractions.pressure);
-            contact.scatter_tangential(shear, &mut tractions.shear);
-        }
-        (packed_holds, written) = (true, true);
+        packed.give(&contact, tractions);
         let (tractions_before, before) = &retreat.kept;
         krylov.rough.follow(
             residual,

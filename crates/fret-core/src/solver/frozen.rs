@@ -6,56 +6,18 @@ use super::contact_set::ContactSet;
 use super::elastic_answer::ElasticAnswer;
 use super::frozen_zones::{FrozenZones, RigidProjector, free_part, parts_of, products};
 use super::krylov::Directions;
+use super::packed::Packed;
 use super::patience::{ETA, SIX_DIGITS};
 use super::preconditioner::{Preconditioner, SlipShares};
 use super::rigid::RigidModes;
 use super::rough_look::RoughLook;
 use super::starting_shear::{StartingShear, after, taken};
-use super::tractions::Tractions;
 use super::units::Units;
 use super::zones::Zones;
 use crate::compliance::SurfaceCompliance;
 use crate::model::TangentialField;
 use crate::model::each_cell::{CellRule, Number, Reals, each_cell};
-use crate::model::field::{add_scaled, largest, norm, sum};
-
-/// Feasible tractions of the cells in contact, packed.
-#[derive(Debug, Default)]
-pub struct Packed {
-    /// Pressure [pressure].
-    pub pressure: Vec<f64>,
-    /// Shear [pressure].
-    pub shear: TangentialField,
-    /// Friction coefficient [-].
-    pub friction: Vec<f64>,
-    /// Friction bound [pressure].
-    pub bound: Vec<f64>,
-}
-
-impl Packed {
-    /// Packs the tractions of a box; the friction coefficients are those of the contact.
-    pub fn take(&mut self, contact: &ContactSet, tractions: &Tractions) {
-        contact.pack(&tractions.pressure, &mut self.pressure);
-        contact.pack_tangential(&tractions.shear, &mut self.shear);
-        self.find_bound();
-    }
-
-    /// Adds a step.
-    pub fn add(&mut self, step: &Components<f64, 3>) {
-        let [p, x, y] = step.parts();
-        add_scaled(&mut self.pressure, 1.0, p);
-        add_scaled(&mut self.shear.x, 1.0, x);
-        add_scaled(&mut self.shear.y, 1.0, y);
-    }
-
-    /// The friction bound of the pressure.
-    pub fn find_bound(&mut self) {
-        self.bound.resize(self.pressure.len(), 0.0);
-        for ((bound, p), mu) in self.bound.iter_mut().zip(&self.pressure).zip(&self.friction) {
-            *bound = p * mu;
-        }
-    }
-}
+use crate::model::field::{largest, norm, sum};
 
 /// The frozen problem.
 #[derive(Debug)]
@@ -225,7 +187,7 @@ impl<N: Number> Krylov<N> {
     fn take(&mut self, frozen: &Frozen<'_>, right: &Components<f64, 3>, units: Units) {
         self.residual.convert(right.parts(), 1.0 / units.length());
         self.zones.take(frozen.zones, frozen.modes, units.compliance);
-        let Packed { pressure, shear, friction, bound } = frozen.packed;
+        let Packed { pressure, shear, friction, bound, .. } = frozen.packed;
         taken(pressure, 1.0 / units.pressure, &mut self.start.pressure);
         taken(friction, 1.0, &mut self.start.friction);
         self.start.shear.take(shear, bound, units.pressure);

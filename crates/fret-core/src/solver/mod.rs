@@ -22,6 +22,7 @@ mod nested;
 mod normal;
 mod normal_problem;
 mod outside;
+mod packed;
 mod patience;
 mod preconditioner;
 mod prediction;
