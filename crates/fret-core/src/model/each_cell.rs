@@ -361,3 +361,49 @@ impl<N: Number, R: CellSize<READ>, const READ: usize> WithSimd for Largest<'_, N
         })
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Adds `a` and three times an optional field; sums both.
+    struct AddThrice;
+
+    impl CellRule<2, 1, 2> for AddThrice {
+        const OPTIONAL: usize = 1;
+
+        fn at<R: Reals>(&self, [a, optional]: [R; 2], [to]: &mut [R; 1]) -> [R; 2] {
+            *to = *to + a + optional * 3.0;
+            [a, optional]
+        }
+    }
+
+    fn empty_is_zero<N: Number + PartialEq + std::fmt::Debug>(len: usize) {
+        let a: Vec<N> = (0..len).map(|cell| N::of(cell as f64, 0.5)).collect();
+        let (zeros, ones) = (vec![N::of(0.0, 1.0); len], vec![N::of(1.0, 1.0); len]);
+        let [mut with_none, mut with_zeros, mut with_ones] = [zeros.clone(), zeros.clone(), zeros.clone()];
+        let none = each_cell(&AddThrice, [&a, &[]], [&mut with_none]);
+        assert_eq!(none, each_cell(&AddThrice, [&a, &zeros], [&mut with_zeros]));
+        assert_eq!(with_none, with_zeros);
+        assert_eq!(with_none, a);
+        // Halves of whole numbers: their sum is exact.
+        let sum = len as f64 * (len as f64 - 1.0) / 4.0;
+        assert_eq!(none, [if len > 0 { sum } else { 0.0 }, 0.0]);
+        assert_eq!(each_cell(&AddThrice, [&a, &ones], [&mut with_ones]), [none[0], len as f64]);
+        assert!(with_ones.iter().zip(&a).all(|(with, a)| with.to_double(1.0) == a.to_double(1.0) + 3.0));
+    }
+
+    #[test]
+    fn an_optional_field_that_is_empty_is_zero_everywhere() {
+        for len in [0, 1, 7, 16, 515, 1024 + 9] {
+            empty_is_zero::<f64>(len);
+            empty_is_zero::<f32>(len);
+        }
+    }
+
+    #[test]
+    #[should_panic(expected = "fields of one length")]
+    fn an_optional_field_of_another_length_is_refused() {
+        each_cell(&AddThrice, [&[1.0; 9], &[1.0; 8]], [&mut [0.0; 9]]);
+    }
+}

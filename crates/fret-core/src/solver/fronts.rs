@@ -1,8 +1,8 @@
 //! Fronts between stick and slip, carried on to where they are going.
 //!
 //! A stick zone that is too wide by `e` holds shear that leaves its friction bound like `A sqrt(d) - K / sqrt(d)` at the distance `d`
-//! from its edge, so that the bound is exceeded for `d < K / A`. The force says how large `K` is: `K / A = e / 2`, for strips
-//! (Cattaneo) and for discs (Mindlin) alike. Fronts that stop where the bound is exceeded have half of their way still to go,
+//! from its edge, so that the bound is exceeded for `d < K / A`. The force says how large `K` is: `K / A = e / 2` as long as `e` is small, for
+//! strips (Cattaneo) and for discs (Mindlin) alike. Fronts that stop where the bound is exceeded have half of their way still to go,
 //! look by look, and the finer the grid the more looks it takes; here they go twice as far.
 
 use super::coulomb::TangentialTask;
@@ -14,11 +14,13 @@ use crate::model::field::sum;
 /// and 3 of them 255, 242 and 240 applications in 4 + 4 coupled increments on 256 cells a side (258 where no front is carried), 286, 291
 /// and 296 (299) on 512, 717, 697 and 693 (701) in 20 + 10 with a friction of 0.3 on 128.
 const UNSURE: usize = 2;
+/// Share of a squared bound that is rounding.
+const ROUNDING: f64 = 1e-12;
 /// Share of the bound to which shear is brought, from where it goes back to its circle with the rest.
 const BEYOND: f64 = 1.0 + 1e-9;
 
 /// A cell that does not stick.
-const AHEAD: u8 = 0;
+const LOOSE: u8 = 0;
 /// A cell that sticks, and may.
 const STICKS: u8 = 1;
 /// A cell that sticks beyond its friction bound.
@@ -45,18 +47,21 @@ impl Fronts {
         task: &TangentialTask<'_>,
     ) -> bool {
         let TangentialTask { contact, bound, shape: [rows, columns], .. } = *task;
+        if self.arrived {
+            return false;
+        }
         let stuck = sum(&zones.stick);
-        self.arrived |= self.stuck.replace(stuck).is_some_and(|before| stuck >= before);
+        self.arrived = self.stuck.replace(stuck).is_some_and(|before| stuck >= before);
         if self.arrived {
             return false;
         }
         let Self { cells, carried, .. } = self;
         cells.clear();
-        cells.resize(rows * columns, AHEAD);
+        cells.resize(rows * columns, LOOSE);
         let (mut exceeding, mut sticking) = (0, 0);
         for (place, cell) in contact.cells().enumerate().filter(|(place, _)| zones.stick[*place] > 0.0) {
             let [x, y] = shear.at(place);
-            if x * x + y * y > bound[place] * bound[place] {
+            if x * x + y * y > bound[place] * bound[place] * (1.0 + ROUNDING) {
                 cells[cell] = EXCEEDS;
                 exceeding += 1;
             } else {
@@ -94,7 +99,7 @@ impl Fronts {
     }
 }
 
-/// Along one line of cells: marks behind every front as many cells that stick as exceed their bound at it, less [`UNSURE`]. The end
+/// Along one line of cells: marks, in the way of every front, as many cells that stick as exceed their bound at it, less [`UNSURE`]. The end
 /// of the line is no front: a mirror may be there.
 fn pass(cells: &[u8], carried: &mut [bool], line: impl Iterator<Item = usize>) {
     let mut before = STICKS;
@@ -103,9 +108,9 @@ fn pass(cells: &[u8], carried: &mut [bool], line: impl Iterator<Item = usize>) {
     for cell in line {
         let here = cells[cell];
         match here {
-            AHEAD => (width, way) = (0, 0),
+            LOOSE => (width, way) = (0, 0),
             EXCEEDS => {
-                width = if before == AHEAD || width > 0 { width + 1 } else { 0 };
+                width = if before == LOOSE || width > 0 { width + 1 } else { 0 };
                 way = 0;
             }
             _ => {
@@ -181,7 +186,7 @@ mod tests {
         let off = 0.5 * (wide * wide - narrow * narrow);
         let ([nearest, farthest], again) =
             carried([3, 161], |cell| ((cell % 161) as f64 - 80.0).abs(), wide, off);
-        // Not past the front to come, and short of it by what is unsure; of (wide^2 - narrow^2) / 2 a second order is lost: e^2 / 4 c.
+        // Not past the front to come, and short of it by what is unsure; a second order is lost: e^2 / (4 wide).
         let short = UNSURE as f64 + 2.0 + 12.1 * 12.1 / (4.0 * 60.3);
         assert!(nearest > narrow, "{nearest} {narrow}");
         assert!(farthest < narrow + short, "{farthest} {narrow}");

@@ -14,7 +14,7 @@ pub struct RigidModes {
     pub by_force: [bool; 3],
 }
 
-/// Where the cells of a box are, as far as rigid motions ask.
+/// Where the cells of a box are: what rigid motions and fronts ask.
 #[derive(Debug, Clone)]
 pub struct Places {
     x: Vec<f64>,

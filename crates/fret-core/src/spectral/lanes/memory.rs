@@ -80,8 +80,8 @@ pub fn as_lines_mut<L: Lanes>(numbers: &mut [L::Number]) -> &mut [Line<L>] {
     bytemuck::cast_slice_mut(numbers)
 }
 
-/// Asks the caches for numbers that are read soon. Where they are scattered in pieces of a few cache lines the machine does not
-/// see them coming. Changes nothing but time.
+/// Asks the caches for numbers that are read soon: pieces of a few cache lines far apart the machine does not see coming, and
+/// kernels arrive late. Changes nothing but time.
 #[inline(always)]
 #[cfg_attr(
     not(target_arch = "x86_64"),

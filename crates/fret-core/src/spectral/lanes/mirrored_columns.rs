@@ -173,7 +173,8 @@ impl<L: Lanes, const R: usize, const P: usize> Task<L> for MirroredForward<'_, L
                 let (row, backward) = mirrored_point(m * places + j, plan.length());
                 let at = (row / L::WIDTH).wrapping_mul(stride).wrapping_add(row % L::WIDTH);
                 x[m] = Complex::load(&spectrum[at]);
-                if let Some(soon) = spectrum.get(at + stride) {
+                let next = if backward { at.wrapping_sub(stride) } else { at.wrapping_add(stride) };
+                if let Some(soon) = spectrum.get(next) {
                     fetch(soon);
                 }
                 y[m] = x[m].swapped();
@@ -291,7 +292,9 @@ impl<L: Lanes, const F: usize> Task<L> for MultiplyParts<'_, L, F> {
         for place in self.places.step_by(4) {
             let weights = splat(lanes, &self.plan.innermost_forward()[place / 4]);
             let kernels = &self.kernels[place * count..(place + 4) * count];
-            if let Some(soon) = self.kernels.get((place + 8) * count..(place + 12) * count) {
+            if let Some(soon) =
+                self.kernels.get((place + 8).wrapping_mul(count)..(place + 12).wrapping_mul(count))
+            {
                 fetch(soon);
             }
             let turns = &self.plan.mirror_turns()[place..place + 4];
