@@ -3,7 +3,8 @@
 The unit is one zero-padded real convolution of the same grid by scipy.fft (rfft2, product, irfft2), timed beside each
 scene in three ways: the quickest single one and the mean of many in a row, both in this process, whose allocator has learnt from
 the contacts to keep its pages; and the median in a process of its own, where pages come anew as in any program that does nothing
-else. CPU time counts, planning and influence coefficients included, best of a few runs. Run: ``python benches/frictional_cost.py
+else. CPU time counts, planning and influence coefficients included, best of a few runs;
+the growth with the cells also by rounds in which all grids take turns, small ones several times, the median of which counts. Run: ``python benches/frictional_cost.py
 [--long]`` with the wheel, numpy and scipy installed.
 """
 
@@ -11,6 +12,7 @@ import argparse
 import subprocess
 import sys
 import time
+from collections.abc import Sequence
 
 import numpy as np
 import scipy.fft
@@ -113,12 +115,12 @@ def scenes(long: bool) -> list[tuple[str, int, dict, str]]:
     return found
 
 
-def slope_of(cells: tuple, seconds: tuple) -> float:
+def slope_of(cells: Sequence[int], seconds: Sequence[float]) -> float:
     """Exponent of the cells in the seconds."""
     return float(np.polyfit(np.log(cells), np.log(seconds), 1)[0])
 
 
-def rounds(count: int) -> list:
+def rounds(count: int) -> list[tuple[list[int], list[float]]]:
     """Cells a side and CPU times of the scenes that tell the growth, all of them within seconds: the machine's mood counts for all."""
     growing = [(n, case) for name, n, case, _ in scenes(False) if name.startswith("coupled 4")]
     found = []
@@ -126,7 +128,7 @@ def rounds(count: int) -> list:
         row = []
         for n, case in growing:
             times = []
-            for _ in range(max(1, 512 * 512 // (16 * n * n))):
+            for _ in range(max(1, 512 * 512 // (4 * n * n))):
                 start = time.process_time()
                 fretting.run(case, threads=1)
                 times.append(time.process_time() - start)
@@ -164,7 +166,7 @@ def main() -> None:
     print(f"time an increment grows like n^{slope_of(*zip(*times)):.2f} from {times[0][0]} to {times[-1][0]} by the times above")
     found = [slope_of(*row) for row in rounds(7)]
     print(
-        f"in {len(found)} rounds of all four grids, each by the median of its runs: n^{np.median(found):.2f}"
+        f"in {len(found)} rounds of all four grids, small ones by the median of several runs: n^{np.median(found):.2f}"
         f" (n^{min(found):.2f} to n^{max(found):.2f})"
     )
 
