@@ -107,6 +107,21 @@ impl CellRule<1, 1, 0> for ScaleAndAdd {
     }
 }
 
+/// `y -= number`.
+pub fn lower<N: Number>(y: &mut [N], number: f64) {
+    each_cell(&Lower(number), [], [y]);
+}
+
+struct Lower(f64);
+
+impl CellRule<0, 1, 0> for Lower {
+    #[inline(always)]
+    fn at<R: Reals>(&self, _: [R; 0], [y]: &mut [R; 1]) -> [R; 0] {
+        *y = *y - self.0;
+        []
+    }
+}
+
 /// Largest value of a field, 0 for an empty or negative one.
 pub fn largest(a: &[f64]) -> f64 {
     a.iter().copied().fold(0.0, f64::max)

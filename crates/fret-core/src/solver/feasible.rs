@@ -2,7 +2,7 @@
 //! empty cell that is pulled apart leaves; the energy never rises.
 
 use super::normal_problem::{Ending, NormalProblem};
-use super::residual::NormalVerdict;
+use super::residual::{NormalVerdict, off_complementarity};
 use super::settings::SolveError;
 use crate::model::each_cell::{CellRule, CellSize, Reals, each_cell, largest_of};
 
@@ -26,7 +26,7 @@ pub fn iterate(problem: &mut NormalProblem<'_>, patience: usize) -> Result<Endin
         let judge = Judge { approach, stretch: own / leave_below };
         let NormalProblem { gap, residual, active, pressure, .. } = &mut *problem;
         let [gaps, count] = each_cell(&judge, [pressure], [gap, residual, active]);
-        let worst = largest_of(&Complementarity { own }, [gap, pressure]);
+        let worst = off_complementarity(gap, pressure, own);
         let residual = scale.map_or(if worst > 0.0 { 1.0 } else { 0.0 }, |scale| worst / scale);
         problem.hear(residual)?;
         if residual < problem.tolerance {
@@ -133,19 +133,6 @@ impl CellRule<1, 3, 2> for Judge {
         *active = p.if_at_most(zero, overlaps, stays);
         *residual = *active * *gap;
         [*residual, *active]
-    }
-}
-
-/// `|min(gap, K00 p)|`.
-struct Complementarity {
-    own: f64,
-}
-
-impl CellSize<2> for Complementarity {
-    #[inline(always)]
-    fn of<R: Reals>(&self, [gap, p]: [R; 2]) -> R {
-        let off = gap.min(p * self.own);
-        off.max(off * -1.0)
     }
 }
 

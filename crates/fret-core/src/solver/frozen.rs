@@ -17,7 +17,7 @@ use super::zones::Zones;
 use crate::compliance::SurfaceCompliance;
 use crate::model::TangentialField;
 use crate::model::each_cell::{CellRule, Number, Reals, each_cell};
-use crate::model::field::{largest, norm, sum};
+use crate::model::field::{largest, lower, norm, sum};
 
 /// The frozen problem.
 #[derive(Debug)]
@@ -178,7 +178,7 @@ impl Frozen<'_> {
     fn remove_mean<N: Number>(&self, field: &mut [N]) {
         if self.holds_force {
             let mean = sum(field) / field.len().max(1) as f64;
-            each_cell(&Less(mean), [], [field]);
+            lower(field, mean);
         }
     }
 }
@@ -293,16 +293,6 @@ impl CellRule<0, 2, 0> for Times {
     fn at<R: Reals>(&self, _: [R; 0], [x, y]: &mut [R; 2]) -> [R; 0] {
         *x = *x * self.0;
         *y = *y * self.0;
-        []
-    }
-}
-
-struct Less(f64);
-
-impl CellRule<0, 1, 0> for Less {
-    #[inline(always)]
-    fn at<R: Reals>(&self, _: [R; 0], [value]: &mut [R; 1]) -> [R; 0] {
-        *value = *value - self.0;
         []
     }
 }

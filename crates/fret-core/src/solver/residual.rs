@@ -1,6 +1,7 @@
 //! The judge of the normal side: how well pressure satisfies its laws. Finds the approach on the way.
 
 use crate::model::each_cell::{CellRule, CellSize, Reals, each_cell, largest_of};
+use crate::model::field::lower;
 
 /// Verdict on the normal side.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -19,18 +20,17 @@ pub fn judge_normal(
     own: f64,
     approach: Option<f64>,
 ) -> NormalVerdict {
-    let [loaded, cells, above, work, free_work] = each_cell(&Loads, [pressure, height, undeformed], []);
-    let lowest = || height.iter().copied().fold(f64::INFINITY, f64::min);
+    let [loaded, cells, heights, work, free_work] = each_cell(&Loads, [pressure, height, undeformed], []);
     if loaded <= 0.0 {
-        let lowest = lowest();
+        let lowest = height.iter().copied().fold(f64::INFINITY, f64::min);
         let approach = approach.unwrap_or(lowest);
-        each_cell(&Less(approach), [], [height]);
+        lower(height, approach);
         return NormalVerdict { approach, residual: if lowest >= approach { 0.0 } else { 1.0 } };
     }
-    let approach = approach.unwrap_or(above / cells);
+    let approach = approach.unwrap_or(heights / cells);
     let scale = ((work - free_work) / loaded).abs();
-    each_cell(&Less(approach), [], [&mut *height]);
-    let worst = largest_of(&Off { own }, [height, pressure]);
+    lower(height, approach);
+    let worst = off_complementarity(height, pressure, own);
     NormalVerdict { approach, residual: if scale > 0.0 { worst / scale } else { f64::INFINITY } }
 }
 
@@ -45,27 +45,20 @@ impl CellRule<3, 0, 5> for Loads {
     }
 }
 
-/// Takes a number off.
-struct Less(f64);
-
-impl CellRule<0, 1, 0> for Less {
-    #[inline(always)]
-    fn at<R: Reals>(&self, _: [R; 0], [height]: &mut [R; 1]) -> [R; 0] {
-        *height = *height - self.0;
-        []
-    }
-}
-
-/// How far a cell is off complementarity.
-struct Off {
-    /// A cell's influence on itself [length/pressure].
+/// `|min(gap, K00 p)|`.
+struct Complementarity {
     own: f64,
 }
 
-impl CellSize<2> for Off {
+impl CellSize<2> for Complementarity {
     #[inline(always)]
     fn of<R: Reals>(&self, [gap, p]: [R; 2]) -> R {
         let off = gap.min(p * self.own);
         off.max(off * -1.0)
     }
+}
+
+/// Largest `|min(gap, K00 p)|` over the cells, `own` being `K00`.
+pub fn off_complementarity(gap: &[f64], pressure: &[f64], own: f64) -> f64 {
+    largest_of(&Complementarity { own }, [gap, pressure])
 }

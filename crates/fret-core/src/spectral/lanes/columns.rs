@@ -116,9 +116,7 @@ impl<L: Lanes, const R: usize, const P: usize> Task<L> for OutermostForward<'_, 
                 if m * places < rows {
                     let at = (row / L::WIDTH).wrapping_mul(stride).wrapping_add(row % L::WIDTH);
                     x[m] = Complex::load(&spectrum[at]);
-                    if let Some(soon) = spectrum.get(at.wrapping_add(stride)) {
-                        fetch(soon);
-                    }
+                    fetch(spectrum.get(at.wrapping_add(stride)).map(<[_; 2]>::as_slice));
                 }
             }
             let y = butterfly(lanes, x, &weights);
@@ -159,11 +157,7 @@ impl<L: Lanes, const F: usize, const P: usize> Task<L> for Multiply<'_, L, F, P>
         for place in self.places.step_by(4) {
             let weights = splat(lanes, &self.plan.innermost_forward()[place / 4]);
             let kernels = &self.kernels[place * count..(place + 4) * count];
-            if let Some(soon) =
-                self.kernels.get((place + 8).wrapping_mul(count)..(place + 12).wrapping_mul(count))
-            {
-                fetch(soon);
-            }
+            fetch(self.kernels.get((place + 8).wrapping_mul(count)..(place + 12).wrapping_mul(count)));
             for field in 0..self.inputs.min(F) {
                 for part in 0..P {
                     let quad = &lines[(field * P + part) * n + place..][..4];

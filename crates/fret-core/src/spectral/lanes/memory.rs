@@ -80,16 +80,16 @@ pub fn as_lines_mut<L: Lanes>(numbers: &mut [L::Number]) -> &mut [Line<L>] {
     bytemuck::cast_slice_mut(numbers)
 }
 
-/// Asks the caches for numbers that are read soon: pieces of a few cache lines far apart the machine does not see coming, and
+/// Asks the caches for numbers that are read soon, if there are any: pieces of a few cache lines far apart the machine does not see coming, and
 /// kernels arrive late. Changes nothing but time.
 #[inline(always)]
 #[cfg_attr(
     not(target_arch = "x86_64"),
     expect(unused_variables, reason = "other machines are left to themselves")
 )]
-pub fn fetch<T>(soon: &[T]) {
+pub fn fetch<T>(soon: Option<&[T]>) {
     #[cfg(target_arch = "x86_64")]
-    for number in soon.iter().step_by((CACHE_LINE / size_of::<T>()).max(1)) {
+    for number in soon.unwrap_or_default().iter().step_by((CACHE_LINE / size_of::<T>()).max(1)) {
         #[expect(
             unsafe_code,
             reason = "a hint about memory that is borrowed here; it reads and writes nothing"

@@ -174,9 +174,7 @@ impl<L: Lanes, const R: usize, const P: usize> Task<L> for MirroredForward<'_, L
                 let at = (row / L::WIDTH).wrapping_mul(stride).wrapping_add(row % L::WIDTH);
                 x[m] = Complex::load(&spectrum[at]);
                 let next = if backward { at.wrapping_sub(stride) } else { at.wrapping_add(stride) };
-                if let Some(soon) = spectrum.get(next) {
-                    fetch(soon);
-                }
+                fetch(spectrum.get(next).map(<[_; 2]>::as_slice));
                 y[m] = x[m].swapped();
                 if backward {
                     x[m] = taken_backwards::<L, P>(lanes, sign, x[m]);
@@ -292,11 +290,7 @@ impl<L: Lanes, const F: usize> Task<L> for MultiplyParts<'_, L, F> {
         for place in self.places.step_by(4) {
             let weights = splat(lanes, &self.plan.innermost_forward()[place / 4]);
             let kernels = &self.kernels[place * count..(place + 4) * count];
-            if let Some(soon) =
-                self.kernels.get((place + 8).wrapping_mul(count)..(place + 12).wrapping_mul(count))
-            {
-                fetch(soon);
-            }
+            fetch(self.kernels.get((place + 8).wrapping_mul(count)..(place + 12).wrapping_mul(count)));
             let turns = &self.plan.mirror_turns()[place..place + 4];
             for field in 0..self.inputs.min(F) {
                 let mut d =
