@@ -4,7 +4,7 @@
 #![expect(clippy::print_stdout, reason = "its output is the page")]
 
 use fret_core::plan::LeaveOut;
-use fret_core::spectral::{Block, Convolution, Kernel, Mirrors, Parity};
+use fret_fft::{Block, Convolution, Kernel, Mirrors, Parity};
 use fret_validation::shortcuts::{Run, TOLERANCE, difference, scenes, solved};
 use ndarray::Array2;
 

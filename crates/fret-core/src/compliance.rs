@@ -10,7 +10,7 @@ use ndarray::Array2;
 
 use crate::kernel::{InfluenceCoefficients, PeriodicSymbols};
 use crate::model::{Symmetry, TangentialField};
-use crate::spectral::{
+use fret_fft::{
     Block, Convolution, ConvolutionError, Kernel, Mirrors, Parity, PeriodicProduct, SingleProduct, Symbol,
 };
 use product::Product;

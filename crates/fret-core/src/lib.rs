@@ -16,7 +16,6 @@ mod refinement;
 mod run_error;
 pub mod simulation;
 pub mod solver;
-pub mod spectral;
 mod stepping;
 pub mod study;
 pub mod subsurface;

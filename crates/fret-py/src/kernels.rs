@@ -4,7 +4,7 @@ use std::sync::{Mutex, TryLockError};
 
 use fret_core::kernel::{self, Components, FrequencyResponse};
 use fret_core::model::{Base, Body, Coating, ContactPair, ElasticMaterial, HalfSpace, MaterialError};
-use fret_core::spectral::{self, Block, Kernel, Parity, Workspace};
+use fret_fft::{Block, Kernel, Parity, Workspace};
 use ndarray::Array2;
 use numpy::{IntoPyArray, PyArray2, PyReadonlyArray1, PyReadonlyArray2, PyUntypedArrayMethods};
 use pyo3::exceptions::PyValueError;
@@ -91,7 +91,7 @@ pub fn influence_coefficients(
 /// The free-space product of a field with one kernel.
 #[pyclass(frozen, module = "fretting._core")]
 pub struct Convolution {
-    product: spectral::Convolution,
+    product: fret_fft::Convolution,
     workspace: Mutex<Workspace>,
 }
 
@@ -114,7 +114,7 @@ impl Convolution {
         let kernel = Kernel { values: values.as_array(), parity };
         let shape = [kernel.values.nrows(), kernel.values.ncols()];
         let block = Block { output: 0, input: 0, kernel: 0, sign: 1.0 };
-        let product = on_pool(py, None, || spectral::Convolution::new(shape, &[kernel], &[block]))?
+        let product = on_pool(py, None, || fret_fft::Convolution::new(shape, &[kernel], &[block]))?
             .map_err(bad_value)?;
         let workspace = Mutex::new(product.workspace());
         Ok(Self { product, workspace })

@@ -11,7 +11,7 @@ use fret_core::kernel::{Components, influence_coefficients, periodic_symbols};
 use fret_core::model::{ContactState, TangentialField};
 use fret_core::plan::Plan;
 use fret_core::simulation::Observer;
-use fret_core::spectral::ConvolutionError;
+use fret_fft::ConvolutionError;
 
 /// Keeps the accounts of a run and looks at its mirror image.
 pub struct Accounts {

@@ -3,7 +3,7 @@
 use fret_core::compliance::{SpectralCompliance, SurfaceCompliance, SurfaceResponse, Wanted};
 use fret_core::kernel::{Components, influence_coefficients, periodic_symbols};
 use fret_core::model::ContactPair;
-use fret_core::spectral::ConvolutionError;
+use fret_fft::ConvolutionError;
 
 /// Cells a side.
 const SIDE: usize = 8;

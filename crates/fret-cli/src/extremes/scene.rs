@@ -115,8 +115,7 @@ impl Scene {
         );
         let plan = planned(&text)?;
         let whole = planned_leaving_out(&text, LeaveOut::all_but(Shortcut::Mirror))?;
-        let operator_failed =
-            |error: fret_core::spectral::ConvolutionError| Outcome::Failed(error.to_string());
+        let operator_failed = |error: fret_fft::ConvolutionError| Outcome::Failed(error.to_string());
         let failed = |error: RunError| Outcome::Failed(error.to_string());
         let mut accounts = Accounts::of(&plan).map_err(operator_failed)?;
         let history = Simulation::new(&plan).run(&mut accounts).map_err(failed)?;

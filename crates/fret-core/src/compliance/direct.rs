@@ -2,7 +2,7 @@
 
 use super::{FULL_BLOCKS, Own, SurfaceCompliance, own_of, signed_kernels};
 use crate::kernel::InfluenceCoefficients;
-use crate::spectral::{Block, ConvolutionError};
+use fret_fft::{Block, ConvolutionError};
 
 /// The elastic answer of a box of cells, summed term by term: the judge of faster ways. Coefficients that are absent count as
 /// zero. Cost of a product for every pair of cells; for boxes of at most a few thousand cells.

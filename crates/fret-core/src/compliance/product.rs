@@ -1,6 +1,6 @@
 //! One product of fields with kernels, in free space or periodic, with the memory it works in.
 
-use crate::spectral::{Convolution, PeriodicProduct, SingleProduct, Workspace};
+use fret_fft::{Convolution, PeriodicProduct, SingleProduct, Workspace};
 
 /// A planned product and its workspace.
 pub(crate) enum Product {

@@ -10,7 +10,7 @@ use super::influence::{Components, InfluenceCoefficients};
 use super::pair_response::PairResponse;
 use super::periodic::periodic_symbols;
 use crate::model::ContactPair;
-use crate::spectral::{Parity, Symbol, inverse_table};
+use fret_fft::{Parity, Symbol, inverse_table};
 
 /// Influence coefficients of a pair from its frequency response sampled at the wavenumbers of a grid `extension` times as long
 /// and wide, of the same `spacing` \[length\]; conventions as [`InfluenceCoefficients`].

@@ -3,7 +3,7 @@
 use super::contact_set::ContactSet;
 use crate::model::each_cell::{Number, convert};
 use crate::model::field::{dot, norm};
-use crate::spectral::{PeriodicProduct, SingleProduct, Workspace};
+use fret_fft::{PeriodicProduct, SingleProduct, Workspace};
 
 /// A product of one or two fields that approximates the inverse of an operator.
 pub enum Inverse {

@@ -48,7 +48,7 @@ use crate::compliance::{SpectralCompliance, SurfaceResponse, Wanted};
 use crate::history::Work;
 use crate::kernel::ResponseTable;
 use crate::model::{ContactState, Control, CoulombFriction, LoadStep, Scheme, SurfaceGrid, Symmetry};
-use crate::spectral::ConvolutionError;
+use fret_fft::ConvolutionError;
 
 pub use memory::SolverMemory;
 pub use scene::{Outcome, Resultants};

@@ -15,7 +15,7 @@ use crate::edge::level_function;
 use crate::history::Work;
 use crate::kernel::{InfluenceCoefficients, PeriodicSymbols, ResponseTable};
 use crate::model::Symmetry;
-use crate::spectral::good_length;
+use fret_fft::good_length;
 
 /// No grid with fewer cells a side is made coarser.
 const COARSEST: usize = 32;

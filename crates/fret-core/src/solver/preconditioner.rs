@@ -12,7 +12,7 @@ use crate::compliance::{SurfaceResponse, mirrors};
 use crate::kernel::ResponseTable;
 use crate::model::Symmetry;
 use crate::model::each_cell::{CellRule, Number, Reals, each_cell};
-use crate::spectral::{Block, ConvolutionError, Kernel, Parity, PeriodicProduct, Symbol};
+use fret_fft::{Block, ConvolutionError, Kernel, Parity, PeriodicProduct, Symbol};
 
 /// A pair is stiff at the surface when the longest waves of a box meet this many times the compliance times wavenumber that
 /// the shortest ones meet: a thin coating more than about five times stiffer than what lies below.

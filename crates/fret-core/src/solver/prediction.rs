@@ -8,7 +8,7 @@ use super::nested::MARGIN;
 use super::region::Region;
 use super::{ContactSolver, Coupling};
 use crate::model::{ContactState, Control, LoadStep};
-use crate::spectral::good_length;
+use fret_fft::good_length;
 
 /// Cells kept free around a contact: this share of its width, and no less than [`LEAST_MARGIN`].
 const MARGIN_SHARE: usize = 12;

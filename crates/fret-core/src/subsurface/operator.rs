@@ -8,9 +8,7 @@ use crate::kernel::depth_cells::{displacement_coefficients, stress_coefficients}
 use crate::kernel::depth_periodic::{displacement_symbols, stress_symbols};
 use crate::kernel::depth_response::DepthResponse;
 use crate::model::{HalfSpace, SurfaceGrid};
-use crate::spectral::{
-    Block, Convolution, ConvolutionError, Kernel, Parity, PeriodicProduct, Symbol, Workspace,
-};
+use fret_fft::{Block, Convolution, ConvolutionError, Kernel, Parity, PeriodicProduct, Symbol, Workspace};
 
 /// Tractions on the body's surface [pressure], shape `(nx, ny)`, uniform over each cell.
 #[derive(Debug, Clone, Copy)]

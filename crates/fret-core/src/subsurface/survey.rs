@@ -7,7 +7,7 @@ use super::depths::DepthPoint;
 use super::operator::{DepthOperator, Tractions};
 use super::tensor::StressField;
 use crate::model::{HalfSpace, SurfaceGrid};
-use crate::spectral::ConvolutionError;
+use fret_fft::ConvolutionError;
 
 /// What acts on the surface of the body in one increment, shape `(nx, ny)`.
 #[derive(Debug, Clone)]
