@@ -1,5 +1,6 @@
 //! Scenes and comparisons that several validation tests share.
 
+pub mod certifier;
 pub mod shortcuts;
 
 use std::fmt::Write;

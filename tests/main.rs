@@ -8,6 +8,7 @@
 )]
 
 mod analytic_limits;
+mod certified;
 mod coated_limits;
 mod coefficient_regimes;
 mod coefficient_tables;
