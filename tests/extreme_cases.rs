@@ -5,11 +5,12 @@
 use std::f64::consts::TAU;
 use std::fmt::Write;
 
-use fret_core::case::CaseError;
-use fret_core::simulation::RunError;
+use fret_core::case::{Attachments, Case, CaseError};
+use fret_core::plan::Plan;
+use fret_core::simulation::{RunError, Silent, Simulation};
 use ndarray::Array2;
 
-use crate::certifier::{Ended, run_certified};
+use crate::certifier::{Certificate, Ended, run_certified};
 use crate::random::Random;
 
 /// What a case has besides pressing and pulling.
@@ -94,6 +95,8 @@ pub struct Extreme {
     pub increments: usize,
     /// Certified increments that were solved in parts: all but the law of slip.
     pub in_parts: usize,
+    /// Every law by name, and the largest fraction of its bound that an increment took.
+    pub laws: Vec<(&'static str, f64)>,
     /// How it ended.
     pub outcome: Outcome,
 }
@@ -108,29 +111,42 @@ pub fn run(seed: u64, cells: [usize; 2]) -> Extreme {
         body.head(false, "coefficient = 0.0"),
         body.approach
     );
-    let extreme = |text: String, ended: &Result<Ended, CaseError>, outcome: Outcome| Extreme {
-        seed,
-        family: body.family,
-        text,
-        increments: ended.as_ref().map_or(0, |ended| ended.run.len()),
-        in_parts: ended
-            .as_ref()
-            .map_or(0, |ended| ended.certificates.iter().filter(|certificate| !certificate.whole).count()),
-        outcome,
+    let extreme = |text: String, ended: &Result<Ended, CaseError>, outcome: Outcome| {
+        let certificates = ended.as_ref().map_or(&[][..], |ended| &ended.certificates);
+        Extreme {
+            seed,
+            family: body.family,
+            text,
+            increments: certificates.len(),
+            in_parts: certificates.iter().filter(|certificate| !certificate.whole).count(),
+            laws: fractions(certificates, body.tolerance),
+            outcome,
+        }
     };
     let pressed = run_certified(&pressing, &[]);
-    let first = match (judged(&body, &pressed), &pressed) {
+    let first = match (judged(&body, &pressing, &[], &pressed), &pressed) {
         (Outcome::Certified, Ok(ended)) => ended.run[0].record.clone(),
         (other, _) => return extreme(pressing, &pressed, other),
     };
-    let (text, map) = body.loaded(&mut random, first.normal_force, first.max_pressure);
-    let ended = run_certified(&text, map.as_slice());
-    let outcome = judged(&body, &ended);
+    let (text, maps) = body.loaded(&mut random, first.normal_force, first.max_pressure);
+    let ended = run_certified(&text, &maps);
+    let outcome = judged(&body, &text, &maps, &ended);
     extreme(text, &ended, outcome)
 }
 
+/// Every law, and the largest fraction of its bound.
+fn fractions(certificates: &[Certificate], tolerance: f64) -> Vec<(&'static str, f64)> {
+    let mut largest = Certificate::default().laws(tolerance).map(|(name, _, _)| (name, 0.0_f64));
+    for certificate in certificates {
+        for ((_, most), (_, value, bound)) in largest.iter_mut().zip(certificate.laws(tolerance)) {
+            *most = most.max(if value == 0.0 { 0.0 } else { value / bound });
+        }
+    }
+    largest.to_vec()
+}
+
 /// How a run ended, and whether what it says is true.
-fn judged(body: &Body, ended: &Result<Ended, CaseError>) -> Outcome {
+fn judged(body: &Body, text: &str, maps: &[Array2<f64>], ended: &Result<Ended, CaseError>) -> Outcome {
     let ended = match ended {
         Ok(ended) => ended,
         Err(error) => {
@@ -138,7 +154,7 @@ fn judged(body: &Body, ended: &Result<Ended, CaseError>) -> Outcome {
             return if words.contains("film") && body.has_unseen_film() {
                 Outcome::Refused(Refusal::UnseenFilm)
             } else if words.contains("reaches the edge") {
-                Outcome::Refused(Refusal::ContactAtEdge)
+                at_edge(body, text, maps)
             } else {
                 Outcome::Wrong(format!("refused: {}", words.lines().next().unwrap_or_default()))
             };
@@ -150,8 +166,8 @@ fn judged(body: &Body, ended: &Result<Ended, CaseError>) -> Outcome {
     match &ended.error {
         None if ended.run.is_empty() => Outcome::Wrong("no increment".to_owned()),
         None => Outcome::Certified,
-        Some(RunError::ContactAtEdge { .. }) => Outcome::Refused(Refusal::ContactAtEdge),
-        Some(RunError::WearTooFast { .. }) if body.family == Family::Wear => {
+        Some(RunError::ContactAtEdge { .. }) => at_edge(body, text, maps),
+        Some(RunError::WearTooFast { share, .. }) if body.family == Family::Wear && *share > 0.4 => {
             Outcome::Refused(Refusal::WearTooFast)
         }
         Some(RunError::AboveSliding { asked, .. }) => match carried(ended) {
@@ -162,6 +178,33 @@ fn judged(body: &Body, ended: &Result<Ended, CaseError>) -> Outcome {
         },
         Some(error @ RunError::NotConverged { .. }) => Outcome::Unsolved(error.to_string()),
         Some(error) => Outcome::Wrong(error.to_string()),
+    }
+}
+
+/// A contact that is said to reach the edge has to do so where there is more room: on a grid of three times as many cells.
+fn at_edge(body: &Body, text: &str, maps: &[Array2<f64>]) -> Outcome {
+    let [nx, ny] = body.cells;
+    let wide = text.replacen(&body.grid(1), &body.grid(3), 1);
+    let kept = format!("{wide}[output]\nfields = [\"pressure\"]\nevery = 1\n");
+    let inside = |place: usize, cells: usize| place.clamp(cells, 2 * cells - 1) - cells;
+    let padded = |map: &Array2<f64>| {
+        Array2::from_shape_fn([3 * nx, 3 * ny], |(i, j)| map[[inside(i, nx), inside(j, ny)]])
+    };
+    let maps: Vec<_> = maps.iter().map(padded).collect();
+    let case = Case::from_toml_with(&kept, "wide.toml", Attachments { arrays: &maps, ..Attachments::none() });
+    // What is still too wide, or not solved there, is wide enough.
+    let Ok(plan) = case.and_then(Plan::new) else { return Outcome::Refused(Refusal::ContactAtEdge) };
+    let Ok(history) = Simulation::new(&plan).run(&mut Silent) else {
+        return Outcome::Refused(Refusal::ContactAtEdge);
+    };
+    let outside = |place: usize, cells: usize| place <= cells || place >= 2 * cells - 1;
+    let reaches = history.fields.iter().filter_map(|kept| kept.pressure.as_ref()).any(|pressure| {
+        pressure.indexed_iter().any(|((i, j), p)| *p > 0.0 && (outside(i, nx) || outside(j, ny)))
+    });
+    if reaches {
+        Outcome::Refused(Refusal::ContactAtEdge)
+    } else {
+        Outcome::Wrong("contact at the edge, where a wider grid finds none".to_owned())
     }
 }
 
@@ -305,22 +348,28 @@ impl Body {
         self.upper.iter().chain([&self.lower]).any(|layers| layers.has_unseen_film(cell))
     }
 
+    /// Cells and side lengths of the grid, or of one so many times as wide.
+    fn grid(&self, times: usize) -> String {
+        let cells = self.cells.map(|cells| times * cells);
+        let [x, y] = [0, 1].map(|axis| cells[axis] as f64 * self.spacing[axis]);
+        format!("[grid]\ncells = {cells:?}\nsize = [{x:e}, {y:e}]\n")
+    }
+
     fn head(&self, periodic: bool, friction: &str) -> String {
         let Self { cells, spacing, radii: [rx, ry], .. } = self;
-        let size = [cells[0] as f64 * spacing[0], cells[1] as f64 * spacing[1]];
         let upper = self.upper.as_ref().map_or("rigid = true\n".to_owned(), Layers::text);
         let period = if periodic { "periodic = true\n" } else { "" };
-        let [x, y] = size.map(|side| format!("{side:e}"));
+        let [x, y] = [0, 1].map(|axis| cells[axis] as f64 * spacing[axis]);
         let profile = match self.wave.filter(|_| periodic) {
             Some(amplitude) => {
-                format!("[profile.wave]\namplitude = {amplitude:e}\nwavelength_x = {x}\nwavelength_y = {y}\n")
+                format!("[profile.wave]\namplitude = {amplitude:e}\nwavelength_x = {x:e}\nwavelength_y = {y:e}\n")
             }
             None => format!("[profile.ellipsoid]\nradius_x = {rx:e}\nradius_y = {ry:e}\n"),
         };
         let lower = self.lower.text();
         format!(
-            "[grid]\ncells = {cells:?}\nsize = [{x}, {y}]\n{period}[upper]\n{upper}[lower]\n{lower}{profile}\
-             [friction]\n{friction}\n[solver]\ntolerance = {:e}\n",
+            "{}{period}[upper]\n{upper}[lower]\n{lower}{profile}[friction]\n{friction}\n[solver]\ntolerance = {:e}\n",
+            self.grid(1),
             self.tolerance
         )
     }

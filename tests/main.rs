@@ -22,7 +22,7 @@ mod loadings;
 mod mutilated_cases;
 mod normal_counts;
 mod periodic;
-mod random_scenes;
+mod random_cases;
 mod reduced_contact;
 mod refinement;
 mod rough_surfaces;

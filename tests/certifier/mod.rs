@@ -68,11 +68,12 @@ pub struct Certificate {
 }
 
 impl Certificate {
-    /// What breaks its bound: a law that a solver may miss by its `tolerance`, or a number that has to be the same.
-    pub fn violations(&self, tolerance: f64) -> Vec<(&'static str, f64)> {
+    /// Every law by name, how far the increment is from it, and how far it may be: by the solver's `tolerance`, or by rounding
+    /// where a number has to be the same.
+    pub fn laws(&self, tolerance: f64) -> [(&'static str, f64, f64); 15] {
         // Half a tolerance more than the program grants itself: its norms are other ones where they are not the same.
         let solved = 1.5 * tolerance + SAME;
-        let all = [
+        [
             ("gap", self.gap, SAME),
             ("complementarity", self.complementarity, solved),
             ("tension", self.tension, 0.0),
@@ -89,9 +90,14 @@ impl Certificate {
             // A moment that merely holds the bodies back is not reported: see the ignored test in `certified.rs`.
             ("moment", if self.turns { self.moment } else { 0.0 }, SAME),
             ("energy", self.energy, SAME),
-        ];
-        // Not a number is no proof.
-        all.into_iter().filter(|(_, value, bound)| !(value <= bound)).map(|(name, value, _)| (name, value)).collect()
+        ]
+    }
+
+    /// The laws that are broken, and by how much.
+    pub fn violations(&self, tolerance: f64) -> Vec<(&'static str, f64)> {
+        // What is not a number proves nothing.
+        let broken = |(name, value, bound)| (!(value <= bound)).then_some((name, value));
+        self.laws(tolerance).into_iter().filter_map(broken).collect()
     }
 }
 
