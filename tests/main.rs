@@ -16,6 +16,7 @@ mod coupled_friction;
 mod error_bars;
 mod fretting_cycles;
 mod friction_on_patches;
+mod frictional_counts;
 mod invariants;
 mod leaving_out;
 mod loadings;
