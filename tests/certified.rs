@@ -156,23 +156,39 @@ const CORRUPTIONS: [Corruption; 27] = [
     ("slip where a cell is apart", |kept| slide(kept, Zone::Open, 1e-6), &["slip"]),
     ("more slip", |kept| slide(kept, Zone::Slip, 1e-6), &["slip"]),
     ("tension", |kept| scale_pressure(kept, Zone::Slip, -1e-9), &["tension"]),
-    ("gap of a cell", |kept| {
-        let at = cell(kept, Zone::Open);
-        kept.fields.gap.as_mut().unwrap()[at] *= 1.0 + 1e-6;
-    }, &["gap"]),
-    ("shear outside the contact", |kept| {
-        let at = cell(kept, Zone::Open);
-        kept.fields.shear.as_mut().unwrap()[0][at] = 1e-6 * kept.record.max_shear;
-    }, &["excess"]),
-    ("all pressures, so that only the force is wrong", |kept| {
-        *kept.fields.pressure.as_mut().unwrap() *= 1.0 + 1e-6;
-    }, &["equilibrium"]),
+    (
+        "gap of a cell",
+        |kept| {
+            let at = cell(kept, Zone::Open);
+            kept.fields.gap.as_mut().unwrap()[at] *= 1.0 + 1e-6;
+        },
+        &["gap"],
+    ),
+    (
+        "shear outside the contact",
+        |kept| {
+            let at = cell(kept, Zone::Open);
+            kept.fields.shear.as_mut().unwrap()[0][at] = 1e-6 * kept.record.max_shear;
+        },
+        &["excess"],
+    ),
+    (
+        "all pressures, so that only the force is wrong",
+        |kept| {
+            *kept.fields.pressure.as_mut().unwrap() *= 1.0 + 1e-6;
+        },
+        &["equilibrium"],
+    ),
     ("twice all tractions", double, &["equilibrium"]),
     ("approach", |kept| kept.record.approach *= 1.0 + 1e-6, &["gap"]),
     ("shift", |kept| kept.record.shift[0] *= 1.0 + 1e-6, &["slip"]),
     ("twist", |kept| kept.record.twist = 1e-6 * kept.record.shift[0], &["motion"]),
     ("normal force", |kept| kept.record.normal_force *= 1.0 + 1e-6, &["columns"]),
-    ("tangential force", |kept| kept.record.tangential_force[1] = 1e-6 * kept.record.normal_force, &["columns"]),
+    (
+        "tangential force",
+        |kept| kept.record.tangential_force[1] = 1e-6 * kept.record.normal_force,
+        &["columns"],
+    ),
     ("maximum pressure", |kept| kept.record.max_pressure *= 1.0 + 1e-6, &["columns"]),
     ("dissipated energy", |kept| kept.record.dissipated_energy *= 1.0 + 1e-6, &["energy"]),
     ("number of sticking cells", |kept| kept.record.stick_cells -= 1, &["columns"]),
@@ -243,7 +259,11 @@ fn another_case_than_the_one_that_was_run_is_found() {
         ("young = 4e0", "young = 4.00001e0".to_owned(), "gap"),
         ("thickness = 5e-1", "thickness = 5.00001e-1".to_owned(), "slip"),
         (&force, format!("normal_force = {:e}", sphere.force() * (1.0 + 1e-6)), "equilibrium"),
-        (&pull, format!("tangential_force = [{:e}", 0.7 * 0.3 * sphere.force() * (1.0 + 1e-6)), "equilibrium"),
+        (
+            &pull,
+            format!("tangential_force = [{:e}", 0.7 * 0.3 * sphere.force() * (1.0 + 1e-6)),
+            "equilibrium",
+        ),
     ] {
         assert!(text.contains(from), "{from} in {text}");
         let found = judged_as(&text.replace(from, &to));

@@ -145,6 +145,9 @@ fn fractions(certificates: &[Certificate], tolerance: f64) -> Vec<(&'static str,
     largest.to_vec()
 }
 
+/// Largest pull on a friction map, as a fraction of what the largest coefficient that can be drawn would carry.
+const MOST_PULL_ON_MAP: f64 = 0.4;
+
 /// How a run ended, and whether what it says is true.
 fn judged(body: &Body, text: &str, maps: &[Array2<f64>], ended: &Result<Ended, CaseError>) -> Outcome {
     let ended = match ended {
@@ -155,6 +158,8 @@ fn judged(body: &Body, text: &str, maps: &[Array2<f64>], ended: &Result<Ended, C
                 Outcome::Refused(Refusal::UnseenFilm)
             } else if words.contains("reaches the edge") {
                 at_edge(body, text, maps)
+            } else if words.contains("friction carries at most") && pulls_more_than_its_map(body, maps) {
+                Outcome::Refused(Refusal::AboveSliding)
             } else {
                 Outcome::Wrong(format!("refused: {}", words.lines().next().unwrap_or_default()))
             };
@@ -179,6 +184,12 @@ fn judged(body: &Body, text: &str, maps: &[Array2<f64>], ended: &Result<Ended, C
         Some(error @ RunError::NotConverged { .. }) => Outcome::Unsolved(error.to_string()),
         Some(error) => Outcome::Wrong(error.to_string()),
     }
+}
+
+/// Whether a pull that is drawn can be more than the best patch carries; one on a single coefficient never is.
+fn pulls_more_than_its_map(body: &Body, maps: &[Array2<f64>]) -> bool {
+    maps.first()
+        .is_some_and(|map| map.iter().all(|coefficient| *coefficient < MOST_PULL_ON_MAP * body.friction))
 }
 
 /// A contact that is said to reach the edge has to do so where there is more room: on a grid of three times as many cells.
@@ -362,7 +373,9 @@ impl Body {
         let [x, y] = [0, 1].map(|axis| cells[axis] as f64 * spacing[axis]);
         let profile = match self.wave.filter(|_| periodic) {
             Some(amplitude) => {
-                format!("[profile.wave]\namplitude = {amplitude:e}\nwavelength_x = {x:e}\nwavelength_y = {y:e}\n")
+                format!(
+                    "[profile.wave]\namplitude = {amplitude:e}\nwavelength_x = {x:e}\nwavelength_y = {y:e}\n"
+                )
             }
             None => format!("[profile.ellipsoid]\nradius_x = {rx:e}\nradius_y = {ry:e}\n"),
         };
@@ -386,8 +399,7 @@ impl Body {
         if self.family == Family::Wear {
             // In fractions of what would take a cell's whole pressure off over a slip of the sliding distance.
             let cells = self.cells[0].min(self.cells[1]) as f64;
-            let (law, more) =
-                if random.chance(0.5) { ("archard", 1.0) } else { ("energy", self.friction) };
+            let (law, more) = if random.chance(0.5) { ("archard", 1.0) } else { ("energy", self.friction) };
             let coefficient = random.log_uniform(1e-3, 1.0) / (peak * cells * self.friction * more);
             let every = random.whole(1, 3);
             let _ = write!(text, "[wear]\nlaw = \"{law}\"\ncoefficient = {coefficient:e}\nevery = {every}\n");
@@ -517,7 +529,7 @@ impl Loads<'_> {
         let body = self.body;
         // Of a map nobody knows yet what it carries; a moment takes its share.
         let most = match body.family {
-            Family::Map => 0.4,
+            Family::Map => MOST_PULL_ON_MAP,
             Family::Torsion => 0.5,
             _ => 0.99,
         };

@@ -15,8 +15,7 @@ const PULL: f64 = 0.75;
 
 fn stage(text: &mut String, fraction: f64, sphere: &Sphere, increments: usize, more: &str) {
     let force = fraction * sphere.friction * sphere.force();
-    let _ =
-        write!(text, "[[load]]\ntangential_force = [{force:e}, 0.0]\nincrements = {increments}\n{more}");
+    let _ = write!(text, "[[load]]\ntangential_force = [{force:e}, 0.0]\nincrements = {increments}\n{more}");
 }
 
 /// Equal bodies, pressed in one increment and pulled in another.
@@ -58,7 +57,12 @@ fn costs(name: &str, text: &str, was: [f64; 2]) {
     let started = std::time::Instant::now();
     let work = solved(text).work();
     let found = [work.convolutions as f64, work.full_grid_convolutions];
-    println!("{name}: {} applications, {:.1} of the whole grid, {:.2} s", found[0], found[1], started.elapsed().as_secs_f64());
+    println!(
+        "{name}: {} applications, {:.1} of the whole grid, {:.2} s",
+        found[0],
+        found[1],
+        started.elapsed().as_secs_f64()
+    );
     assert!(found[0] <= 1.1 * was[0] && found[1] <= 1.1 * was[1], "{name}: {found:?}, was {was:?}");
 }
 

@@ -14,6 +14,7 @@ mod coefficient_regimes;
 mod coefficient_tables;
 mod coupled_friction;
 mod error_bars;
+mod floors;
 mod fretting_cycles;
 mod friction_on_patches;
 mod frictional_counts;

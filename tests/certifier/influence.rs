@@ -39,7 +39,9 @@ impl Influence {
             let symbols = periodic_symbols(bodies, cells, spacing, Components::ALL, 0);
             let all = [symbols.zz, symbols.xx, symbols.yy, symbols.xy, symbols.zx, symbols.zy];
             let mut component = 0..6;
-            all.map(|symbol| in_space(&symbol.unwrap_or_default(), cells, ODD[component.next().unwrap_or_default()]))
+            all.map(|symbol| {
+                in_space(&symbol.unwrap_or_default(), cells, ODD[component.next().unwrap_or_default()])
+            })
         } else {
             let InfluenceCoefficients { zz, xx, yy, xy, zx, zy } =
                 influence_coefficients(bodies, cells, spacing, Components::ALL);
@@ -60,7 +62,8 @@ impl Influence {
         for (to, from, component, sign) in TERMS {
             for ((m, n), &traction) in tractions[from].indexed_iter() {
                 if traction != 0.0 {
-                    let about = self.tables[component].slice(s![nx - 1 - m..2 * nx - 1 - m, ny - 1 - n..2 * ny - 1 - n]);
+                    let about = self.tables[component]
+                        .slice(s![nx - 1 - m..2 * nx - 1 - m, ny - 1 - n..2 * ny - 1 - n]);
                     displacements[to].scaled_add(sign * traction, &about);
                 }
             }
@@ -96,4 +99,3 @@ fn in_space(symbol: &Array2<f64>, cells: [usize; 2], odd: [bool; 2]) -> Array2<f
     };
     waves(0).dot(symbol).dot(&waves(1).t())
 }
-

@@ -178,8 +178,14 @@ impl<'a> Certifier<'a> {
     /// When pressure, shear, slip, gap or zone was not kept.
     pub fn next(&mut self, record: &StepRecord, fields: &KeptFields) -> Result<Certificate, String> {
         let missing = || format!("increment {}: a field was not kept", record.increment);
-        let KeptFields { pressure: Some(p), shear: Some(q), slip: Some(slip), gap: Some(gap), zone: Some(zone), .. } =
-            fields
+        let KeptFields {
+            pressure: Some(p),
+            shear: Some(q),
+            slip: Some(slip),
+            gap: Some(gap),
+            zone: Some(zone),
+            ..
+        } = fields
         else {
             return Err(missing());
         };
@@ -222,15 +228,13 @@ impl<'a> Certifier<'a> {
             // A control that changes its kind goes on from what was reached.
             let motions = [before.approach, before.shift[0], before.shift[1], before.twist];
             let controls = [&stage.normal, &stage.tangential[0], &stage.tangential[1], &stage.twist];
-            let held = [
-                before.held.normal,
-                before.held.tangential[0],
-                before.held.tangential[1],
-                before.held.twist,
-            ];
+            let held =
+                [before.held.normal, before.held.tangential[0], before.held.tangential[1], before.held.twist];
             let found = [0, 1, 2, 3].map(|mode| match (controls[mode], held[mode]) {
                 (Some(control), Control::Force(_)) if control.is_motion() => Control::Motion(motions[mode]),
-                (Some(control), Control::Motion(_)) if !control.is_motion() => Control::Force(before.reached[mode]),
+                (Some(control), Control::Motion(_)) if !control.is_motion() => {
+                    Control::Force(before.reached[mode])
+                }
                 (_, held) => held,
             });
             let [normal, x, y, twist] = found;
@@ -419,7 +423,9 @@ impl Increment<'_> {
         for (mode, control) in self.controls().into_iter().enumerate() {
             match control {
                 // Bodies pulled apart carry nothing.
-                Control::Force(asked) if mode == 0 && asked <= 0.0 => worst.raise(over(found[0].abs(), found[0].abs())),
+                Control::Force(asked) if mode == 0 && asked <= 0.0 => {
+                    worst.raise(over(found[0].abs(), found[0].abs()))
+                }
                 Control::Force(asked) => worst.raise(over(found[mode] - asked, units[mode])),
                 Control::Motion(_) => {}
             }

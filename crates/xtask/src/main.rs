@@ -142,7 +142,8 @@ fn check() -> Vec<Step> {
 }
 
 fn extremes() -> Step {
-    let words = "run --release --locked --package fret-validation --example extremes -- --page docs/random-cases.md";
+    let words =
+        "run --release --locked --package fret-validation --example extremes -- --page docs/random-cases.md";
     cargo(&words.split_whitespace().collect::<Vec<_>>()).called("cases drawn at random")
 }
 
