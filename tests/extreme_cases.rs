@@ -4,6 +4,7 @@
 
 use std::f64::consts::TAU;
 use std::fmt::Write;
+use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use fret_core::case::{Attachments, Case, CaseError};
 use fret_core::plan::Plan;
@@ -105,33 +106,16 @@ pub struct Extreme {
 pub fn run(seed: u64, cells: [usize; 2]) -> Extreme {
     let mut random = Random::seeded(seed);
     let body = Body::drawn(&mut random, cells);
-    // Without friction, pressed to the approach: what force that needs.
-    let pressing = format!(
-        "{}[[load]]\napproach = {:e}\nincrements = 1\n",
-        body.head(false, "coefficient = 0.0"),
-        body.approach
-    );
-    let extreme = |text: String, ended: &Result<Ended, CaseError>, outcome: Outcome| {
-        let certificates = ended.as_ref().map_or(&[][..], |ended| &ended.certificates);
-        Extreme {
-            seed,
-            family: body.family,
-            text,
-            increments: certificates.len(),
-            in_parts: certificates.iter().filter(|certificate| !certificate.whole).count(),
-            laws: fractions(certificates, body.tolerance),
-            outcome,
-        }
-    };
-    let pressed = run_certified(&pressing, &[]);
-    let first = match (judged(&body, &pressing, &[], &pressed), &pressed) {
-        (Outcome::Certified, Ok(ended)) => ended.run[0].record.clone(),
-        (other, _) => return extreme(pressing, &pressed, other),
-    };
-    let (text, maps) = body.loaded(&mut random, first.normal_force, first.max_pressure);
-    let ended = run_certified(&text, &maps);
-    let outcome = judged(&body, &text, &maps, &ended);
-    extreme(text, &ended, outcome)
+    let ended = catch_unwind(AssertUnwindSafe(|| body.run(seed, random)));
+    ended.unwrap_or_else(|_| Extreme {
+        seed,
+        family: body.family,
+        text: body.head(false, "coefficient = 0.0"),
+        increments: 0,
+        in_parts: 0,
+        laws: fractions(&[], body.tolerance),
+        outcome: Outcome::Wrong("the program panicked".to_owned()),
+    })
 }
 
 /// Every law, and the largest fraction of its bound.
@@ -352,6 +336,36 @@ impl Body {
             radius,
             by_approach: random.chance(0.3) && family != Family::Periodic,
         }
+    }
+
+    fn run(&self, seed: u64, mut random: Random) -> Extreme {
+        // Without friction, pressed to the approach: what force that needs.
+        let pressing = format!(
+            "{}[[load]]\napproach = {:e}\nincrements = 1\n",
+            self.head(false, "coefficient = 0.0"),
+            self.approach
+        );
+        let extreme = |text: String, ended: &Result<Ended, CaseError>, outcome: Outcome| {
+            let certificates = ended.as_ref().map_or(&[][..], |ended| &ended.certificates);
+            Extreme {
+                seed,
+                family: self.family,
+                text,
+                increments: certificates.len(),
+                in_parts: certificates.iter().filter(|certificate| !certificate.whole).count(),
+                laws: fractions(certificates, self.tolerance),
+                outcome,
+            }
+        };
+        let pressed = run_certified(&pressing, &[]);
+        let first = match (judged(self, &pressing, &[], &pressed), &pressed) {
+            (Outcome::Certified, Ok(ended)) => ended.run[0].record.clone(),
+            (other, _) => return extreme(pressing, &pressed, other),
+        };
+        let (text, maps) = self.loaded(&mut random, first.normal_force, first.max_pressure);
+        let ended = run_certified(&text, &maps);
+        let outcome = judged(self, &text, &maps, &ended);
+        extreme(text, &ended, outcome)
     }
 
     fn has_unseen_film(&self) -> bool {

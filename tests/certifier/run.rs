@@ -1,7 +1,6 @@
 //! Runs a case, keeps what the certifier reads, and has it judged: also as far as a run came that ended early.
 
 use std::ops::ControlFlow;
-use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use fret_core::case::{Attachments, Case, CaseError};
 use fret_core::history::{KeptFields, StepRecord};
@@ -54,7 +53,7 @@ impl Ended {
 /// When the case is refused, by the case itself or by its plan.
 ///
 /// # Panics
-/// When the program panics, with the case in the message.
+/// When the program panics.
 pub fn run_certified(text: &str, arrays: &[Array2<f64>]) -> Result<Ended, CaseError> {
     let fields = ["pressure", "shear", "slip", "gap", "zone"];
     let worn = if text.contains("[wear]") { ", \"worn_depth\"" } else { "" };
@@ -62,11 +61,7 @@ pub fn run_certified(text: &str, arrays: &[Array2<f64>]) -> Result<Ended, CaseEr
     let case = Case::from_toml_with(&text, "case.toml", Attachments { arrays, ..Attachments::none() })?;
     let plan = Plan::new(case)?;
     let mut witness = Witness { run: Vec::new(), iterations: 0 };
-    let ended = catch_unwind(AssertUnwindSafe(|| Simulation::new(&plan).run(&mut witness)));
-    let error = match ended {
-        Ok(ended) => ended.err(),
-        Err(_) => panic!("the program panicked on this case:\n{text}"),
-    };
+    let error = Simulation::new(&plan).run(&mut witness).err();
     let Witness { run, iterations } = witness;
     let certificates = certify(&plan, &run).unwrap_or_else(|missing| panic!("{missing}"));
     Ok(Ended { plan, run, certificates, error, iterations })
