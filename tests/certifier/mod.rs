@@ -16,10 +16,12 @@ use ndarray::Array2;
 
 pub use run::{Ended, Kept, run_certified};
 
-/// Bound on what is the same number computed twice, relative to the largest term of its sum. Sums of a few thousand terms
-/// differ by 1e-14 when their order does; the coefficients of a coating 1e6 times softer than its base are good to 1e-10 of a
-/// cell's displacement.
-pub const SAME: f64 = 1e-9;
+/// Bound on what is the same number computed twice, relative to the largest term of its sum. Sums of a few thousand terms in
+/// another order differ by 1e-14; under a coating 1e6 times softer than its base, where displacements nearly cancel, by 1e-12.
+pub const SAME: f64 = 1e-11;
+
+/// Shear counts as on its disc's circle up to this fraction of it; ten times what the program allows itself.
+pub const ON_CIRCLE: f64 = 1e-9;
 
 /// How far an increment is from the laws of contact. Every number is dimensionless and 0 for an exact solution.
 ///
@@ -44,7 +46,7 @@ pub struct Certificate {
     pub coulomb: f64,
     /// Largest `|v|` of a sticking cell over `Kt |mu p|`.
     pub stick: f64,
-    /// Largest part of `v/Kt` across the shear of a slipping cell, over `|mu p| max(1, |v| / (Kt mu p))`: slip along the shear.
+    /// Largest part of `v/Kt` across the shear of a slipping cell, over `|mu p| (1 + |v| / (Kt mu p))`: slip along the shear.
     pub direction: f64,
     /// Largest part of `v/Kt` against the shear of a slipping cell, over `|mu p|`: friction takes energy and never gives any.
     pub against: f64,
@@ -82,7 +84,7 @@ impl Certificate {
             ("stick", self.stick, solved),
             ("direction", self.direction, solved),
             ("against", self.against, solved),
-            ("on_circle", self.on_circle, SAME),
+            ("on_circle", self.on_circle, ON_CIRCLE),
             ("slip", self.slip, SAME),
             ("equilibrium", self.equilibrium, solved),
             ("motion", self.motion, SAME),
@@ -348,7 +350,7 @@ impl Increment<'_> {
             certificate.slip.raise(over(hypot([kept[0] - v[0], kept[1] - v[1]]), scale));
             if bound > 0.0 {
                 let across = (q[0] * w[1] - q[1] * w[0]).abs() / bound;
-                certificate.direction.raise(over(across, norm * (hypot(w) / bound).max(1.0)));
+                certificate.direction.raise(over(across, norm * (1.0 + hypot(w) / bound)));
                 certificate.against.raise(over((-dot(q, w) / bound).max(0.0), norm));
             }
         }
