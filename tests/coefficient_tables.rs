@@ -231,6 +231,11 @@ fn a_layer_on_top_vanishes_or_becomes_everything_with_first_order() {
         // first order in h/cell and in cell/h; the next order is 1e-3 of it at most
         assert!((thin / thinner - 10.0).abs() < 0.1, "{thin:e} {thinner:e}");
         assert!((thick / thicker - 10.0).abs() < 0.1, "{thick:e} {thicker:e}");
-        assert!(thin < 1e-3 && thick < 1e-2);
+        // and its size is at most some times the thickness, or its inverse, times the contrast of what it lies on
+        let moduli = below.iter().map(|layer| layer.0).chain([young, 1.0]);
+        let (softest, stiffest) =
+            moduli.fold((f64::INFINITY, 0.0_f64), |(low, high), one| (low.min(one), high.max(one)));
+        let bound = 10.0 * 1e-5 * stiffest / softest;
+        assert!(thin < bound && thick < bound, "{thin:e} {thick:e} {bound:e}");
     }
 }
