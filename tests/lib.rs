@@ -1,5 +1,8 @@
 //! Scenes and comparisons that several validation tests share.
 
+pub mod certifier;
+pub mod extreme_cases;
+pub mod random;
 pub mod shortcuts;
 
 use std::fmt::Write;

@@ -8,20 +8,23 @@
 )]
 
 mod analytic_limits;
+mod certified;
 mod coated_limits;
 mod coefficient_regimes;
 mod coefficient_tables;
 mod coupled_friction;
 mod error_bars;
+mod floors;
 mod fretting_cycles;
 mod friction_on_patches;
+mod frictional_counts;
 mod invariants;
 mod leaving_out;
 mod loadings;
 mod mutilated_cases;
 mod normal_counts;
 mod periodic;
-mod random_scenes;
+mod random_cases;
 mod reduced_contact;
 mod refinement;
 mod rough_surfaces;

@@ -2,6 +2,8 @@
 //! mu W. Equilibrium does not allow that: once every cell slips, the tractions carry nearly mu W. The last cell sticks
 //! until T is close to mu W, and the shift can grow without bound only there.
 
+use fret_core::history::History;
+use fret_core::simulation::RunError;
 use fret_validation::{Sphere, run};
 
 /// Tangential force over mu W at which the last stick cell vanishes, and that at a shift far beyond.
@@ -34,31 +36,75 @@ fn coated_contacts_slide_at_mu_w_and_not_below() {
     }
 }
 
-#[test]
-fn a_force_that_a_prescribed_approach_cannot_carry_is_refused_and_not_answered_by_sliding() {
-    // Hertz: an approach d of a paraboloid of radius R presses with 4/3 E* sqrt(R) d^1.5; friction carries mu times that.
-    // Apart it carries nothing. Bodies that couple, and those that do not.
-    let (radius, approach, friction) = (10e-3_f64, 1e-6_f64, 0.2);
-    for (upper, modulus) in [
+/// A sphere at a prescribed approach under a tangential force, with the case's upper body, and what friction carries there:
+/// Hertz's force of an approach d of a paraboloid of radius R, `4/3 E* sqrt(R) d^1.5`, times mu.
+struct Pulled {
+    upper: &'static str,
+    carried: f64,
+}
+
+const RADIUS: f64 = 10e-3;
+const APPROACH: f64 = 1e-6;
+const FRICTION: f64 = 0.2;
+
+/// Bodies that couple, and those that do not.
+fn pulled() -> [Pulled; 2] {
+    [
         ("rigid = true", 210e9 / (1.0 - 0.09)),
         ("substrate = { young = 210e9, poisson = 0.3 }", 210e9 / (2.0 * (1.0 - 0.09))),
-    ] {
-        let carried = friction * 4.0 / 3.0 * modulus * radius.sqrt() * approach.powf(1.5);
-        let text = |approach: f64, force: f64| {
-            format!(
-                "grid = {{ cells = [24, 24], size = [300e-6, 300e-6] }}\nfriction.coefficient = {friction}\n\
-                 profile.sphere.radius = {radius:e}\n[upper]\n{upper}\n[lower]\n\
-                 substrate = {{ young = 210e9, poisson = 0.3 }}\n[[load]]\napproach = {approach:e}\nincrements = 1\n\
-                 [[load]]\ntangential_force = [{force:e}, 0.0]\nincrements = 2\n"
-            )
-        };
+    ]
+    .map(|(upper, modulus)| Pulled {
+        upper,
+        carried: FRICTION * 4.0 / 3.0 * modulus * RADIUS.sqrt() * APPROACH.powf(1.5),
+    })
+}
+
+impl Pulled {
+    fn run(&self, approach: f64, force: f64) -> Result<History, RunError> {
+        run(&format!(
+            "grid = {{ cells = [24, 24], size = [300e-6, 300e-6] }}\nfriction.coefficient = {FRICTION}\n\
+             profile.sphere.radius = {RADIUS:e}\n[upper]\n{}\n[lower]\nsubstrate = {{ young = 210e9, poisson = 0.3 }}\n\
+             [[load]]\napproach = {approach:e}\nincrements = 1\n\
+             [[load]]\ntangential_force = [{force:e}, 0.0]\nincrements = 2\n",
+            self.upper
+        ))
+    }
+}
+
+#[test]
+fn a_force_that_a_prescribed_approach_carries_is_carried_and_more_is_not_answered_by_sliding() {
+    for pulled in pulled() {
         // On 24 cells the force is Hertz's within a few per cent.
-        assert!(run(&text(approach, 0.9 * carried)).is_ok(), "{upper}");
-        for (approach, force) in [(approach, 1.1 * carried), (1e-3 * approach, carried), (-approach, carried)]
-        {
-            let Err(refusal) = run(&text(approach, force)) else { panic!("{upper}: carried") };
-            let refusal = refusal.to_string();
-            assert!(refusal.contains("above mu W") || refusal.contains("not solved"), "{upper}: {refusal}");
+        let history = pulled.run(APPROACH, 0.9 * pulled.carried).unwrap();
+        let [found, _] = history.steps.last().unwrap().tangential_force;
+        assert!((found / (0.9 * pulled.carried) - 1.0).abs() < 1e-8, "{found}");
+        // Half of it is, in the first increment of the pull; the whole is not, in the last.
+        let refusal = pulled.run(APPROACH, 1.1 * pulled.carried).unwrap_err();
+        assert_eq!(refusal.increment(), 2, "{}: {refusal}", pulled.upper);
+    }
+}
+
+#[test]
+#[ignore = "it is called not solved, with the advice to try more increments"]
+fn a_force_a_tenth_above_what_a_prescribed_approach_carries_is_called_so() {
+    for pulled in pulled() {
+        let refusal = pulled.run(APPROACH, 1.1 * pulled.carried).unwrap_err();
+        assert!(matches!(refusal, RunError::AboveSliding { .. }), "{}: {refusal}", pulled.upper);
+    }
+}
+
+#[test]
+fn bodies_that_are_apart_carry_nothing_and_it_is_said() {
+    for pulled in pulled() {
+        // A thousandth of the approach lies between the cells' centres.
+        for approach in [1e-3 * APPROACH, -APPROACH] {
+            let refusal = pulled.run(approach, pulled.carried).unwrap_err();
+            let RunError::AboveSliding { increment, asked, bound, .. } = refusal else {
+                panic!("{}: {refusal}", pulled.upper)
+            };
+            assert_eq!((increment, bound), (1, 0.0), "{}", pulled.upper);
+            // Half of the force, at the end of the first of two increments.
+            assert!((asked / (0.5 * pulled.carried) - 1.0).abs() < 1e-12, "{}", pulled.upper);
         }
     }
 }

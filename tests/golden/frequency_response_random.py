@@ -11,11 +11,10 @@ def system(nu, mu):
     # (w, t)' with w = (kU, kW), t = (Q, P) on the part below, s = k z
     return mp.matrix([[0, -1, -1/mu, 0], [a, 0, 0, -g/mu], [-4*mu*b, 0, 0, -a], [0, 0, 1, 0]])
 
-def response(k, layers, substrate):
-    k = mp.mpf(k)
-    total = sum(k*mp.mpf(h) for _, _, h in layers)
+def response(wavenumber, layers, substrate):
+    total = sum(mp.mpf(wavenumber)*mp.mpf(h) for _, _, h in layers)
     mp.mp.dps = int(120 + 3*float(total))
-    k = mp.mpf(k)
+    k = mp.mpf(wavenumber)
     if substrate is None:
         # columns: (w, t) at the base with w = 0
         y = mp.matrix([[0, 0], [0, 0], [1, 0], [0, 1]])
@@ -54,20 +53,25 @@ def random_stack(count, contrast, rigid, thin=False, nu=None):
     total = sum(l[2] for l in layers)
     for l in layers: l[2] /= total
     return layers, (None if rigid else [logu(1, contrast), poisson() if nu is None else nu])
-rows = []
-def add(case, layers, substrate, k):
-    rows.append(dict(case=case, layers=layers, substrate=substrate, k=k, **response(k, layers, substrate)))
-for rigid in (False, True):
-    base = 'rigid base' if rigid else 'half-space'
-    for k in (1e-8, 1e-4, 1e-2, .3, 2., 17., 130.):
-        for contrast in (1e6, 1e12):
-            for count in (1, 3, 7):
-                add(f'{count} layers within {contrast:g}, {base}', *random_stack(count, contrast, rigid), k)
-        add(f'interlayers 1e-3 thick, {base}', *random_stack(5, 1e6, rigid, thin=True), k)
-        add(f'incompressible, {base}', *random_stack(4, 1e2, rigid, nu=.5), k)
-about = ("Surface compliance of seeded random layered half-spaces, fields as in frequency_response.json. Inputs are binary values, "
-         "printed as the shortest decimals that read back to them. Made by frequency_response_random.py: mpmath, transfer matrices "
-         "exp(M k h) of the 4 x 4 first-order system with 120 digits and 3 more per unit of k h.")
-with open(pathlib.Path(__file__).with_suffix(".json"), "w") as file:
-    file.write('{"about": ' + json.dumps(about) + ',\n"rows": [\n')
-    file.write(",\n".join(json.dumps(row) for row in rows) + "\n]}\n")
+def main():
+    rows = []
+    def add(case, layers, substrate, k):
+        rows.append(dict(case=case, layers=layers, substrate=substrate, k=k, **response(k, layers, substrate)))
+    for rigid in (False, True):
+        base = 'rigid base' if rigid else 'half-space'
+        for k in (1e-8, 1e-4, 1e-2, .3, 2., 17., 130.):
+            for contrast in (1e6, 1e12):
+                for count in (1, 3, 7):
+                    add(f'{count} layers within {contrast:g}, {base}', *random_stack(count, contrast, rigid), k)
+            add(f'interlayers 1e-3 thick, {base}', *random_stack(5, 1e6, rigid, thin=True), k)
+            add(f'incompressible, {base}', *random_stack(4, 1e2, rigid, nu=.5), k)
+    about = ("Surface compliance of seeded random layered half-spaces, fields as in frequency_response.json. Inputs are binary values, "
+             "printed as the shortest decimals that read back to them. Made by frequency_response_random.py: mpmath, transfer matrices "
+             "exp(M k h) of the 4 x 4 first-order system with 120 digits and 3 more per unit of k h.")
+    with open(pathlib.Path(__file__).with_suffix(".json"), "w") as file:
+        file.write('{"about": ' + json.dumps(about) + ',\n"rows": [\n')
+        file.write(",\n".join(json.dumps(row) for row in rows) + "\n]}\n")
+
+
+if __name__ == "__main__":
+    main()

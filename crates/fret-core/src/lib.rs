@@ -11,6 +11,10 @@ pub mod history;
 pub mod kernel;
 pub mod model;
 pub mod plan;
+#[cfg(test)]
+#[path = "../../../tests/random.rs"]
+#[expect(dead_code, reason = "the tests of the whole use all of it")]
+mod random;
 mod recording;
 mod refinement;
 mod run_error;

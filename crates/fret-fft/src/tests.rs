@@ -3,16 +3,14 @@
 use ndarray::Array2;
 
 use super::{Block, Convolution, ConvolutionError, Engine, Kernel, Mirrors, Parity, PeriodicProduct, Symbol};
+use crate::random::Random;
 
 pub(super) const PARITIES: [Parity; 4] = [Parity::EvenEven, Parity::OddEven, Parity::EvenOdd, Parity::OddOdd];
 
-/// Seeded numbers in (-1, 1): the generator of Knuth's MMIX.
-struct Numbers(u64);
-
-impl Numbers {
+impl Random {
+    /// Between -1 and 1.
     fn next(&mut self) -> f64 {
-        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        (self.0 >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
+        self.between(-1.0, 1.0)
     }
 
     fn field(&mut self, len: usize) -> Vec<f64> {
@@ -68,7 +66,7 @@ impl Problem {
         blocks: &[Block],
         seed: u64,
     ) -> Self {
-        let mut numbers = Numbers(seed);
+        let mut numbers = Random::seeded(seed);
         let kernels = parities.iter().map(|&parity| (numbers.array(quadrant), parity)).collect();
         let inputs = 1 + blocks.iter().map(|block| block.input).max().unwrap();
         let input = (0..inputs).map(|_| numbers.field(shape[0] * shape[1])).collect();
@@ -171,7 +169,7 @@ impl Problem {
     ) -> Vec<(usize, usize, f64)> {
         let ny = self.shape[1];
         let cells = self.shape[0] * ny;
-        let mut numbers = Numbers(7);
+        let mut numbers = Random::seeded(7);
         let picked: Vec<usize> = match samples {
             None => (0..cells).collect(),
             Some(samples) => {

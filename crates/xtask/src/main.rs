@@ -11,6 +11,7 @@ usage: cargo xtask CHORE
   test      all tests: Rust in release mode, then the Python package, built and installed into target/venv
   check     format, clippy, documentation: warnings are errors
   bench     the benchmarks
+  extremes  five thousand cases drawn at random, each certified, and their page docs/random-cases.md; half an hour at the most
   docs      the site, into target/site, and the Rust documentation, into target/doc: warnings are errors
   wheel     the Python wheel, into target/wheels
   coverage  lines that the Rust tests reach, into target/coverage; wants `cargo install cargo-tarpaulin`
@@ -26,6 +27,7 @@ fn main() -> ExitCode {
         ["test"] => ("test", test()),
         ["check"] => ("check", check()),
         ["bench"] => ("bench", vec![cargo(&["bench", "--workspace", "--locked"])]),
+        ["extremes"] => ("extremes", vec![extremes()]),
         ["docs"] => ("docs", docs()),
         ["wheel"] => ("wheel", wheel()),
         ["coverage"] => ("coverage", vec![coverage()]),
@@ -137,6 +139,12 @@ fn check() -> Vec<Step> {
         cargo(&["clippy", "--workspace", "--all-targets", "--locked", "--", "--deny", "warnings"]),
         cargo(&["doc", "--workspace", "--no-deps", "--locked"]).with("RUSTDOCFLAGS", "--deny warnings"),
     ]
+}
+
+fn extremes() -> Step {
+    let words =
+        "run --release --locked --package fret-validation --example extremes -- --page docs/random-cases.md";
+    cargo(&words.split_whitespace().collect::<Vec<_>>()).called("cases drawn at random")
 }
 
 fn docs() -> Vec<Step> {

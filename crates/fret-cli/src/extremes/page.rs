@@ -10,7 +10,7 @@ const HEAD: &str = "# Stiff and extreme cases
 
 `fret extremes` solves the scenes of this page and judges each by what must hold whatever the numbers; `fret extremes --quick`
 takes some of them. The exit code is 0 when all hold and 2 when one does not. This page is written by
-`fret extremes --page docs/extremes.md`.
+`fret extremes --page docs/extremes.md`. Cases in which everything varies at once are on [Cases drawn at random](random-cases.md).
 
 Scenes: a rigid sphere pressed on a body under coatings, then pulled along x; pressure, shear and slip coupled, with friction 0.3
 and T = 0.8 mu W unless they are what varies; a is the contact radius of the sphere's shape, the plain substrate has E = 1 and

@@ -3,6 +3,7 @@
 use serde::Deserialize;
 
 use crate::model::{Base, Body, Coating, ContactPair, ElasticMaterial, HalfSpace};
+pub(crate) use crate::random::Random;
 
 /// `(Young's modulus, Poisson's ratio)`
 pub(crate) type Elasticity = (f64, f64);
@@ -39,33 +40,7 @@ pub(crate) fn golden<Row: for<'a> Deserialize<'a>>(name: &str) -> Vec<Row> {
     serde_json::from_str::<Table<Row>>(&text).unwrap().rows
 }
 
-/// A seeded source of random numbers (splitmix64).
-pub(crate) struct Random(u64);
-
 impl Random {
-    pub(crate) fn seeded(seed: u64) -> Self {
-        Self(seed)
-    }
-
-    /// Uniform in `[0, 1)`.
-    pub(crate) fn uniform(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
-    }
-
-    /// Uniform in the logarithm between two positive numbers.
-    pub(crate) fn log_uniform(&mut self, least: f64, greatest: f64) -> f64 {
-        least * (greatest / least).powf(self.uniform())
-    }
-
-    /// A whole number in `first..=last`.
-    pub(crate) fn whole(&mut self, first: usize, last: usize) -> usize {
-        first + (self.uniform() * (last - first + 1) as f64) as usize
-    }
-
     /// Poisson's ratios with the awkward ones well represented.
     pub(crate) fn poisson(&mut self) -> f64 {
         match self.uniform() {

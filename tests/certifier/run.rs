@@ -1,0 +1,93 @@
+//! Runs a case, keeps what the certifier reads, and has it judged: also as far as a run came that ended early.
+
+use std::ops::ControlFlow;
+
+use fret_core::case::{Attachments, Case, CaseError};
+use fret_core::history::{KeptFields, StepRecord};
+use fret_core::model::ContactState;
+use fret_core::plan::Plan;
+use fret_core::simulation::{Iteration, Observer, RunError, Simulation};
+use ndarray::Array2;
+
+use super::{Certificate, certify};
+
+/// An increment: its record and its kept fields.
+#[derive(Debug, Clone)]
+pub struct Kept {
+    /// The record.
+    pub record: StepRecord,
+    /// All fields.
+    pub fields: KeptFields,
+}
+
+/// How a run ended, and what was judged of it.
+#[derive(Debug)]
+pub struct Ended {
+    /// The plan.
+    pub plan: Plan,
+    /// Every solved increment.
+    pub run: Vec<Kept>,
+    /// Its certificate.
+    pub certificates: Vec<Certificate>,
+    /// Why the run ended before its last increment.
+    pub error: Option<RunError>,
+    /// Iterations of all increments, also of one that was not solved.
+    pub iterations: usize,
+}
+
+impl Ended {
+    /// The worst of all certificates and their violations, in words; `None` when every solved increment holds.
+    pub fn wrong(&self) -> Option<String> {
+        let tolerance = self.plan.case.tolerance;
+        self.certificates.iter().find_map(|certificate| {
+            let violations = certificate.violations(tolerance);
+            let words: Vec<String> = violations.iter().map(|(law, off)| format!("{law} {off:.1e}")).collect();
+            (!words.is_empty()).then(|| format!("increment {}: {}", certificate.increment, words.join(", ")))
+        })
+    }
+}
+
+/// Runs a case whose text does not say what is kept, and certifies every increment. `arrays`: what the text names by number.
+///
+/// # Errors
+/// When the case is refused, by the case itself or by its plan.
+///
+/// # Panics
+/// When the program panics.
+pub fn run_certified(text: &str, arrays: &[Array2<f64>]) -> Result<Ended, CaseError> {
+    let fields = ["pressure", "shear", "slip", "gap", "zone"];
+    let worn = if text.contains("[wear]") { ", \"worn_depth\"" } else { "" };
+    let text = format!("{text}[output]\nfields = [\"{}\"{worn}]\nevery = 1\n", fields.join("\", \""));
+    let case = Case::from_toml_with(&text, "case.toml", Attachments { arrays, ..Attachments::none() })?;
+    let plan = Plan::new(case)?;
+    let mut witness = Witness { run: Vec::new(), iterations: 0 };
+    let error = Simulation::new(&plan).run(&mut witness).err();
+    let Witness { run, iterations } = witness;
+    let certificates = certify(&plan, &run).unwrap_or_else(|missing| panic!("{missing}"));
+    Ok(Ended { plan, run, certificates, error, iterations })
+}
+
+/// Keeps every increment.
+struct Witness {
+    run: Vec<Kept>,
+    iterations: usize,
+}
+
+impl Observer for Witness {
+    fn iterated(&mut self, _: &Iteration) -> ControlFlow<()> {
+        self.iterations += 1;
+        ControlFlow::Continue(())
+    }
+
+    fn solved(
+        &mut self,
+        record: &StepRecord,
+        _: &ContactState,
+        kept: Option<&KeptFields>,
+    ) -> ControlFlow<()> {
+        if let Some(fields) = kept {
+            self.run.push(Kept { record: record.clone(), fields: fields.clone() });
+        }
+        ControlFlow::Continue(())
+    }
+}
