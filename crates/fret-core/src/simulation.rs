@@ -17,9 +17,10 @@ use crate::kernel::{
     Components, PairResponse, ResponseTable, coefficients_of, influence_coefficients, periodic_symbols,
     symbols_of,
 };
+use crate::machine::memory::claim;
 use crate::model::{ContactState, CoulombFriction, LoadStep};
 use crate::plan::{Coupling, Plan, Shortcut};
-use crate::recording::{kept, record};
+use crate::recording::{copied, kept, record};
 use crate::refinement::{DivisionError, Refinement, Span, in_halves};
 pub use crate::run_error::RunError;
 use crate::run_error::run_error;
@@ -68,6 +69,11 @@ pub trait Observer {
         ControlFlow::Continue(())
     }
 
+    /// Whether the history is to hold the kept fields. An observer that has done with them once it has heard of them says no.
+    fn leaves_fields(&self) -> bool {
+        true
+    }
+
     /// A cycle is over; its last increment was solved just before.
     fn cycled(&mut self, record: &CycleRecord) {
         let _ = record;
@@ -108,6 +114,11 @@ impl<'a> Simulation<'a> {
     pub fn resume(&self, from: Checkpoint, observer: &mut dyn Observer) -> Result<History, RunError> {
         let plan = self.plan;
         let case = &plan.case;
+        // Of a history that may end early nobody knows how much it keeps.
+        let held = if observer.leaves_fields() && !case.is_open_ended() { plan.kept_bytes } else { 0 };
+        let increment = from.place.solved;
+        let _memory = claim(plan.memory_bytes + held)
+            .map_err(|error| RunError::OutOfMemory { increment, error })?;
         let Checkpoint { place, state, memory, cycle, wear } = from;
         let response = self.response();
         let own = response.own_normal(case.cells);
@@ -286,13 +297,17 @@ impl<'a> Journey<'a> {
         if let (Some(kept), Some(depth)) = (&mut kept, &self.history.state.worn_depth)
             && self.case().output.fields.iter().any(|name| name == "worn_depth")
         {
-            kept.worn_depth = Some(depth.clone());
+            let increment = record.increment;
+            let out_of_memory = |error| RunError::OutOfMemory { increment, error };
+            kept.worn_depth = Some(copied(depth).map_err(out_of_memory)?);
         }
         self.place.solved += 1;
         self.place.solved_of_stage = k;
         let heard = self.observer.solved(&record, &self.history.state, kept.as_ref());
         self.history.steps.push(record);
-        self.history.fields.extend(kept);
+        if self.observer.leaves_fields() {
+            self.history.fields.extend(kept);
+        }
         if let Some(cycle) = ended {
             self.observer.cycled(&cycle);
             self.cycle = Some(self.loop_from_here(cycle.cycle + 1));
@@ -367,7 +382,8 @@ impl<'a> Journey<'a> {
             }
         };
         let record = record(&solved, increment, stage, parts, started.elapsed().as_secs_f64());
-        let kept = may_keep.then(|| kept(&solved, increment, &case.output.fields));
+        let kept = may_keep.then(|| kept(&solved, increment, &case.output.fields)).transpose();
+        let kept = kept.map_err(|error| RunError::OutOfMemory { increment, error })?;
         self.place.resultants = solved.outcome.resultants;
         self.place.held = *to;
         self.history.state = solved.state;

@@ -16,10 +16,12 @@ use super::wearing::wear;
 use super::{Case, FIELD_NAMES, GridSize, Origin, Output, Stage};
 use crate::model::{CoulombFriction, Scheme};
 
+/// Cells along one side of the grid, at the least.
+pub const FEWEST_CELLS: usize = 4;
 /// Cells along one side of the grid, at the most.
-const MOST_CELLS: usize = 1 << 14;
+pub const MOST_CELLS: usize = 1 << 14;
 /// Cells of the whole grid, at the most.
-const MOST_CELLS_IN_ALL: usize = 1 << 26;
+pub const MOST_CELLS_IN_ALL: usize = 1 << 26;
 /// Lengths above this, and below its inverse, have powers that are no numbers any more.
 const HUGE: f64 = 1e100;
 /// Length over width of a cell, at the most.
@@ -107,10 +109,10 @@ pub(super) fn case(
 
 fn cells(judge: &mut Judge, given: &Spanned<[usize; 2]>) -> Option<[usize; 2]> {
     let cells = *given.get_ref();
-    if cells.iter().any(|&side| !(4..=MOST_CELLS).contains(&side)) {
+    if cells.iter().any(|&side| !(FEWEST_CELLS..=MOST_CELLS).contains(&side)) {
         return judge.refuse(
             given.span(),
-            format!("grid.cells = {cells:?}: each side needs between 4 and {MOST_CELLS} cells"),
+            format!("grid.cells = {cells:?}: each side needs between {FEWEST_CELLS} and {MOST_CELLS} cells"),
             "64 to 256 cells a side serve most contacts",
         );
     }

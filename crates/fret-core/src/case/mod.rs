@@ -3,7 +3,7 @@
 mod arrays;
 mod attachments;
 mod bodies;
-mod check;
+pub(crate) mod check;
 mod coating;
 mod controls;
 mod course;
