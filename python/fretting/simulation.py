@@ -21,7 +21,7 @@ def run(
         Path of a TOML file, TOML text, or a mapping of the same structure. A ``str`` is a path when it ends with
         ``.toml`` or names an existing file.
     threads : int, optional
-        Worker threads; all cores when not given. The result is the same for any number.
+        Worker threads, from 1 to 1024; all cores when not given. The result is the same for any number.
     progress : bool or callable
         ``True`` writes a line to stderr. A callable is called after every increment with a dict of its numbers (the
         names of ``History.steps``) and ``increments``, the number of all increments; what it raises ends the run.
@@ -37,6 +37,8 @@ def run(
         When the case is refused, with all its mistakes.
     RunError
         When an increment cannot be solved to the tolerance.
+    OutOfMemoryError
+        When there is not the memory for the run and the fields it keeps; it is a ``RunError`` and a ``MemoryError``.
 
     Notes
     -----

@@ -77,7 +77,8 @@ def sweep(
         values stand as text in ``NAME_values``. Variables: the names of ``History.steps``; those of the last cycle
         as ``cycle_dissipated_energy``, ``cycle_energy_ratio``, ``cycle_regime`` and so on (see :class:`History`); ``status``
         (``"solved"``, ``"refused"``, ``"failed"``) and ``error``, the message of a point that was not solved. Numbers
-        of such points are NaN, counts -1, words empty. The attribute ``solved_before`` counts points found in `folder`.
+        of such points are NaN, counts -1, words empty. The attribute ``solved_before`` counts the solved
+        points found in `folder`.
 
     Raises
     ------
@@ -105,8 +106,7 @@ def sweep(
     _import_xarray()
     if keep not in _LENGTH:
         raise ValueError(f"keep = {keep!r}: must be one of {', '.join(_LENGTH)}")
-    if threads is not None and (not isinstance(threads, int) or threads < 1):
-        raise ValueError(f"threads = {threads!r}: must be a whole number from 1, or None")
+    _core.check_threads(threads)
     base = _as_table(base_case)
     found = dimensions(axes)
     asked = list(points(base, found))
@@ -118,7 +118,7 @@ def sweep(
             before = store.finished(point.case)
             if before:
                 answers[point.place] = before
-    solved_before = len(answers)
+    solved_before = sum(answer["status"] == "solved" for answer in answers.values())
     threads = threads or (None if executor is None else 1)
     with _Teller(progress, len(asked), answers.values()) as tell:
         open_points = [point for point in asked if point.place not in answers]

@@ -1,6 +1,6 @@
 //! Why a run ends without its answer.
 
-use crate::case::Stage;
+use crate::case::{Stage, apart};
 use crate::machine::memory::MemoryError;
 use crate::solver::SolveError;
 
@@ -37,7 +37,8 @@ pub enum RunError {
     },
     /// A tangential load above what friction carries.
     #[error(
-        "increment {increment} ({stage}): tangential force {asked:.6e} is above mu W = {bound:.6e}: no equilibrium; prescribe the shift to slide"
+        "increment {increment} ({stage}): tangential force {} is above mu W = {}: no equilibrium; prescribe the shift to slide",
+        apart(*asked, *bound)[0], apart(*asked, *bound)[1]
     )]
     AboveSliding {
         /// Number of the increment, from 0.

@@ -17,7 +17,7 @@ use crate::kernel::{
     Components, PairResponse, ResponseTable, coefficients_of, influence_coefficients, periodic_symbols,
     symbols_of,
 };
-use crate::machine::memory::claim;
+use crate::machine::memory::{Claim, claim};
 use crate::model::{ContactState, CoulombFriction, LoadStep};
 use crate::plan::{Coupling, Plan, Shortcut};
 use crate::recording::{copied, kept, record};
@@ -90,12 +90,20 @@ impl Observer for Silent {}
 #[derive(Debug)]
 pub struct Simulation<'a> {
     plan: &'a Plan,
+    /// Memory that was claimed for it already.
+    claim: Option<Claim>,
 }
 
 impl<'a> Simulation<'a> {
     /// Simulation of a plan.
     pub fn new(plan: &'a Plan) -> Self {
-        Self { plan }
+        Self { plan, claim: None }
+    }
+
+    /// The same in memory that has been claimed for it; else a run claims its own.
+    #[must_use]
+    pub fn within(self, claim: Claim) -> Self {
+        Self { claim: Some(claim), ..self }
     }
 
     /// Runs the whole history. Use inside a thread pool to bound the threads; the bits do not depend on their number.
@@ -117,8 +125,8 @@ impl<'a> Simulation<'a> {
         // Of a history that may end early nobody knows how much it keeps.
         let held = if observer.leaves_fields() && !case.is_open_ended() { plan.kept_bytes } else { 0 };
         let increment = from.place.solved;
-        let _memory = claim(plan.memory_bytes + held)
-            .map_err(|error| RunError::OutOfMemory { increment, error })?;
+        let own = if self.claim.is_none() { Some(claim(plan.memory_bytes + held)) } else { None };
+        let _memory = own.transpose().map_err(|error| RunError::OutOfMemory { increment, error })?;
         let Checkpoint { place, state, memory, cycle, wear } = from;
         let response = self.response();
         let own = response.own_normal(case.cells);

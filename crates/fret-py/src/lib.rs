@@ -39,6 +39,8 @@ mod _core {
     use crate::simulation::run;
     #[pymodule_export]
     use crate::subsurface::subsurface_stress;
+    #[pymodule_export]
+    use crate::threads::{check_memory, check_threads};
 
     #[pymodule_init]
     fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {

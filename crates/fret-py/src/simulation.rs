@@ -18,7 +18,7 @@ use rayon::ThreadPool;
 use crate::case::Case;
 use crate::error::{failed, refused};
 use crate::history::{History, step_items};
-use crate::threads;
+use crate::threads::{self, Threads};
 
 /// Python hears about signals at least so often.
 const PATIENCE: Duration = Duration::from_millis(50);
@@ -73,7 +73,7 @@ impl Observer for Reporter<'_> {
 pub fn run(
     py: Python<'_>,
     case: &Case,
-    threads: Option<usize>,
+    threads: Threads,
     on_step: Option<Py<PyAny>>,
 ) -> PyResult<History> {
     let pool = threads::pool(threads)?;

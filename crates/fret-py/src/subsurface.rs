@@ -10,9 +10,12 @@ use pyo3::prelude::{Bound, PyDictMethods, PyResult, Python, pyfunction};
 use pyo3::types::PyDict;
 
 use crate::error::bad_value;
-use crate::threads::on_pool;
+use crate::threads::{Threads, check_memory, on_pool};
 
 const COMPONENTS: [&str; 6] = ["xx", "yy", "zz", "xy", "xz", "yz"];
+
+/// Numbers a cell that a depth at work takes, at the most: kernels of all components, transforms, fields.
+const WORKING: usize = 150;
 
 /// Tractions: pressure, and shear on the lower body along x and y.
 type TractionArrays<'py> =
@@ -27,7 +30,7 @@ pub fn subsurface_stress<'py>(
     periodic: bool,
     tractions: TractionArrays<'py>,
     depths: Vec<f64>,
-    threads: Option<usize>,
+    threads: Threads,
 ) -> PyResult<Bound<'py, PyDict>> {
     let (text, upper) = bodies;
     let pair: ContactPair = serde_json::from_str(text).map_err(bad_value)?;
@@ -38,9 +41,13 @@ pub fn subsurface_stress<'py>(
     };
     let points = depth_points(half_space, &depths).map_err(bad_value)?;
     let sign = if upper { -1.0 } else { 1.0 };
+    let shape = tractions.0.as_array().dim();
+    let cells = shape.0 * shape.1;
+    // Seven numbers a cell and depth for the answer, and the kernels and fields of the depth at work.
+    let bytes = 8 * cells.saturating_mul(7 * points.len() + WORKING);
+    check_memory(&format!("{} depths of {} x {} cells", points.len(), shape.0, shape.1), bytes)?;
     let pressure: Array2<f64> = tractions.0.as_array().to_owned();
     let shear = tractions.1.map(|(x, y)| [x, y].map(|component| component.as_array().to_owned() * sign));
-    let shape = pressure.dim();
     if shear.as_ref().is_some_and(|shear| shear.iter().any(|component| component.dim() != shape)) {
         return Err(PyValueError::new_err(format!("shear of another shape than the pressure, {shape:?}")));
     }

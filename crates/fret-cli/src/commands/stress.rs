@@ -25,7 +25,7 @@ use crate::output::section::Section;
 use crate::output::vtk::Volume;
 use crate::output::write_whole;
 use crate::terminal;
-use crate::threads::available_threads;
+use crate::threads;
 
 /// Depths chosen by `--auto`.
 const AUTOMATIC: usize = 64;
@@ -46,11 +46,7 @@ pub fn stress(arguments: &StressArguments, as_json: bool) -> Result<(), Failure>
 fn stress_of(arguments: &StressArguments, as_json: bool) -> Result<Value, Failure> {
     let run = FinishedRun::open(&arguments.folder)?;
     let request = requested(arguments, &run);
-    let threads = arguments.threads.map_or_else(available_threads, usize::from);
-    let pool = rayon::ThreadPoolBuilder::new()
-        .num_threads(threads)
-        .build()
-        .map_err(|error| Failure::Call(error.to_string(), "--threads with a smaller number".to_owned()))?;
+    let pool = threads::pool(threads::asked(arguments.threads))?;
     let answer = pool.install(|| computed(&arguments.folder, &run, &request))?;
     if !arguments.quiet && !as_json {
         terminal::answer(&answer.table)?;

@@ -1,5 +1,7 @@
 //! The parser's messages in the words of a case file: keys, tables, lists, numbers and texts.
 
+use std::borrow::Cow;
+
 /// What the parser says about the structure of a case, as its author would say it; other messages stay as they are.
 pub fn in_words(message: &str) -> String {
     let message = message.trim_end();
@@ -33,6 +35,26 @@ pub fn in_words(message: &str) -> String {
         return "fits none of the forms that are allowed here".to_owned();
     }
     message.to_owned()
+}
+
+/// A text as a terminal may have it: control characters, which would steer it, and marks that turn the direction of writing are
+/// shown as `\\u{1b}`; lines and tabs stay.
+pub fn printable(text: &str) -> Cow<'_, str> {
+    let steers = |letter: char| {
+        letter.is_control() && !matches!(letter, '\n' | '\t')
+            || matches!(letter, '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
+    };
+    if !text.chars().any(steers) {
+        return Cow::Borrowed(text);
+    }
+    text.chars().fold(String::new(), |mut shown, letter| {
+        if steers(letter) {
+            shown.extend(letter.escape_unicode());
+        } else {
+            shown.push(letter);
+        }
+        shown
+    }).into()
 }
 
 /// What was found.
