@@ -139,8 +139,8 @@ def main():
             count = totals.get("work", totals).get("convolutions", -1)
             print(
                 f"{name:34} {plan['memory_bytes'] / 1e6:9.1f} {peak / 1e6:9.1f} {plan['memory_bytes'] / peak:6.2f}"
-                f" {plan['convolutions_expected']:8} {count:8} {plan['convolutions_expected'] / count:6.2f}"
-                f" {time_s:8.3g} {taken:8.3g} {time_s / taken:6.2f} {cpu:8.3g} {plan['increments']}",
+                f" {plan['convolutions_expected']:8} {count:8} {(plan['convolutions_expected'] or 0) / count:6.2f}"
+                f" {time_s:8.3g} {taken:8.3g} {time_s / taken:6.2f} {cpu:8.3g} {plan.get('increments_expected')} {answer['increments']}",
                 flush=True,
             )
 

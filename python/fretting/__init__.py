@@ -46,6 +46,7 @@ __all__ = [
     "History",
     "MissingFileError",
     "Mistake",
+    "OutOfMemoryError",
     "Plan",
     "RunError",
     "UnreadableError",

@@ -86,6 +86,8 @@ def sweep(
         When an axis names what the case cannot have, or every point is refused: then the sweep itself is mistaken.
     ImportError
         When xarray is not installed (``pip install fretting[xarray]``).
+    MemoryError
+        When as many points as the executor has workers need more memory than there is.
     concurrent.futures.BrokenExecutor
         When the executor itself breaks down. What is finished stands in `folder`.
 
@@ -120,8 +122,9 @@ def sweep(
                 answers[point.place] = before
     solved_before = sum(answer["status"] == "solved" for answer in answers.values())
     threads = threads or (None if executor is None else 1)
+    open_points = [point for point in asked if point.place not in answers]
+    _fits_memory(open_points, executor)
     with _Teller(progress, len(asked), answers.values()) as tell:
-        open_points = [point for point in asked if point.place not in answers]
         for point, answer, lasting in _solved(open_points, executor, threads, keep, measure):
             if store and lasting:
                 store.keep(point.case, answer)
@@ -132,6 +135,28 @@ def sweep(
         raise CaseError(f"all {len(asked)} points of the sweep are refused; the first:\n{first['error']}",
                         [tuple(mistake) for mistake in first["mistakes"]])  # fmt: skip
     return _dataset(found, answers, keep, {"solved_before": solved_before})
+
+
+def _fits_memory(asked: list[Point], executor: Executor | None) -> None:
+    """Refuse points beside each other that need more memory than there is; where the number of workers is not told, each
+    point finds out by itself."""
+    beside = min(getattr(executor, "_max_workers", 1), len(asked))
+    if beside < 2:
+        return
+
+    def cells(point: Point) -> float:
+        try:
+            nx, ny = point.case["grid"]["cells"]
+            return float(nx) * float(ny)
+        except (KeyError, TypeError, ValueError):
+            return 0.0  # refused when it is read
+
+    largest = max(asked, key=cells)
+    try:
+        needed = _core.memory_needed(_core.Case.from_json(json.dumps(largest.case), largest.name, Path(), []))
+    except CaseError:
+        return
+    _core.check_memory(f"{beside} points of {largest.name} beside each other", beside * needed)
 
 
 def _as_table(case: _case.CaseLike) -> Table:

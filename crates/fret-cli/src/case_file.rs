@@ -50,6 +50,12 @@ impl CaseFile {
         self.path.file_stem().map_or_else(|| PathBuf::from("case"), PathBuf::from)
     }
 
+    /// The case, read.
+    pub fn case(&self) -> Result<Case, CaseError> {
+        let beside = |name: &str| self.attachment(name);
+        Case::from_toml_with(&self.text, &self.name(), Attachments::files(&beside))
+    }
+
     /// The case, read and planned.
     pub fn planned(&self) -> Result<Plan, CaseError> {
         self.planned_leaving_out(LeaveOut::ALL)
@@ -57,9 +63,7 @@ impl CaseFile {
 
     /// The case, read and planned with some shortcuts alone.
     pub fn planned_leaving_out(&self, leave_out: LeaveOut) -> Result<Plan, CaseError> {
-        let beside = |name: &str| self.attachment(name);
-        let case = Case::from_toml_with(&self.text, &self.name(), Attachments::files(&beside))?;
-        Plan::leaving_out(case, leave_out)
+        Plan::leaving_out(self.case()?, leave_out)
     }
 }
 

@@ -49,9 +49,8 @@ pub fn kept(solved: &Increment, increment: usize, names: &[String]) -> Result<Ke
     let asked = |name: &str| names.iter().any(|asked| asked == name);
     let state = &solved.state;
     let one = |name: &str, field: &Array2<f64>| asked(name).then(|| copied(field)).transpose();
-    let two = |name: &str, [x, y]: &[Array2<f64>; 2]| {
-        asked(name).then(|| Ok([copied(x)?, copied(y)?])).transpose()
-    };
+    let two =
+        |name: &str, [x, y]: &[Array2<f64>; 2]| asked(name).then(|| Ok([copied(x)?, copied(y)?])).transpose();
     Ok(KeptFields {
         increment,
         pressure: one("pressure", &state.pressure)?,

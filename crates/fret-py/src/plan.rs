@@ -11,6 +11,14 @@ use crate::case::Case;
 use crate::error::{bad_value, refused};
 use crate::threads::{ALL, on_pool};
 
+/// Memory that a run of a case takes, with the fields it keeps [bytes].
+#[pyfunction]
+pub fn memory_needed(py: Python<'_>, case: &Case) -> PyResult<usize> {
+    let question = case.0.clone();
+    let plan = on_pool(py, ALL, || Plan::new(question))?.map_err(|error| refused(&error))?;
+    Ok(plan.memory_bytes.saturating_add(plan.kept_bytes))
+}
+
 /// Plans a case, and what its run will take where it fits into memory; JSON text.
 #[pyfunction]
 pub fn plan(py: Python<'_>, case: &Case) -> PyResult<String> {

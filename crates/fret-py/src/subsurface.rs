@@ -2,6 +2,7 @@
 
 use fret_core::case::Side;
 use fret_core::model::{Body, ContactPair, SurfaceGrid};
+use fret_core::plan::memory_of_stress;
 use fret_core::subsurface::{LoadedSurface, StressTensor, depth_points, survey};
 use ndarray::{Array2, Array3, Axis};
 use numpy::{IntoPyArray, PyReadonlyArray2};
@@ -13,9 +14,6 @@ use crate::error::bad_value;
 use crate::threads::{Threads, check_memory, on_pool};
 
 const COMPONENTS: [&str; 6] = ["xx", "yy", "zz", "xy", "xz", "yz"];
-
-/// Numbers a cell that a depth at work takes, at the most: kernels of all components, transforms, fields.
-const WORKING: usize = 150;
 
 /// Tractions: pressure, and shear on the lower body along x and y.
 type TractionArrays<'py> =
@@ -43,8 +41,8 @@ pub fn subsurface_stress<'py>(
     let sign = if upper { -1.0 } else { 1.0 };
     let shape = tractions.0.as_array().dim();
     let cells = shape.0 * shape.1;
-    // Seven numbers a cell and depth for the answer, and the kernels and fields of the depth at work.
-    let bytes = 8 * cells.saturating_mul(7 * points.len() + WORKING);
+    // Seven numbers a cell and depth are the answer.
+    let bytes = memory_of_stress(cells, 1).saturating_add(56 * cells.saturating_mul(points.len()));
     check_memory(&format!("{} depths of {} x {} cells", points.len(), shape.0, shape.1), bytes)?;
     let pressure: Array2<f64> = tractions.0.as_array().to_owned();
     let shear = tractions.1.map(|(x, y)| [x, y].map(|component| component.as_array().to_owned() * sign));

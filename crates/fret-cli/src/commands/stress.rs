@@ -9,7 +9,9 @@ use std::path::Path;
 use std::time::Instant;
 
 use fret_core::case::{Side, StressRequest};
+use fret_core::machine::memory;
 use fret_core::model::{Base, Body, HalfSpace};
+use fret_core::plan::memory_of_stress;
 use fret_core::subsurface::largest::look;
 use fret_core::subsurface::{
     DepthPoint, Largest, LoadedSurface, Measure, StressField, automatic_depths, depth_points, survey,
@@ -145,6 +147,7 @@ fn loaded_surfaces(
     let kept = &run.steps;
     let last = kept.len().saturating_sub(1);
     let chosen = kept.iter().enumerate().filter(|(n, _)| (last - n).is_multiple_of(request.every));
+    memory::check(memory_of_stress(run.grid.len(), chosen.clone().count()))?;
     let sign = if request.body == Side::Lower { 1.0 } else { -1.0 };
     let mut surfaces = Vec::new();
     for (_, &increment) in chosen {

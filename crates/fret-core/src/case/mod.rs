@@ -33,8 +33,8 @@ pub use course::{Course, Cycles, Path, Waveform};
 pub use file::schema;
 pub use numbers::{NumbersError, numbers};
 pub use refusal::{CaseError, Mistake};
-pub use stress::{FatigueRequest, Side, StressRequest};
 pub(crate) use stages::apart;
+pub use stress::{FatigueRequest, Side, StressRequest};
 pub use wording::{in_words, printable};
 
 /// Fields that can be kept, by the names of the case file.

@@ -47,14 +47,16 @@ pub fn printable(text: &str) -> Cow<'_, str> {
     if !text.chars().any(steers) {
         return Cow::Borrowed(text);
     }
-    text.chars().fold(String::new(), |mut shown, letter| {
-        if steers(letter) {
-            shown.extend(letter.escape_unicode());
-        } else {
-            shown.push(letter);
-        }
-        shown
-    }).into()
+    text.chars()
+        .fold(String::new(), |mut shown, letter| {
+            if steers(letter) {
+                shown.extend(letter.escape_unicode());
+            } else {
+                shown.push(letter);
+            }
+            shown
+        })
+        .into()
 }
 
 /// What was found.
@@ -126,6 +128,37 @@ mod tests {
             let message = said(good, bad);
             assert!(message.contains(words), "{bad}: {message}");
         }
+    }
+
+    #[test]
+    fn one_mistake_is_told_in_one_message_with_the_right_words() {
+        for (good, bad, words) in [
+            ("[32, 32]", "['a', 'b']", "found the text \"a\", expected a whole number, 0 or more"),
+            ("[32, 32]", "[48.5, 48]", "found 48.5, expected a whole number, 0 or more"),
+            ("[32, 32]", "[-48, 48]", "found -48, expected a whole number, 0 or more"),
+            ("[32, 32]", "[true, 32]", "found true, expected a whole number, 0 or more"),
+            (
+                "'auto'",
+                "[-1e-4, 1e-4]",
+                "grid.size = [-0.0001, 0.0001]: both must be positive finite lengths",
+            ),
+            ("'auto'", "[inf, 1.0]", "grid.size = [inf, 1.0]: both must be positive finite lengths"),
+            (
+                "12.0\nincrements = 4",
+                "'12 N'\ntangential_force = [1.0, 0.0]\nincrements = 4",
+                "found the text \"12 N\", expected a number",
+            ),
+        ] {
+            let message = said(good, bad);
+            assert_eq!(message, words, "{bad}");
+        }
+    }
+
+    #[test]
+    fn a_printable_text_shows_what_would_steer_a_terminal() {
+        assert_eq!(super::printable("press\n\tµ 1"), "press\n\tµ 1");
+        assert_eq!(super::printable("p\u{1b}[31mX\u{7}\u{9b}\r"), "p\\u{1b}[31mX\\u{7}\\u{9b}\\u{d}");
+        assert_eq!(super::printable("a\u{202e}b"), "a\\u{202e}b");
     }
 
     #[test]

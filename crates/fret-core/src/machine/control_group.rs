@@ -94,7 +94,11 @@ mod tests {
             ],
         );
         let groups = "5:cpuset:/docker/a\n4:cpu,memory:/docker/a\n0::/\n";
-        assert_eq!(left_in(groups, &tree.0), Some(4000), "the name is the host's, the root is the container's");
+        assert_eq!(
+            left_in(groups, &tree.0),
+            Some(4000),
+            "the name is the host's, the root is the container's"
+        );
         assert_eq!(left_in("5:cpuset:/docker/a\n", &tree.0), None);
     }
 }

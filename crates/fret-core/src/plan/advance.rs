@@ -30,7 +30,10 @@ pub struct Advance {
 impl Advance {
     /// A run of `case` that has yet to start.
     pub fn new(case: &Case) -> Self {
-        let planned = |stage: &crate::case::Stage| Planned { all: stage.increments_in_all(), of_cycle: stage.increments };
+        let planned = |stage: &crate::case::Stage| Planned {
+            all: stage.increments_in_all(),
+            of_cycle: stage.increments,
+        };
         Self { stages: case.stages.iter().map(planned).collect(), stage: 0, in_cycles: 0, since: 0 }
     }
 

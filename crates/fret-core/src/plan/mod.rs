@@ -11,11 +11,12 @@ use serde::Serialize;
 
 use crate::case::{Case, CaseError, GridSize};
 use crate::kernel::{PairResponse, cells_too_coarse_for_incompressible_film};
-use crate::model::{Body, SurfaceGrid, Symmetry};
 use crate::machine::memory::{MemoryError, claim};
+use crate::model::{Body, SurfaceGrid, Symmetry};
 pub use crate::solver::{Coupling, LeaveOut, Shortcut};
 pub use advance::Advance;
 use extent::{automatic_size, reaches_beyond};
+pub use memory::of_stress as memory_of_stress;
 
 /// Something the scene does not need.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]

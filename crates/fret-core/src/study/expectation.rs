@@ -21,16 +21,14 @@ use crate::simulation::{Iteration, Observer, Simulation};
 
 /// Cells along the longer side of the coarse run.
 const COARSE: usize = 32;
-/// Cells of the largest grid that is solved as it is, where the case has no other.
+/// Cells of a grid that is tried as it is.
+const SMALL: usize = 64 * 64;
+/// Cells of the largest grid that is tried as it is, where the case has no other.
 const LARGEST_TRIAL: usize = 128 * 128;
 /// Time the coarse run may take; a longer one is broken off, and its counts are carried on to the end.
 const PATIENCE: Duration = Duration::from_millis(400);
 /// Cells along a side of the largest grid on which products are timed; those of larger ones are scaled.
 const LARGEST_TIMED: usize = 256;
-/// Products that are timed: the quickest counts.
-const TIMES: usize = 3;
-/// Cells along a side of the grid on which influence coefficients are timed.
-const COEFFICIENTS: usize = 48;
 
 /// What a run is expected to take.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -45,7 +43,10 @@ pub struct Expectation {
     pub seconds: f64,
 }
 
-/// What a kind of case needs.
+/// Products are timed for so long: the quickest counts, since other work on the machine only makes them slower.
+const TIMING: Duration = Duration::from_millis(80);
+
+/// What a kind of case needs; times are those of the machine that `benches/expected_cost.py` was run on last, one thread.
 struct Habit {
     /// Operator applications an increment on [`COARSE`] cells, where nothing better is known.
     convolutions: f64,
@@ -53,19 +54,58 @@ struct Habit {
     growth: f64,
     /// The same of those weighted by their fraction of the grid.
     growth_on_grid: f64,
+    /// Time of a product a cell and power of two of the padded grid [s].
+    product: f64,
     /// Time of a weighted application, with all that is done between two, over that of the product alone.
     overhead: f64,
+    /// Time to make the operators [s a cell].
+    operators: f64,
 }
+
+/// Time to begin and to end a run [s].
+const ENDS: f64 = 0.02;
+/// Time of an increment beside its applications: its records, its line, its checkpoint [s].
+const INCREMENT: f64 = 3e-4;
+/// The same a cell: states, the edge of contact, the check on the whole grid, the checkpoint [s].
+const INCREMENT_CELL: f64 = 0.26e-6;
+/// Time to write a kept field to the disk [s a byte].
+const KEPT_BYTE: f64 = 2e-9;
 
 impl Habit {
     fn of(plan: &Plan) -> Self {
-        match (plan.coupling, plan.case.periodic) {
-            (Coupling::Frictionless, false) => Self { convolutions: 14.0, growth: 0.14, growth_on_grid: 0.0, overhead: 3.0 },
-            (Coupling::Frictionless, true) => Self { convolutions: 20.0, growth: 0.02, growth_on_grid: 0.02, overhead: 1.5 },
-            (Coupling::Uncoupled, false) => Self { convolutions: 15.0, growth: 0.2, growth_on_grid: 0.2, overhead: 2.0 },
-            (Coupling::Coupled, false) => Self { convolutions: 20.0, growth: 0.2, growth_on_grid: 0.2, overhead: 1.3 },
-            (_, true) => Self { convolutions: 25.0, growth: 0.1, growth_on_grid: 0.1, overhead: 1.3 },
+        let [alone, periodic] = [!plan.case.periodic, plan.case.periodic];
+        match plan.coupling {
+            Coupling::Frictionless => Self {
+                convolutions: 13.0,
+                growth: if periodic { 0.1 } else { 0.25 },
+                growth_on_grid: if alone { 0.0 } else { 0.1 },
+                product: 1.2e-9,
+                overhead: 2.0,
+                operators: 0.35e-6,
+            },
+            Coupling::Uncoupled => Self {
+                convolutions: 14.0,
+                growth: 0.25,
+                growth_on_grid: 0.21,
+                product: 2.0e-9,
+                overhead: 1.7,
+                operators: 0.6e-6,
+            },
+            Coupling::Coupled => Self {
+                convolutions: 20.0,
+                growth: 0.25,
+                growth_on_grid: 0.21,
+                product: 2.7e-9,
+                overhead: if alone { 2.5 } else { 1.0 },
+                operators: 0.8e-6,
+            },
         }
+    }
+
+    /// Time of a product on a grid in front of its mirrors [s].
+    fn product_seconds(&self, [nx, ny]: [usize; 2]) -> f64 {
+        let cells = (nx * ny) as f64;
+        self.product * cells * (4.0 * cells).log2()
     }
 }
 
@@ -76,11 +116,15 @@ pub fn expectation(plan: &Plan) -> Expectation {
     let doublings = (0.5 * (plan.grid.len() as f64 / cells as f64).ln() / LN_2).max(0.0);
     let convolutions = convolutions * (1.0 + habit.growth * doublings);
     let on_grid = on_grid * (1.0 + habit.growth_on_grid * doublings);
+    let cells = plan.grid.len() as f64;
+    let products = habit.overhead * on_grid * habit.product_seconds(plan.symmetry.part_of(plan.case.cells));
+    let around = ENDS + cells * habit.operators + increments * (INCREMENT + cells * INCREMENT_CELL);
+    let written = KEPT_BYTE * plan.kept_bytes as f64 * increments / plan.increments as f64;
     Expectation {
         increments: increments.round() as usize,
         convolutions: convolutions.round() as usize,
         full_grid_convolutions: on_grid,
-        seconds: coefficient_seconds(plan) + habit.overhead * on_grid * product_seconds(plan),
+        seconds: table_seconds(plan) + slowness(plan, &habit) * (around + products) + written,
     }
 }
 
@@ -96,11 +140,16 @@ struct Counts {
 fn counts(plan: &Plan, habit: &Habit) -> Counts {
     let trial = trial(plan);
     let solved = trial.as_ref().and_then(|trial| {
-        let mut count = Count { started: Instant::now(), advance: Advance::new(&trial.case), solved: 0, work: Work::default() };
-        // However it ends: what was solved until then is what is known.
-        let _ = Simulation::new(trial).run(&mut count);
+        let mut count = Count {
+            started: Instant::now(),
+            advance: Advance::new(&trial.case),
+            solved: 0,
+            work: Work::default(),
+        };
+        // However it ends: what was solved until then is what is known, and all there is when it ends well.
+        let is_whole = Simulation::new(trial).run(&mut count).is_ok();
         let passed = count.advance.passed();
-        let rest = count.advance.planned() as f64 / passed as f64;
+        let rest = if is_whole { 1.0 } else { count.advance.planned() as f64 / passed as f64 };
         (passed > 0).then(|| Counts {
             increments: count.solved as f64 * rest,
             convolutions: count.work.convolutions as f64 * rest,
@@ -110,7 +159,12 @@ fn counts(plan: &Plan, habit: &Habit) -> Counts {
     });
     solved.unwrap_or_else(|| {
         let convolutions = plan.increments as f64 * habit.convolutions;
-        Counts { increments: plan.increments as f64, convolutions, on_grid: convolutions, cells: COARSE * COARSE }
+        Counts {
+            increments: plan.increments as f64,
+            convolutions,
+            on_grid: convolutions,
+            cells: COARSE * COARSE,
+        }
     })
 }
 
@@ -119,7 +173,7 @@ fn trial(plan: &Plan) -> Option<Plan> {
     let own = Variation::of(plan);
     let [nx, ny] = own.cells;
     let shrinking = (nx.max(ny) as f64 / COARSE as f64).max(1.0);
-    let cells = if super::ladder::only_one_grid(plan).is_ok() {
+    let cells = if plan.grid.len() > SMALL && super::ladder::only_one_grid(plan).is_ok() {
         own.cells.map(|side| ((side as f64 / shrinking).round() as usize).max(4).min(side))
     } else {
         own.cells
@@ -172,18 +226,16 @@ fn components(plan: &Plan) -> Components {
     }
 }
 
-/// Time to compute the influence coefficients [s]: that of few cells, scaled.
-fn coefficient_seconds(plan: &Plan) -> f64 {
-    let cells = plan.case.cells.map(|side| side.min(COEFFICIENTS));
+/// Time to tabulate how the pair answers [s], which depends on the layers and hardly on the grid.
+fn table_seconds(plan: &Plan) -> f64 {
     let started = Instant::now();
-    let _ = influence_coefficients(&plan.case.bodies, cells, plan.grid.spacing(), components(plan));
-    started.elapsed().as_secs_f64() * plan.grid.len() as f64 / (cells[0] * cells[1]) as f64
+    let _ = influence_coefficients(&plan.case.bodies, [2, 2], plan.grid.spacing(), components(plan));
+    started.elapsed().as_secs_f64()
 }
 
-/// Time of one product with the operators on the plan's grid, in front of its mirrors [s].
-fn product_seconds(plan: &Plan) -> f64 {
-    let part = plan.symmetry.part_of(plan.case.cells);
-    let timed = part.map(|side| side.min(LARGEST_TIMED));
+/// How many times as long as in the table of habits a product takes on this machine, with the threads at hand.
+fn slowness(plan: &Plan, habit: &Habit) -> f64 {
+    let timed = plan.symmetry.part_of(plan.case.cells).map(|side| side.min(LARGEST_TIMED));
     let whole = plan.symmetry.whole_of(timed);
     let any = |wanted: bool| wanted.then(|| Array2::from_elem(whole, 1.0));
     let Components { normal, tangential, coupling } = components(plan);
@@ -203,7 +255,7 @@ fn product_seconds(plan: &Plan) -> f64 {
         symmetry: plan.symmetry,
         ..Wanted::default()
     };
-    let Ok(mut operators) = SpectralCompliance::new(&response, timed, wanted) else { return 0.0 };
+    let Ok(mut operators) = SpectralCompliance::new(&response, timed, wanted) else { return 1.0 };
     let cells = timed[0] * timed[1];
     let tractions = vec![1.0; cells];
     let mut displacements = [vec![0.0; cells], vec![0.0; cells], vec![0.0; cells]];
@@ -216,7 +268,10 @@ fn product_seconds(plan: &Plan) -> f64 {
         }
         started.elapsed().as_secs_f64()
     };
-    let quickest = (0..TIMES).map(|_| once(&mut operators, &mut displacements)).fold(f64::INFINITY, f64::min);
-    let work = |[nx, ny]: [usize; 2]| (nx * ny) as f64 * (4.0 * (nx * ny) as f64).log2();
-    quickest * work(part) / work(timed)
+    let started = Instant::now();
+    let mut quickest = f64::INFINITY;
+    while started.elapsed() < TIMING {
+        quickest = quickest.min(once(&mut operators, &mut displacements));
+    }
+    quickest / habit.product_seconds(timed)
 }
