@@ -7,7 +7,8 @@
 
 use std::fmt;
 use std::hint::black_box;
-use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::sync::{Mutex, MutexGuard, TryLockError};
+use std::time::{Duration, Instant};
 
 use sysinfo::{MemoryRefreshKind, Pid, ProcessRefreshKind, ProcessesToUpdate, System};
 
@@ -100,15 +101,19 @@ pub fn available() -> Available {
 #[must_use = "a claim counts while it lives"]
 pub struct Claim(u64);
 
-/// All claims of the process.
+/// All claims of a process.
 struct Claims {
+    /// Its number: a fork inherits the memory, and none of the work.
+    process: u32,
     /// Their sum [bytes].
     sum: u64,
     /// Memory the process held before the first of them [bytes].
     before: u64,
 }
 
-static CLAIMS: Mutex<Claims> = Mutex::new(Claims { sum: 0, before: 0 });
+static CLAIMS: Mutex<Claims> = Mutex::new(Claims { process: 0, sum: 0, before: 0 });
+/// Nobody holds the claims for longer than this; who does was at it when this process was forked, and does so for ever.
+const PATIENCE: Duration = Duration::from_secs(1);
 
 /// Claims memory for work that is about to start [bytes].
 ///
@@ -117,17 +122,23 @@ static CLAIMS: Mutex<Claims> = Mutex::new(Claims { sum: 0, before: 0 });
 pub fn claim(bytes: usize) -> Result<Claim, MemoryError> {
     let needed = bytes as u64;
     let mut claims = claims();
-    if claims.sum == 0 {
-        claims.before = resident();
+    let mut outstanding = 0;
+    if let Some(claims) = claims.as_mut() {
+        let now = resident();
+        if claims.sum == 0 {
+            claims.before = now;
+        }
+        outstanding = claims.sum.saturating_sub(now.saturating_sub(claims.before));
     }
-    let outstanding = claims.sum.saturating_sub(resident().saturating_sub(claims.before));
     let mut available = available();
     available.bytes = available.bytes.saturating_sub(outstanding);
     if needed > available.bytes {
         return Err(MemoryError::TooLittle { needed, available });
     }
     reserve(needed + outstanding)?;
-    claims.sum += needed;
+    if let Some(claims) = claims.as_mut() {
+        claims.sum += needed;
+    }
     Ok(Claim(needed))
 }
 
@@ -141,13 +152,29 @@ pub fn check(bytes: usize) -> Result<(), MemoryError> {
 
 impl Drop for Claim {
     fn drop(&mut self) {
-        let mut claims = claims();
-        claims.sum = claims.sum.saturating_sub(self.0);
+        if let Some(mut claims) = claims() {
+            claims.sum = claims.sum.saturating_sub(self.0);
+        }
     }
 }
 
-fn claims() -> MutexGuard<'static, Claims> {
-    CLAIMS.lock().unwrap_or_else(PoisonError::into_inner)
+/// The claims of this process; nothing where they cannot be had.
+fn claims() -> Option<MutexGuard<'static, Claims>> {
+    let started = Instant::now();
+    let mut claims = loop {
+        match CLAIMS.try_lock() {
+            Ok(claims) => break claims,
+            Err(TryLockError::Poisoned(poisoned)) => break poisoned.into_inner(),
+            Err(TryLockError::WouldBlock) if started.elapsed() < PATIENCE => {
+                std::thread::sleep(Duration::from_millis(1));
+            }
+            Err(TryLockError::WouldBlock) => return None,
+        }
+    };
+    if claims.process != std::process::id() {
+        *claims = Claims { process: std::process::id(), sum: 0, before: 0 };
+    }
+    Some(claims)
 }
 
 /// Takes so much memory from the system and gives it back untouched.

@@ -63,12 +63,13 @@ struct Habit {
 }
 
 /// Time to begin and to end a run [s].
-const ENDS: f64 = 0.02;
+const ENDS: f64 = 0.04;
 /// Time of an increment beside its applications: its records, its line, its checkpoint [s].
 const INCREMENT: f64 = 3e-4;
 /// The same a cell: states, the edge of contact, the check on the whole grid, the checkpoint [s].
 const INCREMENT_CELL: f64 = 0.26e-6;
-/// Time to write a kept field to the disk [s a byte].
+/// Time to write a kept field to the disk [s], and a byte of it.
+const KEPT_FIELD: f64 = 1e-3;
 const KEPT_BYTE: f64 = 2e-9;
 
 impl Habit {
@@ -119,7 +120,9 @@ pub fn expectation(plan: &Plan) -> Expectation {
     let cells = plan.grid.len() as f64;
     let products = habit.overhead * on_grid * habit.product_seconds(plan.symmetry.part_of(plan.case.cells));
     let around = ENDS + cells * habit.operators + increments * (INCREMENT + cells * INCREMENT_CELL);
-    let written = KEPT_BYTE * plan.kept_bytes as f64 * increments / plan.increments as f64;
+    let fields = plan.case.kept_increments().len() * plan.case.output.fields.len();
+    let reached = increments / plan.increments as f64;
+    let written = reached * (KEPT_FIELD * fields as f64 + KEPT_BYTE * plan.kept_bytes as f64);
     Expectation {
         increments: increments.round() as usize,
         convolutions: convolutions.round() as usize,
