@@ -25,7 +25,7 @@ const EACH_CELL: usize = 16;
 /// iterations. In a case that repeats nothing is padded, and the inverse is exact.
 fn bytes_per_cell(coupling: Coupling, periodic: bool) -> [usize; 2] {
     match (coupling, periodic) {
-        (Coupling::Frictionless, _) => [105, 190],
+        (Coupling::Frictionless, _) => [120, 190],
         (Coupling::Uncoupled, false) => [296, 460],
         (Coupling::Uncoupled, true) => [296, 320],
         (Coupling::Coupled, false) => [380, 1020],

@@ -80,7 +80,7 @@ impl Habit {
                 convolutions: 13.0,
                 growth: if periodic { 0.1 } else { 0.25 },
                 growth_on_grid: if alone { 0.0 } else { 0.1 },
-                product: 1.2e-9,
+                product: 0.75e-9,
                 overhead: 2.0,
                 operators: 0.35e-6,
             },
