@@ -15,7 +15,7 @@ from fretting import _case, _core, cycles
 from fretting._points import RESERVED, Axes, Dimension, Point, Table, dimensions, points
 from fretting._progress import PointLine
 from fretting._sweep_folder import SweepFolder, with_files_in
-from fretting.errors import CaseError, RunError
+from fretting.errors import CaseError, OutOfMemoryError, RunError
 from fretting.history import MEANING, History
 
 if TYPE_CHECKING:
@@ -195,6 +195,8 @@ def _solve(task: _Task) -> Table:
         history = History(_core.run(_core.Case.from_json(task.text, task.name, Path(), []), task.threads, None))
     except CaseError as error:
         return {**nothing, "status": "refused", "error": str(error), "mistakes": [list(m) for m in error.mistakes]}
+    except OutOfMemoryError:
+        raise  # no answer of the point: there may be room for it another time
     except RunError as error:
         return {**nothing, "status": "failed", "error": str(error)}
     rows = _rows(history, task.keep)

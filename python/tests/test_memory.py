@@ -14,7 +14,7 @@ import resource
 import fretting
 
 case = {
-    "grid": {"cells": [1024, 1024], "size": "auto"},
+    "grid": {"cells": [2048, 2048], "size": "auto"},
     "upper": {"rigid": True},
     "lower": {"substrate": {"young": 210e9, "poisson": 0.3}},
     "profile": {"sphere": {"radius": 10e-3}},
@@ -24,7 +24,7 @@ case = {
 }
 small = {**case, "grid": {"cells": [64, 64], "size": "auto"}}
 fretting.run(small, threads=2)
-resource.setrlimit(resource.RLIMIT_AS, (int(1.2e9), -1))
+resource.setrlimit(resource.RLIMIT_AS, (int(1.5e9), -1))
 try:
     fretting.run(case, threads=2)
 except MemoryError as error:

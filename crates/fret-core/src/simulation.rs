@@ -111,7 +111,8 @@ impl<'a> Simulation<'a> {
     /// # Errors
     /// When an increment cannot be solved, a cycle wears more than the grid can follow, or the observer stops the run.
     pub fn run(&self, observer: &mut dyn Observer) -> Result<History, RunError> {
-        self.resume(Checkpoint::start(self.plan), observer)
+        let _memory = self.memory(observer.leaves_fields(), 0)?;
+        self.journey(Checkpoint::start(self.plan), observer)
     }
 
     /// Runs what is left of the history after a checkpoint of this plan, with the bits of an unbroken run. The history that is
@@ -120,13 +121,23 @@ impl<'a> Simulation<'a> {
     /// # Errors
     /// As [`Simulation::run`].
     pub fn resume(&self, from: Checkpoint, observer: &mut dyn Observer) -> Result<History, RunError> {
+        let _memory = self.memory(observer.leaves_fields(), from.place.solved)?;
+        self.journey(from, observer)
+    }
+
+    /// Claims the memory of a run that starts with an increment, where that has not been done before.
+    fn memory(&self, holds_fields: bool, increment: usize) -> Result<Option<Claim>, RunError> {
+        // Of a history that may end early nobody knows how much it keeps.
+        let holds = holds_fields && !self.plan.case.is_open_ended();
+        let kept = if holds { self.plan.kept_bytes } else { 0 };
+        let needed = self.plan.memory_bytes.saturating_add(kept);
+        let own = self.claim.is_none().then(|| claim(needed)).transpose();
+        own.map_err(|error| RunError::OutOfMemory { increment, error })
+    }
+
+    fn journey(&self, from: Checkpoint, observer: &mut dyn Observer) -> Result<History, RunError> {
         let plan = self.plan;
         let case = &plan.case;
-        // Of a history that may end early nobody knows how much it keeps.
-        let held = if observer.leaves_fields() && !case.is_open_ended() { plan.kept_bytes } else { 0 };
-        let increment = from.place.solved;
-        let own = if self.claim.is_none() { Some(claim(plan.memory_bytes + held)) } else { None };
-        let _memory = own.transpose().map_err(|error| RunError::OutOfMemory { increment, error })?;
         let Checkpoint { place, state, memory, cycle, wear } = from;
         let response = self.response();
         let own = response.own_normal(case.cells);
