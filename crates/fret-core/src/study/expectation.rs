@@ -25,8 +25,11 @@ const COARSE: usize = 32;
 const SMALL: usize = 64 * 64;
 /// Cells of the largest grid that is tried as it is, where the case has no other.
 const LARGEST_TRIAL: usize = 128 * 128;
-/// Time the coarse run may take; a longer one is broken off, and its counts are carried on to the end.
-const PATIENCE: Duration = Duration::from_millis(400);
+/// Operator applications times cells that the coarse run may take, about half a second: a longer one is broken off after an increment,
+/// and its counts are carried on to the end. A count, so that the same is expected however busy the machine is.
+const ENOUGH: usize = 6_000_000;
+/// Time after which a coarse run is broken off all the same.
+const PATIENCE: Duration = Duration::from_secs(1);
 /// Cells along a side of the largest grid on which products are timed; those of larger ones are scaled.
 const LARGEST_TIMED: usize = 256;
 
@@ -43,6 +46,8 @@ pub struct Expectation {
     pub seconds: f64,
 }
 
+/// What an application is worth, in boxes and on coarser grids, over one on the whole grid, where nothing better is known.
+const IN_BOXES: f64 = 0.3;
 /// Products are timed for so long: the quickest counts, since other work on the machine only makes them slower.
 const TIMING: Duration = Duration::from_millis(80);
 
@@ -145,6 +150,7 @@ fn counts(plan: &Plan, habit: &Habit) -> Counts {
     let solved = trial.as_ref().and_then(|trial| {
         let mut count = Count {
             started: Instant::now(),
+            enough: ENOUGH / trial.grid.len(),
             advance: Advance::new(&trial.case),
             solved: 0,
             work: Work::default(),
@@ -165,7 +171,7 @@ fn counts(plan: &Plan, habit: &Habit) -> Counts {
         Counts {
             increments: plan.increments as f64,
             convolutions,
-            on_grid: convolutions,
+            on_grid: IN_BOXES * convolutions,
             cells: COARSE * COARSE,
         }
     })
@@ -185,9 +191,11 @@ fn trial(plan: &Plan) -> Option<Plan> {
     (coarse.grid.len() <= LARGEST_TRIAL).then_some(coarse)
 }
 
-/// Counts work until its patience is over.
+/// Counts work until it is enough.
 struct Count {
     started: Instant,
+    /// Applications that are enough.
+    enough: usize,
     advance: Advance,
     solved: usize,
     work: Work,
@@ -195,7 +203,8 @@ struct Count {
 
 impl Count {
     fn go_on(&self) -> ControlFlow<()> {
-        if self.started.elapsed() > PATIENCE { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        let is_enough = self.work.convolutions > self.enough || self.started.elapsed() > PATIENCE;
+        if is_enough { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     }
 }
 
