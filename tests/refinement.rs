@@ -115,7 +115,7 @@ fn closed_forms_are_recognised() {
 fn impossible_ladders_are_refused() {
     let sphere = Sphere { friction: 0.3, ..Sphere::default() };
     let plan = planned(&sphere.pulled(&sphere.pressed(1.0, 1, "linear"), 0.5, 8, Some(1)));
-    assert_eq!(Ladder::new(&plan, &[2, 32], &[], &[]), Err(LadderError::Cells(2)));
+    assert_eq!(Ladder::new(&plan, &[2, 32], &[], &[]), Err(LadderError::Cells(2, 2)));
     assert_eq!(Ladder::new(&plan, &[], &[3], &[]), Err(LadderError::Increments(3, "pull".to_owned(), 4)));
     assert_eq!(Ladder::new(&plan, &[], &[], &[0.5]), Err(LadderError::Tolerance(0.5)));
 }

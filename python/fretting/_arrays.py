@@ -5,6 +5,8 @@ from typing import TypeAlias
 import numpy as np
 import numpy.typing as npt
 
+from fretting import _core
+
 Reals: TypeAlias = npt.NDArray[np.float64]
 
 
@@ -38,12 +40,6 @@ def room_for(what: str, reals: int) -> None:
     Raises
     ------
     MemoryError
-        When the system would not give room for so many real numbers at once.
+        When the machine and the limits of this process leave less than so many real numbers need.
     """
-    try:
-        if reals < 1 << 60:
-            np.empty(reals)  # never touched, so it costs nothing
-            return
-    except MemoryError:
-        pass
-    raise MemoryError(f"{what}: needs about {reals * 8 / 2**30:.3g} GiB at once")
+    _core.check_memory(what, min(8 * reals, 2**63 - 1))

@@ -50,6 +50,8 @@ def read(case: CaseLike) -> _core.Case:
 def text_of(case: str | os.PathLike[str]) -> tuple[str, str, Path]:
     """Return the TOML text of a case that is no mapping, the name that stands in messages, and the folder of its files."""
     if isinstance(case, str) and not _is_path(case):
+        if _is_folder(case):
+            raise _unreadable(Path(case), OSError())
         return case, "case", Path()
     if isinstance(case, str | os.PathLike):
         path = Path(case)
@@ -87,7 +89,20 @@ def _is_path(text: str) -> bool:
         return False
 
 
-def plain(value: object, place: str, arrays: list[Reals] | None = None) -> Json:
+def _is_folder(text: str) -> bool:
+    if "\n" in text:
+        return False
+    try:
+        return Path(text).is_dir()
+    except (OSError, ValueError):
+        return False
+
+
+_DEEPEST = 16
+"""Tables and lists deeper than this are no case, as in a file."""
+
+
+def plain(value: object, place: str, arrays: list[Reals] | None = None, depth: int = 0) -> Json:
     """Turn a value of a case into what JSON can say.
 
     NumPy scalars and arrays become numbers and lists; with a list `arrays`, those for every cell are put aside into it, and
@@ -102,7 +117,7 @@ def plain(value: object, place: str, arrays: list[Reals] | None = None) -> Json:
         arrays.append(_field(value, place))
         return {"array": len(arrays) - 1}
     if isinstance(value, np.generic | np.ndarray):
-        return plain(value.tolist(), place, arrays)
+        return plain(value.tolist(), place, arrays, depth)
     if value is None or isinstance(value, bool | int | str):
         return value
     if isinstance(value, float):
@@ -111,13 +126,17 @@ def plain(value: object, place: str, arrays: list[Reals] | None = None) -> Json:
         return value
     if isinstance(value, os.PathLike):
         return str(Path(value))
+    if depth > _DEEPEST:
+        raise _refusal("case", f"tables and lists nested deeper than {_DEEPEST}, or one inside itself: not a case")
     if isinstance(value, Mapping):
         for key in value:
             if not isinstance(key, str):
                 raise _refusal("case", f"{place or 'the case'} has the key {key!r}: keys are words")
-        return {key: plain(item, f"{place}.{key}" if place else key, arrays) for key, item in value.items()}
+        return {
+            key: plain(item, f"{place}.{key}" if place else key, arrays, depth + 1) for key, item in value.items()
+        }
     if isinstance(value, Sequence) and not isinstance(value, bytes | bytearray):
-        return [plain(item, f"{place}[{index}]", arrays) for index, item in enumerate(value)]
+        return [plain(item, f"{place}[{index}]", arrays, depth + 1) for index, item in enumerate(value)]
     raise _refusal("case", f"{place}: {type(value).__name__} is not a number, a word, a list or a table")
 
 

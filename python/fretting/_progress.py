@@ -52,14 +52,15 @@ class ProgressLine(_Line):
         """Start the clock."""
         return self
 
-    def __call__(self, step: dict[str, Any], increments: int) -> None:
+    def __call__(self, step: dict[str, Any], increments: int, passed: int) -> None:
         """Tell about a step, unless the last one was told just now."""
         done = step["increment"] + 1
-        left = self.due(done, increments)
+        left = self.due(passed, increments)
         if left is not None:
             regime = step["regime"].replace("_", " ")
+            solved = f"{done} of {increments} solved" if passed == done else f"{done} solved for {passed} of {increments}"
             number, residual = step["increment"], f"residual {step['residual']:.1e}"
-            self.write(f"increment {number}  {regime}  {residual}  {done} of {increments} solved, {left:.0f} s left")
+            self.write(f"increment {number}  {regime}  {residual}  {solved}, {left:.0f} s left")
 
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None

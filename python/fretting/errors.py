@@ -82,3 +82,10 @@ class RunError(FrettingError, RuntimeError):
     def __init__(self, message: str, increment: int = -1) -> None:
         super().__init__(message)
         self.increment = increment
+
+
+class OutOfMemoryError(RunError, MemoryError):
+    """A run needs more memory than the machine, a container, a batch job or ``ulimit -v`` leaves; nothing was begun that could
+    not be ended."""
+
+    __module__ = "fretting"

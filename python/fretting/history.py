@@ -1,6 +1,7 @@
 """The answer of a run."""
 
 import json
+import operator
 from typing import TYPE_CHECKING, Any, Literal, Protocol, Self, get_args
 
 import numpy as np
@@ -200,13 +201,16 @@ class History:
             When the field is not kept; the message lists what is. ``[output]`` of the case says what to keep.
         IndexError
             When there is no such increment.
+        TypeError
+            When `step` is no whole number.
         """
         if name not in FIELD_NAMES:
             raise KeyError(f"no field is called {name!r}; fields are: {', '.join(FIELD_NAMES)}")
+        step = _whole("step", step)
         count = len(self)
         if not -count <= step < count:
             raise IndexError(f"step {step}: the history has {count} increments")
-        increment = int(step) % count
+        increment = step % count
         kept = self._kept.kept_fields(increment)
         if not kept:
             raise KeyError(
@@ -324,6 +328,16 @@ class History:
     def _repr_html_(self) -> str:
         """Return the same as a table, for notebooks."""
         return plot.html_table("fretting.History", self._facts())
+
+
+def _whole(name: str, number: object) -> int:
+    """Return a number that counts as an int; a truth value, a text or a fraction does not count."""
+    if isinstance(number, bool | np.bool_):
+        raise TypeError(f"{name} = {number!r}: must be a whole number")
+    try:
+        return operator.index(number)  # type: ignore[arg-type]
+    except TypeError:
+        raise TypeError(f"{name} = {number!r}: must be a whole number") from None
 
 
 def _listed(steps: list[int]) -> str:

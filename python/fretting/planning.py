@@ -22,7 +22,9 @@ class Plan(Mapping[str, Any]):
     """A case made numerical: a read-only mapping.
 
     Keys are ``case``, ``grid`` (``cells``, ``spacing``), ``coupling`` (``"frictionless"``, ``"uncoupled"`` or
-    ``"coupled"``), ``increments``, ``memory_bytes``, ``convolutions_expected`` and ``left_out``.
+    ``"coupled"``), ``increments``, ``memory_bytes`` (without the kept fields), ``kept_bytes`` (those), ``left_out``; and what the run
+    is expected to take on this machine: ``increments_expected``, ``convolutions_expected``, ``seconds_expected``, all None
+    where ``memory_lacking`` says that it has not the memory for it.
     """
 
     def __init__(self, entries: dict[str, Any]) -> None:
@@ -51,10 +53,18 @@ class Plan(Mapping[str, Any]):
         dx, dy = self["grid"]["spacing"]
         lines = [
             f"Plan: {nx} x {ny} cells of {dx:.4g} x {dy:.4g}, {self['increments']} increments, {self['coupling']}",
-            f"  about {self['convolutions_expected']} convolutions, {self['memory_bytes'] / 2**20:.1f} MiB at the most",
+            f"  memory about {_amount(self['memory_bytes'])}, kept fields {_amount(self['kept_bytes'])}",
+            f"  {self._expected()}",
         ]
         lines += [f"  left out: {entry['what']} ({entry['why']})" for entry in self.left_out]
         return "\n".join(lines)
+
+    def _expected(self) -> str:
+        """Return what the run will take, in words."""
+        if self["memory_lacking"]:
+            return str(self["memory_lacking"])
+        counts = f"{self['convolutions_expected']} convolutions in {self['increments_expected']} increments"
+        return f"about {counts}, {self['seconds_expected']:.2g} s"
 
     def _repr_html_(self) -> str:
         """Return the same as a table, for notebooks."""
@@ -63,15 +73,21 @@ class Plan(Mapping[str, Any]):
             ("cells", f"{nx} x {ny} of {dx:.4g} x {dy:.4g}"),
             ("increments", str(self["increments"])),
             ("coupling", str(self["coupling"])),
-            ("convolutions expected", str(self["convolutions_expected"])),
-            ("memory at the most", f"{self['memory_bytes'] / 2**20:.1f} MiB"),
+            ("memory at the most", _amount(self["memory_bytes"])),
+            ("kept fields", _amount(self["kept_bytes"])),
+            ("expected", self._expected()),
         ]
         facts += [(f"left out: {entry['what']}", entry["why"]) for entry in self.left_out]
         return plot.html_table("fretting.Plan", facts)
 
 
+def _amount(count: int) -> str:
+    """Return an amount of memory as a person reads it."""
+    return f"{count / 1e6:.1f} MB" if count < 1e9 else f"{count / 1e9:.1f} GB"
+
+
 def plan(case: _case.CaseLike) -> Plan:
-    """Plan a case: sizes, expected work, and what is left out and why. Computes nothing heavy.
+    """Plan a case: sizes, expected work, and what is left out and why. Computes nothing heavy: less than a second.
 
     Parameters
     ----------

@@ -21,10 +21,11 @@ def run(
         Path of a TOML file, TOML text, or a mapping of the same structure. A ``str`` is a path when it ends with
         ``.toml`` or names an existing file.
     threads : int, optional
-        Worker threads; all cores when not given. The result is the same for any number.
+        Worker threads, from 1 to 1024; all cores when not given. The result is the same for any number.
     progress : bool or callable
         ``True`` writes a line to stderr. A callable is called after every increment with a dict of its numbers (the
-        names of ``History.steps``) and ``increments``, the number of all increments; what it raises ends the run.
+        names of ``History.steps``), ``increments``, the number of all that are planned, and ``passed``, how many of these
+        are behind the run: cycles that a computed one stands for count. What it raises ends the run.
 
     Returns
     -------
@@ -37,6 +38,8 @@ def run(
         When the case is refused, with all its mistakes.
     RunError
         When an increment cannot be solved to the tolerance.
+    OutOfMemoryError
+        When there is not the memory for the run and the fields it keeps; it is a ``RunError`` and a ``MemoryError``.
 
     Notes
     -----
@@ -52,7 +55,7 @@ def run(
         raise TypeError(f"progress: expected a bool or a callable, found {type(progress).__name__}")
     on_step = progress
 
-    def pass_on(step: dict[str, Any], increments: int) -> None:
-        on_step({**step, "increments": increments})
+    def pass_on(step: dict[str, Any], increments: int, passed: int) -> None:
+        on_step({**step, "increments": increments, "passed": passed})
 
     return History(_core.run(question, threads, pass_on))

@@ -15,7 +15,7 @@ from fretting import _case, _core, cycles
 from fretting._points import RESERVED, Axes, Dimension, Point, Table, dimensions, points
 from fretting._progress import PointLine
 from fretting._sweep_folder import SweepFolder, with_files_in
-from fretting.errors import CaseError, RunError
+from fretting.errors import CaseError, OutOfMemoryError, RunError
 from fretting.history import MEANING, History
 
 if TYPE_CHECKING:
@@ -77,7 +77,8 @@ def sweep(
         values stand as text in ``NAME_values``. Variables: the names of ``History.steps``; those of the last cycle
         as ``cycle_dissipated_energy``, ``cycle_energy_ratio``, ``cycle_regime`` and so on (see :class:`History`); ``status``
         (``"solved"``, ``"refused"``, ``"failed"``) and ``error``, the message of a point that was not solved. Numbers
-        of such points are NaN, counts -1, words empty. The attribute ``solved_before`` counts points found in `folder`.
+        of such points are NaN, counts -1, words empty. The attribute ``solved_before`` counts the solved
+        points found in `folder`.
 
     Raises
     ------
@@ -85,6 +86,8 @@ def sweep(
         When an axis names what the case cannot have, or every point is refused: then the sweep itself is mistaken.
     ImportError
         When xarray is not installed (``pip install fretting[xarray]``).
+    MemoryError
+        When as many points as the executor has workers need more memory than there is.
     concurrent.futures.BrokenExecutor
         When the executor itself breaks down. What is finished stands in `folder`.
 
@@ -105,8 +108,7 @@ def sweep(
     _import_xarray()
     if keep not in _LENGTH:
         raise ValueError(f"keep = {keep!r}: must be one of {', '.join(_LENGTH)}")
-    if threads is not None and (not isinstance(threads, int) or threads < 1):
-        raise ValueError(f"threads = {threads!r}: must be a whole number from 1, or None")
+    _core.check_threads(threads)
     base = _as_table(base_case)
     found = dimensions(axes)
     asked = list(points(base, found))
@@ -118,10 +120,11 @@ def sweep(
             before = store.finished(point.case)
             if before:
                 answers[point.place] = before
-    solved_before = len(answers)
+    solved_before = sum(answer["status"] == "solved" for answer in answers.values())
     threads = threads or (None if executor is None else 1)
+    open_points = [point for point in asked if point.place not in answers]
+    _fits_memory(open_points, executor)
     with _Teller(progress, len(asked), answers.values()) as tell:
-        open_points = [point for point in asked if point.place not in answers]
         for point, answer, lasting in _solved(open_points, executor, threads, keep, measure):
             if store and lasting:
                 store.keep(point.case, answer)
@@ -132,6 +135,28 @@ def sweep(
         raise CaseError(f"all {len(asked)} points of the sweep are refused; the first:\n{first['error']}",
                         [tuple(mistake) for mistake in first["mistakes"]])  # fmt: skip
     return _dataset(found, answers, keep, {"solved_before": solved_before})
+
+
+def _fits_memory(asked: list[Point], executor: Executor | None) -> None:
+    """Refuse points beside each other that need more memory than there is; where the number of workers is not told, each
+    point finds out by itself."""
+    beside = min(getattr(executor, "_max_workers", 1), len(asked))
+    if beside < 2:
+        return
+
+    def cells(point: Point) -> float:
+        try:
+            nx, ny = point.case["grid"]["cells"]
+            return float(nx) * float(ny)
+        except (KeyError, TypeError, ValueError):
+            return 0.0  # refused when it is read
+
+    largest = max(asked, key=cells)
+    try:
+        needed = _core.memory_needed(_core.Case.from_json(json.dumps(largest.case), largest.name, Path(), []))
+    except CaseError:
+        return
+    _core.check_memory(f"{beside} points of {largest.name} beside each other", beside * needed)
 
 
 def _as_table(case: _case.CaseLike) -> Table:
@@ -170,6 +195,8 @@ def _solve(task: _Task) -> Table:
         history = History(_core.run(_core.Case.from_json(task.text, task.name, Path(), []), task.threads, None))
     except CaseError as error:
         return {**nothing, "status": "refused", "error": str(error), "mistakes": [list(m) for m in error.mistakes]}
+    except OutOfMemoryError:
+        raise  # no answer of the point: there may be room for it another time
     except RunError as error:
         return {**nothing, "status": "failed", "error": str(error)}
     rows = _rows(history, task.keep)

@@ -3,6 +3,7 @@
 import copy
 import pickle
 from collections.abc import Callable
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -171,3 +172,35 @@ def test_cases_plans_and_histories_can_be_copied_and_pickled(fretting_case: dict
         np.testing.assert_array_equal(other.cycles["closure"], history.cycles["closure"])
     assert "<table>" in history._repr_html_()
     assert "<script>" not in fretting.plan({**fretting_case, "title": "<script>"})._repr_html_()
+
+
+@pytest.mark.parametrize("step", [14.7, 14.0, "14", None, True, np.float64(1.0)])
+def test_a_step_is_a_whole_number(sphere_case: dict[str, Any], step: Any) -> None:
+    history = fretting.run(sphere_case)
+    with pytest.raises(TypeError, match="step = .*must be a whole number"):
+        history.field("pressure", step=step)
+    assert (history.field("pressure", step=np.int32(-1)) == history.field("pressure")).all()
+
+
+def test_a_folder_is_no_case(tmp_path: Path) -> None:
+    with pytest.raises(fretting.UnreadableError, match="a folder, not a file"):
+        fretting.run(str(tmp_path))
+
+
+def test_a_case_that_holds_itself_is_refused(sphere_case: dict[str, Any]) -> None:
+    sphere_case["load"].append(sphere_case)
+    with pytest.raises(fretting.CaseError, match="inside itself"):
+        fretting.run(sphere_case)
+    endless: list[Any] = []
+    endless.append(endless)
+    with pytest.raises(fretting.CaseError, match="inside itself"):
+        fretting.run({**sphere_case, "load": endless})
+
+
+def test_a_list_of_one_number_is_no_number(sphere_case: dict[str, Any]) -> None:
+    """As in NumPy itself, which no longer turns arrays with a dimension into numbers."""
+    sphere_case["load"][0]["normal_force"] = np.array([12.0])
+    with pytest.raises(fretting.CaseError, match="found a list, expected a number"):
+        fretting.run(sphere_case)
+    sphere_case["load"][0]["normal_force"] = np.array(12.0)
+    assert fretting.plan(sphere_case)["increments"] > 0

@@ -249,6 +249,16 @@ def test_a_folder_keeps_finished_points(case: dict[str, Any], tmp_path: Path) ->
     assert more.attrs["solved_before"] == 6
 
 
+def test_only_solved_points_count_as_solved_before(case: dict[str, Any], tmp_path: Path) -> None:
+    """Two of the three: the third is refused, found again, and not solved."""
+    axes = {FRICTION: [0.2, -0.1, 0.4]}
+    fretting.sweep(case, axes, folder=tmp_path)
+    assert len(list((tmp_path / "points").iterdir())) == 3
+    again = fretting.sweep(case, axes, folder=tmp_path)
+    assert again.attrs["solved_before"] == 2
+    assert sorted(again["status"].values.tolist()) == ["refused", "solved", "solved"]
+
+
 def test_a_changed_base_case_and_a_damaged_file_are_noticed(case: dict[str, Any], tmp_path: Path) -> None:
     axes = {FRICTION: [0.2, 0.4]}
     first = fretting.sweep(case, axes, folder=tmp_path)

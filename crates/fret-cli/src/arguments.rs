@@ -4,6 +4,8 @@ use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
+use crate::threads;
+
 /// Predicts the fretting contact of coated bodies: pressure, shear, stick and slip through the loading history.
 #[derive(Debug, Parser)]
 #[command(
@@ -66,7 +68,7 @@ pub struct RunArguments {
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
     /// Threads to compute with [default: all the machine has]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    #[arg(long, value_name = "N", value_parser = threads::number)]
     pub threads: Option<u16>,
     /// Say nothing but errors
     #[arg(long)]
@@ -116,7 +118,7 @@ pub struct StudyArguments {
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
     /// Threads to compute with [default: all the machine has]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    #[arg(long, value_name = "N", value_parser = threads::number)]
     pub threads: Option<u16>,
     /// Say nothing but errors and the answer
     #[arg(long)]
@@ -174,7 +176,7 @@ pub struct StressArguments {
     #[arg(long, help = "Write a volume for ParaView of the last increment looked at")]
     pub volume: bool,
     /// Threads to compute with [default: all the machine has]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    #[arg(long, value_name = "N", value_parser = threads::number)]
     pub threads: Option<u16>,
     /// Say nothing but errors
     #[arg(long)]
@@ -190,7 +192,7 @@ pub struct SweepArguments {
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
     /// Threads to compute with, one a point [default: all the machine has]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    #[arg(long, value_name = "N", value_parser = threads::number)]
     pub threads: Option<u16>,
     /// Say nothing but errors
     #[arg(long)]

@@ -4,14 +4,11 @@ use std::fs::File;
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
-use fret_core::case::{Attachments, Case, CaseError};
+use fret_core::case::{Attachments, Case, CaseError, content, unreadable};
 use fret_core::plan::{LeaveOut, Plan};
 
 /// Bytes read at the most: one more than the core takes, so that an endless stream is refused and not read.
 const MOST_BYTES: u64 = (4 << 20) + 1;
-
-/// Bytes of a file that a case names, at the most.
-const MOST_ATTACHED: u64 = 2 << 30;
 
 /// A case file that could be read.
 #[derive(Debug)]
@@ -29,7 +26,7 @@ impl CaseFile {
         let mut bytes = Vec::new();
         File::open(path)
             .and_then(|file| file.take(MOST_BYTES).read_to_end(&mut bytes))
-            .map_err(|error| refuse(unreadable(path, &error)))?;
+            .map_err(|error| refuse(why(path, &error)))?;
         let text = String::from_utf8(bytes).map_err(|error| {
             let place = error.utf8_error().valid_up_to();
             refuse(format!("not a text in UTF-8 (byte {place} is not part of a letter)"))
@@ -40,19 +37,7 @@ impl CaseFile {
     /// A file the case names, looked for beside the case file.
     fn attachment(&self, name: &str) -> Result<Vec<u8>, String> {
         let folder = self.path.parent().unwrap_or_else(|| Path::new(""));
-        let path = folder.join(name);
-        // Only ordinary files are read, so that nothing waits on a pipe.
-        if std::fs::metadata(&path).is_ok_and(|facts| !facts.is_file()) {
-            return Err("no ordinary file".to_owned());
-        }
-        let mut content = Vec::new();
-        File::open(&path)
-            .and_then(|file| file.take(MOST_ATTACHED + 1).read_to_end(&mut content))
-            .map_err(|error| unreadable(&path, &error))?;
-        if content.len() as u64 > MOST_ATTACHED {
-            return Err(format!("longer than {} MB", MOST_ATTACHED >> 20));
-        }
-        Ok(content)
+        content(&folder.join(name))
     }
 
     /// Its name as it stands in messages.
@@ -65,6 +50,12 @@ impl CaseFile {
         self.path.file_stem().map_or_else(|| PathBuf::from("case"), PathBuf::from)
     }
 
+    /// The case, read.
+    pub fn case(&self) -> Result<Case, CaseError> {
+        let beside = |name: &str| self.attachment(name);
+        Case::from_toml_with(&self.text, &self.name(), Attachments::files(&beside))
+    }
+
     /// The case, read and planned.
     pub fn planned(&self) -> Result<Plan, CaseError> {
         self.planned_leaving_out(LeaveOut::ALL)
@@ -72,17 +63,10 @@ impl CaseFile {
 
     /// The case, read and planned with some shortcuts alone.
     pub fn planned_leaving_out(&self, leave_out: LeaveOut) -> Result<Plan, CaseError> {
-        let beside = |name: &str| self.attachment(name);
-        let case = Case::from_toml_with(&self.text, &self.name(), Attachments::files(&beside))?;
-        Plan::leaving_out(case, leave_out)
+        Plan::leaving_out(self.case()?, leave_out)
     }
 }
 
-fn unreadable(path: &Path, error: &io::Error) -> String {
-    match error.kind() {
-        io::ErrorKind::NotFound => "no such file".to_owned(),
-        _ if path.is_dir() => "a folder, not a file".to_owned(),
-        io::ErrorKind::PermissionDenied => "no permission to read it".to_owned(),
-        _ => format!("cannot be read: {error}"),
-    }
+fn why(path: &Path, error: &io::Error) -> String {
+    if path.is_dir() { "a folder, not a file".to_owned() } else { unreadable(error) }
 }

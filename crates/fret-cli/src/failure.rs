@@ -3,9 +3,12 @@
 use std::io;
 use std::path::{Path, PathBuf};
 
-use fret_core::case::CaseError;
+use fret_core::case::{CaseError, printable};
+use fret_core::machine::memory::MemoryError;
 use fret_core::simulation::RunError;
 use serde_json::{Value, json};
+
+use crate::figures::shortened;
 
 /// Exit code of a refused case or call, also where only the run finds out: a contact that grows to the edge of the grid.
 pub const REFUSED: u8 = 1;
@@ -14,6 +17,9 @@ pub const FAILED: u8 = 2;
 /// Exit code of an interrupted run.
 pub const INTERRUPTED: u8 = 130;
 
+/// Letters of a message to a person, at the most.
+const LONGEST_MESSAGE: usize = 4000;
+
 /// Why a call ended without its answer.
 #[derive(Debug)]
 pub enum Failure {
@@ -21,6 +27,8 @@ pub enum Failure {
     Case(CaseError),
     /// The call is not one that can be followed: what, and what to do instead.
     Call(String, String),
+    /// There is not the memory for it.
+    Memory(MemoryError),
     /// The case could not be solved.
     Unsolved(RunError),
     /// Somebody stopped the run.
@@ -90,8 +98,10 @@ impl Failure {
     pub fn code(&self) -> u8 {
         match self {
             Self::Case(_) | Self::Call(..) | Self::Points { failed: 0, .. } => REFUSED,
+            Self::Memory(MemoryError::TooLittle { .. }) => REFUSED,
             Self::Unsolved(error) if asks_for_another_case(error) => REFUSED,
-            Self::Unsolved(_)
+            Self::Memory(_)
+            | Self::Unsolved(_)
             | Self::Unwritten(_)
             | Self::Broken(_)
             | Self::Points { .. }
@@ -104,8 +114,10 @@ impl Failure {
     pub fn status(&self) -> &'static str {
         match self {
             Self::Case(_) | Self::Call(..) | Self::Points { failed: 0, .. } => "refused",
+            Self::Memory(MemoryError::TooLittle { .. }) => "refused",
             Self::Unsolved(error) if asks_for_another_case(error) => "refused",
-            Self::Unsolved(_)
+            Self::Memory(_)
+            | Self::Unsolved(_)
             | Self::Unwritten(_)
             | Self::Broken(_)
             | Self::Points { .. }
@@ -119,6 +131,7 @@ impl Failure {
         match self {
             Self::Case(error) => error.render(false),
             Self::Call(what, _) | Self::Interrupted(what) => what.clone(),
+            Self::Memory(error) => format!("this {error}"),
             Self::Unsolved(error) => error.to_string(),
             Self::Unwritten(unwritten) => unwritten.to_string(),
             Self::Broken(count) => format!("{} of extreme scenes: not everything holds", families(*count)),
@@ -138,9 +151,11 @@ impl Failure {
         };
         match self {
             Self::Case(error) => error.render(colour),
-            Self::Call(what, help) => format!("{}: {what}\n  = help: {help}", head("error", "31")),
-            Self::Interrupted(what) => format!("{}: {what}", head("interrupted", "33")),
-            _ => format!("{}: {}", head("error", "31"), self.message()),
+            Self::Call(what, help) => {
+                format!("{}: {}\n  = help: {}", head("error", "31"), told(what), told(help))
+            }
+            Self::Interrupted(what) => format!("{}: {}", head("interrupted", "33"), told(what)),
+            _ => format!("{}: {}", head("error", "31"), told(&self.message())),
         }
     }
 
@@ -164,18 +179,34 @@ impl Failure {
     }
 }
 
+/// Words with names from files in them, as a terminal may have them.
+fn told(words: &str) -> String {
+    shortened(&printable(words), LONGEST_MESSAGE)
+}
+
 fn families(count: usize) -> String {
     if count == 1 { "1 family".to_owned() } else { format!("{count} families") }
 }
 
 /// Whether the equations went well but the case leaves what can be computed: a plan that had known would have refused it.
 fn asks_for_another_case(error: &RunError) -> bool {
-    matches!(error, RunError::ContactAtEdge { .. } | RunError::AboveSliding { .. })
+    matches!(
+        error,
+        RunError::ContactAtEdge { .. }
+            | RunError::AboveSliding { .. }
+            | RunError::OutOfMemory { error: MemoryError::TooLittle { .. }, .. }
+    )
 }
 
 impl From<CaseError> for Failure {
     fn from(error: CaseError) -> Self {
         Self::Case(error)
+    }
+}
+
+impl From<MemoryError> for Failure {
+    fn from(error: MemoryError) -> Self {
+        Self::Memory(error)
     }
 }
 

@@ -33,11 +33,8 @@ pub fn duration(seconds: f64) -> String {
     }
 }
 
-/// An amount of memory.
-pub fn memory(bytes: usize) -> String {
-    let megabytes = bytes as f64 / 1e6;
-    if megabytes < 1e3 { format!("{megabytes:.1} MB") } else { format!("{:.1} GB", megabytes / 1e3) }
-}
+/// Letters of a title where it stands alone, at the most.
+pub const LONGEST_TITLE: usize = 200;
 
 /// A name, cut where it is longer than so many letters.
 pub fn shortened(name: &str, letters: usize) -> String {

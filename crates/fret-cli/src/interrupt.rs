@@ -36,6 +36,10 @@ impl Observer for Listener {
     fn solved(&mut self, _: &StepRecord, _: &ContactState, _: Option<&KeptFields>) -> ControlFlow<()> {
         go_on()
     }
+
+    fn leaves_fields(&self) -> bool {
+        false
+    }
 }
 
 fn go_on() -> ControlFlow<()> {

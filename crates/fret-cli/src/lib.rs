@@ -49,7 +49,7 @@ pub fn command_line(words: impl IntoIterator<Item = OsString>) -> u8 {
                 // A reader that cannot be told is told by the exit code.
                 let _ = terminal::answer(&format!("{:#}", failure.to_json()));
             }
-            terminal::say(&failure.render(terminal::errors_in_colour()));
+            terminal::say_in_colour(&failure.render(terminal::errors_in_colour()));
             failure.code()
         }
     }

@@ -3,6 +3,7 @@
 
 use std::time::{Duration, Instant};
 
+use fret_core::case::printable;
 use fret_core::history::StepRecord;
 use fret_core::simulation::Iteration;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
@@ -24,9 +25,10 @@ const TITLE_LETTERS: usize = 24;
 #[derive(Debug)]
 pub struct Progress {
     face: Face,
+    /// Planned increments.
     increments: usize,
-    /// Increments that were solved before this run went on.
-    solved_before: usize,
+    /// Planned increments that were behind the run before it went on.
+    passed_before: usize,
     started: Instant,
     last_shown: Instant,
     tenths: usize,
@@ -41,17 +43,18 @@ enum Face {
 
 impl Progress {
     /// The face that fits: quiet when asked for, live for a terminal, plain otherwise.
-    pub fn new(quiet: bool, title: &str, increments: usize, solved_before: usize) -> Self {
+    pub fn new(quiet: bool, title: &str, tally: &Tally) -> Self {
+        let (increments, passed_before) = (tally.advance.planned(), tally.advance.passed());
         let face = match (quiet, terminal::is_watched()) {
             (true, _) => Face::Quiet,
             (false, true) => Face::Live(live_bar(title, increments)),
             (false, false) => Face::Plain,
         };
         let now = Instant::now();
-        let tenths = solved_before * 10 / increments.max(1);
-        let progress = Self { face, increments, solved_before, started: now, last_shown: now, tenths };
+        let tenths = passed_before * 10 / increments.max(1);
+        let progress = Self { face, increments, passed_before, started: now, last_shown: now, tenths };
         if let Face::Live(bar) = &progress.face {
-            bar.set_position(solved_before as u64);
+            bar.set_position(passed_before as u64);
             bar.reset_eta();
             bar.set_message("preparing the operators");
             bar.enable_steady_tick(Duration::from_millis(120));
@@ -77,36 +80,40 @@ impl Progress {
             iteration.iteration, iteration.residual, iteration.tolerance
         );
         match &self.face {
-            Face::Live(bar) => bar.set_message(standing),
+            Face::Live(bar) => bar.set_message(printable(&standing).into_owned()),
             _ => self.line(&format!("increment {:>1$}  {standing}", iteration.increment, self.width())),
         }
     }
 
     /// An increment is solved and counted.
     pub fn solved(&mut self, record: &StepRecord, tally: &Tally) {
+        let passed = tally.advance.passed();
         if let Face::Live(bar) = &self.face {
-            bar.set_position(tally.solved as u64);
+            bar.set_position(passed as u64);
         }
         let stage = tally.stages.get(record.stage);
         let ends_stage = stage.is_some_and(|stage| stage.last == record.increment);
-        let tenths = tally.solved * 10 / self.increments.max(1);
+        let tenths = passed * 10 / self.increments.max(1);
         let due = tenths > self.tenths || self.last_shown.elapsed() >= self.plain_pause();
         if !(ends_stage || (matches!(self.face, Face::Plain) && due)) {
             return;
         }
         self.tenths = tenths;
         self.last_shown = Instant::now();
-        let name = stage.map_or("", |stage| stage.name.as_str());
+        let name = shortened(stage.map_or("", |stage| stage.name.as_str()), TITLE_LETTERS);
         self.line(&format!(
-            "increment {:>width$}  {name}{}  force {}  max pressure {}  residual {:.1e}  {} of {} solved, {}",
+            "increment {:>width$}  {name}{}  force {}  max pressure {}  residual {:.1e}  {}, {}",
             record.increment,
             if ends_stage { " done" } else { "" },
             figure(record.normal_force),
             figure(record.max_pressure),
             record.residual.largest(),
-            tally.solved,
-            self.increments,
-            self.time(tally.solved),
+            if passed == tally.solved {
+                format!("{passed} of {} solved", self.increments)
+            } else {
+                format!("{} solved for {passed} of {}", tally.solved, self.increments)
+            },
+            self.time(passed),
             width = self.width(),
         ));
     }
@@ -122,7 +129,7 @@ impl Progress {
         match &self.face {
             Face::Quiet => {}
             Face::Plain => terminal::say(text),
-            Face::Live(bar) => bar.println(text),
+            Face::Live(bar) => bar.println(printable(text)),
         }
     }
 
@@ -131,11 +138,12 @@ impl Progress {
         self.increments.saturating_sub(1).to_string().len()
     }
 
-    fn time(&self, solved: usize) -> String {
+    /// Time gone, and left by the planned increments that went in it.
+    fn time(&self, passed: usize) -> String {
         let elapsed = self.started.elapsed().as_secs_f64();
-        let done = solved.saturating_sub(self.solved_before).max(1);
-        let left = elapsed * self.increments.saturating_sub(solved) as f64 / done as f64;
-        if solved < self.increments {
+        let done = passed.saturating_sub(self.passed_before).max(1);
+        let left = elapsed * self.increments.saturating_sub(passed) as f64 / done as f64;
+        if passed < self.increments {
             format!("{}, about {} left", duration(elapsed), duration(left))
         } else {
             duration(elapsed)
@@ -157,5 +165,5 @@ fn live_bar(title: &str, increments: usize) -> ProgressBar {
     let style = ProgressStyle::with_template(&template).unwrap_or_else(|_| ProgressStyle::default_bar());
     ProgressBar::with_draw_target(Some(increments as u64), ProgressDrawTarget::stderr())
         .with_style(style.progress_chars("━╸─"))
-        .with_prefix(shortened(title, TITLE_LETTERS))
+        .with_prefix(shortened(&printable(title), TITLE_LETTERS))
 }

@@ -10,7 +10,7 @@ use serde_json::{Value, json};
 
 use crate::estimate::Estimate;
 use crate::failure::Failure;
-use crate::figures::{counted, duration, figure, figure_beside, shortened};
+use crate::figures::{LONGEST_TITLE, counted, duration, figure, figure_beside, shortened};
 use crate::tally::Tally;
 
 /// Stages that stand side by side in the table.
@@ -46,7 +46,7 @@ impl Summary<'_> {
     pub fn table(&self) -> String {
         let mut table = String::new();
         if !self.plan.case.title.is_empty() {
-            let _ = writeln!(table, "{}\n", self.plan.case.title);
+            let _ = writeln!(table, "{}\n", shortened(&self.plan.case.title, LONGEST_TITLE));
         }
         let ends = &self.tally.stage_ends;
         let shown = &ends[ends.len().saturating_sub(MOST_COLUMNS)..];

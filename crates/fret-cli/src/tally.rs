@@ -2,7 +2,7 @@
 
 use fret_core::cycle::CycleRecord;
 use fret_core::history::{StepRecord, Work};
-use fret_core::plan::Plan;
+use fret_core::plan::{Advance, Plan};
 use fret_core::study::Headline;
 use fret_core::wear::WornThrough;
 use serde::{Deserialize, Serialize};
@@ -36,6 +36,8 @@ pub struct Tally {
     pub stages: Vec<StageSpan>,
     /// Increments solved.
     pub solved: usize,
+    /// How far that is in the history as planned.
+    pub advance: Advance,
     /// The last record of each stage that is done, then of the stage at work.
     pub stage_ends: Vec<StepRecord>,
     /// The cycles that are over. Their table keeps them for a run that goes on, however many they are.
@@ -57,6 +59,7 @@ impl Tally {
         Self {
             stages: stage_spans(plan),
             solved: 0,
+            advance: Advance::new(&plan.case),
             stage_ends: Vec::new(),
             cycles: Vec::new(),
             worn_through: None,
@@ -69,6 +72,7 @@ impl Tally {
     /// Counts an increment in.
     pub fn add(&mut self, record: &StepRecord) {
         self.solved += 1;
+        self.advance.solved(record);
         self.work += record.work;
         let residual = record.residual.largest();
         if residual > self.largest_residual || residual.is_nan() {
@@ -94,6 +98,17 @@ impl Tally {
     /// Counts a cycle in.
     pub fn add_cycle(&mut self, record: &CycleRecord) {
         self.cycles.push(record.clone());
+        self.advance.cycled(record);
+    }
+
+    /// How far the run has come, in words.
+    pub fn standing(&self) -> String {
+        let (solved, passed, all) = (self.solved, self.advance.passed(), self.advance.planned());
+        if passed == solved {
+            format!("{solved} of {all} increments are solved")
+        } else {
+            format!("{solved} increments are solved, which stand for {passed} of {all},")
+        }
     }
 
     /// A stage that ended early brings all that follow it forward.

@@ -3,12 +3,18 @@
 use std::io::{self, IsTerminal, Write};
 use std::path::Path;
 
-use crate::failure::{Failure, Unwritten};
+use fret_core::case::printable;
 
-/// Writes an answer. A reader that has gone away (`fret plan case.toml | head -1`) is no failure.
+use crate::failure::{Failure, Unwritten};
+use crate::figures::shortened;
+
+/// Letters of a line that is said, at the most: names and titles come from files, and may be as long as these.
+const LONGEST_LINE: usize = 2000;
+
+/// Writes an answer; what would steer a terminal is shown, not sent. A reader that has gone away (`fret plan case.toml | head -1`) is no failure.
 pub fn answer(text: &str) -> Result<(), Failure> {
     let mut stdout = io::stdout().lock();
-    match writeln!(stdout, "{text}").and_then(|()| stdout.flush()) {
+    match writeln!(stdout, "{}", printable(text)).and_then(|()| stdout.flush()) {
         Err(error) if error.kind() != io::ErrorKind::BrokenPipe => {
             Err(Unwritten::at(Path::new("standard output"))(error).into())
         }
@@ -16,8 +22,15 @@ pub fn answer(text: &str) -> Result<(), Failure> {
     }
 }
 
-/// Says something beside the answer. When standard error is closed, there is nobody to tell.
+/// Says something beside the answer, printable and in lines of bounded length. When standard error is closed, there is nobody to
+/// tell.
 pub fn say(text: &str) {
+    let lines: Vec<String> = text.lines().map(|line| shortened(line, LONGEST_LINE)).collect();
+    say_in_colour(&printable(&lines.join("\n")));
+}
+
+/// Says what is printable already, and may be in colour.
+pub fn say_in_colour(text: &str) {
     let _ = writeln!(io::stderr().lock(), "{text}");
 }
 

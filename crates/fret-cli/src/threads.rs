@@ -1,8 +1,24 @@
-//! Threads of a command.
+//! Threads of a command: as many as asked for, or all that the machine has.
 
-use std::num::NonZero;
+use fret_core::machine::threads;
+use rayon::ThreadPool;
 
-/// Threads of this machine.
-pub fn available_threads() -> usize {
-    std::thread::available_parallelism().map_or(1, NonZero::get)
+use crate::failure::Failure;
+
+/// How many threads a command works with.
+pub fn asked(number: Option<u16>) -> usize {
+    number.map_or_else(threads::available_threads, usize::from)
+}
+
+/// A pool of so many threads.
+pub fn pool(number: usize) -> Result<ThreadPool, Failure> {
+    threads::pool(number)
+        .map_err(|error| Failure::Call(error.to_string(), "--threads with a smaller number".to_owned()))
+}
+
+/// A number of threads on the command line.
+pub fn number(word: &str) -> Result<u16, String> {
+    let most = threads::MOST_THREADS;
+    let number = word.parse().ok().filter(|threads: &u16| (1..=most).contains(&usize::from(*threads)));
+    number.ok_or_else(|| format!("must be a whole number from 1 to {most}"))
 }

@@ -9,6 +9,7 @@ mod edge;
 mod fretting_loop;
 pub mod history;
 pub mod kernel;
+pub mod machine;
 pub mod model;
 pub mod plan;
 #[cfg(test)]

@@ -1,6 +1,9 @@
 //! What of a solved increment goes into the history.
 
+use ndarray::Array2;
+
 use crate::history::{KeptFields, Residual, StepRecord};
+use crate::machine::memory::MemoryError;
 use crate::model::field::largest;
 use crate::solver::Increment;
 
@@ -39,16 +42,35 @@ pub fn record(solved: &Increment, increment: usize, stage: usize, parts: usize, 
 }
 
 /// Its fields by the names asked for; the worn depth is not yet known.
-pub fn kept(solved: &Increment, increment: usize, names: &[String]) -> KeptFields {
+///
+/// # Errors
+/// When there is no memory for them: they are what grows while a run goes.
+pub fn kept(solved: &Increment, increment: usize, names: &[String]) -> Result<KeptFields, MemoryError> {
     let asked = |name: &str| names.iter().any(|asked| asked == name);
     let state = &solved.state;
-    KeptFields {
+    let one = |name: &str, field: &Array2<f64>| asked(name).then(|| copied(field)).transpose();
+    let two =
+        |name: &str, [x, y]: &[Array2<f64>; 2]| asked(name).then(|| Ok([copied(x)?, copied(y)?])).transpose();
+    Ok(KeptFields {
         increment,
-        pressure: asked("pressure").then(|| state.pressure.clone()),
-        shear: asked("shear").then(|| state.shear.clone()),
-        slip: asked("slip").then(|| state.slip.clone()),
-        gap: asked("gap").then(|| solved.gap.clone()),
-        zone: asked("zone").then(|| state.zone.clone()),
+        pressure: one("pressure", &state.pressure)?,
+        shear: two("shear", &state.shear)?,
+        slip: two("slip", &state.slip)?,
+        gap: one("gap", &solved.gap)?,
+        zone: asked("zone").then(|| copied(&state.zone)).transpose()?,
         worn_depth: None,
-    }
+    })
+}
+
+/// A copy of a field in memory that is asked for first.
+///
+/// # Errors
+/// When there is none.
+pub fn copied<T: Clone>(field: &Array2<T>) -> Result<Array2<T>, MemoryError> {
+    let mut values = Vec::new();
+    let bytes = field.len() * size_of::<T>();
+    values.try_reserve_exact(field.len()).map_err(|_| MemoryError::NotGiven(bytes as u64))?;
+    values.extend(field.iter().cloned());
+    // As many values as the field has.
+    Ok(Array2::from_shape_vec(field.dim(), values).unwrap_or_else(|_| field.clone()))
 }

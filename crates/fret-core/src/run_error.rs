@@ -1,6 +1,7 @@
 //! Why a run ends without its answer.
 
-use crate::case::Stage;
+use crate::case::{Stage, apart};
+use crate::machine::memory::MemoryError;
 use crate::solver::SolveError;
 
 /// Why a run ended without its answer.
@@ -36,7 +37,8 @@ pub enum RunError {
     },
     /// A tangential load above what friction carries.
     #[error(
-        "increment {increment} ({stage}): tangential force {asked:.6e} is above mu W = {bound:.6e}: no equilibrium; prescribe the shift to slide"
+        "increment {increment} ({stage}): tangential force {} is above mu W = {}: no equilibrium; prescribe the shift to slide",
+        apart(*asked, *bound)[0], apart(*asked, *bound)[1]
     )]
     AboveSliding {
         /// Number of the increment, from 0.
@@ -77,6 +79,14 @@ pub enum RunError {
         /// Share of a cell's pressure that the cell's own compliance gives up.
         share: f64,
     },
+    /// There is not the memory for the run, or for the fields that it keeps.
+    #[error("increment {increment}: {error}")]
+    OutOfMemory {
+        /// Number of the increment that was not begun or not kept, from 0.
+        increment: usize,
+        /// What is needed and what there is.
+        error: MemoryError,
+    },
     /// The observer stopped the run.
     #[error("interrupted at increment {increment}")]
     Interrupted {
@@ -94,6 +104,7 @@ impl RunError {
             | Self::AboveSliding { increment, .. }
             | Self::HistoryUnresolved { increment, .. }
             | Self::WearTooFast { increment, .. }
+            | Self::OutOfMemory { increment, .. }
             | Self::Interrupted { increment } => *increment,
         }
     }

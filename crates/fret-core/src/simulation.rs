@@ -17,9 +17,10 @@ use crate::kernel::{
     Components, PairResponse, ResponseTable, coefficients_of, influence_coefficients, periodic_symbols,
     symbols_of,
 };
+use crate::machine::memory::{Claim, claim};
 use crate::model::{ContactState, CoulombFriction, LoadStep};
 use crate::plan::{Coupling, Plan, Shortcut};
-use crate::recording::{kept, record};
+use crate::recording::{copied, kept, record};
 use crate::refinement::{DivisionError, Refinement, Span, in_halves};
 pub use crate::run_error::RunError;
 use crate::run_error::run_error;
@@ -68,6 +69,11 @@ pub trait Observer {
         ControlFlow::Continue(())
     }
 
+    /// Whether the history is to hold the kept fields. An observer that has done with them once it has heard of them says no.
+    fn leaves_fields(&self) -> bool {
+        true
+    }
+
     /// A cycle is over; its last increment was solved just before.
     fn cycled(&mut self, record: &CycleRecord) {
         let _ = record;
@@ -84,12 +90,20 @@ impl Observer for Silent {}
 #[derive(Debug)]
 pub struct Simulation<'a> {
     plan: &'a Plan,
+    /// Memory that was claimed for it already.
+    claim: Option<Claim>,
 }
 
 impl<'a> Simulation<'a> {
     /// Simulation of a plan.
     pub fn new(plan: &'a Plan) -> Self {
-        Self { plan }
+        Self { plan, claim: None }
+    }
+
+    /// The same in memory that has been claimed for it; else a run claims its own.
+    #[must_use]
+    pub fn within(self, claim: Claim) -> Self {
+        Self { claim: Some(claim), ..self }
     }
 
     /// Runs the whole history. Use inside a thread pool to bound the threads; the bits do not depend on their number.
@@ -97,7 +111,8 @@ impl<'a> Simulation<'a> {
     /// # Errors
     /// When an increment cannot be solved, a cycle wears more than the grid can follow, or the observer stops the run.
     pub fn run(&self, observer: &mut dyn Observer) -> Result<History, RunError> {
-        self.resume(Checkpoint::start(self.plan), observer)
+        let _memory = self.memory(observer.leaves_fields(), 0)?;
+        self.journey(Checkpoint::start(self.plan), observer)
     }
 
     /// Runs what is left of the history after a checkpoint of this plan, with the bits of an unbroken run. The history that is
@@ -106,6 +121,21 @@ impl<'a> Simulation<'a> {
     /// # Errors
     /// As [`Simulation::run`].
     pub fn resume(&self, from: Checkpoint, observer: &mut dyn Observer) -> Result<History, RunError> {
+        let _memory = self.memory(observer.leaves_fields(), from.place.solved)?;
+        self.journey(from, observer)
+    }
+
+    /// Claims the memory of a run that starts with an increment, where that has not been done before.
+    fn memory(&self, holds_fields: bool, increment: usize) -> Result<Option<Claim>, RunError> {
+        // Of a history that may end early nobody knows how much it keeps.
+        let holds = holds_fields && !self.plan.case.is_open_ended();
+        let kept = if holds { self.plan.kept_bytes } else { 0 };
+        let needed = self.plan.memory_bytes.saturating_add(kept);
+        let own = self.claim.is_none().then(|| claim(needed)).transpose();
+        own.map_err(|error| RunError::OutOfMemory { increment, error })
+    }
+
+    fn journey(&self, from: Checkpoint, observer: &mut dyn Observer) -> Result<History, RunError> {
         let plan = self.plan;
         let case = &plan.case;
         let Checkpoint { place, state, memory, cycle, wear } = from;
@@ -286,13 +316,17 @@ impl<'a> Journey<'a> {
         if let (Some(kept), Some(depth)) = (&mut kept, &self.history.state.worn_depth)
             && self.case().output.fields.iter().any(|name| name == "worn_depth")
         {
-            kept.worn_depth = Some(depth.clone());
+            let increment = record.increment;
+            let out_of_memory = |error| RunError::OutOfMemory { increment, error };
+            kept.worn_depth = Some(copied(depth).map_err(out_of_memory)?);
         }
         self.place.solved += 1;
         self.place.solved_of_stage = k;
         let heard = self.observer.solved(&record, &self.history.state, kept.as_ref());
         self.history.steps.push(record);
-        self.history.fields.extend(kept);
+        if self.observer.leaves_fields() {
+            self.history.fields.extend(kept);
+        }
         if let Some(cycle) = ended {
             self.observer.cycled(&cycle);
             self.cycle = Some(self.loop_from_here(cycle.cycle + 1));
@@ -367,7 +401,8 @@ impl<'a> Journey<'a> {
             }
         };
         let record = record(&solved, increment, stage, parts, started.elapsed().as_secs_f64());
-        let kept = may_keep.then(|| kept(&solved, increment, &case.output.fields));
+        let kept = may_keep.then(|| kept(&solved, increment, &case.output.fields)).transpose();
+        let kept = kept.map_err(|error| RunError::OutOfMemory { increment, error })?;
         self.place.resultants = solved.outcome.resultants;
         self.place.held = *to;
         self.history.state = solved.state;

@@ -14,6 +14,9 @@ mod line_product;
 mod mirrors;
 mod parity;
 mod periodic_product;
+#[cfg(test)]
+#[path = "../../../tests/random.rs"]
+mod random;
 mod single_product;
 #[cfg(test)]
 mod tests;

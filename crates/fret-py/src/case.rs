@@ -1,7 +1,6 @@
 //! The question as Python hands it over: text, read and judged by the core.
 
-use std::path::{Path, PathBuf};
-use std::{fs, io};
+use std::path::PathBuf;
 
 use fret_core::case::{self, Attachments};
 use ndarray::Array2;
@@ -10,9 +9,6 @@ use pyo3::IntoPyObject;
 use pyo3::prelude::{Bound, PyAny, PyAnyMethods, PyResult, Python, pyclass, pymethods};
 
 use crate::error::refused;
-
-/// Larger files are no array of a grid: 2^26 cells of 16 letters each.
-const MOST_BYTES: u64 = 1 << 30;
 
 /// A case that has passed every check.
 #[pyclass(frozen, module = "fretting._core")]
@@ -32,7 +28,7 @@ impl Case {
     #[staticmethod]
     fn from_toml(text: &str, name: &str, folder: PathBuf) -> PyResult<Self> {
         let case = {
-            let file = |file: &str| content(&folder, file);
+            let file = |file: &str| case::content(&folder.join(file));
             case::Case::from_toml_with(text, name, Attachments::files(&file))
                 .map_err(|error| refused(&error))?
         };
@@ -49,7 +45,7 @@ impl Case {
     ) -> PyResult<Self> {
         let arrays: Vec<Array2<f64>> = arrays.iter().map(|array| array.as_array().to_owned()).collect();
         let case = {
-            let file = |file: &str| content(&folder, file);
+            let file = |file: &str| case::content(&folder.join(file));
             let attachments = Attachments { file: &file, arrays: &arrays };
             case::Case::from_json_with(text, name, attachments).map_err(|error| refused(&error))?
         };
@@ -69,26 +65,5 @@ impl Case {
                 (class.getattr("from_json")?, (text, name, folder, arrays).into_pyobject(py)?.into_any())
             }
         })
-    }
-}
-
-/// Content of a file that a case names. Only ordinary files are read, so that nothing waits on a pipe.
-fn content(folder: &Path, name: &str) -> Result<Vec<u8>, String> {
-    let path = folder.join(name);
-    let facts = fs::metadata(&path).map_err(|error| unreadable(&error))?;
-    if !facts.is_file() {
-        return Err("no ordinary file".to_owned());
-    }
-    if facts.len() > MOST_BYTES {
-        return Err(format!("{} bytes: at most {MOST_BYTES} are read", facts.len()));
-    }
-    fs::read(&path).map_err(|error| unreadable(&error))
-}
-
-fn unreadable(error: &io::Error) -> String {
-    match error.kind() {
-        io::ErrorKind::NotFound => "no such file".to_owned(),
-        io::ErrorKind::PermissionDenied => "no permission to read it".to_owned(),
-        _ => format!("cannot be read: {error}"),
     }
 }

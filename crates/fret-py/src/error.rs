@@ -6,6 +6,7 @@ use pyo3::PyErr;
 use pyo3::exceptions::PyValueError;
 
 pyo3::import_exception!(fretting.errors, CaseError);
+pyo3::import_exception!(fretting.errors, OutOfMemoryError);
 pyo3::import_exception!(fretting.errors, RunError);
 
 /// A refused case: the text a person reads, and `(line, column, message, help)` of every mistake.
@@ -23,6 +24,9 @@ pub fn refused(error: &case::CaseError) -> PyErr {
 
 /// A run that ended without its answer: the message and the number of the increment.
 pub fn failed(error: &simulation::RunError) -> PyErr {
+    if let simulation::RunError::OutOfMemory { increment, .. } = error {
+        return OutOfMemoryError::new_err((error.to_string(), *increment));
+    }
     RunError::new_err((error.to_string(), error.increment()))
 }
 

@@ -12,7 +12,7 @@ use pyo3::prelude::{Bound, PyDictMethods, PyResult, Python, pyclass, pyfunction,
 use pyo3::types::PyDict;
 
 use crate::error::bad_value;
-use crate::threads::on_pool;
+use crate::threads::{ALL, on_pool};
 
 /// `(young, poisson, thickness)`.
 type CoatingNumbers = (f64, f64, f64);
@@ -70,7 +70,7 @@ pub fn influence_coefficients(
     let half_space = half_space(&coatings, substrate).map_err(bad_value)?;
     let pair = ContactPair::new(Body::Rigid, Body::Elastic(half_space)).map_err(bad_value)?;
     let coefficients =
-        on_pool(py, None, || kernel::influence_coefficients(&pair, cells, spacing, Components::ALL))?;
+        on_pool(py, ALL, || kernel::influence_coefficients(&pair, cells, spacing, Components::ALL))?;
     let components: [(&str, Option<Array2<f64>>); 6] = [
         ("zz", coefficients.zz),
         ("xx", coefficients.xx),
@@ -114,7 +114,7 @@ impl Convolution {
         let kernel = Kernel { values: values.as_array(), parity };
         let shape = [kernel.values.nrows(), kernel.values.ncols()];
         let block = Block { output: 0, input: 0, kernel: 0, sign: 1.0 };
-        let product = on_pool(py, None, || fret_fft::Convolution::new(shape, &[kernel], &[block]))?
+        let product = on_pool(py, ALL, || fret_fft::Convolution::new(shape, &[kernel], &[block]))?
             .map_err(bad_value)?;
         let workspace = Mutex::new(product.workspace());
         Ok(Self { product, workspace })
@@ -142,7 +142,7 @@ impl Convolution {
         }
         let input = field.as_slice()?;
         let mut output = Array2::zeros((nx, ny));
-        on_pool(py, None, || {
+        on_pool(py, ALL, || {
             let output: &mut [f64] = output.as_slice_mut().unwrap_or_default(); // zeros are contiguous
             match self.workspace.try_lock() {
                 Ok(mut workspace) => self.product.apply(&mut workspace, &[input], &mut [output]),

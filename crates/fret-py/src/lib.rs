@@ -34,11 +34,13 @@ mod _core {
     #[pymodule_export]
     use crate::kernels::{Convolution, frequency_response, influence_coefficients};
     #[pymodule_export]
-    use crate::plan::plan;
+    use crate::plan::{memory_needed, plan};
     #[pymodule_export]
     use crate::simulation::run;
     #[pymodule_export]
     use crate::subsurface::subsurface_stress;
+    #[pymodule_export]
+    use crate::threads::{check_memory, check_threads};
 
     #[pymodule_init]
     fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {

@@ -1,16 +1,39 @@
 //! The plan of a case, as text that Python reads.
 
+use fret_core::machine::memory;
 use fret_core::plan::Plan;
+use fret_core::study::expectation;
 use pyo3::prelude::{PyResult, Python, pyfunction};
+
+use serde_json::json;
 
 use crate::case::Case;
 use crate::error::{bad_value, refused};
-use crate::threads::on_pool;
+use crate::threads::{ALL, on_pool};
 
-/// Plans a case; JSON text.
+/// Memory that a run of a case takes, with the fields it keeps [bytes].
+#[pyfunction]
+pub fn memory_needed(py: Python<'_>, case: &Case) -> PyResult<usize> {
+    let question = case.0.clone();
+    let plan = on_pool(py, ALL, || Plan::new(question))?.map_err(|error| refused(&error))?;
+    Ok(plan.memory_bytes.saturating_add(plan.kept_bytes))
+}
+
+/// Plans a case, and what its run will take where it fits into memory; JSON text.
 #[pyfunction]
 pub fn plan(py: Python<'_>, case: &Case) -> PyResult<String> {
     let question = case.0.clone();
-    let plan = on_pool(py, None, || Plan::new(question))?.map_err(|error| refused(&error))?;
-    serde_json::to_string(&plan).map_err(bad_value)
+    let (plan, lacking, expected) = on_pool(py, ALL, || {
+        let plan = Plan::new(question)?;
+        let lacking = memory::check(plan.memory_bytes.saturating_add(plan.kept_bytes)).err();
+        let expected = lacking.is_none().then(|| expectation(&plan));
+        Ok((plan, lacking, expected))
+    })?
+    .map_err(|error| refused(&error))?;
+    let mut entries = serde_json::to_value(&plan).map_err(bad_value)?;
+    entries["increments_expected"] = json!(expected.map(|expected| expected.increments));
+    entries["convolutions_expected"] = json!(expected.map(|expected| expected.convolutions));
+    entries["seconds_expected"] = json!(expected.map(|expected| expected.seconds));
+    entries["memory_lacking"] = json!(lacking.map(|error| format!("this {error}")));
+    Ok(entries.to_string())
 }

@@ -7,9 +7,10 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, SyncSender, sync_channel};
 use std::time::Duration;
 
+use fret_core::cycle::CycleRecord;
 use fret_core::history::{self, KeptFields, StepRecord};
 use fret_core::model::ContactState;
-use fret_core::plan::Plan;
+use fret_core::plan::{Advance, Plan};
 use fret_core::simulation::{Iteration, Observer, RunError, Simulation};
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::{Py, PyAny, PyErr, PyResult, Python, pyfunction};
@@ -18,7 +19,7 @@ use rayon::ThreadPool;
 use crate::case::Case;
 use crate::error::{failed, refused};
 use crate::history::{History, step_items};
-use crate::threads;
+use crate::threads::{self, Threads};
 
 /// Python hears about signals at least so often.
 const PATIENCE: Duration = Duration::from_millis(50);
@@ -28,7 +29,8 @@ const SHORT_WHILE: Duration = Duration::from_millis(1);
 
 /// What the working thread tells the calling thread.
 enum News {
-    Solved(Box<StepRecord>),
+    /// An increment, and the planned increments that are behind the run.
+    Solved(Box<StepRecord>, usize),
     Ended(Box<Result<history::History, RunError>>),
 }
 
@@ -38,6 +40,7 @@ struct Reporter<'a> {
     news: SyncSender<News>,
     heard: Receiver<()>,
     tells_steps: bool,
+    advance: Advance,
 }
 
 impl Reporter<'_> {
@@ -60,22 +63,23 @@ impl Observer for Reporter<'_> {
     }
 
     fn solved(&mut self, record: &StepRecord, _: &ContactState, _: Option<&KeptFields>) -> ControlFlow<()> {
-        if self.tells_steps && self.news.send(News::Solved(Box::new(record.clone()))).is_ok() {
+        self.advance.solved(record);
+        let passed = self.advance.passed();
+        if self.tells_steps && self.news.send(News::Solved(Box::new(record.clone()), passed)).is_ok() {
             self.wait_until_heard();
         }
         self.verdict()
     }
+
+    fn cycled(&mut self, record: &CycleRecord) {
+        self.advance.cycled(record);
+    }
 }
 
-/// Runs a case on so many threads (all cores when `None`). `on_step(step, increments)` is called after every increment
-/// with its numbers and the count of all increments; what it raises ends the run.
+/// Runs a case on so many threads (all cores when `None`). `on_step(step, increments, passed)` is called after every
+/// increment with its numbers, the count of all planned increments and of those that are behind the run; what it raises ends the run.
 #[pyfunction]
-pub fn run(
-    py: Python<'_>,
-    case: &Case,
-    threads: Option<usize>,
-    on_step: Option<Py<PyAny>>,
-) -> PyResult<History> {
+pub fn run(py: Python<'_>, case: &Case, threads: Threads, on_step: Option<Py<PyAny>>) -> PyResult<History> {
     let pool = threads::pool(threads)?;
     let question = case.0.clone();
     let plan = py.detach(|| pool.install(|| Plan::new(question))).map_err(|error| refused(&error))?;
@@ -92,7 +96,13 @@ fn listen(
     let stop = AtomicBool::new(false);
     let (news, inbox) = sync_channel(0);
     let (hear, heard) = sync_channel(1);
-    let mut reporter = Reporter { stop: &stop, news, heard, tells_steps: on_step.is_some() };
+    let mut reporter = Reporter {
+        stop: &stop,
+        news,
+        heard,
+        tells_steps: on_step.is_some(),
+        advance: Advance::new(&plan.case),
+    };
     let mut interruption: Option<PyErr> = None;
     let mut interrupt = |reaction: PyResult<()>| {
         if let Err(error) = reaction {
@@ -107,9 +117,10 @@ fn listen(
         });
         loop {
             match inbox.recv_timeout(PATIENCE) {
-                Ok(News::Solved(record)) => {
+                Ok(News::Solved(record, passed)) => {
                     if !stop.load(Ordering::Relaxed) {
-                        interrupt(consult(on_step.map(|on_step| (on_step, &*record, plan.increments))));
+                        let counts = [plan.increments, passed];
+                        interrupt(consult(on_step.map(|on_step| (on_step, &*record, counts))));
                     }
                     let _ = hear.send(()); // an error means that the working thread panicked: see below
                 }
@@ -127,10 +138,10 @@ fn listen(
 }
 
 /// Tells Python about a step, and asks it whether Ctrl-C was pressed.
-fn consult(step: Option<(&Py<PyAny>, &StepRecord, usize)>) -> PyResult<()> {
+fn consult(step: Option<(&Py<PyAny>, &StepRecord, [usize; 2])>) -> PyResult<()> {
     Python::attach(|py| {
-        if let Some((on_step, record, increments)) = step {
-            on_step.call1(py, (step_items(py, record)?, increments))?;
+        if let Some((on_step, record, [increments, passed])) = step {
+            on_step.call1(py, (step_items(py, record)?, increments, passed))?;
         }
         py.check_signals()
     })

@@ -2,6 +2,7 @@
 
 use fret_core::case::Side;
 use fret_core::model::{Body, ContactPair, SurfaceGrid};
+use fret_core::plan::memory_of_stress;
 use fret_core::subsurface::{LoadedSurface, StressTensor, depth_points, survey};
 use ndarray::{Array2, Array3, Axis};
 use numpy::{IntoPyArray, PyReadonlyArray2};
@@ -10,7 +11,7 @@ use pyo3::prelude::{Bound, PyDictMethods, PyResult, Python, pyfunction};
 use pyo3::types::PyDict;
 
 use crate::error::bad_value;
-use crate::threads::on_pool;
+use crate::threads::{Threads, check_memory, on_pool};
 
 const COMPONENTS: [&str; 6] = ["xx", "yy", "zz", "xy", "xz", "yz"];
 
@@ -27,7 +28,7 @@ pub fn subsurface_stress<'py>(
     periodic: bool,
     tractions: TractionArrays<'py>,
     depths: Vec<f64>,
-    threads: Option<usize>,
+    threads: Threads,
 ) -> PyResult<Bound<'py, PyDict>> {
     let (text, upper) = bodies;
     let pair: ContactPair = serde_json::from_str(text).map_err(bad_value)?;
@@ -38,9 +39,13 @@ pub fn subsurface_stress<'py>(
     };
     let points = depth_points(half_space, &depths).map_err(bad_value)?;
     let sign = if upper { -1.0 } else { 1.0 };
+    let shape = tractions.0.as_array().dim();
+    let cells = shape.0 * shape.1;
+    // Seven numbers a cell and depth are the answer.
+    let bytes = memory_of_stress(cells, 1).saturating_add(56 * cells.saturating_mul(points.len()));
+    check_memory(&format!("{} depths of {} x {} cells", points.len(), shape.0, shape.1), bytes)?;
     let pressure: Array2<f64> = tractions.0.as_array().to_owned();
     let shear = tractions.1.map(|(x, y)| [x, y].map(|component| component.as_array().to_owned() * sign));
-    let shape = pressure.dim();
     if shear.as_ref().is_some_and(|shear| shear.iter().any(|component| component.dim() != shape)) {
         return Err(PyValueError::new_err(format!("shear of another shape than the pressure, {shape:?}")));
     }

@@ -2,34 +2,60 @@
 
 use std::path::Path;
 
+use fret_core::machine::memory::{self, MemoryError, amount};
 use fret_core::model::Body;
 use fret_core::plan::{Coupling, Plan};
+use fret_core::study::{Expectation, expectation};
 use serde_json::json;
 
 use crate::case_file::CaseFile;
 use crate::failure::Failure;
-use crate::figures::{counted, figure, memory};
+use crate::figures::{LONGEST_TITLE, counted, duration, figure, shortened};
 use crate::output::resolved;
 use crate::terminal;
+use crate::threads;
 
 /// Plans a case and tells the plan.
 pub fn plan(path: &Path, as_json: bool) -> Result<(), Failure> {
     let plan = CaseFile::read(path)?.planned()?;
+    let lacking = memory::check(plan.memory_bytes).err();
+    // A run that cannot be begun takes no time, and a part of it may be too much.
+    let expected = match lacking {
+        None => Some(threads::pool(threads::asked(None))?.install(|| expectation(&plan))),
+        Some(_) => None,
+    };
     if as_json {
         let mut value = resolved(&plan);
         value["status"] = json!("planned");
+        value["increments_expected"] = json!(expected.map(|expected| expected.increments));
+        value["convolutions_expected"] = json!(expected.map(|expected| expected.convolutions));
+        value["seconds_expected"] = json!(expected.map(|expected| expected.seconds));
+        value["memory_lacking"] = json!(lacking.map(|error| format!("this {error}")));
         return terminal::answer(&format!("{value:#}"));
     }
-    terminal::answer(&table(&plan))
+    terminal::answer(&table(&plan, expected.as_ref(), lacking.as_ref()))
 }
 
-fn table(plan: &Plan) -> String {
+fn table(plan: &Plan, expected: Option<&Expectation>, lacking: Option<&MemoryError>) -> String {
     let coupling = match plan.coupling {
         Coupling::Frictionless => "pressure alone: there is no friction",
         Coupling::Uncoupled => "pressure first, then shear: they do not act on each other",
         Coupling::Coupled => "pressure and shear together: each acts on the other",
     };
     let title = if plan.case.title.is_empty() { "case" } else { &plan.case.title };
+    let title = shortened(title, LONGEST_TITLE);
+    let work = expected.map_or_else(
+        || "not this run on this machine".to_owned(),
+        |expected| {
+            format!(
+                "about {} in {}, {} on {}",
+                counted(expected.convolutions, "convolution"),
+                counted(expected.increments, "increment"),
+                duration(expected.seconds),
+                counted(threads::asked(None), "thread"),
+            )
+        },
+    );
     format!(
         "{title}\n\n\
          solved     {coupling}\n\
@@ -38,8 +64,9 @@ fn table(plan: &Plan) -> String {
          layers     {}\n\
          history    {}: {}\n\
          residual   at most {:e} in every increment\n\
-         memory     about {}\n\
-         work       about {}\n\n{}",
+         memory     about {}{}\n\
+         kept       {} of fields on disk\n\
+         work       {work}\n\n{}",
         cells(plan),
         if plan.case.periodic {
             "on the whole grid: the scene repeats"
@@ -50,8 +77,9 @@ fn table(plan: &Plan) -> String {
         counted(plan.increments, "increment"),
         stages(plan),
         plan.case.tolerance,
-        memory(plan.memory_bytes),
-        counted(plan.convolutions_expected, "convolution"),
+        amount(plan.memory_bytes as u64),
+        lacking.map_or_else(String::new, |error| format!(": this {error}")),
+        amount(plan.kept_bytes as u64),
         left_out(plan),
     )
 }

@@ -8,6 +8,7 @@ use std::time::Instant;
 use fret_core::checkpoint::{Checkpoint, Waypoint};
 use fret_core::cycle::CycleRecord;
 use fret_core::history::{KeptFields, StepRecord};
+use fret_core::machine::memory;
 use fret_core::model::{ContactState, SurfaceGrid};
 use fret_core::plan::{LeaveOut, Plan};
 use fret_core::simulation::{Iteration, Observer, RunError, Simulation};
@@ -22,14 +23,13 @@ use crate::commands::stress::after_run;
 use crate::defect;
 use crate::estimate::Estimate;
 use crate::failure::{Failure, Told, Unwritten};
-use crate::figures::counted;
 use crate::interrupt;
 use crate::output::{ERROR_BARS, ResultFolder, RunRecord, Standing, Stored, Wish, write_whole};
 use crate::progress::Progress;
 use crate::summary::Summary;
 use crate::tally::Tally;
 use crate::terminal;
-use crate::threads::available_threads;
+use crate::threads;
 
 /// Solves a case.
 pub fn run(arguments: &RunArguments, as_json: bool) -> Result<(), Told> {
@@ -101,13 +101,11 @@ fn prepared(arguments: &RunArguments) -> Result<Preparation, Failure> {
             "with --force in place of --resume it is solved anew".to_owned(),
         ));
     }
-    let threads = arguments.threads.map_or_else(available_threads, usize::from);
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().map_err(|error| {
-        Failure::Call(
-            format!("{}: {error}", counted(threads, "thread")),
-            "--threads with a smaller number".to_owned(),
-        )
-    })?;
+    let threads = threads::asked(arguments.threads);
+    let pool = threads::pool(threads)?;
+    if !matches!(standing, Standing::Solved(_)) {
+        memory::check(plan.memory_bytes.max(companion.as_ref().map_or(0, |plan| plan.memory_bytes)))?;
+    }
     if !arguments.quiet && !matches!(standing, Standing::Solved(_)) {
         announce(&plan, &folder, &standing);
     }
@@ -151,10 +149,9 @@ impl Preparation {
                     terminal::say(&format!("an older checkpoint is taken: {why}"));
                 }
                 terminal::say(&format!(
-                    "{}: {} of {} increments are solved; going on with increment {} (counted from 0)",
+                    "{}: {}; going on with increment {} (counted from 0)",
                     self.folder.display(),
-                    checkpoint.solved(),
-                    self.plan.increments,
+                    head.tally.standing(),
                     checkpoint.solved()
                 ));
             }
@@ -195,7 +192,7 @@ impl Preparation {
         let Departure { folder, tally, from, wall_s } = departure;
         let mut witness = Witness {
             folder,
-            progress: Progress::new(quiet, &title, self.plan.increments, tally.solved),
+            progress: Progress::new(quiet, &title, &tally),
             tally,
             clock: Clock { started: Instant::now(), before_s: wall_s },
             read_on: self.companion.as_ref().map(|_| self.plan.grid),
@@ -273,8 +270,7 @@ impl Preparation {
     }
 
     fn kept(&self, tally: &Tally) -> String {
-        let (solved, all) = (tally.solved, self.plan.increments);
-        format!("{solved} of {all} increments are solved and kept in {}", self.folder.display())
+        format!("{} and kept in {}", tally.standing(), self.folder.display())
     }
 }
 
@@ -334,6 +330,10 @@ impl Observer for Witness {
         }
         self.progress.solved(record, &self.tally);
         go_on()
+    }
+
+    fn leaves_fields(&self) -> bool {
+        false // they are written down
     }
 
     fn cycled(&mut self, record: &CycleRecord) {

@@ -9,7 +9,9 @@ use std::path::Path;
 use std::time::Instant;
 
 use fret_core::case::{Side, StressRequest};
+use fret_core::machine::memory;
 use fret_core::model::{Base, Body, HalfSpace};
+use fret_core::plan::memory_of_stress;
 use fret_core::subsurface::largest::look;
 use fret_core::subsurface::{
     DepthPoint, Largest, LoadedSurface, Measure, StressField, automatic_depths, depth_points, survey,
@@ -25,7 +27,7 @@ use crate::output::section::Section;
 use crate::output::vtk::Volume;
 use crate::output::write_whole;
 use crate::terminal;
-use crate::threads::available_threads;
+use crate::threads;
 
 /// Depths chosen by `--auto`.
 const AUTOMATIC: usize = 64;
@@ -46,11 +48,7 @@ pub fn stress(arguments: &StressArguments, as_json: bool) -> Result<(), Failure>
 fn stress_of(arguments: &StressArguments, as_json: bool) -> Result<Value, Failure> {
     let run = FinishedRun::open(&arguments.folder)?;
     let request = requested(arguments, &run);
-    let threads = arguments.threads.map_or_else(available_threads, usize::from);
-    let pool = rayon::ThreadPoolBuilder::new()
-        .num_threads(threads)
-        .build()
-        .map_err(|error| Failure::Call(error.to_string(), "--threads with a smaller number".to_owned()))?;
+    let pool = threads::pool(threads::asked(arguments.threads))?;
     let answer = pool.install(|| computed(&arguments.folder, &run, &request))?;
     if !arguments.quiet && !as_json {
         terminal::answer(&answer.table)?;
@@ -149,6 +147,7 @@ fn loaded_surfaces(
     let kept = &run.steps;
     let last = kept.len().saturating_sub(1);
     let chosen = kept.iter().enumerate().filter(|(n, _)| (last - n).is_multiple_of(request.every));
+    memory::check(memory_of_stress(run.grid.len(), chosen.clone().count()))?;
     let sign = if request.body == Side::Lower { 1.0 } else { -1.0 };
     let mut surfaces = Vec::new();
     for (_, &increment) in chosen {

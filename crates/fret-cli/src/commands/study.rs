@@ -3,6 +3,7 @@
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
 
+use fret_core::machine::memory;
 use fret_core::plan::Plan;
 use fret_core::simulation::RunError;
 use fret_core::study::{Advice, Climb, ClosedForm, Kind, Ladder, Line, Place, Rung, Truth, climbed};
@@ -17,7 +18,7 @@ use crate::interrupt::{self, Listener};
 use crate::output::write_whole;
 use crate::study::{picture, reference, table, words};
 use crate::terminal;
-use crate::threads::available_threads;
+use crate::threads;
 
 /// Accuracies a choice is told for.
 const ACCURACIES: [f64; 3] = [1e-2, 1e-3, 1e-4];
@@ -32,11 +33,8 @@ pub fn study(arguments: &StudyArguments, as_json: bool) -> Result<(), Failure> {
     let plan = case_file.planned()?;
     let ladder = ladder(arguments, &plan)?;
     let against = Against::new(arguments.against.as_deref(), &plan)?;
-    let threads = arguments.threads.map_or_else(available_threads, usize::from);
-    let pool = rayon::ThreadPoolBuilder::new()
-        .num_threads(threads)
-        .build()
-        .map_err(|error| Failure::Call(error.to_string(), "--threads with a smaller number".to_owned()))?;
+    let pool = threads::pool(threads::asked(arguments.threads))?;
+    fits_memory(&ladder, &plan)?;
     let folder = arguments.out.clone().unwrap_or_else(|| {
         let mut name = case_file.stem().into_os_string();
         name.push("-study");
@@ -85,6 +83,18 @@ fn ladder(arguments: &StudyArguments, plan: &Plan) -> Result<Ladder, Failure> {
     }
     Ladder::new(plan, cells, increments, tolerances)
         .map_err(|error| Failure::Call(error.to_string(), "fret study --help".to_owned()))
+}
+
+/// Refuses a ladder whose finest rung the machine has not the memory for.
+fn fits_memory(ladder: &Ladder, plan: &Plan) -> Result<(), Failure> {
+    let finest = ladder.at(ladder.finest());
+    let [nx, ny] = finest.cells;
+    let too_many = |error: &dyn std::fmt::Display| {
+        let message = format!("--cells {nx}: a grid of {nx} x {ny} cells {error}");
+        Failure::Call(message, "--cells with smaller numbers".to_owned())
+    };
+    let planned = finest.planned(plan).map_err(|error| too_many(&error))?;
+    memory::check(planned.memory_bytes).map_err(|error| too_many(&error))
 }
 
 /// What is asked to be measured by.

@@ -3,9 +3,11 @@
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
 use std::sync::atomic::{AtomicUsize, Ordering};
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Condvar, Mutex, PoisonError};
 use std::time::Instant;
 
+use fret_core::machine::memory::{self, Claim, MemoryError};
+use fret_core::plan::Plan;
 use fret_core::simulation::{RunError, Simulation};
 use serde_json::json;
 
@@ -15,7 +17,7 @@ use crate::figures::{counted, duration};
 use crate::interrupt::{self, Listener};
 use crate::sweep::{Answer, Question, SweepFolder};
 use crate::terminal;
-use crate::threads::available_threads;
+use crate::threads;
 
 /// Solves all points of a sweep.
 pub fn sweep(arguments: &SweepArguments, as_json: bool) -> Result<(), Told> {
@@ -25,8 +27,7 @@ pub fn sweep(arguments: &SweepArguments, as_json: bool) -> Result<(), Told> {
     let path = arguments.out.clone().unwrap_or_else(|| Path::new("results").join(stem));
     let folder = SweepFolder::open(&path, &text)?;
     interrupt::listen();
-    let all = available_threads();
-    let threads = arguments.threads.map_or(all, usize::from);
+    let threads = threads::asked(arguments.threads);
     let known: Vec<Option<Answer>> = question.points.iter().map(|point| folder.finished(point)).collect();
     let board = Board::new(&question, known, arguments.quiet);
     board.announce(threads);
@@ -47,7 +48,7 @@ pub fn sweep(arguments: &SweepArguments, as_json: bool) -> Result<(), Told> {
                 "unsolved": counts.unsolved(),
                 "refused": counts.refused,
                 "failed": counts.failed,
-                "solved_before": board.before,
+                "solved_before": board.solved_before,
                 "summary": summary.display().to_string(),
             })
         ))?;
@@ -88,9 +89,26 @@ struct Board<'a> {
     next: AtomicUsize,
     answers: Mutex<Vec<Option<Answer>>>,
     ended: Mutex<Option<Failure>>,
+    /// Points that have memory and are being solved.
+    at_work: Mutex<usize>,
+    /// One of them is over.
+    freed: Condvar,
+    /// Points that were found finished.
     before: usize,
+    /// Those of them that are solved.
+    solved_before: usize,
     quiet: bool,
     started: Instant,
+}
+
+/// A point at work; those that wait for its memory hear of its end.
+struct AtWork<'a>(&'a Board<'a>);
+
+impl Drop for AtWork<'_> {
+    fn drop(&mut self) {
+        *self.0.at_work.lock().unwrap_or_else(PoisonError::into_inner) -= 1;
+        self.0.freed.notify_all();
+    }
 }
 
 impl<'a> Board<'a> {
@@ -99,10 +117,13 @@ impl<'a> Board<'a> {
         Self {
             question,
             before: known.len() - open.len(),
+            solved_before: known.iter().flatten().filter(|answer| answer.status() == "solved").count(),
             open,
             next: AtomicUsize::new(0),
             answers: Mutex::new(known),
             ended: Mutex::new(None),
+            at_work: Mutex::new(0),
+            freed: Condvar::new(),
             quiet,
             started: Instant::now(),
         }
@@ -138,14 +159,14 @@ impl<'a> Board<'a> {
     }
 
     fn solve_points(&self, folder: &SweepFolder, threads: usize) -> Result<(), Failure> {
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().map_err(|error| {
-            Failure::Call(error.to_string(), "--threads with a smaller number".to_owned())
-        })?;
+        let pool = threads::pool(threads)?;
         while let Some(&number) = self.open.get(self.next.fetch_add(1, Ordering::Relaxed)) {
             let point = &self.question.points[number];
             let solve = || -> Result<Answer, Failure> {
                 let plan = point.case_file.planned()?;
-                let history = Simulation::new(&plan).run(&mut Listener).map_err(|error| match error {
+                let (_at_work, claim) = self.memory_for(&plan)?;
+                let run = Simulation::new(&plan).within(claim).run(&mut Listener);
+                let history = run.map_err(|error| match error {
                     RunError::Interrupted { .. } => Failure::Interrupted(String::new()),
                     error => Failure::Unsolved(error),
                 })?;
@@ -158,6 +179,11 @@ impl<'a> Board<'a> {
                         "finished points are kept; the same call goes on with the others".to_owned(),
                     ));
                 }
+                // Not an answer of the point: another machine has the memory.
+                Ok(Err(Failure::Memory(error))) => {
+                    self.tell(number, Answer::unsolved(&Failure::Memory(error)));
+                    continue;
+                }
                 Ok(Err(failure)) => Answer::unsolved(&failure),
                 Err(_) => Answer::unsolved(&Failure::Defect(format!("point {number} ended in a panic"))),
             };
@@ -165,6 +191,21 @@ impl<'a> Board<'a> {
             self.tell(number, answer);
         }
         Ok(())
+    }
+
+    /// Memory for a point, beside the points that are at work: waited for while any of them is.
+    fn memory_for(&self, plan: &Plan) -> Result<(AtWork<'_>, Claim), MemoryError> {
+        let mut at_work = self.at_work.lock().unwrap_or_else(PoisonError::into_inner);
+        loop {
+            match memory::claim(plan.memory_bytes) {
+                Ok(claim) => {
+                    *at_work += 1;
+                    return Ok((AtWork(self), claim));
+                }
+                Err(error) if *at_work == 0 => return Err(error),
+                Err(_) => at_work = self.freed.wait(at_work).unwrap_or_else(PoisonError::into_inner),
+            }
+        }
     }
 
     fn tell(&self, number: usize, answer: Answer) {

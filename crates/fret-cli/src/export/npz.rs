@@ -2,7 +2,7 @@
 //!
 //! Formats: <https://numpy.org/doc/stable/reference/generated/numpy.lib.format.html>, in a zip archive without compression.
 
-use std::io::{Seek, Write};
+use std::io::{self, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
 use zip::write::SimpleFileOptions;
@@ -32,7 +32,7 @@ pub fn write(results: &Results, path: &Path) -> Result<Vec<PathBuf>, Failure> {
     let fields = &results.fields;
     let [nx, ny] = fields.cells();
     written(path, |writer| {
-        let mut archive = Archive { zip: ZipWriter::new(writer), path };
+        let mut archive = Archive { zip: ZipWriter::new(UntilFailed { writer, failed: false }), path };
         let steps: Vec<u8> = fields.steps.iter().flat_map(|&step| (step as i64).to_le_bytes()).collect();
         archive.array("x", "<f8", &[nx], &bytes(&fields.x))?;
         archive.array("y", "<f8", &[ny], &bytes(&fields.y))?;
@@ -73,6 +73,40 @@ pub fn write(results: &Results, path: &Path) -> Result<Vec<PathBuf>, Failure> {
     Ok(vec![path.to_owned()])
 }
 
+/// Passes on what is written until that fails once, and swallows the rest: an archive that is given up still tries to write its
+/// end, and would complain of it on standard error.
+struct UntilFailed<W> {
+    writer: W,
+    failed: bool,
+}
+
+impl<W> UntilFailed<W> {
+    fn attempt<T>(&mut self, instead: T, act: impl FnOnce(&mut W) -> io::Result<T>) -> io::Result<T> {
+        if self.failed {
+            return Ok(instead);
+        }
+        let outcome = act(&mut self.writer);
+        self.failed = outcome.is_err();
+        outcome
+    }
+}
+
+impl<W: Write> Write for UntilFailed<W> {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        self.attempt(bytes.len(), |writer| writer.write(bytes))
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.attempt((), Write::flush)
+    }
+}
+
+impl<W: Seek> Seek for UntilFailed<W> {
+    fn seek(&mut self, place: SeekFrom) -> io::Result<u64> {
+        self.attempt(0, |writer| writer.seek(place))
+    }
+}
+
 /// An archive while it is filled.
 struct Archive<'a, W: Write + Seek> {
     zip: ZipWriter<W>,
@@ -99,7 +133,11 @@ impl<W: Write + Seek> Archive<'_, W> {
 }
 
 fn unwritten(path: &Path, error: zip::result::ZipError) -> Failure {
-    Unwritten::at(path)(std::io::Error::other(error)).into()
+    let cause = match error {
+        zip::result::ZipError::Io(cause) => cause,
+        other => io::Error::other(other),
+    };
+    Unwritten::at(path)(cause).into()
 }
 
 /// The head of an array in C order, version 1.0, padded to a multiple of 64 bytes.

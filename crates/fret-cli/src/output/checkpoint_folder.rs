@@ -88,10 +88,7 @@ impl CheckpointFolder {
         let name = path.join(LOCK);
         let lock = File::create(&name).map_err(Unwritten::at(&name))?;
         match lock.try_lock() {
-            Err(TryLockError::WouldBlock) => Err(Failure::Call(
-                format!("{}: another run is writing into it at this moment", results.display()),
-                "wait for it, or choose another folder with --out DIR".to_owned(),
-            )),
+            Err(TryLockError::WouldBlock) => Err(taken(results)),
             // Where files cannot be locked there is no protection, but no reason to refuse either.
             Ok(()) | Err(TryLockError::Error(_)) => Ok(Self {
                 path,
@@ -101,6 +98,16 @@ impl CheckpointFolder {
                 synced_at: None,
                 sync_took: Duration::ZERO,
             }),
+        }
+    }
+
+    /// Refuses results that another run is writing at this moment; takes and writes nothing.
+    pub fn refuse_taken(results: &Path) -> Result<(), Failure> {
+        // Where there is no lock, or none that can be looked at, the attempt to take it will tell.
+        let Ok(lock) = File::open(results.join("checkpoint").join(LOCK)) else { return Ok(()) };
+        match lock.try_lock() {
+            Err(TryLockError::WouldBlock) => Err(taken(results)),
+            Ok(()) | Err(TryLockError::Error(_)) => Ok(()),
         }
     }
 
@@ -187,6 +194,13 @@ impl CheckpointFolder {
         // The results are whole; what stays behind by a failure here is only litter.
         let _ = fs::remove_dir_all(path);
     }
+}
+
+fn taken(results: &Path) -> Failure {
+    Failure::Call(
+        format!("{}: another run is writing into it at this moment", results.display()),
+        "wait for it, or choose another folder with --out DIR".to_owned(),
+    )
 }
 
 fn pack(bytes: &mut Vec<u8>, head: &Head, waypoint: &Waypoint<'_>) -> Result<(), Failure> {

@@ -4,6 +4,7 @@
 //! (zone: 255). xarray opens it with
 //! `xr.open_zarr(path, consolidated=False)`. Format: <https://zarr-specs.readthedocs.io/en/latest/v3/core/index.html>.
 
+use std::borrow::Cow;
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -277,10 +278,14 @@ fn little_endian_bytes() -> Value {
 }
 
 /// A field in the order of its index `[i, j]`, j fastest, as Zarr wants it.
-fn numbers(field: &Array2<f64>) -> Vec<u8> {
-    field.iter().flat_map(|value| value.to_le_bytes()).collect()
+/// Nothing is copied where memory has that order already.
+fn numbers(field: &Array2<f64>) -> Cow<'_, [u8]> {
+    match field.as_slice() {
+        Some(values) if cfg!(target_endian = "little") => Cow::Borrowed(bytemuck::cast_slice(values)),
+        _ => field.iter().flat_map(|value| value.to_le_bytes()).collect(),
+    }
 }
 
-fn zones(field: &Array2<Zone>) -> Vec<u8> {
+fn zones(field: &Array2<Zone>) -> Cow<'_, [u8]> {
     field.iter().map(|&zone| zone as u8).collect()
 }

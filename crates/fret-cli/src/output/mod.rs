@@ -90,6 +90,7 @@ impl ResultFolder {
         if holds_nothing(path) {
             return Ok(Standing::Free);
         }
+        CheckpointFolder::refuse_taken(path)?;
         let Some(earlier) = fs::read(path.join(RECORD)).ok() else {
             return match wish {
                 Wish::Force => Ok(Standing::Forced),

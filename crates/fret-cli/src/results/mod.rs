@@ -7,11 +7,15 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
+use fret_core::machine::memory;
 use serde_json::Value;
 
 use crate::failure::Failure;
 pub use fields::{Field, Fields};
 pub use table::Table;
+
+/// Bytes a cell of a field while it passes through.
+const FIELD: usize = 4 * 8;
 
 /// A result folder that could be read.
 #[derive(Debug)]
@@ -47,6 +51,9 @@ impl Results {
         }
         let table = Table::read(&path.join("history.csv"))?;
         let fields = Fields::read(&path.join("fields.zarr"), table.rows())?;
+        // Fields are read one at a time: its bytes, its numbers, what is written of it.
+        let [nx, ny] = fields.cells();
+        memory::check(FIELD * nx * ny)?;
         Ok(Self { path: path.to_owned(), record, table, fields })
     }
 

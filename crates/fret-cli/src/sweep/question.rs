@@ -95,6 +95,9 @@ impl Reader<'_> {
             return Err(self.refusal());
         };
         let points = self.combined(&base, &folder, &axes);
+        if let Some(first) = points.first() {
+            self.refuse_unknown_keys(first, &axes);
+        }
         if self.mistakes.is_empty() {
             Ok(Question { keys: axes.into_iter().flat_map(|axis| axis.keys).collect(), points })
         } else {
@@ -201,6 +204,21 @@ impl Reader<'_> {
             }
         }
         points
+    }
+
+    /// Refuses, once and not at every point, the axes whose keys no case knows.
+    fn refuse_unknown_keys(&mut self, first: &Point, axes: &[Axis]) {
+        let Err(error) = first.case_file.case() else { return };
+        let unknown = |mistake: &Mistake| mistake.message.starts_with("unknown key `");
+        for mistake in error.mistakes().iter().filter(|mistake| unknown(mistake)) {
+            let word = mistake.message.split('`').nth(1).unwrap_or_default();
+            let names = |key: &String| key.split('.').any(|part| part == word);
+            let axis = axes.iter().find_map(|axis| axis.keys.iter().find(|key| names(key)).zip(Some(axis)));
+            if let Some((key, axis)) = axis {
+                let message = format!("{key}: {}", mistake.message);
+                self.refuse(Some(axis.span.clone()), &message, mistake.help.as_deref());
+            }
+        }
     }
 
     /// A value without its place.

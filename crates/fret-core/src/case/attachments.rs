@@ -1,6 +1,13 @@
-//! Files a case names beside itself: tables, heights, maps. The core opens none; whoever hands in the text hands them in too.
+//! Files a case names beside itself: tables, heights, maps. The core looks for none; whoever hands in the text hands them in too.
+
+use std::fs;
+use std::io;
+use std::path::Path;
 
 use ndarray::Array2;
+
+/// Bytes of a file that a case names, at the most: the cells of the largest grid at sixteen letters each.
+pub const MOST_BYTES: u64 = 1 << 30;
 
 /// Files and arrays that come with the text of a case.
 #[derive(Clone, Copy)]
@@ -20,5 +27,34 @@ impl<'a> Attachments<'a> {
     /// Files only.
     pub fn files(file: &'a dyn Fn(&str) -> Result<Vec<u8>, String>) -> Self {
         Self { file, arrays: &[] }
+    }
+}
+
+/// Content of a file that a case names, for those who hand it in. It is measured before it is read, and only ordinary files are read, so
+/// that nothing waits on a pipe.
+///
+/// # Errors
+/// In a few words why it cannot be had.
+pub fn content(path: &Path) -> Result<Vec<u8>, String> {
+    let facts = fs::metadata(path).map_err(|error| unreadable(&error))?;
+    if facts.is_dir() {
+        return Err("a folder, not a file".to_owned());
+    }
+    if !facts.is_file() {
+        return Err("no ordinary file".to_owned());
+    }
+    if facts.len() > MOST_BYTES {
+        return Err(format!("{} MB long; at most {} MB are read", facts.len() >> 20, MOST_BYTES >> 20));
+    }
+    fs::read(path).map_err(|error| unreadable(&error))
+}
+
+/// Why a file cannot be read, in a few words.
+pub fn unreadable(error: &io::Error) -> String {
+    match error.kind() {
+        io::ErrorKind::NotFound => "no such file".to_owned(),
+        io::ErrorKind::PermissionDenied => "no permission to read it".to_owned(),
+        io::ErrorKind::OutOfMemory => "there is no memory to read it into".to_owned(),
+        _ => format!("cannot be read: {error}"),
     }
 }

@@ -16,10 +16,12 @@ use super::wearing::wear;
 use super::{Case, FIELD_NAMES, GridSize, Origin, Output, Stage};
 use crate::model::{CoulombFriction, Scheme};
 
+/// Cells along one side of the grid, at the least.
+pub const FEWEST_CELLS: usize = 4;
 /// Cells along one side of the grid, at the most.
-const MOST_CELLS: usize = 1 << 14;
+pub const MOST_CELLS: usize = 1 << 14;
 /// Cells of the whole grid, at the most.
-const MOST_CELLS_IN_ALL: usize = 1 << 26;
+pub const MOST_CELLS_IN_ALL: usize = 1 << 26;
 /// Lengths above this, and below its inverse, have powers that are no numbers any more.
 const HUGE: f64 = 1e100;
 /// Length over width of a cell, at the most.
@@ -27,12 +29,14 @@ const LONGEST_CELL: f64 = 1e6;
 /// Residual asked for when the case does not say.
 const TOLERANCE: f64 = 1e-8;
 
-/// The case of a file, or everything that is wrong with it.
+/// The case of a file, or everything that is wrong with it; `is_whole`: nothing in it stands for what was refused before, so that one
+/// entry can be judged by another.
 pub(super) fn case(
     file: CaseFile,
     name: &str,
     text: &str,
     attachments: Attachments<'_>,
+    is_whole: bool,
 ) -> Result<Case, Vec<Mistake>> {
     let mut judge = Judge { mistakes: Vec::new(), attachments };
     let cells = cells(&mut judge, &file.grid.cells);
@@ -56,7 +60,7 @@ pub(super) fn case(
         );
     }
     let frictionless = laws.as_ref().is_some_and(|laws| laws.iter().all(|law| law.is_frictionless()));
-    if let (Some(laws), Some(stages)) = (&laws, &stages) {
+    if let (true, Some(laws), Some(stages)) = (is_whole, &laws, &stages) {
         sliding(&mut judge, laws, &file.load, stages);
     }
     let wear = wear(&mut judge, file.wear.as_ref(), bodies.as_ref(), stages.as_deref(), frictionless);
@@ -107,10 +111,10 @@ pub(super) fn case(
 
 fn cells(judge: &mut Judge, given: &Spanned<[usize; 2]>) -> Option<[usize; 2]> {
     let cells = *given.get_ref();
-    if cells.iter().any(|&side| !(4..=MOST_CELLS).contains(&side)) {
+    if cells.iter().any(|&side| !(FEWEST_CELLS..=MOST_CELLS).contains(&side)) {
         return judge.refuse(
             given.span(),
-            format!("grid.cells = {cells:?}: each side needs between 4 and {MOST_CELLS} cells"),
+            format!("grid.cells = {cells:?}: each side needs between {FEWEST_CELLS} and {MOST_CELLS} cells"),
             "64 to 256 cells a side serve most contacts",
         );
     }
@@ -127,6 +131,11 @@ fn cells(judge: &mut Judge, given: &Spanned<[usize; 2]>) -> Option<[usize; 2]> {
 fn size(judge: &mut Judge, given: &Spanned<SizeFile>, cells: Option<[usize; 2]>) -> Option<GridSize> {
     match *given.get_ref() {
         SizeFile::Auto => Some(GridSize::Auto),
+        SizeFile::Given(sides) if !sides.iter().all(|side| side.is_finite() && *side > 0.0) => judge.refuse(
+            given.span(),
+            format!("grid.size = {sides:?}: both must be positive finite lengths"),
+            "or size = \"auto\"",
+        ),
         SizeFile::Given(sides) if cells.is_some_and(|cells| are_needles(sides, cells)) => judge.refuse(
             given.span(),
             format!("grid.size = {sides:?}: the cells are more than {LONGEST_CELL:e} times as long as wide"),
@@ -135,15 +144,10 @@ fn size(judge: &mut Judge, given: &Spanned<SizeFile>, cells: Option<[usize; 2]>)
         SizeFile::Given(sides) if sides.iter().all(|side| (1.0 / HUGE..=HUGE).contains(side)) => {
             Some(GridSize::Given(sides))
         }
-        SizeFile::Given(sides) if sides.iter().all(|side| side.is_finite() && *side > 0.0) => judge.refuse(
+        SizeFile::Given(sides) => judge.refuse(
             given.span(),
             format!("grid.size = {sides:?}: each side must lie between {:e} and {HUGE:e}", 1.0 / HUGE),
             "choose units in which the numbers are nearer to 1: their squares must be numbers too",
-        ),
-        SizeFile::Given(sides) => judge.refuse(
-            given.span(),
-            format!("grid.size = {sides:?}: both must be positive finite lengths"),
-            "or size = \"auto\"",
         ),
     }
 }

@@ -3,7 +3,7 @@
 mod arrays;
 mod attachments;
 mod bodies;
-mod check;
+pub(crate) mod check;
 mod coating;
 mod controls;
 mod course;
@@ -27,14 +27,15 @@ use serde::Serialize;
 
 use crate::model::{ContactPair, CoulombFriction, Profile, Scheme, WearRule};
 
-pub use attachments::Attachments;
+pub use attachments::{Attachments, content, unreadable};
 pub(crate) use course::walk;
 pub use course::{Course, Cycles, Path, Waveform};
 pub use file::schema;
 pub use numbers::{NumbersError, numbers};
 pub use refusal::{CaseError, Mistake};
+pub(crate) use stages::apart;
 pub use stress::{FatigueRequest, Side, StressRequest};
-pub use wording::in_words;
+pub use wording::{in_words, printable};
 
 /// Fields that can be kept, by the names of the case file.
 pub const FIELD_NAMES: [&str; 6] = ["pressure", "shear", "slip", "gap", "zone", "worn_depth"];

@@ -90,7 +90,7 @@ pub(super) fn case(text: &str, name: &str, attachments: Attachments<'_>) -> Resu
         // What stands for a whole table would be judged together with the rest.
         return Err(CaseError::new(name, text, mistakes));
     }
-    match check::case(file, name, text, attachments) {
+    match check::case(file, name, text, attachments, removed.is_empty()) {
         Ok(case) if mistakes.is_empty() => Ok(case),
         Ok(_) => Err(CaseError::new(name, text, mistakes)),
         Err(found) => {
@@ -263,12 +263,19 @@ fn take_inside(
     span: &Range<usize>,
     instead: &Instead,
 ) -> Option<Range<usize>> {
+    let whole = value.span();
     match value.get_mut() {
         DeValue::Table(inner) => take_at(inner, span, instead),
-        DeValue::Array(items) => items.iter_mut().find_map(|item| match item.get_mut() {
-            DeValue::Table(inner) => take_at(inner, span, instead),
-            _ => None,
-        }),
+        DeValue::Array(items) => {
+            // Of a list with a wrong entry every entry is put right: one list, one mistake.
+            if let (true, Instead::Value(value)) = (items.iter().any(|item| item.span() == *span), instead) {
+                for item in items.iter_mut() {
+                    *item = Spanned::new(item.span(), value.clone());
+                }
+                return Some(whole);
+            }
+            items.iter_mut().find_map(|item| take_inside(item, span, instead))
+        }
         _ => None,
     }
 }

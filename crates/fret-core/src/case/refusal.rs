@@ -1,5 +1,6 @@
 //! How a case is refused: every mistake with its place, what was found, what is allowed.
 
+use super::wording::printable;
 use std::ops::Range;
 
 use annotate_snippets::{AnnotationKind, Level, Renderer, Snippet};
@@ -64,13 +65,13 @@ impl CaseError {
     fn block(&self, mistake: &Mistake, renderer: &Renderer) -> String {
         let Some(span) = mistake.span.clone().filter(|span| span.end <= self.text.len()) else {
             let help = mistake.help.as_ref().map_or(String::new(), |help| format!("\n  = help: {help}"));
-            return format!("error: {}: {}{help}", self.name, mistake.message);
+            return printable(&format!("error: {}: {}{help}", self.name, mistake.message)).into_owned();
         };
         let snippet =
             Snippet::source(&self.text).path(&self.name).annotation(AnnotationKind::Primary.span(span));
-        let group = Level::ERROR.primary_title(&mistake.message).element(snippet);
+        let group = Level::ERROR.primary_title(printable(&mistake.message)).element(snippet);
         let group = match &mistake.help {
-            Some(help) => group.element(Level::HELP.message(help)),
+            Some(help) => group.element(Level::HELP.message(printable(help))),
             None => group,
         };
         renderer.render(&[group])

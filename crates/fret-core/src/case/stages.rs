@@ -353,7 +353,7 @@ pub(super) fn sliding(
 }
 
 /// Two numbers in as few digits as tell them apart.
-fn apart(one: f64, other: f64) -> [String; 2] {
+pub fn apart(one: f64, other: f64) -> [String; 2] {
     let rounded = [one, other].map(|value| {
         let short = format!("{value:.5e}").parse::<f64>().unwrap_or(value);
         format!("{short:?}")

@@ -45,14 +45,14 @@ pub(super) fn table(
         .from_reader(text.as_bytes());
     let names: Vec<String> = match reader.headers() {
         Ok(names) => names.iter().map(str::to_owned).collect(),
-        Err(error) => return at.refuse(judge, &format!("not readable as CSV: {error}"), ""),
+        Err(error) => return at.refuse(judge, &unreadable(&error), ""),
     };
     let chosen = chosen(judge, file, &names, &at)?;
     let mut columns: Columns = chosen.iter().map(|&(control, _)| (control, Vec::new())).collect();
     for row in reader.records() {
         let row = match row {
             Ok(row) => row,
-            Err(error) => return at.refuse(judge, &format!("not readable as CSV: {error}"), ""),
+            Err(error) => return at.refuse(judge, &unreadable(&error), ""),
         };
         let line = row.position().map_or(0, csv::Position::line);
         for &(control, index) in &chosen {
@@ -77,6 +77,22 @@ pub(super) fn table(
         return at.refuse(judge, &message, "");
     }
     Some(columns)
+}
+
+/// Why a row cannot be read.
+fn unreadable(error: &csv::Error) -> String {
+    let cells = |count: u64| if count == 1 { "1 cell".to_owned() } else { format!("{count} cells") };
+    match error.kind() {
+        csv::ErrorKind::UnequalLengths { pos, expected_len, len } => {
+            let line = pos.as_ref().map_or(0, csv::Position::line);
+            format!("line {line} has {}, its head {}", cells(*len), cells(*expected_len))
+        }
+        csv::ErrorKind::Utf8 { pos, .. } => {
+            let line = pos.as_ref().map_or(0, csv::Position::line);
+            format!("line {line} is not a text in UTF-8")
+        }
+        _ => format!("not readable as CSV: {error}"),
+    }
 }
 
 /// Which column of the file holds which control.
@@ -121,6 +137,9 @@ fn chosen(
     for pair in [[0, 1], [2, 4], [3, 5], [6, 7]] {
         let [force, motion] = pair.map(|index| COLUMNS[index]);
         let has = |control: &str| chosen.iter().filter(|(known, _)| *known == control).count();
+        if let Some(twice) = [force, motion].into_iter().find(|control| has(control) > 1) {
+            return at.refuse(judge, &format!("column {twice:?} stands there twice"), "");
+        }
         if has(force) + has(motion) > 1 {
             let message = format!("{force} and {motion} prescribe one thing, and one column may do so");
             return at.refuse(judge, &message, "");
@@ -189,9 +208,10 @@ mod tests {
             (table, "force\n1.0\n", "column \"force\" is no control"),
             (table, "", "no column"),
             (table, "shift_x\n", "0 rows"),
-            (table, "shift_x,shift_y\n1e-3\n", "CSV error: record 1"),
+            (table, "shift_x,shift_y\n1e-3\n", "line 2 has 1 cell, its head 2 cells"),
+            (table, "shift_x,shift_x\n1e-3,1e-3\n", "column \"shift_x\" stands there twice"),
             (table, "shift_x\n1e-3\nnan\n", "line 3, column \"shift_x\": \"nan\" is no finite number"),
-            (table, "shift_x\n1,5\n", "CSV error"),
+            (table, "shift_x\n1,5\n", "line 2 has 2 cells, its head 1 cell"),
             (table, "shift_x,tangential_force_x\n1e-3,0\n", "one column may do so"),
             (named, "time,P\n0,1\n", "no column \"Q\"; it has: time, P"),
             ("table = \"path.csv\"\ncolumns = { pull = \"Q\" }", "Q\n1\n", "no control is called \"pull\""),

@@ -1,5 +1,7 @@
 //! The parser's messages in the words of a case file: keys, tables, lists, numbers and texts.
 
+use std::borrow::Cow;
+
 /// What the parser says about the structure of a case, as its author would say it; other messages stay as they are.
 pub fn in_words(message: &str) -> String {
     let message = message.trim_end();
@@ -33,6 +35,28 @@ pub fn in_words(message: &str) -> String {
         return "fits none of the forms that are allowed here".to_owned();
     }
     message.to_owned()
+}
+
+/// A text as a terminal may have it: control characters, which would steer it, and marks that turn the direction of writing are
+/// shown as `\\u{1b}`; lines and tabs stay.
+pub fn printable(text: &str) -> Cow<'_, str> {
+    let steers = |letter: char| {
+        letter.is_control() && !matches!(letter, '\n' | '\t')
+            || matches!(letter, '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
+    };
+    if !text.chars().any(steers) {
+        return Cow::Borrowed(text);
+    }
+    text.chars()
+        .fold(String::new(), |mut shown, letter| {
+            if steers(letter) {
+                shown.extend(letter.escape_unicode());
+            } else {
+                shown.push(letter);
+            }
+            shown
+        })
+        .into()
 }
 
 /// What was found.
@@ -104,6 +128,37 @@ mod tests {
             let message = said(good, bad);
             assert!(message.contains(words), "{bad}: {message}");
         }
+    }
+
+    #[test]
+    fn one_mistake_is_told_in_one_message_with_the_right_words() {
+        for (good, bad, words) in [
+            ("[32, 32]", "['a', 'b']", "found the text \"a\", expected a whole number, 0 or more"),
+            ("[32, 32]", "[48.5, 48]", "found 48.5, expected a whole number, 0 or more"),
+            ("[32, 32]", "[-48, 48]", "found -48, expected a whole number, 0 or more"),
+            ("[32, 32]", "[true, 32]", "found true, expected a whole number, 0 or more"),
+            (
+                "'auto'",
+                "[-1e-4, 1e-4]",
+                "grid.size = [-0.0001, 0.0001]: both must be positive finite lengths",
+            ),
+            ("'auto'", "[inf, 1.0]", "grid.size = [inf, 1.0]: both must be positive finite lengths"),
+            (
+                "12.0\nincrements = 4",
+                "'12 N'\ntangential_force = [1.0, 0.0]\nincrements = 4",
+                "found the text \"12 N\", expected a number",
+            ),
+        ] {
+            let message = said(good, bad);
+            assert_eq!(message, words, "{bad}");
+        }
+    }
+
+    #[test]
+    fn a_printable_text_shows_what_would_steer_a_terminal() {
+        assert_eq!(super::printable("press\n\tµ 1"), "press\n\tµ 1");
+        assert_eq!(super::printable("p\u{1b}[31mX\u{7}\u{9b}\r"), "p\\u{1b}[31mX\\u{7}\\u{9b}\\u{d}");
+        assert_eq!(super::printable("a\u{202e}b"), "a\\u{202e}b");
     }
 
     #[test]

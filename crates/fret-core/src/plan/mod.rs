@@ -1,17 +1,22 @@
 //! The question made numerical, before any work: grid, sizes, what is computed and what is left out and why.
 
+mod advance;
 mod digits;
 mod extent;
 mod left_out;
+mod memory;
 mod symmetry;
 
 use serde::Serialize;
 
-use crate::case::{Case, CaseError, GridSize, Stage};
+use crate::case::{Case, CaseError, GridSize};
 use crate::kernel::{PairResponse, cells_too_coarse_for_incompressible_film};
+use crate::machine::memory::{MemoryError, claim};
 use crate::model::{Body, SurfaceGrid, Symmetry};
 pub use crate::solver::{Coupling, LeaveOut, Shortcut};
+pub use advance::Advance;
 use extent::{automatic_size, reaches_beyond};
+pub use memory::of_stress as memory_of_stress;
 
 /// Something the scene does not need.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
@@ -45,10 +50,10 @@ pub struct Plan {
     pub left_out: Vec<LeftOut>,
     /// Increments of the whole history.
     pub increments: usize,
-    /// Memory expected at the most [bytes].
+    /// Memory expected at the most [bytes], without the kept fields.
     pub memory_bytes: usize,
-    /// Operator applications expected, by the experience of earlier runs; at the least, where increments are "auto".
-    pub convolutions_expected: usize,
+    /// Size of the kept fields [bytes]: on disk, or in memory where the history holds them.
+    pub kept_bytes: usize,
 }
 
 impl Plan {
@@ -85,6 +90,9 @@ impl Plan {
         let spacing = [size[0] / case.cells[0] as f64, size[1] / case.cells[1] as f64];
         let grid =
             SurfaceGrid::new(case.cells, spacing).map_err(|error| case.refuse_size(error.to_string(), ""))?;
+        let _planning = claim(memory::PLANNING * grid.len()).map_err(|error| {
+            case.refuse_size(format!("grid.cells = {:?}: planning {error}", case.cells), "")
+        })?;
         if !has_a_body(&case, &grid) {
             let message =
                 format!("grid.size = {size:?}: no cell centre lies on the body, which ends between them");
@@ -114,17 +122,9 @@ impl Plan {
             leave_out.takes(Shortcut::Digits) && digits::six_digits_do(&case, &grid, &response, coupling);
         let left_out = left_out::left_out(&case, &grid, coupling, (along, symmetry, six_digits), leave_out);
         let increments = case.increments();
-        // Where the division is left to the program: one solution of the whole and two of its halves at the least.
-        let least = |stage: &Stage| if stage.history_tolerance.is_some() { 3_usize } else { 1 };
-        let solutions: usize =
-            case.stages.iter().map(|stage| least(stage).saturating_mul(stage.increments_in_all())).sum();
-        let per_increment = match coupling {
-            Coupling::Frictionless => 12,
-            Coupling::Uncoupled | Coupling::Coupled => 20,
-        };
         Ok(Self {
-            memory_bytes: memory(&case, &grid, coupling, symmetry),
-            convolutions_expected: solutions * per_increment,
+            memory_bytes: memory::of_run(&case, &grid, coupling, symmetry),
+            kept_bytes: memory::of_kept_fields(&case, &grid),
             case,
             grid,
             coupling,
@@ -137,9 +137,18 @@ impl Plan {
         })
     }
 
-    /// The mirrors of its case on its grid.
-    pub(crate) fn mirrors(&self) -> Symmetry {
-        mirrors(&self.case, &self.grid, self.coupling, self.leave_out)
+    /// Finds anew what follows from the case and the grid, after these were changed: mirrors, increments, memory.
+    ///
+    /// # Errors
+    /// When there is no memory to look for mirrors.
+    pub(crate) fn follow(&mut self) -> Result<(), MemoryError> {
+        let _planning = claim(memory::PLANNING * self.grid.len())?;
+        let Self { case, grid, coupling, .. } = self;
+        self.symmetry = mirrors(case, grid, *coupling, self.leave_out);
+        self.increments = case.increments();
+        self.memory_bytes = memory::of_run(case, grid, *coupling, self.symmetry);
+        self.kept_bytes = memory::of_kept_fields(case, grid);
+        Ok(())
     }
 }
 
@@ -160,24 +169,4 @@ fn has_unseen_film(case: &Case, grid: &SurfaceGrid) -> bool {
         Body::Rigid => false,
         Body::Elastic(half_space) => cells_too_coarse_for_incompressible_film(half_space, grid.spacing()),
     })
-}
-
-/// Memory of a run at the most [bytes]: of the process, of the fields of the whole grid, of the operators and fields of the solver
-/// in front of the mirrors, of the kept fields. All but the last bound what runs of 128 to 512 cells a side took on two threads
-/// whose contact fills the grid, by a fifth at the most; a contact that leaves room takes less.
-fn memory(case: &Case, grid: &SurfaceGrid, coupling: Coupling, symmetry: Symmetry) -> usize {
-    const PROCESS: usize = 10 << 20;
-    let [whole, in_front] = match coupling {
-        Coupling::Frictionless => [17, 40],
-        Coupling::Uncoupled => [32, 88],
-        Coupling::Coupled => [50, 112],
-    };
-    let numbers_per_cell = whole + in_front / symmetry.copies();
-    let bytes_of = |name: &String| match name.as_str() {
-        "shear" | "slip" => 16,
-        "zone" => 1,
-        _ => 8,
-    };
-    let kept: usize = case.output.fields.iter().map(bytes_of).sum();
-    PROCESS + grid.len() * (8 * numbers_per_cell + case.kept_increments().len() * kept)
 }

@@ -3,6 +3,7 @@
 use serde::Serialize;
 
 use super::variation::{Variation, fewest, rows};
+use crate::case::check::{FEWEST_CELLS as FEWEST_OF_A_CASE, MOST_CELLS, MOST_CELLS_IN_ALL};
 use crate::plan::{Coupling, Plan};
 
 /// Fewest cells a side of a rung that nobody asked for.
@@ -30,9 +31,12 @@ impl Kind {
 /// Why a ladder was refused.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum LadderError {
-    /// A number of cells that is too small.
-    #[error("--cells {0}: at least 4")]
-    Cells(usize),
+    /// A number of cells along x that no grid can have.
+    #[error("--cells {0}: grids of {0} x {1} cells; each side needs between 4 and {MOST_CELLS} cells")]
+    Cells(usize, usize),
+    /// More cells than a grid can have.
+    #[error("--cells {0}: grids of {0} x {1} cells; at most {MOST_CELLS_IN_ALL} cells in all")]
+    CellsInAll(usize, usize),
     /// A number of increments that a stage cannot have.
     #[error("--increments {0}: stage {1:?} needs at least {2}")]
     Increments(usize, String, usize),
@@ -80,8 +84,16 @@ impl Ladder {
         if !cells.is_empty() {
             only_one_grid(plan)?;
         }
-        if let Some(few) = cells.iter().find(|count| **count < 4) {
-            return Err(LadderError::Cells(*few));
+        let [nx, ny] = own.cells;
+        let across = |count: usize| (count as f64 * ny as f64 / nx as f64).round().max(1.0) as usize;
+        let grids: Vec<[usize; 2]> = cells.iter().map(|count| [*count, across(*count)]).collect();
+        for &[along, across] in &grids {
+            if [along, across].iter().any(|side| !(FEWEST_OF_A_CASE..=MOST_CELLS).contains(side)) {
+                return Err(LadderError::Cells(along, across));
+            }
+            if along * across > MOST_CELLS_IN_ALL {
+                return Err(LadderError::CellsInAll(along, across));
+            }
         }
         for count in increments {
             if let Some(stage) = plan.case.stages.iter().find(|stage| fewest(stage) > *count) {
@@ -94,9 +106,7 @@ impl Ladder {
         if let Some(bad) = tolerances.iter().find(|tolerance| !(1e-14..=0.1).contains(*tolerance)) {
             return Err(LadderError::Tolerance(*bad));
         }
-        let [nx, ny] = own.cells;
-        let across = |count: usize| ((count * ny) as f64 / nx as f64).round().max(1.0) as usize;
-        let mut cells: Vec<_> = cells.iter().map(|count| [*count, across(*count)]).collect();
+        let mut cells = grids;
         let mut increments: Vec<_> =
             increments.iter().map(|count| vec![*count; plan.case.stages.len()]).collect();
         let mut tolerances = tolerances.to_vec();

@@ -69,6 +69,10 @@ impl Observer for Reader<'_> {
         self.observer.cycled(record);
     }
 
+    fn leaves_fields(&self) -> bool {
+        false
+    }
+
     fn solved(
         &mut self,
         record: &StepRecord,

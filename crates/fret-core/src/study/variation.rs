@@ -3,8 +3,20 @@
 use serde::Serialize;
 
 use crate::case::{GridSize, Path, Stage, StageControl};
+use crate::machine::memory::MemoryError;
 use crate::model::{GridError, SurfaceGrid};
 use crate::plan::Plan;
+
+/// Why a scene is not planned at another resolution.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum VariationError {
+    /// No such grid.
+    #[error(transparent)]
+    Grid(#[from] GridError),
+    /// Not enough memory.
+    #[error(transparent)]
+    Memory(#[from] MemoryError),
+}
 
 /// Cells, increments and tolerance of a scene.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -44,8 +56,8 @@ impl Variation {
     /// The same scene on the same grid area at this resolution, keeping no fields. The plan's size is not judged again.
     ///
     /// # Errors
-    /// When a side has no cells.
-    pub fn planned(&self, plan: &Plan) -> Result<Plan, GridError> {
+    /// When a side has no cells, or there is no memory to plan so many.
+    pub fn planned(&self, plan: &Plan) -> Result<Plan, VariationError> {
         let size = plan.grid.size();
         let spacing = [size[0] / self.cells[0] as f64, size[1] / self.cells[1] as f64];
         let mut varied = plan.clone();
@@ -60,8 +72,7 @@ impl Variation {
         for (stage, increments) in case.stages.iter_mut().zip(&self.increments) {
             stage.increments = *increments;
         }
-        varied.increments = varied.case.increments();
-        varied.symmetry = varied.mirrors();
+        varied.follow()?;
         Ok(varied)
     }
 }

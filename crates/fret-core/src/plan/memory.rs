@@ -1,0 +1,72 @@
+//! How much memory a run takes: the one place of these numbers. `benches/expected_cost.py` sets them beside what runs took.
+
+use crate::case::Case;
+use crate::model::{SurfaceGrid, Symmetry};
+use crate::solver::Coupling;
+
+/// Bytes of the process itself.
+const PROCESS: usize = 15 << 20;
+/// Bytes a cell while a case is planned: the gap, a friction map, and copies of both for the mirrors.
+pub const PLANNING: usize = 48;
+
+/// Bytes a cell of the fields that wear collects.
+const WEAR: usize = 50;
+/// Bytes a cell of the tractions and slips of an increment whose stresses are looked at.
+const TRACTIONS: usize = 5 * 8;
+/// Bytes a cell of the depth at work: kernels of all components, their transforms, the stress.
+const DEPTH: usize = 150 * 8;
+/// Bytes a cell of heights or of a friction map: as they are held, and in the gap.
+const EACH_CELL: usize = 16;
+
+/// Bytes a cell of `[the whole grid, what the solver holds in front of the mirrors]`.
+///
+/// The whole: the state before and after, the gap, the influence coefficients, what a checkpoint is written from. In front of the
+/// mirrors: the transformed kernels of each operator in double and single precision, their work space, and the fields of the
+/// iterations. In a case that repeats nothing is padded, and the inverse is exact.
+fn bytes_per_cell(coupling: Coupling, periodic: bool) -> [usize; 2] {
+    match (coupling, periodic) {
+        (Coupling::Frictionless, _) => [120, 190],
+        (Coupling::Uncoupled, false) => [296, 460],
+        (Coupling::Uncoupled, true) => [296, 320],
+        (Coupling::Coupled, false) => [380, 1020],
+        (Coupling::Coupled, true) => [330, 320],
+    }
+}
+
+/// Memory of a run at the most [bytes], without kept fields: of the process, of the fields of the whole grid, of the operators and
+/// fields of the solver in front of the mirrors.
+///
+/// Within a tenth of what runs of 512 to 4096 cells a side took whose contact fills the automatic grid; on fewer cells what the process
+/// itself takes decides, and a contact that leaves more room takes less.
+pub fn of_run(case: &Case, grid: &SurfaceGrid, coupling: Coupling, symmetry: Symmetry) -> usize {
+    let [whole, in_front] = bytes_per_cell(coupling, case.periodic);
+    let worn = if case.wear.is_some() { WEAR } else { 0 };
+    let frictions = case.stages.iter().filter_map(|stage| stage.friction.as_ref()).chain([&case.friction]);
+    let maps = frictions.filter(|friction| friction.is_map()).count() + case.profile.heights.len();
+    let solving = grid.len() * (whole + worn + EACH_CELL * maps + in_front / symmetry.copies());
+    let stressed = case.stress.as_ref().map_or(0, |stress| {
+        of_stress(grid.len(), case.kept_increments().len().div_ceil(stress.every.max(1)))
+    });
+    PROCESS + solving.max(stressed)
+}
+
+/// Memory to compute stresses under the surface from the tractions of so many increments [bytes], one depth after the other.
+pub fn of_stress(cells: usize, increments: usize) -> usize {
+    cells.saturating_mul(TRACTIONS.saturating_mul(increments).saturating_add(DEPTH))
+}
+
+/// Bytes of all fields that a case keeps: on disk, or in memory where the history holds them.
+pub fn of_kept_fields(case: &Case, grid: &SurfaceGrid) -> usize {
+    case.kept_increments().len()
+        * grid.len()
+        * case.output.fields.iter().map(|name| bytes_of(name)).sum::<usize>()
+}
+
+/// Bytes a cell of a field that can be kept.
+fn bytes_of(name: &str) -> usize {
+    match name {
+        "shear" | "slip" => 16,
+        "zone" => 1,
+        _ => 8,
+    }
+}
