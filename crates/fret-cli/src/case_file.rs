@@ -7,6 +7,9 @@ use std::path::{Path, PathBuf};
 use fret_core::case::{Attachments, Case, CaseError};
 use fret_core::plan::{LeaveOut, Plan};
 
+use crate::failure::Failure;
+use crate::origin::Origin;
+
 /// Bytes read at the most: one more than the core takes, so that an endless stream is refused and not read.
 const MOST_BYTES: u64 = (4 << 20) + 1;
 
@@ -67,14 +70,25 @@ impl CaseFile {
 
     /// The case, read and planned.
     pub fn planned(&self) -> Result<Plan, CaseError> {
-        self.planned_leaving_out(LeaveOut::ALL)
+        self.planned_leaving_out(LeaveOut::ALL, None)
     }
 
-    /// The case, read and planned with some shortcuts alone.
-    pub fn planned_leaving_out(&self, leave_out: LeaveOut) -> Result<Plan, CaseError> {
+    /// The case, read and planned to start from the state that is named `from`, if one is.
+    pub fn planned_from(&self, from: Option<&str>) -> Result<Plan, Failure> {
+        let origin = from.map(Origin::read).transpose()?;
+        Ok(self.planned_leaving_out(LeaveOut::ALL, origin.as_ref())?)
+    }
+
+    /// The case, read and planned with some shortcuts alone, to start from `origin`, or from bodies apart.
+    pub fn planned_leaving_out(
+        &self,
+        leave_out: LeaveOut,
+        origin: Option<&Origin>,
+    ) -> Result<Plan, CaseError> {
         let beside = |name: &str| self.attachment(name);
-        let case = Case::from_toml_with(&self.text, &self.name(), Attachments::files(&beside))?;
-        Plan::leaving_out(case, leave_out)
+        let attachments = Attachments::files(&beside).starting_from(origin.map(Origin::loads));
+        let case = Case::from_toml_with(&self.text, &self.name(), attachments)?;
+        Plan::starting_from(origin.map(|origin| origin.start.clone()), case, leave_out)
     }
 }
 

@@ -17,6 +17,7 @@ mod run_error;
 pub mod simulation;
 pub mod solver;
 pub mod spectral;
+pub mod start;
 mod stepping;
 pub mod study;
 pub mod subsurface;

@@ -50,5 +50,6 @@ pub fn kept(solved: &Increment, increment: usize, names: &[String]) -> KeptField
         gap: asked("gap").then(|| solved.gap.clone()),
         zone: asked("zone").then(|| state.zone.clone()),
         worn_depth: None,
+        rest: None,
     }
 }

@@ -8,7 +8,7 @@ use std::time::Instant;
 use ndarray::Array2;
 
 use crate::case::{Case, Stage};
-use crate::checkpoint::{Checkpoint, Place, Waypoint};
+use crate::checkpoint::{Checkpoint, Place, Waypoint, solved_state};
 use crate::compliance::SurfaceResponse;
 use crate::cycle::CycleRecord;
 use crate::fretting_loop::{CycleEnd, FrettingLoop};
@@ -17,7 +17,7 @@ use crate::kernel::{
     Components, PairResponse, ResponseTable, coefficients_of, influence_coefficients, periodic_symbols,
     symbols_of,
 };
-use crate::model::{ContactState, CoulombFriction, LoadStep};
+use crate::model::{ContactState, CoulombFriction, LoadStep, SolvedState};
 use crate::plan::{Coupling, Plan, Shortcut};
 use crate::recording::{kept, record};
 use crate::refinement::{DivisionError, Refinement, Span, in_halves};
@@ -106,17 +106,25 @@ impl<'a> Simulation<'a> {
     /// # Errors
     /// As [`Simulation::run`].
     pub fn resume(&self, from: Checkpoint, observer: &mut dyn Observer) -> Result<History, RunError> {
+        let (history, outcome) = self.follow(from, observer);
+        outcome.map(|()| history)
+    }
+
+    /// As [`Simulation::resume`], with what was solved also where the history has no end: every increment before the one that
+    /// failed or was interrupted, with the fields kept so far.
+    pub fn follow(&self, from: Checkpoint, observer: &mut dyn Observer) -> (History, Result<(), RunError>) {
         let plan = self.plan;
         let case = &plan.case;
         let Checkpoint { place, state, memory, cycle, wear } = from;
+        let end = solved_state(&place, &state, wear.as_ref()).beside(|_| true);
         let response = self.response();
         let own = response.own_normal(case.cells);
         let unworn = case.profile.gap(&plan.grid);
         let mut solver = self.solver(response, unworn.clone());
-        let wearing = case.wear.zip(wear).map(|(rule, collected)| Wearing::new(rule, own, unworn, collected));
-        if let (Some(wearing), Some(depth)) = (&wearing, &state.worn_depth) {
-            solver.reshape(wearing.gap(depth));
+        if let Some(depth) = &state.worn_depth {
+            solver.reshape(&unworn + depth);
         }
+        let wearing = case.wear.zip(wear).map(|(rule, collected)| Wearing::new(rule, own, unworn, collected));
         // Last: a new gap makes a solver forget.
         solver.remember(memory);
         let journey = Journey {
@@ -132,7 +140,9 @@ impl<'a> Simulation<'a> {
                 cycles: Vec::new(),
                 worn_through: None,
                 fields: Vec::new(),
+                end,
                 state,
+                plan: plan.to_json(),
             },
             place,
             cycle,
@@ -234,12 +244,22 @@ impl<'a> Journey<'a> {
         })
     }
 
-    fn through_all_stages(mut self) -> Result<History, RunError> {
-        while let Some(stage) = self.case().stages.get(self.place.stage) {
-            self.through_stage(stage)?;
-        }
+    fn through_all_stages(mut self) -> (History, Result<(), RunError>) {
+        let outcome = loop {
+            let Some(stage) = self.case().stages.get(self.place.stage) else { break Ok(()) };
+            if let Err(error) = self.through_stage(stage) {
+                break Err(error);
+            }
+        };
         self.history.worn_through = self.place.worn_through;
-        Ok(self.history)
+        self.history.end = self.solved_state().beside(|_| true);
+        (self.history, outcome)
+    }
+
+    /// Where the run stands, for another history to start from.
+    fn solved_state(&self) -> SolvedState {
+        let collected = self.wearing.as_ref().map(Wearing::collected);
+        solved_state(&self.place, &self.history.state, collected)
     }
 
     /// Solves what is left of the stage at work.
@@ -290,6 +310,9 @@ impl<'a> Journey<'a> {
         }
         self.place.solved += 1;
         self.place.solved_of_stage = k;
+        if let Some(kept) = &mut kept {
+            kept.rest = self.rest_beside(kept, last).map(Box::new);
+        }
         let heard = self.observer.solved(&record, &self.history.state, kept.as_ref());
         self.history.steps.push(record);
         self.history.fields.extend(kept);
@@ -315,6 +338,13 @@ impl<'a> Journey<'a> {
             return Err(RunError::Interrupted { increment: self.place.solved });
         }
         Ok(())
+    }
+
+    /// What another history needs to start here besides the kept fields; of what `ends` a stage in any case, of other increments
+    /// where the fields that are not kept are zero.
+    fn rest_beside(&self, kept: &KeptFields, ends: bool) -> Option<SolvedState> {
+        let mut rest = self.solved_state().beside(|name| kept.field(name).is_some());
+        (rest.thinned() || ends).then_some(rest)
     }
 
     /// A cycle that starts now, in the stage at work.

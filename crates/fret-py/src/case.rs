@@ -50,7 +50,7 @@ impl Case {
         let arrays: Vec<Array2<f64>> = arrays.iter().map(|array| array.as_array().to_owned()).collect();
         let case = {
             let file = |file: &str| content(&folder, file);
-            let attachments = Attachments { file: &file, arrays: &arrays };
+            let attachments = Attachments { file: &file, arrays: &arrays, start: None };
             case::Case::from_json_with(text, name, attachments).map_err(|error| refused(&error))?
         };
         Ok(Self(case, Source { text: text.to_owned(), name: name.to_owned(), folder, arrays: Some(arrays) }))

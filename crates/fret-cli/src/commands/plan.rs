@@ -13,8 +13,8 @@ use crate::output::resolved;
 use crate::terminal;
 
 /// Plans a case and tells the plan.
-pub fn plan(path: &Path, as_json: bool) -> Result<(), Failure> {
-    let plan = CaseFile::read(path)?.planned()?;
+pub fn plan(path: &Path, from: Option<&str>, as_json: bool) -> Result<(), Failure> {
+    let plan = CaseFile::read(path)?.planned_from(from)?;
     if as_json {
         let mut value = resolved(&plan);
         value["status"] = json!("planned");

@@ -6,6 +6,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
 use std::time::Instant;
 
+use fret_core::plan::LeaveOut;
 use fret_core::simulation::{RunError, Simulation};
 use serde_json::json;
 
@@ -13,6 +14,7 @@ use crate::arguments::SweepArguments;
 use crate::failure::{Failure, Told, Unwritten};
 use crate::figures::{counted, duration};
 use crate::interrupt::{self, Listener};
+use crate::origin::Origin;
 use crate::sweep::{Answer, Question, SweepFolder};
 use crate::terminal;
 use crate::threads::available_threads;
@@ -20,15 +22,16 @@ use crate::threads::available_threads;
 /// Solves all points of a sweep.
 pub fn sweep(arguments: &SweepArguments, as_json: bool) -> Result<(), Told> {
     let question = Question::read(&arguments.sweep)?;
+    let origin = arguments.from.as_deref().map(Origin::read).transpose()?;
     let text = std::fs::read_to_string(&arguments.sweep).map_err(Unwritten::at(&arguments.sweep))?;
     let stem = arguments.sweep.file_stem().unwrap_or_else(|| "sweep".as_ref());
     let path = arguments.out.clone().unwrap_or_else(|| Path::new("results").join(stem));
-    let folder = SweepFolder::open(&path, &text)?;
+    let folder = SweepFolder::open(&path, &text, origin.as_ref())?;
     interrupt::listen();
     let all = available_threads();
     let threads = arguments.threads.map_or(all, usize::from);
     let known: Vec<Option<Answer>> = question.points.iter().map(|point| folder.finished(point)).collect();
-    let board = Board::new(&question, known, arguments.quiet);
+    let board = Board::new(&question, origin, known, arguments.quiet);
     board.announce(threads);
     let failure = board.work(&folder, threads);
     let summary = folder.summarise(&question, &board.answers());
@@ -84,6 +87,7 @@ impl Counts {
 /// What the workers share: the points, the next of them, the answers.
 struct Board<'a> {
     question: &'a Question,
+    origin: Option<Origin>,
     open: Vec<usize>,
     next: AtomicUsize,
     answers: Mutex<Vec<Option<Answer>>>,
@@ -94,10 +98,16 @@ struct Board<'a> {
 }
 
 impl<'a> Board<'a> {
-    fn new(question: &'a Question, known: Vec<Option<Answer>>, quiet: bool) -> Self {
+    fn new(
+        question: &'a Question,
+        origin: Option<Origin>,
+        known: Vec<Option<Answer>>,
+        quiet: bool,
+    ) -> Self {
         let open: Vec<usize> = (0..known.len()).filter(|&number| known[number].is_none()).collect();
         Self {
             question,
+            origin,
             before: known.len() - open.len(),
             open,
             next: AtomicUsize::new(0),
@@ -144,7 +154,7 @@ impl<'a> Board<'a> {
         while let Some(&number) = self.open.get(self.next.fetch_add(1, Ordering::Relaxed)) {
             let point = &self.question.points[number];
             let solve = || -> Result<Answer, Failure> {
-                let plan = point.case_file.planned()?;
+                let plan = point.case_file.planned_leaving_out(LeaveOut::ALL, self.origin.as_ref())?;
                 let history = Simulation::new(&plan).run(&mut Listener).map_err(|error| match error {
                     RunError::Interrupted { .. } => Failure::Interrupted(String::new()),
                     error => Failure::Unsolved(error),

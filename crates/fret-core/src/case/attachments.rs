@@ -2,13 +2,17 @@
 
 use ndarray::Array2;
 
-/// Files and arrays that come with the text of a case.
+use crate::model::LoadStep;
+
+/// Files and arrays that come with the text of a case, and the loads its history starts from.
 #[derive(Clone, Copy)]
 pub struct Attachments<'a> {
     /// Content of a file by the name the case gives it, or in a few words why it cannot be had.
     pub file: &'a dyn Fn(&str) -> Result<Vec<u8>, String>,
     /// Arrays handed over, named in the case by their number: `{ array = n }`.
     pub arrays: &'a [Array2<f64>],
+    /// What is prescribed where the history starts; `None`: bodies that have not touched yet.
+    pub start: Option<LoadStep>,
 }
 
 impl<'a> Attachments<'a> {
@@ -19,6 +23,12 @@ impl<'a> Attachments<'a> {
 
     /// Files only.
     pub fn files(file: &'a dyn Fn(&str) -> Result<Vec<u8>, String>) -> Self {
-        Self { file, arrays: &[] }
+        Self { file, arrays: &[], start: None }
+    }
+
+    /// The same for a history that starts from a solved state.
+    #[must_use]
+    pub fn starting_from(self, start: Option<LoadStep>) -> Self {
+        Self { start, ..self }
     }
 }

@@ -1,13 +1,13 @@
 //! A planned scene at another resolution.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use crate::case::{GridSize, Path, Stage, StageControl};
 use crate::model::{GridError, SurfaceGrid};
 use crate::plan::Plan;
 
 /// Cells, increments and tolerance of a scene.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Variation {
     /// Cells `[nx, ny]`.
     pub cells: [usize; 2],
