@@ -12,7 +12,7 @@ import numpy.typing as npt
 
 from fretting import _case
 from fretting.errors import CaseError
-from fretting.history import MEANING
+from fretting._meaning import MEANING
 
 Table: TypeAlias = dict[str, Any]
 Key: TypeAlias = str | tuple[str, ...]

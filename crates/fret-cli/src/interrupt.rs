@@ -25,7 +25,9 @@ pub fn listen() {
         }
         std::thread::spawn(|| {
             std::thread::sleep(PATIENCE);
-            terminal::say("stopping: what is being computed or written is finished first; Ctrl-C again ends at once");
+            terminal::say(
+                "stopping: what is being computed or written is finished first; Ctrl-C again ends at once",
+            );
         });
     });
 }

@@ -80,7 +80,10 @@ fn dispatch(arguments: &Arguments) -> Result<(), Told> {
 ///
 /// # Errors
 /// With the words of a refusal, where there is no such state.
-pub fn start_from(results: &std::path::Path, increment: Option<usize>) -> Result<std::sync::Arc<Start>, String> {
+pub fn start_from(
+    results: &std::path::Path,
+    increment: Option<usize>,
+) -> Result<std::sync::Arc<Start>, String> {
     Origin::of(results, increment).map(|origin| origin.start).map_err(|failure| failure.render(false))
 }
 

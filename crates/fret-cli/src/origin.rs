@@ -27,7 +27,8 @@ pub struct Origin {
 impl Origin {
     /// The state that is named as `RESULTS:INCREMENT`, or the last one of `RESULTS`.
     pub fn read(named: &str) -> Result<Self, Failure> {
-        let numbered = named.rsplit_once(':').and_then(|(folder, number)| Some((folder, number.parse().ok()?)));
+        let numbered =
+            named.rsplit_once(':').and_then(|(folder, number)| Some((folder, number.parse().ok()?)));
         match numbered {
             Some((folder, increment)) if !Path::new(named).exists() => {
                 Self::of(Path::new(folder), Some(increment))
@@ -73,11 +74,13 @@ impl Origin {
             _ => {
                 let rest = state_below(results, increment).map_err(damaged)?;
                 let solved = rest.completed(|name| {
-                    run.field(name, increment)?
-                        .ok_or_else(|| damaged(format!("{shown}: {name} of increment {increment} is missing")))
+                    run.field(name, increment)?.ok_or_else(|| {
+                        damaged(format!("{shown}: {name} of increment {increment} is missing"))
+                    })
                 })?;
-                Start::new(plan, solved, None)
-                    .ok_or_else(|| damaged(format!("{shown}: the state of increment {increment} is damaged")))?
+                Start::new(plan, solved, None).ok_or_else(|| {
+                    damaged(format!("{shown}: the state of increment {increment} is damaged"))
+                })?
             }
         };
         Ok(Self { start: Arc::new(start), results: shown.to_string(), increment })
@@ -86,9 +89,13 @@ impl Origin {
     /// The state that the run in a folder of results started from; none where it started from bodies apart.
     pub fn below(results: &Path) -> Result<Option<Self>, Failure> {
         let start = start_below(results).map_err(|why| {
-            Failure::Call(why, "name the state with --from, or start from the beginning with --force".to_owned())
+            Failure::Call(
+                why,
+                "name the state with --from, or start from the beginning with --force".to_owned(),
+            )
         })?;
-        let origin = |start| Self { start: Arc::new(start), results: results.display().to_string(), increment: 0 };
+        let origin =
+            |start| Self { start: Arc::new(start), results: results.display().to_string(), increment: 0 };
         Ok(start.map(origin))
     }
 

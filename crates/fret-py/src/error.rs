@@ -7,6 +7,7 @@ use pyo3::exceptions::PyValueError;
 
 pyo3::import_exception!(fretting.errors, CaseError);
 pyo3::import_exception!(fretting.errors, RunError);
+pyo3::import_exception!(fretting.errors, UnreadableError);
 
 /// A refused case: the text a person reads, and `(line, column, message, help)` of every mistake.
 pub fn refused(error: &case::CaseError) -> PyErr {
@@ -24,6 +25,11 @@ pub fn refused(error: &case::CaseError) -> PyErr {
 /// A run that ended without its answer: the message and the number of the increment.
 pub fn failed(error: &simulation::RunError) -> PyErr {
     RunError::new_err((error.to_string(), error.increment()))
+}
+
+/// A file or folder that does not hold what was expected.
+pub fn unreadable(message: String, path: &str) -> PyErr {
+    UnreadableError::new_err((message, path.to_owned()))
 }
 
 /// A bad argument of a function.

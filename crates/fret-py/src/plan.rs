@@ -1,6 +1,5 @@
 //! The plan of a case, as text that Python reads.
 
-use fret_core::plan::Plan;
 use pyo3::prelude::{PyResult, Python, pyfunction};
 
 use crate::case::Case;
@@ -10,7 +9,6 @@ use crate::threads::on_pool;
 /// Plans a case; JSON text.
 #[pyfunction]
 pub fn plan(py: Python<'_>, case: &Case) -> PyResult<String> {
-    let question = case.0.clone();
-    let plan = on_pool(py, None, || Plan::new(question))?.map_err(|error| refused(&error))?;
+    let plan = on_pool(py, None, || case.planned())?.map_err(|error| refused(&error))?;
     serde_json::to_string(&plan).map_err(bad_value)
 }

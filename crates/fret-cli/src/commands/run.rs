@@ -114,7 +114,9 @@ fn prepared(arguments: &RunArguments) -> Result<Preparation, Failure> {
     if !arguments.quiet && !matches!(standing, Standing::Solved(_)) {
         announce(&plan, &folder, &standing);
         if let Some(Origin { results, increment, .. }) = &origin {
-            terminal::say(&format!("starts from {results}, the end of increment {increment} (counted from 0)"));
+            terminal::say(&format!(
+                "starts from {results}, the end of increment {increment} (counted from 0)"
+            ));
         }
     }
     Ok(Preparation { case_file, plan, origin, folder, standing, companion, threads, pool })
@@ -179,9 +181,11 @@ impl Preparation {
     /// Tells that the run was solved before. Only what error bars need besides is computed, when they are asked for.
     fn solved_before(&self, record: &Value, quiet: bool, as_json: bool) -> Result<(), Failure> {
         let shown = self.folder.display().to_string();
-        let headlines: Vec<Headline> = serde_json::from_value(record["headlines"].clone()).unwrap_or_default();
+        let headlines: Vec<Headline> =
+            serde_json::from_value(record["headlines"].clone()).unwrap_or_default();
         let estimate = self.estimated(&headlines, quiet)?;
-        let done = if estimate.is_some() { "its error bars are computed now" } else { "nothing is left to do" };
+        let done =
+            if estimate.is_some() { "its error bars are computed now" } else { "nothing is left to do" };
         let message = format!("{shown}: solved already, {done}");
         if as_json {
             let answer = json!({

@@ -398,11 +398,11 @@ impl<'a> Sheet<'a> {
         let unfinished = self.run.unfinished.as_ref().map_or(String::new(), |why| format!("{why}\n"));
         let mut text = unfinished
             + &format!(
-            "stress in the {} body: {} at {}, counted from 0\n\n  largest            value        increment  x            y            depth        in\n",
-            self.request.body.name(),
-            counted(self.points.len(), "depth"),
-            counted(self.surfaces.len(), "increment"),
-        );
+                "stress in the {} body: {} at {}, counted from 0\n\n  largest            value        increment  x            y            depth        in\n",
+                self.request.body.name(),
+                counted(self.points.len(), "depth"),
+                counted(self.surfaces.len(), "increment"),
+            );
         for found in &self.largest {
             if found.value <= 0.0 && names_tension(found.measure) {
                 let name = found.measure.name().replace('_', " ");

@@ -141,12 +141,7 @@ impl Against {
 type Unsolved = Vec<(Place, String)>;
 
 /// Solves all rungs; those that cannot be solved are told and left out, but for the finest.
-fn climb(
-    plan: &Plan,
-    ladder: Ladder,
-    levels: &Levels,
-    quiet: bool,
-) -> Result<(Climb, Unsolved), Failure> {
+fn climb(plan: &Plan, ladder: Ladder, levels: &Levels, quiet: bool) -> Result<(Climb, Unsolved), Failure> {
     let places = ladder.places();
     let say = |text: &str| {
         if !quiet {
@@ -200,9 +195,7 @@ fn climb(
 fn timed(plan: &Plan) -> Result<Rung, Failure> {
     let once = || match catch_unwind(AssertUnwindSafe(|| climbed(plan, &mut Listener))) {
         Ok(Ok(rung)) => Ok(rung),
-        Ok(Err(RunError::Interrupted { .. })) => {
-            Err(Failure::Interrupted(String::new()))
-        }
+        Ok(Err(RunError::Interrupted { .. })) => Err(Failure::Interrupted(String::new())),
         Ok(Err(error)) => Err(Failure::Unsolved(error)),
         Err(panic) => Err(Failure::Defect(defect::words_of(panic.as_ref()))),
     };

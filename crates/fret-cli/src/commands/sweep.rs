@@ -98,12 +98,7 @@ struct Board<'a> {
 }
 
 impl<'a> Board<'a> {
-    fn new(
-        question: &'a Question,
-        origin: Option<Origin>,
-        known: Vec<Option<Answer>>,
-        quiet: bool,
-    ) -> Self {
+    fn new(question: &'a Question, origin: Option<Origin>, known: Vec<Option<Answer>>, quiet: bool) -> Self {
         let open: Vec<usize> = (0..known.len()).filter(|&number| known[number].is_none()).collect();
         Self {
             question,

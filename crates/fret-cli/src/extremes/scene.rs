@@ -101,9 +101,8 @@ impl Scene {
         let approach = length * self.contact * self.contact / RADIUS;
         let text = format!("{}[[load]]\napproach = {approach:e}\nincrements = 1\n", self.head(0.0));
         let plan = planned(&text)?;
-        let history = Simulation::new(&plan)
-            .run(&mut Listener)
-            .map_err(|error| failed("pressed alone: ", &error))?;
+        let history =
+            Simulation::new(&plan).run(&mut Listener).map_err(|error| failed("pressed alone: ", &error))?;
         Ok(history.steps.last().map_or(0.0, |step| step.normal_force))
     }
 

@@ -227,9 +227,9 @@ fn cycle(line: &str) -> Option<CycleRecord> {
 fn whole_lines(path: &Path, written: Written, lines: Lines) -> Option<String> {
     let mut text = std::fs::read_to_string(path).ok()?;
     let bytes = usize::try_from(written.bytes).ok()?;
-    let is_whole = text.get(..bytes).is_some_and(|text| {
-        text.ends_with('\n') && crc32fast::hash(text.as_bytes()) == written.checksum
-    });
+    let is_whole = text
+        .get(..bytes)
+        .is_some_and(|text| text.ends_with('\n') && crc32fast::hash(text.as_bytes()) == written.checksum);
     text.truncate(if is_whole { bytes } else { 0 });
     text.strip_prefix(&lines.head()).map(str::to_owned)
 }

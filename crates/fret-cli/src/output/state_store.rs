@@ -70,7 +70,8 @@ pub fn start_below(results: &Path) -> Result<Option<Start>, String> {
     if !path.exists() {
         return Ok(None);
     }
-    let start = Start::from_bytes(&read_packed(&path, FIRST_LINE)?).ok_or_else(|| format!("{}: damaged", path.display()))?;
+    let start = Start::from_bytes(&read_packed(&path, FIRST_LINE)?)
+        .ok_or_else(|| format!("{}: damaged", path.display()))?;
     Ok(Some(start))
 }
 

@@ -339,6 +339,31 @@ fn results_that_miss_a_part_are_not_gone_on_with() {
     assert_same(&bench, "whole", "broken");
 }
 
+/// A table that somebody edited: as long as before, but not what was computed.
+#[cfg(unix)]
+#[test]
+fn a_number_that_was_changed_in_a_table_is_noticed() {
+    let bench = long_bench("altered");
+    break_off(&bench, 60, "-KILL");
+    for table in ["broken/history.csv", "broken/cycles.csv"] {
+        let content = bench.text(table);
+        let place = content[..content.len() / 2].rfind("e-").unwrap() - 1; // the last digit of a number, in a row that is kept
+        let digit = if &content[place..=place] == "7" { "8" } else { "7" };
+        let mut altered = content.clone();
+        altered.replace_range(place..=place, digit);
+        let row = content[..place].lines().count();
+        std::fs::write(bench.folder.join(table), &altered).unwrap();
+        let before = files(&bench.folder.join("broken"));
+        let refused = resume(&bench);
+        assert_eq!(refused.code, Some(1), "row {row} of {table}: {}", refused.err);
+        assert!(refused.err.contains("changed since") && refused.err.contains(table), "{}", refused.err);
+        assert!(files(&bench.folder.join("broken")) == before);
+        std::fs::write(bench.folder.join(table), content).unwrap();
+    }
+    assert_eq!(resume(&bench).code, Some(0));
+    assert_same(&bench, "whole", "broken");
+}
+
 #[test]
 fn a_solved_run_is_left_as_it_is() {
     let bench = Bench::new("solved-already");

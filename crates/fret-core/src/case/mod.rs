@@ -201,7 +201,8 @@ impl Case {
             Mistake {
                 message: format!("{key} = {case}: the state to start from has {state}"),
                 help: Some(
-                    "grid, bodies and profile are those of the state; loads, friction and wear may differ".to_owned(),
+                    "grid, bodies and profile are those of the state; loads, friction and wear may differ"
+                        .to_owned(),
                 ),
                 span: found,
             }

@@ -156,7 +156,8 @@ impl SolvedState {
     }
 
     fn tractions_and_slip(&mut self) -> [(&'static str, &mut Array2<f64>); 5] {
-        let ContactState { pressure, shear: [shear_x, shear_y], slip: [slip_x, slip_y], .. } = &mut self.state;
+        let ContactState { pressure, shear: [shear_x, shear_y], slip: [slip_x, slip_y], .. } =
+            &mut self.state;
         [
             ("pressure", pressure),
             ("shear_x", shear_x),

@@ -164,7 +164,8 @@ pub fn one_way(
     // Pressure moves the surface across a line contact, never along it.
     let line = |axis: usize| is_endless(case, grid, 1 - axis) || uncoupled && is_endless(case, grid, axis);
     let starts_so = start.is_none_or(|state| {
-        state.shear[1 - axis].iter().all(|shear| *shear == 0.0) && (straight || is_the_same_along_a_line(state))
+        state.shear[1 - axis].iter().all(|shear| *shear == 0.0)
+            && (straight || is_the_same_along_a_line(state))
     });
     (starts_so && (straight || line(axis))).then_some(axis)
 }
@@ -187,6 +188,7 @@ fn is_the_same_along_a_line(state: &ContactState) -> bool {
     let [shear_x, shear_y] = &state.shear;
     let fields = || [&state.pressure, shear_x, shear_y].into_iter().chain(&state.worn_depth);
     (0..2).any(|axis| {
-        fields().all(|field| field.lanes(Axis(axis)).into_iter().all(|line| line.iter().all(|q| *q == line[0])))
+        fields()
+            .all(|field| field.lanes(Axis(axis)).into_iter().all(|line| line.iter().all(|q| *q == line[0])))
     })
 }
