@@ -186,7 +186,9 @@ impl Checkpoint {
     pub fn start_of(bytes: &[u8], plan: &Value) -> Result<Start, CheckpointError> {
         let Self { place, state, memory, wear, .. } = Self::decoded(bytes)?;
         let solved = solved_state(&place, &state, wear.as_ref());
-        Start::new(plan, solved, Some(memory)).ok_or(CheckpointError::Foreign)
+        // What an unfinished cycle has worn opens the gap, and the solver remembers another one.
+        let same_gap = wear.is_none_or(|wear| wear.depth().iter().all(|depth| *depth == 0.0));
+        Start::new(plan, solved, same_gap.then_some(memory)).ok_or(CheckpointError::Foreign)
     }
 
     fn belongs_to(&self, plan: &Plan) -> bool {

@@ -95,6 +95,14 @@ fn prepared(arguments: &RunArguments) -> Result<Preparation, Failure> {
     };
     let plan = case_file.planned_leaving_out(leave_out, origin.as_ref())?;
     let origin = origin.filter(|_| arguments.from.is_some());
+    if let Some(Origin { results, .. }) = &origin
+        && is_same_folder(&folder, Path::new(results))
+    {
+        return Err(Failure::Call(
+            format!("{}: the run would replace the results it starts from", folder.display()),
+            "choose another folder with --out DIR".to_owned(),
+        ));
+    }
     let wish = match (arguments.resume, arguments.force) {
         (true, _) => Wish::Resume,
         (false, true) => Wish::Force,
@@ -120,6 +128,10 @@ fn prepared(arguments: &RunArguments) -> Result<Preparation, Failure> {
         }
     }
     Ok(Preparation { case_file, plan, origin, folder, standing, companion, threads, pool })
+}
+
+fn is_same_folder(one: &Path, other: &Path) -> bool {
+    one.canonicalize().is_ok_and(|one| other.canonicalize().is_ok_and(|other| one == other))
 }
 
 fn announce(plan: &Plan, folder: &Path, standing: &Standing) {

@@ -108,7 +108,7 @@ impl ResultFolder {
         let record: Value = serde_json::from_slice(&earlier).unwrap_or(Value::Null);
         let is_same_question = record["question_fnv1a64"] == run_record::question(plan);
         let is_solved = record["status"] == "solved";
-        let is_broken_off = is_same_question && !is_solved && CheckpointFolder::is_below(path);
+        let is_broken_off = !is_solved && CheckpointFolder::is_below(path);
         let same_text = || fs::read(path.join(CASE)).is_ok_and(|text| text == case_file.text.as_bytes());
         match wish {
             Wish::Resume if !is_same_question => refuse(
@@ -117,10 +117,16 @@ impl ResultFolder {
             ),
             Wish::Resume if is_solved => Ok(Standing::Solved(record)),
             Wish::Resume => Ok(Standing::Unfinished),
+            Wish::Start if is_broken_off && !is_same_question => refuse(
+                "holds an unfinished run of another case, or of this one before it was changed",
+                format!(
+                    "{other_folder} (--from {shown} goes on from what is solved there), or replace it with --force"
+                ),
+            ),
             Wish::Start if is_broken_off && ended_without_answer(&record) => refuse(
                 &format!("holds this case's run, which ended without its answer: {}", message_of(&record)),
                 format!(
-                    "it would end there again; a changed case goes on from what is solved with --from {shown}, \
+                    "it would end there again; a changed case goes on from what is solved with --from {shown} --out OTHER, \
                      and --force starts from the beginning"
                 ),
             ),

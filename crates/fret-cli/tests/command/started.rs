@@ -5,7 +5,7 @@ use serde_json::Value;
 use crate::bench::{Bench, SPHERE};
 
 /// Coated, so that pressure and shear act on each other, and pulled in both directions.
-const HEAD: &str = r#"
+const HEAD: &str = r"
 [grid]
 cells = [20, 24]
 size = [200e-6, 240e-6]
@@ -18,7 +18,7 @@ substrate = { young = 210e9, poisson = 0.3 }
 radius = 10e-3
 [friction]
 coefficient = 0.2
-"#;
+";
 const PRESS: &str = "[[load]]\nname = \"press\"\nnormal_force = 1.0\nincrements = 6\n";
 const RUB: &str = "[[load]]\nname = \"rub\"\ntangential_force = [0.1, 0.05]\ncycles = 2\nincrements = 8\n[output]\nevery = 3\n";
 
@@ -171,6 +171,19 @@ fn a_failing_stage_is_mended_without_solving_the_ones_before_again_to_the_bit() 
         .map(|(folder, from)| timeless(bench.text(&format!("{folder}/history.csv")), from));
     assert_eq!(whole.len(), 16);
     assert_eq!(whole, mended);
+
+    // Mended in its own file: the results it starts from are not replaced, nor are they when it starts anew.
+    bench.file("failing.toml", &format!("{head}{rub}"));
+    let own = bench.fret(&["run", "failing.toml", "--out", "failed", "--from", "failed"]);
+    assert!(
+        own.code == Some(1) && own.err.contains("would replace the results it starts from"),
+        "{}",
+        own.err
+    );
+    bench.file("failing.toml", &format!("{head}{press}{rub}"));
+    let anew = bench.fret(&["run", "failing.toml", "--out", "failed"]);
+    assert!(anew.code == Some(1) && anew.err.contains("before it was changed"), "{}", anew.err);
+    bench.file("failing.toml", &format!("{head}{press}{}", rub.replace("[0.06, 0.03]", "[9.0, 4.5]")));
 
     // Meanwhile nothing of the failed run is thrown away unasked, and a run that only tries again is told the truth.
     let again = bench.fret(&["run", "failing.toml", "--out", "failed"]);
