@@ -68,7 +68,11 @@ def _stack(history: "History", name: str) -> npt.NDArray[Any] | None:
 def _cycle_coordinates(history: "History") -> dict[str, Any]:
     number, stage = history.cycles["cycle"], history.cycles["stage"]
     return {
-        "cycle": ("cycle", np.arange(len(number)), {"long_name": "number of the computed cycle in the history, from 0"}),
+        "cycle": (
+            "cycle",
+            np.arange(len(number)),
+            {"long_name": "number of the computed cycle in the history, from 0"},
+        ),
         "cycle_number": ("cycle", number, {"long_name": cycles.MEANING["cycle"]}),
         "cycle_stage": ("cycle", stage, {"long_name": cycles.MEANING["stage"]}),
         "cycle_stage_name": ("cycle", _names(history, stage)),
@@ -76,4 +80,4 @@ def _cycle_coordinates(history: "History") -> dict[str, Any]:
 
 
 def _names(history: "History", stages: npt.NDArray[Any]) -> npt.NDArray[np.str_]:
-    return np.asarray(history.stages, dtype=np.str_)[stages]
+    return np.array([history.stages[stage] for stage in stages], dtype=np.str_)

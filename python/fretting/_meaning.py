@@ -31,7 +31,7 @@ MEANING = {
     "wall_s": "time spent on the increment [s]",
     "increment": "number of the increment in the whole history, from 0",
     "stage": "number of the stage, from 0",
-    "parts": "parts it was solved in: more than 1 where increments are \"auto\", or the whole was not solved",
+    "parts": 'parts it was solved in: more than 1 where increments are "auto", or the whole was not solved',
     "contact_cells": "cells in contact",
     "stick_cells": "cells in contact that stick",
     "convolutions": "operator applications, each one fused pass whatever its components",

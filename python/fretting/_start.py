@@ -2,7 +2,7 @@
 
 import os
 from pathlib import Path
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING, TypeAlias, Union
 
 from fretting import _core
 from fretting.errors import MissingFileError
@@ -10,12 +10,13 @@ from fretting.errors import MissingFileError
 if TYPE_CHECKING:
     from fretting.history import History
 
-StartLike: TypeAlias = "str | os.PathLike[str] | History | tuple[str | os.PathLike[str] | History, int]"
+_Source = Union[str, os.PathLike[str], "History"]
+StartLike: TypeAlias = _Source | tuple[_Source, int]
 """A solved state: the last one of the results in a folder, or of a history; of another increment as a pair of either and the
 increment's number, from 0 (negative from the end of a history), or as ``"folder:19"``."""
 
 
-def read(start: "StartLike | _core.Start | None") -> "_core.Start | None":
+def read(start: StartLike | _core.Start | None) -> _core.Start | None:
     """Find a state to start from.
 
     Raises
@@ -46,16 +47,19 @@ def read(start: "StartLike | _core.Start | None") -> "_core.Start | None":
     return _core.Start.from_folder(folder, increment)
 
 
-def _of_history(history: "History", increment: int | None) -> "_core.Start":
-    count = len(getattr(history, "steps", {}).get("increment", ()))
+def _of_history(history: "History", increment: int | None) -> _core.Start:
+    if not hasattr(history, "steps"):
+        raise TypeError(f"start: expected a folder or a History, found {type(history).__name__}")
+    count = len(history)
     if not count:
-        raise ValueError("start: a history without any solved increment" if hasattr(history, "steps")
-                         else f"start: expected a folder or a History, found {type(history).__name__}")  # fmt: skip
+        raise ValueError("start: a history without any solved increment")
     number = count - 1 if increment is None else increment
     if not -count <= number < count:
         raise IndexError(f"start: increment {number}: the history has {count} increments")
     if history._folder is not None:
         return _core.Start.from_folder(history._folder, number % count)
     if not isinstance(history._kept, _core.History):
-        raise ValueError("start: a history that went through another process or a file holds no states; start from its folder")
+        raise ValueError(
+            "start: a history that went through another process or a file holds no states; start from its folder"
+        )
     return _core.Start.from_history(history._kept, number % count)

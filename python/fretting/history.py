@@ -9,7 +9,7 @@ import numpy.typing as npt
 
 from fretting import _core, _dataset, plot
 from fretting._arrays import Reals
-from fretting._meaning import FIELD_NAMES, MEANING, FieldName
+from fretting._meaning import FIELD_NAMES, FieldName
 from fretting.cycles import Columns, columns
 
 if TYPE_CHECKING:

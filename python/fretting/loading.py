@@ -10,10 +10,10 @@ from typing import Any, NoReturn
 import numpy as np
 import numpy.typing as npt
 
+from fretting._meaning import FIELD_NAMES, MEANING
 from fretting.cycles import MEANING as CYCLE_COLUMNS
 from fretting.cycles import columns
 from fretting.errors import MissingFileError, UnreadableError
-from fretting._meaning import FIELD_NAMES, MEANING
 from fretting.history import History, Steps
 
 COUNTS = {

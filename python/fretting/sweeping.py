@@ -12,11 +12,11 @@ import numpy as np
 import numpy.typing as npt
 
 from fretting import _case, _core, _start, cycles
+from fretting._meaning import MEANING
 from fretting._points import RESERVED, Axes, Dimension, Point, Table, dimensions, points
 from fretting._progress import PointLine
 from fretting._sweep_folder import SweepFolder, with_files_in
 from fretting.errors import CaseError, RunError
-from fretting._meaning import MEANING
 from fretting.history import History
 from fretting.simulation import ended
 

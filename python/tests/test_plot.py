@@ -67,12 +67,12 @@ def scar(fretting_case: dict[str, Any]) -> Iterator[fretting.History]:
     fretting_case["grid"]["cells"] = [20, 16]
     fretting_case["load"][1] = {"shift": [3e-6, 0.0], "cycles": 2, "increments": 8}
     fretting_case["wear"] = {"coefficient": 1e-12}
-    fretting_case["output"] = {"fields": ["pressure", "zone", "worn_depth"], "every": 4}
+    fretting_case["output"] = {"fields": ["pressure", "zone", "worn_depth"], "every": 8}
     yield fretting.run(fretting_case)
     matplotlib.pyplot.close("all")
 
 
-def test_a_scar_is_drawn_as_map_section_and_animation(scar: fretting.History) -> None:
+def test_a_scar_is_drawn_as_map_section_and_animation(scar: fretting.History, tmp_path: Path) -> None:
     depth = scar.field("worn_depth")
     assert depth.max() > 0.0
     axes = scar.plot_field("worn_depth")
@@ -82,8 +82,9 @@ def test_a_scar_is_drawn_as_map_section_and_animation(scar: fretting.History) ->
     _, line = section.lines[0].get_data()
     np.testing.assert_allclose(np.asarray(line), 0.5 * (depth[:, 7] + depth[:, 8]), rtol=1e-12)
     assert section.get_ylabel() == "[length]"
+    pytest.importorskip("PIL")
     animation = scar.animate_loop("worn_depth")
-    animation._draw_frame(len(scar.kept_steps) - 1)  # type: ignore[attr-defined]
+    animation.save(tmp_path / "scar.gif", writer="pillow", dpi=40)
     np.testing.assert_array_equal(animation._fig.axes[1].images[0].get_array(), depth.T)  # type: ignore[attr-defined]
 
 

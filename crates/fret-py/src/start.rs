@@ -42,8 +42,8 @@ impl Start {
 
     /// The state of bytes that were pickled.
     #[staticmethod]
-    fn from_bytes(bytes: &[u8]) -> PyResult<Self> {
-        let state = start::Start::from_bytes(bytes);
+    fn from_bytes(content: &[u8]) -> PyResult<Self> {
+        let state = start::Start::from_bytes(content);
         state.map(|state| Self(Arc::new(state))).ok_or_else(|| PyValueError::new_err("bytes of no state"))
     }
 
