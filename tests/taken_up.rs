@@ -7,7 +7,8 @@ use fret_core::case::Case;
 use fret_core::checkpoint::{Checkpoint, CheckpointError, Waypoint};
 use fret_core::history::{History, StepRecord};
 use fret_core::plan::Plan;
-use fret_core::simulation::{Observer, Silent, Simulation};
+use fret_core::simulation::{Observer, RunError, Silent, Simulation};
+use fret_core::start::Start;
 
 /// Pressed with 1 N: contact radius 32e-6, approach 0.1e-6.
 const HEAD: &str = r#"
@@ -162,6 +163,53 @@ fn with_surfaces_that_are_worn_through() {
     let worn = whole.worn_through.unwrap();
     assert_eq!((worn.stage, worn.increment + 1), (1, whole.steps.len()));
     assert!(worn.cycles < 14, "{worn:?}");
+}
+
+/// Stops a run after so many increments.
+struct Stopper(usize);
+
+impl Observer for Stopper {
+    fn reached(&mut self, waypoint: &Waypoint<'_>) -> ControlFlow<()> {
+        if waypoint.solved() < self.0 { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
+    }
+}
+
+/// The worn volume is the coefficient times the dissipated energy: at the end of a cycle, and within one, where what it has worn
+/// so far is not yet taken off the surfaces of the run itself but is of the state that another history starts from.
+#[test]
+fn a_state_within_a_cycle_has_what_that_cycle_wore_so_far() {
+    let text = (HEAD.to_owned() + WORN).replace("every = 3", "every = 1").replace("every = 4", "every = 1");
+    let text = text.replace("cycles = 14", "cycles = 2");
+    let plan = plan(&text);
+    let whole = Simulation::new(&plan).run(&mut Silent).unwrap();
+    let assert_worn = |history: &History, increment: usize| {
+        let start = Start::of(history, increment).unwrap();
+        let depth = start.solved.state.worn_depth.unwrap();
+        let volume = depth.iter().sum::<f64>() * plan.grid.cell_area();
+        let expected = 2e-11 * history.steps[increment].dissipated_energy;
+        // Sums of hundreds of cells, in other orders.
+        assert!((volume - expected).abs() <= 1e-12 * expected, "{increment}: {volume:e} {expected:e}");
+        assert!(increment < 3 || volume > 0.0);
+    };
+    let all: Vec<usize> = (0..whole.steps.len()).collect();
+    assert_eq!(Start::all_of(&whole), all);
+    for increment in all {
+        assert_worn(&whole, increment);
+    }
+    // A run that is stopped within a cycle has its last state too, and all before it.
+    let (broken, outcome) = Simulation::new(&plan).follow(Checkpoint::start(&plan), &mut Stopper(3 + 6 + 4));
+    assert_eq!(outcome, Err(RunError::Interrupted { increment: 13 }));
+    assert_eq!(timeless(&broken.steps), timeless(&whole.steps[..13]));
+    assert_eq!(broken.fields, whole.fields[..13]);
+    assert_worn(&broken, 12);
+    // So has its checkpoint, without what the solver remembers of the gap before.
+    let mut keeper = Keeper(Vec::new());
+    Simulation::new(&plan).run(&mut keeper).unwrap();
+    let stored = Checkpoint::start_of(&keeper.0[12], &plan.to_json()).unwrap();
+    assert_eq!(stored, Start::of(&broken, 12).unwrap());
+    let state = broken.state.worn_depth.as_ref().unwrap().sum();
+    let start = Start::of(&broken, 12).unwrap().solved.state.worn_depth.unwrap().sum();
+    assert!(state < start, "the cycle is not over: its wear is not taken off in the run itself");
 }
 
 #[test]

@@ -28,6 +28,7 @@ from fretting.errors import (
     Mistake,
     OutOfMemoryError,
     RunError,
+    RunInterrupted,
     UnreadableError,
 )
 from fretting.history import History
@@ -49,6 +50,7 @@ __all__ = [
     "OutOfMemoryError",
     "Plan",
     "RunError",
+    "RunInterrupted",
     "UnreadableError",
     "__version__",
     "analytic",

@@ -25,8 +25,8 @@ start at the folder of the case file; at the current folder for a text or a mapp
 Json: TypeAlias = bool | int | float | str | list["Json"] | dict[str, "Json"] | None
 
 
-def read(case: CaseLike) -> _core.Case:
-    """Read and check a case.
+def read(case: CaseLike, start: _core.Start | None = None) -> _core.Case:
+    """Read and check a case, whose history starts from bodies apart or from a solved state.
 
     Parameters
     ----------
@@ -43,8 +43,8 @@ def read(case: CaseLike) -> _core.Case:
     if isinstance(case, Mapping):
         arrays: list[Reals] = []
         text = json.dumps(plain(case, "", arrays), allow_nan=False)
-        return _core.Case.from_json(text, "case", Path(), arrays)
-    return _core.Case.from_toml(*text_of(case))
+        return _core.Case.from_json(text, "case", Path(), arrays, start)
+    return _core.Case.from_toml(*text_of(case), start)
 
 
 def text_of(case: str | os.PathLike[str]) -> tuple[str, str, Path]:

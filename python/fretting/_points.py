@@ -11,8 +11,8 @@ import numpy as np
 import numpy.typing as npt
 
 from fretting import _case
+from fretting._meaning import MEANING
 from fretting.errors import CaseError
-from fretting.history import MEANING
 
 Table: TypeAlias = dict[str, Any]
 Key: TypeAlias = str | tuple[str, ...]

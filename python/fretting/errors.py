@@ -1,7 +1,10 @@
 """Exceptions of the library."""
 
 from collections.abc import Sequence
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
+
+if TYPE_CHECKING:
+    from fretting.history import History
 
 
 class Mistake(NamedTuple):
@@ -73,15 +76,20 @@ class RunError(FrettingError, RuntimeError):
     ----------
     increment : int
         Number of the increment that could not be solved, from 0 over the whole history.
+    history : History or None
+        What was solved before it: a history whose ``status`` is ``"failed"``, to be looked at and to start from
+        (``fretting.run(other_case, start=error.history)``).
     """
 
     __module__ = "fretting"
 
     increment: int
+    history: "History | None"
 
     def __init__(self, message: str, increment: int = -1) -> None:
         super().__init__(message)
         self.increment = increment
+        self.history = None
 
 
 class OutOfMemoryError(RunError, MemoryError):
@@ -89,3 +97,29 @@ class OutOfMemoryError(RunError, MemoryError):
     not be ended."""
 
     __module__ = "fretting"
+
+
+class RunInterrupted(KeyboardInterrupt):
+    """Ctrl-C ended a run. ``except KeyboardInterrupt`` catches it as any other.
+
+    Attributes
+    ----------
+    increment : int
+        Number of the increment that was not finished, from 0 over the whole history.
+    history : History
+        What was solved before it: a history whose ``status`` is ``"interrupted"``, to be looked at and to start from.
+    """
+
+    __module__ = "fretting"
+
+    increment: int
+    history: "History"
+
+    def __init__(self, message: str, history: "History") -> None:
+        super().__init__(message)
+        self.increment = len(history)
+        self.history = history
+
+    def __reduce__(self) -> tuple[type["RunInterrupted"], tuple[str, "History"]]:
+        """Pickled with its history."""
+        return type(self), (str(self), self.history)

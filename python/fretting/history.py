@@ -2,59 +2,21 @@
 
 import json
 import operator
+from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal, Protocol, Self, get_args
 
 import numpy as np
 import numpy.typing as npt
 
-from fretting import _core, plot
+from fretting import _core, _dataset, plot
 from fretting._arrays import Reals
+from fretting._meaning import FIELD_NAMES, FieldName
 from fretting.cycles import Columns, columns
 
 if TYPE_CHECKING:
     import xarray
     from matplotlib.animation import FuncAnimation
     from matplotlib.axes import Axes
-
-FieldName = Literal["pressure", "shear_x", "shear_y", "slip_x", "slip_y", "gap", "zone", "worn_depth"]
-FIELD_NAMES: tuple[str, ...] = get_args(FieldName)
-
-MEANING = {
-    "pressure": "contact pressure, compression positive [pressure]",
-    "shear_x": "shear traction on the lower body along x [pressure]",
-    "shear_y": "shear traction on the lower body along y [pressure]",
-    "slip_x": "accumulated slip along x, upper body relative to lower [length]",
-    "slip_y": "accumulated slip along y, upper body relative to lower [length]",
-    "gap": "gap between the surfaces [length]",
-    "zone": "0 open, 1 stick, 2 slip; -1 where not kept",
-    "worn_depth": "depth worn off both bodies together [length]",
-    "normal_force": "normal force, compression positive [force]",
-    "approach": "rigid normal approach [length]",
-    "tangential_force_x": "tangential force on the lower body along x [force]",
-    "tangential_force_y": "tangential force on the lower body along y [force]",
-    "shift_x": "rigid tangential displacement of the upper body along x [length]",
-    "shift_y": "rigid tangential displacement of the upper body along y [length]",
-    "twist_moment": "moment about z on the lower body [force x length]",
-    "twist": "rotation of the upper body about z [rad]",
-    "max_pressure": "largest pressure of a cell [pressure]",
-    "max_shear": "largest shear traction of a cell [pressure]",
-    "contact_area": "area of contact [length^2]",
-    "stick_area": "area that sticks [length^2]",
-    "dissipated_energy": "work of friction since the start [force x length]",
-    "residual": "worst of the complementarity, Coulomb and equilibrium residuals, relative [-]",
-    "wall_s": "time spent on the increment [s]",
-    "increment": "number of the increment in the whole history, from 0",
-    "stage": "number of the stage, from 0",
-    "parts": "parts it was solved in: more than 1 where increments are \"auto\", or the whole was not solved",
-    "contact_cells": "cells in contact",
-    "stick_cells": "cells in contact that stick",
-    "convolutions": "operator applications, each one fused pass whatever its components",
-    "full_grid_convolutions": "the same, each weighted by its share of the whole grid's cells",
-    "preconditioner_passes": "preconditioner applications",
-    "outer_iterations": "changes of the contact, stick and slip zones",
-    "regime": "apart, full_stick, partial_slip, gross_slip or frictionless",
-}
-
 
 class Steps(dict[str, npt.NDArray[Any]]):
     """The numbers of every increment by name; a name it does not have is answered with those it has."""
@@ -119,6 +81,11 @@ class History:
         ``"partial"``, ``"mixed"`` or ``"gross"`` for each stage; None for one without cycles.
     worn_through : dict or None
         ``increment``, ``stage``, ``cycles``, ``cell``, ``place`` of the first place worn to the limit.
+    status : str
+        ``"solved"``; of a history that ends early ``"interrupted"``, ``"failed"``, ``"refused"`` (the contact has grown
+        to the edge of its grid, or slides away), or ``"running"`` (still, or killed).
+    message : str or None
+        Why it ends early.
 
     Notes
     -----
@@ -132,7 +99,10 @@ class History:
     cycles: Columns
     running_conditions: list[str | None]
     worn_through: dict[str, Any] | None
+    status: str
+    message: str | None
 
+    _folder: Path | None
     _kept: _Kept
     _bodies: str
     _spacing: tuple[float, float]
@@ -151,6 +121,9 @@ class History:
         self.cycles = columns(json.loads(answer.cycles()))
         self.running_conditions = json.loads(answer.running_conditions())
         self.worn_through = json.loads(answer.worn_through())
+        self.status = "solved"
+        self.message = None
+        self._folder = None
 
     def __getstate__(self) -> dict[str, Any]:
         """Everything as plain arrays."""
@@ -158,7 +131,7 @@ class History:
             increment: {name: self._kept.field(name, increment) for name in self._kept.kept_fields(increment)}
             for increment in self.kept_steps
         }
-        return {**self.__dict__, "_kept": _Copied(kept)}
+        return {**self.__dict__, "_kept": _Copied(kept), "_folder": None}
 
     def __copy__(self) -> Self:
         """Return a history that shares what this one holds."""
@@ -169,6 +142,11 @@ class History:
     def __len__(self) -> int:
         """Return the number of increments."""
         return len(self.steps["increment"])
+
+    @property
+    def finished(self) -> bool:
+        """Whether this is the whole history of its case."""
+        return self.status == "solved"
 
     @property
     def shape(self) -> tuple[int, int]:
@@ -222,48 +200,33 @@ class History:
         return self._kept.field(name, increment)
 
     def to_xarray(self, steps: Literal["all", "kept"] = "all") -> "xarray.Dataset":
-        """Return everything as a Dataset with dimensions ``step``, ``x``, ``y``.
+        """Return everything as a Dataset: numbers of the increments and cycles, fields of the kept increments.
+
+        Fields have the dimensions ``(..., y, x)``, so that ``dataset.pressure.isel(kept_step=-1).plot()`` draws x to the
+        right; :meth:`field` has the shape (nx, ny). ``zone`` has the attributes ``flag_values`` and ``flag_meanings`` of
+        the CF conventions.
 
         Parameters
         ----------
         steps : {"all", "kept"}
-            ``"all"``: every increment; fields that are not kept are NaN (``zone``: -1). ``"kept"``: only increments
-            whose fields are kept, for long histories of large grids.
+            ``"all"``: numbers of all increments along ``step``, fields along ``kept_step``; both are numbers of
+            increments. ``"kept"``: numbers and fields of the kept increments alone, all along ``step``.
+
+        Returns
+        -------
+        xarray.Dataset
+            Stages stand beside ``step`` as ``stage`` and ``stage_name``. Cycles lie along ``cycle`` (from 0 over the whole
+            history) as ``cycle_energy_ratio`` and so on, beside ``cycle_number`` (in its stage, from 1), ``cycle_stage``
+            and ``cycle_stage_name``.
 
         Raises
         ------
         ImportError
             When xarray is not installed (``pip install fretting[xarray]``).
         """
-        try:
-            import xarray
-        except ImportError as error:
-            raise ImportError("to_xarray needs xarray: pip install 'fretting[xarray]'") from error
         if steps not in ("all", "kept"):
             raise ValueError(f"steps = {steps!r}: must be 'all' or 'kept'")
-        kept = self.kept_steps
-        chosen = np.arange(len(self)) if steps == "all" else np.asarray(kept, dtype=np.int64)
-        row = {int(increment): position for position, increment in enumerate(chosen)}
-        variables: dict[str, Any] = {
-            name: ("step", column[chosen], {"long_name": MEANING[name]})
-            for name, column in self.steps.items()
-            if name != "increment"
-        }
-        for name in FIELD_NAMES:
-            holders = [increment for increment in kept if name in self._kept.kept_fields(increment)]
-            if not holders:
-                continue
-            fill, dtype = (-1, np.int8) if name == "zone" else (np.nan, np.float64)
-            stack: npt.NDArray[Any] = np.full((len(chosen), *self.shape), fill, dtype=dtype)
-            for increment in holders:
-                stack[row[increment]] = self._kept.field(name, increment)
-            variables[name] = (("step", "x", "y"), stack, {"long_name": MEANING[name]})
-        coordinates = {
-            "step": ("step", chosen, {"long_name": MEANING["increment"]}),
-            "x": ("x", self.x, {"long_name": "cell centres along x [length]"}),
-            "y": ("y", self.y, {"long_name": "cell centres along y [length]"}),
-        }
-        return xarray.Dataset(variables, coords=coordinates, attrs={"stages": self.stages})
+        return _dataset.of_history(self, every=steps == "all")
 
     def plot_loop(
         self, along: Literal["x", "y"] = "x", stage: int | str | None = None, axes: "Axes | None" = None
@@ -300,6 +263,8 @@ class History:
         """Return what a person wants to know first."""
         nx, ny = self.shape
         facts = [("stages", ", ".join(self.stages)), ("increments", str(len(self))), ("cells", f"{nx} x {ny}")]
+        if not self.finished:
+            facts.append(("not the whole history", ": ".join(filter(None, (self.status, self.message)))))
         if not len(self):
             return facts
         last = {name: column[-1] for name, column in self.steps.items()}

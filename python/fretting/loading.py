@@ -10,10 +10,11 @@ from typing import Any, NoReturn
 import numpy as np
 import numpy.typing as npt
 
+from fretting._meaning import FIELD_NAMES, MEANING
 from fretting.cycles import MEANING as CYCLE_COLUMNS
 from fretting.cycles import columns
 from fretting.errors import MissingFileError, UnreadableError
-from fretting.history import FIELD_NAMES, MEANING, History, Steps
+from fretting.history import History, Steps
 
 COUNTS = {
     "increment", "stage", "parts", "contact_cells", "stick_cells", "convolutions", "preconditioner_passes",
@@ -22,7 +23,7 @@ COUNTS = {
 
 
 def load(folder: str | os.PathLike[str]) -> History:
-    """Open the folder of a finished run as a history.
+    """Open the folder of a run as a history; of one that is not finished what there is.
 
     Parameters
     ----------
@@ -33,14 +34,16 @@ def load(folder: str | os.PathLike[str]) -> History:
     -------
     History
         As :func:`run` returns it, to the bit: numbers are stored exactly. Fields are read when they are asked for, so
-        the folder has to stay where it is; a pickled history holds them itself.
+        the folder has to stay where it is; a pickled history holds them itself. Of a run that was interrupted, failed or
+        still goes it holds the increments solved so far; ``history.finished`` is False, ``history.status`` and
+        ``history.message`` say why.
 
     Raises
     ------
     MissingFileError
         When there is no such folder.
     UnreadableError
-        When it holds no results, or those of an unfinished run, or a damaged file.
+        When it holds no results, or a damaged file.
 
     Examples
     --------
@@ -55,19 +58,23 @@ def load(folder: str | os.PathLike[str]) -> History:
     record = _record(path)
     plan = record["plan"]
     stages = [stage["name"] for stage in plan["case"]["stages"]]
-    steps = _steps(path / "history.csv")
-    done = record["totals"]["increments"]
+    finished = record["status"] == "solved"
+    steps = _steps(path / "history.csv", whole=finished)
+    done = record["totals"]["increments"] if finished else len(steps["increment"])
     if len(steps["increment"]) != done or not np.array_equal(steps["increment"], np.arange(done)):
         _refuse(path / "history.csv", f"does not hold the {done} increments of the run")
     history = History.__new__(History)
     history.steps = steps
-    store = _Stored(path / "fields.zarr", plan["grid"]["cells"], done)
+    store = _Stored(path / "fields.zarr", plan["grid"]["cells"], done, whole=finished)
+    history._folder = path.resolve()
+    history.status, history.message = record["status"], record.get("message")
     history._kept = store
     history.x, history.y = store.coordinate("x"), store.coordinate("y")
     history.stages = stages
     courses = [stage["course"] for stage in plan["case"]["stages"]]
     is_cyclic = any(isinstance(course, dict) and course["cycles"] is not None for course in courses)
-    history.cycles = columns(_cycles(path / "cycles.csv") if is_cyclic else [])
+    records = _cycles(path / "cycles.csv", whole=finished) if is_cyclic else []
+    history.cycles = columns([cycle for cycle in records if cycle["last_increment"] < done])
     history.running_conditions = [_running_condition(history.cycles, stage) for stage in range(len(stages))]
     history.worn_through = record.get("worn_through")
     history._bodies = json.dumps(plan["case"]["bodies"])
@@ -80,10 +87,12 @@ def load(folder: str | os.PathLike[str]) -> History:
 class _Stored:
     """Fields in a run's store: little-endian numbers, a file an increment."""
 
-    def __init__(self, path: Path, cells: list[int], increments: int) -> None:
+    def __init__(self, path: Path, cells: list[int], increments: int, whole: bool) -> None:
         self._path = path
         self._cells = (cells[0], cells[1])
         self._steps = [int(step) for step in self._numbers(path / "step" / "c" / "0", "<i8")]
+        if not whole:  # those that the run will keep stand there from its start
+            self._steps = [step for step in self._steps if step < increments]
         if self._steps != sorted(set(self._steps)) or not set(self._steps) <= set(range(increments)):
             _refuse(path / "step", "does not hold numbers of increments")
         self._names = [name for name in FIELD_NAMES if (path / name / "zarr.json").is_file()]
@@ -119,7 +128,7 @@ class _Stored:
 
 
 def _record(path: Path) -> dict[str, Any]:
-    """Return ``run.json`` of a finished run, with what is needed of it."""
+    """Return ``run.json`` of a run, with what is needed of it."""
     place = path / "run.json"
     way = "give the folder that `fret run CASE --out FOLDER` wrote"
     if not place.is_file():
@@ -128,11 +137,10 @@ def _record(path: Path) -> dict[str, Any]:
         record = json.loads(_read(place))
         if record["program"] != "fretting" or record["format"] != 1:
             _refuse(path, "results of another program, or of another version of the format", way)
-        if record["status"] != "solved":
-            on = "`fret run CASE --resume` goes on with it; `fret report` and `fret export` show what there is"
-            _refuse(path, f"the run is not finished (status: {record['status']})", on)
         case, grid = record["plan"]["case"], record["plan"]["grid"]
-        _ = case["bodies"], case["periodic"], record["totals"]["increments"]
+        _ = case["bodies"], case["periodic"]
+        if record["status"] == "solved":
+            _ = record["totals"]["increments"]
         _ = [(stage["name"], stage["course"]) for stage in case["stages"]]
         if [len(grid["cells"]), len(grid["spacing"])] != [2, 2]:
             raise ValueError("a grid has two sides")
@@ -141,9 +149,9 @@ def _record(path: Path) -> dict[str, Any]:
     return dict(record)
 
 
-def _steps(path: Path) -> Steps:
+def _steps(path: Path, whole: bool) -> Steps:
     """Return the columns of ``history.csv``."""
-    rows = list(csv.reader(_lines(path)))
+    rows = list(csv.reader(_lines(path, whole)))
     head, body = rows[0], rows[1:]
     known = [name for name in MEANING if name not in FIELD_NAMES]
     wanted = [name for name in head if name in known]
@@ -161,9 +169,9 @@ def _column(name: str, cells: list[str]) -> npt.NDArray[Any]:
     return np.array(cells, dtype=np.int64 if name in COUNTS else np.float64)
 
 
-def _cycles(path: Path) -> list[dict[str, Any]]:
+def _cycles(path: Path, whole: bool) -> list[dict[str, Any]]:
     """Return the lines of ``cycles.csv``."""
-    rows = csv.DictReader(_lines(path))
+    rows = csv.DictReader(_lines(path, whole))
     try:
         return [{name: _value(row[name]) for name in CYCLE_COLUMNS} for row in rows]
     except (KeyError, TypeError) as error:
@@ -191,10 +199,13 @@ def _running_condition(cycles: dict[str, npt.NDArray[Any]], stage: int) -> str |
     return "mixed" if {"gross_slip", "mixed"} & set(regimes) else "partial"
 
 
-def _lines(path: Path) -> list[str]:
+def _lines(path: Path, whole: bool) -> list[str]:
+    """Return the lines of a table; of one that is not whole the last may be torn, by a kill or since it is being written."""
     text = _read(path).decode("utf-8", "replace")
     if not text.endswith("\n"):
-        _refuse(path, "ends in the middle of a line")
+        if whole or "\n" not in text:
+            _refuse(path, "ends in the middle of a line")
+        text = text[: text.rindex("\n") + 1]
     return text.splitlines()
 
 

@@ -4,7 +4,7 @@ import json
 from collections.abc import Iterator, Mapping
 from typing import Any, TypedDict
 
-from fretting import _case, _core, plot
+from fretting import _case, _core, _start, plot
 
 
 class LeftOut(TypedDict):
@@ -86,13 +86,15 @@ def _amount(count: int) -> str:
     return f"{count / 1e6:.1f} MB" if count < 1e9 else f"{count / 1e9:.1f} GB"
 
 
-def plan(case: _case.CaseLike) -> Plan:
+def plan(case: _case.CaseLike, *, start: _start.StartLike | None = None) -> Plan:
     """Plan a case: sizes, expected work, and what is left out and why. Computes nothing heavy: less than a second.
 
     Parameters
     ----------
     case : path, str or mapping
         Path of a TOML file, TOML text, or a mapping of the same structure.
+    start : path, History or pair, optional
+        A solved state to start from, as for :func:`fretting.run`.
 
     Returns
     -------
@@ -104,4 +106,4 @@ def plan(case: _case.CaseLike) -> Plan:
     CaseError
         When the case is refused.
     """
-    return Plan(json.loads(_core.plan(_case.read(case))))
+    return Plan(json.loads(_core.plan(_case.read(case, _start.read(start)))))

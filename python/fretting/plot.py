@@ -12,6 +12,7 @@ import numpy as np
 import numpy.typing as npt
 
 from fretting._arrays import Reals
+from fretting._meaning import ZONE_NAMES, label, unit
 
 if TYPE_CHECKING:
     import xarray
@@ -25,24 +26,13 @@ __all__ = ["animation", "field", "loop", "regime_map", "section", "zones"]
 
 Direction = Literal["x", "y"]
 
-ZONES = (("open", "#f2f2f2"), ("stick", "#2a6f97"), ("slip", "#f4a259"))
+ZONES = tuple(zip(ZONE_NAMES, ("#f2f2f2", "#2a6f97", "#f4a259"), strict=True))
 """Names and colours of the zones 0, 1, 2."""
 REGIMES = (
     ("apart", "#f2f2f2"), ("frictionless", "#d9d9d9"), ("full_stick", "#2a6f97"), ("partial_slip", "#a8c686"),
     ("mixed", "#e9d985"), ("gross_slip", "#f4a259"),
 )  # fmt: skip
 """Names and colours of the regimes, from less to more slip."""
-
-_LABELS = {
-    "pressure": "pressure",
-    "shear_x": "shear along x",
-    "shear_y": "shear along y",
-    "slip_x": "accumulated slip along x [length]",
-    "slip_y": "accumulated slip along y [length]",
-    "gap": "gap [length]",
-    "zone": "zone",
-}
-
 
 def loop(
     history: "History", along: Direction = "x", stage: int | str | None = None, axes: "Axes | None" = None
@@ -112,10 +102,9 @@ def section(
     values = {name: _along(history.field(name, step), along, across, at) for name in names}  # type: ignore[arg-type]
     axes = _own_axes(axes)
     for name, line in values.items():
-        axes.plot(here, line, lw=1.4, label=_LABELS[name])
-    lengths = [name for name in names if name.startswith(("slip", "gap"))]
-    label = "[length]" if len(lengths) == len(names) else "" if lengths else "traction [pressure]"
-    axes.set(xlabel=f"{along} [length]", ylabel=label)
+        axes.plot(here, line, lw=1.4, label=label(name))
+    units = {unit(name) for name in names}
+    axes.set(xlabel=f"{along} [length]", ylabel=f"[{units.pop()}]" if len(units) == 1 else "")
     axes.ticklabel_format(scilimits=(-2, 3))
     axes.legend(frameon=False)
     return axes
@@ -144,8 +133,7 @@ def field(history: "History", name: str = "pressure", step: int = -1, axes: "Axe
     values = history.field(name, step)  # type: ignore[arg-type]
     axes = _own_axes(axes)
     image = _image(history, values, axes)
-    unit = "" if "[" in _LABELS[name] else " [pressure]"
-    axes.figure.colorbar(image, ax=axes, label=_LABELS[name] + unit)
+    axes.figure.colorbar(image, ax=axes, label=label(name))
     return axes
 
 
@@ -215,8 +203,7 @@ def animation(
         _colour_legend(right, ZONES)
     else:
         image = _image(history, frames[0], right, limits=_limits(np.stack(frames)))
-        unit = "" if "[" in _LABELS[name] else " [pressure]"
-        figure.colorbar(image, ax=right, label=_LABELS[name] + unit)
+        figure.colorbar(image, ax=right, label=label(name))
 
     def draw(number: int) -> list[Any]:
         step = steps[number]

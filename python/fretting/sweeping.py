@@ -11,12 +11,14 @@ from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypeAlias
 import numpy as np
 import numpy.typing as npt
 
-from fretting import _case, _core, cycles
+from fretting import _case, _core, _start, cycles
+from fretting._meaning import MEANING
 from fretting._points import RESERVED, Axes, Dimension, Point, Table, dimensions, points
 from fretting._progress import PointLine
 from fretting._sweep_folder import SweepFolder, with_files_in
 from fretting.errors import CaseError, OutOfMemoryError, RunError
-from fretting.history import MEANING, History
+from fretting.history import History
+from fretting.simulation import ended
 
 if TYPE_CHECKING:
     import xarray
@@ -39,6 +41,7 @@ def sweep(
     folder: str | os.PathLike[str] | None = None,
     threads: int | None = None,
     progress: bool | Told = False,
+    start: _start.StartLike | None = None,
 ) -> "xarray.Dataset":
     """Solve a case at all points of a grid of its parameters.
 
@@ -69,6 +72,8 @@ def sweep(
     progress : bool or callable
         ``True`` writes a line to stderr. A callable is called after every point with a dict: ``done``, ``points``,
         ``failed``, ``name`` and ``status`` of the point.
+    start : path, History or pair, optional
+        A solved state that every point starts from, as for :func:`fretting.run`: press once, branch into many loads.
 
     Returns
     -------
@@ -113,6 +118,9 @@ def sweep(
     found = dimensions(axes)
     asked = list(points(base, found))
     settings = {"keep": keep, "measure": None if measure is None else _name_of(measure)}
+    origin = _start.read(start)
+    if origin is not None:
+        settings["start"] = origin.digest()
     store = None if folder is None else SweepFolder(folder, base, settings)
     answers: dict[tuple[int, ...], Table] = {}
     if store:
@@ -125,7 +133,7 @@ def sweep(
     open_points = [point for point in asked if point.place not in answers]
     _fits_memory(open_points, executor)
     with _Teller(progress, len(asked), answers.values()) as tell:
-        for point, answer, lasting in _solved(open_points, executor, threads, keep, measure):
+        for point, answer, lasting in _solved(open_points, executor, _Asked(origin, threads, keep, measure)):
             if store and lasting:
                 store.keep(point.case, answer)
             answers[point.place] = answer
@@ -178,29 +186,37 @@ def _name_of(measure: Measure) -> str:
     return f"{getattr(measure, '__module__', '')}.{getattr(measure, '__qualname__', type(measure).__qualname__)}"
 
 
+class _Asked(NamedTuple):
+    """What is asked of every point."""
+
+    origin: _core.Start | None
+    threads: int | None
+    keep: Keep
+    measure: Measure | None
+
+
 class _Task(NamedTuple):
     """What a worker needs to know."""
 
     text: str
     name: str
-    threads: int | None
-    keep: Keep
-    measure: Measure | None
+    asked: _Asked
 
 
 def _solve(task: _Task) -> Table:
     """Solve one point, wherever this is called; only what a person can do something about is caught."""
     nothing: Table = {"steps": {}, "cycle": {}, "measured": {}, "mistakes": []}
     try:
-        history = History(_core.run(_core.Case.from_json(task.text, task.name, Path(), []), task.threads, None))
+        case = _core.Case.from_json(task.text, task.name, Path(), [], task.asked.origin)
+        history = ended(*_core.run(case, task.asked.threads, None))
     except CaseError as error:
         return {**nothing, "status": "refused", "error": str(error), "mistakes": [list(m) for m in error.mistakes]}
     except OutOfMemoryError:
         raise  # no answer of the point: there may be room for it another time
     except RunError as error:
         return {**nothing, "status": "failed", "error": str(error)}
-    rows = _rows(history, task.keep)
-    measured = {} if task.measure is None else dict(task.measure(history))
+    rows = _rows(history, task.asked.keep)
+    measured = {} if task.asked.measure is None else dict(task.asked.measure(history))
     return {
         **nothing,
         "status": "solved",
@@ -232,19 +248,19 @@ def _measured(name: str, value: object) -> Any:  # noqa: ANN401 - a number or ne
 
 
 def _solved(
-    asked: list[Point], executor: Executor | None, threads: int | None, keep: Keep, measure: Measure | None
+    points: list[Point], executor: Executor | None, asked: _Asked
 ) -> Iterator[tuple[Point, Table, bool]]:
     """Answers as they come, and whether each would be the same another time."""
-    tasks = [_Task(json.dumps(point.case), point.name, threads, keep, measure) for point in asked]
+    tasks = [_Task(json.dumps(point.case), point.name, asked) for point in points]
     if executor is None:
-        for point, task in zip(asked, tasks, strict=True):
+        for point, task in zip(points, tasks, strict=True):
             try:
                 yield point, _solve(task), True
             except Exception as error:  # whatever it is belongs to this point alone
                 yield point, _surprise(error), False
         return
     futures: dict[Future[Table], Point] = {
-        executor.submit(_solve, task): point for point, task in zip(asked, tasks, strict=True)
+        executor.submit(_solve, task): point for point, task in zip(points, tasks, strict=True)
     }
     try:
         for future in as_completed(futures):

@@ -1,13 +1,15 @@
 """Names, shapes and number types of what a run leaves behind."""
 
+import importlib.util
 import pickle
+from pathlib import Path
 from typing import Any, get_args
 
 import numpy as np
 import pytest
 
 import fretting
-from fretting.history import FieldName
+from fretting._meaning import FieldName
 
 REALS = {
     "normal_force", "approach", "tangential_force_x", "tangential_force_y", "shift_x", "shift_y", "twist_moment",
@@ -87,18 +89,59 @@ def test_repr_tells_sizes_and_what_is_kept(history: fretting.History) -> None:
     assert "pressure, shear_x" in text
 
 
-def test_dataset_has_the_dimensions_step_x_y(history: fretting.History) -> None:
+def test_dataset_has_all_increments_the_kept_fields_and_the_cycles(history: fretting.History) -> None:
     pytest.importorskip("xarray")
     data = history.to_xarray()
-    assert dict(data.sizes) == {"step": 17, "x": 32, "y": 24}
+    assert dict(data.sizes) == {"step": 17, "kept_step": len(history.kept_steps), "x": 32, "y": 24, "cycle": 1}
     np.testing.assert_array_equal(data["normal_force"].values, history.steps["normal_force"])
-    np.testing.assert_array_equal(data["pressure"].sel(step=16).values, history.field("pressure"))
-    absent = next(step for step in range(17) if step not in history.kept_steps)
-    assert np.isnan(data["pressure"].sel(step=absent)).all()
-    assert (data["zone"].sel(step=absent) == -1).all()
+    assert list(data["kept_step"].values) == history.kept_steps
+    np.testing.assert_array_equal(data["pressure"].sel(kept_step=16).transpose("x", "y").values, history.field("pressure"))
+    assert data["stage_name"].values.tolist() == ["indent"] + 16 * ["fretting"]
+    assert data["stage"].values.tolist() == history.steps["stage"].tolist()
+    assert data["cycle_energy_ratio"].values.tolist() == history.cycles["energy_ratio"].tolist()
+    assert (data["cycle_number"].item(), data["cycle_stage_name"].item()) == (1, "fretting")
+    zone = data["zone"]
+    assert zone.dtype == zone.attrs["flag_values"].dtype == np.dtype(np.uint8)
+    assert (zone.attrs["flag_values"].tolist(), zone.attrs["flag_meanings"]) == ([0, 1, 2], "open stick slip")
     kept = history.to_xarray(steps="kept")
     assert list(kept["step"].values) == history.kept_steps
-    assert not np.isnan(kept["pressure"]).any()
+    assert kept["pressure"].dims == ("step", "y", "x")
+    np.testing.assert_array_equal(kept["approach"].values, history.steps["approach"][history.kept_steps])
+
+
+def test_a_map_of_a_dataset_has_x_to_the_right(history: fretting.History) -> None:
+    pytest.importorskip("xarray")
+    matplotlib = pytest.importorskip("matplotlib")
+    matplotlib.use("Agg")
+    mesh = history.to_xarray()["shear_x"].isel(kept_step=-1).plot.pcolormesh()
+    assert mesh.axes is not None
+    assert mesh.axes.get_xlabel().startswith("cell centres along x")
+    np.testing.assert_array_equal(np.asarray(mesh.get_array()).reshape(24, 32), history.field("shear_x").T)
+    matplotlib.pyplot.close("all")
+
+
+def test_a_long_history_with_few_kept_fields_makes_a_small_dataset(tmp_path: Path) -> None:
+    pytest.importorskip("xarray")
+    case = {
+        "grid": {"cells": [256, 256], "size": [4e-3, 4e-3]},
+        "upper": {"rigid": True},
+        "lower": {"substrate": {"young": 210e9, "poisson": 0.3}},
+        "profile": {"sphere": {"radius": 10e-3}},
+        "load": [{"normal_force": 12.0, "increments": 300}],
+        "output": {"fields": ["pressure", "zone"]},
+    }
+    history = fretting.run(case)
+    data = history.to_xarray()
+    fields, columns = 256 * 256 * (8 + 1), 300 * 40 * 20  # at most 40 numbers and words of 20 bytes an increment
+    assert fields < data.nbytes < fields + columns
+    if importlib.util.find_spec("netCDF4") or importlib.util.find_spec("h5netcdf"):
+        data.to_netcdf(tmp_path / "history.nc")
+        assert (tmp_path / "history.nc").stat().st_size < 1.2 * (fields + columns)
+        xarray = pytest.importorskip("xarray")
+        with xarray.open_dataset(tmp_path / "history.nc") as again:
+            assert again["zone"].dtype == np.uint8
+            assert again["zone"].attrs["flag_values"].tolist() == [0, 1, 2]
+            np.testing.assert_array_equal(again["pressure"].values, data["pressure"].values)
 
 
 def test_history_survives_pickling(history: fretting.History) -> None:

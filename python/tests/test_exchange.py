@@ -3,6 +3,7 @@
 import os
 import shutil
 import subprocess
+import warnings
 from pathlib import Path
 
 import numpy as np
@@ -63,9 +64,25 @@ def test_xarray_opens_the_store_itself(results):
     xarray = pytest.importorskip("xarray")
     pytest.importorskip("zarr")
     arrays = np.load(results / "export.npz")
-    data = xarray.open_zarr(results / "fields.zarr", consolidated=False)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")  # its metadata is consolidated: nothing has to be looked for
+        data = xarray.open_zarr(results / "fields.zarr")
+    assert set(data.data_vars) == {"pressure", "shear_x", "shear_y", "slip_x", "slip_y", "zone"}
     for name in data.data_vars:
-        np.testing.assert_array_equal(data[name].values, arrays[name])
+        assert data[name].dims == ("step", "y", "x")  # drawn with x to the right
+        np.testing.assert_array_equal(data[name].transpose("step", "x", "y").values, arrays[name])
+    assert (data["zone"].dtype, data["zone"].attrs["flag_meanings"]) == (np.uint8, "open stick slip")
+
+
+def test_zarr_opens_the_store_of_a_history_whose_length_was_not_known(tmp_path):
+    zarr = pytest.importorskip("zarr")
+    case = CASE.replace("increments = 4", "cycles = 9\nincrements = 8") + "[wear]\ncoefficient = 1e-12\nevery = 4\n"
+    (tmp_path / "case.toml").write_text(case.replace("every = 2\n[wear]", "every = 8\n[wear]"))
+    subprocess.run([command(), "run", "case.toml", "--out", "run", "--quiet"], cwd=tmp_path, check=True)
+    group = zarr.open_group(tmp_path / "run" / "fields.zarr", mode="r", use_consolidated=True)
+    alone = zarr.open_array(tmp_path / "run" / "fields.zarr" / "pressure", mode="r")
+    assert group["pressure"].shape == alone.shape == (len(group["step"][:]), 20, 16)
+    assert np.isfinite(group["pressure"][:]).all()
 
 
 def test_pyvista_opens_the_images(results):

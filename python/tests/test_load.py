@@ -89,15 +89,46 @@ def test_a_pickled_history_does_without_its_folder(copy: Path) -> None:
         again.steps["presure"]
 
 
-def test_what_is_no_finished_run_is_refused(copy: Path, tmp_path: Path) -> None:
+def test_what_is_no_run_is_refused(tmp_path: Path) -> None:
     with pytest.raises(fretting.MissingFileError, match="no such folder"):
         fretting.load(tmp_path / "nowhere")
     with pytest.raises(fretting.UnreadableError, match="has no run.json"):
         fretting.load(tmp_path)
+
+
+def test_a_run_that_failed_opens_as_what_there_is(tmp_path: Path) -> None:
+    # Pressed by an approach, so that only the run finds out that friction does not carry the force.
+    case = CASE.replace("normal_force = 1.0", "approach = 70e-9")
+    (tmp_path / "case.toml").write_text(case.replace("[0.05, 0.0]", "[9.0, 0.0]").replace("every = 4", "every = 1"))
+    assert main(["run", str(tmp_path / "case.toml"), "--out", str(tmp_path / "run"), "--quiet"]) == 2
+    history = fretting.load(tmp_path / "run")
+    assert (history.finished, history.status, len(history)) == (False, "failed", 2)
+    assert history.message is not None
+    assert "increment 2 (rub) not solved" in history.message
+    assert "not the whole history: failed: increment 2" in repr(history)
+    whole = fretting.run(case)
+    np.testing.assert_array_equal(history.steps["approach"], whole.steps["approach"][:2])
+    assert history.kept_steps == [0, 1]
+    np.testing.assert_array_equal(history.field("pressure"), whole.field("pressure", 1))
+    assert np.abs(fretting.subsurface_stress(history, [20e-6])["von_mises"]).max() > 0.0
+    assert len(history.cycles["cycle"]) == 0
+    assert len(fretting.run(case.partition("[[load]]")[0] + case[case.index('[[load]]\nname = "rub"') :], start=history)) == 16
+
+
+def test_a_run_that_was_killed_opens_as_what_there_is(copy: Path) -> None:
+    """A kill leaves the record of a running run, a torn line, fields and a cycle beyond it; the store's steps stand from the start."""
+    whole = fretting.load(copy)
     record = json.loads((copy / "run.json").read_text())
-    (copy / "run.json").write_text(json.dumps({**record, "status": "interrupted"}))
-    with pytest.raises(fretting.UnreadableError, match=r"not finished \(status: interrupted\)(.|\n)*--resume"):
-        fretting.load(copy)
+    del record["totals"]
+    (copy / "run.json").write_text(json.dumps({**record, "status": "running", "message": None}))
+    lines = (copy / "history.csv").read_text().splitlines(keepends=True)
+    (copy / "history.csv").write_text("".join(lines[:9]) + lines[9][:20])
+    history = fretting.load(copy)
+    assert (history.finished, history.status, len(history)) == (False, "running", 8)
+    np.testing.assert_array_equal(history.steps["shift_x"], whole.steps["shift_x"][:8])
+    assert history.kept_steps == [step for step in whole.kept_steps if step < 8]
+    np.testing.assert_array_equal(history.field("zone", 5), whole.field("zone", 5))
+    assert len(history.cycles["cycle"]) == 0
 
 
 def _cut(path: Path) -> None:

@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 import fretting
+from fretting._meaning import FIELD_NAMES, label
 
 matplotlib = pytest.importorskip("matplotlib")
 matplotlib.use("Agg")
@@ -58,6 +59,40 @@ def test_maps_have_x_to_the_right_and_y_upwards(history: fretting.History) -> No
     assert legend is not None
     words = {text.get_text() for text in legend.get_texts()}
     assert words == {("open", "stick", "slip")[zone] for zone in np.unique(history.field("zone", 2))}
+
+
+@pytest.fixture
+def scar(fretting_case: dict[str, Any]) -> Iterator[fretting.History]:
+    """A contact that slips and wears."""
+    fretting_case["grid"]["cells"] = [20, 16]
+    fretting_case["load"][1] = {"shift": [3e-6, 0.0], "cycles": 2, "increments": 8}
+    fretting_case["wear"] = {"coefficient": 1e-12}
+    fretting_case["output"] = {"fields": ["pressure", "zone", "worn_depth"], "every": 8}
+    yield fretting.run(fretting_case)
+    matplotlib.pyplot.close("all")
+
+
+def test_a_scar_is_drawn_as_map_section_and_animation(scar: fretting.History, tmp_path: Path) -> None:
+    depth = scar.field("worn_depth")
+    assert depth.max() > 0.0
+    axes = scar.plot_field("worn_depth")
+    np.testing.assert_array_equal(axes.images[0].get_array(), depth.T)
+    assert "depth worn off both bodies together [length]" in {one.get_ylabel() for one in axes.figure.axes}
+    section = scar.plot_section("worn_depth")
+    _, line = section.lines[0].get_data()
+    np.testing.assert_allclose(np.asarray(line), 0.5 * (depth[:, 7] + depth[:, 8]), rtol=1e-12)
+    assert section.get_ylabel() == "[length]"
+    pytest.importorskip("PIL")
+    animation = scar.animate_loop("worn_depth")
+    animation.save(tmp_path / "scar.gif", writer="pillow", dpi=40)
+    np.testing.assert_array_equal(animation._fig.axes[1].images[0].get_array(), depth.T)  # type: ignore[attr-defined]
+
+
+@pytest.mark.parametrize("name", FIELD_NAMES)
+def test_every_field_has_words_for_its_picture(name: str) -> None:
+    words = label(name)
+    assert words
+    assert name == "zone" or words.endswith(("[pressure]", "[length]"))
 
 
 def test_an_animation_has_a_picture_of_every_kept_increment(history: fretting.History, tmp_path: Path) -> None:

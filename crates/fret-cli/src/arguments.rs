@@ -31,11 +31,17 @@ pub enum Verb {
     Check {
         /// The case file (TOML)
         case: PathBuf,
+        /// Start from a solved state, as `fret run` does
+        #[arg(long, value_name = "RESULTS[:INCREMENT]")]
+        from: Option<String>,
     },
     /// Say what will be computed, what is left out and why; compute nothing
     Plan {
         /// The case file (TOML)
         case: PathBuf,
+        /// Start from a solved state, as `fret run` does
+        #[arg(long, value_name = "RESULTS[:INCREMENT]")]
+        from: Option<String>,
     },
     /// Print the JSON Schema of the case file
     Schema,
@@ -53,7 +59,7 @@ pub enum Verb {
     Study(StudyArguments),
     /// Solve stiff and extreme scenes and judge each by what must hold; the exit code says whether all do
     Extremes(ExtremesArguments),
-    /// Stresses under the surface, from the tractions of a finished run
+    /// Stresses under the surface, from the kept tractions of a run
     Stress(StressArguments),
     /// Solve many cases: a base case, and keys of it with lists of values
     Sweep(SweepArguments),
@@ -79,6 +85,10 @@ pub struct RunArguments {
     /// Go on where a run was broken off; start where there is none, do nothing where it is solved
     #[arg(long, conflicts_with = "force")]
     pub resume: bool,
+    /// Start from a solved state: of the last increment of the results in a folder, or of the one whose number (from 0) follows a
+    /// colon. The loads of the case go on from there; grid, bodies and profile must be those of the results
+    #[arg(long, value_name = "RESULTS[:INCREMENT]", conflicts_with = "estimate_error")]
+    pub from: Option<String>,
     /// Solve a coarser companion too, and give every headline number an error bar
     #[arg(long)]
     pub estimate_error: bool,
@@ -152,7 +162,7 @@ pub struct ExportArguments {
 /// Which stresses.
 #[derive(Debug, Args)]
 pub struct StressArguments {
-    /// The folder of a finished run
+    /// The folder of a run; of one that is not finished what there is
     pub folder: PathBuf,
     /// Depths under the surface of the body, in the units of the case [default: those of the case, or --auto]
     #[arg(
@@ -191,6 +201,9 @@ pub struct SweepArguments {
     /// Folder for the results; points finished there are not solved again [default: results/ and the name of the sweep]
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
+    /// Start every point from a solved state, as `fret run` does
+    #[arg(long, value_name = "RESULTS[:INCREMENT]")]
+    pub from: Option<String>,
     /// Threads to compute with, one a point [default: all the machine has]
     #[arg(long, value_name = "N", value_parser = threads::number)]
     pub threads: Option<u16>,

@@ -7,6 +7,9 @@ use std::path::{Path, PathBuf};
 use fret_core::case::{Attachments, Case, CaseError, content, unreadable};
 use fret_core::plan::{LeaveOut, Plan};
 
+use crate::failure::Failure;
+use crate::origin::Origin;
+
 /// Bytes read at the most: one more than the core takes, so that an endless stream is refused and not read.
 const MOST_BYTES: u64 = (4 << 20) + 1;
 
@@ -50,20 +53,32 @@ impl CaseFile {
         self.path.file_stem().map_or_else(|| PathBuf::from("case"), PathBuf::from)
     }
 
-    /// The case, read.
-    pub fn case(&self) -> Result<Case, CaseError> {
+    /// The case, read; its history starts from `origin`, or from bodies apart.
+    pub fn case(&self, origin: Option<&Origin>) -> Result<Case, CaseError> {
         let beside = |name: &str| self.attachment(name);
-        Case::from_toml_with(&self.text, &self.name(), Attachments::files(&beside))
+        let attachments = Attachments::files(&beside).starting_from(origin.map(Origin::loads));
+        Case::from_toml_with(&self.text, &self.name(), attachments)
     }
 
     /// The case, read and planned.
     pub fn planned(&self) -> Result<Plan, CaseError> {
-        self.planned_leaving_out(LeaveOut::ALL)
+        self.planned_leaving_out(LeaveOut::ALL, None)
     }
 
-    /// The case, read and planned with some shortcuts alone.
-    pub fn planned_leaving_out(&self, leave_out: LeaveOut) -> Result<Plan, CaseError> {
-        Plan::leaving_out(self.case()?, leave_out)
+    /// The case, read and planned to start from the state that is named `from`, if one is.
+    pub fn planned_from(&self, from: Option<&str>) -> Result<Plan, Failure> {
+        let origin = from.map(Origin::read).transpose()?;
+        Ok(self.planned_leaving_out(LeaveOut::ALL, origin.as_ref())?)
+    }
+
+    /// The case, read and planned with some shortcuts alone, to start from `origin`, or from bodies apart.
+    pub fn planned_leaving_out(
+        &self,
+        leave_out: LeaveOut,
+        origin: Option<&Origin>,
+    ) -> Result<Plan, CaseError> {
+        let case = self.case(origin)?;
+        Plan::starting_from(origin.map(|origin| origin.start.clone()), case, leave_out)
     }
 }
 

@@ -5,6 +5,7 @@ use std::fmt::Write;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use fret_core::plan::{Coupling, Plan};
+use fret_core::simulation::RunError;
 use fret_core::study::{Bar, Bars, Headline, Quantity, climbed, error_bars};
 use serde_json::{Value, json};
 
@@ -18,6 +19,15 @@ const MOST_COLUMNS: usize = 3;
 /// Width of the names on the left, and of a column.
 const NAMES: usize = 30;
 const COLUMN: usize = 26;
+
+/// Why there are no error bars.
+#[derive(Debug)]
+pub enum NoBars {
+    /// Somebody stopped the companion.
+    Interrupted,
+    /// The reason.
+    Because(String),
+}
 
 /// Error bars of the headline numbers of a run.
 #[derive(Debug)]
@@ -37,13 +47,13 @@ pub struct Estimate {
 impl Estimate {
     /// Solves the companion of a solved plan, whose own headline numbers are `headlines`, and compares. The reason where that
     /// is not possible: the run itself is none the worse for it.
-    pub fn new(plan: &Plan, companion: &Plan, headlines: &[Headline]) -> Result<Self, String> {
+    pub fn new(plan: &Plan, companion: &Plan, headlines: &[Headline]) -> Result<Self, NoBars> {
+        let because = |why: String| NoBars::Because(format!("the coarser companion run: {why}"));
         let rung = match catch_unwind(AssertUnwindSafe(|| climbed(companion, &mut Listener))) {
             Ok(Ok(rung)) => rung,
-            Ok(Err(error)) => return Err(format!("the coarser companion run: {error}")),
-            Err(panic) => {
-                return Err(format!("the coarser companion run: {}", defect::words_of(panic.as_ref())));
-            }
+            Ok(Err(RunError::Interrupted { .. })) => return Err(NoBars::Interrupted),
+            Ok(Err(error)) => return Err(because(error.to_string())),
+            Err(panic) => return Err(because(defect::words_of(panic.as_ref()))),
         };
         Ok(Self {
             bars: error_bars(plan, headlines, &rung.ends),

@@ -1,13 +1,19 @@
-//! Ctrl-C and a scheduler's request to end: the first stops the run after the iteration at work, a second one at once.
+//! Ctrl-C and a scheduler's request to end: the first stops the run after the iteration at work, a second one at once. Where what is
+//! at work takes longer (large fields on their way to the disk), that is said.
 
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::Duration;
 
 use fret_core::history::{KeptFields, StepRecord};
 use fret_core::model::ContactState;
 use fret_core::simulation::{Iteration, Observer};
 
 use crate::failure::INTERRUPTED;
+use crate::terminal;
+
+/// A run that has not ended so long after it was asked to says that it is going to.
+const PATIENCE: Duration = Duration::from_millis(700);
 
 static ASKED: AtomicBool = AtomicBool::new(false);
 
@@ -17,6 +23,12 @@ pub fn listen() {
         if ASKED.swap(true, Ordering::Relaxed) {
             std::process::exit(i32::from(INTERRUPTED));
         }
+        std::thread::spawn(|| {
+            std::thread::sleep(PATIENCE);
+            terminal::say(
+                "stopping: what is being computed or written is finished first; Ctrl-C again ends at once",
+            );
+        });
     });
 }
 
@@ -42,6 +54,7 @@ impl Observer for Listener {
     }
 }
 
-fn go_on() -> ControlFlow<()> {
+/// Whether to go on.
+pub fn go_on() -> ControlFlow<()> {
     if is_asked() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
 }

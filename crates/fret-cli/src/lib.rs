@@ -12,6 +12,7 @@ mod extremes;
 mod failure;
 mod figures;
 mod interrupt;
+mod origin;
 mod output;
 mod progress;
 mod report;
@@ -28,9 +29,11 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use clap::Parser;
 use clap::error::ErrorKind;
+use fret_core::start::Start;
 
 use arguments::{Arguments, Verb};
 use failure::{Failure, Told};
+use origin::Origin;
 
 /// Does what the words of a command line ask for, the first being the program's name; answers go to the process's own
 /// streams. Gives the exit code: 0 solved, 1 refused, 2 failed, 130 interrupted.
@@ -61,8 +64,8 @@ fn dispatch(arguments: &Arguments) -> Result<(), Told> {
         Verb::Extremes(arguments) => return commands::extremes::extremes(arguments, as_json),
         Verb::Sweep(arguments) => return commands::sweep::sweep(arguments, as_json),
         Verb::Run(arguments) => return commands::run::run(arguments, as_json),
-        Verb::Check { case } => commands::check::check(case, as_json),
-        Verb::Plan { case } => commands::plan::plan(case, as_json),
+        Verb::Check { case, from } => commands::check::check(case, from.as_deref(), as_json),
+        Verb::Plan { case, from } => commands::plan::plan(case, from.as_deref(), as_json),
         Verb::Schema => commands::schema::schema(),
         Verb::Report { results, out } => commands::report::report(results, out.as_deref(), as_json),
         Verb::Export(arguments) => commands::export::export(arguments, as_json),
@@ -70,6 +73,18 @@ fn dispatch(arguments: &Arguments) -> Result<(), Told> {
         Verb::Stress(arguments) => commands::stress::stress(arguments, as_json),
     }?;
     Ok(())
+}
+
+/// The state at the end of an increment (of the last one when none is given) of the results that `fret run` wrote into a folder,
+/// for another history to start from.
+///
+/// # Errors
+/// With the words of a refusal, where there is no such state.
+pub fn start_from(
+    results: &std::path::Path,
+    increment: Option<usize>,
+) -> Result<std::sync::Arc<Start>, String> {
+    Origin::of(results, increment).map(|origin| origin.start).map_err(|failure| failure.render(false))
 }
 
 /// Help and version are answers; anything else clap objects to is a refusal, for which clap's own exit code 2 is taken.

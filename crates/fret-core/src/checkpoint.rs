@@ -4,12 +4,14 @@
 use ndarray::Array2;
 use postcard::ser_flavors::Flavor;
 use serde::{Deserialize, Serialize};
+use serde_json::Value;
 
 use crate::case::{Case, Stage};
 use crate::fretting_loop::FrettingLoop;
-use crate::model::{ContactState, Control, LoadStep};
+use crate::model::{ContactState, LoadStep, SolvedState};
 use crate::plan::Plan;
 use crate::solver::{Resultants, SolverMemory};
+use crate::start::Start;
 use crate::wear::{Collected, WornThrough};
 
 /// Version of the bytes; another layout of what is stored gets another one.
@@ -115,30 +117,39 @@ impl Waypoint<'_> {
 }
 
 impl Checkpoint {
-    /// The start of a plan: bodies that have not touched yet.
+    /// The start of a plan: the state it says, or bodies that have not touched yet.
     pub fn start(plan: &Plan) -> Self {
-        let free = LoadStep {
-            normal: Control::Force(0.0),
-            tangential: [Control::Force(0.0); 2],
-            twist: Control::Motion(0.0),
+        let cells = plan.grid.cells();
+        let start = plan.start.as_deref();
+        let (loads, resultants, mut state) = match start.map(|start| &start.solved) {
+            None => (LoadStep::FREE, Resultants::default(), ContactState::untouched(cells)),
+            Some(SolvedState { loads, normal_force, tangential_force, twist_moment, state }) => {
+                let resultants = Resultants {
+                    normal: *normal_force,
+                    tangential: *tangential_force,
+                    moment: *twist_moment,
+                };
+                (*loads, resultants, state.clone())
+            }
         };
+        let memory = start.and_then(|start| start.memory_for(&plan.to_json())).cloned();
         let place = Place {
             solved: 0,
             stage: 0,
             solved_of_stage: 0,
             parts: 1,
             cycles: 0,
-            stage_start: free,
-            held: free,
-            resultants: Resultants::default(),
+            stage_start: loads,
+            held: loads,
+            resultants,
             worn_through: None,
         };
-        let cells = plan.grid.cells();
-        let mut state = ContactState::untouched(cells);
         let wears = plan.case.wear.is_some();
-        state.worn_depth = wears.then(|| Array2::zeros(cells));
+        if wears {
+            state.worn_depth.get_or_insert_with(|| Array2::zeros(cells));
+        }
         let wear = wears.then(|| Collected::nothing(cells));
-        Self { place, state, memory: SolverMemory::default(), cycle: None, wear }
+        Self { place, state, memory: memory.unwrap_or_default(), cycle: None, wear }
     }
 
     /// The checkpoint in bytes written by [`Waypoint::write`], for a run of `plan`.
@@ -146,6 +157,11 @@ impl Checkpoint {
     /// # Errors
     /// When the bytes are of another format, damaged, or of another plan's size.
     pub fn read(bytes: &[u8], plan: &Plan) -> Result<Self, CheckpointError> {
+        let checkpoint = Self::decoded(bytes)?;
+        if checkpoint.belongs_to(plan) { Ok(checkpoint) } else { Err(CheckpointError::Foreign) }
+    }
+
+    fn decoded(bytes: &[u8]) -> Result<Self, CheckpointError> {
         let damaged = |error: postcard::Error| CheckpointError::Damaged(error.to_string());
         let (format, bytes) = postcard::take_from_bytes::<u32>(bytes).map_err(damaged)?;
         if format != FORMAT {
@@ -155,7 +171,7 @@ impl Checkpoint {
         if !rest.is_empty() {
             return Err(CheckpointError::Damaged(format!("{} bytes too many", rest.len())));
         }
-        if checkpoint.belongs_to(plan) { Ok(checkpoint) } else { Err(CheckpointError::Foreign) }
+        Ok(checkpoint)
     }
 
     /// Increments solved in the whole history.
@@ -163,13 +179,26 @@ impl Checkpoint {
         self.place.solved
     }
 
+    /// The state in bytes written by [`Waypoint::write`], of a run by the plan that is given as JSON.
+    ///
+    /// # Errors
+    /// As [`Checkpoint::read`].
+    pub fn start_of(bytes: &[u8], plan: &Value) -> Result<Start, CheckpointError> {
+        let Self { place, state, memory, wear, .. } = Self::decoded(bytes)?;
+        let solved = solved_state(&place, &state, wear.as_ref());
+        // What an unfinished cycle has worn opens the gap, and the solver remembers another one.
+        let same_gap = wear.is_none_or(|wear| wear.depth().iter().all(|depth| *depth == 0.0));
+        Start::new(plan, solved, same_gap.then_some(memory)).ok_or(CheckpointError::Foreign)
+    }
+
     fn belongs_to(&self, plan: &Plan) -> bool {
         let cells = plan.grid.cells();
         let wears = plan.case.wear.is_some();
+        let starts_worn = plan.start.as_ref().is_some_and(|start| start.solved.state.worn_depth.is_some());
         self.is_within(&plan.case)
             && self.state.is_sound(cells)
             && self.memory.fits(plan.symmetry.part_of(cells))
-            && self.state.worn_depth.is_some() == wears
+            && self.state.worn_depth.is_some() == (wears || starts_worn)
             && self.wear.is_some() == wears
             && self.wear.as_ref().is_none_or(|wear| wear.fits(cells))
             && self.cycle.as_ref().is_none_or(|cycle| cycle.fits(self.place.stage, cells))
@@ -190,5 +219,21 @@ impl Checkpoint {
             None => place.stage == case.stages.len() && place.solved_of_stage == 0 && self.cycle.is_none(),
         };
         adds_up && place.solved >= place.solved_of_stage && is_in_a_stage
+    }
+}
+
+/// What another history needs to start where a run stands: what an unfinished cycle has worn so far is taken off once.
+pub(crate) fn solved_state(place: &Place, state: &ContactState, wear: Option<&Collected>) -> SolvedState {
+    let Resultants { normal, tangential, moment } = place.resultants;
+    let mut state = state.clone();
+    if let (Some(depth), Some(wear)) = (&mut state.worn_depth, wear) {
+        *depth += wear.depth();
+    }
+    SolvedState {
+        loads: place.held,
+        normal_force: normal,
+        tangential_force: tangential,
+        twist_moment: moment,
+        state,
     }
 }

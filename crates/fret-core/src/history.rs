@@ -2,9 +2,10 @@
 
 use ndarray::Array2;
 use serde::{Deserialize, Serialize};
+use serde_json::Value;
 
 use crate::cycle::CycleRecord;
-use crate::model::{ContactPair, ContactState, SurfaceGrid, Zone};
+use crate::model::{ContactPair, ContactState, SolvedState, SurfaceGrid, Zone};
 use crate::wear::WornThrough;
 
 /// How well an increment satisfies its equations; all parts dimensionless and relative.
@@ -137,6 +138,24 @@ pub struct KeptFields {
     pub zone: Option<Array2<Zone>>,
     /// Worn depth [length].
     pub worn_depth: Option<Array2<f64>>,
+    /// What another history needs besides these fields to start here; of every last increment of a stage, and where the fields
+    /// are enough.
+    pub rest: Option<Box<SolvedState>>,
+}
+
+impl KeptFields {
+    /// Pressure, shear or slip by its name, where it is kept.
+    pub fn field(&self, name: &str) -> Option<&Array2<f64>> {
+        let [shear, slip] = [&self.shear, &self.slip].map(Option::as_ref);
+        match name {
+            "pressure" => self.pressure.as_ref(),
+            "shear_x" => shear.map(|[x, _]| x),
+            "shear_y" => shear.map(|[_, y]| y),
+            "slip_x" => slip.map(|[x, _]| x),
+            "slip_y" => slip.map(|[_, y]| y),
+            _ => None,
+        }
+    }
 }
 
 /// All of a run.
@@ -160,6 +179,10 @@ pub struct History {
     pub fields: Vec<KeptFields>,
     /// The last state reached.
     pub state: ContactState,
+    /// What another history needs besides the last state to start from it.
+    pub end: SolvedState,
+    /// The plan it was solved by, as JSON.
+    pub plan: Value,
 }
 
 impl History {

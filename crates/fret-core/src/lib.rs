@@ -21,6 +21,7 @@ mod refinement;
 mod run_error;
 pub mod simulation;
 pub mod solver;
+pub mod start;
 mod stepping;
 pub mod study;
 pub mod subsurface;

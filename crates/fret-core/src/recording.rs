@@ -59,6 +59,7 @@ pub fn kept(solved: &Increment, increment: usize, names: &[String]) -> Result<Ke
         gap: one("gap", &solved.gap)?,
         zone: asked("zone").then(|| copied(&state.zone)).transpose()?,
         worn_depth: None,
+        rest: None,
     })
 }
 

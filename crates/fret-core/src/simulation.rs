@@ -8,7 +8,7 @@ use std::time::Instant;
 use ndarray::Array2;
 
 use crate::case::{Case, Stage};
-use crate::checkpoint::{Checkpoint, Place, Waypoint};
+use crate::checkpoint::{Checkpoint, Place, Waypoint, solved_state};
 use crate::compliance::SurfaceResponse;
 use crate::cycle::CycleRecord;
 use crate::fretting_loop::{CycleEnd, FrettingLoop};
@@ -18,7 +18,7 @@ use crate::kernel::{
     symbols_of,
 };
 use crate::machine::memory::{Claim, claim};
-use crate::model::{ContactState, CoulombFriction, LoadStep};
+use crate::model::{ContactState, CoulombFriction, LoadStep, SolvedState};
 use crate::plan::{Coupling, Plan, Shortcut};
 use crate::recording::{copied, kept, record};
 use crate::refinement::{DivisionError, Refinement, Span, in_halves};
@@ -26,7 +26,7 @@ pub use crate::run_error::RunError;
 use crate::run_error::run_error;
 use crate::solver::{ContactSolver, Resultants, SolverSettings};
 use crate::stepping::StageSteps;
-use crate::wear::{Wearing, WornThrough, worn};
+use crate::wear::{Collected, Wearing, WornThrough, worn};
 
 /// Where an increment's iteration stands.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -112,7 +112,8 @@ impl<'a> Simulation<'a> {
     /// When an increment cannot be solved, a cycle wears more than the grid can follow, or the observer stops the run.
     pub fn run(&self, observer: &mut dyn Observer) -> Result<History, RunError> {
         let _memory = self.memory(observer.leaves_fields(), 0)?;
-        self.journey(Checkpoint::start(self.plan), observer)
+        let (history, outcome) = self.journey(Checkpoint::start(self.plan), observer);
+        outcome.map(|()| history)
     }
 
     /// Runs what is left of the history after a checkpoint of this plan, with the bits of an unbroken run. The history that is
@@ -121,8 +122,17 @@ impl<'a> Simulation<'a> {
     /// # Errors
     /// As [`Simulation::run`].
     pub fn resume(&self, from: Checkpoint, observer: &mut dyn Observer) -> Result<History, RunError> {
-        let _memory = self.memory(observer.leaves_fields(), from.place.solved)?;
-        self.journey(from, observer)
+        let (history, outcome) = self.follow(from, observer);
+        outcome.map(|()| history)
+    }
+
+    /// As [`Simulation::resume`], with what was solved also where the history has no end: every increment before the one that
+    /// failed or was interrupted, with the fields kept so far.
+    pub fn follow(&self, from: Checkpoint, observer: &mut dyn Observer) -> (History, Result<(), RunError>) {
+        match self.memory(observer.leaves_fields(), from.place.solved) {
+            Ok(_memory) => self.journey(from, observer),
+            Err(error) => (self.history_from(from.place, from.state, from.wear.as_ref()), Err(error)),
+        }
     }
 
     /// Claims the memory of a run that starts with an increment, where that has not been done before.
@@ -135,35 +145,45 @@ impl<'a> Simulation<'a> {
         own.map_err(|error| RunError::OutOfMemory { increment, error })
     }
 
-    fn journey(&self, from: Checkpoint, observer: &mut dyn Observer) -> Result<History, RunError> {
+    /// A history that has only its start.
+    fn history_from(&self, place: Place, state: ContactState, wear: Option<&Collected>) -> History {
+        let plan = self.plan;
+        let case = &plan.case;
+        History {
+            grid: plan.grid,
+            bodies: case.bodies.clone(),
+            periodic: case.periodic,
+            stages: case.stages.iter().map(|stage| stage.name.clone()).collect(),
+            steps: Vec::new(),
+            cycles: Vec::new(),
+            worn_through: None,
+            fields: Vec::new(),
+            end: solved_state(&place, &state, wear).beside(|_| true),
+            state,
+            plan: plan.to_json(),
+        }
+    }
+
+    fn journey(&self, from: Checkpoint, observer: &mut dyn Observer) -> (History, Result<(), RunError>) {
         let plan = self.plan;
         let case = &plan.case;
         let Checkpoint { place, state, memory, cycle, wear } = from;
+        let history = self.history_from(place, state, wear.as_ref());
         let response = self.response();
         let own = response.own_normal(case.cells);
         let unworn = case.profile.gap(&plan.grid);
         let mut solver = self.solver(response, unworn.clone());
-        let wearing = case.wear.zip(wear).map(|(rule, collected)| Wearing::new(rule, own, unworn, collected));
-        if let (Some(wearing), Some(depth)) = (&wearing, &state.worn_depth) {
-            solver.reshape(wearing.gap(depth));
+        if let Some(depth) = &history.state.worn_depth {
+            solver.reshape(&unworn + depth);
         }
+        let wearing = case.wear.zip(wear).map(|(rule, collected)| Wearing::new(rule, own, unworn, collected));
         // Last: a new gap makes a solver forget.
         solver.remember(memory);
         let journey = Journey {
             plan,
             solver,
             wearing,
-            history: History {
-                grid: plan.grid,
-                bodies: case.bodies.clone(),
-                periodic: case.periodic,
-                stages: case.stages.iter().map(|stage| stage.name.clone()).collect(),
-                steps: Vec::new(),
-                cycles: Vec::new(),
-                worn_through: None,
-                fields: Vec::new(),
-                state,
-            },
+            history,
             place,
             cycle,
             observer,
@@ -264,12 +284,22 @@ impl<'a> Journey<'a> {
         })
     }
 
-    fn through_all_stages(mut self) -> Result<History, RunError> {
-        while let Some(stage) = self.case().stages.get(self.place.stage) {
-            self.through_stage(stage)?;
-        }
+    fn through_all_stages(mut self) -> (History, Result<(), RunError>) {
+        let outcome = loop {
+            let Some(stage) = self.case().stages.get(self.place.stage) else { break Ok(()) };
+            if let Err(error) = self.through_stage(stage) {
+                break Err(error);
+            }
+        };
         self.history.worn_through = self.place.worn_through;
-        Ok(self.history)
+        self.history.end = self.solved_state().beside(|_| true);
+        (self.history, outcome)
+    }
+
+    /// Where the run stands, for another history to start from.
+    fn solved_state(&self) -> SolvedState {
+        let collected = self.wearing.as_ref().map(Wearing::collected);
+        solved_state(&self.place, &self.history.state, collected)
     }
 
     /// Solves what is left of the stage at work.
@@ -322,6 +352,9 @@ impl<'a> Journey<'a> {
         }
         self.place.solved += 1;
         self.place.solved_of_stage = k;
+        if let Some(kept) = &mut kept {
+            kept.rest = self.rest_beside(kept, last).map(Box::new);
+        }
         let heard = self.observer.solved(&record, &self.history.state, kept.as_ref());
         self.history.steps.push(record);
         if self.observer.leaves_fields() {
@@ -349,6 +382,13 @@ impl<'a> Journey<'a> {
             return Err(RunError::Interrupted { increment: self.place.solved });
         }
         Ok(())
+    }
+
+    /// What another history needs to start here besides the kept fields; of what `ends` a stage in any case, of other increments
+    /// where the fields that are not kept are zero.
+    fn rest_beside(&self, kept: &KeptFields, ends: bool) -> Option<SolvedState> {
+        let mut rest = self.solved_state().beside(|name| kept.field(name).is_some());
+        (rest.thinned() || ends).then_some(rest)
     }
 
     /// A cycle that starts now, in the stage at work.

@@ -48,6 +48,11 @@ impl Collected {
         Self { depth: Array2::zeros(cells), path: Array2::zeros(cells) }
     }
 
+    /// Depth worn off [length].
+    pub(crate) fn depth(&self) -> &Array2<f64> {
+        &self.depth
+    }
+
     /// Whether this was collected on a grid of `cells`.
     pub fn fits(&self, cells: [usize; 2]) -> bool {
         [&self.depth, &self.path].iter().all(|field| field.dim() == cells.into())

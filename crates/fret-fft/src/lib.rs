@@ -16,6 +16,7 @@ mod parity;
 mod periodic_product;
 #[cfg(test)]
 #[path = "../../../tests/random.rs"]
+#[expect(dead_code, reason = "the tests of the whole use all of it")]
 mod random;
 mod single_product;
 #[cfg(test)]

@@ -8,6 +8,7 @@ use pyo3::exceptions::PyValueError;
 pyo3::import_exception!(fretting.errors, CaseError);
 pyo3::import_exception!(fretting.errors, OutOfMemoryError);
 pyo3::import_exception!(fretting.errors, RunError);
+pyo3::import_exception!(fretting.errors, UnreadableError);
 
 /// A refused case: the text a person reads, and `(line, column, message, help)` of every mistake.
 pub fn refused(error: &case::CaseError) -> PyErr {
@@ -28,6 +29,11 @@ pub fn failed(error: &simulation::RunError) -> PyErr {
         return OutOfMemoryError::new_err((error.to_string(), *increment));
     }
     RunError::new_err((error.to_string(), error.increment()))
+}
+
+/// A file or folder that does not hold what was expected.
+pub fn unreadable(message: String, path: &str) -> PyErr {
+    UnreadableError::new_err((message, path.to_owned()))
 }
 
 /// A bad argument of a function.

@@ -12,6 +12,7 @@ mod history;
 mod kernels;
 mod plan;
 mod simulation;
+mod start;
 mod subsurface;
 mod threads;
 
@@ -37,6 +38,8 @@ mod _core {
     use crate::plan::{memory_needed, plan};
     #[pymodule_export]
     use crate::simulation::run;
+    #[pymodule_export]
+    use crate::start::Start;
     #[pymodule_export]
     use crate::subsurface::subsurface_stress;
     #[pymodule_export]

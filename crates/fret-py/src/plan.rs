@@ -1,7 +1,6 @@
 //! The plan of a case, as text that Python reads.
 
 use fret_core::machine::memory;
-use fret_core::plan::Plan;
 use fret_core::study::expectation;
 use pyo3::prelude::{PyResult, Python, pyfunction};
 
@@ -14,17 +13,15 @@ use crate::threads::{ALL, on_pool};
 /// Memory that a run of a case takes, with the fields it keeps [bytes].
 #[pyfunction]
 pub fn memory_needed(py: Python<'_>, case: &Case) -> PyResult<usize> {
-    let question = case.0.clone();
-    let plan = on_pool(py, ALL, || Plan::new(question))?.map_err(|error| refused(&error))?;
+    let plan = on_pool(py, ALL, || case.planned())?.map_err(|error| refused(&error))?;
     Ok(plan.memory_bytes.saturating_add(plan.kept_bytes))
 }
 
 /// Plans a case, and what its run will take where it fits into memory; JSON text.
 #[pyfunction]
 pub fn plan(py: Python<'_>, case: &Case) -> PyResult<String> {
-    let question = case.0.clone();
     let (plan, lacking, expected) = on_pool(py, ALL, || {
-        let plan = Plan::new(question)?;
+        let plan = case.planned()?;
         let lacking = memory::check(plan.memory_bytes.saturating_add(plan.kept_bytes)).err();
         let expected = lacking.is_none().then(|| expectation(&plan));
         Ok((plan, lacking, expected))

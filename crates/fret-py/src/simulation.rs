@@ -7,6 +7,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, SyncSender, sync_channel};
 use std::time::Duration;
 
+use fret_core::checkpoint::Checkpoint;
 use fret_core::cycle::CycleRecord;
 use fret_core::history::{self, KeptFields, StepRecord};
 use fret_core::model::ContactState;
@@ -31,7 +32,7 @@ const SHORT_WHILE: Duration = Duration::from_millis(1);
 enum News {
     /// An increment, and the planned increments that are behind the run.
     Solved(Box<StepRecord>, usize),
-    Ended(Box<Result<history::History, RunError>>),
+    Ended(Box<(history::History, Result<(), RunError>)>),
 }
 
 /// The observer on the working thread: stops when asked to, and waits while Python hears about a step.
@@ -78,13 +79,18 @@ impl Observer for Reporter<'_> {
 
 /// Runs a case on so many threads (all cores when `None`). `on_step(step, increments, passed)` is called after every
 /// increment with its numbers, the count of all planned increments and of those that are behind the run; what it raises ends the run.
+/// Gives the history so far, and the exception that ended it early, or `None`.
 #[pyfunction]
-pub fn run(py: Python<'_>, case: &Case, threads: Threads, on_step: Option<Py<PyAny>>) -> PyResult<History> {
+pub fn run(
+    py: Python<'_>,
+    case: &Case,
+    threads: Threads,
+    on_step: Option<Py<PyAny>>,
+) -> PyResult<(History, Option<PyErr>)> {
     let pool = threads::pool(threads)?;
-    let question = case.0.clone();
-    let plan = py.detach(|| pool.install(|| Plan::new(question))).map_err(|error| refused(&error))?;
-    let outcome = py.detach(|| listen(&pool, &plan, on_step.as_ref()))?;
-    outcome.map(History).map_err(|error| failed(&error))
+    let plan = py.detach(|| pool.install(|| case.planned())).map_err(|error| refused(&error))?;
+    let (history, ended) = py.detach(|| listen(&pool, &plan, on_step.as_ref()))?;
+    Ok((History(history), ended))
 }
 
 /// Runs the plan on the pool and listens to it; an error of Python's (Ctrl-C, or raised by `on_step`) stops the run.
@@ -92,7 +98,7 @@ fn listen(
     pool: &ThreadPool,
     plan: &Plan,
     on_step: Option<&Py<PyAny>>,
-) -> PyResult<Result<history::History, RunError>> {
+) -> PyResult<(history::History, Option<PyErr>)> {
     let stop = AtomicBool::new(false);
     let (news, inbox) = sync_channel(0);
     let (hear, heard) = sync_channel(1);
@@ -112,8 +118,8 @@ fn listen(
     };
     let outcome = pool.in_place_scope(|scope| {
         scope.spawn(move |_| {
-            let result = Simulation::new(plan).run(&mut reporter);
-            let _ = reporter.news.send(News::Ended(Box::new(result))); // the listener stays until this arrives
+            let ended = Simulation::new(plan).follow(Checkpoint::start(plan), &mut reporter);
+            let _ = reporter.news.send(News::Ended(Box::new(ended))); // the listener stays until this arrives
         });
         loop {
             match inbox.recv_timeout(PATIENCE) {
@@ -130,11 +136,9 @@ fn listen(
             }
         }
     });
-    match (interruption, outcome) {
-        (Some(error), _) => Err(error),
-        (None, Some(result)) => Ok(result),
-        (None, None) => Err(PyRuntimeError::new_err("the solver's thread ended without a result")),
-    }
+    let (history, result) =
+        outcome.ok_or_else(|| PyRuntimeError::new_err("the solver's thread ended without a result"))?;
+    Ok((history, interruption.or_else(|| result.err().map(|error| failed(&error)))))
 }
 
 /// Tells Python about a step, and asks it whether Ctrl-C was pressed.

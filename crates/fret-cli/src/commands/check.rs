@@ -11,9 +11,9 @@ use crate::figures::counted;
 use crate::terminal;
 
 /// Judges a case.
-pub fn check(path: &Path, as_json: bool) -> Result<(), Failure> {
+pub fn check(path: &Path, from: Option<&str>, as_json: bool) -> Result<(), Failure> {
     let case_file = CaseFile::read(path)?;
-    let plan = case_file.planned()?;
+    let plan = case_file.planned_from(from)?;
     if as_json {
         let answer = json!({
             "status": "good",

@@ -45,6 +45,7 @@ pub fn export(arguments: &ExportArguments, as_json: bool) -> Result<(), Failure>
             "files": files,
             "increments": results.table.rows(),
             "kept_increments": results.fields.steps,
+            "unfinished": results.unfinished(),
         });
         return terminal::answer(&format!("{answer:#}"));
     }
@@ -56,7 +57,8 @@ pub fn export(arguments: &ExportArguments, as_json: bool) -> Result<(), Failure>
     terminal::answer(&format!(
         "{first}{more}: {} of history, {steps}",
         counted(results.table.rows(), "increment")
-    ))
+    ))?;
+    results.unfinished().map_or(Ok(()), |why| terminal::answer(&why))
 }
 
 /// Refuses a place that holds something an export would not have written.

@@ -3,13 +3,15 @@
 use crate::arguments::ExtremesArguments;
 use crate::extremes::{Row, families, json, page, row, table};
 use crate::failure::{Failure, Told, Unwritten};
+use crate::interrupt;
 use crate::terminal;
 
 /// Solves and judges the families.
 pub fn extremes(arguments: &ExtremesArguments, as_json: bool) -> Result<(), Told> {
     let families = families(arguments.quick);
     let watched = terminal::is_watched() && !as_json;
-    let rows: Vec<Row> = families
+    interrupt::listen();
+    let rows: Option<Vec<Row>> = families
         .iter()
         .map(|family| {
             if watched {
@@ -18,6 +20,10 @@ pub fn extremes(arguments: &ExtremesArguments, as_json: bool) -> Result<(), Told
             row(family)
         })
         .collect();
+    let Some(rows) = rows else {
+        let what = "the table is not finished; nothing of it is written";
+        return Err(Failure::Interrupted(what.to_owned()).into());
+    };
     let answer = if as_json { format!("{:#}", json(&rows)) } else { table(&rows) };
     terminal::answer(&answer)?;
     if let Some(path) = &arguments.page {

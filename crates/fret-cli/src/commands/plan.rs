@@ -16,8 +16,8 @@ use crate::terminal;
 use crate::threads;
 
 /// Plans a case and tells the plan.
-pub fn plan(path: &Path, as_json: bool) -> Result<(), Failure> {
-    let plan = CaseFile::read(path)?.planned()?;
+pub fn plan(path: &Path, from: Option<&str>, as_json: bool) -> Result<(), Failure> {
+    let plan = CaseFile::read(path)?.planned_from(from)?;
     let lacking = memory::check(plan.memory_bytes).err();
     // A run that cannot be begun takes no time, and a part of it may be too much.
     let expected = match lacking {

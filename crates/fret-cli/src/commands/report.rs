@@ -26,8 +26,9 @@ pub fn report(folder: &Path, out: Option<&Path>, as_json: bool) -> Result<(), Fa
     write_whole(&path, page(&results)?.as_bytes())?;
     let shown = path.display().to_string();
     if as_json {
-        let answer = json!({ "status": "reported", "file": shown, "increments": results.table.rows() });
+        let answer = json!({ "status": "reported", "file": shown, "increments": results.table.rows(), "unfinished": results.unfinished() });
         return terminal::answer(&format!("{answer:#}"));
     }
-    terminal::answer(&shown)
+    terminal::answer(&shown)?;
+    results.unfinished().map_or(Ok(()), |why| terminal::answer(&why))
 }

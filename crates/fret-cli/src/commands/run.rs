@@ -21,9 +21,10 @@ use crate::case_file::CaseFile;
 use crate::commands::plan::left_out_in_short;
 use crate::commands::stress::after_run;
 use crate::defect;
-use crate::estimate::Estimate;
-use crate::failure::{Failure, Told, Unwritten};
+use crate::estimate::{Estimate, NoBars};
+use crate::failure::{Failure, Told};
 use crate::interrupt;
+use crate::origin::Origin;
 use crate::output::{ERROR_BARS, ResultFolder, RunRecord, Standing, Stored, Wish, write_whole};
 use crate::progress::Progress;
 use crate::summary::Summary;
@@ -53,6 +54,8 @@ pub fn run(arguments: &RunArguments, as_json: bool) -> Result<(), Told> {
 struct Preparation {
     case_file: CaseFile,
     plan: Plan,
+    /// Where the run starts, when the call names a state.
+    origin: Option<Origin>,
     folder: PathBuf,
     standing: Standing,
     /// The coarser run that error bars are read from, when they are asked for.
@@ -84,8 +87,22 @@ fn prepared(arguments: &RunArguments) -> Result<Preparation, Failure> {
         LeavingOut::All => LeaveOut::ALL,
         LeavingOut::None => LeaveOut::NONE,
     };
-    let plan = case_file.planned_leaving_out(leave_out)?;
     let folder = arguments.out.clone().unwrap_or_else(|| Path::new("results").join(case_file.stem()));
+    let origin = match &arguments.from {
+        Some(named) => Some(Origin::read(named)?),
+        None if arguments.resume => Origin::below(&folder)?,
+        None => None,
+    };
+    let plan = case_file.planned_leaving_out(leave_out, origin.as_ref())?;
+    let origin = origin.filter(|_| arguments.from.is_some());
+    if let Some(Origin { results, .. }) = &origin
+        && is_same_folder(&folder, Path::new(results))
+    {
+        return Err(Failure::Call(
+            format!("{}: the run would replace the results it starts from", folder.display()),
+            "choose another folder with --out DIR".to_owned(),
+        ));
+    }
     let wish = match (arguments.resume, arguments.force) {
         (true, _) => Wish::Resume,
         (false, true) => Wish::Force,
@@ -108,8 +125,17 @@ fn prepared(arguments: &RunArguments) -> Result<Preparation, Failure> {
     }
     if !arguments.quiet && !matches!(standing, Standing::Solved(_)) {
         announce(&plan, &folder, &standing);
+        if let Some(Origin { results, increment, .. }) = &origin {
+            terminal::say(&format!(
+                "starts from {results}, the end of increment {increment} (counted from 0)"
+            ));
+        }
     }
-    Ok(Preparation { case_file, plan, folder, standing, companion, threads, pool })
+    Ok(Preparation { case_file, plan, origin, folder, standing, companion, threads, pool })
+}
+
+fn is_same_folder(one: &Path, other: &Path) -> bool {
+    one.canonicalize().is_ok_and(|one| other.canonicalize().is_ok_and(|other| one == other))
 }
 
 fn announce(plan: &Plan, folder: &Path, standing: &Standing) {
@@ -136,7 +162,7 @@ fn announce(plan: &Plan, folder: &Path, standing: &Standing) {
 
 impl Preparation {
     fn begun(&self, quiet: bool) -> Result<Beginning, Failure> {
-        let record = || RunRecord::new(&self.case_file, &self.plan, self.threads);
+        let record = || RunRecord::new(&self.case_file, &self.plan, self.threads, self.origin.as_ref());
         if let Standing::Solved(record) = &self.standing {
             return Ok(Beginning::Nothing(record.clone()));
         }
@@ -147,6 +173,9 @@ impl Preparation {
             if !quiet {
                 if let Some(why) = &taken.passed_over {
                     terminal::say(&format!("an older checkpoint is taken: {why}"));
+                }
+                if let Some(why) = &taken.ended {
+                    terminal::say(&format!("it ended without its answer before, and may do so again: {why}"));
                 }
                 terminal::say(&format!(
                     "{}: {}; going on with increment {} (counted from 0)",
@@ -164,10 +193,15 @@ impl Preparation {
         Ok(Beginning::At(Box::new(Departure { folder, tally, from, wall_s: 0.0 })))
     }
 
-    /// Tells that the run was solved before; computes and writes nothing.
+    /// Tells that the run was solved before. Only what error bars need besides is computed, when they are asked for.
     fn solved_before(&self, record: &Value, quiet: bool, as_json: bool) -> Result<(), Failure> {
         let shown = self.folder.display().to_string();
-        let message = format!("{shown}: solved already, nothing is left to do");
+        let headlines: Vec<Headline> =
+            serde_json::from_value(record["headlines"].clone()).unwrap_or_default();
+        let estimate = self.estimated(&headlines, quiet)?;
+        let done =
+            if estimate.is_some() { "its error bars are computed now" } else { "nothing is left to do" };
+        let message = format!("{shown}: solved already, {done}");
         if as_json {
             let answer = json!({
                 "status": "solved",
@@ -175,10 +209,12 @@ impl Preparation {
                 "increments": record["totals"]["increments"],
                 "totals": record["totals"],
                 "results": shown,
+                "error_bars": estimate.map(|estimate| estimate.to_json(|stage| self.stage_name(stage))),
             });
             terminal::answer(&format!("{answer:#}"))?;
         } else if !quiet {
-            terminal::answer(&message)?;
+            let bars = estimate.map(|estimate| estimate.table(|stage| self.stage_name(stage)) + "\n\n");
+            terminal::answer(&(bars.unwrap_or_default() + &message))?;
         }
         Ok(())
     }
@@ -195,7 +231,7 @@ impl Preparation {
             progress: Progress::new(quiet, &title, &tally),
             tally,
             clock: Clock { started: Instant::now(), before_s: wall_s },
-            read_on: self.companion.as_ref().map(|_| self.plan.grid),
+            grid: self.plan.grid,
             failure: None,
         };
         let outcome = self.followed_by(from, &mut witness);
@@ -207,9 +243,9 @@ impl Preparation {
         let closed = folder.close(&tally, wall_s, failure.as_ref());
         let failure = failure.or_else(|| closed.err().map(Failure::from));
         let (estimate, failure) = match failure {
-            None => match self.estimated(&tally, quiet) {
+            None => match self.estimated(&tally.headlines, quiet) {
                 Ok(estimate) => (estimate, None),
-                Err(unwritten) => (None, Some(unwritten.into())),
+                Err(failure) => (None, Some(failure)),
             },
             failure => (None, failure),
         };
@@ -226,8 +262,19 @@ impl Preparation {
         } else if failure.is_none() && !quiet {
             terminal::answer(&summary.table())?;
         }
-        if matches!(failure, Some(Failure::Unwritten(_))) && tally.solved > 0 {
-            terminal::say(&format!("{}; once it can be written, --resume goes on", self.kept(&tally)));
+        match &failure {
+            Some(Failure::Unwritten(_)) if tally.solved > 0 => {
+                terminal::say(&format!("{}; once it can be written, --resume goes on", self.kept(&tally)));
+            }
+            Some(Failure::Unsolved(_)) if tally.solved > 0 => {
+                let shown = self.folder.display();
+                terminal::say(&format!(
+                    "{}; report, export and stress show them. --resume would end in the same increment; a case with other \
+                     loads, friction or increments goes on from there with --from {shown}",
+                    self.kept(&tally)
+                ));
+            }
+            _ => {}
         }
         let failure = failure.or_else(|| {
             self.plan.case.stress.as_ref()?;
@@ -237,16 +284,19 @@ impl Preparation {
     }
 
     /// Error bars, when they are asked for and can be had; also as a file beside the results.
-    fn estimated(&self, tally: &Tally, quiet: bool) -> Result<Option<Estimate>, Unwritten> {
+    fn estimated(&self, headlines: &[Headline], quiet: bool) -> Result<Option<Estimate>, Failure> {
         let Some(companion) = &self.companion else { return Ok(None) };
-        match self.pool.install(|| Estimate::new(&self.plan, companion, &tally.headlines)) {
+        match self.pool.install(|| Estimate::new(&self.plan, companion, headlines)) {
             Ok(estimate) => {
-                let name = |stage: usize| self.plan.case.stages[stage].name.clone();
-                let text = format!("{:#}\n", estimate.to_json(name));
+                let text = format!("{:#}\n", estimate.to_json(|stage| self.stage_name(stage)));
                 write_whole(&self.folder.join(ERROR_BARS), text.as_bytes())?;
                 Ok(Some(estimate))
             }
-            Err(why) => {
+            Err(NoBars::Interrupted) => Err(Failure::Interrupted(format!(
+                "the case is solved and kept in {}, its error bars are not; --resume --estimate-error goes on with them",
+                self.folder.display()
+            ))),
+            Err(NoBars::Because(why)) => {
                 if !quiet {
                     terminal::say(&format!("no error bars: {why}"));
                 }
@@ -267,6 +317,10 @@ impl Preparation {
             Ok(Err(error)) => Err(Failure::Unsolved(error)),
             Err(panic) => Err(Failure::Defect(defect::words_of(panic.as_ref()))),
         }
+    }
+
+    fn stage_name(&self, stage: usize) -> String {
+        self.plan.case.stages[stage].name.clone()
     }
 
     fn kept(&self, tally: &Tally) -> String {
@@ -292,8 +346,8 @@ struct Witness {
     progress: Progress,
     tally: Tally,
     clock: Clock,
-    /// The grid, when headline numbers are read.
-    read_on: Option<SurfaceGrid>,
+    /// Where headline numbers are read.
+    grid: SurfaceGrid,
     failure: Option<Failure>,
 }
 
@@ -325,9 +379,7 @@ impl Observer for Witness {
         let writing = self.folder.keep(record, kept);
         self.after(writing)?;
         self.tally.add(record);
-        if let Some(grid) = &self.read_on {
-            self.tally.read(Headline::new(grid, record, state));
-        }
+        self.tally.read(Headline::new(&self.grid, record, state));
         self.progress.solved(record, &self.tally);
         go_on()
     }

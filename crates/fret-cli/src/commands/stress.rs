@@ -22,7 +22,8 @@ use super::fatigue::{Fatigue, Picture};
 use crate::arguments::StressArguments;
 use crate::failure::{Failure, Unwritten};
 use crate::figures::{counted, duration, figure};
-use crate::output::finished_run::FinishedRun;
+use crate::interrupt;
+use crate::output::kept_run::KeptRun;
 use crate::output::section::Section;
 use crate::output::vtk::Volume;
 use crate::output::write_whole;
@@ -46,7 +47,8 @@ pub fn stress(arguments: &StressArguments, as_json: bool) -> Result<(), Failure>
 }
 
 fn stress_of(arguments: &StressArguments, as_json: bool) -> Result<Value, Failure> {
-    let run = FinishedRun::open(&arguments.folder)?;
+    interrupt::listen();
+    let run = KeptRun::open(&arguments.folder)?;
     let request = requested(arguments, &run);
     let pool = threads::pool(threads::asked(arguments.threads))?;
     let answer = pool.install(|| computed(&arguments.folder, &run, &request))?;
@@ -57,7 +59,7 @@ fn stress_of(arguments: &StressArguments, as_json: bool) -> Result<Value, Failur
 }
 
 /// What the call asks for, or else the case.
-fn requested(arguments: &StressArguments, run: &FinishedRun) -> StressRequest {
+fn requested(arguments: &StressArguments, run: &KeptRun) -> StressRequest {
     let mut request = run.stress.clone().unwrap_or_default();
     if !arguments.depths.is_empty() {
         request.depths = Some(arguments.depths.clone());
@@ -84,7 +86,7 @@ struct Answer {
     table: String,
 }
 
-fn computed(folder: &Path, run: &FinishedRun, request: &StressRequest) -> Result<Answer, Failure> {
+fn computed(folder: &Path, run: &KeptRun, request: &StressRequest) -> Result<Answer, Failure> {
     let started = Instant::now();
     let Body::Elastic(half_space) = request.body.of(&run.bodies) else {
         let other = if request.body == Side::Lower { "upper" } else { "lower" };
@@ -111,6 +113,9 @@ fn computed(folder: &Path, run: &FinishedRun, request: &StressRequest) -> Result
     };
     let mut unwritten = None;
     survey(half_space, &run.grid, run.periodic, &points, &surfaces, |point, surface, field| {
+        if interrupt::is_asked() {
+            return false;
+        }
         sheet.look(point, surface, field);
         if let (Some(volume), true) = (&mut volume, surface + 1 == surfaces.len())
             && let Err(error) = fill(volume, point, field)
@@ -124,10 +129,23 @@ fn computed(folder: &Path, run: &FinishedRun, request: &StressRequest) -> Result
     if let Some(unwritten) = unwritten {
         return Err(unwritten.into());
     }
+    if interrupt::is_asked() {
+        if let Some(volume) = volume {
+            volume.abandon();
+        }
+        return Err(stopped(folder));
+    }
     if let Some(volume) = volume {
         volume.close()?;
     }
     sheet.written(&place, started.elapsed().as_secs_f64())
+}
+
+fn stopped(folder: &Path) -> Failure {
+    let shown = folder.display();
+    Failure::Interrupted(format!(
+        "the stresses are not finished and nothing of them is written; `fret stress {shown}` starts them again"
+    ))
 }
 
 fn fill(volume: &mut Volume, point: usize, field: &StressField) -> Result<(), Unwritten> {
@@ -141,7 +159,7 @@ fn fill(volume: &mut Volume, point: usize, field: &StressField) -> Result<(), Un
 /// The tractions on the body in the increments that are looked at.
 fn loaded_surfaces(
     folder: &Path,
-    run: &FinishedRun,
+    run: &KeptRun,
     request: &StressRequest,
 ) -> Result<Vec<LoadedSurface>, Failure> {
     let kept = &run.steps;
@@ -151,6 +169,9 @@ fn loaded_surfaces(
     let sign = if request.body == Side::Lower { 1.0 } else { -1.0 };
     let mut surfaces = Vec::new();
     for (_, &increment) in chosen {
+        if interrupt::is_asked() {
+            return Err(stopped(folder));
+        }
         let pair = |name: [&str; 2]| -> Result<Option<[ndarray::Array2<f64>; 2]>, Failure> {
             Ok(run.field(name[0], increment)?.zip(run.field(name[1], increment)?).map(<[_; 2]>::from))
         };
@@ -176,7 +197,7 @@ fn loaded_surfaces(
 }
 
 /// How deep to look: three times the largest radius of the loaded area, about its centre.
-fn reach(run: &FinishedRun, surfaces: &[LoadedSurface]) -> f64 {
+fn reach(run: &KeptRun, surfaces: &[LoadedSurface]) -> f64 {
     let most = surfaces
         .iter()
         .map(|surface| surface.pressure.iter().filter(|pressure| **pressure > 0.0).count())
@@ -192,7 +213,7 @@ fn reach(run: &FinishedRun, surfaces: &[LoadedSurface]) -> f64 {
 
 /// What is noted on the way, and written at the end.
 struct Sheet<'a> {
-    run: &'a FinishedRun,
+    run: &'a KeptRun,
     request: &'a StressRequest,
     half_space: &'a HalfSpace,
     points: &'a [DepthPoint],
@@ -210,7 +231,7 @@ struct Sheet<'a> {
 
 impl<'a> Sheet<'a> {
     fn new(
-        run: &'a FinishedRun,
+        run: &'a KeptRun,
         request: &'a StressRequest,
         half_space: &'a HalfSpace,
         points: &'a [DepthPoint],
@@ -298,6 +319,7 @@ impl<'a> Sheet<'a> {
             self.fatigue.take().map(|fatigue| fatigue.finished(&centres[0].to_vec(), &self.interfaces));
         let record = json!({
             "status": "computed",
+            "unfinished": self.run.unfinished,
             "body": self.request.body.name(),
             "increments": self.surfaces.iter().map(|surface| surface.increment).collect::<Vec<_>>(),
             "depths": self.points.iter().map(|point| point.depth).collect::<Vec<_>>(),
@@ -372,12 +394,14 @@ impl<'a> Sheet<'a> {
     }
 
     fn table(&self, place: &Path, fatigue: Option<&str>, wall_s: f64) -> String {
-        let mut text = format!(
-            "stress in the {} body: {} at {}, counted from 0\n\n  largest            value        increment  x            y            depth        in\n",
-            self.request.body.name(),
-            counted(self.points.len(), "depth"),
-            counted(self.surfaces.len(), "increment"),
-        );
+        let unfinished = self.run.unfinished.as_ref().map_or(String::new(), |why| format!("{why}\n"));
+        let mut text = unfinished
+            + &format!(
+                "stress in the {} body: {} at {}, counted from 0\n\n  largest            value        increment  x            y            depth        in\n",
+                self.request.body.name(),
+                counted(self.points.len(), "depth"),
+                counted(self.surfaces.len(), "increment"),
+            );
         for found in &self.largest {
             if found.value <= 0.0 && names_tension(found.measure) {
                 let name = found.measure.name().replace('_', " ");
@@ -411,7 +435,7 @@ fn names_tension(measure: Measure) -> bool {
 
 /// Stresses of a run that has just ended, as its case asks.
 pub fn after_run(folder: &Path, quiet: bool) -> Result<(), Failure> {
-    let run = FinishedRun::open(folder)?;
+    let run = KeptRun::open(folder)?;
     let Some(request) = run.stress.clone() else { return Ok(()) };
     let answer = computed(folder, &run, &request)?;
     if !quiet {

@@ -16,6 +16,7 @@ use crate::failure::{Failure, Unwritten};
 use crate::figures::{counted, duration};
 use crate::interrupt::{self, Listener};
 use crate::output::write_whole;
+use crate::study::levels::Levels;
 use crate::study::{picture, reference, table, words};
 use crate::terminal;
 use crate::threads;
@@ -42,7 +43,8 @@ pub fn study(arguments: &StudyArguments, as_json: bool) -> Result<(), Failure> {
     });
     std::fs::create_dir_all(&folder).map_err(Unwritten::at(&folder))?;
     interrupt::listen();
-    let (climb, unsolved) = pool.install(|| climb(&plan, ladder, arguments.quiet))?;
+    let levels = Levels::below(&folder)?;
+    let (climb, unsolved) = pool.install(|| climb(&plan, ladder, &levels, arguments.quiet))?;
     let truth = against.truth(&climb).ok_or_else(|| {
         Failure::Defect("a solved ladder has no finest rung".to_owned()) // `climb` fails without it
     })?;
@@ -66,6 +68,7 @@ pub fn study(arguments: &StudyArguments, as_json: bool) -> Result<(), Failure> {
     write_whole(&folder.join("study.csv"), table::csv(&climb, &lines).as_bytes())?;
     write_whole(&folder.join("study.svg"), picture::picture(&title, &climb, &lines).as_bytes())?;
     write_whole(&folder.join("study.json"), format!("{text}\n").as_bytes())?;
+    levels.remove();
     if as_json {
         return terminal::answer(&text);
     }
@@ -148,7 +151,7 @@ impl Against {
 type Unsolved = Vec<(Place, String)>;
 
 /// Solves all rungs; those that cannot be solved are told and left out, but for the finest.
-fn climb(plan: &Plan, ladder: Ladder, quiet: bool) -> Result<(Climb, Unsolved), Failure> {
+fn climb(plan: &Plan, ladder: Ladder, levels: &Levels, quiet: bool) -> Result<(Climb, Unsolved), Failure> {
     let places = ladder.places();
     let say = |text: &str| {
         if !quiet {
@@ -170,14 +173,27 @@ fn climb(plan: &Plan, ladder: Ladder, quiet: bool) -> Result<(Climb, Unsolved), 
         let varied = variation.planned(plan).map_err(|error| {
             Failure::Call(format!("{nx} x {ny} cells: {error}"), "fret study --help".to_owned())
         })?;
+        if let Some(rung) = levels.finished(&varied) {
+            say(&format!("{head}: {}, solved before", duration(rung.wall_s)));
+            rungs.push((*place, rung));
+            continue;
+        }
         match timed(&varied) {
             Ok(rung) => {
+                levels.keep(&varied, &rung)?;
                 say(&format!("{head}: {}", duration(rung.wall_s)));
                 rungs.push((*place, rung));
             }
             Err(failure @ Failure::Unsolved(_)) if *place != ladder.finest() => {
                 say(&format!("{head}: left out, {}", failure.message()));
                 unsolved.push((*place, failure.message()));
+            }
+            Err(Failure::Interrupted(_)) => {
+                return Err(Failure::Interrupted(format!(
+                    "{} of {} levels of the study are solved and kept; the same call goes on with the others",
+                    rungs.len(),
+                    places.len()
+                )));
             }
             Err(failure) => return Err(failure),
         }
@@ -189,9 +205,7 @@ fn climb(plan: &Plan, ladder: Ladder, quiet: bool) -> Result<(Climb, Unsolved), 
 fn timed(plan: &Plan) -> Result<Rung, Failure> {
     let once = || match catch_unwind(AssertUnwindSafe(|| climbed(plan, &mut Listener))) {
         Ok(Ok(rung)) => Ok(rung),
-        Ok(Err(RunError::Interrupted { .. })) => {
-            Err(Failure::Interrupted("the study is not finished; nothing of it was written".to_owned()))
-        }
+        Ok(Err(RunError::Interrupted { .. })) => Err(Failure::Interrupted(String::new())),
         Ok(Err(error)) => Err(Failure::Unsolved(error)),
         Err(panic) => Err(Failure::Defect(defect::words_of(panic.as_ref()))),
     };

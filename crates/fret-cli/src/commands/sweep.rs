@@ -7,7 +7,7 @@ use std::sync::{Condvar, Mutex, PoisonError};
 use std::time::Instant;
 
 use fret_core::machine::memory::{self, Claim, MemoryError};
-use fret_core::plan::Plan;
+use fret_core::plan::{LeaveOut, Plan};
 use fret_core::simulation::{RunError, Simulation};
 use serde_json::json;
 
@@ -15,6 +15,7 @@ use crate::arguments::SweepArguments;
 use crate::failure::{Failure, Told, Unwritten};
 use crate::figures::{counted, duration};
 use crate::interrupt::{self, Listener};
+use crate::origin::Origin;
 use crate::sweep::{Answer, Question, SweepFolder};
 use crate::terminal;
 use crate::threads;
@@ -22,14 +23,15 @@ use crate::threads;
 /// Solves all points of a sweep.
 pub fn sweep(arguments: &SweepArguments, as_json: bool) -> Result<(), Told> {
     let question = Question::read(&arguments.sweep)?;
+    let origin = arguments.from.as_deref().map(Origin::read).transpose()?;
     let text = std::fs::read_to_string(&arguments.sweep).map_err(Unwritten::at(&arguments.sweep))?;
     let stem = arguments.sweep.file_stem().unwrap_or_else(|| "sweep".as_ref());
     let path = arguments.out.clone().unwrap_or_else(|| Path::new("results").join(stem));
-    let folder = SweepFolder::open(&path, &text)?;
+    let folder = SweepFolder::open(&path, &text, origin.as_ref())?;
     interrupt::listen();
     let threads = threads::asked(arguments.threads);
     let known: Vec<Option<Answer>> = question.points.iter().map(|point| folder.finished(point)).collect();
-    let board = Board::new(&question, known, arguments.quiet);
+    let board = Board::new(&question, origin, known, arguments.quiet);
     board.announce(threads);
     let failure = board.work(&folder, threads);
     let summary = folder.summarise(&question, &board.answers());
@@ -85,6 +87,7 @@ impl Counts {
 /// What the workers share: the points, the next of them, the answers.
 struct Board<'a> {
     question: &'a Question,
+    origin: Option<Origin>,
     open: Vec<usize>,
     next: AtomicUsize,
     answers: Mutex<Vec<Option<Answer>>>,
@@ -112,10 +115,11 @@ impl Drop for AtWork<'_> {
 }
 
 impl<'a> Board<'a> {
-    fn new(question: &'a Question, known: Vec<Option<Answer>>, quiet: bool) -> Self {
+    fn new(question: &'a Question, origin: Option<Origin>, known: Vec<Option<Answer>>, quiet: bool) -> Self {
         let open: Vec<usize> = (0..known.len()).filter(|&number| known[number].is_none()).collect();
         Self {
             question,
+            origin,
             before: known.len() - open.len(),
             solved_before: known.iter().flatten().filter(|answer| answer.status() == "solved").count(),
             open,
@@ -163,7 +167,7 @@ impl<'a> Board<'a> {
         while let Some(&number) = self.open.get(self.next.fetch_add(1, Ordering::Relaxed)) {
             let point = &self.question.points[number];
             let solve = || -> Result<Answer, Failure> {
-                let plan = point.case_file.planned()?;
+                let plan = point.case_file.planned_leaving_out(LeaveOut::ALL, self.origin.as_ref())?;
                 let (_at_work, claim) = self.memory_for(&plan)?;
                 let run = Simulation::new(&plan).within(claim).run(&mut Listener);
                 let history = run.map_err(|error| match error {

@@ -10,8 +10,10 @@ use fret_core::history::{KeptFields, StepRecord};
 use fret_core::kernel::{Components, influence_coefficients, periodic_symbols};
 use fret_core::model::{ContactState, TangentialField};
 use fret_core::plan::Plan;
-use fret_core::simulation::Observer;
+use fret_core::simulation::{Iteration, Observer};
 use fret_fft::ConvolutionError;
+
+use crate::interrupt;
 
 /// Keeps the accounts of a run and looks at its mirror image.
 pub struct Accounts {
@@ -151,6 +153,10 @@ fn dot(one: &[f64], other: &[f64]) -> f64 {
 }
 
 impl Observer for Accounts {
+    fn iterated(&mut self, _: &Iteration) -> ControlFlow<()> {
+        interrupt::go_on()
+    }
+
     fn solved(
         &mut self,
         record: &StepRecord,

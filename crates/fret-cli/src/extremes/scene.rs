@@ -6,12 +6,13 @@ use fret_core::case::Case;
 use fret_core::history::{History, StepRecord};
 use fret_core::kernel::PairResponse;
 use fret_core::plan::{LeaveOut, Plan, Shortcut};
-use fret_core::simulation::{RunError, Silent, Simulation};
+use fret_core::simulation::{RunError, Simulation};
 
 use super::balance::Accounts;
 use super::bodies::Stack;
 use super::judgement::Judgement;
 use super::{operator, twin};
+use crate::interrupt::Listener;
 
 /// Solver tolerance of all scenes.
 pub const TOLERANCE: f64 = 1e-8;
@@ -52,6 +53,8 @@ pub enum Outcome {
     Refused(String),
     /// Not solved.
     Failed(String),
+    /// Stopped by somebody.
+    Interrupted,
 }
 
 impl Scene {
@@ -98,9 +101,8 @@ impl Scene {
         let approach = length * self.contact * self.contact / RADIUS;
         let text = format!("{}[[load]]\napproach = {approach:e}\nincrements = 1\n", self.head(0.0));
         let plan = planned(&text)?;
-        let history = Simulation::new(&plan)
-            .run(&mut Silent)
-            .map_err(|error| Outcome::Failed(format!("pressed alone: {error}")))?;
+        let history =
+            Simulation::new(&plan).run(&mut Listener).map_err(|error| failed("pressed alone: ", &error))?;
         Ok(history.steps.last().map_or(0.0, |step| step.normal_force))
     }
 
@@ -116,7 +118,7 @@ impl Scene {
         let plan = planned(&text)?;
         let whole = planned_leaving_out(&text, LeaveOut::all_but(Shortcut::Mirror))?;
         let operator_failed = |error: fret_fft::ConvolutionError| Outcome::Failed(error.to_string());
-        let failed = |error: RunError| Outcome::Failed(error.to_string());
+        let failed = |error: RunError| failed("", &error);
         let mut accounts = Accounts::of(&plan).map_err(operator_failed)?;
         let history = Simulation::new(&plan).run(&mut accounts).map_err(failed)?;
         let mut accounts_of_whole = Accounts::of(&whole).map_err(operator_failed)?;
@@ -185,6 +187,13 @@ fn apart(one: &History, other: &History) -> f64 {
         let motion = (a.approach - b.approach).abs().max((a.shift[0] - b.shift[0]).abs());
         worst.max((a.max_pressure - b.max_pressure).abs() / pressure).max(motion / approach)
     })
+}
+
+fn failed(when: &str, error: &RunError) -> Outcome {
+    match error {
+        RunError::Interrupted { .. } => Outcome::Interrupted,
+        error => Outcome::Failed(format!("{when}{error}")),
+    }
 }
 
 fn planned(text: &str) -> Result<Plan, Outcome> {

@@ -11,8 +11,11 @@ use std::time::{Duration, Instant};
 
 use fret_core::checkpoint::{Checkpoint, Waypoint};
 use fret_core::plan::Plan;
+use fret_core::start::Start;
 use serde::{Deserialize, Serialize};
+use serde_json::Value;
 
+use super::history_table::Written;
 use super::whole_file::write_whole;
 use crate::failure::{Failure, Unwritten};
 use crate::tally::Tally;
@@ -34,12 +37,12 @@ pub struct Head {
     pub version: String,
     /// Digest of the question.
     pub question: String,
-    /// Bytes of the history table that belong to the waypoint.
-    pub history_bytes: u64,
+    /// What of the history table belongs to the waypoint.
+    pub history: Written,
     /// The same of the table of cycles.
-    pub cycles_bytes: u64,
+    pub cycles: Written,
     /// Lines of that table.
-    pub cycles: usize,
+    pub cycles_over: usize,
     /// Increments whose fields have been kept.
     pub kept: usize,
     /// What the run has come to.
@@ -219,17 +222,20 @@ fn pack(bytes: &mut Vec<u8>, head: &Head, waypoint: &Waypoint<'_>) -> Result<(),
     Ok(())
 }
 
+/// The newest usable checkpoint below the results at `path`, whose plan is given as JSON, as a state to start from, and the number
+/// of its increment.
+pub fn newest_start(results: &Path, plan: &Value) -> Option<(usize, Start)> {
+    let starts = NAMES.iter().filter_map(|name| {
+        let bytes = fs::read(results.join("checkpoint").join(name)).ok()?;
+        let (head, waypoint) = parts(&bytes).ok()?;
+        let increment = head.tally.solved.checked_sub(1)?;
+        Some((increment, Checkpoint::start_of(waypoint, plan).ok()?))
+    });
+    starts.max_by_key(|(increment, _)| *increment)
+}
+
 fn unpacked(bytes: &[u8], plan: &Plan, question: &str) -> Result<Stored, String> {
-    let frame = bytes.strip_prefix(FIRST_LINE).ok_or("not a checkpoint, or a damaged one")?;
-    let (checksum, frame) = frame.split_first_chunk::<4>().ok_or("damaged: it ends early")?;
-    let (length, body) = frame.split_first_chunk::<8>().ok_or("damaged: it ends early")?;
-    let length = usize::try_from(u64::from_le_bytes(*length)).unwrap_or(usize::MAX);
-    let body = body.get(..length).ok_or("damaged: it ends early")?;
-    if u32::from_le_bytes(*checksum) != crc32fast::hash(body) {
-        return Err("damaged: its checksum does not fit".to_owned());
-    }
-    let (head, waypoint) =
-        postcard::take_from_bytes::<Head>(body).map_err(|_| "written by another version of fret")?;
+    let (head, waypoint) = parts(bytes)?;
     if head.version != env!("CARGO_PKG_VERSION") {
         return Err(format!(
             "written by fret {}, which may compute other last digits than this one, {}",
@@ -242,4 +248,17 @@ fn unpacked(bytes: &[u8], plan: &Plan, question: &str) -> Result<Stored, String>
     }
     let checkpoint = Checkpoint::read(waypoint, plan).map_err(|error| error.to_string())?;
     Ok(Stored { head, checkpoint })
+}
+
+/// The head of a checkpoint file and the bytes of its waypoint, when the file is whole.
+fn parts(bytes: &[u8]) -> Result<(Head, &[u8]), String> {
+    let frame = bytes.strip_prefix(FIRST_LINE).ok_or("not a checkpoint, or a damaged one")?;
+    let (checksum, frame) = frame.split_first_chunk::<4>().ok_or("damaged: it ends early")?;
+    let (length, body) = frame.split_first_chunk::<8>().ok_or("damaged: it ends early")?;
+    let length = usize::try_from(u64::from_le_bytes(*length)).unwrap_or(usize::MAX);
+    let body = body.get(..length).ok_or("damaged: it ends early")?;
+    if u32::from_le_bytes(*checksum) != crc32fast::hash(body) {
+        return Err("damaged: its checksum does not fit".to_owned());
+    }
+    postcard::take_from_bytes::<Head>(body).map_err(|_| "written by another version of fret".to_owned())
 }

@@ -1,15 +1,16 @@
-//! `fields.zarr`: kept fields as a Zarr v3 folder (dims step, x, y), one chunk file a step and field, raw little-endian numbers.
+//! `fields.zarr`: kept fields as a Zarr v3 folder (dims step, y, x), one chunk file a step and field, raw little-endian numbers
+//! with y fastest, as in memory.
 //!
 //! Shape and step numbers stand from the start, or grow with a history that may end early; a step that is not reached reads as NaN
-//! (zone: 255). xarray opens it with
-//! `xr.open_zarr(path, consolidated=False)`. Format: <https://zarr-specs.readthedocs.io/en/latest/v3/core/index.html>.
+//! (zone: 255). The group repeats the metadata of its arrays, as zarr-python consolidates them: `xr.open_zarr(path)` opens it, and
+//! draws x to the right. Format: <https://zarr-specs.readthedocs.io/en/latest/v3/core/index.html>.
 
 use std::borrow::Cow;
 use std::fs;
 use std::path::{Path, PathBuf};
 
 use fret_core::history::KeptFields;
-use fret_core::model::Zone;
+use fret_core::model::{SurfaceGrid, Zone};
 use fret_core::plan::Plan;
 use ndarray::Array2;
 use serde_json::{Value, json};
@@ -21,7 +22,8 @@ use crate::failure::Unwritten;
 #[derive(Debug)]
 pub struct FieldStore {
     path: PathBuf,
-    cells: [usize; 2],
+    title: String,
+    grid: SurfaceGrid,
     arrays: Vec<&'static FieldArray>,
     /// Numbers of the increments along `step`.
     steps: Vec<usize>,
@@ -91,16 +93,10 @@ impl FieldStore {
     /// A store of the plan's final shape, without any field yet.
     pub fn create(path: &Path, plan: &Plan) -> Result<Self, Unwritten> {
         let store = Self::of(path, plan, Vec::new());
-        let group = json!({
-            "zarr_format": 3,
-            "node_type": "group",
-            "attributes": { "title": plan.case.title, "made_by": concat!("fretting ", env!("CARGO_PKG_VERSION")) },
-        });
-        store.write_text("zarr.json", &group)?;
         for (axis, name) in ["x", "y"].into_iter().enumerate() {
             let centres = plan.grid.centres(axis);
             let bytes: Vec<u8> = centres.iter().flat_map(|centre| centre.to_le_bytes()).collect();
-            store.write_coordinate(name, "float64", LENGTH, "cell centre", &bytes)?;
+            store.write(&format!("{name}/c/0"), &bytes)?;
         }
         store.write_metadata()?;
         Ok(store)
@@ -131,7 +127,7 @@ impl FieldStore {
     /// The first file that should be in the store at `path` after `kept` steps and is not, or not of its size.
     pub fn missing(path: &Path, plan: &Plan, kept: usize) -> Option<PathBuf> {
         let store = Self::of(path, plan, steps_at(path));
-        let cells = store.cells[0] * store.cells[1];
+        let cells = store.grid.len();
         if store.steps.len() < kept {
             return Some(path.join(STEPS));
         }
@@ -158,7 +154,8 @@ impl FieldStore {
         let grows = plan.case.is_open_ended();
         Self {
             path: path.to_owned(),
-            cells: plan.grid.cells(),
+            title: plan.case.title.clone(),
+            grid: plan.grid,
             arrays: FIELD_ARRAYS.iter().filter(asked).collect(),
             steps: if grows { grown } else { plan.case.kept_increments() },
             kept: 0,
@@ -199,58 +196,52 @@ impl FieldStore {
         Ok(self.steps.len() - 1)
     }
 
+    /// The step numbers, the metadata of every array, and all of these again in the group's.
     fn write_metadata(&self) -> Result<(), Unwritten> {
         let numbers: Vec<u8> = self.steps.iter().flat_map(|&step| (step as i64).to_le_bytes()).collect();
-        self.write_coordinate("step", "int64", "1", "number of the increment, from 0", &numbers)?;
-        let [nx, ny] = self.cells;
-        for array in &self.arrays {
-            let zone = array.name == "zone";
-            let mut attributes = json!({ "units": array.units, "long_name": array.long_name });
-            if zone {
-                attributes["flag_values"] = json!([0, 1, 2]);
-                attributes["flag_meanings"] = json!("open stick slip");
-            }
-            let metadata = json!({
-                "zarr_format": 3,
-                "node_type": "array",
-                "shape": [self.steps.len(), nx, ny],
-                "data_type": if zone { "uint8" } else { "float64" },
-                "chunk_grid": { "name": "regular", "configuration": { "chunk_shape": [1, nx, ny] } },
-                "chunk_key_encoding": { "name": "default", "configuration": { "separator": "/" } },
-                "fill_value": if zone { json!(255) } else { json!("NaN") },
-                "codecs": [little_endian_bytes()],
-                "attributes": attributes,
-                "dimension_names": ["step", "x", "y"],
-            });
-            self.write_text(&format!("{}/zarr.json", array.name), &metadata)?;
+        self.write(STEPS, &numbers)?;
+        let [nx, ny] = self.grid.cells();
+        let centre = |length: usize| ("float64", LENGTH, "cell centre", length);
+        let number = ("int64", "1", "number of the increment, from 0", self.steps.len());
+        let axes = [("x", centre(nx)), ("y", centre(ny)), ("step", number)];
+        let axes = axes.into_iter().map(|(name, axis)| (name, axis_metadata(name, axis)));
+        let arrays = self.arrays.iter().map(|array| (array.name, self.field_metadata(array)));
+        let mut all = serde_json::Map::new();
+        for (name, metadata) in axes.chain(arrays) {
+            self.write_text(&format!("{name}/zarr.json"), &metadata)?;
+            all.insert(name.to_owned(), metadata);
         }
-        Ok(())
+        let group = json!({
+            "zarr_format": 3,
+            "node_type": "group",
+            "attributes": { "title": self.title, "made_by": concat!("fretting ", env!("CARGO_PKG_VERSION")) },
+            "consolidated_metadata": { "kind": "inline", "must_understand": false, "metadata": all },
+        });
+        self.write_text("zarr.json", &group)
     }
 
-    /// An axis in one chunk: every number takes eight bytes.
-    fn write_coordinate(
-        &self,
-        name: &str,
-        data_type: &str,
-        units: &str,
-        long_name: &str,
-        bytes: &[u8],
-    ) -> Result<(), Unwritten> {
-        let length = bytes.len() / 8;
-        let metadata = json!({
+    fn field_metadata(&self, array: &FieldArray) -> Value {
+        let [nx, ny] = self.grid.cells();
+        let zone = array.name == "zone";
+        let mut attributes = json!({ "units": array.units, "long_name": array.long_name });
+        if zone {
+            attributes["flag_values"] = json!([0, 1, 2]);
+            attributes["flag_meanings"] = json!("open stick slip");
+        }
+        // Seen with y before x, stored with x before y.
+        let stored = json!({ "name": "transpose", "configuration": { "order": [0, 2, 1] } });
+        json!({
             "zarr_format": 3,
             "node_type": "array",
-            "shape": [length],
-            "data_type": data_type,
-            "chunk_grid": { "name": "regular", "configuration": { "chunk_shape": [length.max(1)] } },
+            "shape": [self.steps.len(), ny, nx],
+            "data_type": if zone { "uint8" } else { "float64" },
+            "chunk_grid": { "name": "regular", "configuration": { "chunk_shape": [1, ny, nx] } },
             "chunk_key_encoding": { "name": "default", "configuration": { "separator": "/" } },
-            "fill_value": 0,
-            "codecs": [little_endian_bytes()],
-            "attributes": { "units": units, "long_name": long_name },
-            "dimension_names": [name],
-        });
-        self.write(&format!("{name}/c/0"), bytes)?;
-        self.write_text(&format!("{name}/zarr.json"), &metadata)
+            "fill_value": if zone { json!(255) } else { json!("NaN") },
+            "codecs": [stored, little_endian_bytes()],
+            "attributes": attributes,
+            "dimension_names": ["step", "y", "x"],
+        })
     }
 
     fn write_text(&self, key: &str, value: &Value) -> Result<(), Unwritten> {
@@ -271,6 +262,22 @@ fn steps_at(path: &Path) -> Vec<usize> {
     let bytes = fs::read(path.join(STEPS)).unwrap_or_default();
     let numbers = bytes.as_chunks::<8>().0.iter().map(|eight| i64::from_le_bytes(*eight));
     numbers.map_while(|number| usize::try_from(number).ok()).collect()
+}
+
+/// An axis in one chunk: its type, unit, meaning and length.
+fn axis_metadata(name: &str, (data_type, units, long_name, length): (&str, &str, &str, usize)) -> Value {
+    json!({
+        "zarr_format": 3,
+        "node_type": "array",
+        "shape": [length],
+        "data_type": data_type,
+        "chunk_grid": { "name": "regular", "configuration": { "chunk_shape": [length.max(1)] } },
+        "chunk_key_encoding": { "name": "default", "configuration": { "separator": "/" } },
+        "fill_value": 0,
+        "codecs": [little_endian_bytes()],
+        "attributes": { "units": units, "long_name": long_name },
+        "dimension_names": [name],
+    })
 }
 
 fn little_endian_bytes() -> Value {

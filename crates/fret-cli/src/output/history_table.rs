@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 
 use fret_core::cycle::CycleRecord;
 use fret_core::history::{Regime, StepRecord};
+use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
 use crate::failure::Unwritten;
@@ -81,38 +82,50 @@ impl Lines {
     }
 }
 
+/// What of a table was written.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Written {
+    /// Bytes.
+    pub bytes: u64,
+    /// Their CRC-32.
+    pub checksum: u32,
+}
+
 /// A table while it grows.
 #[derive(Debug)]
 pub struct HistoryTable {
     path: PathBuf,
     file: File,
     bytes: u64,
+    checksum: crc32fast::Hasher,
 }
 
 impl HistoryTable {
     /// A table with its head; an earlier one is gone.
     pub fn create(path: &Path, lines: Lines) -> Result<Self, Unwritten> {
         let file = File::create(path).map_err(Unwritten::at(path))?;
-        let mut table = Self { path: path.to_owned(), file, bytes: 0 };
+        let mut table = Self { path: path.to_owned(), file, bytes: 0, checksum: crc32fast::Hasher::new() };
         table.append(&lines.head())?;
         Ok(table)
     }
 
-    /// The table of a broken-off run, cut back to its first `bytes`.
-    pub fn reopen(path: &Path, bytes: u64) -> Result<Self, Unwritten> {
+    /// The table of a broken-off run, cut back to what was `written`.
+    pub fn reopen(path: &Path, written: Written) -> Result<Self, Unwritten> {
+        let Written { bytes, checksum } = written;
         let mut file = File::options().write(true).open(path).map_err(Unwritten::at(path))?;
         file.set_len(bytes).and_then(|()| file.seek(SeekFrom::End(0))).map_err(Unwritten::at(path))?;
-        Ok(Self { path: path.to_owned(), file, bytes })
+        let checksum = crc32fast::Hasher::new_with_initial_len(checksum, bytes);
+        Ok(Self { path: path.to_owned(), file, bytes, checksum })
     }
 
-    /// Whether the first `bytes` of the table at `path` are its head and so many lines.
-    pub fn holds(path: &Path, bytes: u64, lines: usize) -> bool {
-        whole_lines(path, bytes, Lines::Increments).is_some_and(|text| text.lines().count() == lines)
+    /// Whether the table at `path` begins with what was `written`: its head and so many lines, none of them changed.
+    pub fn holds(path: &Path, written: Written, lines: usize) -> bool {
+        whole_lines(path, written, Lines::Increments).is_some_and(|text| text.lines().count() == lines)
     }
 
-    /// The cycles in the first `bytes` of the table at `path`; none where these are not its head and whole lines.
-    pub fn cycles(path: &Path, bytes: u64) -> Option<Vec<CycleRecord>> {
-        whole_lines(path, bytes, Lines::Cycles)?.lines().map(cycle).collect()
+    /// The cycles in what was `written` of the table at `path`; none where that is not its head and whole lines, or changed.
+    pub fn cycles(path: &Path, written: Written) -> Option<Vec<CycleRecord>> {
+        whole_lines(path, written, Lines::Cycles)?.lines().map(cycle).collect()
     }
 
     /// Lines of the table at `path`, its head among them; none where there is no table.
@@ -120,9 +133,9 @@ impl HistoryTable {
         std::fs::read(path).map_or(0, |text| text.iter().filter(|&&byte| byte == b'\n').count())
     }
 
-    /// Bytes written so far.
-    pub fn bytes(&self) -> u64 {
-        self.bytes
+    /// What is written so far.
+    pub fn written(&self) -> Written {
+        Written { bytes: self.bytes, checksum: self.checksum.clone().finalize() }
     }
 
     /// Adds an increment: one write a line, so that a killed process leaves whole lines.
@@ -143,6 +156,7 @@ impl HistoryTable {
     fn append(&mut self, text: &str) -> Result<(), Unwritten> {
         self.file.write_all(text.as_bytes()).map_err(Unwritten::at(&self.path))?;
         self.bytes += text.len() as u64;
+        self.checksum.update(text.as_bytes());
         Ok(())
     }
 }
@@ -209,11 +223,13 @@ fn cycle(line: &str) -> Option<CycleRecord> {
     (cells.len() == CYCLE_COLUMNS.len()).then(|| serde_json::from_value(named.collect()).ok())?
 }
 
-/// The first `bytes` of a table below its head, when they are the head and whole lines.
-fn whole_lines(path: &Path, bytes: u64, lines: Lines) -> Option<String> {
+/// What was written of a table below its head, when it still stands there: the head and whole lines.
+fn whole_lines(path: &Path, written: Written, lines: Lines) -> Option<String> {
     let mut text = std::fs::read_to_string(path).ok()?;
-    let bytes = usize::try_from(bytes).ok()?;
-    let is_whole = text.get(..bytes).is_some_and(|text| text.ends_with('\n'));
+    let bytes = usize::try_from(written.bytes).ok()?;
+    let is_whole = text
+        .get(..bytes)
+        .is_some_and(|text| text.ends_with('\n') && crc32fast::hash(text.as_bytes()) == written.checksum);
     text.truncate(if is_whole { bytes } else { 0 });
     text.strip_prefix(&lines.head()).map(str::to_owned)
 }

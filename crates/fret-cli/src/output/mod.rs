@@ -1,15 +1,17 @@
 //! The result folder: the only place of the command that writes results.
 //!
 //! `case.toml` (verbatim copy), `run.json` (how it was computed and how it ended), `history.csv` (a line an increment),
-//! `cycles.csv` (a line a cycle), `fields.zarr` (kept fields), and `checkpoint` while the run is not solved. An increment's fields
-//! are written first, then its line, then that of the cycle it ends, then the checkpoint: what the checkpoint counts is complete, what lies beyond it is cut off when the run goes on.
+//! `cycles.csv` (a line a cycle), `fields.zarr` (kept fields), `states` (what else a run needs to start from a kept increment), and
+//! `checkpoint` while the run is not solved. An increment's fields and state are written first, then its line, then that of the cycle it ends, then the checkpoint: what the checkpoint counts is complete, what lies beyond it is cut off when the run goes on.
 
 mod checkpoint_folder;
 mod field_store;
-pub mod finished_run;
 mod history_table;
+pub mod kept_run;
+mod packed_file;
 mod run_record;
 pub mod section;
+mod state_store;
 pub mod vtk;
 mod whole_file;
 
@@ -25,11 +27,14 @@ use serde_json::Value;
 use crate::case_file::CaseFile;
 use crate::failure::{Failure, Unwritten};
 use crate::tally::Tally;
-pub use checkpoint_folder::Stored;
 use checkpoint_folder::{CheckpointFolder, Found, Head};
+pub use checkpoint_folder::{Stored, newest_start};
 use field_store::FieldStore;
 use history_table::{HistoryTable, Lines};
-pub use run_record::{RunRecord, fnv1a64, resolved};
+pub use packed_file::{read_packed, write_packed};
+pub use run_record::{RunRecord, fnv1a64, question, resolved};
+use state_store::StateStore;
+pub use state_store::{start_below, state_below, states_below};
 pub use whole_file::write_whole;
 
 const CASE: &str = "case.toml";
@@ -75,6 +80,7 @@ pub struct ResultFolder {
     history: HistoryTable,
     cycles: HistoryTable,
     fields: FieldStore,
+    states: StateStore,
     checkpoints: CheckpointFolder,
 }
 
@@ -103,16 +109,29 @@ impl ResultFolder {
         let record: Value = serde_json::from_slice(&earlier).unwrap_or(Value::Null);
         let is_same_question = record["question_fnv1a64"] == run_record::question(plan);
         let is_solved = record["status"] == "solved";
-        let is_broken_off = is_same_question && !is_solved && CheckpointFolder::is_below(path);
+        let is_broken_off = !is_solved && CheckpointFolder::is_below(path);
         let same_text = || fs::read(path.join(CASE)).is_ok_and(|text| text == case_file.text.as_bytes());
         match wish {
             Wish::Resume if !is_same_question => refuse(
-                "holds the results of another case, or of a case that has been changed since",
+                "holds the results of another case, or of a case that has been changed since or starts elsewhere",
                 format!("{other_folder}; nothing was touched"),
             ),
             Wish::Resume if is_solved => Ok(Standing::Solved(record)),
             Wish::Resume => Ok(Standing::Unfinished),
-            Wish::Start if is_broken_off && record["status"] != "failed" => refuse(
+            Wish::Start if is_broken_off && !is_same_question => refuse(
+                "holds an unfinished run of another case, or of this one before it was changed",
+                format!(
+                    "{other_folder} (--from {shown} goes on from what is solved there), or replace it with --force"
+                ),
+            ),
+            Wish::Start if is_broken_off && ended_without_answer(&record) => refuse(
+                &format!("holds this case's run, which ended without its answer: {}", message_of(&record)),
+                format!(
+                    "it would end there again; a changed case goes on from what is solved with --from {shown} --out OTHER, \
+                     and --force starts from the beginning"
+                ),
+            ),
+            Wish::Start if is_broken_off => refuse(
                 "holds an unfinished run of this case",
                 "go on with --resume, or start from the beginning with --force".to_owned(),
             ),
@@ -139,6 +158,7 @@ impl ResultFolder {
             history: HistoryTable::create(&path.join(HISTORY), Lines::Increments)?,
             cycles: HistoryTable::create(&path.join(CYCLES), Lines::Cycles)?,
             fields: FieldStore::create(&path.join(FIELDS), plan)?,
+            states: StateStore::create(path, plan.start.as_deref())?,
             path: path.to_owned(),
             question: run_record::question(plan),
             record,
@@ -166,16 +186,19 @@ impl ResultFolder {
             Found::Unusable(why) => return spoilt(why),
             Found::Stored(stored, passed_over) => (*stored, passed_over),
         };
-        let Head { history_bytes, cycles_bytes, cycles: ended, kept, .. } = stored.head;
+        let Head { history: written, cycles: cycles_written, cycles_over: ended, kept, .. } = stored.head;
         let (history, cycles) = (path.join(HISTORY), path.join(CYCLES));
         let solved = stored.checkpoint.solved();
         let not_whole = |table: &Path, count: usize| {
-            spoilt(format!("{}: not the {count} lines of the checkpoint", table.display()))
+            spoilt(format!(
+                "{}: not the {count} lines that were written: they are fewer, or changed since",
+                table.display()
+            ))
         };
-        if solved != stored.head.tally.solved || !HistoryTable::holds(&history, history_bytes, solved) {
+        if solved != stored.head.tally.solved || !HistoryTable::holds(&history, written, solved) {
             return not_whole(&history, solved);
         }
-        match HistoryTable::cycles(&cycles, cycles_bytes) {
+        match HistoryTable::cycles(&cycles, cycles_written) {
             Some(records) if records.len() == ended => stored.head.tally.cycles = records,
             _ => return not_whole(&cycles, ended),
         }
@@ -183,26 +206,32 @@ impl ResultFolder {
             return spoilt(format!("{}: missing, or not whole", file.display()));
         }
         let earlier = fs::read(path.join(RECORD)).ok().and_then(|bytes| serde_json::from_slice(&bytes).ok());
-        let record = record.continuing(&earlier.unwrap_or(Value::Null));
+        let earlier = earlier.unwrap_or(Value::Null);
+        let ended = ended_without_answer(&earlier).then(|| message_of(&earlier).to_owned());
+        let record = record.continuing(&earlier);
         write_whole(&path.join(RECORD), &record.running())?;
         let folder = Self {
-            history: HistoryTable::reopen(&history, history_bytes)?,
-            cycles: HistoryTable::reopen(&cycles, cycles_bytes)?,
+            history: HistoryTable::reopen(&history, written)?,
+            cycles: HistoryTable::reopen(&cycles, cycles_written)?,
             fields: FieldStore::reopen(&path.join(FIELDS), plan, kept)?,
+            states: StateStore::reopen(path, solved)?,
             path: path.to_owned(),
             question,
             record,
             checkpoints,
         };
-        Ok(Some(Taken { folder, stored, passed_over }))
+        Ok(Some(Taken { folder, stored, passed_over, ended }))
     }
 
-    /// Writes down a solved increment: first its kept fields, then its line.
-    pub fn keep(&mut self, record: &StepRecord, kept: Option<&KeptFields>) -> Result<(), Unwritten> {
+    /// Writes down a solved increment: first its kept fields and what else of its state is needed to start there, then its line.
+    pub fn keep(&mut self, record: &StepRecord, kept: Option<&KeptFields>) -> Result<(), Failure> {
         if let Some(kept) = kept {
             self.fields.keep(kept)?;
+            if let Some(rest) = &kept.rest {
+                self.states.keep(kept.increment, rest)?;
+            }
         }
-        self.history.add(record)
+        Ok(self.history.add(record)?)
     }
 
     /// Writes down a cycle that is over.
@@ -215,9 +244,9 @@ impl ResultFolder {
         let head = Head {
             version: env!("CARGO_PKG_VERSION").to_owned(),
             question: self.question.clone(),
-            history_bytes: self.history.bytes(),
-            cycles_bytes: self.cycles.bytes(),
-            cycles: tally.cycles.len(),
+            history: self.history.written(),
+            cycles: self.cycles.written(),
+            cycles_over: tally.cycles.len(),
             kept: self.fields.kept(),
             tally: tally.clone(),
             wall_s,
@@ -237,6 +266,16 @@ impl ResultFolder {
     }
 }
 
+/// Whether the run of a record ended by its own: it would do so again.
+fn ended_without_answer(record: &Value) -> bool {
+    ["failed", "refused"].iter().any(|status| record["status"] == *status)
+}
+
+/// Why the run of a record ended.
+fn message_of(record: &Value) -> &str {
+    record["message"].as_str().unwrap_or("nobody knows why")
+}
+
 /// An unfinished run, taken up again.
 #[derive(Debug)]
 pub struct Taken {
@@ -246,6 +285,8 @@ pub struct Taken {
     pub stored: Stored,
     /// Why a newer checkpoint could not be used, if there was one.
     pub passed_over: Option<String>,
+    /// Why it ended without its answer, if it did.
+    pub ended: Option<String>,
 }
 
 /// Whether a folder is empty, apart from what a run that is killed in its first moment leaves behind.

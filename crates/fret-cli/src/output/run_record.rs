@@ -8,6 +8,7 @@ use serde_json::{Value, json};
 
 use crate::case_file::CaseFile;
 use crate::failure::Failure;
+use crate::origin::Origin;
 use crate::tally::Tally;
 
 /// Version of the folder's format.
@@ -19,7 +20,7 @@ pub struct RunRecord(Value);
 
 impl RunRecord {
     /// The record of a run that starts now.
-    pub fn new(case_file: &CaseFile, plan: &Plan, threads: usize) -> Self {
+    pub fn new(case_file: &CaseFile, plan: &Plan, threads: usize, origin: Option<&Origin>) -> Self {
         let started = SystemTime::now().duration_since(UNIX_EPOCH).map_or(0, |since| since.as_secs());
         Self(json!({
             "format": FORMAT,
@@ -35,6 +36,11 @@ impl RunRecord {
                 "path_fnv1a64": path_hash(&case_file.path),
             },
             "question_fnv1a64": question(plan),
+            "start": origin.map(|origin| json!({
+                "results": origin.results,
+                "increment": origin.increment,
+                "fnv1a64": origin.start.digest(),
+            })),
             "plan": resolved(plan),
         }))
     }
@@ -43,6 +49,9 @@ impl RunRecord {
     #[must_use]
     pub fn continuing(mut self, earlier: &Value) -> Self {
         self.0["started_unix_s"] = earlier["started_unix_s"].clone();
+        if self.0["start"].is_null() {
+            self.0["start"] = earlier["start"].clone(); // told by the folder alone where the call does not name it
+        }
         self.0["resumed"] = json!(earlier["resumed"].as_u64().unwrap_or(0) + 1);
         self
     }
@@ -58,6 +67,7 @@ impl RunRecord {
             "status": failure.map_or("solved", Failure::status),
             "message": failure.map(Failure::message),
             "worn_through": tally.worn_through,
+            "headlines": tally.headlines,
             "totals": {
                 "increments": tally.solved,
                 "convolutions": tally.work.convolutions,
@@ -81,8 +91,7 @@ impl RunRecord {
 
 /// A plan as JSON, with the case as it was understood: every default filled in.
 pub fn resolved(plan: &Plan) -> Value {
-    // A plan holds nothing that JSON has no form for.
-    serde_json::to_value(plan).unwrap_or(Value::Null)
+    plan.to_json()
 }
 
 /// A digest of what is asked, as it was understood: the same for texts that differ in words and order only.
@@ -90,6 +99,9 @@ pub fn question(plan: &Plan) -> String {
     let mut asked = json!({ "case": plan.case, "grid": plan.grid, "coupling": plan.coupling });
     if plan.leave_out != LeaveOut::ALL {
         asked["leave_out"] = json!(plan.leave_out); // other bits: the one does not go on where the other stopped
+    }
+    if let Some(start) = &plan.start {
+        asked["start"] = json!(start.digest());
     }
     fnv1a64(asked.to_string().as_bytes())
 }

@@ -78,6 +78,12 @@ impl Volume {
             .map_err(Unwritten::at(&self.path))
     }
 
+    /// Ends the work on a volume that will not be whole.
+    pub fn abandon(self) {
+        // A part that stays behind is only litter.
+        let _ = fs::remove_file(&self.part);
+    }
+
     /// Ends the file and puts it in its place.
     ///
     /// # Errors

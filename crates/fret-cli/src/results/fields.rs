@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use serde_json::Value;
+use serde_json::{Value, json};
 
 use super::unusable;
 use crate::failure::Failure;
@@ -109,11 +109,12 @@ impl Fields {
         let data_type = if name == "zone" { "uint8" } else { "float64" };
         let shape = metadata["shape"].as_array().map_or(&[][..], Vec::as_slice);
         let is_ours = shape.len() == 3
-            && shape[1] == nx
-            && shape[2] == ny
+            && shape[1] == ny
+            && shape[2] == nx
             && metadata["data_type"] == data_type
-            && metadata["codecs"][0]["configuration"]["endian"] == "little"
-            && metadata["codecs"].as_array().is_some_and(|codecs| codecs.len() == 1);
+            && metadata["codecs"][0]["configuration"]["order"] == json!([0, 2, 1])
+            && metadata["codecs"][1]["configuration"]["endian"] == "little"
+            && metadata["codecs"].as_array().is_some_and(|codecs| codecs.len() == 2);
         if is_ours { Ok(()) } else { Err(unusable(&file, "not an array as a run writes it")) }
     }
 }

@@ -68,6 +68,11 @@ impl Results {
         }
     }
 
+    /// Why the run is not finished, in a sentence; none of a finished one.
+    pub fn unfinished(&self) -> Option<String> {
+        unfinished(&self.record, self.table.rows())
+    }
+
     /// A part of the plan, when it is there and has the form that is asked for.
     pub fn planned<T: serde::de::DeserializeOwned>(&self, pointer: &str) -> Option<T> {
         self.record["plan"].pointer(pointer).and_then(|value| T::deserialize(value).ok())
@@ -79,6 +84,19 @@ impl Results {
         let name = |stage: &Value| stage["name"].as_str().unwrap_or_default().to_owned();
         stages.map_or_else(Vec::new, |stages| stages.iter().map(name).collect())
     }
+}
+
+/// Why the run of a record is not finished, in a sentence; none of a finished one. `solved`: increments it has solved.
+pub fn unfinished(record: &Value, solved: usize) -> Option<String> {
+    let status = record["status"].as_str().unwrap_or("unknown");
+    let all = record["plan"]["increments"].as_u64().unwrap_or_default();
+    let why = match (status, record["message"].as_str()) {
+        ("solved", _) => return None,
+        ("running", _) => "it is still going, or it was killed",
+        (_, Some(message)) => message,
+        (_, None) => "nobody knows why",
+    };
+    Some(format!("not the whole history, {solved} of {all} increments: {status}, {why}"))
 }
 
 /// Something that is no result of a run, or not a whole one.

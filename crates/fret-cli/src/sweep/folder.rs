@@ -1,5 +1,5 @@
 //! The folder of a sweep: `sweep.toml` (verbatim copy), `points/HASH.json` (a finished point, known by the hash of its
-//! case, of the files it names and of the version), `summary.csv` (a line a point).
+//! case, of the files it names, of the state it starts from and of the version), `summary.csv` (a line a point).
 
 use std::fmt::Write;
 use std::fs;
@@ -8,6 +8,7 @@ use std::path::{Path, PathBuf};
 use serde_json::{Value, json};
 
 use crate::failure::{Failure, Unwritten};
+use crate::origin::Origin;
 use crate::output::{fnv1a64, write_whole};
 use crate::sweep::{Answer, Point, Question};
 
@@ -49,6 +50,8 @@ const CYCLE: [&str; 9] = [
 #[derive(Debug)]
 pub struct SweepFolder {
     path: PathBuf,
+    /// Digest of the state that every point starts from, when there is one.
+    start: Option<String>,
 }
 
 impl SweepFolder {
@@ -56,7 +59,7 @@ impl SweepFolder {
     ///
     /// # Errors
     /// When the folder holds something else, or cannot be written.
-    pub fn open(path: &Path, sweep: &str) -> Result<Self, Failure> {
+    pub fn open(path: &Path, sweep: &str, origin: Option<&Origin>) -> Result<Self, Failure> {
         let holds_something = fs::read_dir(path).is_ok_and(|mut entries| entries.next().is_some());
         if path.exists() && !path.is_dir() || holds_something && !path.join(SWEEP).exists() {
             return Err(Failure::Call(
@@ -67,7 +70,8 @@ impl SweepFolder {
         let points = path.join(POINTS);
         fs::create_dir_all(&points).map_err(Unwritten::at(&points))?;
         write_whole(&path.join(SWEEP), sweep.as_bytes())?;
-        Ok(Self { path: path.to_owned() })
+        let start = origin.map(|origin| origin.start.digest().to_owned());
+        Ok(Self { path: path.to_owned(), start })
     }
 
     /// The answer of a finished point; a file that cannot be read is no answer.
@@ -131,6 +135,7 @@ impl SweepFolder {
 
     fn place(&self, point: &Point) -> PathBuf {
         let mut known_by = format!("{}\n{}\n", env!("CARGO_PKG_VERSION"), point.case_file.text).into_bytes();
+        known_by.extend(self.start.iter().flat_map(|start| start.bytes()));
         let folder = point.case_file.path.parent().unwrap_or_else(|| Path::new(""));
         for name in files_named(&point.case_file.text) {
             known_by.extend(fs::read(folder.join(name)).unwrap_or_default());

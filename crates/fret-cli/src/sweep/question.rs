@@ -208,7 +208,7 @@ impl Reader<'_> {
 
     /// Refuses, once and not at every point, the axes whose keys no case knows.
     fn refuse_unknown_keys(&mut self, first: &Point, axes: &[Axis]) {
-        let Err(error) = first.case_file.case() else { return };
+        let Err(error) = first.case_file.case(None) else { return };
         let unknown = |mistake: &Mistake| mistake.message.starts_with("unknown key `");
         for mistake in error.mistakes().iter().filter(|mistake| unknown(mistake)) {
             let word = mistake.message.split('`').nth(1).unwrap_or_default();

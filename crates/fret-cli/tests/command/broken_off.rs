@@ -339,6 +339,32 @@ fn results_that_miss_a_part_are_not_gone_on_with() {
     assert_same(&bench, "whole", "broken");
 }
 
+/// A table that somebody edited: as long as before, but not what was computed.
+#[cfg(unix)]
+#[test]
+fn a_number_that_was_changed_in_a_table_is_noticed() {
+    let bench = long_bench("altered");
+    break_off(&bench, 110, "-KILL"); // two cycles are over
+    for table in ["broken/history.csv", "broken/cycles.csv"] {
+        let content = bench.text(table);
+        // The last digit of a number with an exponent, in the first row.
+        let row = content.find('\n').unwrap() + 1;
+        let place = row + content[row..].find("e-").unwrap() - 1;
+        let digit = if &content[place..=place] == "7" { "8" } else { "7" };
+        let mut altered = content.clone();
+        altered.replace_range(place..=place, digit);
+        std::fs::write(bench.folder.join(table), &altered).unwrap();
+        let before = files(&bench.folder.join("broken"));
+        let refused = resume(&bench);
+        assert_eq!(refused.code, Some(1), "{table}: {}", refused.err);
+        assert!(refused.err.contains("changed since") && refused.err.contains(table), "{}", refused.err);
+        assert!(files(&bench.folder.join("broken")) == before);
+        std::fs::write(bench.folder.join(table), content).unwrap();
+    }
+    assert_eq!(resume(&bench).code, Some(0));
+    assert_same(&bench, "whole", "broken");
+}
+
 #[test]
 fn a_solved_run_is_left_as_it_is() {
     let bench = Bench::new("solved-already");

@@ -97,7 +97,9 @@ fn a_run_that_is_not_solved_is_shown_as_far_as_it_came() {
     assert_eq!(answer.code, Some(0), "{}", answer.err);
     let told: Value = serde_json::from_str(&answer.out).unwrap();
     assert_eq!((&told["status"], &told["increments"]), (&"reported".into(), &10.into()));
-    assert!(bench.text("run/report.html").contains("Not the whole history: interrupted"));
+    assert!(
+        bench.text("run/report.html").contains("Not the whole history, 10 of 19 increments: interrupted")
+    );
 }
 
 #[test]

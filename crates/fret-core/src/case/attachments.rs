@@ -6,16 +6,20 @@ use std::path::Path;
 
 use ndarray::Array2;
 
+use crate::model::LoadStep;
+
 /// Bytes of a file that a case names, at the most: the cells of the largest grid at sixteen letters each.
 pub const MOST_BYTES: u64 = 1 << 30;
 
-/// Files and arrays that come with the text of a case.
+/// Files and arrays that come with the text of a case, and the loads its history starts from.
 #[derive(Clone, Copy)]
 pub struct Attachments<'a> {
     /// Content of a file by the name the case gives it, or in a few words why it cannot be had.
     pub file: &'a dyn Fn(&str) -> Result<Vec<u8>, String>,
     /// Arrays handed over, named in the case by their number: `{ array = n }`.
     pub arrays: &'a [Array2<f64>],
+    /// What is prescribed where the history starts; `None`: bodies that have not touched yet.
+    pub start: Option<LoadStep>,
 }
 
 impl<'a> Attachments<'a> {
@@ -26,7 +30,13 @@ impl<'a> Attachments<'a> {
 
     /// Files only.
     pub fn files(file: &'a dyn Fn(&str) -> Result<Vec<u8>, String>) -> Self {
-        Self { file, arrays: &[] }
+        Self { file, arrays: &[], start: None }
+    }
+
+    /// The same for a history that starts from a solved state.
+    #[must_use]
+    pub fn starting_from(self, start: Option<LoadStep>) -> Self {
+        Self { start, ..self }
     }
 }
 

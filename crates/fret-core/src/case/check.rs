@@ -93,6 +93,7 @@ pub(super) fn case(
             bodies,
             profile,
             friction,
+            start: judge.attachments.start,
             stages,
             wear,
             tolerance,

@@ -215,15 +215,11 @@ impl StageControl {
 /// Controls as far as they follow from the case alone: a control that changes its kind starts from what the run reaches.
 pub type KnownLoads = [Option<Control>; 4];
 
-/// Visits the loads of a history as far as the case fixes them: number of the stage, and the loads at the end of an increment.
+/// Visits the loads of a history that starts from `start`, or from free bodies, as far as the case fixes them: number of the stage, and the loads at the end of an increment.
 /// Of a stage with cycles the first and the last are visited: its envelope is linear.
-pub fn walk(stages: &[Stage], mut visit: impl FnMut(usize, &KnownLoads)) {
-    let mut held: KnownLoads = [
-        Some(Control::Force(0.0)),
-        Some(Control::Force(0.0)),
-        Some(Control::Force(0.0)),
-        Some(Control::Motion(0.0)),
-    ];
+pub fn walk(start: Option<&LoadStep>, stages: &[Stage], mut visit: impl FnMut(usize, &KnownLoads)) {
+    let LoadStep { normal, tangential: [x, y], twist } = start.unwrap_or(&LoadStep::FREE);
+    let mut held: KnownLoads = [normal, x, y, twist].map(|control| Some(*control));
     for (number, stage) in stages.iter().enumerate() {
         let controls = [&stage.normal, &stage.tangential[0], &stage.tangential[1], &stage.twist];
         let start = held;

@@ -25,14 +25,14 @@ mod wording;
 
 use serde::Serialize;
 
-use crate::model::{ContactPair, CoulombFriction, Profile, Scheme, WearRule};
+use crate::model::{ContactPair, CoulombFriction, LoadStep, Profile, Scheme, WearRule};
 
 pub use attachments::{Attachments, content, unreadable};
 pub(crate) use course::walk;
 pub use course::{Course, Cycles, Path, Waveform};
 pub use file::schema;
 pub use numbers::{NumbersError, numbers};
-pub use refusal::{CaseError, Mistake};
+pub use refusal::{CaseError, Difference, Mistake};
 pub(crate) use stages::apart;
 pub use stress::{FatigueRequest, Side, StressRequest};
 pub use wording::{in_words, printable};
@@ -57,6 +57,9 @@ pub struct Case {
     pub profile: Profile,
     /// Friction law at the start; stages may change it.
     pub friction: CoulombFriction,
+    /// What is prescribed where the history starts; `None`: bodies that have not touched yet.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub start: Option<LoadStep>,
     /// Loading history.
     pub stages: Vec<Stage>,
     /// How the surfaces wear, when they do.
@@ -185,6 +188,27 @@ impl Case {
     pub(crate) fn refuse_size(&self, message: String, help: &str) -> CaseError {
         let mistake = Mistake { message, help: Some(help.to_owned()), span: Some(self.origin.size.clone()) };
         CaseError::new(&self.origin.name, &self.origin.text, vec![mistake])
+    }
+
+    /// Refuses the case for the state that its history would start from, which is one of another setting.
+    pub(crate) fn refuse_start(&self, differences: &[Difference]) -> CaseError {
+        let text = &self.origin.text;
+        let tables = toml::de::DeTable::parse(text).ok().map(toml::Spanned::into_inner);
+        let mistakes = differences.iter().map(|Difference { key, case, state }| {
+            let table = key.split(['.', '[']).next().unwrap_or_default();
+            let found = tables.as_ref().and_then(|tables| {
+                tables.keys().find(|written| written.get_ref().as_ref() == table).map(toml::Spanned::span)
+            });
+            Mistake {
+                message: format!("{key} = {case}: the state to start from has {state}"),
+                help: Some(
+                    "grid, bodies and profile are those of the state; loads, friction and wear may differ"
+                        .to_owned(),
+                ),
+                span: found,
+            }
+        });
+        CaseError::new(&self.origin.name, text, mistakes.collect())
     }
 
     /// Whether fields are kept of increment `k` (from 1) of a stage: of every `output.every`-th, and of the last.

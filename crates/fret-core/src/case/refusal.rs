@@ -16,6 +16,17 @@ pub struct Mistake {
     pub span: Option<Range<usize>>,
 }
 
+/// A place in which a case differs from the setting of a state.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Difference {
+    /// Dotted key of the case.
+    pub key: String,
+    /// What the case has.
+    pub case: String,
+    /// What the state has.
+    pub state: String,
+}
+
 /// A refused case, with all its mistakes.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct CaseError {

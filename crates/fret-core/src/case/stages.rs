@@ -106,11 +106,12 @@ fn stage(
     }
     let controls = controls(judge, &place, file, columns.as_ref());
     let [normal, x, y, twist] = controls;
-    if index == 0 && normal.is_none() && judge.mistakes.len() == before {
+    let starts_free = index == 0 && judge.attachments.start.is_none();
+    if starts_free && normal.is_none() && judge.mistakes.len() == before {
         judge.refuse::<()>(
             given.span(),
             format!("{place}: the first stage says neither normal_force nor approach"),
-            "bodies must be pressed together first: normal_force = ...",
+            "bodies must be pressed together first: normal_force = ...; or start from a solved state, --from RESULTS",
         );
     }
     let course = course(judge, &place, file, increments);
@@ -306,7 +307,7 @@ pub(super) fn sliding(
 ) {
     let mut worst: Vec<(f64, f64)> = vec![(0.0, f64::INFINITY); stages.len()];
     let mut lowest = vec![f64::INFINITY; stages.len()];
-    walk(stages, |number, loads| {
+    walk(judge.attachments.start.as_ref(), stages, |number, loads| {
         let [normal, x, y, _] = loads;
         let Some(Control::Force(normal)) = normal else { return };
         lowest[number] = lowest[number].min(*normal);

@@ -23,6 +23,13 @@ pub struct LoadStep {
 }
 
 impl LoadStep {
+    /// Bodies that nothing holds or moves.
+    pub const FREE: Self = Self {
+        normal: Control::Force(0.0),
+        tangential: [Control::Force(0.0); 2],
+        twist: Control::Motion(0.0),
+    };
+
     /// What is prescribed at a share of the straight way from one step to another that prescribes the same kinds.
     pub fn between(from: &Self, to: &Self, share: f64) -> Self {
         let one = |from: Control, to: Control| match (from, to) {

@@ -5,6 +5,7 @@ use std::borrow::Cow;
 use ndarray::Array2;
 use serde::{Deserialize, Serialize};
 
+use super::load::LoadStep;
 use super::stored::{self, Number};
 
 /// What a cell of the surface does.
@@ -77,6 +78,18 @@ impl ContactState {
         }
     }
 
+    /// A field of a solved increment by the name it has as a kept one: pressure, shear and slip.
+    pub fn field(&self, name: &str) -> Option<&Array2<f64>> {
+        match name {
+            "pressure" => Some(&self.pressure),
+            "shear_x" => Some(&self.shear[0]),
+            "shear_y" => Some(&self.shear[1]),
+            "slip_x" => Some(&self.slip[0]),
+            "slip_y" => Some(&self.slip[1]),
+            _ => None,
+        }
+    }
+
     /// Whether this can be a state on a grid of `cells`: every field of its shape, every number finite.
     pub fn is_sound(&self, cells: [usize; 2]) -> bool {
         let [qx, qy] = &self.shear;
@@ -86,5 +99,71 @@ impl ContactState {
         [&self.pressure, qx, qy, sx, sy].into_iter().chain(&self.worn_depth).all(field)
             && self.zone.dim() == cells.into()
             && motions.iter().all(|motion| motion.is_finite())
+    }
+}
+
+/// A state with what was prescribed and reached there: what another history starts from. A field that is kept elsewhere is empty.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct SolvedState {
+    /// What was prescribed.
+    pub loads: LoadStep,
+    /// Normal force [force], compression positive.
+    pub normal_force: f64,
+    /// Tangential force on the lower body along x and y [force].
+    pub tangential_force: [f64; 2],
+    /// Moment about z on the lower body [force x length].
+    pub twist_moment: f64,
+    /// Tractions, motions, slip and wear. What an unfinished cycle has worn so far is taken off once.
+    pub state: ContactState,
+}
+
+impl SolvedState {
+    /// The same without the tractions and the slip that `is_kept` says are kept as fields, by the names they have there.
+    #[must_use]
+    pub fn beside(mut self, is_kept: impl Fn(&str) -> bool) -> Self {
+        for (name, field) in self.tractions_and_slip() {
+            if is_kept(name) {
+                *field = Array2::zeros((0, 0));
+            }
+        }
+        self
+    }
+
+    /// The same with the fields that are empty put back by `field`, which hands them over by name.
+    ///
+    /// # Errors
+    /// Those of `field`.
+    pub fn completed<E>(mut self, mut field: impl FnMut(&str) -> Result<Array2<f64>, E>) -> Result<Self, E> {
+        for (name, empty) in self.tractions_and_slip() {
+            if empty.is_empty() {
+                *empty = field(name)?;
+            }
+        }
+        Ok(self)
+    }
+
+    /// Gives back the memory of the tractions and the slip that are zero everywhere; whether none other is left.
+    pub fn thinned(&mut self) -> bool {
+        let mut thin = true;
+        for (_, field) in self.tractions_and_slip() {
+            if field.iter().all(|value| *value == 0.0) {
+                *field = Array2::zeros(field.dim()); // zeros that nobody wrote to take no memory
+            } else {
+                thin = false;
+            }
+        }
+        thin
+    }
+
+    fn tractions_and_slip(&mut self) -> [(&'static str, &mut Array2<f64>); 5] {
+        let ContactState { pressure, shear: [shear_x, shear_y], slip: [slip_x, slip_y], .. } =
+            &mut self.state;
+        [
+            ("pressure", pressure),
+            ("shear_x", shear_x),
+            ("shear_y", shear_y),
+            ("slip_x", slip_x),
+            ("slip_y", slip_y),
+        ]
     }
 }

@@ -72,6 +72,13 @@ impl Symmetry {
         even && (!axes[0] || kept_along_x()) && (!axes[1] || kept_along_y())
     }
 
+    /// Whether a state of the whole grid is its own mirror image, to the bit.
+    pub fn is_kept_by_state(&self, state: &ContactState) -> bool {
+        let (nx, ny) = state.pressure.dim();
+        let even = [nx, ny].iter().zip(self.axes()).all(|(cells, mirrored)| !mirrored || cells % 2 == 0);
+        even && self.whole_state(&self.part_of_state(state)) == *state
+    }
+
     /// The part of a field in front of the mirrors.
     pub fn part<T: Clone>(&self, field: &Array2<T>) -> Array2<T> {
         let (nx, ny) = field.dim();

@@ -84,7 +84,7 @@ pub fn automatic_size(case: &Case) -> Option<[f64; 2]> {
 fn heaviest_loads(case: &Case) -> Vec<Control> {
     let mut force = 0.0_f64;
     let mut approach = 0.0_f64;
-    walk(&case.stages, |_, [normal, ..]| match normal {
+    walk(case.start.as_ref(), &case.stages, |_, [normal, ..]| match normal {
         Some(Control::Force(value)) => force = force.max(*value),
         Some(Control::Motion(value)) => approach = approach.max(*value),
         None => {}

@@ -2,11 +2,11 @@
 
 use ndarray::Axis;
 
-use super::symmetry::is_loaded;
+use super::symmetry::{is_loaded, is_twisted};
 use super::{LeaveOut, LeftOut, Shortcut};
 use crate::case::{Case, Stage};
 use crate::kernel::PairResponse;
-use crate::model::{Body, CoulombFriction, SurfaceGrid, Symmetry};
+use crate::model::{Body, ContactState, CoulombFriction, SurfaceGrid, Symmetry};
 use crate::solver::Coupling;
 
 /// Names of the fields that can be kept, with their bytes a cell.
@@ -54,6 +54,7 @@ pub fn left_out(
     }
     if coupling == Coupling::Uncoupled
         && leave_out.takes(Shortcut::Tangential)
+        && case.start.is_none()
         && let Some(increments) = increments_before_a_cause(case)
     {
         leave(
@@ -148,11 +149,12 @@ pub fn one_way(
     grid: &SurfaceGrid,
     response: &PairResponse,
     coupling: Coupling,
+    start: Option<&ContactState>,
 ) -> Option<usize> {
-    if coupling == Coupling::Frictionless || case.stages.iter().any(|stage| stage.twist.is_some()) {
+    if coupling == Coupling::Frictionless || is_twisted(case, start) {
         return None;
     }
-    let axis = match [is_loaded(case, 0), is_loaded(case, 1)] {
+    let axis = match [is_loaded(case, 0, start), is_loaded(case, 1, start)] {
         [true, false] => 0,
         [false, true] => 1,
         _ => return None,
@@ -161,7 +163,11 @@ pub fn one_way(
     let straight = uncoupled && response.is_straight();
     // Pressure moves the surface across a line contact, never along it.
     let line = |axis: usize| is_endless(case, grid, 1 - axis) || uncoupled && is_endless(case, grid, axis);
-    (straight || line(axis)).then_some(axis)
+    let starts_so = start.is_none_or(|state| {
+        state.shear[1 - axis].iter().all(|shear| *shear == 0.0)
+            && (straight || is_the_same_along_a_line(state))
+    });
+    (starts_so && (straight || line(axis))).then_some(axis)
 }
 
 /// Whether a scene repeats and nothing in it changes along an axis.
@@ -175,4 +181,14 @@ fn is_endless(case: &Case, grid: &SurfaceGrid, axis: usize) -> bool {
             .lanes(Axis(axis))
             .into_iter()
             .all(|line| line.iter().all(|gap| *gap == line[0]))
+}
+
+/// Whether nothing in a state changes along one of the axes.
+fn is_the_same_along_a_line(state: &ContactState) -> bool {
+    let [shear_x, shear_y] = &state.shear;
+    let fields = || [&state.pressure, shear_x, shear_y].into_iter().chain(&state.worn_depth);
+    (0..2).any(|axis| {
+        fields()
+            .all(|field| field.lanes(Axis(axis)).into_iter().all(|line| line.iter().all(|q| *q == line[0])))
+    })
 }

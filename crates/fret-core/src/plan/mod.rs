@@ -7,13 +7,17 @@ mod left_out;
 mod memory;
 mod symmetry;
 
+use std::sync::Arc;
+
 use serde::Serialize;
+use serde_json::Value;
 
 use crate::case::{Case, CaseError, GridSize};
 use crate::kernel::{PairResponse, cells_too_coarse_for_incompressible_film};
 use crate::machine::memory::{MemoryError, claim};
-use crate::model::{Body, SurfaceGrid, Symmetry};
+use crate::model::{Body, ContactState, SurfaceGrid, Symmetry};
 pub use crate::solver::{Coupling, LeaveOut, Shortcut};
+use crate::start::Start;
 pub use advance::Advance;
 use extent::{automatic_size, reaches_beyond};
 pub use memory::of_stress as memory_of_stress;
@@ -34,6 +38,9 @@ pub struct LeftOut {
 pub struct Plan {
     /// The question.
     pub case: Case,
+    /// The state its history starts from; `None`: bodies that have not touched yet.
+    #[serde(skip)]
+    pub start: Option<Arc<Start>>,
     /// The grid.
     pub grid: SurfaceGrid,
     /// How pressure and shear act on each other.
@@ -70,8 +77,22 @@ impl Plan {
     /// # Errors
     /// As [`Plan::new`].
     pub fn leaving_out(case: Case, leave_out: LeaveOut) -> Result<Self, CaseError> {
+        Self::starting_from(None, case, leave_out)
+    }
+
+    /// Plans a case whose history starts from a solved state, which it has been read with; from bodies apart without one.
+    ///
+    /// # Errors
+    /// As [`Plan::new`]; when the state is one of another grid, other bodies or another profile.
+    pub fn starting_from(
+        start: Option<Arc<Start>>,
+        case: Case,
+        leave_out: LeaveOut,
+    ) -> Result<Self, CaseError> {
+        let state = start.as_deref().map(|start| &start.solved.state);
         let response = PairResponse::new(&case.bodies);
-        let frictionless = case.is_frictionless();
+        let sheared = |state: &ContactState| state.shear.iter().flatten().any(|shear| *shear != 0.0);
+        let frictionless = case.is_frictionless() && !state.is_some_and(sheared);
         let uncoupled = frictionless || response.is_uncoupled();
         let coupling = if frictionless && leave_out.takes(Shortcut::Tangential) {
             Coupling::Frictionless
@@ -82,12 +103,18 @@ impl Plan {
         };
         let size = match case.size {
             GridSize::Given(size) => size,
-            GridSize::Auto => automatic_size(&case).ok_or_else(|| {
-                let message = "grid.size = \"auto\": no contact was found under the heaviest load".to_owned();
-                case.refuse_size(message, "give the side lengths")
-            })?,
+            GridSize::Auto => match start.as_deref().and_then(Start::spacing) {
+                Some(spacing) => [0, 1].map(|axis| spacing[axis] * case.cells[axis] as f64),
+                None => automatic_size(&case).ok_or_else(|| {
+                    let message =
+                        "grid.size = \"auto\": no contact was found under the heaviest load".to_owned();
+                    case.refuse_size(message, "give the side lengths")
+                })?,
+            },
         };
-        let spacing = [size[0] / case.cells[0] as f64, size[1] / case.cells[1] as f64];
+        let given = [size[0] / case.cells[0] as f64, size[1] / case.cells[1] as f64];
+        let same = start.as_deref().filter(|start| start.has_spacing(given));
+        let spacing = same.and_then(Start::spacing).unwrap_or(given);
         let grid =
             SurfaceGrid::new(case.cells, spacing).map_err(|error| case.refuse_size(error.to_string(), ""))?;
         let _planning = claim(memory::PLANNING * grid.len()).map_err(|error| {
@@ -109,23 +136,25 @@ impl Plan {
                 "cells no longer than five thicknesses: more of them, or a smaller grid",
             ));
         }
-        if matches!(case.size, GridSize::Given(_)) && !case.periodic && reaches_beyond(&case, size) {
+        let is_given = matches!(case.size, GridSize::Given(_)) || start.is_some();
+        if is_given && !case.periodic && reaches_beyond(&case, size) {
             let message = format!(
                 "grid.size = {size:?}: the contact under the heaviest load reaches the edge of the grid"
             );
             return Err(case.refuse_size(message, "enlarge it, or write size = \"auto\""));
         }
-        let along = left_out::one_way(&case, &grid, &response, coupling)
+        let along = left_out::one_way(&case, &grid, &response, coupling, state)
             .filter(|_| leave_out.takes(Shortcut::Transverse));
-        let symmetry = mirrors(&case, &grid, coupling, leave_out);
+        let symmetry = mirrors(&case, &grid, coupling, state, leave_out);
         let six_digits =
             leave_out.takes(Shortcut::Digits) && digits::six_digits_do(&case, &grid, &response, coupling);
         let left_out = left_out::left_out(&case, &grid, coupling, (along, symmetry, six_digits), leave_out);
         let increments = case.increments();
-        Ok(Self {
+        let plan = Self {
             memory_bytes: memory::of_run(&case, &grid, coupling, symmetry),
             kept_bytes: memory::of_kept_fields(&case, &grid),
             case,
+            start,
             grid,
             coupling,
             along,
@@ -134,7 +163,21 @@ impl Plan {
             leave_out,
             left_out,
             increments,
-        })
+        };
+        plan.judge_start()?;
+        Ok(plan)
+    }
+
+    /// The plan as it is written down.
+    pub fn to_json(&self) -> Value {
+        serde_json::to_value(self).unwrap_or_default() // a plan holds nothing that JSON has no form for
+    }
+
+    /// Refuses a state of another setting.
+    fn judge_start(&self) -> Result<(), CaseError> {
+        let Some(start) = &self.start else { return Ok(()) };
+        let differences = start.differences(&self.to_json());
+        if differences.is_empty() { Ok(()) } else { Err(self.case.refuse_start(&differences)) }
     }
 
     /// Finds anew what follows from the case and the grid, after these were changed: mirrors, increments, memory.
@@ -143,8 +186,9 @@ impl Plan {
     /// When there is no memory to look for mirrors.
     pub(crate) fn follow(&mut self) -> Result<(), MemoryError> {
         let _planning = claim(memory::PLANNING * self.grid.len())?;
-        let Self { case, grid, coupling, .. } = self;
-        self.symmetry = mirrors(case, grid, *coupling, self.leave_out);
+        let Self { case, grid, coupling, start, .. } = self;
+        let state = start.as_deref().map(|start| &start.solved.state);
+        self.symmetry = mirrors(case, grid, *coupling, state, self.leave_out);
         self.increments = case.increments();
         self.memory_bytes = memory::of_run(case, grid, *coupling, self.symmetry);
         self.kept_bytes = memory::of_kept_fields(case, grid);
@@ -152,8 +196,18 @@ impl Plan {
     }
 }
 
-fn mirrors(case: &Case, grid: &SurfaceGrid, coupling: Coupling, leave_out: LeaveOut) -> Symmetry {
-    if leave_out.takes(Shortcut::Mirror) { symmetry::symmetry(case, grid, coupling) } else { Symmetry::NONE }
+fn mirrors(
+    case: &Case,
+    grid: &SurfaceGrid,
+    coupling: Coupling,
+    start: Option<&ContactState>,
+    leave_out: LeaveOut,
+) -> Symmetry {
+    if leave_out.takes(Shortcut::Mirror) {
+        symmetry::symmetry(case, grid, coupling, start)
+    } else {
+        Symmetry::NONE
+    }
 }
 
 /// Whether both bodies are there in any cell.

@@ -1,23 +1,28 @@
 //! Whether a scene and its loads are their own mirror image, so that a half or a quarter of the grid stands for the whole.
 
 use crate::case::{Case, Path, StageControl};
-use crate::model::{CoulombFriction, SurfaceGrid, Symmetry};
+use crate::model::{ContactState, Control, CoulombFriction, SurfaceGrid, Symmetry};
 use crate::solver::Coupling;
 
 /// Along fewer cells a mirror saves nothing.
 const FEWEST_CELLS: usize = 16;
 
-/// The mirrors of a scene.
+/// The mirrors of a scene whose history starts from bodies apart, or from `start`.
 ///
 /// Under a load along x the pressure and the shear along x are even across y, the shear across is odd. Across x the same holds
 /// where pressure and shear do not act on each other: the mirror image is pulled the other way, and all shears changed in sign
 /// answer that. Without a tangential load shear points away from the middle or towards it.
-pub fn symmetry(case: &Case, grid: &SurfaceGrid, coupling: Coupling) -> Symmetry {
-    if case.stages.iter().any(|stage| stage.twist.is_some()) {
+pub fn symmetry(
+    case: &Case,
+    grid: &SurfaceGrid,
+    coupling: Coupling,
+    start: Option<&ContactState>,
+) -> Symmetry {
+    if is_twisted(case, start) {
         return Symmetry::NONE;
     }
     let coupled = coupling == Coupling::Coupled;
-    let odd_shear = match (coupling, [is_loaded(case, 0), is_loaded(case, 1)]) {
+    let odd_shear = match (coupling, [is_loaded(case, 0, start), is_loaded(case, 1, start)]) {
         (Coupling::Frictionless, _) | (_, [false, false]) => [Some(0), Some(1)],
         (_, [true, false]) => [(!coupled).then_some(1), Some(1)],
         (_, [false, true]) => [Some(0), (!coupled).then_some(0)],
@@ -36,14 +41,20 @@ pub fn symmetry(case: &Case, grid: &SurfaceGrid, coupling: Coupling) -> Symmetry
         let mut odd = [None, None];
         odd[axis] = odd_shear[axis];
         let mirror = Symmetry { odd_shear: odd };
-        let keeps = grid.cells()[axis] >= FEWEST_CELLS && maps.iter().all(|field| mirror.is_kept_by(field));
+        let keeps = grid.cells()[axis] >= FEWEST_CELLS
+            && maps.iter().all(|field| mirror.is_kept_by(field))
+            && start.is_none_or(|state| mirror.is_kept_by_state(state));
         odd[axis].filter(|_| keeps)
     };
     Symmetry { odd_shear: [kept(0), kept(1)] }
 }
 
-/// Whether any stage asks for a tangential force or motion along an axis (0: x, 1: y) other than none.
-pub fn is_loaded(case: &Case, axis: usize) -> bool {
+/// Whether the start or any stage asks for a tangential force or motion along an axis (0: x, 1: y) other than none.
+pub fn is_loaded(case: &Case, axis: usize, start: Option<&ContactState>) -> bool {
+    let held = case.start.map(|loads| loads.tangential[axis]);
+    if held.is_some_and(asks_for_something) || start.is_some_and(|state| state.shift[axis] != 0.0) {
+        return true;
+    }
     case.stages.iter().filter_map(|stage| stage.tangential[axis].as_ref()).any(|control| {
         let (StageControl::Force(path) | StageControl::Motion(path)) = control;
         match path {
@@ -51,4 +62,16 @@ pub fn is_loaded(case: &Case, axis: usize) -> bool {
             Path::Through(values) => values.iter().any(|value| *value != 0.0),
         }
     })
+}
+
+/// Whether the start is twisted or any stage names a twist.
+pub fn is_twisted(case: &Case, start: Option<&ContactState>) -> bool {
+    case.stages.iter().any(|stage| stage.twist.is_some())
+        || case.start.is_some_and(|loads| asks_for_something(loads.twist))
+        || start.is_some_and(|state| state.twist != 0.0)
+}
+
+fn asks_for_something(control: Control) -> bool {
+    let (Control::Force(value) | Control::Motion(value)) = control;
+    value != 0.0
 }

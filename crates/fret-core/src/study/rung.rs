@@ -4,17 +4,18 @@ use std::ops::ControlFlow;
 use std::time::Instant;
 
 use ndarray::Array2;
+use serde::{Deserialize, Serialize};
 
 use super::headline::Headline;
 use super::variation::Variation;
 use crate::cycle::CycleRecord;
 use crate::history::{KeptFields, StepRecord, Work};
-use crate::model::{ContactState, SurfaceGrid};
+use crate::model::{ContactState, SurfaceGrid, stored};
 use crate::plan::Plan;
 use crate::simulation::{Iteration, Observer, RunError, Simulation};
 
 /// A solved rung.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Rung {
     /// Its resolution.
     pub variation: Variation,
@@ -23,8 +24,10 @@ pub struct Rung {
     /// Headline numbers at the end of each stage.
     pub ends: Vec<Headline>,
     /// Pressure at the end of the history [pressure], shape `(nx, ny)`.
+    #[serde(with = "stored")]
     pub pressure: Array2<f64>,
     /// Shear on the lower body at the end of the history, x and y [pressure].
+    #[serde(with = "stored")]
     pub shear: [Array2<f64>; 2],
     /// Work of the whole history.
     pub work: Work,

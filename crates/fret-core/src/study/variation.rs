@@ -1,6 +1,6 @@
 //! A planned scene at another resolution.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use crate::case::{GridSize, Path, Stage, StageControl};
 use crate::machine::memory::MemoryError;
@@ -19,7 +19,7 @@ pub enum VariationError {
 }
 
 /// Cells, increments and tolerance of a scene.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Variation {
     /// Cells `[nx, ny]`.
     pub cells: [usize; 2],

@@ -36,19 +36,16 @@ pub fn head(scene: &Scene<'_>) -> String {
         escaped(&scene.results.title()),
         escaped(&line.join(" · "))
     );
-    if status != "solved" {
-        let why = match (status.as_str(), record["message"].as_str()) {
-            (_, Some(message)) => message.to_owned(),
-            ("running", None) => "The run is still going, or it was killed.".to_owned(),
-            _ => String::new(),
-        };
-        head += &format!(
-            "<p class=\"warning\">Not the whole history: {}. {}</p>\n",
-            escaped(&status),
-            escaped(&why)
-        );
+    if let Some(why) = scene.results.unfinished() {
+        head += &format!("<p class=\"warning\">{}.</p>\n", escaped(&capitalised(&why)));
     }
     head + &cards(scene) + "</header>\n"
+}
+
+/// A sentence that begins with a capital letter.
+fn capitalised(words: &str) -> String {
+    let mut letters = words.chars();
+    letters.next().map_or(String::new(), |first| first.to_uppercase().chain(letters).collect())
 }
 
 fn cards(scene: &Scene<'_>) -> String {

@@ -1,4 +1,5 @@
-//! A result folder read back: the bodies, the grid, and the kept fields of any increment.
+//! A result folder read back: the bodies, the grid, and the kept fields of any increment; of a run that is not finished what
+//! there is.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -9,13 +10,16 @@ use ndarray::Array2;
 use serde::de::DeserializeOwned;
 use serde_json::Value;
 
-use super::{FIELDS, RECORD};
+use super::{FIELDS, HISTORY, RECORD};
 use crate::failure::Failure;
+use crate::results::{Table, unfinished};
 
-/// A finished run on disk.
+/// A run on disk.
 #[derive(Debug)]
-pub struct FinishedRun {
+pub struct KeptRun {
     fields: PathBuf,
+    /// `run.json`.
+    pub record: Value,
     /// Its title.
     pub title: String,
     /// The two bodies.
@@ -28,20 +32,24 @@ pub struct FinishedRun {
     pub frictionless: bool,
     /// What its case asks about stresses.
     pub stress: Option<StressRequest>,
-    /// First and last increment of the last cycle, from 0; of the whole last stage where it has no cycles. The first is the
-    /// state the cycle starts from, where there is one.
+    /// First and last increment of the last whole cycle, from 0; of what there is of the last stage where it has no cycles. The
+    /// first is the state the cycle starts from, where there is one.
     pub last_cycle: [usize; 2],
-    /// Whether the last stage has cycles.
+    /// Whether the last stage has come to the end of a cycle.
     pub cyclic: bool,
     /// Increments whose fields are kept.
     pub steps: Vec<usize>,
+    /// Increments that are solved.
+    pub solved: usize,
+    /// Why the run is not finished, in a sentence, when it is not.
+    pub unfinished: Option<String>,
 }
 
-impl FinishedRun {
+impl KeptRun {
     /// Reads a folder's record.
     ///
     /// # Errors
-    /// When it is no result folder, or its run is not finished, or it keeps no field.
+    /// When it is no result folder, or it keeps no field.
     pub fn open(folder: &Path) -> Result<Self, Failure> {
         let shown = folder.display();
         let refuse = |what: String, help: &str| Failure::Call(format!("{shown}: {what}"), help.to_owned());
@@ -53,23 +61,16 @@ impl FinishedRun {
             .map_err(|_| refuse(format!("holds no {RECORD}: no results of fret"), no_results))?;
         let record: Value = serde_json::from_str(&text)
             .map_err(|error| refuse(format!("{RECORD} is not readable: {error}"), "run the case again"))?;
-        match record["status"].as_str() {
-            Some("solved") => {}
-            other => {
-                return Err(refuse(
-                    format!("the run is not finished (status: {})", other.unwrap_or("unknown")),
-                    "run the case to its end",
-                ));
-            }
-        }
+        let table = Table::read(&folder.join(HISTORY))?;
+        let solved = table.rows();
         let plan = &record["plan"];
         let broken = |what: &str| refuse(format!("{RECORD} does not tell {what}"), "run the case again");
         let fields = folder.join(FIELDS);
-        let steps = coordinate(&fields.join("step/c/0"))
+        let mut steps = coordinate(&fields.join("step/c/0"))
             .ok_or_else(|| refuse(format!("holds no {FIELDS}: no fields were kept"), no_results))?;
-        let increments = steps.last().map_or(0, |last| last + 1); // the last one of a history is always kept
-        let (last_cycle, cyclic) =
-            last_cycle(&plan["case"]["stages"], increments).ok_or_else(|| broken("the stages of the run"))?;
+        steps.retain(|step| *step < solved); // those that a run will keep stand there from its start
+        let (last_cycle, cyclic) = last_cycle(&plan["case"]["stages"], table.column("stage"))
+            .ok_or_else(|| broken("the stages of the run"))?;
         Ok(Self {
             fields,
             title: plan["case"]["title"].as_str().unwrap_or_default().to_owned(),
@@ -81,6 +82,9 @@ impl FinishedRun {
             last_cycle,
             cyclic,
             steps,
+            solved,
+            unfinished: unfinished(&record, solved),
+            record,
         })
     }
 
@@ -120,10 +124,14 @@ fn coordinate(path: &Path) -> Option<Vec<usize>> {
     Some(numbers(&bytes).map(|bytes| i64::from_le_bytes(bytes) as usize).collect())
 }
 
-/// Increments of the last cycle, and whether it is one.
-fn last_cycle(stages: &Value, increments: usize) -> Option<([usize; 2], bool)> {
-    let stage = stages.as_array()?.last()?;
+/// Increments of the last whole cycle, and whether it is one, where the solved increments belong to these stages.
+fn last_cycle(stages: &Value, stage_of: &[f64]) -> Option<([usize; 2], bool)> {
+    let Some(last) = stage_of.last() else { return Some(([0, 0], false)) };
+    let stage = stages.get(*last as usize)?;
     let per_cycle = stage["increments"].as_u64()? as usize;
-    let start = increments.saturating_sub(per_cycle + 1);
-    Some(([start, increments.saturating_sub(1)], !stage["course"]["cycles"].is_null()))
+    let before = stage_of.iter().filter(|stage| *stage != last).count();
+    let done = stage_of.len() - before;
+    let cyclic = !stage["course"]["cycles"].is_null() && done >= per_cycle;
+    let end = if cyclic { before + done / per_cycle * per_cycle } else { stage_of.len() };
+    Some(([end.saturating_sub(per_cycle + 1), end - 1], cyclic))
 }

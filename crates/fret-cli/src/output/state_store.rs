@@ -1,0 +1,90 @@
+//! `states/`: of every increment that another run can start from what its kept fields do not hold, in a file by its number; and
+//! `start.state`, the state that this run started from itself.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use fret_core::model::SolvedState;
+use fret_core::start::Start;
+
+use super::packed_file::{read_packed, write_packed};
+use crate::failure::{Failure, Unwritten};
+
+const STATES: &str = "states";
+const START: &str = "start.state";
+const FIRST_LINE: &str = "fretting state 1\n";
+
+/// The states while a run goes.
+#[derive(Debug)]
+pub struct StateStore {
+    path: PathBuf,
+}
+
+impl StateStore {
+    /// The store of the results at `path`, without any state of an earlier run; `start` is where this one starts.
+    pub fn create(results: &Path, start: Option<&Start>) -> Result<Self, Failure> {
+        let store = Self { path: results.join(STATES) };
+        store.cut_back(0)?;
+        let first = results.join(START);
+        match start {
+            Some(start) => write_packed(&first, FIRST_LINE, start.to_bytes())?,
+            None => removed(&first)?,
+        }
+        Ok(store)
+    }
+
+    /// The store of a broken-off run, cut back to its first `solved` increments.
+    pub fn reopen(results: &Path, solved: usize) -> Result<Self, Unwritten> {
+        let store = Self { path: results.join(STATES) };
+        store.cut_back(solved)?;
+        Ok(store)
+    }
+
+    /// Writes down the state of an increment.
+    pub fn keep(&self, increment: usize, rest: &SolvedState) -> Result<(), Failure> {
+        fs::create_dir_all(&self.path).map_err(Unwritten::at(&self.path))?;
+        write_packed(&self.path.join(increment.to_string()), FIRST_LINE, postcard::to_stdvec(rest).ok())
+    }
+
+    fn cut_back(&self, solved: usize) -> Result<(), Unwritten> {
+        let beyond = numbers_in(&self.path).into_iter().filter(|number| *number >= solved);
+        beyond.map(|number| self.path.join(number.to_string())).try_for_each(|file| removed(&file))
+    }
+}
+
+/// Increments with a state in the results at `path`, in order.
+pub fn states_below(results: &Path) -> Vec<usize> {
+    numbers_in(&results.join(STATES))
+}
+
+/// What the kept fields of an increment do not hold of its state.
+pub fn state_below(results: &Path, increment: usize) -> Result<SolvedState, String> {
+    let path = results.join(STATES).join(increment.to_string());
+    let bytes = read_packed(&path, FIRST_LINE)?;
+    postcard::from_bytes(&bytes).map_err(|_| format!("{}: damaged", path.display()))
+}
+
+/// The state that the run in the results at `path` started from; none where it started from bodies apart.
+pub fn start_below(results: &Path) -> Result<Option<Start>, String> {
+    let path = results.join(START);
+    if !path.exists() {
+        return Ok(None);
+    }
+    let start = Start::from_bytes(&read_packed(&path, FIRST_LINE)?)
+        .ok_or_else(|| format!("{}: damaged", path.display()))?;
+    Ok(Some(start))
+}
+
+fn numbers_in(folder: &Path) -> Vec<usize> {
+    let names = fs::read_dir(folder).into_iter().flatten().flatten().map(|entry| entry.file_name());
+    let mut numbers: Vec<usize> = names.filter_map(|name| name.to_str()?.parse().ok()).collect();
+    numbers.sort_unstable();
+    numbers
+}
+
+fn removed(path: &Path) -> Result<(), Unwritten> {
+    match fs::remove_file(path) {
+        Err(error) if error.kind() != std::io::ErrorKind::NotFound => Err(Unwritten::at(path)(error)),
+        _ => Ok(()),
+    }
+}

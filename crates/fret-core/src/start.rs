@@ -1,0 +1,170 @@
+//! A solved state that another history starts from: all that lasts of what came before, and what it is a state of.
+//!
+//! A state belongs to a setting: grid, bodies, profile. Friction, loads, wear and tolerances of the history that starts from it
+//! are its own.
+
+use std::sync::OnceLock;
+
+use serde::{Deserialize, Serialize};
+use serde_json::{Value, json};
+
+use crate::case::Difference;
+use crate::history::History;
+use crate::model::SolvedState;
+use crate::solver::SolverMemory;
+
+/// Grids whose spacings agree to this are one grid: what rounding a printed side length leaves.
+const SAME_SPACING: f64 = 1e-9;
+
+/// A solved state with its setting.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Start {
+    /// Grid, bodies and profile, as JSON with the keys of a case.
+    setting: String,
+    /// The state.
+    pub solved: SolvedState,
+    /// What the solver remembered, and of which way of solving: one that goes on in the same way has the bits it would have had.
+    memory: Option<(SolverMemory, String)>,
+    #[serde(skip)]
+    digest: OnceLock<String>,
+}
+
+impl Start {
+    /// A state solved by a plan, which is given as JSON; `None` where that is no plan, or the state none of its grid.
+    pub fn new(plan: &Value, solved: SolvedState, memory: Option<SolverMemory>) -> Option<Self> {
+        let memory = memory.map(|memory| (memory, way_of_solving(plan)));
+        Self { setting: setting(plan).to_string(), solved, memory, digest: OnceLock::new() }.sound()
+    }
+
+    /// The state of a history at the end of an increment; `None` where what is kept of it is not enough.
+    pub fn of(history: &History, increment: usize) -> Option<Self> {
+        let solved = if history.steps.last()?.increment == increment {
+            history.end.clone().completed(|name| history.state.field(name).cloned().ok_or(()))
+        } else {
+            let kept = history.fields_of(increment)?;
+            let rest = kept.rest.as_deref()?.clone();
+            rest.completed(|name| kept.field(name).cloned().ok_or(()))
+        };
+        Self::new(&history.plan, solved.ok()?, None)
+    }
+
+    /// Increments of a history that another one can start from.
+    pub fn all_of(history: &History) -> Vec<usize> {
+        let kept = history.fields.iter().filter(|kept| kept.rest.is_some()).map(|kept| kept.increment);
+        let mut all: Vec<usize> = kept.chain(history.steps.last().map(|step| step.increment)).collect();
+        all.dedup();
+        all
+    }
+
+    /// Its bytes, in a compact form, floats bit by bit; none where the encoder refuses, which it does for no solved state.
+    pub fn to_bytes(&self) -> Option<Vec<u8>> {
+        postcard::to_stdvec(self).ok()
+    }
+
+    /// The state of some bytes; `None` where they are those of none.
+    pub fn from_bytes(bytes: &[u8]) -> Option<Self> {
+        let (start, rest) = postcard::take_from_bytes::<Self>(bytes).ok()?;
+        if rest.is_empty() { start.sound() } else { None }
+    }
+
+    /// Hash FNV-1a of its bytes, in hexadecimal digits: tells it from other states.
+    pub fn digest(&self) -> &str {
+        self.digest.get_or_init(|| {
+            let bytes = self.to_bytes().unwrap_or_default();
+            let hash = bytes.iter().fold(0xcbf2_9ce4_8422_2325_u64, |hash, byte| {
+                (hash ^ u64::from(*byte)).wrapping_mul(0x0100_0000_01b3)
+            });
+            format!("{hash:016x}")
+        })
+    }
+
+    /// The same, when its fields are sound ones of its grid.
+    fn sound(self) -> Option<Self> {
+        let cells = serde_json::from_value(self.grid("cells")).ok()?;
+        self.solved.state.is_sound(cells).then_some(self)
+    }
+
+    fn grid(&self, key: &str) -> Value {
+        let setting: Value = serde_json::from_str(&self.setting).unwrap_or_default();
+        setting["grid"][key].clone()
+    }
+
+    /// Spacing of its grid [length].
+    pub(crate) fn spacing(&self) -> Option<[f64; 2]> {
+        serde_json::from_value(self.grid("spacing")).ok()
+    }
+
+    /// Whether a grid of this spacing is the state's, but for rounding.
+    pub(crate) fn has_spacing(&self, spacing: [f64; 2]) -> bool {
+        self.spacing().is_some_and(|own| {
+            own.iter().zip(spacing).all(|(own, other)| (other / own - 1.0).abs() <= SAME_SPACING)
+        })
+    }
+
+    /// Where a plan, which is given as JSON, has another setting than the state.
+    pub(crate) fn differences(&self, plan: &Value) -> Vec<Difference> {
+        let own = serde_json::from_str(&self.setting).unwrap_or_default();
+        let mut found = Vec::new();
+        differences("", &setting(plan), &own, &mut found);
+        found
+    }
+
+    /// What the solver remembered, for a plan, given as JSON, that solves in the same way.
+    pub(crate) fn memory_for(&self, plan: &Value) -> Option<&SolverMemory> {
+        self.memory.as_ref().filter(|(_, way)| *way == way_of_solving(plan)).map(|(memory, _)| memory)
+    }
+}
+
+/// What a state belongs to, with the keys that a case has for it.
+fn setting(plan: &Value) -> Value {
+    let case = &plan["case"];
+    json!({
+        "grid": {
+            "cells": plan["grid"]["cells"],
+            "spacing": plan["grid"]["spacing"],
+            "periodic": case["periodic"],
+        },
+        "upper": case["bodies"]["upper"],
+        "lower": case["bodies"]["lower"],
+        "profile": case["profile"],
+    })
+}
+
+/// What a solver's memory belongs to besides.
+fn way_of_solving(plan: &Value) -> String {
+    let case = &plan["case"];
+    let shortcuts = ["coupling", "along", "symmetry", "six_digits", "leave_out"].map(|name| &plan[name]);
+    json!([shortcuts, case["tolerance"], case["scheme"]]).to_string()
+}
+
+fn differences(key: &str, case: &Value, state: &Value, found: &mut Vec<Difference>) {
+    match (case, state) {
+        (Value::Object(one), Value::Object(other)) if one.keys().eq(other.keys()) => {
+            for (name, value) in one {
+                differences(&joined(key, name), value, &other[name], found);
+            }
+        }
+        (Value::Array(one), Value::Array(other))
+            if one.len() == other.len() && one.iter().all(Value::is_object) =>
+        {
+            for (index, (one, other)) in one.iter().zip(other).enumerate() {
+                let place = if key == "profile" { key.to_owned() } else { format!("{key}[{index}]") };
+                differences(&place, one, other, found);
+            }
+        }
+        _ if case != state => {
+            found.push(Difference { key: key.to_owned(), case: case.to_string(), state: state.to_string() });
+        }
+        _ => {}
+    }
+}
+
+/// The key of an entry as a case has it: the program's own words for kinds are left out.
+fn joined(key: &str, name: &str) -> String {
+    match name {
+        "elastic" | "material" | "shapes" => key.to_owned(),
+        "base" => format!("{key}.substrate"),
+        _ if key.is_empty() => name.to_owned(),
+        _ => format!("{key}.{name}"),
+    }
+}

@@ -1,0 +1,83 @@
+"""A history as an xarray Dataset."""
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import numpy.typing as npt
+
+from fretting import cycles
+from fretting._meaning import FIELD_NAMES, MEANING, ZONE_NAMES
+
+if TYPE_CHECKING:
+    import xarray
+
+    from fretting.history import History
+
+
+def of_history(history: "History", every: bool) -> "xarray.Dataset":
+    """Return a Dataset of every increment, or of the kept ones alone: see :meth:`fretting.History.to_xarray`."""
+    try:
+        import xarray
+    except ImportError as error:
+        raise ImportError("to_xarray needs xarray: pip install 'fretting[xarray]'") from error
+    kept = np.asarray(history.kept_steps, dtype=np.int64)
+    chosen = np.arange(len(history)) if every else kept
+    fields_along = "kept_step" if every else "step"
+    increment = {"long_name": MEANING["increment"]}
+    coordinates: dict[str, Any] = {
+        "step": ("step", chosen, increment),
+        "x": ("x", history.x, {"long_name": "cell centres along x [length]"}),
+        "y": ("y", history.y, {"long_name": "cell centres along y [length]"}),
+        "stage": ("step", history.steps["stage"][chosen], {"long_name": MEANING["stage"]}),
+        "stage_name": ("step", _names(history, history.steps["stage"][chosen])),
+    }
+    variables: dict[str, Any] = {
+        name: ("step", column[chosen], {"long_name": MEANING[name]})
+        for name, column in history.steps.items()
+        if name not in ("increment", "stage")
+    }
+    fields = {name: stack for name in FIELD_NAMES if (stack := _stack(history, name)) is not None}
+    if fields and every:
+        coordinates["kept_step"] = ("kept_step", kept, {"long_name": "number of an increment whose fields are kept"})
+    for name, stack in fields.items():
+        attributes: dict[str, Any] = {"long_name": MEANING[name]}
+        if name == "zone":
+            attributes["flag_values"] = np.arange(len(ZONE_NAMES), dtype=np.uint8)
+            attributes["flag_meanings"] = " ".join(ZONE_NAMES)
+        variables[name] = ((fields_along, "y", "x"), stack, attributes)
+    if len(history.cycles["cycle"]):
+        coordinates |= _cycle_coordinates(history)
+        for name, column in history.cycles.items():
+            if name not in ("cycle", "stage"):
+                variables[f"cycle_{name}"] = ("cycle", column, {"long_name": cycles.MEANING[name]})
+    attributes = {"stages": history.stages, "status": history.status}
+    return xarray.Dataset(variables, coords=coordinates, attrs=attributes)
+
+
+def _stack(history: "History", name: str) -> npt.NDArray[Any] | None:
+    """Return a field of all kept increments, shape (kept, ny, nx); None when it is not kept."""
+    if not history.kept_steps or name not in history._kept.kept_fields(history.kept_steps[0]):
+        return None
+    nx, ny = history.shape
+    stack = np.empty((len(history.kept_steps), ny, nx), dtype=np.uint8 if name == "zone" else np.float64)
+    for place, increment in enumerate(history.kept_steps):
+        stack[place] = history._kept.field(name, increment).T
+    return stack
+
+
+def _cycle_coordinates(history: "History") -> dict[str, Any]:
+    number, stage = history.cycles["cycle"], history.cycles["stage"]
+    return {
+        "cycle": (
+            "cycle",
+            np.arange(len(number)),
+            {"long_name": "number of the computed cycle in the history, from 0"},
+        ),
+        "cycle_number": ("cycle", number, {"long_name": cycles.MEANING["cycle"]}),
+        "cycle_stage": ("cycle", stage, {"long_name": cycles.MEANING["stage"]}),
+        "cycle_stage_name": ("cycle", _names(history, stage)),
+    }
+
+
+def _names(history: "History", stages: npt.NDArray[Any]) -> npt.NDArray[np.str_]:
+    return np.array([history.stages[stage] for stage in stages], dtype=np.str_)

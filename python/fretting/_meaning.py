@@ -1,0 +1,57 @@
+"""What every number and field of a history means; the one place that says so."""
+
+from typing import Literal, get_args
+
+FieldName = Literal["pressure", "shear_x", "shear_y", "slip_x", "slip_y", "gap", "zone", "worn_depth"]
+FIELD_NAMES: tuple[str, ...] = get_args(FieldName)
+
+MEANING = {
+    "pressure": "contact pressure, compression positive [pressure]",
+    "shear_x": "shear traction on the lower body along x [pressure]",
+    "shear_y": "shear traction on the lower body along y [pressure]",
+    "slip_x": "accumulated slip along x, upper body relative to lower [length]",
+    "slip_y": "accumulated slip along y, upper body relative to lower [length]",
+    "gap": "gap between the surfaces [length]",
+    "zone": "zone: 0 open, 1 stick, 2 slip",
+    "worn_depth": "depth worn off both bodies together [length]",
+    "normal_force": "normal force, compression positive [force]",
+    "approach": "rigid normal approach [length]",
+    "tangential_force_x": "tangential force on the lower body along x [force]",
+    "tangential_force_y": "tangential force on the lower body along y [force]",
+    "shift_x": "rigid tangential displacement of the upper body along x [length]",
+    "shift_y": "rigid tangential displacement of the upper body along y [length]",
+    "twist_moment": "moment about z on the lower body [force x length]",
+    "twist": "rotation of the upper body about z [rad]",
+    "max_pressure": "largest pressure of a cell [pressure]",
+    "max_shear": "largest shear traction of a cell [pressure]",
+    "contact_area": "area of contact [length^2]",
+    "stick_area": "area that sticks [length^2]",
+    "dissipated_energy": "work of friction since the start [force x length]",
+    "residual": "worst of the complementarity, Coulomb and equilibrium residuals, relative [-]",
+    "wall_s": "time spent on the increment [s]",
+    "increment": "number of the increment in the whole history, from 0",
+    "stage": "number of the stage, from 0",
+    "parts": 'parts it was solved in: more than 1 where increments are "auto", or the whole was not solved',
+    "contact_cells": "cells in contact",
+    "stick_cells": "cells in contact that stick",
+    "convolutions": "operator applications, each one fused pass whatever its components",
+    "full_grid_convolutions": "the same, each weighted by its share of the whole grid's cells",
+    "preconditioner_passes": "preconditioner applications",
+    "outer_iterations": "changes of the contact, stick and slip zones",
+    "regime": "apart, full_stick, partial_slip, gross_slip or frictionless",
+}
+
+ZONE_NAMES = ("open", "stick", "slip")
+"""Names of the zones 0, 1, 2."""
+
+
+def label(name: str) -> str:
+    """Return the meaning of a number or field in few words, with its unit in brackets: for axes and bars of colour."""
+    words, _, rest = MEANING[name].partition(" [")
+    unit = f" [{rest}" if rest else ""
+    return words.partition(":")[0].partition(",")[0] + unit
+
+
+def unit(name: str) -> str:
+    """Return the unit of a number or field, without brackets; empty for one that has none."""
+    return MEANING[name].partition("[")[2].rstrip("]")
