@@ -1,5 +1,6 @@
 //! `fret run`: from a case file to a folder of results, with a face for the time between.
 
+use std::cell::Cell;
 use std::ops::ControlFlow;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
@@ -8,7 +9,7 @@ use std::time::Instant;
 use fret_core::checkpoint::{Checkpoint, Waypoint};
 use fret_core::cycle::CycleRecord;
 use fret_core::history::{KeptFields, StepRecord};
-use fret_core::machine::memory;
+use fret_core::machine::memory::{self, Claim};
 use fret_core::model::{ContactState, SurfaceGrid};
 use fret_core::plan::{LeaveOut, Plan};
 use fret_core::simulation::{Iteration, Observer, RunError, Simulation};
@@ -59,6 +60,8 @@ struct Preparation {
     companion: Option<Plan>,
     threads: usize,
     pool: rayon::ThreadPool,
+    /// Memory for the run.
+    claim: Cell<Option<Claim>>,
 }
 
 /// Where a run begins.
@@ -103,13 +106,16 @@ fn prepared(arguments: &RunArguments) -> Result<Preparation, Failure> {
     }
     let threads = threads::asked(arguments.threads);
     let pool = threads::pool(threads)?;
-    if !matches!(standing, Standing::Solved(_)) {
-        memory::check(plan.memory_bytes.max(companion.as_ref().map_or(0, |plan| plan.memory_bytes)))?;
-    }
+    // Once for all: what the run maps on its way would make a second look find less.
+    let needed = plan.memory_bytes.max(companion.as_ref().map_or(0, |plan| plan.memory_bytes));
+    let claim = Cell::new(match standing {
+        Standing::Solved(_) => None,
+        _ => Some(pool.install(|| memory::claim(needed))?),
+    });
     if !arguments.quiet && !matches!(standing, Standing::Solved(_)) {
         announce(&plan, &folder, &standing);
     }
-    Ok(Preparation { case_file, plan, folder, standing, companion, threads, pool })
+    Ok(Preparation { case_file, plan, folder, standing, companion, threads, pool, claim })
 }
 
 fn announce(plan: &Plan, folder: &Path, standing: &Standing) {
@@ -256,8 +262,9 @@ impl Preparation {
     }
 
     fn followed_by(&self, from: Checkpoint, witness: &mut Witness) -> Result<Option<WornThrough>, Failure> {
-        let journey =
-            || Simulation::new(&self.plan).resume(from, witness).map(|history| history.worn_through);
+        let _memory = self.claim.take();
+        let simulation = Simulation::new(&self.plan).in_claimed_memory();
+        let journey = || simulation.resume(from, witness).map(|history| history.worn_through);
         match catch_unwind(AssertUnwindSafe(|| self.pool.install(journey))) {
             Ok(Ok(worn_through)) => Ok(worn_through),
             Ok(Err(RunError::Interrupted { .. })) => {
