@@ -237,7 +237,8 @@ impl Preparation {
         }
         let failure = failure.or_else(|| {
             self.plan.case.stress.as_ref()?;
-            self.pool.install(|| after_run(&self.folder, quiet || as_json)).err()
+            let folder = &self.folder;
+            self.pool.install(|| after_run(folder, quiet || as_json)).err()
         });
         failure.map_or(Ok(()), |failure| Err(Told { failure, in_json: as_json }))
     }
@@ -245,7 +246,8 @@ impl Preparation {
     /// Error bars, when they are asked for and can be had; also as a file beside the results.
     fn estimated(&self, tally: &Tally, quiet: bool) -> Result<Option<Estimate>, Unwritten> {
         let Some(companion) = &self.companion else { return Ok(None) };
-        match self.pool.install(|| Estimate::new(&self.plan, companion, &tally.headlines)) {
+        let plan = &self.plan;
+        match self.pool.install(|| Estimate::new(plan, companion, &tally.headlines)) {
             Ok(estimate) => {
                 let name = |stage: usize| self.plan.case.stages[stage].name.clone();
                 let text = format!("{:#}\n", estimate.to_json(name));
