@@ -23,12 +23,21 @@ class Plan(Mapping[str, Any]):
 
     Keys are ``case``, ``grid`` (``cells``, ``spacing``), ``coupling`` (``"frictionless"``, ``"uncoupled"`` or
     ``"coupled"``), ``increments``, ``memory_bytes`` (without the kept fields), ``kept_bytes`` (those), ``left_out``; and what the run
-    is expected to take on this machine: ``increments_expected``, ``convolutions_expected``, ``seconds_expected``, all None
-    where ``memory_lacking`` says that it has not the memory for it.
+    is expected to take: ``increments_expected``, ``convolutions_expected``, both None where ``memory_lacking`` says that this
+    machine has not the memory for it.
+
+    Attributes
+    ----------
+    seconds_expected : float or None
+        Time that the run will take on all cores of this machine [s], as measured just now: no part of the mapping, since it is
+        never twice the same.
     """
 
-    def __init__(self, entries: dict[str, Any]) -> None:
+    seconds_expected: float | None
+
+    def __init__(self, entries: dict[str, Any], seconds_expected: float | None = None) -> None:
         self._entries = entries
+        self.seconds_expected = seconds_expected
 
     @property
     def left_out(self) -> list[LeftOut]:
@@ -64,7 +73,7 @@ class Plan(Mapping[str, Any]):
         if self["memory_lacking"]:
             return str(self["memory_lacking"])
         counts = f"{self['convolutions_expected']} convolutions in {self['increments_expected']} increments"
-        return f"about {counts}, {self['seconds_expected']:.2g} s"
+        return counts if self.seconds_expected is None else f"about {counts}, {self.seconds_expected:.2g} s"
 
     def _repr_html_(self) -> str:
         """Return the same as a table, for notebooks."""
@@ -106,4 +115,8 @@ def plan(case: _case.CaseLike, *, start: _start.StartLike | None = None) -> Plan
     CaseError
         When the case is refused.
     """
-    return Plan(json.loads(_core.plan(_case.read(case, _start.read(start)))))
+    question = _case.read(case, _start.read(start))
+    entries = json.loads(_core.plan(question))
+    expected = json.loads(_core.expected(question))
+    seconds = expected.pop("seconds_expected")
+    return Plan({**entries, **expected}, seconds)

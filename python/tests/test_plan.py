@@ -13,6 +13,8 @@ def test_plan_is_a_mapping_of_plain_values(fretting_case: dict[str, Any]) -> Non
     assert plan["grid"]["cells"] == [48, 48]
     assert plan["memory_bytes"] > 48 * 48 * 8
     assert plan["convolutions_expected"] > 0
+    assert plan["increments_expected"] == 17
+    assert plan.seconds_expected is not None and plan.seconds_expected > 0
     assert set(plan) == set(dict(plan))
     assert "48 x 48" in repr(plan)
 

@@ -90,20 +90,20 @@ impl Observer for Silent {}
 #[derive(Debug)]
 pub struct Simulation<'a> {
     plan: &'a Plan,
-    /// Memory that was claimed for it already.
-    claim: Option<Claim>,
+    /// Whether its memory has been claimed already.
+    is_claimed: bool,
 }
 
 impl<'a> Simulation<'a> {
     /// Simulation of a plan.
     pub fn new(plan: &'a Plan) -> Self {
-        Self { plan, claim: None }
+        Self { plan, is_claimed: false }
     }
 
-    /// The same in memory that has been claimed for it; else a run claims its own.
+    /// The same in memory that has been claimed for it, by somebody who holds the claim meanwhile; else a run claims its own.
     #[must_use]
-    pub fn within(self, claim: Claim) -> Self {
-        Self { claim: Some(claim), ..self }
+    pub fn in_claimed_memory(self) -> Self {
+        Self { is_claimed: true, ..self }
     }
 
     /// Runs the whole history. Use inside a thread pool to bound the threads; the bits do not depend on their number.
@@ -141,7 +141,7 @@ impl<'a> Simulation<'a> {
         let holds = holds_fields && !self.plan.case.is_open_ended();
         let kept = if holds { self.plan.kept_bytes } else { 0 };
         let needed = self.plan.memory_bytes.saturating_add(kept);
-        let own = self.claim.is_none().then(|| claim(needed)).transpose();
+        let own = (!self.is_claimed).then(|| claim(needed)).transpose();
         own.map_err(|error| RunError::OutOfMemory { increment, error })
     }
 

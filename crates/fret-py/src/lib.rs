@@ -35,7 +35,7 @@ mod _core {
     #[pymodule_export]
     use crate::kernels::{Convolution, frequency_response, influence_coefficients};
     #[pymodule_export]
-    use crate::plan::{memory_needed, plan};
+    use crate::plan::{expected, memory_needed, plan};
     #[pymodule_export]
     use crate::simulation::run;
     #[pymodule_export]

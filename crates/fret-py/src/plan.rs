@@ -17,20 +17,28 @@ pub fn memory_needed(py: Python<'_>, case: &Case) -> PyResult<usize> {
     Ok(plan.memory_bytes.saturating_add(plan.kept_bytes))
 }
 
-/// Plans a case, and what its run will take where it fits into memory; JSON text.
+/// Plans a case; JSON text.
 #[pyfunction]
 pub fn plan(py: Python<'_>, case: &Case) -> PyResult<String> {
-    let (plan, lacking, expected) = on_pool(py, ALL, || {
+    let plan = on_pool(py, ALL, || case.planned())?.map_err(|error| refused(&error))?;
+    serde_json::to_string(&plan).map_err(bad_value)
+}
+
+/// What the run of a case will take, with the fields that it keeps in memory; JSON text.
+#[pyfunction]
+pub fn expected(py: Python<'_>, case: &Case) -> PyResult<String> {
+    let (lacking, expected) = on_pool(py, ALL, || {
         let plan = case.planned()?;
         let lacking = memory::check(plan.memory_bytes.saturating_add(plan.kept_bytes)).err();
         let expected = lacking.is_none().then(|| expectation(&plan));
-        Ok((plan, lacking, expected))
+        Ok((lacking, expected))
     })?
     .map_err(|error| refused(&error))?;
-    let mut entries = serde_json::to_value(&plan).map_err(bad_value)?;
-    entries["increments_expected"] = json!(expected.map(|expected| expected.increments));
-    entries["convolutions_expected"] = json!(expected.map(|expected| expected.convolutions));
-    entries["seconds_expected"] = json!(expected.map(|expected| expected.seconds));
-    entries["memory_lacking"] = json!(lacking.map(|error| format!("this {error}")));
+    let entries = json!({
+        "increments_expected": expected.map(|expected| expected.increments),
+        "convolutions_expected": expected.map(|expected| expected.convolutions),
+        "seconds_expected": expected.map(|expected| expected.seconds),
+        "memory_lacking": lacking.map(|error| format!("this {error}")),
+    });
     Ok(entries.to_string())
 }

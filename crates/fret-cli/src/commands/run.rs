@@ -1,5 +1,6 @@
 //! `fret run`: from a case file to a folder of results, with a face for the time between.
 
+use std::cell::Cell;
 use std::ops::ControlFlow;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
@@ -8,7 +9,7 @@ use std::time::Instant;
 use fret_core::checkpoint::{Checkpoint, Waypoint};
 use fret_core::cycle::CycleRecord;
 use fret_core::history::{KeptFields, StepRecord};
-use fret_core::machine::memory;
+use fret_core::machine::memory::{self, Claim};
 use fret_core::model::{ContactState, SurfaceGrid};
 use fret_core::plan::{LeaveOut, Plan};
 use fret_core::simulation::{Iteration, Observer, RunError, Simulation};
@@ -62,6 +63,8 @@ struct Preparation {
     companion: Option<Plan>,
     threads: usize,
     pool: rayon::ThreadPool,
+    /// Memory for the run.
+    claim: Cell<Option<Claim>>,
 }
 
 /// Where a run begins.
@@ -120,9 +123,12 @@ fn prepared(arguments: &RunArguments) -> Result<Preparation, Failure> {
     }
     let threads = threads::asked(arguments.threads);
     let pool = threads::pool(threads)?;
-    if !matches!(standing, Standing::Solved(_)) {
-        memory::check(plan.memory_bytes.max(companion.as_ref().map_or(0, |plan| plan.memory_bytes)))?;
-    }
+    // Once for all: what the run maps on its way would make a second look find less.
+    let needed = plan.memory_bytes.max(companion.as_ref().map_or(0, |plan| plan.memory_bytes));
+    let claim = Cell::new(match standing {
+        Standing::Solved(_) => None,
+        _ => Some(pool.install(|| memory::claim(needed))?),
+    });
     if !arguments.quiet && !matches!(standing, Standing::Solved(_)) {
         announce(&plan, &folder, &standing);
         if let Some(Origin { results, increment, .. }) = &origin {
@@ -131,7 +137,7 @@ fn prepared(arguments: &RunArguments) -> Result<Preparation, Failure> {
             ));
         }
     }
-    Ok(Preparation { case_file, plan, origin, folder, standing, companion, threads, pool })
+    Ok(Preparation { case_file, plan, origin, folder, standing, companion, threads, pool, claim })
 }
 
 fn is_same_folder(one: &Path, other: &Path) -> bool {
@@ -278,7 +284,8 @@ impl Preparation {
         }
         let failure = failure.or_else(|| {
             self.plan.case.stress.as_ref()?;
-            self.pool.install(|| after_run(&self.folder, quiet || as_json)).err()
+            let folder = &self.folder;
+            self.pool.install(|| after_run(folder, quiet || as_json)).err()
         });
         failure.map_or(Ok(()), |failure| Err(Told { failure, in_json: as_json }))
     }
@@ -286,7 +293,8 @@ impl Preparation {
     /// Error bars, when they are asked for and can be had; also as a file beside the results.
     fn estimated(&self, headlines: &[Headline], quiet: bool) -> Result<Option<Estimate>, Failure> {
         let Some(companion) = &self.companion else { return Ok(None) };
-        match self.pool.install(|| Estimate::new(&self.plan, companion, headlines)) {
+        let plan = &self.plan;
+        match self.pool.install(|| Estimate::new(plan, companion, headlines)) {
             Ok(estimate) => {
                 let text = format!("{:#}\n", estimate.to_json(|stage| self.stage_name(stage)));
                 write_whole(&self.folder.join(ERROR_BARS), text.as_bytes())?;
@@ -306,8 +314,9 @@ impl Preparation {
     }
 
     fn followed_by(&self, from: Checkpoint, witness: &mut Witness) -> Result<Option<WornThrough>, Failure> {
-        let journey =
-            || Simulation::new(&self.plan).resume(from, witness).map(|history| history.worn_through);
+        let _memory = self.claim.take();
+        let simulation = Simulation::new(&self.plan).in_claimed_memory();
+        let journey = || simulation.resume(from, witness).map(|history| history.worn_through);
         match catch_unwind(AssertUnwindSafe(|| self.pool.install(journey))) {
             Ok(Ok(worn_through)) => Ok(worn_through),
             Ok(Err(RunError::Interrupted { .. })) => {

@@ -104,11 +104,12 @@ struct Board<'a> {
     started: Instant,
 }
 
-/// A point at work; those that wait for its memory hear of its end.
-struct AtWork<'a>(&'a Board<'a>);
+/// A point at work in memory of its own; those that wait for it hear of its end.
+struct AtWork<'a>(&'a Board<'a>, Option<Claim>);
 
 impl Drop for AtWork<'_> {
     fn drop(&mut self) {
+        self.1 = None;
         *self.0.at_work.lock().unwrap_or_else(PoisonError::into_inner) -= 1;
         self.0.freed.notify_all();
     }
@@ -168,8 +169,8 @@ impl<'a> Board<'a> {
             let point = &self.question.points[number];
             let solve = || -> Result<Answer, Failure> {
                 let plan = point.case_file.planned_leaving_out(LeaveOut::ALL, self.origin.as_ref())?;
-                let (_at_work, claim) = self.memory_for(&plan)?;
-                let run = Simulation::new(&plan).within(claim).run(&mut Listener);
+                let _at_work = self.memory_for(&plan)?;
+                let run = Simulation::new(&plan).in_claimed_memory().run(&mut Listener);
                 let history = run.map_err(|error| match error {
                     RunError::Interrupted { .. } => Failure::Interrupted(String::new()),
                     error => Failure::Unsolved(error),
@@ -198,13 +199,13 @@ impl<'a> Board<'a> {
     }
 
     /// Memory for a point, beside the points that are at work: waited for while any of them is.
-    fn memory_for(&self, plan: &Plan) -> Result<(AtWork<'_>, Claim), MemoryError> {
+    fn memory_for(&self, plan: &Plan) -> Result<AtWork<'_>, MemoryError> {
         let mut at_work = self.at_work.lock().unwrap_or_else(PoisonError::into_inner);
         loop {
             match memory::claim(plan.memory_bytes) {
                 Ok(claim) => {
                     *at_work += 1;
-                    return Ok((AtWork(self), claim));
+                    return Ok(AtWork(self, Some(claim)));
                 }
                 Err(error) if *at_work == 0 => return Err(error),
                 Err(_) => at_work = self.freed.wait(at_work).unwrap_or_else(PoisonError::into_inner),

@@ -13,11 +13,12 @@ use std::time::{Duration, Instant};
 use sysinfo::{MemoryRefreshKind, Pid, ProcessRefreshKind, ProcessesToUpdate, System};
 
 use super::control_group;
+use super::threads::available_threads;
 
 /// Address space is taken in larger pieces than memory: this share more than a claim must be left of it.
 const ADDRESSES: f64 = 0.1;
-/// And so many bytes more: what a process maps for threads and buffers.
-const ADDRESSES_OF_THREADS: u64 = 64 << 20;
+/// And so many bytes more for each thread: the GNU allocator maps as much, and uses little of it.
+const ADDRESSES_OF_A_THREAD: u64 = 64 << 20;
 
 /// What sets the limit.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -89,11 +90,20 @@ pub fn available() -> Available {
     let machine = machine_left().map(|bytes| Available { bytes, limit: Limit::Machine });
     let group = control_group::memory_left().map(|bytes| Available { bytes, limit: Limit::ControlGroup });
     let addresses = addresses_left().map(|left| {
-        let bytes = (left.saturating_sub(ADDRESSES_OF_THREADS) as f64 / (1.0 + ADDRESSES)) as u64;
+        let of_threads = ADDRESSES_OF_A_THREAD * (threads_at_hand() as u64 + 1);
+        let bytes = (left.saturating_sub(of_threads) as f64 / (1.0 + ADDRESSES)) as u64;
         Available { bytes, limit: Limit::AddressSpace }
     });
     let unknown = Available { bytes: u64::MAX, limit: Limit::Machine };
     [machine, group, addresses].into_iter().flatten().min_by_key(|limit| limit.bytes).unwrap_or(unknown)
+}
+
+/// Threads of the pool that this is asked in; those of the machine outside of one.
+fn threads_at_hand() -> usize {
+    match rayon::current_thread_index() {
+        Some(_) => rayon::current_num_threads(),
+        None => available_threads(),
+    }
 }
 
 /// A claim on memory; given up when it is dropped.
