@@ -18,6 +18,7 @@ mod friction_on_patches;
 mod invariants;
 mod leaving_out;
 mod loadings;
+mod misleading;
 mod mutilated_cases;
 mod normal_counts;
 mod periodic;

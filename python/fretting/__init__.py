@@ -21,7 +21,15 @@ lower body, compression is positive.
 from fretting import analytic, plot
 from fretting._core import __version__
 from fretting._points import Axis
-from fretting.errors import CaseError, FrettingError, MissingFileError, Mistake, RunError, UnreadableError
+from fretting.errors import (
+    CaseError,
+    FrettingError,
+    FrettingWarning,
+    MissingFileError,
+    Mistake,
+    RunError,
+    UnreadableError,
+)
 from fretting.history import History
 from fretting.kernels import Convolution, frequency_response, influence_coefficients
 from fretting.loading import load
@@ -35,6 +43,7 @@ __all__ = [
     "CaseError",
     "Convolution",
     "FrettingError",
+    "FrettingWarning",
     "History",
     "MissingFileError",
     "Mistake",

@@ -9,6 +9,7 @@ import numpy.typing as npt
 from fretting import _core, plot
 from fretting._arrays import Reals
 from fretting.cycles import Columns, columns
+from fretting.errors import Fact
 
 if TYPE_CHECKING:
     import xarray
@@ -39,7 +40,9 @@ MEANING = {
     "max_shear": "largest shear traction of a cell [pressure]",
     "contact_area": "area of contact [length^2]",
     "stick_area": "area that sticks [length^2]",
-    "dissipated_energy": "work of friction since the start [force x length]",
+    "dissipated_energy": "work of friction since the start, over all cycles that computed ones stand for [force x length]",
+    "worn_volume": "volume worn off since the start, over all cycles that computed ones stand for [length^3]",
+    "max_worn_depth": "largest worn depth [length]",
     "residual": "worst of the complementarity, Coulomb and equilibrium residuals, relative [-]",
     "wall_s": "time spent on the increment [s]",
     "increment": "number of the increment in the whole history, from 0",
@@ -101,8 +104,8 @@ class History:
     steps : dict of str to ndarray
         One entry per increment: ``normal_force``, ``approach``, ``tangential_force_x``, ``tangential_force_y``,
         ``shift_x``, ``shift_y``, ``twist_moment``, ``twist``, ``max_pressure``, ``max_shear``, ``contact_area``,
-        ``stick_area``, ``dissipated_energy`` (cumulative), ``residual``, ``wall_s`` (float); ``increment``, ``stage``,
-        ``contact_cells``, ``stick_cells``, ``convolutions``, ``preconditioner_passes``, ``outer_iterations``, ``parts``
+        ``stick_area``, ``dissipated_energy``, ``worn_volume`` (both since the start, over all cycles that computed ones
+        stand for), ``max_worn_depth``, ``residual``, ``wall_s`` (float); ``increment``, ``stage``, ``contact_cells``, ``stick_cells``, ``convolutions``, ``preconditioner_passes``, ``outer_iterations``, ``parts``
         (int); ``full_grid_convolutions`` (float); ``regime`` (str).
     x, y : ndarray
         Coordinates of the cell centres [length], shapes (nx,) and (ny,).
@@ -110,14 +113,18 @@ class History:
         Names of the stages.
     cycles : dict of str to ndarray
         One entry per cycle of the stages that have cycles; ``stage``, ``cycle``, ``first_increment``,
-        ``last_increment``, ``stands_for`` (int); ``dissipated_energy``, ``direction``, ``force_amplitude``,
+        ``last_increment``, ``stands_for``, ``last_cycle`` (int); ``dissipated_energy`` (of this one cycle),
+        ``total_dissipated_energy`` (since the start), ``direction``, ``force_amplitude``,
         ``displacement_amplitude``, ``opening``, ``energy_ratio``, ``sliding_ratio``, ``stiffness``, ``closure``,
-        ``worn_volume``, ``max_worn_depth`` (float, NaN where a cycle has none); ``steady`` (bool); ``drive``,
+        ``worn_volume`` (since the start), ``max_worn_depth`` (float, NaN where a cycle has none); ``steady`` (bool); ``drive``,
         ``regime`` (str).
     running_conditions : list of str or None
         ``"partial"``, ``"mixed"`` or ``"gross"`` for each stage; None for one without cycles.
     worn_through : dict or None
         ``increment``, ``stage``, ``cycles``, ``cell``, ``place`` of the first place worn to the limit.
+    warnings : list of dict
+        What about these numbers may mislead: ``name`` (stable, such as ``"few_cells"``), ``value``, ``bound``, ``stage``,
+        ``message``, ``help``. Empty where nothing does. :func:`run` also passes them to Python's ``warnings``.
 
     Notes
     -----
@@ -131,6 +138,7 @@ class History:
     cycles: Columns
     running_conditions: list[str | None]
     worn_through: dict[str, Any] | None
+    warnings: list[Fact]
 
     _kept: _Kept
     _bodies: str
@@ -150,6 +158,7 @@ class History:
         self.cycles = columns(json.loads(answer.cycles()))
         self.running_conditions = json.loads(answer.running_conditions())
         self.worn_through = json.loads(answer.worn_through())
+        self.warnings = json.loads(answer.warnings())
 
     def __getstate__(self) -> dict[str, Any]:
         """Everything as plain arrays."""
@@ -305,12 +314,18 @@ class History:
             ("max pressure", f"{last['max_pressure']:.6g}"),
             ("contact area", f"{last['contact_area']:.6g}"),
             ("dissipated energy", f"{last['dissipated_energy']:.6g}"),
+            *(
+                [("worn volume", f"{last['worn_volume']:.6g}"), ("largest worn depth", f"{last['max_worn_depth']:.6g}")]
+                if last["worn_volume"] > 0.0
+                else []
+            ),
             ("worst residual", f"{self.steps['residual'].max():.1e}"),
         ]
         done = self.cycles
         if len(done["cycle"]):
             ratio, regime = done["energy_ratio"][-1], done["regime"][-1]
-            facts.append((f"last of {len(done['cycle'])} cycles", f"{regime.replace('_', ' ')}, ratio {ratio:.3g}"))
+            facts.append((f"last of {done['last_cycle'][-1]} cycles", f"{regime.replace('_', ' ')}, ratio {ratio:.3g}"))
+        facts += [("warning", f"{fact['message']}; {fact['help']}") for fact in self.warnings]
         kept = self.kept_steps
         fields = ", ".join(self._kept.kept_fields(kept[-1])) if kept else "none"
         return [*facts, (f"fields of {len(kept)} increments", fields)]

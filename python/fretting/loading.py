@@ -70,6 +70,7 @@ def load(folder: str | os.PathLike[str]) -> History:
     history.cycles = columns(_cycles(path / "cycles.csv") if is_cyclic else [])
     history.running_conditions = [_running_condition(history.cycles, stage) for stage in range(len(stages))]
     history.worn_through = record.get("worn_through")
+    history.warnings = record.get("warnings", [])
     history._bodies = json.dumps(plan["case"]["bodies"])
     dx, dy = plan["grid"]["spacing"]
     history._spacing = (dx, dy)

@@ -5,6 +5,7 @@ from collections.abc import Iterator, Mapping
 from typing import Any, TypedDict
 
 from fretting import _case, _core, plot
+from fretting.errors import Fact
 
 
 class LeftOut(TypedDict):
@@ -22,7 +23,8 @@ class Plan(Mapping[str, Any]):
     """A case made numerical: a read-only mapping.
 
     Keys are ``case``, ``grid`` (``cells``, ``spacing``), ``coupling`` (``"frictionless"``, ``"uncoupled"`` or
-    ``"coupled"``), ``increments``, ``memory_bytes``, ``convolutions_expected`` and ``left_out``.
+    ``"coupled"``), ``increments``, ``memory_bytes``, ``convolutions_expected``, ``left_out``, ``expected`` (``half_widths``
+    and ``approach`` of the contact under the heaviest load, or None) and ``warnings``.
     """
 
     def __init__(self, entries: dict[str, Any]) -> None:
@@ -32,6 +34,11 @@ class Plan(Mapping[str, Any]):
     def left_out(self) -> list[LeftOut]:
         """What is not computed, why, and what that saves."""
         return list(self._entries["left_out"])
+
+    @property
+    def warnings(self) -> list[Fact]:
+        """What about the case may mislead, as far as the case alone tells: see ``History.warnings``."""
+        return list(self._entries["warnings"])
 
     def __getitem__(self, key: str) -> Any:  # noqa: ANN401 - entries are of many kinds
         """Entry of that name."""
@@ -54,6 +61,7 @@ class Plan(Mapping[str, Any]):
             f"  about {self['convolutions_expected']} convolutions, {self['memory_bytes'] / 2**20:.1f} MiB at the most",
         ]
         lines += [f"  left out: {entry['what']} ({entry['why']})" for entry in self.left_out]
+        lines += [f"  warning: {fact['message']}; {fact['help']}" for fact in self.warnings]
         return "\n".join(lines)
 
     def _repr_html_(self) -> str:
@@ -67,6 +75,7 @@ class Plan(Mapping[str, Any]):
             ("memory at the most", f"{self['memory_bytes'] / 2**20:.1f} MiB"),
         ]
         facts += [(f"left out: {entry['what']}", entry["why"]) for entry in self.left_out]
+        facts += [("warning", f"{fact['message']}; {fact['help']}") for fact in self.warnings]
         return plot.html_table("fretting.Plan", facts)
 
 

@@ -5,6 +5,7 @@ from typing import Any
 
 from fretting import _case, _core
 from fretting._progress import ProgressLine
+from fretting.errors import warn
 from fretting.history import History
 
 
@@ -38,16 +39,21 @@ def run(
     RunError
         When an increment cannot be solved to the tolerance.
 
+    Warns
+    -----
+    FrettingWarning
+        For every fact in ``History.warnings``: numbers that may mislead.
+
     Notes
     -----
     The interpreter is free for other threads meanwhile, and Ctrl-C ends the run.
     """
     question = _case.read(case)
     if progress is False:
-        return History(_core.run(question, threads, None))
+        return _heard(_core.run(question, threads, None))
     if progress is True:
         with ProgressLine() as line:
-            return History(_core.run(question, threads, line))
+            return _heard(_core.run(question, threads, line))
     if not callable(progress):
         raise TypeError(f"progress: expected a bool or a callable, found {type(progress).__name__}")
     on_step = progress
@@ -55,4 +61,11 @@ def run(
     def pass_on(step: dict[str, Any], increments: int) -> None:
         on_step({**step, "increments": increments})
 
-    return History(_core.run(question, threads, pass_on))
+    return _heard(_core.run(question, threads, pass_on))
+
+
+def _heard(answer: _core.History) -> History:
+    """Return the history; what about it may mislead goes to Python's warnings, at the line that called :func:`run`."""
+    history = History(answer)
+    warn(history.warnings, stacklevel=3)
+    return history

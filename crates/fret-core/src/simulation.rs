@@ -25,6 +25,7 @@ pub use crate::run_error::RunError;
 use crate::run_error::run_error;
 use crate::solver::{ContactSolver, Resultants, SolverSettings};
 use crate::stepping::StageSteps;
+use crate::warning::Gauge;
 use crate::wear::{Wearing, WornThrough, worn};
 
 /// Where an increment's iteration stands.
@@ -133,7 +134,9 @@ impl<'a> Simulation<'a> {
                 worn_through: None,
                 fields: Vec::new(),
                 state,
+                warnings: Vec::new(),
             },
+            gauge: Gauge::default(),
             place,
             cycle,
             observer,
@@ -158,7 +161,9 @@ impl<'a> Simulation<'a> {
             (true, true) => {
                 SurfaceResponse::Periodic(periodic_symbols(&case.bodies, case.cells, spacing, wanted, 0))
             }
-            (true, false) => SurfaceResponse::Periodic(symbols_of(layered(), case.cells, spacing, wanted)),
+            (true, false) => SurfaceResponse::Periodic(
+                symbols_of(layered(), case.cells, spacing, wanted).with_uniform(&case.bodies),
+            ),
             (false, true) => {
                 SurfaceResponse::FreeSpace(influence_coefficients(&case.bodies, case.cells, spacing, wanted))
             }
@@ -202,6 +207,7 @@ struct Journey<'a> {
     solver: ContactSolver<'a>,
     wearing: Option<Wearing>,
     history: History,
+    gauge: Gauge,
     place: Place,
     /// The cycle at work.
     cycle: Option<FrettingLoop>,
@@ -239,6 +245,7 @@ impl<'a> Journey<'a> {
             self.through_stage(stage)?;
         }
         self.history.worn_through = self.place.worn_through;
+        self.history.warnings = self.gauge.warnings(self.plan);
         Ok(self.history)
     }
 
@@ -271,12 +278,14 @@ impl<'a> Journey<'a> {
     fn increment(&mut self, stage: &Stage, k: usize, [from, to]: [&LoadStep; 2]) -> Result<(), RunError> {
         let (number, all) = (self.place.stage, stage.increments_in_all());
         let may_keep = k == all || stage.ends_cycle(k) || self.case().keeps(number, k);
-        let (record, mut kept) = self.solved([from, to], may_keep)?;
+        let (mut record, mut kept) = self.solved([from, to], may_keep)?;
         if let Some(cycle) = &mut self.cycle {
             cycle.add(&record);
         }
         let ended =
             if stage.ends_cycle(k) || k == all { self.cycle_over(stage, record.increment)? } else { None };
+        record.dissipated_energy = self.history.state.dissipated_energy;
+        [record.worn_volume, record.max_worn_depth] = worn(&self.history.state, &self.plan.grid);
         let steady = ended.as_ref().is_some_and(|cycle| cycle.steady);
         let enough = stage.cycles().is_some_and(|course| self.place.cycles >= course.most);
         let last = k == all || steady || enough || self.place.worn_through.is_some();
@@ -290,6 +299,7 @@ impl<'a> Journey<'a> {
         }
         self.place.solved += 1;
         self.place.solved_of_stage = k;
+        self.gauge.add(&record);
         let heard = self.observer.solved(&record, &self.history.state, kept.as_ref());
         self.history.steps.push(record);
         self.history.fields.extend(kept);
@@ -383,10 +393,13 @@ impl<'a> Journey<'a> {
         let (Some(cycle), Some(course)) = (&self.cycle, stage.cycles()) else { return Ok(None) };
         let end = CycleEnd {
             stands_for,
+            last_cycle: self.place.cycles,
             tolerance: course.until_steady,
             worn: worn(&self.history.state, &self.plan.grid),
         };
-        Ok(Some(cycle.close(&self.history.state, self.friction(), end)))
+        let record = cycle.close(&self.history.state, self.friction(), end);
+        self.history.state.dissipated_energy = record.total_dissipated_energy;
+        Ok(Some(record))
     }
 
     /// Opens the gap by what has worn since the last time; the number of cycles that stands for, out of `left`.

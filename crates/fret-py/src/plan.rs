@@ -1,6 +1,7 @@
 //! The plan of a case, as text that Python reads.
 
 use fret_core::plan::Plan;
+use fret_core::warning;
 use pyo3::prelude::{PyResult, Python, pyfunction};
 
 use crate::case::Case;
@@ -12,5 +13,7 @@ use crate::threads::on_pool;
 pub fn plan(py: Python<'_>, case: &Case) -> PyResult<String> {
     let question = case.0.clone();
     let plan = on_pool(py, None, || Plan::new(question))?.map_err(|error| refused(&error))?;
-    serde_json::to_string(&plan).map_err(bad_value)
+    let mut answer = serde_json::to_value(&plan).map_err(bad_value)?;
+    answer["warnings"] = serde_json::to_value(warning::of_plan(&plan)).map_err(bad_value)?;
+    Ok(answer.to_string())
 }

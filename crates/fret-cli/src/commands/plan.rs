@@ -4,12 +4,14 @@ use std::path::Path;
 
 use fret_core::model::Body;
 use fret_core::plan::{Coupling, Plan};
+use fret_core::warning;
 use serde_json::json;
 
 use crate::case_file::CaseFile;
 use crate::failure::Failure;
 use crate::figures::{counted, figure, memory};
 use crate::output::resolved;
+use crate::summary::warning_line;
 use crate::terminal;
 
 /// Plans a case and tells the plan.
@@ -18,6 +20,7 @@ pub fn plan(path: &Path, as_json: bool) -> Result<(), Failure> {
     if as_json {
         let mut value = resolved(&plan);
         value["status"] = json!("planned");
+        value["warnings"] = json!(warning::of_plan(&plan));
         return terminal::answer(&format!("{value:#}"));
     }
     terminal::answer(&table(&plan))
@@ -39,7 +42,7 @@ fn table(plan: &Plan) -> String {
          history    {}: {}\n\
          residual   at most {:e} in every increment\n\
          memory     about {}\n\
-         work       about {}\n\n{}",
+         work       about {}\n\n{}{}",
         cells(plan),
         if plan.case.periodic {
             "on the whole grid: the scene repeats"
@@ -53,7 +56,13 @@ fn table(plan: &Plan) -> String {
         memory(plan.memory_bytes),
         counted(plan.convolutions_expected, "convolution"),
         left_out(plan),
+        warnings(plan),
     )
+}
+
+/// What about the case may mislead, a line each, a line break before.
+pub fn warnings(plan: &Plan) -> String {
+    warning::of_plan(plan).iter().map(|warning| format!("\n{}", warning_line(warning))).collect()
 }
 
 /// What is left out, as a block of text.

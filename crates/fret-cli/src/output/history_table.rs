@@ -11,7 +11,7 @@ use serde_json::Value;
 use crate::failure::Unwritten;
 
 /// The columns, in order; the names are those of `history.steps` in Python.
-const COLUMNS: [&str; 25] = [
+const COLUMNS: [&str; 27] = [
     "increment",
     "stage",
     "normal_force",
@@ -37,10 +37,12 @@ const COLUMNS: [&str; 25] = [
     "regime",
     "full_grid_convolutions",
     "parts",
+    "worn_volume",
+    "max_worn_depth",
 ];
 
 /// The columns of the cycles, in order; the names are those of `history.cycles` in Python.
-const CYCLE_COLUMNS: [&str; 19] = [
+const CYCLE_COLUMNS: [&str; 21] = [
     "stage",
     "cycle",
     "first_increment",
@@ -60,6 +62,8 @@ const CYCLE_COLUMNS: [&str; 19] = [
     "steady",
     "worn_volume",
     "max_worn_depth",
+    "last_cycle",
+    "total_dissipated_energy",
 ];
 
 /// What a table holds a line of.
@@ -113,6 +117,13 @@ impl HistoryTable {
     /// The cycles in the first `bytes` of the table at `path`; none where these are not its head and whole lines.
     pub fn cycles(path: &Path, bytes: u64) -> Option<Vec<CycleRecord>> {
         whole_lines(path, bytes, Lines::Cycles)?.lines().map(cycle).collect()
+    }
+
+    /// The cycles of the table at `path`; a last line that a kill has torn is left away. None where there is no such table.
+    pub fn all_cycles(path: &Path) -> Vec<CycleRecord> {
+        let text = std::fs::read_to_string(path).unwrap_or_default();
+        let bytes = text.rfind('\n').map_or(0, |last| last + 1);
+        Self::cycles(path, bytes as u64).unwrap_or_default()
     }
 
     /// Lines of the table at `path`, its head among them; none where there is no table.
@@ -174,6 +185,8 @@ fn line(record: &StepRecord) -> String {
         word(record.regime).to_owned(),
         exact(record.work.full_grid_convolutions),
         record.parts.to_string(),
+        exact(record.worn_volume),
+        exact(record.max_worn_depth),
     ];
     cells.join(",") + "\n"
 }
@@ -246,7 +259,9 @@ mod tests {
             first_increment: 30,
             last_increment: 41,
             stands_for: 50,
+            last_cycle: 600,
             dissipated_energy: 0.1 + 0.2,
+            total_dissipated_energy: 0.3,
             drive: Drive::Torsional,
             direction: -1.0 / 3.0,
             force_amplitude: 1e-300,

@@ -20,6 +20,7 @@ use fret_core::checkpoint::Waypoint;
 use fret_core::cycle::CycleRecord;
 use fret_core::history::{KeptFields, StepRecord};
 use fret_core::plan::Plan;
+use fret_core::warning::Warning;
 use serde_json::Value;
 
 use crate::case_file::CaseFile;
@@ -28,7 +29,8 @@ use crate::tally::Tally;
 pub use checkpoint_folder::Stored;
 use checkpoint_folder::{CheckpointFolder, Found, Head};
 use field_store::FieldStore;
-use history_table::{HistoryTable, Lines};
+pub use history_table::HistoryTable;
+use history_table::Lines;
 pub use run_record::{RunRecord, fnv1a64, resolved};
 pub use whole_file::write_whole;
 
@@ -225,10 +227,15 @@ impl ResultFolder {
     }
 
     /// Writes down how the run ended.
-    pub fn close(self, tally: &Tally, wall_s: f64, failure: Option<&Failure>) -> Result<(), Unwritten> {
+    pub fn close(
+        self,
+        (tally, warnings): (&Tally, &[Warning]),
+        wall_s: f64,
+        failure: Option<&Failure>,
+    ) -> Result<(), Unwritten> {
         self.history.settle()?;
         self.cycles.settle()?;
-        write_whole(&self.path.join(RECORD), &self.record.ended(tally, wall_s, failure))?;
+        write_whole(&self.path.join(RECORD), &self.record.ended((tally, warnings), wall_s, failure))?;
         if failure.is_none() {
             self.checkpoints.remove();
         }

@@ -11,7 +11,8 @@ use crate::case::{Case, CaseError, GridSize, Stage};
 use crate::kernel::{PairResponse, cells_too_coarse_for_incompressible_film};
 use crate::model::{Body, SurfaceGrid, Symmetry};
 pub use crate::solver::{Coupling, LeaveOut, Shortcut};
-use extent::{automatic_size, reaches_beyond};
+pub use extent::ExpectedContact;
+use extent::{automatic_size, expected_contact, reaches_beyond};
 
 /// Something the scene does not need.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
@@ -43,6 +44,8 @@ pub struct Plan {
     pub leave_out: LeaveOut,
     /// What is left out.
     pub left_out: Vec<LeftOut>,
+    /// The contact that is expected under the heaviest load; `None` where only the run can tell: on rough and on periodic surfaces.
+    pub expected: Option<ExpectedContact>,
     /// Increments of the whole history.
     pub increments: usize,
     /// Memory expected at the most [bytes].
@@ -75,9 +78,10 @@ impl Plan {
         } else {
             Coupling::Coupled
         };
+        let expected = if case.periodic { None } else { expected_contact(&case) };
         let size = match case.size {
             GridSize::Given(size) => size,
-            GridSize::Auto => automatic_size(&case).ok_or_else(|| {
+            GridSize::Auto => expected.as_ref().map(automatic_size).ok_or_else(|| {
                 let message = "grid.size = \"auto\": no contact was found under the heaviest load".to_owned();
                 case.refuse_size(message, "give the side lengths")
             })?,
@@ -133,6 +137,7 @@ impl Plan {
             six_digits,
             leave_out,
             left_out,
+            expected,
             increments,
         })
     }
