@@ -271,9 +271,9 @@ class History:
         return xarray.Dataset(variables, coords=coordinates, attrs={"stages": self.stages})
 
     def plot_loop(
-        self, along: Literal["x", "y"] = "x", stage: int | str | None = None, axes: "Axes | None" = None
+        self, along: plot.Motion | None = None, stage: int | str | None = None, axes: "Axes | None" = None
     ) -> "Axes":
-        """Draw tangential force over shift: see :func:`fretting.plot.loop`."""
+        """Draw tangential force over shift, or moment over twist: see :func:`fretting.plot.loop`."""
         return plot.loop(self, along, stage, axes)
 
     def plot_section(
@@ -296,7 +296,7 @@ class History:
         return plot.zones(self, step, axes)
 
     def animate_loop(
-        self, field: FieldName = "zone", along: Literal["x", "y"] = "x", stage: int | str | None = None
+        self, field: FieldName = "zone", along: plot.Motion | None = None, stage: int | str | None = None
     ) -> "FuncAnimation":
         """Animate the loop beside a field: see :func:`fretting.plot.animation`."""
         return plot.animation(self, field, along, stage)

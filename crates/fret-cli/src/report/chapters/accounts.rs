@@ -12,7 +12,7 @@ const MOST_CYCLES: usize = 12;
 pub fn energy(scene: &Scene<'_>) -> String {
     let history = &scene.results.table;
     let energy = history.column("dissipated_energy");
-    if scene.direction.is_none() || energy.last().is_none_or(|energy| *energy == 0.0) {
+    if (scene.direction.is_none() && !scene.twists) || energy.last().is_none_or(|energy| *energy == 0.0) {
         return String::new();
     }
     let points = |values: &[f64]| -> Vec<[f64; 2]> {

@@ -69,7 +69,7 @@ fn cards(scene: &Scene<'_>) -> String {
         ("max pressure", number(largest("max_pressure"))),
         ("max contact area", number(largest("contact_area"))),
     ];
-    if scene.direction.is_some() {
+    if scene.direction.is_some() || scene.twists {
         cards.push(("max shear", number(largest("max_shear"))));
         cards.push((
             "stick at the end",
