@@ -196,7 +196,10 @@ fn bars_hold_from_six_cells_in_the_radius_on_and_are_refused_below() {
     ];
     for radius in [0.2, 0.5, 0.8, 1.0, 1.3, 2.2, 3.0, 4.0, 4.5, 5.0] {
         let error = companion(&of_cells_in_radius(radius)).unwrap_err().to_string();
-        assert!(error.contains("cells in the contact radius") && error.contains("at least 6"), "{radius}: {error}");
+        assert!(
+            error.contains("cells in the contact radius") && error.contains("at least 6"),
+            "{radius}: {error}"
+        );
     }
     // Where the edge falls between the cells decides the error: so many radii.
     let close = (1..40).map(|tenth| 6.0 + 0.1 * f64::from(tenth));

@@ -26,7 +26,11 @@ fn names(warnings: &[Warning]) -> Vec<Concern> {
 }
 
 fn value(warnings: &[Warning], name: Concern) -> f64 {
-    warnings.iter().find(|warning| warning.name == name).unwrap_or_else(|| panic!("{name:?}: {warnings:?}")).value
+    warnings
+        .iter()
+        .find(|warning| warning.name == name)
+        .unwrap_or_else(|| panic!("{name:?}: {warnings:?}"))
+        .value
 }
 
 #[test]
@@ -97,7 +101,8 @@ fn thin_coatings_deep_scars_and_narrow_grids_are_told_of() {
     let thin = before(&coated(0.03, 2.4));
     assert!((value(&thin, Concern::CoatingThinnerThanCell) - 0.4).abs() < 1e-12);
     assert!(before(&coated(0.1, 2.4)).is_empty());
-    let narrow = solved(&Sphere { cells: 32, size: 2.1, ..Sphere::default() }.pressed(1.0, 1, "linear")).warnings;
+    let narrow =
+        solved(&Sphere { cells: 32, size: 2.1, ..Sphere::default() }.pressed(1.0, 1, "linear")).warnings;
     assert_eq!(value(&narrow, Concern::ContactNearEdge), 1.0, "{narrow:?}");
 }
 

@@ -73,7 +73,11 @@ impl Rise {
 
     /// The size of the level of a gap: its power is 2/3 of half-spaces and 1 of foundations, and between them in between.
     fn outside(self, gap: f64) -> f64 {
-        if self == Self::ROOT { libm::cbrt(gap.powi(2)) } else { libm::pow(gap, 1.0 - (self.power - 1.0) / 3.0) }
+        if self == Self::ROOT {
+            libm::cbrt(gap.powi(2))
+        } else {
+            libm::pow(gap, 1.0 - (self.power - 1.0) / 3.0)
+        }
     }
 
     /// By how much the zero line lies inside the true edge [cells].
@@ -225,7 +229,8 @@ pub fn contact_cells(pressure: &ArrayView2<'_, f64>, gap: &ArrayView2<'_, f64>, 
                 _ => {
                     // Beyond the end of a body the level function goes on as here: it has no edge of its own there.
                     let at = |cell: [usize; 2]| level[if gap[cell] > beyond { [i, j] } else { cell }];
-                    area += filled(&from_fn(|place| at([rows[place / 3], columns[place % 3]])), rise.offset());
+                    area +=
+                        filled(&from_fn(|place| at([rows[place / 3], columns[place % 3]])), rise.offset());
                 }
             }
         }

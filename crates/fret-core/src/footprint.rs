@@ -52,9 +52,12 @@ mod tests {
 
     fn zones(cells: [usize; 2], inside: impl Fn(f64, f64) -> bool) -> Array2<Zone> {
         let at = |index: usize, axis: usize| index as f64 - 0.5 * (cells[axis] as f64 - 1.0);
-        Array2::from_shape_fn(cells, |(i, j)| {
-            if inside(at(i, 0), at(j, 1)) { Zone::Slip } else { Zone::Open }
-        })
+        Array2::from_shape_fn(
+            cells,
+            |(i, j)| {
+                if inside(at(i, 0), at(j, 1)) { Zone::Slip } else { Zone::Open }
+            },
+        )
     }
 
     /// Discs, strips and patches whose sizes are known: pixels leave a third of a cell.

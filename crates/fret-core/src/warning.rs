@@ -82,7 +82,9 @@ impl Concern {
             Self::FewCells => "cells in the contact radius",
             Self::ContactRadiusOverBodyRadius => "contact radius over body radius",
             Self::ApproachOverContactRadius => "approach over contact radius",
-            Self::ApproachOverLayerThickness => "approach over the thickness of the layers on their rigid base",
+            Self::ApproachOverLayerThickness => {
+                "approach over the thickness of the layers on their rigid base"
+            }
             Self::ShiftOverContactRadius => "shift over contact radius",
             Self::SteepTopography => "root mean square slope of the topography",
             Self::CoatingThinnerThanCell => "coating thickness over the side of a cell",
@@ -140,11 +142,15 @@ impl Concern {
     /// What to do.
     fn help(self) -> &'static str {
         match self {
-            Self::FewCells => "more cells or a smaller grid (size = \"auto\" finds it); on a rough surface finer pixels",
+            Self::FewCells => {
+                "more cells or a smaller grid (size = \"auto\" finds it); on a rough surface finer pixels"
+            }
             Self::ContactRadiusOverBodyRadius | Self::ApproachOverContactRadius => {
                 "look at the units of moduli, lengths and loads; or press less"
             }
-            Self::ApproachOverLayerThickness => "look at the units of moduli, lengths and loads; or press less",
+            Self::ApproachOverLayerThickness => {
+                "look at the units of moduli, lengths and loads; or press less"
+            }
             Self::ShiftOverContactRadius => "look at the unit of the shift; or shift less",
             Self::SteepTopography => "look at the unit of the heights, and at the size of the grid",
             Self::CoatingThinnerThanCell => "more cells or a smaller grid, where such stresses matter",
@@ -231,21 +237,25 @@ fn over_body(plan: &Plan, half_widths: [f64; 2]) -> f64 {
 
 /// Layers on a rigid base [length], the thinner stack; infinite where there is none.
 fn layers_on_rigid_base(plan: &Plan) -> f64 {
-    stacks(plan).filter(|(_, base)| *base == Base::Rigid).map(|(thickness, _)| thickness).fold(f64::INFINITY, f64::min)
+    stacks(plan)
+        .filter(|(_, base)| *base == Base::Rigid)
+        .map(|(thickness, _)| thickness)
+        .fold(f64::INFINITY, f64::min)
 }
 
 /// All coatings of a body together [length], of the body with the thinner ones; infinite where there are none.
 fn thinnest_coating(plan: &Plan) -> f64 {
-    stacks(plan).map(|(thickness, _)| thickness).filter(|thickness| *thickness > 0.0).fold(f64::INFINITY, f64::min)
+    stacks(plan)
+        .map(|(thickness, _)| thickness)
+        .filter(|thickness| *thickness > 0.0)
+        .fold(f64::INFINITY, f64::min)
 }
 
 /// Thickness of the coatings of each elastic body, and what they lie on.
 fn stacks(plan: &Plan) -> impl Iterator<Item = (f64, Base)> {
     [plan.case.bodies.upper(), plan.case.bodies.lower()].into_iter().filter_map(|body| match body {
         Body::Rigid => None,
-        Body::Elastic(stack) => {
-            Some((stack.coating_thickness(), *stack.base()))
-        }
+        Body::Elastic(stack) => Some((stack.coating_thickness(), *stack.base())),
     })
 }
 
@@ -365,7 +375,9 @@ impl Gauge {
         let radius = |end: &End| equivalent_radius(end.contact_area);
         look(
             Concern::ContactRadiusOverBodyRadius,
-            &mut touching().filter(|_| is_round(plan)).map(|end| (over_body(plan, [radius(end); 2]), end.stage)),
+            &mut touching()
+                .filter(|_| is_round(plan))
+                .map(|end| (over_body(plan, [radius(end); 2]), end.stage)),
         );
         // On a rough surface the approach counts from the highest peak, and on a periodic half-space it has no zero.
         let strained = || touching().filter(|_| !rough && !plan.case.periodic);
@@ -385,10 +397,7 @@ impl Gauge {
             &mut std::iter::once((coating / longer_side(plan), usize::MAX)),
         );
         let last = self.ends.last().map_or(usize::MAX, |end| end.stage);
-        look(
-            Concern::WearDepthOverCoatingThickness,
-            &mut std::iter::once((self.worn_depth / coating, last)),
-        );
+        look(Concern::WearDepthOverCoatingThickness, &mut std::iter::once((self.worn_depth / coating, last)));
         if !plan.case.periodic {
             look(Concern::ContactNearEdge, &mut touching().map(|end| (end.free as f64, end.stage)));
         }

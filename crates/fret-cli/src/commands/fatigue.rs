@@ -65,7 +65,18 @@ impl<'a> Fatigue<'a> {
         }
         let at_rims = vec![None; names.len()];
         let fields = names.into_iter().map(|name| (name, Vec::new())).collect();
-        Self { request, half_space, points, surfaces, cycle, row, here: Vec::new(), fields, at_rims, ruiz: None }
+        Self {
+            request,
+            half_space,
+            points,
+            surfaces,
+            cycle,
+            row,
+            here: Vec::new(),
+            fields,
+            at_rims,
+            ruiz: None,
+        }
     }
 
     /// Takes the stress at one depth in one increment.

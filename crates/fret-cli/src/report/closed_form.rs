@@ -138,7 +138,8 @@ impl TangentialForm {
         let hertz = Hertz::sphere(radius, pressed, normal.moduli.normal).ok()?;
         let mut history = TangentialHistory::new(&hertz, friction, normal.moduli.shear).ok()?;
         let mut after = vec![None; start];
-        let slides = |row: usize| results.table.regimes().get(row).is_some_and(|regime| regime == "gross_slip");
+        let slides =
+            |row: usize| results.table.regimes().get(row).is_some_and(|regime| regime == "gross_slip");
         for (row, (force, tangential)) in forces.iter().zip(&along).enumerate().skip(start) {
             let is_steady = (force - pressed).abs() <= STEADY * pressed;
             // At the onset of sliding the shift is no longer a matter of the force.

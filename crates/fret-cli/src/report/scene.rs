@@ -87,9 +87,11 @@ impl<'a> Scene<'a> {
                     .filter(|&count| count > 0)
             };
             if let (Some(_), Some(length)) = (counts("course/cycles/most"), counts("increments")) {
-                cycles.extend((1..=(end - first) / length).map(|number| Cycle {
-                    span: [first + (number - 1) * length, first + number * length],
-                }));
+                cycles.extend(
+                    (1..=(end - first) / length).map(|number| Cycle {
+                        span: [first + (number - 1) * length, first + number * length],
+                    }),
+                );
             }
         }
         cycles
@@ -133,8 +135,7 @@ fn twists(results: &Results) -> bool {
         ends.1 - ends.0
     };
     let work = |force: &str, motion: &str| range(force) * range(motion);
-    let sideways =
-        work("tangential_force_x", "shift_x").max(work("tangential_force_y", "shift_y"));
+    let sideways = work("tangential_force_x", "shift_x").max(work("tangential_force_y", "shift_y"));
     work("twist_moment", "twist") > sideways
 }
 

@@ -7,6 +7,7 @@ mod bench;
 mod broken_off;
 mod extremes;
 mod hostile;
+mod misleading;
 mod refused;
 mod shown;
 mod solved;

@@ -128,7 +128,9 @@ fn young(
                 LawFile::Linear => YoungGradient::Linear { top, bottom },
             })
         }
-        (None, None, Some(table)) => Some(YoungGradient::Table(table.get_ref().iter().map(|row| row.0).collect())),
+        (None, None, Some(table)) => {
+            Some(YoungGradient::Table(table.get_ref().iter().map(|row| row.0).collect()))
+        }
         (Some(young), None, None) => judge.refuse(
             young.span(),
             format!("{place}.gradient: young at both faces, but no law between them"),

@@ -48,7 +48,9 @@ pub fn reaches_beyond(case: &Case, size: [f64; 2]) -> bool {
     let wider = size.map(|side| 1.5 * side);
     match contact_extent(case, wider) {
         Extent::Beyond => true,
-        Extent::Inside(widths, _) => (0..2).any(|axis| widths[axis] - wider[axis] / COARSE as f64 > size[axis]),
+        Extent::Inside(widths, _) => {
+            (0..2).any(|axis| widths[axis] - wider[axis] / COARSE as f64 > size[axis])
+        }
         Extent::Nothing | Extent::Unknown => false,
     }
 }
@@ -60,7 +62,9 @@ fn contact_extent(case: &Case, size: [f64; 2]) -> Extent {
         match extent_under(case, size, normal) {
             Extent::Inside([x, y], approach) => {
                 widest = match widest {
-                    Extent::Inside([u, v], other) => Extent::Inside([x.max(u), y.max(v)], approach.max(other)),
+                    Extent::Inside([u, v], other) => {
+                        Extent::Inside([x.max(u), y.max(v)], approach.max(other))
+                    }
                     _ => Extent::Inside([x, y], approach),
                 };
             }
@@ -147,7 +151,11 @@ fn extent_under(case: &Case, size: [f64; 2], normal: Control) -> Extent {
             pressure.axis_iter(ndarray::Axis(axis)).filter(|line| line.iter().any(|p| *p > 0.0)).count();
         touched as f64 * spacing[axis]
     };
-    if solved.outcome.contact_cells == 0 { Extent::Nothing } else { Extent::Inside([width(0), width(1)], solved.state.approach) }
+    if solved.outcome.contact_cells == 0 {
+        Extent::Nothing
+    } else {
+        Extent::Inside([width(0), width(1)], solved.state.approach)
+    }
 }
 
 /// Order of the contact's half-widths along x and y [length], with the stiffest material of each body. Each shape of a sum opens

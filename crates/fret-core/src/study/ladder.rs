@@ -3,8 +3,8 @@
 use serde::Serialize;
 
 use super::variation::{Variation, fewest, rows};
-use crate::warning::CELLS_IN_RADIUS;
 use crate::plan::{Coupling, Plan};
+use crate::warning::CELLS_IN_RADIUS;
 
 /// Fewest cells a side of a rung that nobody asked for.
 const FEWEST_CELLS: usize = 8;

@@ -32,9 +32,8 @@ pub fn at_rims(values: &[f64], pressure: &[f64]) -> Vec<AtRim> {
             continue;
         }
         for outwards in [-1_isize, 1] {
-            let at = |distance: isize| {
-                cell.checked_add_signed(outwards * distance).filter(|&place| place < n)
-            };
+            let at =
+                |distance: isize| cell.checked_add_signed(outwards * distance).filter(|&place| place < n);
             let all = |range: std::ops::RangeInclusive<isize>, loaded: bool| {
                 range.into_iter().all(|k| at(k).is_some_and(|place| (pressure[place] > 0.0) == loaded))
             };
@@ -90,8 +89,10 @@ mod tests {
     fn a_cusp_is_met_wherever_the_rim_falls_between_the_cells() {
         for rim in [0.02_f64, 0.3, 0.5, 0.65, 0.8, 0.95] {
             let radius = 20.0 + rim;
-            let pressure: Vec<f64> = (0..40).map(|i| (radius.powi(2) - f64::from(i).powi(2)).max(0.0).sqrt()).collect();
-            let values: Vec<f64> = (0..40).map(|i| 1.0 - 0.1 * (f64::from(i) - radius + OUTWARDS).abs().sqrt()).collect();
+            let pressure: Vec<f64> =
+                (0..40).map(|i| (radius.powi(2) - f64::from(i).powi(2)).max(0.0).sqrt()).collect();
+            let values: Vec<f64> =
+                (0..40).map(|i| 1.0 - 0.1 * (f64::from(i) - radius + OUTWARDS).abs().sqrt()).collect();
             let found = at_rims(&values, &pressure);
             assert_eq!(found.len(), 1);
             assert_eq!(found[0].cell, 20);

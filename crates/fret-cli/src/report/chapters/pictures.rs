@@ -74,7 +74,11 @@ pub fn fretting_loop(scene: &Scene<'_>) -> String {
     }
     let table = &scene.results.table;
     let (all, axes, words) = if scene.twists {
-        (pairs(table.column("twist"), table.column("twist_moment")), ["twist", "twist moment"], "Moment over twist.")
+        (
+            pairs(table.column("twist"), table.column("twist_moment")),
+            ["twist", "twist moment"],
+            "Moment over twist.",
+        )
     } else {
         let words = "Tangential force over shift, both along the push.";
         (pairs(&scene.shift, &scene.tangential), ["shift", "tangential force"], words)
