@@ -113,3 +113,21 @@ fn a_very_thin_or_very_thick_coating_is_no_coating() {
     let thick = coated(1e6).approach / bare(2.0).approach - 1.0;
     assert!(thick.abs() < 1e-5, "{thick}");
 }
+
+/// A film so thin that it answers like a foundation of springs: pressure falls linearly to the rim at `a^2 = 2 R d`. A film of 0.003 a
+/// moves that rim by about as much, which is a part of a cell.
+#[test]
+fn the_area_of_a_foundation_like_contact_is_read_between_the_cells() {
+    for cells in [48, 64, 96, 192] {
+        let text = format!(
+            "[grid]\ncells = [{cells}, {cells}]\nsize = [2.3, 2.3]\n[upper]\nrigid = true\n[lower]\nbase = \"rigid\"\n\
+             coatings = [{{ thickness = 0.003, young = 1.0, poisson = 0.3 }}]\n[profile.sphere]\nradius = 100.0\n\
+             [[load]]\napproach = 0.005\nincrements = 1\n"
+        );
+        let step = &solved(&text).steps[0];
+        let off = ((step.contact_area / std::f64::consts::PI).sqrt() - 1.0) * f64::from(cells) / 2.3;
+        println!("{cells} cells: radius off by {off:.3} cells");
+        // With the root of a half-space in its place: -0.20 to -0.23 cells.
+        assert!(off.abs() < 0.06, "{cells} cells: {off}");
+    }
+}

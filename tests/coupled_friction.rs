@@ -256,3 +256,25 @@ fn together_and_in_turn_find_the_same_contact() {
         assert!(work[0] < work[1], "together {} applications, in turn {}", work[0], work[1]);
     }
 }
+
+#[test]
+fn the_energy_of_pressing_is_of_second_order() {
+    let friction = 0.2;
+    let sphere = Sphere { cells: 96, size: 2.2, friction, ..Sphere::default() };
+    // An axisymmetric solution by rings of uniform traction, refined to its limit: 3.027e-14 for E = R = 1 and W = 1e-6, of which
+    // the dissipated energy is proportional to W^(5/3), E^(-2/3) and R^(-1/3).
+    let rings = 3.027e-14 * (sphere.force() / 1e-6).powf(5.0 / 3.0) * 100.0_f64.powf(-1.0 / 3.0);
+    let energy = |increments: usize| {
+        let history = solved(&sphere.pressed(1.0, increments, "cubic"));
+        history.steps.last().unwrap().dissipated_energy / rings - 1.0
+    };
+    let errors = [10, 20, 40, 80, 160].map(energy);
+    println!("energy of pressing over 10, 20, 40, 80, 160 increments: {errors:.4?}");
+    // With the bound at the end of the increments: +145, +60, +26, +12, +6 %. What is left at 160 is the error of the cells.
+    let last = errors[4];
+    assert!(errors[0] < 0.46 && errors[2] < 0.04 && last.abs() < 0.02, "{errors:?}");
+    for pair in errors[..3].windows(2) {
+        let order = ((pair[0] - last) / (pair[1] - last)).log2();
+        assert!(order > 1.6, "order {order}: {errors:?}");
+    }
+}

@@ -180,3 +180,48 @@ fn bars_scale_with_length_and_modulus() {
         assert!(a > 0.0 && (a / b - 1.0).abs() < 1e-6, "{}: {a} {b}", quantity.name());
     }
 }
+
+/// A sphere whose Hertz contact has a radius of so many cells of 48.
+fn of_cells_in_radius(cells: f64) -> Plan {
+    planned(&Sphere { cells: 48, size: 48.0 / cells, ..Sphere::default() }.pressed(1.0, 1, "linear"))
+}
+
+#[test]
+fn bars_hold_from_six_cells_in_the_radius_on_and_are_refused_below() {
+    let sphere = Sphere::default();
+    let exact = [
+        (Quantity::MaxPressure, sphere.peak_pressure()),
+        (Quantity::Approach, sphere.approach()),
+        (Quantity::ContactArea, PI),
+    ];
+    for radius in [0.2, 0.5, 0.8, 1.0, 1.3, 2.2, 3.0, 4.0, 4.5, 5.0] {
+        let error = companion(&of_cells_in_radius(radius)).unwrap_err().to_string();
+        assert!(
+            error.contains("cells in the contact radius") && error.contains("at least 6"),
+            "{radius}: {error}"
+        );
+    }
+    // Where the edge falls between the cells decides the error: so many radii.
+    let close = (1..40).map(|tenth| 6.0 + 0.1 * f64::from(tenth));
+    let mut worst = [0.0_f64; 3];
+    for radius in close.chain([10.0, 11.0, 12.0, 13.0, 14.0, 16.0, 18.0]) {
+        let all = bars(&of_cells_in_radius(radius));
+        for (worst, (quantity, exact)) in worst.iter_mut().zip(exact) {
+            let said = all[0].of(quantity);
+            let ratio = (said.value[0] - exact).abs() / said.bar.unwrap();
+            assert!(ratio <= 1.0, "{radius:.1} cells, {}: {ratio:.2} bars off", quantity.name());
+            *worst = worst.max(ratio);
+        }
+    }
+    println!("largest error over bar of 46 radii from 6.1 to 18 cells: {worst:.2?}");
+}
+
+/// Where the plan cannot know the contact the run's own end decides: a rough contact of a few cells gets no bars.
+#[test]
+fn a_contact_of_few_cells_gets_no_bars_after_the_run_either() {
+    let plan = of_cells_in_radius(4.0);
+    let blind = Plan { expected: None, ..plan };
+    let fine = climbed(&blind, &mut Silent).unwrap();
+    let coarse = climbed(&companion(&blind).unwrap(), &mut Silent).unwrap();
+    assert!(error_bars(&blind, &fine.ends, &coarse.ends).is_empty());
+}

@@ -21,6 +21,7 @@ mod frictional_counts;
 mod invariants;
 mod leaving_out;
 mod loadings;
+mod misleading;
 mod mutilated_cases;
 mod normal_counts;
 mod periodic;

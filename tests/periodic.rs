@@ -110,3 +110,66 @@ fn friction_in_full_contact_sticks_until_mu_p_is_reached() {
     let worst = shear.iter().map(|q| (q - 0.2 * mean).abs()).fold(0.0, f64::max);
     assert!(worst < 1e-8 * mean, "{:e}", worst / mean);
 }
+
+/// A flat film on a rigid base under a rigid wave so shallow that everything touches.
+fn film(load: &str) -> String {
+    format!(
+        "[grid]\ncells = [16, 16]\nsize = [1.0, 1.0]\nperiodic = true\n[upper]\nrigid = true\n[lower]\nbase = \"rigid\"\n\
+         coatings = [{{ thickness = 0.06, young = 1.0, poisson = 0.3 }}, {{ thickness = 0.04, young = 3.0, poisson = 0.4 }}]\n\
+         [profile.wave]\namplitude = 1e-9\nwavelength_x = 1.0\nwavelength_y = 1.0\n[friction]\ncoefficient = 0.5\n{load}"
+    )
+}
+
+#[test]
+fn a_film_on_a_rigid_base_gives_way_to_uniform_tractions() {
+    // One-dimensional compression and simple shear, layer by layer.
+    let layers: [[f64; 3]; 2] = [[0.06, 1.0, 0.3], [0.04, 3.0, 0.4]];
+    let pressed: f64 =
+        layers.iter().map(|[h, e, nu]| h * (1.0 + nu) * (1.0 - 2.0 * nu) / (e * (1.0 - nu))).sum();
+    let sheared: f64 = layers.iter().map(|[h, e, nu]| 2.0 * h * (1.0 + nu) / e).sum();
+    let history = solved(&film(
+        "[[load]]\nnormal_force = 0.01\nincrements = 1\n[[load]]\nnormal_force = 0.03\nincrements = 1\n\
+         [[load]]\ntangential_force = [0.006, 0.003]\nincrements = 1\n",
+    ));
+    let [first, second, third] = [0, 1, 2].map(|step| &history.steps[step]);
+    assert_eq!(second.contact_cells, 256);
+    // The increments' residual of 1e-8, and what the wave's own pressure changes the shear by.
+    let slope = (second.approach - first.approach) / 0.02;
+    assert!((slope / pressed - 1.0).abs() < 1e-6, "{slope} {pressed}");
+    for axis in 0..2 {
+        let slope = third.shift[axis] / third.tangential_force[axis];
+        assert!((slope / sheared - 1.0).abs() < 1e-6, "{slope} {sheared}");
+    }
+    // The same asked for by motions.
+    let (approach, shift) = (second.approach, third.shift);
+    let moved = solved(&film(&format!(
+        "[[load]]\napproach = {approach:e}\nincrements = 2\n[[load]]\nshift = [{:e}, {:e}]\nincrements = 1\n",
+        shift[0], shift[1]
+    )));
+    let end = moved.steps.last().unwrap();
+    assert!((end.normal_force / 0.03 - 1.0).abs() < 1e-6, "{}", end.normal_force);
+    assert!((end.tangential_force[0] / 0.006 - 1.0).abs() < 1e-6, "{}", end.tangential_force[0]);
+    assert!((end.tangential_force[1] / 0.003 - 1.0).abs() < 1e-6, "{}", end.tangential_force[1]);
+}
+
+#[test]
+fn a_lonely_sphere_on_a_film_moves_as_far_whether_the_scene_repeats_or_not() {
+    // Films of a tenth and of half a contact radius, a period of eight radii: neighbours do not feel each other.
+    for (thickness, off) in [(0.1, 2e-3), (0.5, 4e-3)] {
+        let text = |grid: &str| {
+            format!(
+                "[grid]\n{grid}\n[upper]\nrigid = true\n[lower]\nbase = \"rigid\"\n\
+                 coatings = [{{ thickness = {thickness}, young = 1.0, poisson = 0.3 }}]\n[profile.sphere]\nradius = 100.0\n\
+                 [friction]\ncoefficient = 0.3\n[[load]]\nnormal_force = 0.02\nincrements = 1\n\
+                 [[load]]\ntangential_force = [2e-3, 0.0]\nincrements = 2\n"
+            )
+        };
+        let alone = solved(&text("cells = [64, 64]\nsize = [4.0, 4.0]"));
+        let repeated = solved(&text("cells = [128, 128]\nsize = [8.0, 8.0]\nperiodic = true"));
+        let [a, b] = [&alone, &repeated].map(|history| history.steps.last().unwrap());
+        let (approach, shift) = (b.approach / a.approach - 1.0, b.shift[0] / a.shift[0] - 1.0);
+        println!("film {thickness}: approach {approach:.1e}, shift {shift:.1e} off free space");
+        // Periodic cells answer in waves, free ones at their centres: what that differs by falls with the cell squared.
+        assert!(approach.abs() < off && shift.abs() < off, "{thickness}: {approach} {shift}");
+    }
+}

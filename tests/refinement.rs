@@ -73,9 +73,10 @@ fn increments_change_nothing_where_the_way_does_not_matter() {
     }
 }
 
-/// Where each traction acts on the other, steps of the load are implicit steps on the way: first order in what friction took.
+/// Where each traction acts on the other, steps of the load are implicit steps on the way: first order in the tractions. What friction
+/// took counts the mean of both ends of each step, which takes the larger part of that error off.
 #[test]
-fn increments_show_first_order_where_the_way_matters() {
+fn increments_show_more_than_first_order_in_the_energy_where_the_way_matters() {
     let sphere = Sphere { cells: 24, poisson: 0.0, friction: 0.3, ..Sphere::default() };
     let pressed = sphere.pressed(1.0, 1, "linear");
     let plan = planned(&sphere.pulled(&pressed, 0.5, 8, Some(1)));
@@ -85,8 +86,9 @@ fn increments_show_first_order_where_the_way_matters() {
         errors.between[Quantity::DissipatedEnergy as usize]
     });
     println!("losses {losses:.2}");
-    // Measured against the ladder's own limit, which flatters the finest rung a little.
-    assert!((0.8..1.4).contains(&losses), "{losses}");
+    // Between one and two, measured against the ladder's own limit, which flatters the finest rung a little. With the bound at the
+    // end of the steps: below 1.4.
+    assert!((1.4..2.2).contains(&losses), "{losses}");
 }
 
 /// Which closed form speaks, and where none does.

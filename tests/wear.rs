@@ -146,3 +146,24 @@ fn a_coating_is_worn_through_once_and_there() {
     assert_eq!(depth[through.cell], last.max_worn_depth);
     assert_eq!(through.place[0], history.grid.centre(0, through.cell[0]));
 }
+
+#[test]
+fn totals_count_every_cycle_that_a_computed_one_stands_for() {
+    let sphere = sphere(24);
+    let history = fretted(&sphere, amplitude(&sphere, 0.5), 40, "coefficient = 5.0\nevery = 8");
+    let (cycles, last) = (&history.cycles, history.steps.last().unwrap());
+    let stood_for: usize = cycles.iter().map(|cycle| cycle.stands_for).sum();
+    assert_eq!((stood_for, cycles.last().unwrap().last_cycle), (40, 40));
+    assert!(cycles.len() < 40);
+    let sum: f64 = cycles.iter().map(|cycle| cycle.dissipated_energy * cycle.stands_for as f64).sum();
+    // Pressing at one increment of like bodies dissipates nothing; the rest are sums of the same numbers in another order.
+    assert!((last.dissipated_energy / sum - 1.0).abs() < 1e-12, "{} {sum}", last.dissipated_energy);
+    assert!((last.worn_volume / (5.0 * last.dissipated_energy) - 1.0).abs() < 1e-12, "{}", last.worn_volume);
+    for cycle in cycles {
+        let step = &history.steps[cycle.last_increment];
+        assert_eq!(
+            [step.dissipated_energy, step.worn_volume, step.max_worn_depth],
+            [cycle.total_dissipated_energy, cycle.worn_volume, cycle.max_worn_depth]
+        );
+    }
+}

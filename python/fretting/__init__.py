@@ -24,6 +24,7 @@ from fretting._points import Axis
 from fretting.errors import (
     CaseError,
     FrettingError,
+    FrettingWarning,
     MissingFileError,
     Mistake,
     OutOfMemoryError,
@@ -44,6 +45,7 @@ __all__ = [
     "CaseError",
     "Convolution",
     "FrettingError",
+    "FrettingWarning",
     "History",
     "MissingFileError",
     "Mistake",

@@ -13,7 +13,12 @@ _MEANING: dict[str, tuple[type, str]] = {
     "first_increment": (int, "first increment of the cycle"),
     "last_increment": (int, "last increment of the cycle"),
     "stands_for": (int, "cycles it stands for: more than 1 where wear is extrapolated"),
-    "dissipated_energy": (float, "work of friction in the cycle [force x length]"),
+    "last_cycle": (int, "number in its stage of the last cycle it stands for, from 1"),
+    "dissipated_energy": (float, "work of friction in this one computed cycle [force x length]"),
+    "total_dissipated_energy": (
+        float,
+        "work of friction since the start of the history, over all cycles that computed ones stand for [force x length]",
+    ),
     "drive": (str, "tangential, or torsional"),
     "direction": (float, "direction of the tangential force's main axis, from x [rad]"),
     "force_amplitude": (float, "half the range of the force along it, or of the moment"),
@@ -25,8 +30,8 @@ _MEANING: dict[str, tuple[type, str]] = {
     "regime": (str, "full_stick, partial_slip, mixed or gross_slip"),
     "closure": (float, "how far the end of the cycle is from its start, relative [-]"),
     "steady": (bool, "whether the stage ended here because the cycle closed"),
-    "worn_volume": (float, "volume worn off since the start [length^3]"),
-    "max_worn_depth": (float, "largest worn depth [length]"),
+    "worn_volume": (float, "volume worn off since the start of the history [length^3]"),
+    "max_worn_depth": (float, "largest worn depth after them [length]"),
 }
 
 MEANING = {name: meaning for name, (_, meaning) in _MEANING.items()}

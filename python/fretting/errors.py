@@ -1,7 +1,8 @@
 """Exceptions of the library."""
 
-from collections.abc import Sequence
-from typing import TYPE_CHECKING, NamedTuple
+import warnings
+from collections.abc import Iterable, Sequence
+from typing import TYPE_CHECKING, NamedTuple, TypedDict
 
 if TYPE_CHECKING:
     from fretting.history import History
@@ -69,6 +70,12 @@ class MissingFileError(UnreadableError, FileNotFoundError):
     __module__ = "fretting"
 
 
+class FrettingWarning(UserWarning):
+    """A fact about a run that may mislead: see ``History.warnings``. ``warnings.simplefilter`` silences or raises it."""
+
+    __module__ = "fretting"
+
+
 class RunError(FrettingError, RuntimeError):
     """A run ended without its answer; there is no silent wrong one.
 
@@ -123,3 +130,26 @@ class RunInterrupted(KeyboardInterrupt):
     def __reduce__(self) -> tuple[type["RunInterrupted"], tuple[str, "History"]]:
         """Pickled with its history."""
         return type(self), (str(self), self.history)
+
+
+class Fact(TypedDict):
+    """Something about a case or its answer that may mislead."""
+
+    name: str
+    """Stable name, such as ``"few_cells"``."""
+    value: float
+    """The number."""
+    bound: float
+    """The bound it has crossed."""
+    stage: str | None
+    """Name of the stage it was met in; None where it follows from the case alone."""
+    message: str
+    """In words."""
+    help: str
+    """A way out."""
+
+
+def warn(facts: Iterable[Fact], stacklevel: int) -> None:
+    """Pass facts on to Python's own warnings, as :class:`FrettingWarning`."""
+    for fact in facts:
+        warnings.warn(f"{fact['message']}; {fact['help']}", FrettingWarning, stacklevel=stacklevel + 1)

@@ -12,6 +12,7 @@ from fretting import _core, _dataset, plot
 from fretting._arrays import Reals
 from fretting._meaning import FIELD_NAMES, FieldName
 from fretting.cycles import Columns, columns
+from fretting.errors import Fact
 
 if TYPE_CHECKING:
     import xarray
@@ -64,8 +65,8 @@ class History:
     steps : dict of str to ndarray
         One entry per increment: ``normal_force``, ``approach``, ``tangential_force_x``, ``tangential_force_y``,
         ``shift_x``, ``shift_y``, ``twist_moment``, ``twist``, ``max_pressure``, ``max_shear``, ``contact_area``,
-        ``stick_area``, ``dissipated_energy`` (cumulative), ``residual``, ``wall_s`` (float); ``increment``, ``stage``,
-        ``contact_cells``, ``stick_cells``, ``convolutions``, ``preconditioner_passes``, ``outer_iterations``, ``parts``
+        ``stick_area``, ``dissipated_energy``, ``worn_volume`` (both since the start, over all cycles that computed ones
+        stand for), ``max_worn_depth``, ``residual``, ``wall_s`` (float); ``increment``, ``stage``, ``contact_cells``, ``stick_cells``, ``convolutions``, ``preconditioner_passes``, ``outer_iterations``, ``parts``
         (int); ``full_grid_convolutions`` (float); ``regime`` (str).
     x, y : ndarray
         Coordinates of the cell centres [length], shapes (nx,) and (ny,).
@@ -73,9 +74,10 @@ class History:
         Names of the stages.
     cycles : dict of str to ndarray
         One entry per cycle of the stages that have cycles; ``stage``, ``cycle``, ``first_increment``,
-        ``last_increment``, ``stands_for`` (int); ``dissipated_energy``, ``direction``, ``force_amplitude``,
+        ``last_increment``, ``stands_for``, ``last_cycle`` (int); ``dissipated_energy`` (of this one cycle),
+        ``total_dissipated_energy`` (since the start), ``direction``, ``force_amplitude``,
         ``displacement_amplitude``, ``opening``, ``energy_ratio``, ``sliding_ratio``, ``stiffness``, ``closure``,
-        ``worn_volume``, ``max_worn_depth`` (float, NaN where a cycle has none); ``steady`` (bool); ``drive``,
+        ``worn_volume`` (since the start), ``max_worn_depth`` (float, NaN where a cycle has none); ``steady`` (bool); ``drive``,
         ``regime`` (str).
     running_conditions : list of str or None
         ``"partial"``, ``"mixed"`` or ``"gross"`` for each stage; None for one without cycles.
@@ -86,6 +88,9 @@ class History:
         to the edge of its grid, or slides away), or ``"running"`` (still, or killed).
     message : str or None
         Why it ends early.
+    warnings : list of dict
+        What about these numbers may mislead: ``name`` (stable, such as ``"few_cells"``), ``value``, ``bound``, ``stage``,
+        ``message``, ``help``. Empty where nothing does. :func:`run` also passes them to Python's ``warnings``.
 
     Notes
     -----
@@ -101,6 +106,7 @@ class History:
     worn_through: dict[str, Any] | None
     status: str
     message: str | None
+    warnings: list[Fact]
 
     _folder: Path | None
     _kept: _Kept
@@ -124,6 +130,7 @@ class History:
         self.status = "solved"
         self.message = None
         self._folder = None
+        self.warnings = json.loads(answer.warnings())
 
     def __getstate__(self) -> dict[str, Any]:
         """Everything as plain arrays."""
@@ -229,9 +236,9 @@ class History:
         return _dataset.of_history(self, every=steps == "all")
 
     def plot_loop(
-        self, along: Literal["x", "y"] = "x", stage: int | str | None = None, axes: "Axes | None" = None
+        self, along: plot.Motion | None = None, stage: int | str | None = None, axes: "Axes | None" = None
     ) -> "Axes":
-        """Draw tangential force over shift: see :func:`fretting.plot.loop`."""
+        """Draw tangential force over shift, or moment over twist: see :func:`fretting.plot.loop`."""
         return plot.loop(self, along, stage, axes)
 
     def plot_section(
@@ -254,7 +261,7 @@ class History:
         return plot.zones(self, step, axes)
 
     def animate_loop(
-        self, field: FieldName = "zone", along: Literal["x", "y"] = "x", stage: int | str | None = None
+        self, field: FieldName = "zone", along: plot.Motion | None = None, stage: int | str | None = None
     ) -> "FuncAnimation":
         """Animate the loop beside a field: see :func:`fretting.plot.animation`."""
         return plot.animation(self, field, along, stage)
@@ -274,12 +281,18 @@ class History:
             ("max pressure", f"{last['max_pressure']:.6g}"),
             ("contact area", f"{last['contact_area']:.6g}"),
             ("dissipated energy", f"{last['dissipated_energy']:.6g}"),
+            *(
+                [("worn volume", f"{last['worn_volume']:.6g}"), ("largest worn depth", f"{last['max_worn_depth']:.6g}")]
+                if last["worn_volume"] > 0.0
+                else []
+            ),
             ("worst residual", f"{self.steps['residual'].max():.1e}"),
         ]
         done = self.cycles
         if len(done["cycle"]):
             ratio, regime = done["energy_ratio"][-1], done["regime"][-1]
-            facts.append((f"last of {len(done['cycle'])} cycles", f"{regime.replace('_', ' ')}, ratio {ratio:.3g}"))
+            facts.append((f"last of {done['last_cycle'][-1]} cycles", f"{regime.replace('_', ' ')}, ratio {ratio:.3g}"))
+        facts += [("warning", f"{fact['message']}; {fact['help']}") for fact in self.warnings]
         kept = self.kept_steps
         fields = ", ".join(self._kept.kept_fields(kept[-1])) if kept else "none"
         return [*facts, (f"fields of {len(kept)} increments", fields)]

@@ -77,6 +77,7 @@ def load(folder: str | os.PathLike[str]) -> History:
     history.cycles = columns([cycle for cycle in records if cycle["last_increment"] < done])
     history.running_conditions = [_running_condition(history.cycles, stage) for stage in range(len(stages))]
     history.worn_through = record.get("worn_through")
+    history.warnings = record.get("warnings", [])
     history._bodies = json.dumps(plan["case"]["bodies"])
     dx, dy = plan["grid"]["spacing"]
     history._spacing = (dx, dy)

@@ -5,6 +5,7 @@ from collections.abc import Iterator, Mapping
 from typing import Any, TypedDict
 
 from fretting import _case, _core, _start, plot
+from fretting.errors import Fact
 
 
 class LeftOut(TypedDict):
@@ -22,8 +23,8 @@ class Plan(Mapping[str, Any]):
     """A case made numerical: a read-only mapping.
 
     Keys are ``case``, ``grid`` (``cells``, ``spacing``), ``coupling`` (``"frictionless"``, ``"uncoupled"`` or
-    ``"coupled"``), ``increments``, ``memory_bytes`` (without the kept fields), ``kept_bytes`` (those), ``left_out``; and what the run
-    is expected to take: ``increments_expected``, ``convolutions_expected``, both None where ``memory_lacking`` says that this
+    ``"coupled"``), ``increments``, ``memory_bytes`` (without the kept fields), ``kept_bytes`` (those), ``left_out``, ``expected``
+    (``half_widths`` and ``approach`` of the contact under the heaviest load, or None), ``warnings``; and what the run is expected to take: ``increments_expected``, ``convolutions_expected``, both None where ``memory_lacking`` says that this
     machine has not the memory for it.
 
     Attributes
@@ -43,6 +44,11 @@ class Plan(Mapping[str, Any]):
     def left_out(self) -> list[LeftOut]:
         """What is not computed, why, and what that saves."""
         return list(self._entries["left_out"])
+
+    @property
+    def warnings(self) -> list[Fact]:
+        """What about the case may mislead, as far as the case alone tells: see ``History.warnings``."""
+        return list(self._entries["warnings"])
 
     def __getitem__(self, key: str) -> Any:  # noqa: ANN401 - entries are of many kinds
         """Entry of that name."""
@@ -66,6 +72,7 @@ class Plan(Mapping[str, Any]):
             f"  {self._expected()}",
         ]
         lines += [f"  left out: {entry['what']} ({entry['why']})" for entry in self.left_out]
+        lines += [f"  warning: {fact['message']}; {fact['help']}" for fact in self.warnings]
         return "\n".join(lines)
 
     def _expected(self) -> str:
@@ -87,6 +94,7 @@ class Plan(Mapping[str, Any]):
             ("expected", self._expected()),
         ]
         facts += [(f"left out: {entry['what']}", entry["why"]) for entry in self.left_out]
+        facts += [("warning", f"{fact['message']}; {fact['help']}") for fact in self.warnings]
         return plot.html_table("fretting.Plan", facts)
 
 

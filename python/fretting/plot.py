@@ -25,6 +25,7 @@ if TYPE_CHECKING:
 __all__ = ["animation", "field", "loop", "regime_map", "section", "zones"]
 
 Direction = Literal["x", "y"]
+Motion = Literal["x", "y", "twist"]
 
 ZONES = tuple(zip(ZONE_NAMES, ("#f2f2f2", "#2a6f97", "#f4a259"), strict=True))
 """Names and colours of the zones 0, 1, 2."""
@@ -35,16 +36,16 @@ REGIMES = (
 """Names and colours of the regimes, from less to more slip."""
 
 def loop(
-    history: "History", along: Direction = "x", stage: int | str | None = None, axes: "Axes | None" = None
+    history: "History", along: Motion | None = None, stage: int | str | None = None, axes: "Axes | None" = None
 ) -> "Axes":
-    """Draw tangential force over shift.
+    """Draw tangential force over shift, or moment over twist.
 
     Parameters
     ----------
     history : History
         A history.
-    along : {"x", "y"}
-        Which component.
+    along : {"x", "y", "twist"}, optional
+        Which motion. Default: the one whose loop is the largest, range of force times range of motion.
     stage : int or str, optional
         Number or name of a stage. Without: from the first stage in cycles on, or everything when there is none.
     axes : matplotlib Axes, optional
@@ -54,13 +55,13 @@ def loop(
     -------
     matplotlib Axes
     """
-    _component(along)
+    motion, force = _loop_columns(history, along, stage)
     rows = _loop_rows(history, stage)
     axes = _own_axes(axes)
-    axes.plot(history.steps[f"shift_{along}"][rows], history.steps[f"tangential_force_{along}"][rows], lw=1.4)
+    axes.plot(history.steps[motion][rows], history.steps[force][rows], lw=1.4)
     axes.axhline(0.0, color="0.8", lw=0.8, zorder=0)
     axes.axvline(0.0, color="0.8", lw=0.8, zorder=0)
-    axes.set(xlabel=f"shift along {along} [length]", ylabel=f"tangential force along {along} [force]")
+    axes.set(xlabel=_LOOP_LABELS[motion], ylabel=_LOOP_LABELS[force])
     return axes
 
 
@@ -163,7 +164,7 @@ def zones(history: "History", step: int = -1, axes: "Axes | None" = None) -> "Ax
 def animation(
     history: "History",
     name: str = "zone",
-    along: Direction = "x",
+    along: Motion | None = None,
     stage: int | str | None = None,
     interval: int = 80,
 ) -> "FuncAnimation":
@@ -175,7 +176,7 @@ def animation(
         A history; ``[output] every`` of the case decides how many pictures there are.
     name : str
         Name of the field.
-    along : {"x", "y"}
+    along : {"x", "y", "twist"}, optional
         Component of the loop.
     stage : int or str, optional
         As for :func:`loop`.
@@ -195,6 +196,7 @@ def animation(
     if not steps:
         raise ValueError("no fields of these increments are kept ([output] every = ... keeps more)")
     figure, (left, right) = plt.subplots(1, 2, figsize=(8.4, 3.8), layout="constrained")
+    motion, force = _loop_columns(history, along, stage)
     loop(history, along, stage, left)
     (dot,) = left.plot([], [], "o", color="#c1121f")
     frames = [history.field(name, step) for step in steps]  # type: ignore[arg-type]
@@ -207,7 +209,7 @@ def animation(
 
     def draw(number: int) -> list[Any]:
         step = steps[number]
-        dot.set_data([history.steps[f"shift_{along}"][step]], [history.steps[f"tangential_force_{along}"][step]])
+        dot.set_data([history.steps[motion][step]], [history.steps[force][step]])
         image.set_data(frames[number].T)
         right.set_title(f"increment {step}", fontsize="medium")
         return [dot, image]
@@ -276,6 +278,38 @@ def _own_axes(axes: "Axes | None") -> Any:  # noqa: ANN401 - matplotlib's own st
 def _component(along: str) -> None:
     if along not in ("x", "y"):
         raise ValueError(f"along = {along!r}: must be 'x' or 'y'")
+
+
+_LOOPS = {
+    "x": ("shift_x", "tangential_force_x"),
+    "y": ("shift_y", "tangential_force_y"),
+    "twist": ("twist", "twist_moment"),
+}
+"""Motions and what drives them."""
+
+_LOOP_LABELS = {
+    "shift_x": "shift along x [length]",
+    "shift_y": "shift along y [length]",
+    "twist": "twist [rad]",
+    "tangential_force_x": "tangential force along x [force]",
+    "tangential_force_y": "tangential force along y [force]",
+    "twist_moment": "twist moment [force x length]",
+}
+
+
+def _loop_columns(history: "History", along: str | None, stage: int | str | None) -> tuple[str, str]:
+    """Columns of a loop: motion and force."""
+    if along is not None:
+        if along not in _LOOPS:
+            raise ValueError(f"along = {along!r}: must be 'x', 'y' or 'twist'")
+        return _LOOPS[along]
+    rows = _loop_rows(history, stage)
+
+    def work(columns: tuple[str, str]) -> float:
+        motion, force = (history.steps[name][rows] for name in columns)
+        return float(np.ptp(motion) * np.ptp(force)) if len(rows) else 0.0
+
+    return max(_LOOPS.values(), key=work)
 
 
 def _loop_rows(history: "History", stage: int | str | None) -> npt.NDArray[np.int64]:

@@ -6,7 +6,7 @@ from typing import Any
 
 from fretting import _case, _core, _start
 from fretting._progress import ProgressLine
-from fretting.errors import RunError, RunInterrupted
+from fretting.errors import RunError, RunInterrupted, warn
 from fretting.history import History
 
 
@@ -56,6 +56,11 @@ def run(
     UnreadableError, ValueError
         When `start` does not hold the state.
 
+    Warns
+    -----
+    FrettingWarning
+        For every fact in ``History.warnings``: numbers that may mislead.
+
     Notes
     -----
     The interpreter is free for other threads meanwhile, and Ctrl-C ends the run.
@@ -82,10 +87,10 @@ def run(
     """
     question = _case.read(case, _start.read(start))
     if progress is False:
-        return ended(*_core.run(question, threads, None))
+        return ended(*_core.run(question, threads, None), stacklevel=3)
     if progress is True:
         with ProgressLine() as line:
-            return ended(*_core.run(question, threads, line))
+            return ended(*_core.run(question, threads, line), stacklevel=3)
     if not callable(progress):
         raise TypeError(f"progress: expected a bool or a callable, found {type(progress).__name__}")
     on_step = progress
@@ -93,12 +98,14 @@ def run(
     def pass_on(step: dict[str, Any], increments: int, passed: int) -> None:
         on_step({**step, "increments": increments, "passed": passed})
 
-    return ended(*_core.run(question, threads, pass_on))
+    return ended(*_core.run(question, threads, pass_on), stacklevel=3)
 
 
-def ended(answer: _core.History, error: BaseException | None) -> History:
-    """Return a history that is whole; raise what ended it early, with what there is of it."""
+def ended(answer: _core.History, error: BaseException | None, stacklevel: int = 2) -> History:
+    """Return a history that is whole; raise what ended it early, with what there is of it. What about it may mislead goes to
+    Python's warnings, `stacklevel` calls up."""
     history = History(answer)
+    warn(history.warnings, stacklevel=stacklevel)
     if error is None:
         return history
     history.status, history.message = "interrupted", str(error) or type(error).__name__

@@ -127,3 +127,17 @@ def test_without_matplotlib_the_error_says_what_to_install() -> None:
     )
     said = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, timeout=60, check=True)
     assert said.stdout == "pictures need matplotlib: pip install 'fretting[plot]'\n"
+
+
+def test_a_loop_of_torsion_is_moment_over_twist(fretting_case: dict[str, Any]) -> None:
+    fretting_case["grid"]["cells"] = [24, 24]
+    del fretting_case["load"][1]["tangential_force"]
+    fretting_case["load"][1] |= {"twist_moment": 5e-5, "increments": 8}
+    history = fretting.run(fretting_case)
+    axes = history.plot_loop()
+    twist, moment = axes.lines[0].get_data()
+    np.testing.assert_array_equal(twist, history.steps["twist"])
+    np.testing.assert_array_equal(moment, history.steps["twist_moment"])
+    assert axes.get_xlabel() == "twist [rad]"
+    np.testing.assert_array_equal(history.plot_loop(along="x").lines[0].get_xdata(), history.steps["shift_x"])
+    matplotlib.pyplot.close("all")

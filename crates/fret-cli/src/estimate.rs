@@ -6,7 +6,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use fret_core::plan::{Coupling, Plan};
 use fret_core::simulation::RunError;
-use fret_core::study::{Bar, Bars, Headline, Quantity, climbed, error_bars};
+use fret_core::study::{Bar, Bars, Headline, Quantity, climbed, error_bars, resolved};
 use serde_json::{Value, json};
 
 use crate::defect;
@@ -40,6 +40,8 @@ pub struct Estimate {
     increments: usize,
     /// Its time [s].
     wall_s: f64,
+    /// Stages at whose end the cells do not show the contact well enough, and why.
+    unresolved: Vec<(usize, String)>,
     /// Whether there is friction to speak of.
     rubs: bool,
 }
@@ -55,8 +57,17 @@ impl Estimate {
             Ok(Err(error)) => return Err(because(error.to_string())),
             Err(panic) => return Err(because(defect::words_of(panic.as_ref()))),
         };
+        let unresolved: Vec<(usize, String)> = headlines
+            .iter()
+            .filter_map(|end| resolved(end).err().map(|error| (end.stage, error.to_string())))
+            .collect();
+        let bars = error_bars(plan, headlines, &rung.ends);
+        if let (true, Some((_, why))) = (bars.is_empty(), unresolved.first()) {
+            return Err(NoBars::Because(why.clone()));
+        }
         Ok(Self {
-            bars: error_bars(plan, headlines, &rung.ends),
+            bars,
+            unresolved,
             cells: rung.variation.cells,
             increments: companion.increments,
             wall_s: rung.wall_s,
@@ -104,6 +115,9 @@ impl Estimate {
             counted(self.increments, "increment"),
             duration(self.wall_s)
         );
+        for (stage, why) in &self.unresolved {
+            let _ = write!(table, "\nno error bars at the end of {}: {why}", stage_name(*stage));
+        }
         table
     }
 

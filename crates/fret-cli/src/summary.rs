@@ -6,6 +6,7 @@ use std::path::Path;
 use fret_core::cycle::CycleRecord;
 use fret_core::history::StepRecord;
 use fret_core::plan::{Coupling, Plan};
+use fret_core::warning::Warning;
 use serde_json::{Value, json};
 
 use crate::estimate::Estimate;
@@ -29,6 +30,8 @@ pub struct Summary<'a> {
     pub plan: &'a Plan,
     /// What it came to.
     pub tally: &'a Tally,
+    /// What about its numbers may mislead.
+    pub warnings: &'a [Warning],
     /// Where the results are.
     pub folder: &'a Path,
     /// Time of the whole run [s].
@@ -54,6 +57,9 @@ impl Summary<'_> {
         row(&mut table, "at the end of", names.map(|name| shortened(name, COLUMN - 2)));
         for (name, reading) in self.readings() {
             row(&mut table, name, shown.iter().map(reading));
+        }
+        if self.plan.case.wear.is_some() {
+            row(&mut table, "cycles", shown.iter().map(|record| self.cycles_of(record.stage)));
         }
         if shown.len() < ends.len() {
             let _ = writeln!(table, "(the last {MOST_COLUMNS} of {} stages)", ends.len());
@@ -83,6 +89,9 @@ impl Summary<'_> {
             ("results", self.folder.display().to_string()),
         ] {
             let _ = writeln!(table, "{name:<NAMES$}{value}");
+        }
+        for warning in self.warnings {
+            let _ = writeln!(table, "{}", warning_line(warning));
         }
         table.truncate(table.trim_end().len());
         table
@@ -115,6 +124,10 @@ impl Summary<'_> {
                 ("energy dissipated so far", |record| figure(record.dissipated_energy)),
             ]);
         }
+        if self.plan.case.wear.is_some() {
+            readings.push(("worn volume so far", |record| figure(record.worn_volume)));
+            readings.push(("largest worn depth", |record| figure(record.max_worn_depth)));
+        }
         if self.plan.case.stages.iter().any(|stage| stage.twist.is_some()) {
             readings.push(("twist moment", |record| figure(record.twist_moment)));
             readings.push(("twist", |record| figure(record.twist)));
@@ -122,11 +135,26 @@ impl Summary<'_> {
         readings
     }
 
+    /// Cycles of a stage that are over, those that computed ones stand for among them.
+    fn cycles_of(&self, stage: usize) -> String {
+        let last = self.tally.cycles.iter().rfind(|cycle| cycle.stage == stage);
+        last.map_or("-".to_owned(), |cycle| match cycle.last_cycle {
+            all if all == cycle.cycle => all.to_string(),
+            all => format!("{all} ({} solved)", cycle.cycle),
+        })
+    }
+
     fn cycles(&self, table: &mut String) {
         let energies = &self.tally.cycles;
         let skipped = energies.len().saturating_sub(MOST_CYCLES);
         let mut line = |energy: &CycleRecord| {
-            let name = format!("energy dissipated in cycle {}", energy.cycle);
+            let name = match energy.stands_for {
+                1 => format!("energy dissipated in cycle {}", energy.last_cycle),
+                all => {
+                    let first = (energy.last_cycle + 1).saturating_sub(all);
+                    format!("in each of cycles {first} to {}", energy.last_cycle)
+                }
+            };
             let value = figure(energy.dissipated_energy);
             let _ = writeln!(table, "{name:<NAMES$}{value:>COLUMN$}  {}", self.stage_name(energy.stage));
         };
@@ -172,6 +200,7 @@ impl Summary<'_> {
             "stages": stages,
             "cycles": cycles,
             "worn_through": self.tally.worn_through,
+            "warnings": self.warnings,
             "increments": self.tally.solved,
             "increments_planned": self.plan.increments,
             "largest_residual": self.tally.largest_residual,
@@ -187,6 +216,11 @@ impl Summary<'_> {
     fn stage_name(&self, stage: usize) -> &str {
         self.tally.stages.get(stage).map_or("", |stage| stage.name.as_str())
     }
+}
+
+/// A warning in a line: words and a way out.
+pub fn warning_line(warning: &Warning) -> String {
+    format!("warning: {}; {}", warning.message, warning.help)
 }
 
 fn row(table: &mut String, name: &str, values: impl Iterator<Item = String>) {

@@ -4,6 +4,7 @@ use fret_core::cycle::CycleRecord;
 use fret_core::history::{StepRecord, Work};
 use fret_core::plan::{Advance, Plan};
 use fret_core::study::Headline;
+use fret_core::warning::Gauge;
 use fret_core::wear::WornThrough;
 use serde::{Deserialize, Serialize};
 
@@ -49,6 +50,8 @@ pub struct Tally {
     pub work: Work,
     /// Largest residual of all increments.
     pub largest_residual: f64,
+    /// What warnings are made of.
+    pub gauge: Gauge,
     /// Headline numbers of the same increments as `stage_ends`, where they were asked for.
     pub headlines: Vec<Headline>,
 }
@@ -65,6 +68,7 @@ impl Tally {
             worn_through: None,
             work: Work::default(),
             largest_residual: 0.0,
+            gauge: Gauge::default(),
             headlines: Vec::new(),
         }
     }
@@ -73,6 +77,7 @@ impl Tally {
     pub fn add(&mut self, record: &StepRecord) {
         self.solved += 1;
         self.advance.solved(record);
+        self.gauge.add(record);
         self.work += record.work;
         let residual = record.residual.largest();
         if residual > self.largest_residual || residual.is_nan() {

@@ -15,7 +15,7 @@ use crate::start::Start;
 use crate::wear::{Collected, WornThrough};
 
 /// Version of the bytes; another layout of what is stored gets another one.
-const FORMAT: u32 = 5;
+const FORMAT: u32 = 6;
 
 /// How far a run has come in its stages.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]

@@ -46,8 +46,12 @@ pub struct CycleRecord {
     pub last_increment: usize,
     /// Cycles it stands for: 1, or more where wear is extrapolated.
     pub stands_for: usize,
-    /// Work of friction in the computed cycle [force x length].
+    /// Number in its stage of the last cycle it stands for, from 1.
+    pub last_cycle: usize,
+    /// Work of friction in this one computed cycle [force x length].
     pub dissipated_energy: f64,
+    /// Work of friction since the start of the history, over all cycles that computed ones stand for [force x length].
+    pub total_dissipated_energy: f64,
     /// What drives it.
     pub drive: Drive,
     /// Direction of the tangential force's main axis, from x [rad], within a quarter turn.
@@ -72,9 +76,9 @@ pub struct CycleRecord {
     pub closure: f64,
     /// Whether the stage ends here because the closure is within its tolerance.
     pub steady: bool,
-    /// Volume worn off since the start [length^3].
+    /// Volume worn off since the start of the history, by all cycles that computed ones stand for [length^3].
     pub worn_volume: f64,
-    /// Largest worn depth [length].
+    /// Largest worn depth after them [length].
     pub max_worn_depth: f64,
 }
 

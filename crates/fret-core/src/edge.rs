@@ -1,12 +1,90 @@
 //! The edge of contact between the cells: area from the zero line of one level function.
-//! Near an edge both `p^2` inside and `gap^(2/3)` outside are linear in the distance to it.
+//! Near the edge of a contact of half-spaces both `p^2` inside and `gap^(2/3)` outside are linear in the distance to it; on layers much
+//! thinner than a cell, which answer like a foundation of springs, `p` and `gap` are.
 
 use std::array::from_fn;
 
 use ndarray::{Array2, ArrayView2};
 
-/// The zero line lies this share of a cell inside the true edge (measured on Hertz contacts, confirmed on coated ones).
+/// The zero line of half-spaces lies this share of a cell inside the true edge (measured on Hertz contacts, confirmed on coated ones).
 const OFFSET: f64 = 0.024;
+
+/// How pressure rises from the edge.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Rise {
+    /// Power of the pressure that is linear in the distance: 2 of half-spaces, 1 of foundations.
+    power: f64,
+}
+
+impl Rise {
+    const ROOT: Self = Self { power: 2.0 };
+
+    /// Read off the pressure: the power with which three loaded cells in a row at the edge lie on a line, in the median of all edges
+    /// along grid lines. Between a foundation and a half-space: a layer about as thin as a cell.
+    fn of(pressure: &ArrayView2<'_, f64>) -> Self {
+        let mut threes: Vec<[f64; 2]> = Vec::new();
+        for lines in [pressure.view(), pressure.t()] {
+            for line in lines.rows() {
+                for k in 0..line.len().saturating_sub(3) {
+                    if (line[k] > 0.0) == (line[k + 3] > 0.0) {
+                        continue;
+                    }
+                    let four = [line[k], line[k + 1], line[k + 2], line[k + 3]];
+                    let [a, b, c, d] =
+                        if four[0] > 0.0 { four } else { [four[3], four[2], four[1], four[0]] };
+                    if a > b && b > c && c > 0.0 && d <= 0.0 {
+                        threes.push([b / a, c / a]);
+                    }
+                }
+            }
+        }
+        // Positive where the power is too high: the bend of a power of a rising line.
+        let mut bends = Vec::with_capacity(threes.len());
+        let mut bend = |power: f64| {
+            bends.clear();
+            bends.extend(threes.iter().map(|[b, c]| {
+                let (b, c) = (libm::pow(*b, power), libm::pow(*c, power));
+                (1.0 - 2.0 * b + c) / (1.0 - c)
+            }));
+            median(&mut bends).unwrap_or(0.0)
+        };
+        let (mut low, mut high) = (1.0, Self::ROOT.power);
+        if bend(high) <= 0.0 {
+            return Self::ROOT;
+        }
+        if bend(low) >= 0.0 {
+            return Self { power: low };
+        }
+        for _ in 0..20 {
+            let middle = 0.5 * (low + high);
+            if bend(middle) > 0.0 {
+                high = middle;
+            } else {
+                low = middle;
+            }
+        }
+        Self { power: 0.5 * (low + high) }
+    }
+
+    /// The level of a pressure.
+    fn inside(self, pressure: f64) -> f64 {
+        if self == Self::ROOT { pressure.powi(2) } else { libm::pow(pressure, self.power) }
+    }
+
+    /// The size of the level of a gap: its power is 2/3 of half-spaces and 1 of foundations, and between them in between.
+    fn outside(self, gap: f64) -> f64 {
+        if self == Self::ROOT {
+            libm::cbrt(gap.powi(2))
+        } else {
+            libm::pow(gap, 1.0 - (self.power - 1.0) / 3.0)
+        }
+    }
+
+    /// By how much the zero line lies inside the true edge [cells].
+    fn offset(self) -> f64 {
+        OFFSET * (self.power - 1.0)
+    }
+}
 
 /// How far from the contact the level function is computed [cells].
 const NEAR: usize = 2;
@@ -19,13 +97,23 @@ pub fn level_function(
     gap: &ArrayView2<'_, f64>,
     beyond: f64,
 ) -> Option<Array2<f64>> {
+    level_of(Rise::ROOT, pressure, gap, beyond)
+}
+
+/// The level function of pressures that rise so.
+fn level_of(
+    rise: Rise,
+    pressure: &ArrayView2<'_, f64>,
+    gap: &ArrayView2<'_, f64>,
+    beyond: f64,
+) -> Option<Array2<f64>> {
     let (nx, ny) = pressure.dim();
     let near = near_the_contact(pressure);
     let value = |((&p, &gap), near): ((&f64, &f64), bool)| {
         if p > 0.0 {
-            p.powi(2)
+            rise.inside(p)
         } else if near && gap <= beyond {
-            -libm::cbrt(gap.max(0.0).powi(2))
+            -rise.outside(gap.max(0.0))
         } else {
             f64::NEG_INFINITY
         }
@@ -109,11 +197,12 @@ fn spread(marks: &mut [bool], stride: usize, before: &mut [bool]) {
 }
 
 /// Contact area in units of one cell, from pressure and gap on a grid (or a box of it). Good to about 0.05 cells along the
-/// perimeter for smooth contacts; a contact without an edge inside the grid is counted by cells.
+/// perimeter for smooth contacts, of half-spaces and of layers much thinner than a cell alike; a contact without an edge inside the grid is counted by cells.
 /// Where the gap is wider than `beyond`, a body has ended, at the border of the cell.
 pub fn contact_cells(pressure: &ArrayView2<'_, f64>, gap: &ArrayView2<'_, f64>, beyond: f64) -> f64 {
     let (nx, ny) = pressure.dim();
-    let Some(level) = level_function(pressure, gap, beyond) else {
+    let rise = Rise::of(pressure);
+    let Some(level) = level_of(rise, pressure, gap, beyond) else {
         return pressure.iter().filter(|p| **p > 0.0).count() as f64;
     };
     let kind = |(level, gap): (&f64, &f64)| match *level > 0.0 {
@@ -140,7 +229,8 @@ pub fn contact_cells(pressure: &ArrayView2<'_, f64>, gap: &ArrayView2<'_, f64>, 
                 _ => {
                     // Beyond the end of a body the level function goes on as here: it has no edge of its own there.
                     let at = |cell: [usize; 2]| level[if gap[cell] > beyond { [i, j] } else { cell }];
-                    area += filled(&from_fn(|place| at([rows[place / 3], columns[place % 3]])));
+                    area +=
+                        filled(&from_fn(|place| at([rows[place / 3], columns[place % 3]])), rise.offset());
                 }
             }
         }
@@ -153,8 +243,9 @@ const LOADED: u8 = 1;
 const OPEN: u8 = 2;
 const BEYOND: u8 = 4;
 
-/// Filled share of a cell from the level function at it and its eight neighbours: bilinear on quarter cells.
-fn filled(near: &[f64; 9]) -> f64 {
+/// Filled share of a cell from the level function at it and its eight neighbours: bilinear on quarter cells. `offset`: by how much
+/// the zero line lies inside the true edge [cells].
+fn filled(near: &[f64; 9], offset: f64) -> f64 {
     const PARTS: usize = 4;
     if near.iter().all(|value| *value > 0.0) {
         return 1.0;
@@ -179,7 +270,7 @@ fn filled(near: &[f64; 9]) -> f64 {
             let centre = |k: usize| (k as f64 + 0.5) / PARTS as f64 - 0.5;
             let (h, slope) = at(centre(a), centre(b));
             let part = if slope > 0.0 {
-                let distance = h / slope + OFFSET;
+                let distance = h / slope + offset;
                 (0.5 + distance * PARTS as f64).clamp(0.0, 1.0)
             } else {
                 f64::from(h > 0.0)

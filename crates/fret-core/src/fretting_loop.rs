@@ -44,6 +44,8 @@ pub struct FrettingLoop {
 pub struct CycleEnd {
     /// Cycles it stands for.
     pub stands_for: usize,
+    /// Cycles of its stage that are over with them.
+    pub last_cycle: usize,
     /// Closure below which the stage ends.
     pub tolerance: Option<f64>,
     /// Volume worn off so far, and largest worn depth.
@@ -120,7 +122,10 @@ impl FrettingLoop {
             first_increment: self.first_increment,
             last_increment: self.first_increment + self.regimes.len().saturating_sub(1),
             stands_for: end.stands_for,
+            last_cycle: end.last_cycle,
             dissipated_energy,
+            total_dissipated_energy: state.dissipated_energy
+                + end.stands_for.saturating_sub(1) as f64 * dissipated_energy,
             drive,
             direction,
             force_amplitude: read.force_amplitude,

@@ -5,7 +5,9 @@ use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
 use crate::cycle::CycleRecord;
+use crate::footprint::Footprint;
 use crate::model::{ContactPair, ContactState, SolvedState, SurfaceGrid, Zone};
+use crate::warning::Warning;
 use crate::wear::WornThrough;
 
 /// How well an increment satisfies its equations; all parts dimensionless and relative.
@@ -109,8 +111,15 @@ pub struct StepRecord {
     pub contact_cells: usize,
     /// Cells in contact that stick.
     pub stick_cells: usize,
-    /// Work of friction since the start [force x length].
+    /// The contact as the cells see it.
+    pub footprint: Footprint,
+    /// Work of friction since the start [force x length]. Where a computed cycle stands for several, its last increment has the
+    /// work of all of them.
     pub dissipated_energy: f64,
+    /// Volume worn off since the start, by all cycles that computed ones stand for [length^3].
+    pub worn_volume: f64,
+    /// Largest worn depth [length].
+    pub max_worn_depth: f64,
     /// What the contact does.
     pub regime: Regime,
     /// How well the equations hold.
@@ -183,6 +192,8 @@ pub struct History {
     pub end: SolvedState,
     /// The plan it was solved by, as JSON.
     pub plan: Value,
+    /// What about these numbers may mislead; of a run that was resumed, of the increments solved since.
+    pub warnings: Vec<Warning>,
 }
 
 impl History {

@@ -2,12 +2,13 @@
 
 use ndarray::Array2;
 
+use crate::footprint::Footprint;
 use crate::history::{KeptFields, Residual, StepRecord};
 use crate::machine::memory::MemoryError;
 use crate::model::field::largest;
 use crate::solver::Increment;
 
-/// The record of a solved increment.
+/// The record of a solved increment; what it has worn is not yet known.
 pub fn record(solved: &Increment, increment: usize, stage: usize, parts: usize, wall_s: f64) -> StepRecord {
     let state = &solved.state;
     let outcome = &solved.outcome;
@@ -33,7 +34,10 @@ pub fn record(solved: &Increment, increment: usize, stage: usize, parts: usize, 
         stick_area: solved.stick_area,
         contact_cells: outcome.contact_cells,
         stick_cells: outcome.stick_cells,
+        footprint: Footprint::of(&state.zone),
         dissipated_energy: state.dissipated_energy,
+        worn_volume: 0.0,
+        max_worn_depth: 0.0,
         regime: outcome.regime,
         residual: Residual { ..outcome.residual },
         work: solved.work,

@@ -26,6 +26,7 @@ pub use crate::run_error::RunError;
 use crate::run_error::run_error;
 use crate::solver::{ContactSolver, Resultants, SolverSettings};
 use crate::stepping::StageSteps;
+use crate::warning::Gauge;
 use crate::wear::{Collected, Wearing, WornThrough, worn};
 
 /// Where an increment's iteration stands.
@@ -161,6 +162,7 @@ impl<'a> Simulation<'a> {
             end: solved_state(&place, &state, wear).beside(|_| true),
             state,
             plan: plan.to_json(),
+            warnings: Vec::new(),
         }
     }
 
@@ -179,15 +181,8 @@ impl<'a> Simulation<'a> {
         let wearing = case.wear.zip(wear).map(|(rule, collected)| Wearing::new(rule, own, unworn, collected));
         // Last: a new gap makes a solver forget.
         solver.remember(memory);
-        let journey = Journey {
-            plan,
-            solver,
-            wearing,
-            history,
-            place,
-            cycle,
-            observer,
-        };
+        let journey =
+            Journey { plan, solver, wearing, history, gauge: Gauge::default(), place, cycle, observer };
         journey.through_all_stages()
     }
 
@@ -208,7 +203,9 @@ impl<'a> Simulation<'a> {
             (true, true) => {
                 SurfaceResponse::Periodic(periodic_symbols(&case.bodies, case.cells, spacing, wanted, 0))
             }
-            (true, false) => SurfaceResponse::Periodic(symbols_of(layered(), case.cells, spacing, wanted)),
+            (true, false) => SurfaceResponse::Periodic(
+                symbols_of(layered(), case.cells, spacing, wanted).with_uniform(&case.bodies),
+            ),
             (false, true) => {
                 SurfaceResponse::FreeSpace(influence_coefficients(&case.bodies, case.cells, spacing, wanted))
             }
@@ -252,6 +249,7 @@ struct Journey<'a> {
     solver: ContactSolver<'a>,
     wearing: Option<Wearing>,
     history: History,
+    gauge: Gauge,
     place: Place,
     /// The cycle at work.
     cycle: Option<FrettingLoop>,
@@ -292,6 +290,7 @@ impl<'a> Journey<'a> {
             }
         };
         self.history.worn_through = self.place.worn_through;
+        self.history.warnings = self.gauge.warnings(self.plan);
         self.history.end = self.solved_state().beside(|_| true);
         (self.history, outcome)
     }
@@ -331,12 +330,14 @@ impl<'a> Journey<'a> {
     fn increment(&mut self, stage: &Stage, k: usize, [from, to]: [&LoadStep; 2]) -> Result<(), RunError> {
         let (number, all) = (self.place.stage, stage.increments_in_all());
         let may_keep = k == all || stage.ends_cycle(k) || self.case().keeps(number, k);
-        let (record, mut kept) = self.solved([from, to], may_keep)?;
+        let (mut record, mut kept) = self.solved([from, to], may_keep)?;
         if let Some(cycle) = &mut self.cycle {
             cycle.add(&record);
         }
         let ended =
             if stage.ends_cycle(k) || k == all { self.cycle_over(stage, record.increment)? } else { None };
+        record.dissipated_energy = self.history.state.dissipated_energy;
+        [record.worn_volume, record.max_worn_depth] = worn(&self.history.state, &self.plan.grid);
         let steady = ended.as_ref().is_some_and(|cycle| cycle.steady);
         let enough = stage.cycles().is_some_and(|course| self.place.cycles >= course.most);
         let last = k == all || steady || enough || self.place.worn_through.is_some();
@@ -355,6 +356,7 @@ impl<'a> Journey<'a> {
         if let Some(kept) = &mut kept {
             kept.rest = self.rest_beside(kept, last).map(Box::new);
         }
+        self.gauge.add(&record);
         let heard = self.observer.solved(&record, &self.history.state, kept.as_ref());
         self.history.steps.push(record);
         if self.observer.leaves_fields() {
@@ -458,10 +460,13 @@ impl<'a> Journey<'a> {
         let (Some(cycle), Some(course)) = (&self.cycle, stage.cycles()) else { return Ok(None) };
         let end = CycleEnd {
             stands_for,
+            last_cycle: self.place.cycles,
             tolerance: course.until_steady,
             worn: worn(&self.history.state, &self.plan.grid),
         };
-        Ok(Some(cycle.close(&self.history.state, self.friction(), end)))
+        let record = cycle.close(&self.history.state, self.friction(), end);
+        self.history.state.dissipated_energy = record.total_dissipated_energy;
+        Ok(Some(record))
     }
 
     /// Opens the gap by what has worn since the last time; the number of cycles that stands for, out of `left`.

@@ -14,7 +14,7 @@ use crate::error::bad_value;
 type Entry<T> = (&'static str, fn(&StepRecord) -> T);
 
 /// The real numbers of a step.
-const REALS: [Entry<f64>; 16] = [
+const REALS: [Entry<f64>; 18] = [
     ("normal_force", |step| step.normal_force),
     ("approach", |step| step.approach),
     ("tangential_force_x", |step| step.tangential_force[0]),
@@ -28,6 +28,8 @@ const REALS: [Entry<f64>; 16] = [
     ("contact_area", |step| step.contact_area),
     ("stick_area", |step| step.stick_area),
     ("dissipated_energy", |step| step.dissipated_energy),
+    ("worn_volume", |step| step.worn_volume),
+    ("max_worn_depth", |step| step.max_worn_depth),
     ("residual", |step| step.residual.largest()),
     ("wall_s", |step| step.wall_s),
     ("full_grid_convolutions", |step| step.work.full_grid_convolutions),
@@ -98,6 +100,11 @@ impl History {
     /// Where and when the surfaces were worn to the limit, as JSON text.
     fn worn_through(&self) -> PyResult<String> {
         serde_json::to_string(&self.0.worn_through).map_err(bad_value)
+    }
+
+    /// What about the numbers may mislead, as JSON text.
+    fn warnings(&self) -> PyResult<String> {
+        serde_json::to_string(&self.0.warnings).map_err(bad_value)
     }
 
     /// Running condition of each stage's cycles, as JSON text.

@@ -2,6 +2,7 @@
 
 use fret_core::machine::memory;
 use fret_core::study::expectation;
+use fret_core::warning;
 use pyo3::prelude::{PyResult, Python, pyfunction};
 
 use serde_json::json;
@@ -21,7 +22,9 @@ pub fn memory_needed(py: Python<'_>, case: &Case) -> PyResult<usize> {
 #[pyfunction]
 pub fn plan(py: Python<'_>, case: &Case) -> PyResult<String> {
     let plan = on_pool(py, ALL, || case.planned())?.map_err(|error| refused(&error))?;
-    serde_json::to_string(&plan).map_err(bad_value)
+    let mut answer = serde_json::to_value(&plan).map_err(bad_value)?;
+    answer["warnings"] = serde_json::to_value(warning::of_plan(&plan)).map_err(bad_value)?;
+    Ok(answer.to_string())
 }
 
 /// What the run of a case will take, with the fields that it keeps in memory; JSON text.

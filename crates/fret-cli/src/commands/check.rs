@@ -2,10 +2,11 @@
 
 use std::path::Path;
 
+use fret_core::warning;
 use serde_json::json;
 
 use crate::case_file::CaseFile;
-use crate::commands::plan::{cells, stages};
+use crate::commands::plan::{cells, stages, warnings};
 use crate::failure::Failure;
 use crate::figures::counted;
 use crate::terminal;
@@ -21,14 +22,16 @@ pub fn check(path: &Path, from: Option<&str>, as_json: bool) -> Result<(), Failu
             "cells": plan.grid.cells(),
             "size": plan.grid.size(),
             "increments": plan.increments,
+            "warnings": warning::of_plan(&plan),
         });
         return terminal::answer(&format!("{answer:#}"));
     }
     terminal::answer(&format!(
-        "{}: good\n  {}\n  {}: {}",
+        "{}: good\n  {}\n  {}: {}{}",
         case_file.name(),
         cells(&plan),
         counted(plan.increments, "increment"),
         stages(&plan),
+        warnings(&plan),
     ))
 }

@@ -7,6 +7,7 @@ use fret_core::model::{Base, ElasticMaterial, HalfSpace};
 use fret_core::subsurface::fatigue::{
     SurfacePoint, crossland, dang_van, fatemi_socie, line_mean, ruiz, smith_watson_topper,
 };
+use fret_core::subsurface::rim::at_rims;
 use fret_core::subsurface::{DepthPoint, LoadedSurface, StressField, StressTensor};
 use rayon::prelude::*;
 use serde_json::{Value, json};
@@ -26,6 +27,8 @@ pub struct Fatigue<'a> {
     here: Vec<Vec<StressTensor>>,
     /// Names and values `[point][i]` of the parameters.
     fields: Vec<(&'static str, Vec<Vec<f64>>)>,
+    /// The largest value at a rim of the surface, of each parameter, and its place along x [cells].
+    at_rims: Vec<Option<(f64, f64)>>,
     /// Ruiz's parameters along the surface.
     ruiz: Option<Vec<[f64; 2]>>,
 }
@@ -60,8 +63,20 @@ impl<'a> Fatigue<'a> {
         if request.endurance.is_some() {
             names.extend(["crossland", "dang_van"]);
         }
+        let at_rims = vec![None; names.len()];
         let fields = names.into_iter().map(|name| (name, Vec::new())).collect();
-        Self { request, half_space, points, surfaces, cycle, row, here: Vec::new(), fields, ruiz: None }
+        Self {
+            request,
+            half_space,
+            points,
+            surfaces,
+            cycle,
+            row,
+            here: Vec::new(),
+            fields,
+            at_rims,
+            ruiz: None,
+        }
     }
 
     /// Takes the stress at one depth in one increment.
@@ -107,7 +122,21 @@ impl<'a> Fatigue<'a> {
         }
         if place.depth == 0.0 {
             self.ruiz = self.along_surface();
+            self.at_rims = self.rims();
         }
+    }
+
+    /// The parameters of the surface at the rims that the contact has in the cycle.
+    fn rims(&self) -> Vec<Option<(f64, f64)>> {
+        let largest = |values: &[f64]| {
+            let of = |surface: &usize| {
+                let pressure = self.surfaces[*surface].pressure.column(self.row).to_vec();
+                at_rims(values, &pressure)
+            };
+            let all = self.cycle.iter().flat_map(of).map(|rim| (rim.value, rim.cell as f64 + rim.off));
+            all.reduce(|most, next| if next.0 > most.0 { next } else { most })
+        };
+        self.fields.iter().map(|(_, values)| values.last().and_then(|values| largest(values))).collect()
     }
 
     fn along_surface(&self) -> Option<Vec<[f64; 2]>> {
@@ -145,16 +174,23 @@ impl<'a> Fatigue<'a> {
             increments.last().copied().unwrap_or(0)
         );
         let from_surface = depths.first() == Some(&0.0) && depths.windows(2).all(|pair| pair[0] <= pair[1]);
-        for (name, values) in &self.fields {
+        for ((name, values), rim) in self.fields.iter().zip(&self.at_rims) {
             let Some((point, i)) = largest_of(values) else { continue };
-            let value = values[point][i];
-            let mut entry = json!({ "largest": value, "x": x[i], "depth": depths[point], "layer": self.points[point].layer });
+            let (mut value, mut at, mut point) = (values[point][i], x[i], point);
+            if let Some((most, place)) = *rim
+                && most > value
+                && let Some(surface) = depths.iter().position(|depth| *depth == 0.0)
+            {
+                let cell = x.get(1).map_or(0.0, |next| next - x[0]);
+                (value, at, point) = (most, x[0] + place * cell, surface);
+            }
+            let mut entry = json!({ "largest": value, "x": at, "depth": depths[point], "layer": self.points[point].layer });
             let _ = write!(
                 table,
                 "  {:<20} {:<12} at x {:<12} depth {:<12}",
                 name.replace('_', " "),
                 figure(value),
-                figure(x[i]),
+                figure(at),
                 figure(depths[point])
             );
             if let (Some(distance), true) = (self.request.critical_distance, from_surface) {

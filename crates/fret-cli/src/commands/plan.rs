@@ -6,12 +6,14 @@ use fret_core::machine::memory::{self, MemoryError, amount};
 use fret_core::model::Body;
 use fret_core::plan::{Coupling, Plan};
 use fret_core::study::{Expectation, expectation};
+use fret_core::warning;
 use serde_json::json;
 
 use crate::case_file::CaseFile;
 use crate::failure::Failure;
 use crate::figures::{LONGEST_TITLE, counted, duration, figure, shortened};
 use crate::output::resolved;
+use crate::summary::warning_line;
 use crate::terminal;
 use crate::threads;
 
@@ -31,6 +33,7 @@ pub fn plan(path: &Path, from: Option<&str>, as_json: bool) -> Result<(), Failur
         value["convolutions_expected"] = json!(expected.map(|expected| expected.convolutions));
         value["seconds_expected"] = json!(expected.map(|expected| expected.seconds));
         value["memory_lacking"] = json!(lacking.map(|error| format!("this {error}")));
+        value["warnings"] = json!(warning::of_plan(&plan));
         return terminal::answer(&format!("{value:#}"));
     }
     terminal::answer(&table(&plan, expected.as_ref(), lacking.as_ref()))
@@ -66,7 +69,7 @@ fn table(plan: &Plan, expected: Option<&Expectation>, lacking: Option<&MemoryErr
          residual   at most {:e} in every increment\n\
          memory     about {}{}\n\
          kept       {} of fields on disk\n\
-         work       {work}\n\n{}",
+         work       {work}\n\n{}{}",
         cells(plan),
         if plan.case.periodic {
             "on the whole grid: the scene repeats"
@@ -81,7 +84,13 @@ fn table(plan: &Plan, expected: Option<&Expectation>, lacking: Option<&MemoryErr
         lacking.map_or_else(String::new, |error| format!(": this {error}")),
         amount(plan.kept_bytes as u64),
         left_out(plan),
+        warnings(plan),
     )
+}
+
+/// What about the case may mislead, a line each, a line break before.
+pub fn warnings(plan: &Plan) -> String {
+    warning::of_plan(plan).iter().map(|warning| format!("\n{}", warning_line(warning))).collect()
 }
 
 /// What is left out, as a block of text.

@@ -14,6 +14,7 @@ use fret_core::model::{ContactState, SurfaceGrid};
 use fret_core::plan::{LeaveOut, Plan};
 use fret_core::simulation::{Iteration, Observer, RunError, Simulation};
 use fret_core::study::{Headline, companion};
+use fret_core::warning;
 use fret_core::wear::WornThrough;
 use serde_json::{Value, json};
 
@@ -28,7 +29,7 @@ use crate::interrupt;
 use crate::origin::Origin;
 use crate::output::{ERROR_BARS, ResultFolder, RunRecord, Standing, Stored, Wish, write_whole};
 use crate::progress::Progress;
-use crate::summary::Summary;
+use crate::summary::{Summary, warning_line};
 use crate::tally::Tally;
 use crate::terminal;
 use crate::threads;
@@ -148,6 +149,9 @@ fn announce(plan: &Plan, folder: &Path, standing: &Standing) {
     if !plan.left_out.is_empty() {
         terminal::say(&left_out_in_short(plan));
     }
+    for warning in warning::of_plan(plan) {
+        terminal::say(&warning_line(&warning));
+    }
     let shown = folder.display();
     match standing {
         Standing::Free | Standing::Unfinished | Standing::Solved(_) => {}
@@ -246,7 +250,8 @@ impl Preparation {
         progress.end();
         let wall_s = clock.read();
         let failure = failure.or_else(|| outcome.err());
-        let closed = folder.close(&tally, wall_s, failure.as_ref());
+        let warnings = tally.gauge.warnings(&self.plan);
+        let closed = folder.close((&tally, &warnings), wall_s, failure.as_ref());
         let failure = failure.or_else(|| closed.err().map(Failure::from));
         let (estimate, failure) = match failure {
             None => match self.estimated(&tally.headlines, quiet) {
@@ -258,6 +263,7 @@ impl Preparation {
         let summary = Summary {
             plan: &self.plan,
             tally: &tally,
+            warnings: &warnings,
             folder: &self.folder,
             wall_s,
             threads: self.threads,

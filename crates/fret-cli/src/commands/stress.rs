@@ -276,7 +276,8 @@ impl<'a> Sheet<'a> {
         let increment = self.surfaces[surface].increment;
         let is_interface = self.interfaces.contains(&place.depth);
         let mut here = Vec::new();
-        look(&mut here, field, place, is_interface, increment);
+        let pressure = (place.depth == 0.0).then_some(&self.surfaces[surface].pressure);
+        look(&mut here, field, place, is_interface, increment, pressure);
         let value = |measure: Measure| {
             here.iter()
                 .find(|found: &&Largest| found.measure == measure)
@@ -298,6 +299,12 @@ impl<'a> Sheet<'a> {
         }
     }
 
+    /// Where along x or y a largest value was found [length].
+    fn place_of(&self, found: &Largest, axis: usize) -> f64 {
+        let grid = &self.run.grid;
+        grid.centre(axis, found.cell[axis]) + found.off[axis] * grid.spacing()[axis]
+    }
+
     fn written(mut self, place: &Path, wall_s: f64) -> Result<Answer, Failure> {
         let centres = [self.run.grid.centres(0), self.run.grid.centres(1)];
         let largest: Vec<Value> = self
@@ -308,8 +315,8 @@ impl<'a> Sheet<'a> {
                     "measure": found.measure.name(),
                     "value": found.value,
                     "increment": found.increment,
-                    "x": centres[0][found.cell[0]],
-                    "y": centres[1][found.cell[1]],
+                    "x": self.place_of(found, 0),
+                    "y": self.place_of(found, 1),
                     "depth": found.point.depth,
                     "layer": self.layer_name(found.point.layer),
                 })
@@ -414,8 +421,8 @@ impl<'a> Sheet<'a> {
                 found.measure.name().replace('_', " "),
                 figure(found.value),
                 found.increment,
-                figure(self.run.grid.centre(0, found.cell[0])),
-                figure(self.run.grid.centre(1, found.cell[1])),
+                figure(self.place_of(found, 0)),
+                figure(self.place_of(found, 1)),
                 figure(found.point.depth),
                 self.layer_name(found.point.layer)
             );

@@ -12,7 +12,7 @@ use serde_json::Value;
 use crate::failure::Unwritten;
 
 /// The columns, in order; the names are those of `history.steps` in Python.
-const COLUMNS: [&str; 25] = [
+const COLUMNS: [&str; 27] = [
     "increment",
     "stage",
     "normal_force",
@@ -38,10 +38,12 @@ const COLUMNS: [&str; 25] = [
     "regime",
     "full_grid_convolutions",
     "parts",
+    "worn_volume",
+    "max_worn_depth",
 ];
 
 /// The columns of the cycles, in order; the names are those of `history.cycles` in Python.
-const CYCLE_COLUMNS: [&str; 19] = [
+const CYCLE_COLUMNS: [&str; 21] = [
     "stage",
     "cycle",
     "first_increment",
@@ -61,6 +63,8 @@ const CYCLE_COLUMNS: [&str; 19] = [
     "steady",
     "worn_volume",
     "max_worn_depth",
+    "last_cycle",
+    "total_dissipated_energy",
 ];
 
 /// What a table holds a line of.
@@ -128,6 +132,13 @@ impl HistoryTable {
         whole_lines(path, written, Lines::Cycles)?.lines().map(cycle).collect()
     }
 
+    /// The cycles of the table at `path`; a last line that a kill has torn is left away. None where there is no such table.
+    pub fn all_cycles(path: &Path) -> Vec<CycleRecord> {
+        let text = std::fs::read_to_string(path).unwrap_or_default();
+        let whole = text.rfind('\n').map_or("", |last| &text[..last]);
+        whole.lines().skip(1).map(cycle).collect::<Option<_>>().unwrap_or_default()
+    }
+
     /// Lines of the table at `path`, its head among them; none where there is no table.
     pub fn lines(path: &Path) -> usize {
         std::fs::read(path).map_or(0, |text| text.iter().filter(|&&byte| byte == b'\n').count())
@@ -188,6 +199,8 @@ fn line(record: &StepRecord) -> String {
         word(record.regime).to_owned(),
         exact(record.work.full_grid_convolutions),
         record.parts.to_string(),
+        exact(record.worn_volume),
+        exact(record.max_worn_depth),
     ];
     cells.join(",") + "\n"
 }
@@ -262,7 +275,9 @@ mod tests {
             first_increment: 30,
             last_increment: 41,
             stands_for: 50,
+            last_cycle: 600,
             dissipated_energy: 0.1 + 0.2,
+            total_dissipated_energy: 0.3,
             drive: Drive::Torsional,
             direction: -1.0 / 3.0,
             force_amplitude: 1e-300,

@@ -22,6 +22,7 @@ use fret_core::checkpoint::Waypoint;
 use fret_core::cycle::CycleRecord;
 use fret_core::history::{KeptFields, StepRecord};
 use fret_core::plan::Plan;
+use fret_core::warning::Warning;
 use serde_json::Value;
 
 use crate::case_file::CaseFile;
@@ -30,7 +31,8 @@ use crate::tally::Tally;
 use checkpoint_folder::{CheckpointFolder, Found, Head};
 pub use checkpoint_folder::{Stored, newest_start};
 use field_store::FieldStore;
-use history_table::{HistoryTable, Lines};
+pub use history_table::HistoryTable;
+use history_table::Lines;
 pub use packed_file::{read_packed, write_packed};
 pub use run_record::{RunRecord, fnv1a64, question, resolved};
 use state_store::StateStore;
@@ -255,10 +257,15 @@ impl ResultFolder {
     }
 
     /// Writes down how the run ended.
-    pub fn close(self, tally: &Tally, wall_s: f64, failure: Option<&Failure>) -> Result<(), Unwritten> {
+    pub fn close(
+        self,
+        (tally, warnings): (&Tally, &[Warning]),
+        wall_s: f64,
+        failure: Option<&Failure>,
+    ) -> Result<(), Unwritten> {
         self.history.settle()?;
         self.cycles.settle()?;
-        write_whole(&self.path.join(RECORD), &self.record.ended(tally, wall_s, failure))?;
+        write_whole(&self.path.join(RECORD), &self.record.ended((tally, warnings), wall_s, failure))?;
         if failure.is_none() {
             self.checkpoints.remove();
         }

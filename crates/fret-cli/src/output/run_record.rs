@@ -4,6 +4,7 @@ use std::path::Path;
 use std::time::{SystemTime, UNIX_EPOCH};
 
 use fret_core::plan::{LeaveOut, Plan};
+use fret_core::warning::{self, Warning};
 use serde_json::{Value, json};
 
 use crate::case_file::CaseFile;
@@ -42,6 +43,7 @@ impl RunRecord {
                 "fnv1a64": origin.start.digest(),
             })),
             "plan": resolved(plan),
+            "warnings": warning::of_plan(plan),
         }))
     }
 
@@ -62,12 +64,18 @@ impl RunRecord {
     }
 
     /// As it stands after the run.
-    pub fn ended(&self, tally: &Tally, wall_s: f64, failure: Option<&Failure>) -> Vec<u8> {
+    pub fn ended(
+        &self,
+        (tally, warnings): (&Tally, &[Warning]),
+        wall_s: f64,
+        failure: Option<&Failure>,
+    ) -> Vec<u8> {
         self.with(json!({
             "status": failure.map_or("solved", Failure::status),
             "message": failure.map(Failure::message),
             "worn_through": tally.worn_through,
             "headlines": tally.headlines,
+            "warnings": warnings,
             "totals": {
                 "increments": tally.solved,
                 "convolutions": tally.work.convolutions,
@@ -75,6 +83,8 @@ impl RunRecord {
                 "outer_iterations": tally.work.outer_iterations,
                 "largest_residual": tally.largest_residual,
                 "dissipated_energy": tally.stage_ends.last().map_or(0.0, |record| record.dissipated_energy),
+                "worn_volume": tally.stage_ends.last().map_or(0.0, |record| record.worn_volume),
+                "max_worn_depth": tally.stage_ends.last().map_or(0.0, |record| record.max_worn_depth),
                 "wall_s": wall_s,
             },
         }))

@@ -1,5 +1,6 @@
 //! Which closed forms speak about a run, and what they say. They need a sphere or an ellipsoid on homogeneous bodies; those of
-//! friction a sphere, one coefficient, one line of force and a normal force that stays.
+//! friction a sphere, one coefficient for all stages, one line of force, a normal force that stays, bodies whose pressure and shear
+//! do not act on each other, and a contact that sticks somewhere.
 
 use fret_core::analytic::{EffectiveModuli, Hertz, HertzEllipse, TangentialHistory};
 use fret_core::model::{Body, ContactPair};
@@ -119,6 +120,11 @@ impl TangentialForm {
     pub fn of(results: &Results, normal: &NormalForm, direction: [f64; 2]) -> Option<Self> {
         let Shape::Sphere(radius) = normal.shape else { return None };
         let friction: f64 = results.planned("/case/friction/uniform")?;
+        let stages: Vec<Value> = results.planned("/case/stages")?;
+        let other_friction = stages.iter().any(|stage| !stage["friction"].is_null());
+        if other_friction || results.planned::<String>("/coupling")? == "coupled" {
+            return None;
+        }
         let table = &results.table;
         let [along, across] = components(results, direction);
         let largest = along.iter().fold(0.0, |most: f64, force| most.max(force.abs()));
@@ -132,11 +138,13 @@ impl TangentialForm {
         let hertz = Hertz::sphere(radius, pressed, normal.moduli.normal).ok()?;
         let mut history = TangentialHistory::new(&hertz, friction, normal.moduli.shear).ok()?;
         let mut after = vec![None; start];
-        for (force, tangential) in forces.iter().zip(&along).skip(start) {
+        let slides =
+            |row: usize| results.table.regimes().get(row).is_some_and(|regime| regime == "gross_slip");
+        for (row, (force, tangential)) in forces.iter().zip(&along).enumerate().skip(start) {
             let is_steady = (force - pressed).abs() <= STEADY * pressed;
             // At the onset of sliding the shift is no longer a matter of the force.
             let holds = tangential.abs() < friction * pressed * (1.0 - 1e-6);
-            if !is_steady || !holds || history.push(*tangential).is_err() {
+            if !is_steady || !holds || slides(row) || history.push(*tangential).is_err() {
                 break;
             }
             after.push(Some(history.clone()));

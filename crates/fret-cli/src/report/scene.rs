@@ -21,6 +21,8 @@ pub struct Scene<'a> {
     pub normal_form: Option<NormalForm>,
     /// Partial slip in closed form.
     pub tangential_form: Option<TangentialForm>,
+    /// Whether torsion is what moves: its loop of moment and twist is larger than that of force and shift, force times motion.
+    pub twists: bool,
     /// Increments of each stage: first, and one after the last.
     pub spans: Vec<[usize; 2]>,
 }
@@ -28,10 +30,6 @@ pub struct Scene<'a> {
 /// A cycle of a stage.
 #[derive(Debug, Clone, Copy)]
 pub struct Cycle {
-    /// Number of the stage, from 0.
-    pub stage: usize,
-    /// Number in the stage, from 1.
-    pub number: usize,
     /// Its increments: first, and one after the last.
     pub span: [usize; 2],
 }
@@ -56,6 +54,7 @@ impl<'a> Scene<'a> {
             shift: shifts.map(|(x, y)| cosine * x + sine * y).collect(),
             normal_form,
             tangential_form,
+            twists: twists(results),
             spans: spans(table.column("stage"), results.stages().len()),
         }
     }
@@ -88,11 +87,11 @@ impl<'a> Scene<'a> {
                     .filter(|&count| count > 0)
             };
             if let (Some(_), Some(length)) = (counts("course/cycles/most"), counts("increments")) {
-                cycles.extend((1..=(end - first) / length).map(|number| Cycle {
-                    stage,
-                    number,
-                    span: [first + (number - 1) * length, first + number * length],
-                }));
+                cycles.extend(
+                    (1..=(end - first) / length).map(|number| Cycle {
+                        span: [first + (number - 1) * length, first + number * length],
+                    }),
+                );
             }
         }
         cycles
@@ -126,6 +125,18 @@ impl<'a> Scene<'a> {
         chosen.dedup();
         chosen
     }
+}
+
+/// Whether moment times twist is more than force times shift along either axis, range by range.
+fn twists(results: &Results) -> bool {
+    let range = |name: &str| {
+        let values = results.table.column(name).iter();
+        let ends = values.fold((0.0_f64, 0.0_f64), |(low, high), value| (low.min(*value), high.max(*value)));
+        ends.1 - ends.0
+    };
+    let work = |force: &str, motion: &str| range(force) * range(motion);
+    let sideways = work("tangential_force_x", "shift_x").max(work("tangential_force_y", "shift_y"));
+    work("twist_moment", "twist") > sideways
 }
 
 /// Direction of the largest tangential force, or else of the largest shift, with the sign of the first push.

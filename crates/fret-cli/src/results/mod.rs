@@ -7,10 +7,12 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
+use fret_core::cycle::CycleRecord;
 use fret_core::machine::memory;
 use serde_json::Value;
 
 use crate::failure::Failure;
+use crate::output::HistoryTable;
 pub use fields::{Field, Fields};
 pub use table::Table;
 
@@ -26,6 +28,8 @@ pub struct Results {
     pub record: Value,
     /// `history.csv`: a row an increment.
     pub table: Table,
+    /// `cycles.csv`: the cycles that are over.
+    pub cycles: Vec<CycleRecord>,
     /// `fields.zarr`.
     pub fields: Fields,
 }
@@ -50,11 +54,12 @@ impl Results {
             return Err(unusable(path, "results of another program, or of another version of the format"));
         }
         let table = Table::read(&path.join("history.csv"))?;
+        let cycles = HistoryTable::all_cycles(&path.join("cycles.csv"));
         let fields = Fields::read(&path.join("fields.zarr"), table.rows())?;
         // Fields are read one at a time: its bytes, its numbers, what is written of it.
         let [nx, ny] = fields.cells();
         memory::check(FIELD * nx * ny)?;
-        Ok(Self { path: path.to_owned(), record, table, fields })
+        Ok(Self { path: path.to_owned(), record, table, cycles, fields })
     }
 
     /// The title of the case, or the name of the folder.

@@ -9,6 +9,7 @@ mod extremes;
 mod hostile;
 mod interrupted;
 mod memory;
+mod misleading;
 mod refused;
 mod shown;
 mod solved;

@@ -7,6 +7,7 @@ use super::bodies::bodies;
 use super::file::{CaseFile, OutputFile, SizeFile};
 use super::friction::{friction, of_stages};
 use super::judge::Judge;
+use super::pair::Pair;
 use super::refusal::Mistake;
 use super::repeating::repeats;
 use super::shape::profile;
@@ -49,7 +50,8 @@ pub(super) fn case(
     let history_tolerance = file.solver.as_ref().and_then(|solver| solver.history_tolerance.as_ref());
     let stages = stages(&mut judge, &file.load, laws.as_deref(), history_tolerance);
     let stages = stages.zip(changes.as_ref()).map(|(stages, changes)| with_friction(stages, changes));
-    let periodic = repeats(&mut judge, &file.grid, size, (&file.load, stages.as_deref()), profile.as_ref());
+    let loading = (&file.load, stages.as_deref());
+    let periodic = repeats(&mut judge, &file.grid, size, loading, profile.as_ref(), bodies.as_ref());
     let mapped = friction.iter().chain(changes.iter().flatten().flatten()).any(CoulombFriction::is_map);
     let has_arrays = mapped || profile.as_ref().is_some_and(|profile| !profile.heights.is_empty());
     if let (true, Some(GridSize::Auto), false) = (has_arrays, size, periodic) {
@@ -110,8 +112,8 @@ pub(super) fn case(
     }
 }
 
-fn cells(judge: &mut Judge, given: &Spanned<[usize; 2]>) -> Option<[usize; 2]> {
-    let cells = *given.get_ref();
+fn cells(judge: &mut Judge, given: &Spanned<Pair<usize>>) -> Option<[usize; 2]> {
+    let cells = given.get_ref().0;
     if cells.iter().any(|&side| !(FEWEST_CELLS..=MOST_CELLS).contains(&side)) {
         return judge.refuse(
             given.span(),

@@ -122,13 +122,15 @@ fn young(
     const TWO_WAYS: &str = "gradient = { young = [top, bottom], law = \"exponential\" or \"linear\" }, or gradient = { table = [[depth, young], ...] }";
     match (&gradient.young, &gradient.law, &gradient.table) {
         (Some(young), Some(law), None) => {
-            let [top, bottom] = *young.get_ref();
+            let [top, bottom] = young.get_ref().0;
             Some(match law.get_ref() {
                 LawFile::Exponential => YoungGradient::Exponential { top, bottom },
                 LawFile::Linear => YoungGradient::Linear { top, bottom },
             })
         }
-        (None, None, Some(table)) => Some(YoungGradient::Table(table.get_ref().clone())),
+        (None, None, Some(table)) => {
+            Some(YoungGradient::Table(table.get_ref().iter().map(|row| row.0).collect()))
+        }
         (Some(young), None, None) => judge.refuse(
             young.span(),
             format!("{place}.gradient: young at both faces, but no law between them"),

@@ -128,7 +128,7 @@ fn phases(judge: &mut Judge, place: &str, file: &StageFile) -> [f64; 4] {
         [("tangential_force", tangential_force, &file.tangential_force), ("shift", shift, &file.shift)];
     for (key, phase, control) in pairs {
         let Some(phase) = phase else { continue };
-        if usable(judge, place, key, phase.get_ref(), control.is_some(), phase.span()) {
+        if usable(judge, place, key, &phase.get_ref().0, control.is_some(), phase.span()) {
             for axis in 0..2 {
                 let moved = control.as_ref().is_some_and(|control| control.get_ref()[axis] != AxisFile::Held);
                 if moved {

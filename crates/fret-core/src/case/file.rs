@@ -5,6 +5,7 @@ use serde::Deserialize;
 use serde::de::{self, SeqAccess, Visitor};
 use toml::Spanned;
 
+use super::pair::Pair;
 use super::stage_file::{AutoWord, StageFile, WearFile};
 use super::surface_file::{FrictionFile, ProfileFile};
 use crate::model::Scheme;
@@ -49,7 +50,7 @@ pub(super) struct CaseFile {
 pub(super) struct GridFile {
     /// Number of cells along x and y.
     #[schemars(with = "[usize; 2]")]
-    pub cells: Spanned<[usize; 2]>,
+    pub cells: Spanned<Pair<usize>>,
     /// Side lengths along x and y, or "auto": chosen so that the contact fits with a margin.
     #[schemars(with = "SizeSchema")]
     pub size: Spanned<SizeFile>,
@@ -157,13 +158,13 @@ pub(super) struct CoatingFile {
 pub(super) struct GradientFile {
     /// Young's modulus at the coating's surface and at its lower face [pressure], positive.
     #[schemars(with = "Option<[f64; 2]>")]
-    pub young: Option<Spanned<[f64; 2]>>,
+    pub young: Option<Spanned<Pair<f64>>>,
     /// How it runs from one to the other.
     #[schemars(with = "Option<LawFile>")]
     pub law: Option<Spanned<LawFile>>,
     /// Rows of depth [length] and Young's modulus [pressure], depths rising from 0 to the thickness; linear between them.
     #[schemars(with = "Option<Vec<[f64; 2]>>")]
-    pub table: Option<Spanned<Vec<[f64; 2]>>>,
+    pub table: Option<Spanned<Vec<Pair<f64>>>>,
     /// Number of uniform sublayers; when not given, as many as keep the surface's response within 1e-4 of itself.
     #[schemars(with = "Option<usize>")]
     pub layers: Option<Spanned<usize>>,

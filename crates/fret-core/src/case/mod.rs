@@ -11,6 +11,7 @@ mod file;
 mod friction;
 mod judge;
 mod numbers;
+mod pair;
 mod read;
 mod refusal;
 mod repeating;

@@ -6,7 +6,8 @@ use super::file::GridFile;
 use super::judge::Judge;
 use super::stage_file::StageFile;
 use super::{GridSize, Stage, StageControl};
-use crate::model::{Profile, Shape};
+use crate::kernel::uniform_response;
+use crate::model::{ContactPair, Profile, Shape};
 
 /// Whether the scene repeats; refuses what has no meaning then.
 pub(super) fn repeats(
@@ -15,6 +16,7 @@ pub(super) fn repeats(
     size: Option<GridSize>,
     (stages, checked): (&Spanned<Vec<Spanned<StageFile>>>, Option<&[Stage]>),
     profile: Option<&Profile>,
+    bodies: Option<&ContactPair>,
 ) -> bool {
     let periodic = grid.periodic.as_ref().is_some_and(|periodic| *periodic.get_ref());
     if !periodic {
@@ -40,26 +42,51 @@ pub(super) fn repeats(
         }
         _ => {}
     }
+    let uniform = bodies.map(uniform_response);
     for (index, stage) in stages.get_ref().iter().enumerate() {
         let stage = stage.get_ref();
-        let in_table = checked.and_then(|checked| checked.get(index)).is_some_and(|stage| {
-            let motion = |control: &Option<_>| control.as_ref().is_some_and(StageControl::is_motion);
-            motion(&stage.normal) || stage.tangential.iter().any(motion) || stage.twist.is_some()
-        });
-        let motions = [
-            ("approach", stage.approach.as_ref().map(Spanned::span)),
-            ("shift", stage.shift.as_ref().map(Spanned::span)),
+        let checked = checked.and_then(|checked| checked.get(index));
+        let in_table = |moves: &dyn Fn(&Stage) -> bool| {
+            stage.table.as_ref().filter(|_| checked.is_some_and(moves)).map(Spanned::span)
+        };
+        let moves = |control: &Option<_>| control.as_ref().is_some_and(StageControl::is_motion);
+        for (key, span) in [
             ("twist_moment", stage.twist_moment.as_ref().map(Spanned::span)),
             ("twist", stage.twist.as_ref().map(Spanned::span)),
-            ("a motion or twist", stage.table.as_ref().filter(|_| in_table).map(Spanned::span)),
-        ];
-        for (key, span) in motions {
+            ("a twist", in_table(&|stage| stage.twist.is_some())),
+        ] {
             if let Some(span) = span {
                 judge.refuse::<()>(
                     span,
-                    format!("{key} in a scene that repeats: a half-space under a repeating load has no such motion"),
+                    format!("{key} in a scene that repeats: a rotation does not repeat"),
                     "prescribe normal_force and tangential_force, those of one period",
                 );
+            }
+        }
+        let normal = [
+            ("approach", stage.approach.as_ref().map(Spanned::span)),
+            ("an approach", in_table(&|stage| moves(&stage.normal))),
+        ];
+        let tangential = [
+            ("shift", stage.shift.as_ref().map(Spanned::span)),
+            ("a shift", in_table(&|stage| stage.tangential.iter().any(moves))),
+        ];
+        for (axis, motions) in [normal, tangential].into_iter().enumerate() {
+            let why = match uniform {
+                Some(None) => "a half-space under a repeating load has no such motion",
+                Some(Some(response)) if response[axis] == 0.0 => {
+                    "layers that keep their volume do not give way to a uniform pressure"
+                }
+                _ => continue,
+            };
+            for (key, span) in motions {
+                if let Some(span) = span {
+                    judge.refuse::<()>(
+                        span,
+                        format!("{key} in a scene that repeats: {why}"),
+                        "prescribe normal_force and tangential_force, those of one period; or, for layers, base = \"rigid\"",
+                    );
+                }
             }
         }
     }

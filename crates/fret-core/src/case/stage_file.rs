@@ -7,6 +7,7 @@ use serde::Deserialize;
 use serde::de::{self, Visitor};
 use toml::Spanned;
 
+use super::pair::Pair;
 use super::surface_file::CoefficientFile;
 
 /// A stage of the loading history. Controls not named stay as they were.
@@ -23,10 +24,10 @@ pub(super) struct StageFile {
     pub approach: Option<Spanned<f64>>,
     /// Tangential force along x and y [force]: at the end, or the amplitude; "held" where this stage does not prescribe it.
     #[schemars(with = "Option<[AxisSchema; 2]>")]
-    pub tangential_force: Option<Spanned<[AxisFile; 2]>>,
+    pub tangential_force: Option<Spanned<Pair<AxisFile>>>,
     /// Rigid tangential displacement of the upper body along x and y [length]: at the end, or the amplitude; or "held".
     #[schemars(with = "Option<[AxisSchema; 2]>")]
-    pub shift: Option<Spanned<[AxisFile; 2]>>,
+    pub shift: Option<Spanned<Pair<AxisFile>>>,
     /// Moment about z [force x length]: at the end, or the amplitude.
     #[schemars(with = "Option<f64>")]
     pub twist_moment: Option<Spanned<f64>>,
@@ -63,7 +64,7 @@ pub(super) struct StageFile {
     pub phase: Option<Spanned<PhaseFile>>,
     /// Share of the amplitudes at the start and at the end of the cycles, linear between; [1, 1] when not given.
     #[schemars(with = "Option<[f64; 2]>")]
-    pub envelope: Option<Spanned<[f64; 2]>>,
+    pub envelope: Option<Spanned<Pair<f64>>>,
     /// Friction from this stage on: a coefficient, or a coefficient for every cell (a file, or rows of numbers).
     #[schemars(with = "Option<CoefficientFile>")]
     pub friction: Option<Spanned<CoefficientFile>>,
@@ -215,10 +216,10 @@ pub(super) struct PhaseFile {
     pub approach: Option<Spanned<f64>>,
     /// Of the tangential force along x and y.
     #[schemars(with = "Option<[f64; 2]>")]
-    pub tangential_force: Option<Spanned<[f64; 2]>>,
+    pub tangential_force: Option<Spanned<Pair<f64>>>,
     /// Of the shift along x and y.
     #[schemars(with = "Option<[f64; 2]>")]
-    pub shift: Option<Spanned<[f64; 2]>>,
+    pub shift: Option<Spanned<Pair<f64>>>,
     /// Of the moment about z.
     #[schemars(with = "Option<f64>")]
     pub twist_moment: Option<Spanned<f64>>,

@@ -223,7 +223,7 @@ fn course(judge: &mut Judge, place: &str, file: &StageFile, increments: usize) -
                 let message = format!("{place}.envelope = {:?}: {words}", given.get_ref());
                 return judge.refuse(given.span(), message, "");
             }
-            *given.get_ref()
+            given.get_ref().0
         }
     };
     Some(Course::Cycles(Cycles { most: *most.get_ref(), waveform, envelope, until_steady }))

@@ -266,13 +266,15 @@ mod tests {
     fn a_motion_of_a_table_has_no_meaning_in_a_scene_that_repeats() {
         let head = HEAD.replace("size = [3.0, 3.0]", "size = [3.0, 3.0]\nperiodic = true");
         let text = format!("{head}[[load]]\nincrements = 1\ntable = \"path.csv\"\n");
-        let error =
-            Case::from_toml_with(&text, "case.toml", Attachments::files(&|_| Ok(b"twist\n1e-3\n".to_vec())))
-                .unwrap_err();
-        assert!(
-            error.to_string().contains("half-space under a repeating load has no such motion"),
-            "{error}"
-        );
+        for (table, words) in [
+            ("twist\n1e-3\n", "a rotation does not repeat"),
+            ("approach\n1e-3\n", "half-space under a repeating load has no such motion"),
+            ("normal_force,shift_x\n1e-3,1e-3\n", "half-space under a repeating load has no such motion"),
+        ] {
+            let files = |_: &str| Ok(table.as_bytes().to_vec());
+            let error = Case::from_toml_with(&text, "case.toml", Attachments::files(&files)).unwrap_err();
+            assert!(error.to_string().contains(words), "{error}");
+        }
     }
 
     #[test]

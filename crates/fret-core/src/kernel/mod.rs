@@ -36,6 +36,6 @@ pub use collocation::cells_too_coarse_for_incompressible_film;
 pub use frequency_response::{FrequencyResponse, Response};
 pub use influence::{Components, InfluenceCoefficients, coefficients_of, influence_coefficients};
 pub use pair_response::PairResponse;
-pub use periodic::{PeriodicSymbols, ResponseTable, periodic_symbols, symbols_of};
+pub use periodic::{PeriodicSymbols, ResponseTable, periodic_symbols, symbols_of, uniform_response};
 pub use sampled::sampled_coefficients;
 pub use sublayers::{SublayerError, layered_half_space};

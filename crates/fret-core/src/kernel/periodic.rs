@@ -10,7 +10,7 @@ use super::frequency_response::Response;
 use super::influence::Components;
 use super::pair_response::PairResponse;
 use super::panels::Panels;
-use crate::model::ContactPair;
+use crate::model::{Base, Body, ContactPair};
 
 /// Response of a grid's cells to unit traction waves [length/pressure], at wavenumbers `2 pi a/(nx dx)`, `2 pi b/(ny dy)`,
 /// `a = 0..=nx/2`, `b = 0..=ny/2`; shape `(nx/2 + 1, ny/2 + 1)`. Arrays that were not wanted are absent.
@@ -22,7 +22,7 @@ use crate::model::ContactPair;
 /// zz: C_zz      xx: c^2 C_rr + s^2 C_tt      yy: s^2 C_rr + c^2 C_tt      xy: -c s (C_rr - C_tt)      zx: c C_rz      zy: s C_rz
 /// ```
 ///
-/// The value at `k = 0` is 0: what a uniform traction does is for the caller to say. At the last wavenumber of an even count a
+/// The value at `k = 0` is that of a uniform traction, see [`uniform_response`]; 0 where a half-space has none. At the last wavenumber of an even count a
 /// wave and its mirror image are the same on the grid, so kernels that are odd along that axis vanish there.
 #[derive(Clone, Debug)]
 pub struct PeriodicSymbols {
@@ -49,10 +49,46 @@ pub fn periodic_symbols(
     aliases: usize,
 ) -> PeriodicSymbols {
     let [least, greatest] = wavenumbers(cells, spacing, aliases);
-    ResponseTable::new(pair, least, greatest).symbols(cells, spacing, wanted, aliases)
+    ResponseTable::new(pair, least, greatest).symbols(cells, spacing, wanted, aliases).with_uniform(pair)
 }
 
-/// The same symbols of any pair response.
+/// Displacement by a uniform unit traction [length/pressure], normal and tangential: `sum h/E_oed` with
+/// `E_oed = E (1 - nu) / ((1 + nu) (1 - 2 nu))`, and `sum h/G`, over the layers of both bodies. `None` where a body is a
+/// half-space: a uniform traction moves it without bound.
+pub fn uniform_response(pair: &ContactPair) -> Option<[f64; 2]> {
+    let mut sum = [0.0; 2];
+    for body in [pair.upper(), pair.lower()] {
+        let Body::Elastic(stack) = body else { continue };
+        if *stack.base() != Base::Rigid {
+            return None;
+        }
+        for layer in stack.coatings() {
+            let (material, nu) = (layer.material(), layer.material().poisson());
+            sum[0] += layer.thickness() * (1.0 + nu) * (1.0 - 2.0 * nu) / (material.young() * (1.0 - nu));
+            sum[1] += layer.thickness() / material.shear_modulus();
+        }
+    }
+    Some(sum)
+}
+
+impl PeriodicSymbols {
+    /// The same symbols with what a uniform traction does at `k = 0`.
+    #[must_use]
+    pub fn with_uniform(mut self, pair: &ContactPair) -> Self {
+        if let Some([normal, tangential]) = uniform_response(pair) {
+            for (symbol, value) in
+                [(&mut self.zz, normal), (&mut self.xx, tangential), (&mut self.yy, tangential)]
+            {
+                if let Some(symbol) = symbol {
+                    symbol[[0, 0]] = value;
+                }
+            }
+        }
+        self
+    }
+}
+
+/// The same symbols of any pair response, without what a uniform traction does.
 pub fn symbols_of(
     response: PairResponse,
     cells: [usize; 2],

@@ -3,13 +3,13 @@
 use ndarray::{Array2, Zip};
 use serde::{Deserialize, Serialize};
 
-use super::state::ContactState;
+use super::state::{ContactState, mean_bound};
 
 /// What the worn depth follows.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum WearLaw {
-    /// `k p |ds|`: pressure times slip. Archard (1953), J. Appl. Phys. 24, 981.
+    /// `k p |ds|`: mean pressure of the increment times slip. Archard (1953), J. Appl. Phys. 24, 981.
     Archard,
     /// `k q . ds`: the energy that friction dissipates. Fouvry, Kapsa & Vincent (1996), Wear 200, 186.
     Energy,
@@ -39,22 +39,27 @@ impl WearRule {
         let k = self.coefficient;
         match self.law {
             WearLaw::Energy => {
+                let ratio = Zip::from(&before.pressure)
+                    .and(&after.pressure)
+                    .map_collect(|then, now| if *now > 0.0 { mean_bound(*then, *now) } else { 0.0 });
                 for axis in 0..2 {
                     Zip::from(&mut *depth)
+                        .and(&ratio)
                         .and(&after.shear[axis])
                         .and(&after.slip[axis])
                         .and(&before.slip[axis])
-                        .for_each(|depth, q, now, then| *depth += k * q * (now - then));
+                        .for_each(|depth, ratio, q, now, then| *depth += k * ratio * q * (now - then));
                 }
             }
             WearLaw::Archard => {
                 let slip_y = &after.slip[1] - &before.slip[1];
+                let pressure = &before.pressure + &after.pressure;
                 Zip::from(depth)
-                    .and(&after.pressure)
+                    .and(&pressure)
                     .and(&after.slip[0])
                     .and(&before.slip[0])
                     .and(&slip_y)
-                    .for_each(|depth, p, now, then, y| *depth += k * p * (now - then).hypot(*y));
+                    .for_each(|depth, p, now, then, y| *depth += k * 0.5 * p * (now - then).hypot(*y));
             }
         }
     }

@@ -2,6 +2,8 @@
 
 use std::ops::ControlFlow;
 
+use serde::Serialize;
+
 use crate::case::{Case, walk};
 use crate::compliance::SurfaceResponse;
 use crate::kernel::{Components, influence_coefficients};
@@ -15,11 +17,20 @@ const COARSE: usize = 48;
 /// Side of an automatic grid in units of the contact's width.
 const MARGIN: f64 = 1.2;
 
+/// The contact under the heaviest load, without friction, as a coarse grid shows it.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct ExpectedContact {
+    /// Half of its widths along x and y [length], to a twentieth.
+    pub half_widths: [f64; 2],
+    /// Approach [length].
+    pub approach: f64,
+}
+
 /// Where the contact stays under the heaviest load.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Extent {
-    /// Inside the grid: its widths along x and y [length], up to a coarse cell.
-    Inside([f64; 2]),
+    /// Inside the grid: its widths along x and y, up to a coarse cell, and the approach [length].
+    Inside([f64; 2], f64),
     /// It reaches the edge.
     Beyond,
     /// The bodies never touch.
@@ -37,7 +48,9 @@ pub fn reaches_beyond(case: &Case, size: [f64; 2]) -> bool {
     let wider = size.map(|side| 1.5 * side);
     match contact_extent(case, wider) {
         Extent::Beyond => true,
-        Extent::Inside(widths) => (0..2).any(|axis| widths[axis] - wider[axis] / COARSE as f64 > size[axis]),
+        Extent::Inside(widths, _) => {
+            (0..2).any(|axis| widths[axis] - wider[axis] / COARSE as f64 > size[axis])
+        }
         Extent::Nothing | Extent::Unknown => false,
     }
 }
@@ -47,10 +60,12 @@ fn contact_extent(case: &Case, size: [f64; 2]) -> Extent {
     let mut widest = Extent::Nothing;
     for normal in heaviest_loads(case) {
         match extent_under(case, size, normal) {
-            Extent::Inside([x, y]) => {
+            Extent::Inside([x, y], approach) => {
                 widest = match widest {
-                    Extent::Inside([u, v]) => Extent::Inside([x.max(u), y.max(v)]),
-                    _ => Extent::Inside([x, y]),
+                    Extent::Inside([u, v], other) => {
+                        Extent::Inside([x.max(u), y.max(v)], approach.max(other))
+                    }
+                    _ => Extent::Inside([x, y], approach),
                 };
             }
             Extent::Nothing => {}
@@ -60,17 +75,24 @@ fn contact_extent(case: &Case, size: [f64; 2]) -> Extent {
     widest
 }
 
-/// Side lengths such that the contact fits with a margin; `None` when no contact was found.
-pub fn automatic_size(case: &Case) -> Option<[f64; 2]> {
+/// Side lengths such that a contact fits with a margin.
+pub fn automatic_size(contact: &ExpectedContact) -> [f64; 2] {
+    contact.half_widths.map(|half| MARGIN * 2.0 * half)
+}
+
+/// The contact of a case on a coarse grid that it about fills; `None` when no contact was found.
+pub fn expected_contact(case: &Case) -> Option<ExpectedContact> {
+    if !case.profile.heights.is_empty() {
+        return None; // heights stand on the cells of the grid alone
+    }
     let mut size = first_guess(case)?.map(|half| 3.0 * half);
     for _ in 0..60 {
         match contact_extent(case, size) {
             Extent::Beyond => size = size.map(|side| 2.0 * side),
-            Extent::Inside(widths) => {
+            Extent::Inside(widths, approach) => {
                 let fine = (0..2).all(|axis| widths[axis] >= 0.45 * size[axis]);
-                let wanted = [0, 1].map(|axis| MARGIN * widths[axis]);
                 if fine {
-                    return Some(wanted);
+                    return Some(ExpectedContact { half_widths: widths.map(|width| 0.5 * width), approach });
                 }
                 size = [0, 1].map(|axis| size[axis].min(1.5 * widths[axis]));
             }
@@ -129,7 +151,11 @@ fn extent_under(case: &Case, size: [f64; 2], normal: Control) -> Extent {
             pressure.axis_iter(ndarray::Axis(axis)).filter(|line| line.iter().any(|p| *p > 0.0)).count();
         touched as f64 * spacing[axis]
     };
-    if solved.outcome.contact_cells == 0 { Extent::Nothing } else { Extent::Inside([width(0), width(1)]) }
+    if solved.outcome.contact_cells == 0 {
+        Extent::Nothing
+    } else {
+        Extent::Inside([width(0), width(1)], solved.state.approach)
+    }
 }
 
 /// Order of the contact's half-widths along x and y [length], with the stiffest material of each body. Each shape of a sum opens

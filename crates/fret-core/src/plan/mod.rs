@@ -19,7 +19,8 @@ use crate::model::{Body, ContactState, SurfaceGrid, Symmetry};
 pub use crate::solver::{Coupling, LeaveOut, Shortcut};
 use crate::start::Start;
 pub use advance::Advance;
-use extent::{automatic_size, reaches_beyond};
+pub use extent::ExpectedContact;
+use extent::{automatic_size, expected_contact, reaches_beyond};
 pub use memory::of_stress as memory_of_stress;
 
 /// Something the scene does not need.
@@ -55,6 +56,8 @@ pub struct Plan {
     pub leave_out: LeaveOut,
     /// What is left out.
     pub left_out: Vec<LeftOut>,
+    /// The contact that is expected under the heaviest load; `None` where only the run can tell: on rough and on periodic surfaces.
+    pub expected: Option<ExpectedContact>,
     /// Increments of the whole history.
     pub increments: usize,
     /// Memory expected at the most [bytes], without the kept fields.
@@ -101,11 +104,12 @@ impl Plan {
         } else {
             Coupling::Coupled
         };
+        let expected = if case.periodic { None } else { expected_contact(&case) };
         let size = match case.size {
             GridSize::Given(size) => size,
             GridSize::Auto => match start.as_deref().and_then(Start::spacing) {
                 Some(spacing) => [0, 1].map(|axis| spacing[axis] * case.cells[axis] as f64),
-                None => automatic_size(&case).ok_or_else(|| {
+                None => expected.as_ref().map(automatic_size).ok_or_else(|| {
                     let message =
                         "grid.size = \"auto\": no contact was found under the heaviest load".to_owned();
                     case.refuse_size(message, "give the side lengths")
@@ -162,6 +166,7 @@ impl Plan {
             six_digits,
             leave_out,
             left_out,
+            expected,
             increments,
         };
         plan.judge_start()?;

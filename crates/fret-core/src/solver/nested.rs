@@ -163,6 +163,7 @@ impl Level {
         let undeformed = Region::whole(self.cells()).gather(&self.undeformed);
         let mut removed = vec![0.0; undeformed.len()];
         inverse.normal(&undeformed, &mut removed);
+        let mean = mean + removed.iter().sum::<f64>() / removed.len() as f64;
         let loaded = removed.iter().filter(|part| mean > **part).count();
         loaded as f64 > NEARLY_FULL * removed.len() as f64
     }

@@ -65,6 +65,9 @@ pub fn full_contact_pressure(task: &NormalTask<'_>, preconditioner: &mut Precond
     let mean = task.total? / task.undeformed.len() as f64;
     let mut removed = vec![0.0; task.undeformed.len()];
     preconditioner.normal(task.undeformed, &mut removed);
+    // Layers on a rigid base answer a uniform pressure too; the approach takes that.
+    let level = sum(&removed) / removed.len() as f64;
+    removed.iter_mut().for_each(|part| *part -= level);
     let mut pressure: Vec<f64> = removed.iter().map(|part| (mean - part).max(0.0)).collect();
     let found = sum(&pressure);
     if !(found > 0.0) {

@@ -22,7 +22,7 @@ use crate::compliance::{SpectralCompliance, SurfaceCompliance};
 use crate::history::{Regime, Residual};
 use crate::model::field::sum;
 use crate::model::{
-    ContactState, Control, CoulombFriction, LoadStep, Scheme, SurfaceGrid, TangentialField, Zone,
+    ContactState, Control, CoulombFriction, LoadStep, Scheme, SurfaceGrid, TangentialField, Zone, mean_bound,
 };
 
 /// Residual to which the frictionless start of a coupled contact is solved.
@@ -475,7 +475,8 @@ impl<'a> Scene<'a> {
                 let slip = [-s.x[place], -s.y[place]];
                 state.slip[0][at] += slip[0];
                 state.slip[1][at] += slip[1];
-                dissipated += q[0] * slip[0] + q[1] * slip[1];
+                let ratio = mean_bound(self.state.pressure[at], pressure[cell]);
+                dissipated += ratio * (q[0] * slip[0] + q[1] * slip[1]);
             } else {
                 state.zone[at] = Zone::Stick;
                 stick_cells += 1;

@@ -85,6 +85,8 @@ pub struct Headline {
     pub stick_edge: f64,
     /// Area of one cell [length^2].
     pub cell_area: f64,
+    /// Cells in the contact radius; `None` for a contact without an edge.
+    pub radius_cells: Option<f64>,
 }
 
 impl Headline {
@@ -107,6 +109,7 @@ impl Headline {
             contact_edge: cell * edge_cells(&state.zone, |zone| zone != Zone::Open),
             stick_edge: cell * edge_cells(&state.zone, |zone| zone == Zone::Stick),
             cell_area: cell,
+            radius_cells: record.footprint.radius,
         }
     }
 

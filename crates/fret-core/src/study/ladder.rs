@@ -5,6 +5,7 @@ use serde::Serialize;
 use super::variation::{Variation, fewest, rows};
 use crate::case::check::{FEWEST_CELLS as FEWEST_OF_A_CASE, MOST_CELLS, MOST_CELLS_IN_ALL};
 use crate::plan::{Coupling, Plan};
+use crate::warning::CELLS_IN_RADIUS;
 
 /// Fewest cells a side of a rung that nobody asked for.
 const FEWEST_CELLS: usize = 8;
@@ -49,6 +50,12 @@ pub enum LadderError {
     /// A grid that cannot be halved.
     #[error("{0} cells a side are too few to be halved; at least {1}")]
     TooCoarse(usize, usize),
+    /// A contact that the cells hardly show.
+    #[error(
+        "about {0:.1} cells in the contact radius are too few for error bars to hold; at least {CELLS_IN_RADIUS}: more cells, or a \
+         smaller grid (size = \"auto\" finds it)"
+    )]
+    FewCells(f64),
     /// Surfaces or friction given cell by cell.
     #[error("{0} are given for every cell of one grid, and another grid has other cells")]
     EachCell(&'static str),

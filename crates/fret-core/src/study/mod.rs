@@ -23,7 +23,7 @@ pub use advice::{Advice, advice, frontier};
 pub use climb::{Climb, Judged, Line};
 pub use closed_form::ClosedForm;
 pub use errors::{Errors, Form, errors, orders};
-pub use estimate::{Bar, Bars, companion, error_bars};
+pub use estimate::{Bar, Bars, companion, error_bars, resolved};
 pub use expectation::{Expectation, expectation};
 pub use headline::{Headline, Quantity};
 pub use ladder::{Kind, Ladder, LadderError, Place};

@@ -1,8 +1,10 @@
 //! The largest of each number over depths, cells and increments, with its place.
 
+use ndarray::{Array2, Axis};
 use serde::Serialize;
 
 use super::depths::DepthPoint;
+use super::rim::at_rims;
 use super::tensor::{StressField, StressTensor};
 
 /// What is looked for.
@@ -70,40 +72,72 @@ pub struct Largest {
     pub increment: usize,
     /// Cell `[i, j]`.
     pub cell: [usize; 2],
+    /// Place relative to its centre [cells]: zero but at a rim.
+    pub off: [f64; 2],
     /// Depth and layer.
     pub point: DepthPoint,
 }
 
 /// Updates a list of largest values, one a measure, with the stress at one depth in one increment. Of equal values the first
-/// found stays.
+/// found stays. `pressure` of the surface that the stress is of, where it is that of the surface itself: tension is then also looked
+/// for at the rim of the contact, see [`at_rims`].
 pub fn look(
     found: &mut Vec<Largest>,
     field: &StressField,
     point: DepthPoint,
     is_interface: bool,
     increment: usize,
+    pressure: Option<&Array2<f64>>,
 ) {
     for measure in Measure::ALL {
         if measure.at_interfaces_only() && !is_interface {
             continue;
         }
-        let mut best: Option<(f64, [usize; 2])> = None;
+        let mut best: Option<(f64, [usize; 2], [f64; 2])> = None;
         let shape = field.components[0].dim();
         for i in 0..shape.0 {
             for j in 0..shape.1 {
                 let value = measure.of(&field.at(i, j));
-                if best.is_none_or(|(most, _)| value > most) {
-                    best = Some((value, [i, j]));
+                if best.is_none_or(|(most, ..)| value > most) {
+                    best = Some((value, [i, j], [0.0; 2]));
                 }
             }
         }
-        let Some((value, cell)) = best else { continue };
+        if let (Measure::Tension, Some(pressure)) = (measure, pressure) {
+            let values = Array2::from_shape_fn(shape, |(i, j)| measure.of(&field.at(i, j)));
+            for (value, cell, off) in along_lines(&values, pressure) {
+                if best.is_none_or(|(most, ..)| value > most) {
+                    best = Some((value, cell, off));
+                }
+            }
+        }
+        let Some((value, cell, off)) = best else { continue };
         match found.iter_mut().find(|largest| largest.measure == measure) {
             Some(largest) if value > largest.value => {
-                *largest = Largest { measure, value, increment, cell, point };
+                *largest = Largest { measure, value, increment, cell, off, point };
             }
             Some(_) => {}
-            None => found.push(Largest { measure, value, increment, cell, point }),
+            None => found.push(Largest { measure, value, increment, cell, off, point }),
         }
     }
+}
+
+/// Values at the rims of all lines of cells along x and y, each with its cell and its place from there [cells].
+fn along_lines(values: &Array2<f64>, pressure: &Array2<f64>) -> Vec<(f64, [usize; 2], [f64; 2])> {
+    let mut found = Vec::new();
+    for axis in 0..2 {
+        let lines = |field: &Array2<f64>| -> Vec<Vec<f64>> {
+            field.lanes(Axis(axis)).into_iter().map(|line| line.to_vec()).collect()
+        };
+        for (number, (values, pressure)) in lines(values).iter().zip(&lines(pressure)).enumerate() {
+            for rim in at_rims(values, pressure) {
+                let (cell, off) = match axis {
+                    0 => ([rim.cell, number], [rim.off, 0.0]),
+                    _ => ([number, rim.cell], [0.0, rim.off]),
+                };
+                found.push((rim.value, cell, off));
+            }
+        }
+    }
+    found
 }

@@ -8,6 +8,7 @@ pub mod depths;
 pub mod fatigue;
 pub mod largest;
 pub mod operator;
+pub mod rim;
 pub mod survey;
 pub mod tensor;
 

@@ -12,7 +12,7 @@ const MOST_CYCLES: usize = 12;
 pub fn energy(scene: &Scene<'_>) -> String {
     let history = &scene.results.table;
     let energy = history.column("dissipated_energy");
-    if scene.direction.is_none() || energy.last().is_none_or(|energy| *energy == 0.0) {
+    if (scene.direction.is_none() && !scene.twists) || energy.last().is_none_or(|energy| *energy == 0.0) {
         return String::new();
     }
     let points = |values: &[f64]| -> Vec<[f64; 2]> {
@@ -25,6 +25,9 @@ pub fn energy(scene: &Scene<'_>) -> String {
         stroke: Stroke::Line,
     }];
     let mut caption = "Work of friction since the start.".to_owned();
+    if scene.results.cycles.iter().any(|cycle| cycle.stands_for > 1) {
+        caption += " The end of a computed cycle has the work of all cycles that it stands for.";
+    }
     if let Some(form) = &scene.tangential_form {
         let exact: Vec<f64> = (0..history.rows())
             .map(|row| {
@@ -54,22 +57,23 @@ pub fn energy(scene: &Scene<'_>) -> String {
 
 /// The energy of each cycle, with the closed form where there is one.
 fn cycles(scene: &Scene<'_>) -> String {
-    let cycles = scene.cycles();
-    let energy = scene.results.table.column("dissipated_energy");
+    let cycles = &scene.results.cycles;
     let skipped = cycles.len().saturating_sub(MOST_CYCLES);
-    let mut head = vec!["cycle", "dissipated"];
+    let mut head = vec!["cycle", "dissipated in one"];
     if scene.tangential_form.is_some() {
         head.extend(["closed form", "difference"]);
     }
     let shown = cycles.iter().take(1).chain(cycles.iter().skip(1 + skipped));
     let rows: Vec<Vec<String>> = shown
         .map(|cycle| {
-            let (before, last) = (cycle.span[0].checked_sub(1), cycle.span[1] - 1);
-            let computed = energy[last] - before.map_or(0.0, |before| energy[before]);
-            let mut row = vec![
-                format!("{}, {}", escaped(&scene.stage_name(cycle.stage)), cycle.number),
-                number(computed),
-            ];
+            let (before, last) = (cycle.first_increment.checked_sub(1), cycle.last_increment);
+            let computed = cycle.dissipated_energy;
+            let which = match cycle.stands_for {
+                1 => cycle.last_cycle.to_string(),
+                all => format!("{} to {}", (cycle.last_cycle + 1).saturating_sub(all), cycle.last_cycle),
+            };
+            let name = escaped(&scene.stage_name(cycle.stage));
+            let mut row = vec![format!("{name}, {which}"), number(computed)];
             if let Some(form) = &scene.tangential_form {
                 let at = |row: usize| {
                     form.after(row)
@@ -151,8 +155,8 @@ pub fn comparison(scene: &Scene<'_>) -> String {
     let coupled = scene.results.record["plan"]["coupling"] == "coupled";
     let words = if coupled {
         format!(
-            "<p>The closed forms neglect that pressure and shear act on each other (Dundurs' |<i>β</i>| = {:.3}), so they are \
-             no measure of error here.</p>",
+            "<p>The closed forms are frictionless ones: they neglect that pressure and shear act on each other (Dundurs' \
+             |<i>β</i>| = {:.3}), which changes pressure and approach by some percent. There is none of partial slip here.</p>",
             form.moduli.coupling.abs()
         )
     } else {

@@ -67,15 +67,25 @@ pub fn pressing(scene: &Scene<'_>) -> String {
     chapter("Loading", &side_by_side(&figures))
 }
 
-/// Tangential force over shift.
+/// Tangential force over shift, or moment over twist where that is what moves.
 pub fn fretting_loop(scene: &Scene<'_>) -> String {
-    if scene.direction.is_none() {
+    if scene.direction.is_none() && !scene.twists {
         return String::new();
     }
-    let all = pairs(&scene.shift, &scene.tangential);
+    let table = &scene.results.table;
+    let (all, axes, words) = if scene.twists {
+        (
+            pairs(table.column("twist"), table.column("twist_moment")),
+            ["twist", "twist moment"],
+            "Moment over twist.",
+        )
+    } else {
+        let words = "Tangential force over shift, both along the push.";
+        (pairs(&scene.shift, &scene.tangential), ["shift", "tangential force"], words)
+    };
     let cycles = scene.cycles();
     let mut curves = Vec::new();
-    let mut caption = "Tangential force over shift, both along the push.".to_owned();
+    let mut caption = words.to_owned();
     if let (Some(last), true) = (cycles.last(), cycles.len() > 1) {
         curves.push(Curve { stroke: Stroke::Faint, ..line(all.clone(), "all of the history", 0) });
         // From the increment before: so the loop is closed.
@@ -84,7 +94,7 @@ pub fn fretting_loop(scene: &Scene<'_>) -> String {
     } else {
         curves.push(line(all, "computed", 0));
     }
-    if let Some(form) = &scene.tangential_form {
+    if let (Some(form), false) = (&scene.tangential_form, scene.twists) {
         let points = (0..scene.results.table.rows()).map(|row| {
             form.after(row).map_or([f64::NAN; 2], |after| [after.shift(), after.tangential_force()])
         });
@@ -93,8 +103,8 @@ pub fn fretting_loop(scene: &Scene<'_>) -> String {
                     across the force, and so gives a shift that is some percent off.";
     }
     let chart = Chart {
-        what: "tangential force over shift".to_owned(),
-        axes: ["shift".to_owned(), "tangential force".to_owned()],
+        what: format!("{} over {}", axes[1], axes[0]),
+        axes: axes.map(str::to_owned),
         curves,
         logarithmic: false,
         level: None,

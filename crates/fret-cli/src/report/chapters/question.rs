@@ -39,7 +39,17 @@ pub fn head(scene: &Scene<'_>) -> String {
     if let Some(why) = scene.results.unfinished() {
         head += &format!("<p class=\"warning\">{}.</p>\n", escaped(&capitalised(&why)));
     }
-    head + &cards(scene) + "</header>\n"
+    head + &cards(scene) + &warnings(record) + "</header>\n"
+}
+
+/// What about the numbers may mislead.
+fn warnings(record: &Value) -> String {
+    let text = |warning: &Value, name: &str| escaped(warning[name].as_str().unwrap_or_default());
+    let list = record["warnings"].as_array().map_or(&[][..], Vec::as_slice);
+    let line = |warning: &Value| {
+        format!("<p class=\"warning\">{}. {}.</p>\n", text(warning, "message"), text(warning, "help"))
+    };
+    list.iter().map(line).collect()
 }
 
 /// A sentence that begins with a capital letter.
@@ -56,13 +66,20 @@ fn cards(scene: &Scene<'_>) -> String {
         ("max pressure", number(largest("max_pressure"))),
         ("max contact area", number(largest("contact_area"))),
     ];
-    if scene.direction.is_some() {
+    if scene.direction.is_some() || scene.twists {
         cards.push(("max shear", number(largest("max_shear"))));
         cards.push((
             "stick at the end",
             percent(table.at("stick_cells", last) / table.at("contact_cells", last)),
         ));
         cards.push(("energy dissipated", number(table.at("dissipated_energy", last))));
+    }
+    if !scene.results.record["plan"]["case"]["wear"].is_null() {
+        cards.push(("worn volume", number(table.at("worn_volume", last))));
+        cards.push(("largest worn depth", number(table.at("max_worn_depth", last))));
+        if let Some(cycle) = scene.results.cycles.last() {
+            cards.push(("cycles", cycle.last_cycle.to_string()));
+        }
     }
     cards.push(("largest residual", short(largest("residual"))));
     let cards: String =

@@ -1,0 +1,85 @@
+//! How the contact lies on the grid: how many cells show it, and how many are left around it.
+
+use ndarray::Array2;
+use serde::{Deserialize, Serialize};
+
+use crate::model::Zone;
+
+/// The contact as the cells see it.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+pub struct Footprint {
+    /// Radius of the contact in cells: that of a circle of as many cells, or less where the contact is narrow: 1.1 times the radius
+    /// of the disc whose chords are as long as its own are on the average along x, or along y. So it is the radius of a disc, 1.4
+    /// half-widths of a strip, and about the mean radius of the patches where there are many. `None` without contact, and for a
+    /// contact without any edge.
+    pub radius: Option<f64>,
+    /// Open cells between the contact and the nearest edge of the grid.
+    pub free: usize,
+}
+
+impl Footprint {
+    /// Reads it off the zones.
+    pub fn of(zone: &Array2<Zone>) -> Self {
+        let (nx, ny) = zone.dim();
+        let mut cells = 0_usize;
+        let mut faces = [0_usize; 2];
+        let (mut least, mut most) = ([nx, ny], [0, 0]);
+        for ((i, j), here) in zone.indexed_iter() {
+            let loaded = *here != Zone::Open;
+            if loaded {
+                cells += 1;
+                least = [least[0].min(i), least[1].min(j)];
+                most = [most[0].max(i), most[1].max(j)];
+            }
+            faces[0] += usize::from(i + 1 < nx && (zone[[i + 1, j]] != Zone::Open) != loaded);
+            faces[1] += usize::from(j + 1 < ny && (zone[[i, j + 1]] != Zone::Open) != loaded);
+        }
+        if cells == 0 {
+            return Self { radius: None, free: nx.min(ny) };
+        }
+        let free = (0..2).map(|axis| least[axis].min([nx, ny][axis] - 1 - most[axis])).min().unwrap_or(0);
+        // Every chord has two ends; a disc's are pi/2 radii long in the mean.
+        let by_chords = faces.map(|faces| 4.0 * cells as f64 / (std::f64::consts::PI * faces as f64));
+        let narrow = by_chords[0].min(by_chords[1]);
+        let circle = (cells as f64 / std::f64::consts::PI).sqrt();
+        Self { radius: narrow.is_finite().then_some(circle.min(1.1 * narrow)), free }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn zones(cells: [usize; 2], inside: impl Fn(f64, f64) -> bool) -> Array2<Zone> {
+        let at = |index: usize, axis: usize| index as f64 - 0.5 * (cells[axis] as f64 - 1.0);
+        Array2::from_shape_fn(
+            cells,
+            |(i, j)| {
+                if inside(at(i, 0), at(j, 1)) { Zone::Slip } else { Zone::Open }
+            },
+        )
+    }
+
+    /// Discs, strips and patches whose sizes are known: pixels leave a third of a cell.
+    #[test]
+    fn the_radius_of_discs_strips_and_patches_is_found_in_cells() {
+        for radius in [3.0, 6.0, 6.6, 20.0] {
+            let found = Footprint::of(&zones([64, 64], |x, y| x.hypot(y) < radius));
+            assert!((found.radius.unwrap() - radius).abs() < 0.35, "{radius}: {found:?}");
+            assert_eq!(found.free, 32 - (radius + 0.5).floor() as usize);
+        }
+        let strip = Footprint::of(&zones([64, 64], |x, y| x.abs() < 5.0 && y.abs() < 28.0));
+        assert!((strip.radius.unwrap() / 5.0 - 1.4).abs() < 0.01, "{strip:?}");
+        let across = Footprint::of(&zones([64, 64], |x, y| y.abs() < 5.0 && x.abs() < 28.0));
+        assert_eq!(strip.radius, across.radius);
+        // Sixteen discs of four cells' radius.
+        let patches = |x: f64, y: f64| {
+            let off = |u: f64| (u + 32.0).rem_euclid(16.0) - 8.0;
+            off(x).hypot(off(y)) < 4.0
+        };
+        let found = Footprint::of(&zones([64, 64], patches));
+        assert!((found.radius.unwrap() / 4.0 - 1.0).abs() < 0.15, "{found:?}");
+        assert_eq!(Footprint::of(&zones([8, 8], |_, _| true)).radius, None);
+        assert_eq!(Footprint::of(&zones([8, 8], |_, _| false)).radius, None);
+    }
+}

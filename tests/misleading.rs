@@ -1,0 +1,123 @@
+//! Warnings: a case whose units went wrong is told of, before the run where the case alone tells and after it in any case; a case
+//! of the tutorials is not.
+
+use fret_core::case::Case;
+use fret_core::plan::Plan;
+use fret_core::warning::{Concern, Gauge, Warning, of_plan};
+use fret_validation::{Sphere, solved, solved_with};
+use ndarray::Array2;
+
+/// A rigid ball of 10 mm on steel in SI units, a coefficient of 0.2.
+fn ball(young: &str, size: &str, loads: &str) -> String {
+    format!(
+        "[grid]\ncells = [48, 48]\nsize = {size}\n[upper]\nrigid = true\n[lower]\n\
+         substrate = {{ young = {young}, poisson = 0.3 }}\n[profile.sphere]\nradius = 10e-3\n[friction]\ncoefficient = 0.2\n{loads}"
+    )
+}
+
+const PRESS: &str = "[[load]]\nnormal_force = 12.0\nincrements = 40\nramp = \"cubic\"\n";
+
+fn before(text: &str) -> Vec<Warning> {
+    of_plan(&Plan::new(Case::from_toml(text, "case.toml").unwrap()).unwrap())
+}
+
+fn names(warnings: &[Warning]) -> Vec<Concern> {
+    warnings.iter().map(|warning| warning.name).collect()
+}
+
+fn value(warnings: &[Warning], name: Concern) -> f64 {
+    warnings
+        .iter()
+        .find(|warning| warning.name == name)
+        .unwrap_or_else(|| panic!("{name:?}: {warnings:?}"))
+        .value
+}
+
+#[test]
+fn a_modulus_without_its_gpa_is_told_of_before_the_run() {
+    let found = before(&ball("210.0", "\"auto\"", PRESS));
+    // Hertz: a = (3 W R (1 - nu^2) / 4 E)^(1/3) = 73 mm on a ball of 10 mm; the approach is a^2/R.
+    let a = (0.75 * 12.0 * 0.01 * 0.91 / 210.0_f64).cbrt();
+    for name in [Concern::ContactRadiusOverBodyRadius, Concern::ApproachOverContactRadius] {
+        // A coarse grid knows the contact to a twentieth.
+        assert!((value(&found, name) / (a / 0.01) - 1.0).abs() < 0.06, "{found:?}");
+    }
+    assert!(before(&ball("210e9", "\"auto\"", PRESS)).is_empty());
+}
+
+#[test]
+fn a_grid_in_metres_for_a_contact_in_micrometres_is_told_of_before_and_after_the_run() {
+    let text = ball("210e9", "[1.0, 1.0]", PRESS);
+    let a = (0.75_f64 * 12.0 * 0.01 * 0.91 / 210e9).cbrt();
+    assert!((value(&before(&text), Concern::FewCells) / (a * 48.0) - 1.0).abs() < 0.1);
+    let history = solved(&text);
+    // Four cells around the middle take the load, whatever the load is.
+    assert!(value(&history.warnings, Concern::FewCells) < 1.5, "{:?}", history.warnings);
+    let good = solved(&ball("210e9", "\"auto\"", PRESS)).warnings;
+    assert!(good.is_empty(), "{good:?}");
+}
+
+#[test]
+fn motions_and_heights_of_another_unit_are_told_of() {
+    let far = before(&ball("210e9", "\"auto\"", "[[load]]\napproach = 1.0\nincrements = 1\n"));
+    // a = sqrt(R d) = 0.1 m, ten times the ball.
+    assert!((value(&far, Concern::ContactRadiusOverBodyRadius) / 10.0 - 1.0).abs() < 0.06, "{far:?}");
+    let shifted = format!("{PRESS}[[load]]\nshift = [1.0, 0.0]\nincrements = 4\n");
+    let found = before(&ball("210e9", "\"auto\"", &shifted));
+    assert_eq!(names(&found), [Concern::ShiftOverContactRadius]);
+    let run = solved(&ball("210e9", "\"auto\"", &shifted)).warnings;
+    assert!(names(&run).contains(&Concern::ShiftOverContactRadius), "{run:?}");
+    // A checkerboard of +-1 on cells of 1e-5: slopes of 2e5 along both axes.
+    let heights = Array2::from_shape_fn((16, 16), |(i, j)| if (i + j) % 2 == 0 { 1.0 } else { -1.0 });
+    let rough = "[grid]\ncells = [16, 16]\nsize = [1.6e-4, 1.6e-4]\nperiodic = true\n[upper]\nrigid = true\n[lower]\n\
+                 substrate = { young = 210e9, poisson = 0.3 }\n[profile.heights]\nvalues = { array = 0 }\n\
+                 [[load]]\nnormal_force = 1.0\nincrements = 1\n";
+    let history = solved_with(rough, &[heights]);
+    let slope = value(&history.warnings, Concern::SteepTopography);
+    assert!((slope / (2.0e5 * 2.0_f64.sqrt()) - 1.0).abs() < 1e-12, "{slope}");
+}
+
+#[test]
+fn few_increments_of_coupled_pressing_are_told_of_and_many_are_not() {
+    let pressed = |increments: usize, identical: bool| {
+        let sphere = Sphere { cells: 96, size: 2.2, friction: 0.2, identical, ..Sphere::default() };
+        solved(&sphere.pressed(1.0, increments, "cubic")).warnings
+    };
+    // 44 cells in the radius: 2.2 cells an increment of 20, 0.7 of 60.
+    let ring = value(&pressed(20, false), Concern::PressingInFewIncrements);
+    assert!((ring / 2.2 - 1.0).abs() < 0.2, "{ring}");
+    assert!(names(&pressed(60, false)).is_empty() && names(&pressed(20, true)).is_empty());
+    // One increment makes the whole contact.
+    assert!(value(&pressed(1, false), Concern::PressingInFewIncrements) > 40.0);
+}
+
+#[test]
+fn thin_coatings_deep_scars_and_narrow_grids_are_told_of() {
+    let coated = |thickness: f64, size: f64| {
+        let coating = Some((2.0, thickness));
+        Sphere { cells: 32, size, coating, ..Sphere::default() }.pressed(1.0, 1, "linear")
+    };
+    // Cells of 0.075.
+    let thin = before(&coated(0.03, 2.4));
+    assert!((value(&thin, Concern::CoatingThinnerThanCell) - 0.4).abs() < 1e-12);
+    assert!(before(&coated(0.1, 2.4)).is_empty());
+    let narrow =
+        solved(&Sphere { cells: 32, size: 2.1, ..Sphere::default() }.pressed(1.0, 1, "linear")).warnings;
+    assert_eq!(value(&narrow, Concern::ContactNearEdge), 1.0, "{narrow:?}");
+}
+
+#[test]
+fn a_gauge_says_the_same_in_pieces_and_in_one() {
+    let sphere = Sphere { cells: 48, size: 2.4, friction: 0.3, ..Sphere::default() };
+    let text = sphere.pulled(&sphere.pressed(1.0, 6, "cubic"), 0.5, 4, None);
+    let plan = Plan::new(Case::from_toml(&text, "case.toml").unwrap()).unwrap();
+    let history = solved(&text);
+    let mut gauge = Gauge::default();
+    for step in &history.steps {
+        gauge.add(step);
+        // As a checkpoint keeps it.
+        gauge = serde_json::from_str(&serde_json::to_string(&gauge).unwrap()).unwrap();
+    }
+    assert_eq!(gauge.warnings(&plan), history.warnings);
+    assert!(!history.warnings.is_empty());
+}
