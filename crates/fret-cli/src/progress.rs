@@ -4,6 +4,7 @@
 use std::time::{Duration, Instant};
 
 use fret_core::case::printable;
+use fret_core::cycle::CycleRecord;
 use fret_core::history::StepRecord;
 use fret_core::simulation::Iteration;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
@@ -108,14 +109,40 @@ impl Progress {
             figure(record.normal_force),
             figure(record.max_pressure),
             record.residual.largest(),
-            if passed == tally.solved {
-                format!("{passed} of {} solved", self.increments)
-            } else {
-                format!("{} solved for {passed} of {}", tally.solved, self.increments)
-            },
+            self.counts(tally),
             self.time(passed),
             width = self.width(),
         ));
+    }
+
+    /// A cycle is over, and counted, with those it stands for.
+    pub fn cycled(&mut self, record: &CycleRecord, tally: &Tally) {
+        let passed = tally.advance.passed();
+        if let Face::Live(bar) = &self.face {
+            bar.set_position(passed as u64);
+        }
+        let tenths = passed * 10 / self.increments.max(1);
+        if tenths > self.tenths && (record.stands_for > 1 || record.steady) {
+            self.tenths = tenths;
+            let name = tally.stages.get(record.stage).map_or("", |stage| stage.name.as_str());
+            self.line(&format!(
+                "cycle {}  {}  {}, {}",
+                record.cycle,
+                shortened(name, TITLE_LETTERS),
+                self.counts(tally),
+                self.time(passed)
+            ));
+        }
+    }
+
+    /// How many increments are solved, and of how many.
+    fn counts(&self, tally: &Tally) -> String {
+        let passed = tally.advance.passed();
+        if passed == tally.solved {
+            format!("{passed} of {} solved", self.increments)
+        } else {
+            format!("{} solved for {passed} of {}", tally.solved, self.increments)
+        }
     }
 
     /// The run is over, in whatever way: the terminal belongs to others again.

@@ -17,6 +17,9 @@ use crate::summary::warning_line;
 use crate::terminal;
 use crate::threads;
 
+/// Letters of a stage's name in the list of stages, at the most.
+const STAGE_LETTERS: usize = 60;
+
 /// Plans a case and tells the plan.
 pub fn plan(path: &Path, from: Option<&str>, as_json: bool) -> Result<(), Failure> {
     let plan = CaseFile::read(path)?.planned_from(from)?;
@@ -146,9 +149,14 @@ pub fn stages(plan: &Plan) -> String {
     let stages = plan.case.stages.iter().map(|stage| match stage.cycles() {
         Some(cycles) => {
             let most = if cycles.until_steady.is_some() { "at most " } else { "" };
-            format!("{} ({most}{} of {})", stage.name, counted(cycles.most, "cycle"), stage.increments)
+            format!(
+                "{} ({most}{} of {})",
+                shortened(&stage.name, STAGE_LETTERS),
+                counted(cycles.most, "cycle"),
+                stage.increments
+            )
         }
-        None => format!("{} ({})", stage.name, stage.increments),
+        None => format!("{} ({})", shortened(&stage.name, STAGE_LETTERS), stage.increments),
     });
     stages.collect::<Vec<_>>().join(", ")
 }

@@ -407,6 +407,7 @@ impl Observer for Witness {
         if self.failure.is_none() {
             self.failure = self.folder.keep_cycle(record).err().map(Failure::from);
             self.tally.add_cycle(record);
+            self.progress.cycled(record, &self.tally);
         }
     }
 

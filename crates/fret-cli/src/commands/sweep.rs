@@ -6,6 +6,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Condvar, Mutex, PoisonError};
 use std::time::Instant;
 
+use fret_core::case::CaseError;
 use fret_core::machine::memory::{self, Claim, MemoryError};
 use fret_core::plan::{LeaveOut, Plan};
 use fret_core::simulation::{RunError, Simulation};
@@ -16,7 +17,7 @@ use crate::failure::{Failure, Told, Unwritten};
 use crate::figures::{counted, duration};
 use crate::interrupt::{self, Listener};
 use crate::origin::Origin;
-use crate::sweep::{Answer, Question, SweepFolder};
+use crate::sweep::{Answer, Point, Question, SweepFolder};
 use crate::terminal;
 use crate::threads;
 
@@ -68,6 +69,15 @@ pub fn sweep(arguments: &SweepArguments, as_json: bool) -> Result<(), Told> {
         Counts { refused, failed, .. } => {
             Err(Told { failure: Failure::Points { refused, failed }, in_json: as_json })
         }
+    }
+}
+
+/// Whether a point has no answer because there was not the memory for it.
+fn lacks_memory(failure: &Failure) -> bool {
+    match failure {
+        Failure::Memory(_) | Failure::Unsolved(RunError::OutOfMemory { .. }) => true,
+        Failure::Case(error) => error.lacks_memory(),
+        _ => false,
     }
 }
 
@@ -168,7 +178,7 @@ impl<'a> Board<'a> {
         while let Some(&number) = self.open.get(self.next.fetch_add(1, Ordering::Relaxed)) {
             let point = &self.question.points[number];
             let solve = || -> Result<Answer, Failure> {
-                let plan = point.case_file.planned_leaving_out(LeaveOut::ALL, self.origin.as_ref())?;
+                let plan = self.planned(point)?;
                 let _at_work = self.memory_for(&plan)?;
                 let run = Simulation::new(&plan).in_claimed_memory().run(&mut Listener);
                 let history = run.map_err(|error| match error {
@@ -185,8 +195,8 @@ impl<'a> Board<'a> {
                     ));
                 }
                 // Not an answer of the point: another machine has the memory.
-                Ok(Err(Failure::Memory(error))) => {
-                    self.tell(number, Answer::unsolved(&Failure::Memory(error)));
+                Ok(Err(failure)) if lacks_memory(&failure) => {
+                    self.tell(number, Answer::unsolved(&failure));
                     continue;
                 }
                 Ok(Err(failure)) => Answer::unsolved(&failure),
@@ -196,6 +206,23 @@ impl<'a> Board<'a> {
             self.tell(number, answer);
         }
         Ok(())
+    }
+
+    /// The plan of a point; where there is no memory to plan it in, that of the points at work is waited for.
+    fn planned(&self, point: &Point) -> Result<Plan, CaseError> {
+        let mut is_alone = false;
+        loop {
+            match point.case_file.planned_leaving_out(LeaveOut::ALL, self.origin.as_ref()) {
+                Err(error) if error.lacks_memory() && !is_alone => {
+                    let at_work = self.at_work.lock().unwrap_or_else(PoisonError::into_inner);
+                    is_alone = *at_work == 0;
+                    if !is_alone {
+                        drop(self.freed.wait(at_work).unwrap_or_else(PoisonError::into_inner));
+                    }
+                }
+                outcome => return outcome,
+            }
+        }
     }
 
     /// Memory for a point, beside the points that are at work: waited for while any of them is.

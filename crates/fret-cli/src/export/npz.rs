@@ -32,7 +32,7 @@ pub fn write(results: &Results, path: &Path) -> Result<Vec<PathBuf>, Failure> {
     let fields = &results.fields;
     let [nx, ny] = fields.cells();
     written(path, |writer| {
-        let mut archive = Archive { zip: ZipWriter::new(UntilFailed { writer, failed: false }), path };
+        let mut archive = Archive { zip: ZipWriter::new(UntilFailed::new(writer)), path };
         let steps: Vec<u8> = fields.steps.iter().flat_map(|&step| (step as i64).to_le_bytes()).collect();
         archive.array("x", "<f8", &[nx], &bytes(&fields.x))?;
         archive.array("y", "<f8", &[ny], &bytes(&fields.y))?;
@@ -73,14 +73,20 @@ pub fn write(results: &Results, path: &Path) -> Result<Vec<PathBuf>, Failure> {
     Ok(vec![path.to_owned()])
 }
 
-/// Passes on what is written until that fails once, and swallows the rest: an archive that is given up still tries to write its
-/// end, and would complain of it on standard error.
+/// Passes on what is written until that fails once; then only counts it: an archive that is given up still tries to write its end, and
+/// would complain of it on standard error.
 struct UntilFailed<W> {
     writer: W,
     failed: bool,
+    /// Where the next byte goes, or would go.
+    place: u64,
 }
 
 impl<W> UntilFailed<W> {
+    fn new(writer: W) -> Self {
+        Self { writer, failed: false, place: 0 }
+    }
+
     fn attempt<T>(&mut self, instead: T, act: impl FnOnce(&mut W) -> io::Result<T>) -> io::Result<T> {
         if self.failed {
             return Ok(instead);
@@ -93,7 +99,9 @@ impl<W> UntilFailed<W> {
 
 impl<W: Write> Write for UntilFailed<W> {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        self.attempt(bytes.len(), |writer| writer.write(bytes))
+        let count = self.attempt(bytes.len(), |writer| writer.write(bytes))?;
+        self.place += count as u64;
+        Ok(count)
     }
 
     fn flush(&mut self) -> io::Result<()> {
@@ -102,8 +110,13 @@ impl<W: Write> Write for UntilFailed<W> {
 }
 
 impl<W: Seek> Seek for UntilFailed<W> {
-    fn seek(&mut self, place: SeekFrom) -> io::Result<u64> {
-        self.attempt(0, |writer| writer.seek(place))
+    fn seek(&mut self, to: SeekFrom) -> io::Result<u64> {
+        let instead = match to {
+            SeekFrom::Start(place) => place,
+            SeekFrom::Current(further) | SeekFrom::End(further) => self.place.saturating_add_signed(further),
+        };
+        self.place = self.attempt(instead, |writer| writer.seek(to))?;
+        Ok(self.place)
     }
 }
 

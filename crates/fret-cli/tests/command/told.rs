@@ -24,7 +24,7 @@ fn progress_counts_the_cycles_that_a_computed_one_stands_for() {
     let solved = bench.text("results/case/history.csv").lines().count() - 1;
     assert_eq!(passed, 3 + 8 * 200, "all cycles are stood for");
     assert!(solved < passed / 2, "{solved} increments are solved");
-    let last = answer.err.lines().rfind(|line| line.contains(" done ")).unwrap();
+    let last = answer.err.lines().rfind(|line| line.contains(" solved for ")).unwrap();
     assert!(last.contains(&format!("{solved} solved for {passed} of {passed}")), "{last}");
     assert!(!last.contains("left"), "nothing is left: {last}");
 }

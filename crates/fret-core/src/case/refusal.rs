@@ -33,18 +33,31 @@ pub struct CaseError {
     name: String,
     text: String,
     mistakes: Vec<Mistake>,
+    /// Whether the case is a good one that there is not the memory for.
+    lacks_memory: bool,
 }
 
 impl CaseError {
     /// A refusal of a text, with its mistakes.
     pub fn new(name: &str, text: &str, mut mistakes: Vec<Mistake>) -> Self {
         mistakes.sort_by_key(|mistake| mistake.span.as_ref().map_or(usize::MAX, |span| span.start));
-        Self { name: name.to_owned(), text: text.to_owned(), mistakes }
+        Self { name: name.to_owned(), text: text.to_owned(), mistakes, lacks_memory: false }
     }
 
     /// A refusal without a place in a text.
     pub fn plain(name: &str, message: impl Into<String>) -> Self {
         Self::new(name, "", vec![Mistake { message: message.into(), help: None, span: None }])
+    }
+
+    /// The same for want of memory alone.
+    #[must_use]
+    pub(crate) fn for_memory(self) -> Self {
+        Self { lacks_memory: true, ..self }
+    }
+
+    /// Whether the case is a good one that there is not the memory for, now and here.
+    pub fn lacks_memory(&self) -> bool {
+        self.lacks_memory
     }
 
     /// All mistakes, in the order of the text.

@@ -122,7 +122,7 @@ impl Plan {
         let grid =
             SurfaceGrid::new(case.cells, spacing).map_err(|error| case.refuse_size(error.to_string(), ""))?;
         let _planning = claim(memory::PLANNING * grid.len()).map_err(|error| {
-            case.refuse_size(format!("grid.cells = {:?}: planning {error}", case.cells), "")
+            case.refuse_size(format!("grid.cells = {:?}: planning {error}", case.cells), "").for_memory()
         })?;
         if !has_a_body(&case, &grid) {
             let message =

@@ -33,10 +33,10 @@ impl Kind {
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum LadderError {
     /// A number of cells along x that no grid can have.
-    #[error("--cells {0}: grids of {0} x {1} cells; each side needs between 4 and {MOST_CELLS} cells")]
+    #[error("--cells {0}: a grid of {0} x {1} cells; each side needs at least 4, at most {MOST_CELLS}")]
     Cells(usize, usize),
     /// More cells than a grid can have.
-    #[error("--cells {0}: grids of {0} x {1} cells; at most {MOST_CELLS_IN_ALL} cells in all")]
+    #[error("--cells {0}: a grid of {0} x {1} cells; at most {MOST_CELLS_IN_ALL} cells in all")]
     CellsInAll(usize, usize),
     /// A number of increments that a stage cannot have.
     #[error("--increments {0}: stage {1:?} needs at least {2}")]
