@@ -46,11 +46,9 @@ fn leaving_out_changes_the_work_and_not_the_answer() {
             Shortcut::Pressure => {
                 assert!(least.convolutions + 7 <= more.convolutions, "{name}: {least:?} {more:?}");
             }
-            // A convolution of a half or a quarter of the cells.
-            Shortcut::Mirror => assert!(times(1.6), "{name}: {least:?} {more:?}"),
             Shortcut::Box => assert!(times(2.0), "{name}: {least:?} {more:?}"),
-            // Pressure once and then shear, instead of both in every step.
-            Shortcut::Coupling => assert!(times(1.6), "{name}: {least:?} {more:?}"),
+            // A convolution of a half or a quarter of the cells; pressure first and then shear, instead of both in every step.
+            Shortcut::Mirror | Shortcut::Coupling => assert!(times(1.6), "{name}: {least:?} {more:?}"),
             // No convolution of shear in any increment, and none of it to the bit.
             Shortcut::Tangential => {
                 assert!(least.convolutions + increments <= more.convolutions, "{name}: {least:?} {more:?}");
