@@ -123,7 +123,7 @@ fn cell(kept: &Kept, wanted: Zone) -> [usize; 2] {
     let zones = kept.fields.zone.as_ref().unwrap();
     // Away from the middle, where a sphere has no direction.
     let found = zones.indexed_iter().find(|((i, j), zone)| **zone == wanted && (*i > 8 || *j > 8));
-    found.map(|((i, j), _)| [i, j]).unwrap_or_else(|| panic!("no cell is {wanted:?}"))
+    found.map_or_else(|| panic!("no cell is {wanted:?}"), |((i, j), _)| [i, j])
 }
 
 fn scale_pressure(kept: &mut Kept, zone: Zone, factor: f64) {

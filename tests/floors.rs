@@ -181,20 +181,20 @@ impl Reader<'_> {
         match tree {
             UseTree::Path(path) => self.import(&path.tree, &and(path.ident.to_string()), public),
             UseTree::Group(group) => group.items.iter().for_each(|tree| self.import(tree, before, public)),
-            UseTree::Glob(_) => self.leaf(before.to_vec(), None),
-            UseTree::Name(name) if name.ident == "self" => self.leaf(before.to_vec(), None),
+            UseTree::Glob(_) => self.leaf(before, None),
+            UseTree::Name(name) if name.ident == "self" => self.leaf(before, None),
             UseTree::Name(name) => {
                 let name = name.ident.to_string();
-                self.leaf(and(name.clone()), public.then_some(name));
+                self.leaf(&and(name.clone()), public.then_some(name));
             }
             UseTree::Rename(rename) => {
-                self.leaf(and(rename.ident.to_string()), public.then(|| rename.rename.to_string()));
+                self.leaf(&and(rename.ident.to_string()), public.then(|| rename.rename.to_string()));
             }
         }
     }
 
-    fn leaf(&mut self, path: Vec<String>, handed_on_as: Option<String>) {
-        if let Some(path) = self.absolute(&path) {
+    fn leaf(&mut self, path: &[String], handed_on_as: Option<String>) {
+        if let Some(path) = self.absolute(path) {
             if let Some(name) = handed_on_as {
                 self.exports.insert(name, path.clone());
             }
@@ -231,7 +231,7 @@ impl<'ast> Visit<'ast> for Reader<'_> {
     fn visit_path(&mut self, path: &'ast syn::Path) {
         let names: Vec<String> = path.segments.iter().map(|segment| segment.ident.to_string()).collect();
         if names.len() > 1 {
-            self.leaf(names, None);
+            self.leaf(&names, None);
         }
         visit::visit_path(self, path);
     }

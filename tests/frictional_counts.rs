@@ -2,6 +2,7 @@
 //! are the same on every machine. The cases are those of `benches/frictional_cost.py`.
 
 use std::fmt::Write;
+use std::time::Instant;
 
 use fret_validation::{Sphere, solved};
 
@@ -53,30 +54,31 @@ fn figure_three(cells: usize) -> String {
 }
 
 /// Applications, and those weighted by cells, may be a tenth more than they were; `was` is what they were.
-fn costs(name: &str, text: &str, was: [f64; 2]) {
-    let started = std::time::Instant::now();
+fn costs(text: &str, was: [f64; 2]) -> String {
+    let started = Instant::now();
     let work = solved(text).work();
     let found = [work.convolutions as f64, work.full_grid_convolutions];
-    println!(
-        "{name}: {} applications, {:.1} of the whole grid, {:.2} s",
+    let said = format!(
+        "{} applications, {:.1} of the whole grid, {:.2} s",
         found[0],
         found[1],
         started.elapsed().as_secs_f64()
     );
-    assert!(found[0] <= 1.1 * was[0] && found[1] <= 1.1 * was[1], "{name}: {found:?}, was {was:?}");
+    assert!(found[0] <= 1.1 * was[0] && found[1] <= 1.1 * was[1], "{said}, was {was:?}");
+    said
 }
 
 #[test]
 fn a_cold_pull_costs_what_it_did() {
     for (cells, was) in [(64, [44.0, 8.8]), (128, [53.0, 10.0]), (256, [63.0, 11.9])] {
-        costs(&format!("cold pull, {cells} cells per side"), &cattaneo(cells), was);
+        println!("cold pull, {cells} cells per side: {}", costs(&cattaneo(cells), was));
     }
 }
 
 #[test]
 fn a_loop_of_forty_increments_costs_what_it_did() {
     for (cells, was) in [(32, [563.0, 139.4]), (64, [694.0, 171.3]), (128, [835.0, 205.5])] {
-        costs(&format!("loop, {cells} cells per side"), &loop_of_forty(cells), was);
+        println!("loop, {cells} cells per side: {}", costs(&loop_of_forty(cells), was));
     }
 }
 
@@ -90,13 +92,13 @@ fn coupled_contacts_cost_what_they_did() {
         (0.3, 64, [628.0, 206.8]),
         (0.3, 128, [697.0, 215.7]),
     ] {
-        costs(&format!("coupled, mu {friction}, {cells} cells per side"), &coupled(cells, friction), was);
+        println!("coupled, mu {friction}, {cells} cells per side: {}", costs(&coupled(cells, friction), was));
     }
 }
 
 #[test]
 fn a_fretting_cycle_of_a_coated_contact_costs_what_it_did() {
     for (cells, was) in [(32, [5181.0, 2383.5]), (64, [6185.0, 2782.7]), (128, [7294.0, 3272.9])] {
-        costs(&format!("coated, 400 increments, {cells} cells per side"), &figure_three(cells), was);
+        println!("coated, 400 increments, {cells} cells per side: {}", costs(&figure_three(cells), was));
     }
 }

@@ -1,5 +1,5 @@
 //! What is left out changes the work, never the answer: every shortcut against the same run without it, and against the run
-//! that computes everything. `docs/leaving-out.md` is the table of the same scenes on finer grids.
+//! that computes everything. `docs/leaving-out.md` is the table of the same cases on finer grids.
 
 use std::time::Instant;
 
@@ -9,7 +9,7 @@ use fret_core::kernel::{
 };
 use fret_core::model::ContactPair;
 use fret_core::plan::{LeaveOut, Plan, Shortcut};
-use fret_validation::shortcuts::{TOLERANCE, difference, scenes, solved};
+use fret_validation::shortcuts::{TOLERANCE, cases, difference, solved};
 use ndarray::Array2;
 
 /// A residual of one tolerance leaves an error of the tractions of at most about a hundred: it is measured in the mean over the
@@ -18,19 +18,19 @@ const AGREES: f64 = 100.0 * TOLERANCE;
 
 #[test]
 fn leaving_out_changes_the_work_and_not_the_answer() {
-    for scene in scenes(32) {
-        let name = scene.name;
-        let short = solved(&scene.text, LeaveOut::ALL).history;
-        let full = solved(&scene.text, LeaveOut::NONE).history;
+    for case in cases(32) {
+        let name = case.name;
+        let short = solved(&case.text, LeaveOut::ALL).history;
+        let full = solved(&case.text, LeaveOut::NONE).history;
         let everything = difference(&full, &short);
         assert!(everything < AGREES, "{name}: {everything:e}");
         let (least, most) = (short.work(), full.work());
         assert!(least.full_grid_convolutions < most.full_grid_convolutions, "{name}: {least:?} {most:?}");
-        let Some(shortcut) = scene.shortcut else {
+        let Some(shortcut) = case.shortcut else {
             assert!(3.0 * least.full_grid_convolutions < most.full_grid_convolutions, "{name}");
             continue;
         };
-        let without = solved(&scene.text, LeaveOut::all_but(shortcut)).history;
+        let without = solved(&case.text, LeaveOut::all_but(shortcut)).history;
         let alone = difference(&without, &short);
         println!("{name}: {shortcut:?} {alone:e}, all {everything:e}");
         assert!(alone < AGREES, "{name}: {alone:e}");
@@ -38,7 +38,7 @@ fn leaving_out_changes_the_work_and_not_the_answer() {
         let increments = short.steps.len();
         let times = |factor: f64| factor * least.full_grid_convolutions < more.full_grid_convolutions;
         let [planned, planned_without] = [LeaveOut::ALL, LeaveOut::all_but(shortcut)].map(|leave_out| {
-            let case = Case::from_toml(&scene.text, "case.toml").unwrap();
+            let case = Case::from_toml(&case.text, "case.toml").unwrap();
             Plan::leaving_out(case, leave_out).unwrap()
         });
         match shortcut {
@@ -46,11 +46,9 @@ fn leaving_out_changes_the_work_and_not_the_answer() {
             Shortcut::Pressure => {
                 assert!(least.convolutions + 7 <= more.convolutions, "{name}: {least:?} {more:?}");
             }
-            // A convolution of a half or a quarter of the cells.
-            Shortcut::Mirror => assert!(times(1.6), "{name}: {least:?} {more:?}"),
             Shortcut::Box => assert!(times(2.0), "{name}: {least:?} {more:?}"),
-            // Pressure once and then shear, instead of both in every step.
-            Shortcut::Coupling => assert!(times(1.6), "{name}: {least:?} {more:?}"),
+            // A convolution of a half or a quarter of the cells; pressure first and then shear, instead of both in every step.
+            Shortcut::Mirror | Shortcut::Coupling => assert!(times(1.6), "{name}: {least:?} {more:?}"),
             // No convolution of shear in any increment, and none of it to the bit.
             Shortcut::Tangential => {
                 assert!(least.convolutions + increments <= more.convolutions, "{name}: {least:?} {more:?}");
@@ -117,7 +115,7 @@ fn what_is_left_out_is_said_and_nothing_is_said_of_what_is_computed() {
         (Shortcut::Box, "cells far from the contact"),
         (Shortcut::Digits, "all but six digits"),
     ];
-    let text = &scenes(64).pop().expect("the last has all").text;
+    let text = &cases(64).pop().expect("the last has all").text;
     let said = |leave_out| {
         let case = Case::from_toml(text, "case.toml").unwrap_or_else(|error| panic!("{error}"));
         let plan = Plan::leaving_out(case, leave_out).unwrap_or_else(|error| panic!("{error}"));

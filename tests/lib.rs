@@ -1,4 +1,4 @@
-//! Scenes and comparisons that several validation tests share.
+//! Cases and comparisons that several validation tests share.
 
 pub mod certifier;
 pub mod extreme_cases;
@@ -14,7 +14,7 @@ use fret_core::simulation::{RunError, Silent, Simulation};
 use ndarray::Array2;
 
 /// A sphere of radius 100 pressed so that a Hertz contact on a half-space of modulus `E = 1`, `nu = poisson` under it has
-/// radius 1: the numbers of most scenes here.
+/// radius 1: the numbers of most cases here.
 #[derive(Debug, Clone)]
 pub struct Sphere {
     /// Cells a side.
@@ -53,7 +53,7 @@ impl Default for Sphere {
     }
 }
 
-/// Sphere radius of these scenes, in contact radii.
+/// Sphere radius of these cases, in contact radii.
 pub const RADIUS: f64 = 100.0;
 
 impl Sphere {

@@ -4,8 +4,8 @@
 use fret_validation::{Sphere, solved};
 
 /// Weighted applications of a first contact under the whole force.
-fn cost(scene: &Sphere) -> f64 {
-    let history = solved(&scene.pressed(1.0, 1, "linear"));
+fn cost(sphere: &Sphere) -> f64 {
+    let history = solved(&sphere.pressed(1.0, 1, "linear"));
     history.steps[0].work.full_grid_convolutions
 }
 

@@ -1,4 +1,4 @@
-//! Scenes that trigger what a run may leave out, each alone and all together, and how two runs of a scene are compared.
+//! Cases that trigger what a run may leave out, each alone and all together, and how two runs of a case are compared.
 
 use std::time::Instant;
 
@@ -9,12 +9,12 @@ use fret_core::simulation::{Silent, Simulation};
 
 use crate::{Sphere, keeping};
 
-/// Solver tolerance of these scenes.
+/// Solver tolerance of these cases.
 pub const TOLERANCE: f64 = 1e-9;
 
-/// A scene and the shortcut it is there for; none: all of them.
+/// A case and the shortcut it is there for; none: all of them.
 #[derive(Debug, Clone)]
-pub struct Scene {
+pub struct Example {
     /// What a reader calls it.
     pub name: &'static str,
     /// The case.
@@ -32,7 +32,7 @@ pub struct Run {
     pub seconds: f64,
 }
 
-/// Solves a scene with some shortcuts alone.
+/// Solves a case with some shortcuts alone.
 ///
 /// # Panics
 /// When it is refused, not solved, or misses its residual.
@@ -76,8 +76,8 @@ pub fn difference(one: &History, other: &History) -> f64 {
     worst
 }
 
-/// The scenes, with `cells` a side.
-pub fn scenes(cells: usize) -> Vec<Scene> {
+/// The cases, with `cells` a side.
+pub fn cases(cells: usize) -> Vec<Example> {
     use Shortcut::{Box, Coupling, Digits, LayeredResponse, Mirror, Pressure, Tangential, Transverse};
     let rigid = Sphere { cells, tolerance: TOLERANCE, friction: 0.3, ..Sphere::default() };
     let equal = Sphere { identical: true, ..rigid.clone() };
@@ -115,7 +115,7 @@ pub fn scenes(cells: usize) -> Vec<Scene> {
         ("coated, pulled: half", pulled(&coated, 3, 5), Some(Mirror)),
         ("two equal bodies, pulled: a quarter", pulled(&equal, 2, 6), Some(Mirror)),
         ("coated, no friction: a quarter", smooth.pressed(1.0, 3, "cubic"), Some(Mirror)),
-        ("endless cylinder, in a scene that repeats: half", line(cells.max(64)), Some(Mirror)),
+        ("endless cylinder, periodic: half", line(cells.max(64)), Some(Mirror)),
         ("two equal bodies, unloaded at once on a wide grid", unloaded(&fine_equal), Some(Box)),
         ("coated, unloaded at once on a wide grid", unloaded(&fine), Some(Box)),
         (
@@ -130,7 +130,8 @@ pub fn scenes(cells: usize) -> Vec<Scene> {
         ),
         ("two equal bodies, wide grid, pressed and pulled", pulled(&everything, 3, 6), None),
     ];
-    list.map(|(name, text, shortcut)| Scene { name, text: format!("{text}{}", keeping(1)), shortcut }).into()
+    list.map(|(name, text, shortcut)| Example { name, text: format!("{text}{}", keeping(1)), shortcut })
+        .into()
 }
 
 /// A cylinder on a body of another elasticity, pulled across its axis.

@@ -426,7 +426,7 @@ impl Increment<'_> {
             match control {
                 // Bodies pulled apart carry nothing.
                 Control::Force(asked) if mode == 0 && asked <= 0.0 => {
-                    worst.raise(over(found[0].abs(), found[0].abs()))
+                    worst.raise(over(found[0].abs(), found[0].abs()));
                 }
                 Control::Force(asked) => worst.raise(over(found[mode] - asked, units[mode])),
                 Control::Motion(_) => {}

@@ -5,7 +5,7 @@
 
 use fret_core::plan::LeaveOut;
 use fret_fft::{Block, Convolution, Kernel, Mirrors, Parity};
-use fret_validation::shortcuts::{Run, TOLERANCE, difference, scenes, solved};
+use fret_validation::shortcuts::{Run, TOLERANCE, cases, difference, solved};
 use ndarray::Array2;
 
 const CELLS: usize = 128;
@@ -51,13 +51,13 @@ fn main() {
          everything computed: largest difference | convolutions | time [s] |"
     );
     println!("|---|---|---|---|---|---|---|---|");
-    for scene in scenes(CELLS) {
-        let short = best(&scene.text, LeaveOut::ALL);
-        let full = best(&scene.text, LeaveOut::NONE);
+    for case in cases(CELLS) {
+        let short = best(&case.text, LeaveOut::ALL);
+        let full = best(&case.text, LeaveOut::NONE);
         let work = |run: &Run| run.history.work().full_grid_convolutions;
-        let (name, off, counts, times) = match scene.shortcut {
+        let (name, off, counts, times) = match case.shortcut {
             Some(shortcut) => {
-                let without = best(&scene.text, LeaveOut::all_but(shortcut));
+                let without = best(&case.text, LeaveOut::all_but(shortcut));
                 (
                     shortcut.name(),
                     format!("{:.0e}", difference(&without.history, &short.history)),
@@ -74,7 +74,7 @@ fn main() {
         };
         println!(
             "| {} | {name} | {off} | {counts} | {times} | {:.0e} | {:.1} | {:.3} |",
-            scene.name,
+            case.name,
             difference(&full.history, &short.history),
             work(&full),
             full.seconds
