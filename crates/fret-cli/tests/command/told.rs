@@ -47,13 +47,12 @@ fn a_name_from_a_file_does_not_steer_the_terminal() {
             assert!(text.len() < 20_000, "{arguments:?}: {} letters", text.len());
         }
     }
-    // In a message of a run that is refused on its way.
-    bench.file(
-        "case.toml",
-        &case.replace("[0.05, 0.0]", "[0.0999999, 0.0]").replace("240e-6, 240e-6", "75e-6, 75e-6"),
-    );
+    // In a message of a run that is refused on its way: how much the friction carries is known only then.
+    let slid = case.replace("normal_force = 1.0", "approach = 1e-7").replace("[0.05, 0.0]", "[50.0, 0.0]");
+    bench.file("case.toml", &slid);
     let refused = bench.fret(&["run", "case.toml", "--force"]);
-    assert_ne!(refused.code, Some(0));
+    assert_eq!(refused.code, Some(1), "{} letters", refused.err.len());
+    assert!(refused.err.contains("above mu W"));
     assert!(!refused.err.contains('\u{1b}') && refused.err.len() < 20_000, "{} letters", refused.err.len());
 }
 

@@ -14,7 +14,7 @@ const WEAR: usize = 50;
 /// Bytes a cell of the tractions and slips of an increment whose stresses are looked at.
 const TRACTIONS: usize = 5 * 8;
 /// Bytes a cell of the depth at work: kernels of all components, their transforms, the stress.
-const DEPTH: usize = 150 * 8;
+const DEPTH: usize = 620;
 /// Bytes a cell of heights or of a friction map: as they are held, and in the gap.
 const EACH_CELL: usize = 16;
 

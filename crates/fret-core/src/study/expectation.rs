@@ -28,8 +28,8 @@ const LARGEST_TRIAL: usize = 128 * 128;
 /// Operator applications times cells that the coarse run may take, about half a second: a longer one is broken off after an increment,
 /// and its counts are carried on to the end. A count, so that the same is expected however busy the machine is.
 const ENOUGH: usize = 6_000_000;
-/// Time after which a coarse run is broken off all the same.
-const PATIENCE: Duration = Duration::from_secs(1);
+/// Time after which a coarse run is broken off all the same: on a machine that is slow, or busy with other work.
+const PATIENCE: Duration = Duration::from_secs(5);
 /// Cells along a side of the largest grid on which products are timed; those of larger ones are scaled.
 const LARGEST_TIMED: usize = 256;
 
