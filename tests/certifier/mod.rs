@@ -103,9 +103,10 @@ impl Certificate {
     }
 }
 
-/// The rule by which friction dissipates in a cell, per area: shear after the increment times slip.
-pub fn dissipated(after: [f64; 2], slip: [f64; 2]) -> f64 {
-    dot(after, slip)
+/// The rule by which friction dissipates in a cell, per area: the mean of the friction bounds before and after the increment times the
+/// slip along the shear. The bounds go as the pressures `[before, after]`.
+pub fn dissipated([before, after]: [f64; 2], shear: [f64; 2], slip: [f64; 2]) -> f64 {
+    if after > 0.0 { 0.5 * (before + after) / after * dot(shear, slip) } else { 0.0 }
 }
 
 /// Certificates of a run, increment by increment from the first on.
@@ -127,6 +128,7 @@ pub struct Certifier<'a> {
 
 /// What an increment leaves to the next one.
 struct Before {
+    pressure: Array2<f64>,
     slip: [Array2<f64>; 2],
     worn: Option<Array2<f64>>,
     tangential: [Array2<f64>; 2],
@@ -160,6 +162,7 @@ impl<'a> Certifier<'a> {
             before: Before {
                 slip: [zero(), zero()],
                 worn: None,
+                pressure: zero(),
                 tangential: [zero(), zero()],
                 approach: 0.0,
                 shift: [0.0; 2],
@@ -203,6 +206,7 @@ impl<'a> Certifier<'a> {
             before: &self.before,
             record,
             slides: !case.is_frictionless(),
+            jumps: case.wear.is_some(),
             law,
             load,
             fields: Fields { p, q, slip, gap, zone },
@@ -212,6 +216,7 @@ impl<'a> Certifier<'a> {
         let [_, x, y] = displacements;
         let before = &mut self.before;
         before.tangential = [x, y];
+        before.pressure.clone_from(p);
         before.slip.clone_from(slip);
         before.worn.clone_from(&fields.worn_depth);
         (before.approach, before.shift, before.twist) = (record.approach, record.shift, record.twist);
@@ -260,6 +265,8 @@ struct Fields<'a> {
 /// One increment with all it has to hold.
 struct Increment<'a> {
     grid: &'a SurfaceGrid,
+    /// Cycles may stand for others that are not computed.
+    jumps: bool,
     influence: &'a Influence,
     undeformed: &'a Array2<f64>,
     before: &'a Before,
@@ -328,7 +335,7 @@ impl Increment<'_> {
             let length = hypot(q);
             certificate.excess.raise(over((length - bound).max(0.0), most));
             let kept = [0, 1].map(|axis| slip[axis][at] - self.before.slip[axis][at]);
-            work += dissipated(q, kept);
+            work += dissipated([self.before.pressure[at], p[at]], q, kept);
             limit += bound * hypot(kept);
             if zone == Zone::Slip {
                 certificate.on_circle.raise(over((bound - length).max(0.0), most));
@@ -358,8 +365,12 @@ impl Increment<'_> {
         let area = self.grid.cell_area();
         let more = self.record.dissipated_energy - self.before.energy;
         let unit = size(&[limit * area, self.record.dissipated_energy]);
-        // Of an increment in parts only the sign is known.
-        let wrong = if certificate.whole { more - work * area } else { (-more).max(0.0) };
+        // Of an increment in parts only the sign is known; one that ends a cycle counts those as well that the cycle stands for.
+        let wrong = match (certificate.whole, self.jumps) {
+            (true, false) => more - work * area,
+            (true, true) => (work * area - more).max(0.0),
+            (false, _) => (-more).max(0.0),
+        };
         certificate.energy = over(wrong, unit);
     }
 

@@ -218,9 +218,12 @@ impl Summary<'_> {
     }
 }
 
+/// Letters of a warning, at the most: the name of a stage may be long.
+const LONGEST_LINE: usize = 1000;
+
 /// A warning in a line: words and a way out.
 pub fn warning_line(warning: &Warning) -> String {
-    format!("warning: {}; {}", warning.message, warning.help)
+    shortened(&format!("warning: {}; {}", warning.message, warning.help), LONGEST_LINE)
 }
 
 fn row(table: &mut String, name: &str, values: impl Iterator<Item = String>) {

@@ -4,6 +4,7 @@ pub mod analytic;
 pub mod case;
 pub mod checkpoint;
 pub mod compliance;
+pub mod concern;
 pub mod cycle;
 mod edge;
 pub mod footprint;

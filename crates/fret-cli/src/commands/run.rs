@@ -116,12 +116,6 @@ fn prepared(arguments: &RunArguments) -> Result<Preparation, Failure> {
         Failure::Call(format!("--estimate-error: {error}"), "the same call without it".to_owned())
     })?;
     let standing = ResultFolder::standing(&folder, &case_file, &plan, wish)?;
-    if companion.is_some() && matches!(standing, Standing::Solved(_)) {
-        return Err(Failure::Call(
-            format!("{}: solved already, and its fields are gone: no error bars", folder.display()),
-            "with --force in place of --resume it is solved anew".to_owned(),
-        ));
-    }
     let threads = threads::asked(arguments.threads);
     let pool = threads::pool(threads)?;
     // Once for all: what the run maps on its way would make a second look find less.

@@ -64,8 +64,8 @@ fn under_any_limit_on_memory_a_run_is_refused_or_solved_and_never_aborted() {
 #[test]
 fn a_plan_under_a_limit_tells_that_the_memory_is_lacking() {
     let bench = Bench::new("memory-plan");
-    bench.file("case.toml", &sphere(1024));
-    let answer = limited(&bench, 400, &["plan", "case.toml"]);
+    bench.file("case.toml", &sphere(2048));
+    let answer = limited(&bench, 1000, &["plan", "case.toml"]);
     assert_eq!(answer.code, Some(0), "{}", answer.err);
     assert!(answer.out.contains("ulimit -v"), "{}", answer.out);
 }

@@ -159,8 +159,10 @@ fn error_bars_come_with_the_summary() {
 #[test]
 fn error_bars_of_a_fretting_loop_and_where_there_are_none() {
     let bench = Bench::new("error-bars-loop");
+    // Eight cells in the contact radius: below six there are no bars.
+    let sphere = SPHERE.replace("[240e-6, 240e-6]", "[90e-6, 90e-6]");
     let answer =
-        bench.file("case.toml", SPHERE).fret(&["run", "case.toml", "--estimate-error", "--json", "--quiet"]);
+        bench.file("case.toml", &sphere).fret(&["run", "case.toml", "--estimate-error", "--json", "--quiet"]);
     assert_eq!(answer.code, Some(0), "{}", answer.err);
     let said: Value = serde_json::from_str(&answer.out).unwrap();
     let stages = said["error_bars"]["stages"].as_array().unwrap();
@@ -181,7 +183,7 @@ fn error_bars_of_a_fretting_loop_and_where_there_are_none() {
     let later: Value = serde_json::from_str(&again.out).unwrap();
     assert_eq!(later["error_bars"]["stages"], said["error_bars"]["stages"]);
     assert_eq!(bench.text("results/case/history.csv"), history);
-    let tiny = SPHERE.replace("[24, 24]", "[8, 8]");
+    let tiny = sphere.replace("[24, 24]", "[8, 8]");
     let answer = bench.file("tiny.toml", &tiny).fret(&["run", "tiny.toml", "--estimate-error"]);
     assert_eq!(answer.code, Some(1));
     assert!(answer.err.contains("too few to be halved") && !bench.folder.join("results/tiny").exists());

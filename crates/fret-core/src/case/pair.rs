@@ -30,7 +30,7 @@ impl<'de, T: Deserialize<'de>> Visitor<'de> for PairVisitor<T> {
     type Value = Pair<T>;
 
     fn expecting(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        formatter.write_str("a list of two values")
+        formatter.write_str("an array of length 2") // as serde says it of arrays
     }
 
     fn visit_seq<A: SeqAccess<'de>>(self, mut list: A) -> Result<Pair<T>, A::Error> {

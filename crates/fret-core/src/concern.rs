@@ -1,0 +1,204 @@
+//! What about numbers may mislead: a fact with a name, a number, the bound it has crossed, words and a way out. Bounds and words stand
+//! here and nowhere else; `warning` finds the facts.
+
+use serde::{Deserialize, Serialize};
+
+/// Fewest cells in the contact radius. Frictionless Hertz contacts of 2 to 5 cells err by up to 15, 2, 4, 1 % in the largest
+/// pressure, and their error bars miss one time in three; from 6 cells on the error is below a percent and bars hold (measured on
+/// a scan of radii in `tests/error_bars.rs`).
+pub const CELLS_IN_RADIUS: f64 = 6.0;
+/// Approach over contact radius, which for a sphere is contact radius over body radius: the slope of the surfaces at the rim, and
+/// about their strain. At a fifth a parabola is 1 % off the sphere it stands for, and linear elasticity as far off as the strain.
+pub const STRAIN: f64 = 0.2;
+/// Relative tangential displacement over contact radius. The profile stays where it is: with a shift of a fifth of the radius the
+/// points that face each other at the rim have moved by a tenth of the contact's width.
+pub const SHIFT: f64 = 0.2;
+/// Root mean square slope of topography. Half-spaces know small slopes: at 0.3 sine and tangent differ by 4 %.
+pub const SLOPE: f64 = 0.3;
+/// Coating thickness over the longer side of a cell. Tractions are uniform over a cell; half a cell deep, in the middle of such a
+/// coating, stresses are within a percent of those of smooth tractions, nearer to the surface they show the cells.
+pub const COATING_CELLS: f64 = 1.0;
+/// Wear depth over coating thickness. The elastic response stays that of the unworn stack; what a fifth less coating would change
+/// is a fifth of what the coating does.
+pub const WORN: f64 = 0.2;
+/// Open cells between contact and the edge of the grid: the edge of contact is read from two open cells beside it.
+pub const FREE_CELLS: usize = 2;
+/// Cells by which the contact radius may grow in one increment while pressure and shear act on each other. Each increment leaves a
+/// ring in the shear. Rings of a cell and less are below what the grid shows; at 2.5 cells they are teeth of 4 % of the peak.
+pub const RING_CELLS: f64 = 1.0;
+
+/// What a warning is about; its name in files is stable.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Concern {
+    /// The contact radius is a few cells.
+    FewCells,
+    /// The contact radius is not small against the body's.
+    ContactRadiusOverBodyRadius,
+    /// The approach is not small against the contact.
+    ApproachOverContactRadius,
+    /// The approach is not small against the layers on a rigid base.
+    ApproachOverLayerThickness,
+    /// The shift is not small against the contact.
+    ShiftOverContactRadius,
+    /// Topography is steep.
+    SteepTopography,
+    /// A coating is thinner than a cell is long.
+    CoatingThinnerThanCell,
+    /// Wear has taken a good part of the coating.
+    WearDepthOverCoatingThickness,
+    /// The contact comes close to the edge of the grid.
+    ContactNearEdge,
+    /// Increments of pressing are too large for the cells.
+    PressingInFewIncrements,
+}
+
+impl Concern {
+    /// Its name.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::FewCells => "few_cells",
+            Self::ContactRadiusOverBodyRadius => "contact_radius_over_body_radius",
+            Self::ApproachOverContactRadius => "approach_over_contact_radius",
+            Self::ApproachOverLayerThickness => "approach_over_layer_thickness",
+            Self::ShiftOverContactRadius => "shift_over_contact_radius",
+            Self::SteepTopography => "steep_topography",
+            Self::CoatingThinnerThanCell => "coating_thinner_than_cell",
+            Self::WearDepthOverCoatingThickness => "wear_depth_over_coating_thickness",
+            Self::ContactNearEdge => "contact_near_edge",
+            Self::PressingInFewIncrements => "pressing_in_few_increments",
+        }
+    }
+
+    /// What the number is.
+    fn quantity(self) -> &'static str {
+        match self {
+            Self::FewCells => "cells in the contact radius",
+            Self::ContactRadiusOverBodyRadius => "contact radius over body radius",
+            Self::ApproachOverContactRadius => "approach over contact radius",
+            Self::ApproachOverLayerThickness => {
+                "approach over the thickness of the layers on their rigid base"
+            }
+            Self::ShiftOverContactRadius => "shift over contact radius",
+            Self::SteepTopography => "root mean square slope of the topography",
+            Self::CoatingThinnerThanCell => "coating thickness over the side of a cell",
+            Self::WearDepthOverCoatingThickness => "wear depth over coating thickness",
+            Self::ContactNearEdge => "open cells between the contact and the edge of the grid",
+            Self::PressingInFewIncrements => "cells by which the contact radius grows in an increment",
+        }
+    }
+
+    /// Whether small numbers are what is warned of.
+    pub(crate) fn warns_below(self) -> bool {
+        matches!(self, Self::FewCells | Self::CoatingThinnerThanCell | Self::ContactNearEdge)
+    }
+
+    /// Where the bound lies.
+    fn bound(self) -> f64 {
+        match self {
+            Self::FewCells => CELLS_IN_RADIUS,
+            Self::ContactRadiusOverBodyRadius
+            | Self::ApproachOverContactRadius
+            | Self::ApproachOverLayerThickness => STRAIN,
+            Self::ShiftOverContactRadius => SHIFT,
+            Self::SteepTopography => SLOPE,
+            Self::CoatingThinnerThanCell => COATING_CELLS,
+            Self::WearDepthOverCoatingThickness => WORN,
+            Self::ContactNearEdge => FREE_CELLS as f64,
+            Self::PressingInFewIncrements => RING_CELLS,
+        }
+    }
+
+    /// What it means for the numbers.
+    fn consequence(self) -> &'static str {
+        match self {
+            Self::FewCells => "the cells hardly show the contact, and its numbers may be off by much",
+            Self::ContactRadiusOverBodyRadius => {
+                "the contact must be small against the bodies; a forgotten factor of a unit does this"
+            }
+            Self::ApproachOverContactRadius => {
+                "strains must be small; a forgotten factor of a unit, in a modulus say, does this"
+            }
+            Self::ApproachOverLayerThickness => "strains of the layers must be small",
+            Self::ShiftOverContactRadius => "surfaces are taken to face each other as they do without shift",
+            Self::SteepTopography => "slopes must be small; a forgotten unit of the heights does this",
+            Self::CoatingThinnerThanCell => {
+                "displacements are right, but stresses inside the coating show the cells of the tractions"
+            }
+            Self::WearDepthOverCoatingThickness => "the elastic response stays that of the unworn coating",
+            Self::ContactNearEdge => "the edge of contact and its area cannot be read there",
+            Self::PressingInFewIncrements => {
+                "each increment leaves a ring in the shear, and the slip is that of large steps"
+            }
+        }
+    }
+
+    /// What to do.
+    fn help(self) -> &'static str {
+        match self {
+            Self::FewCells => {
+                "more cells or a smaller grid (size = \"auto\" finds it); on a rough surface finer pixels"
+            }
+            Self::ContactRadiusOverBodyRadius | Self::ApproachOverContactRadius => {
+                "look at the units of moduli, lengths and loads; or press less"
+            }
+            Self::ApproachOverLayerThickness => {
+                "look at the units of moduli, lengths and loads; or press less"
+            }
+            Self::ShiftOverContactRadius => "look at the unit of the shift; or shift less",
+            Self::SteepTopography => "look at the unit of the heights, and at the size of the grid",
+            Self::CoatingThinnerThanCell => "more cells or a smaller grid, where such stresses matter",
+            Self::WearDepthOverCoatingThickness => "wear.limit = ... ends the run sooner",
+            Self::ContactNearEdge => "a larger grid",
+            Self::PressingInFewIncrements => "more increments of that stage, or increments = \"auto\"",
+        }
+    }
+}
+
+/// A fact that may mislead.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Warning {
+    /// What it is about.
+    pub name: Concern,
+    /// The number [-].
+    pub value: f64,
+    /// The bound it has crossed [-].
+    pub bound: f64,
+    /// Name of the stage at whose end, or in which, it was met; `None` where it follows from the case alone.
+    pub stage: Option<String>,
+    /// In words.
+    pub message: String,
+    /// A way out.
+    pub help: String,
+}
+
+impl Warning {
+    /// The warning of a number, where it has crossed its bound.
+    pub(crate) fn of(name: Concern, value: f64, stage: Option<String>) -> Option<Self> {
+        let bound = name.bound();
+        let crossed = if name.warns_below() { value < bound } else { value > bound };
+        if !(crossed && value.is_finite()) {
+            return None;
+        }
+        let place = stage.as_ref().map_or(String::new(), |stage| format!(", stage \"{stage}\""));
+        let side = if name.warns_below() { "at least" } else { "at most" };
+        let message = format!(
+            "{}: {}{place} (should be {side} {}); {}",
+            name.quantity(),
+            rounded(value),
+            rounded(bound),
+            name.consequence()
+        );
+        Some(Self { name, value, bound, stage, message, help: name.help().to_owned() })
+    }
+}
+
+/// Three digits.
+fn rounded(value: f64) -> String {
+    if value != 0.0 && !(1e-3..1e5).contains(&value.abs()) {
+        return format!("{value:.2e}");
+    }
+    let digits = (2 - value.abs().max(1e-3).log10().floor() as i32).clamp(0, 5) as usize;
+    let text = format!("{value:.digits$}");
+    if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
+}
