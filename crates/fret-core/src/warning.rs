@@ -145,12 +145,9 @@ impl Concern {
             Self::FewCells => {
                 "more cells or a smaller grid (size = \"auto\" finds it); on a rough surface finer pixels"
             }
-            Self::ContactRadiusOverBodyRadius | Self::ApproachOverContactRadius => {
-                "look at the units of moduli, lengths and loads; or press less"
-            }
-            Self::ApproachOverLayerThickness => {
-                "look at the units of moduli, lengths and loads; or press less"
-            }
+            Self::ContactRadiusOverBodyRadius
+            | Self::ApproachOverContactRadius
+            | Self::ApproachOverLayerThickness => "look at the units of moduli, lengths and loads; or press less",
             Self::ShiftOverContactRadius => "look at the unit of the shift; or shift less",
             Self::SteepTopography => "look at the unit of the heights, and at the size of the grid",
             Self::CoatingThinnerThanCell => "more cells or a smaller grid, where such stresses matter",
