@@ -12,6 +12,7 @@ pub mod history;
 pub mod kernel;
 pub mod model;
 pub mod plan;
+pub mod plausibility;
 mod recording;
 mod refinement;
 mod run_error;

@@ -1,7 +1,7 @@
 //! The plan of a case, as text that Python reads.
 
 use fret_core::plan::Plan;
-use fret_core::warning;
+use fret_core::plausibility;
 use pyo3::prelude::{PyResult, Python, pyfunction};
 
 use crate::case::Case;
@@ -14,6 +14,6 @@ pub fn plan(py: Python<'_>, case: &Case) -> PyResult<String> {
     let question = case.0.clone();
     let plan = on_pool(py, None, || Plan::new(question))?.map_err(|error| refused(&error))?;
     let mut answer = serde_json::to_value(&plan).map_err(bad_value)?;
-    answer["warnings"] = serde_json::to_value(warning::of_plan(&plan)).map_err(bad_value)?;
+    answer["warnings"] = serde_json::to_value(plausibility::of_plan(&plan)).map_err(bad_value)?;
     Ok(answer.to_string())
 }

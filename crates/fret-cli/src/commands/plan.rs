@@ -4,7 +4,7 @@ use std::path::Path;
 
 use fret_core::model::Body;
 use fret_core::plan::{Coupling, Plan};
-use fret_core::warning;
+use fret_core::plausibility;
 use serde_json::json;
 
 use crate::case_file::CaseFile;
@@ -20,7 +20,7 @@ pub fn plan(path: &Path, as_json: bool) -> Result<(), Failure> {
     if as_json {
         let mut value = resolved(&plan);
         value["status"] = json!("planned");
-        value["warnings"] = json!(warning::of_plan(&plan));
+        value["warnings"] = json!(plausibility::of_plan(&plan));
         return terminal::answer(&format!("{value:#}"));
     }
     terminal::answer(&table(&plan))
@@ -62,7 +62,7 @@ fn table(plan: &Plan) -> String {
 
 /// What about the case may mislead, a line each, a line break before.
 pub fn warnings(plan: &Plan) -> String {
-    warning::of_plan(plan).iter().map(|warning| format!("\n{}", warning_line(warning))).collect()
+    plausibility::of_plan(plan).iter().map(|warning| format!("\n{}", warning_line(warning))).collect()
 }
 
 /// What is left out, as a block of text.
