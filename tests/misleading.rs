@@ -3,7 +3,8 @@
 
 use fret_core::case::Case;
 use fret_core::plan::Plan;
-use fret_core::warning::{Concern, Gauge, Warning, of_plan};
+use fret_core::plausibility::{Gauge, of_plan};
+use fret_core::warning::{Concern, Warning};
 use fret_validation::{Sphere, solved, solved_with};
 use ndarray::Array2;
 

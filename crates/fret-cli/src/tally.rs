@@ -3,8 +3,8 @@
 use fret_core::cycle::CycleRecord;
 use fret_core::history::{StepRecord, Work};
 use fret_core::plan::{Advance, Plan};
+use fret_core::plausibility::Gauge;
 use fret_core::study::Headline;
-use fret_core::warning::Gauge;
 use fret_core::wear::WornThrough;
 use serde::{Deserialize, Serialize};
 

@@ -4,10 +4,10 @@ use ndarray::Array2;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
-use crate::concern::Warning;
 use crate::cycle::CycleRecord;
 use crate::footprint::Footprint;
 use crate::model::{ContactPair, ContactState, SolvedState, SurfaceGrid, Zone};
+use crate::warning::Warning;
 use crate::wear::WornThrough;
 
 /// How well an increment satisfies its equations; all parts dimensionless and relative.

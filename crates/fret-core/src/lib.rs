@@ -4,7 +4,6 @@ pub mod analytic;
 pub mod case;
 pub mod checkpoint;
 pub mod compliance;
-pub mod concern;
 pub mod cycle;
 mod edge;
 pub mod footprint;
@@ -14,6 +13,7 @@ pub mod kernel;
 pub mod machine;
 pub mod model;
 pub mod plan;
+pub mod plausibility;
 #[cfg(test)]
 #[path = "../../../tests/random.rs"]
 #[expect(dead_code, reason = "the tests of the whole use all of it")]

@@ -20,13 +20,13 @@ use crate::kernel::{
 use crate::machine::memory::{Claim, claim};
 use crate::model::{ContactState, CoulombFriction, LoadStep, SolvedState};
 use crate::plan::{Coupling, Plan, Shortcut};
+use crate::plausibility::Gauge;
 use crate::recording::{copied, kept, record};
 use crate::refinement::{DivisionError, Refinement, Span, in_halves};
 pub use crate::run_error::RunError;
 use crate::run_error::run_error;
 use crate::solver::{ContactSolver, Resultants, SolverSettings};
 use crate::stepping::StageSteps;
-use crate::warning::Gauge;
 use crate::wear::{Collected, Wearing, WornThrough, worn};
 
 /// Where an increment's iteration stands.

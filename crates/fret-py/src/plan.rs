@@ -1,8 +1,8 @@
 //! The plan of a case, as text that Python reads.
 
 use fret_core::machine::memory;
+use fret_core::plausibility;
 use fret_core::study::expectation;
-use fret_core::warning;
 use pyo3::prelude::{PyResult, Python, pyfunction};
 
 use serde_json::json;
@@ -23,7 +23,7 @@ pub fn memory_needed(py: Python<'_>, case: &Case) -> PyResult<usize> {
 pub fn plan(py: Python<'_>, case: &Case) -> PyResult<String> {
     let plan = on_pool(py, ALL, || case.planned())?.map_err(|error| refused(&error))?;
     let mut answer = serde_json::to_value(&plan).map_err(bad_value)?;
-    answer["warnings"] = serde_json::to_value(warning::of_plan(&plan)).map_err(bad_value)?;
+    answer["warnings"] = serde_json::to_value(plausibility::of_plan(&plan)).map_err(bad_value)?;
     Ok(answer.to_string())
 }
 

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use fret_core::warning;
+use fret_core::plausibility;
 use serde_json::json;
 
 use crate::case_file::CaseFile;
@@ -22,7 +22,7 @@ pub fn check(path: &Path, from: Option<&str>, as_json: bool) -> Result<(), Failu
             "cells": plan.grid.cells(),
             "size": plan.grid.size(),
             "increments": plan.increments,
-            "warnings": warning::of_plan(&plan),
+            "warnings": plausibility::of_plan(&plan),
         });
         return terminal::answer(&format!("{answer:#}"));
     }

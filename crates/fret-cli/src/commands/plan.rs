@@ -5,8 +5,8 @@ use std::path::Path;
 use fret_core::machine::memory::{self, MemoryError, amount};
 use fret_core::model::Body;
 use fret_core::plan::{Coupling, Plan};
+use fret_core::plausibility;
 use fret_core::study::{Expectation, expectation};
-use fret_core::warning;
 use serde_json::json;
 
 use crate::case_file::CaseFile;
@@ -36,7 +36,7 @@ pub fn plan(path: &Path, from: Option<&str>, as_json: bool) -> Result<(), Failur
         value["convolutions_expected"] = json!(expected.map(|expected| expected.convolutions));
         value["seconds_expected"] = json!(expected.map(|expected| expected.seconds));
         value["memory_lacking"] = json!(lacking.map(|error| format!("this {error}")));
-        value["warnings"] = json!(warning::of_plan(&plan));
+        value["warnings"] = json!(plausibility::of_plan(&plan));
         return terminal::answer(&format!("{value:#}"));
     }
     terminal::answer(&table(&plan, expected.as_ref(), lacking.as_ref()))
@@ -93,7 +93,7 @@ fn table(plan: &Plan, expected: Option<&Expectation>, lacking: Option<&MemoryErr
 
 /// What about the case may mislead, a line each, a line break before.
 pub fn warnings(plan: &Plan) -> String {
-    warning::of_plan(plan).iter().map(|warning| format!("\n{}", warning_line(warning))).collect()
+    plausibility::of_plan(plan).iter().map(|warning| format!("\n{}", warning_line(warning))).collect()
 }
 
 /// What is left out, as a block of text.

@@ -12,9 +12,9 @@ use fret_core::history::{KeptFields, StepRecord};
 use fret_core::machine::memory::{self, Claim};
 use fret_core::model::{ContactState, SurfaceGrid};
 use fret_core::plan::{LeaveOut, Plan};
+use fret_core::plausibility;
 use fret_core::simulation::{Iteration, Observer, RunError, Simulation};
 use fret_core::study::{Headline, companion};
-use fret_core::warning;
 use fret_core::wear::WornThrough;
 use serde_json::{Value, json};
 
@@ -143,7 +143,7 @@ fn announce(plan: &Plan, folder: &Path, standing: &Standing) {
     if !plan.left_out.is_empty() {
         terminal::say(&left_out_in_short(plan));
     }
-    for warning in warning::of_plan(plan) {
+    for warning in plausibility::of_plan(plan) {
         terminal::say(&warning_line(&warning));
     }
     let shown = folder.display();

@@ -4,7 +4,8 @@ use std::path::Path;
 use std::time::{SystemTime, UNIX_EPOCH};
 
 use fret_core::plan::{LeaveOut, Plan};
-use fret_core::warning::{self, Warning};
+use fret_core::plausibility;
+use fret_core::warning::Warning;
 use serde_json::{Value, json};
 
 use crate::case_file::CaseFile;
@@ -43,7 +44,7 @@ impl RunRecord {
                 "fnv1a64": origin.start.digest(),
             })),
             "plan": resolved(plan),
-            "warnings": warning::of_plan(plan),
+            "warnings": plausibility::of_plan(plan),
         }))
     }
 

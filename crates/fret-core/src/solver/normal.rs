@@ -67,7 +67,9 @@ pub fn full_contact_pressure(task: &NormalTask<'_>, preconditioner: &mut Precond
     preconditioner.normal(task.undeformed, &mut removed);
     // Layers on a rigid base answer a uniform pressure too; the approach takes that.
     let level = sum(&removed) / removed.len() as f64;
-    removed.iter_mut().for_each(|part| *part -= level);
+    for part in &mut removed {
+        *part -= level;
+    }
     let mut pressure: Vec<f64> = removed.iter().map(|part| (mean - part).max(0.0)).collect();
     let found = sum(&pressure);
     if !(found > 0.0) {

@@ -1,0 +1,221 @@
+//! Whether the numbers of a case, and of its answer, can be meant. [`of_plan`] says what follows from the case alone, before any work;
+//! [`Gauge`] follows a run and says what its numbers tell. Nothing here refuses anything.
+
+use serde::{Deserialize, Serialize};
+
+use crate::history::StepRecord;
+use crate::model::{Base, Body, Control};
+use crate::plan::{Coupling, Plan};
+use crate::warning::{Concern, Warning};
+
+/// What follows from the case alone, with the contact that its plan expects.
+pub fn of_plan(plan: &Plan) -> Vec<Warning> {
+    let mut found = Vec::new();
+    let mut look = |name: Concern, value: f64| found.extend(Warning::of(name, value, None));
+    if let Some(contact) = &plan.expected {
+        let [dx, dy] = plan.grid.spacing();
+        let [x, y] = contact.half_widths;
+        // A coarse grid has found them: what it cannot tell from the bound is left to the run.
+        look(Concern::FewCells, 1.05 * (x / dx).min(y / dy));
+        let radius = (x * y).sqrt();
+        look(Concern::ContactRadiusOverBodyRadius, over_body(plan, [x, y]));
+        look(Concern::ApproachOverContactRadius, contact.approach / x.min(y));
+        look(Concern::ApproachOverLayerThickness, contact.approach / layers_on_rigid_base(plan));
+        look(Concern::ShiftOverContactRadius, largest_shift(plan) / radius);
+    }
+    look(Concern::SteepTopography, steepest(plan));
+    look(Concern::CoatingThinnerThanCell, thinnest_coating(plan) / longer_side(plan));
+    found
+}
+
+/// Half-widths over the radii of curvature of the profile, the larger; 0 where it has none.
+fn over_body(plan: &Plan, half_widths: [f64; 2]) -> f64 {
+    let [x, y] = plan.case.profile.curvatures();
+    (half_widths[0] * x).max(half_widths[1] * y)
+}
+
+/// Layers on a rigid base [length], the thinner stack; infinite where there is none.
+fn layers_on_rigid_base(plan: &Plan) -> f64 {
+    stacks(plan)
+        .filter(|(_, base)| *base == Base::Rigid)
+        .map(|(thickness, _)| thickness)
+        .fold(f64::INFINITY, f64::min)
+}
+
+/// All coatings of a body together [length], of the body with the thinner ones; infinite where there are none.
+fn thinnest_coating(plan: &Plan) -> f64 {
+    stacks(plan)
+        .map(|(thickness, _)| thickness)
+        .filter(|thickness| *thickness > 0.0)
+        .fold(f64::INFINITY, f64::min)
+}
+
+/// Thickness of the coatings of each elastic body, and what they lie on.
+fn stacks(plan: &Plan) -> impl Iterator<Item = (f64, Base)> {
+    [plan.case.bodies.upper(), plan.case.bodies.lower()].into_iter().filter_map(|body| match body {
+        Body::Rigid => None,
+        Body::Elastic(stack) => Some((stack.coating_thickness(), *stack.base())),
+    })
+}
+
+fn longer_side(plan: &Plan) -> f64 {
+    let [dx, dy] = plan.grid.spacing();
+    dx.max(dy)
+}
+
+/// The largest prescribed shift [length].
+fn largest_shift(plan: &Plan) -> f64 {
+    let mut largest = 0.0_f64;
+    crate::case::walk(plan.case.start.as_ref(), &plan.case.stages, |_, [_, x, y, _]| {
+        let part = |control: &Option<Control>| match control {
+            Some(Control::Motion(shift)) => *shift,
+            _ => 0.0,
+        };
+        largest = largest.max(part(x).hypot(part(y)));
+    });
+    largest
+}
+
+/// Root mean square slope of the steepest topography; 0 without any.
+fn steepest(plan: &Plan) -> f64 {
+    let [dx, dy] = plan.grid.spacing();
+    let slope = |heights: &crate::model::Heights| {
+        let depths = heights.depths();
+        let (nx, ny) = depths.dim();
+        let (mut sum, mut count) = (0.0, 0_usize);
+        for i in 0..nx.saturating_sub(1) {
+            for j in 0..ny.saturating_sub(1) {
+                let [x, y] = [depths[[i + 1, j]] - depths[[i, j]], depths[[i, j + 1]] - depths[[i, j]]];
+                sum += (x / dx).powi(2) + (y / dy).powi(2);
+                count += 1;
+            }
+        }
+        (sum / count.max(1) as f64).sqrt()
+    };
+    plan.case.profile.heights.iter().map(slope).fold(0.0, f64::max)
+}
+
+/// Follows a run and keeps of it what warnings are made of; the same from one piece or from several.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+pub struct Gauge {
+    ends: Vec<End>,
+    /// Largest shift over contact radius, and its stage.
+    shift: Option<(f64, usize)>,
+    /// Largest growth of the contact radius in an increment [cells], and its stage.
+    ring: Option<(f64, usize)>,
+    /// Contact radius of the first increment with contact [cells], and its stage.
+    first: Option<(f64, usize)>,
+    /// Contact radius of the increment before, and the largest so far [cells].
+    radius: Option<f64>,
+    largest_radius: f64,
+    worn_depth: f64,
+}
+
+/// The end of a stage.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+struct End {
+    stage: usize,
+    /// Cells in the radius, and between the contact and the edge of the grid.
+    radius: Option<f64>,
+    free: usize,
+    contact_area: f64,
+    approach: f64,
+}
+
+impl Gauge {
+    /// Reads an increment.
+    pub fn add(&mut self, record: &StepRecord) {
+        let end = End {
+            stage: record.stage,
+            radius: record.footprint.radius,
+            free: record.footprint.free,
+            contact_area: record.contact_area,
+            approach: record.approach,
+        };
+        match self.ends.last_mut() {
+            Some(last) if last.stage == end.stage => *last = end,
+            _ => self.ends.push(end),
+        }
+        self.worn_depth = record.max_worn_depth;
+        let larger = |most: &mut Option<(f64, usize)>, value: f64| {
+            if value.is_finite() && most.is_none_or(|(known, _)| value > known) {
+                *most = Some((value, record.stage));
+            }
+        };
+        if record.contact_cells == 0 {
+            self.radius = None;
+            return;
+        }
+        let [x, y] = record.shift;
+        larger(&mut self.shift, x.hypot(y) / equivalent_radius(record.contact_area));
+        let radius = equivalent_radius(record.contact_cells as f64);
+        if let Some(before) = self.radius {
+            larger(&mut self.ring, (radius - before) / record.parts.max(1) as f64);
+        }
+        if self.first.is_none() {
+            self.first = Some((radius / record.parts.max(1) as f64, record.stage));
+        }
+        self.radius = Some(radius);
+        self.largest_radius = self.largest_radius.max(radius);
+    }
+
+    /// What the run's numbers tell: a concern once, with its worst number.
+    pub fn warnings(&self, plan: &Plan) -> Vec<Warning> {
+        let stage = |number: usize| plan.case.stages.get(number).map(|stage| stage.name.clone());
+        let touching = || self.ends.iter().filter(|end| end.contact_area > 0.0);
+        let rough = !plan.case.profile.heights.is_empty();
+        let mut found = Vec::new();
+        let mut look = |name: Concern, values: &mut dyn Iterator<Item = (f64, usize)>| {
+            let worse = |a: f64, b: f64| if name.warns_below() { a < b } else { a > b };
+            let worst = values.reduce(|most, next| if worse(next.0, most.0) { next } else { most });
+            found.extend(worst.and_then(|(value, at)| Warning::of(name, value, stage(at))));
+        };
+        look(Concern::FewCells, &mut touching().filter_map(|end| Some((end.radius?, end.stage))));
+        let radius = |end: &End| equivalent_radius(end.contact_area);
+        look(
+            Concern::ContactRadiusOverBodyRadius,
+            &mut touching()
+                .filter(|_| is_round(plan))
+                .map(|end| (over_body(plan, [radius(end); 2]), end.stage)),
+        );
+        // On a rough surface the approach counts from the highest peak, and on a periodic half-space it has no zero.
+        let strained = || touching().filter(|_| !rough && !plan.case.periodic);
+        look(
+            Concern::ApproachOverContactRadius,
+            &mut strained().map(|end| (end.approach / radius(end), end.stage)),
+        );
+        look(
+            Concern::ApproachOverLayerThickness,
+            &mut strained().map(|end| (end.approach / layers_on_rigid_base(plan), end.stage)),
+        );
+        look(Concern::ShiftOverContactRadius, &mut self.shift.into_iter());
+        look(Concern::SteepTopography, &mut std::iter::once((steepest(plan), usize::MAX)));
+        let coating = thinnest_coating(plan);
+        look(
+            Concern::CoatingThinnerThanCell,
+            &mut std::iter::once((coating / longer_side(plan), usize::MAX)),
+        );
+        let last = self.ends.last().map_or(usize::MAX, |end| end.stage);
+        look(Concern::WearDepthOverCoatingThickness, &mut std::iter::once((self.worn_depth / coating, last)));
+        if !plan.case.periodic {
+            look(Concern::ContactNearEdge, &mut touching().map(|end| (end.free as f64, end.stage)));
+        }
+        if plan.coupling == Coupling::Coupled && !rough {
+            // A first increment that makes half the contact is a ring like any other.
+            let first = self.first.filter(|(radius, _)| *radius > 0.5 * self.largest_radius);
+            look(Concern::PressingInFewIncrements, &mut self.ring.into_iter().chain(first));
+        }
+        found
+    }
+}
+
+/// Radius of a circle of an area.
+fn equivalent_radius(area: f64) -> f64 {
+    (area / std::f64::consts::PI).sqrt()
+}
+
+/// Whether the profile is as curved along x as along y, so that the contact is about a circle.
+fn is_round(plan: &Plan) -> bool {
+    let [x, y] = plan.case.profile.curvatures();
+    x > 0.0 && (x - y).abs() <= 0.5 * x.max(y)
+}
