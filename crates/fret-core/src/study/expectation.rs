@@ -73,7 +73,7 @@ const ENDS: f64 = 0.04;
 /// Time of an increment beside its applications: its records, its line, its checkpoint [s].
 const INCREMENT: f64 = 3e-4;
 /// The same a cell: states, the edge of contact, the check on the whole grid, the checkpoint [s].
-const INCREMENT_CELL: f64 = 0.26e-6;
+const INCREMENT_CELL: f64 = 0.33e-6;
 /// Time to write a kept field to the disk [s], and a byte of it.
 const KEPT_FIELD: f64 = 1e-3;
 const KEPT_BYTE: f64 = 2e-9;
@@ -87,15 +87,15 @@ impl Habit {
                 growth: if periodic { 0.1 } else { 0.25 },
                 growth_on_grid: if alone { 0.0 } else { 0.1 },
                 product: 0.75e-9,
-                overhead: 2.0,
-                operators: 0.35e-6,
+                overhead: 2.5,
+                operators: 0.45e-6,
             },
             Coupling::Uncoupled => Self {
                 convolutions: 14.0,
                 growth: 0.25,
                 growth_on_grid: 0.21,
                 product: 2.0e-9,
-                overhead: 1.7,
+                overhead: 2.1,
                 operators: 0.6e-6,
             },
             Coupling::Coupled => Self {
@@ -103,7 +103,7 @@ impl Habit {
                 growth: 0.25,
                 growth_on_grid: 0.21,
                 product: 2.7e-9,
-                overhead: if alone { 2.5 } else { 1.0 },
+                overhead: if alone { 3.4 } else { 2.2 },
                 operators: 0.8e-6,
             },
         }
