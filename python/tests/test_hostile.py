@@ -179,7 +179,8 @@ def test_a_step_is_a_whole_number(sphere_case: dict[str, Any], step: Any) -> Non
     history = fretting.run(sphere_case)
     with pytest.raises(TypeError, match="step = .*must be a whole number"):
         history.field("pressure", step=step)
-    assert (history.field("pressure", step=np.int32(-1)) == history.field("pressure")).all()
+    last: Any = np.int32(-1)
+    assert (history.field("pressure", step=last) == history.field("pressure")).all()
 
 
 def test_a_folder_is_no_case(tmp_path: Path) -> None:

@@ -97,8 +97,10 @@ impl Failure {
     /// The exit code.
     pub fn code(&self) -> u8 {
         match self {
-            Self::Case(_) | Self::Call(..) | Self::Points { failed: 0, .. } => REFUSED,
-            Self::Memory(MemoryError::TooLittle { .. }) => REFUSED,
+            Self::Case(_)
+            | Self::Call(..)
+            | Self::Points { failed: 0, .. }
+            | Self::Memory(MemoryError::TooLittle { .. }) => REFUSED,
             Self::Unsolved(error) if asks_for_another_case(error) => REFUSED,
             Self::Memory(_)
             | Self::Unsolved(_)
@@ -113,8 +115,10 @@ impl Failure {
     /// One word for records.
     pub fn status(&self) -> &'static str {
         match self {
-            Self::Case(_) | Self::Call(..) | Self::Points { failed: 0, .. } => "refused",
-            Self::Memory(MemoryError::TooLittle { .. }) => "refused",
+            Self::Case(_)
+            | Self::Call(..)
+            | Self::Points { failed: 0, .. }
+            | Self::Memory(MemoryError::TooLittle { .. }) => "refused",
             Self::Unsolved(error) if asks_for_another_case(error) => "refused",
             Self::Memory(_)
             | Self::Unsolved(_)

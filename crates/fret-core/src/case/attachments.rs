@@ -47,9 +47,6 @@ impl<'a> Attachments<'a> {
 /// In a few words why it cannot be had.
 pub fn content(path: &Path) -> Result<Vec<u8>, String> {
     let facts = fs::metadata(path).map_err(|error| unreadable(&error))?;
-    if facts.is_dir() {
-        return Err("a folder, not a file".to_owned());
-    }
     if !facts.is_file() {
         return Err("no ordinary file".to_owned());
     }

@@ -16,6 +16,7 @@ use crate::cycle::CycleRecord;
 use crate::history::{KeptFields, StepRecord, Work};
 use crate::kernel::{Components, InfluenceCoefficients, influence_coefficients};
 use crate::model::ContactState;
+use crate::model::field::largest;
 use crate::plan::{Advance, Coupling, Plan};
 use crate::simulation::{Iteration, Observer, Simulation};
 
@@ -72,7 +73,7 @@ const ENDS: f64 = 0.04;
 /// Time of an increment beside its applications: its records, its line, its checkpoint [s].
 const INCREMENT: f64 = 3e-4;
 /// The same a cell: states, the edge of contact, the check on the whole grid, the checkpoint [s].
-const INCREMENT_CELL: f64 = 0.26e-6;
+const INCREMENT_CELL: f64 = 0.33e-6;
 /// Time to write a kept field to the disk [s], and a byte of it.
 const KEPT_FIELD: f64 = 1e-3;
 const KEPT_BYTE: f64 = 2e-9;
@@ -86,15 +87,15 @@ impl Habit {
                 growth: if periodic { 0.1 } else { 0.25 },
                 growth_on_grid: if alone { 0.0 } else { 0.1 },
                 product: 0.75e-9,
-                overhead: 2.0,
-                operators: 0.35e-6,
+                overhead: 2.5,
+                operators: 0.45e-6,
             },
             Coupling::Uncoupled => Self {
                 convolutions: 14.0,
                 growth: 0.25,
                 growth_on_grid: 0.21,
                 product: 2.0e-9,
-                overhead: 1.7,
+                overhead: 2.1,
                 operators: 0.6e-6,
             },
             Coupling::Coupled => Self {
@@ -102,7 +103,7 @@ impl Habit {
                 growth: 0.25,
                 growth_on_grid: 0.21,
                 product: 2.7e-9,
-                overhead: if alone { 2.5 } else { 1.0 },
+                overhead: if alone { 3.4 } else { 2.2 },
                 operators: 0.8e-6,
             },
         }
@@ -152,13 +153,16 @@ fn counts(plan: &Plan, habit: &Habit) -> Counts {
             started: Instant::now(),
             enough: ENOUGH / trial.grid.len(),
             advance: Advance::new(&trial.case),
+            limit: trial.case.wear.and_then(|wear| wear.limit),
+            worn: 0.0,
             solved: 0,
             work: Work::default(),
         };
         // However it ends: what was solved until then is what is known, and all there is when it ends well.
         let is_whole = Simulation::new(trial).run(&mut count).is_ok();
         let passed = count.advance.passed();
-        let rest = if is_whole { 1.0 } else { count.advance.planned() as f64 / passed as f64 };
+        let done = if is_whole { 1.0 } else { count.done() };
+        let rest = 1.0 / done;
         (passed > 0).then(|| Counts {
             increments: count.solved as f64 * rest,
             convolutions: count.work.convolutions as f64 * rest,
@@ -197,11 +201,21 @@ struct Count {
     /// Applications that are enough.
     enough: usize,
     advance: Advance,
+    /// Worn depth that ends the history [length].
+    limit: Option<f64>,
+    /// Largest worn depth so far [length].
+    worn: f64,
     solved: usize,
     work: Work,
 }
 
 impl Count {
+    /// How much of the history is over: of what is planned, or of the depth that ends it.
+    fn done(&self) -> f64 {
+        let passed = self.advance.passed() as f64 / self.advance.planned() as f64;
+        self.limit.map_or(passed, |limit| passed.max(self.worn / limit))
+    }
+
     fn go_on(&self) -> ControlFlow<()> {
         let is_enough = self.work.convolutions > self.enough || self.started.elapsed() > PATIENCE;
         if is_enough { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
@@ -213,8 +227,16 @@ impl Observer for Count {
         self.go_on()
     }
 
-    fn solved(&mut self, record: &StepRecord, _: &ContactState, _: Option<&KeptFields>) -> ControlFlow<()> {
+    fn solved(
+        &mut self,
+        record: &StepRecord,
+        state: &ContactState,
+        _: Option<&KeptFields>,
+    ) -> ControlFlow<()> {
         self.advance.solved(record);
+        if let Some(depth) = state.worn_depth.as_ref().and_then(|depth| depth.as_slice()) {
+            self.worn = largest(depth);
+        }
         self.solved += 1;
         self.work += record.work;
         self.go_on()
