@@ -1,0 +1,268 @@
+//! The laws that one increment has to hold.
+
+use fret_core::history::{Regime, StepRecord};
+use fret_core::model::{Control, CoulombFriction, LoadStep, SurfaceGrid, Zone};
+use ndarray::Array2;
+
+use super::influence::Influence;
+use super::measure::{Raise, dot, hypot, largest, over, size};
+use super::{Before, Certificate};
+
+/// The rule by which friction dissipates in a cell, per area: the mean of the friction bounds before and after the increment times the
+/// slip along the shear. The bounds go as the pressures `[before, after]`.
+pub fn dissipated([before, after]: [f64; 2], shear: [f64; 2], slip: [f64; 2]) -> f64 {
+    if after > 0.0 { 0.5 * (before + after) / after * dot(shear, slip) } else { 0.0 }
+}
+
+#[derive(Clone, Copy)]
+pub(super) struct Fields<'a> {
+    pub(super) p: &'a Array2<f64>,
+    pub(super) q: &'a [Array2<f64>; 2],
+    pub(super) slip: &'a [Array2<f64>; 2],
+    pub(super) gap: &'a Array2<f64>,
+    pub(super) zone: &'a Array2<Zone>,
+}
+
+/// One increment with all it has to hold.
+pub(super) struct Increment<'a> {
+    pub(super) grid: &'a SurfaceGrid,
+    pub(super) influence: &'a Influence,
+    pub(super) undeformed: &'a Array2<f64>,
+    pub(super) before: &'a Before,
+    pub(super) record: &'a StepRecord,
+    /// There is friction somewhere in the history: slip is followed.
+    pub(super) slides: bool,
+    pub(super) law: &'a CoulombFriction,
+    pub(super) load: LoadStep,
+    pub(super) fields: Fields<'a>,
+    pub(super) displacements: &'a [Array2<f64>; 3],
+}
+
+impl Increment<'_> {
+    /// Judges everything.
+    pub(super) fn certificate(&self) -> Certificate {
+        let mut certificate = Certificate {
+            increment: self.record.increment,
+            whole: self.record.parts == 1,
+            equilibrium: self.equilibrium(),
+            motion: self.motion(),
+            columns: self.columns(),
+            moment: over(self.record.twist_moment - self.resultants()[3], self.units()[3]),
+            turns: self.load.twist != Control::Motion(0.0) || self.before.twist != 0.0,
+            ..Certificate::default()
+        };
+        self.judge_normal(&mut certificate);
+        self.judge_friction(&mut certificate);
+        certificate
+    }
+
+    fn judge_normal(&self, certificate: &mut Certificate) {
+        let Fields { p, gap, .. } = self.fields;
+        let u = &self.displacements[0];
+        let total = p.sum();
+        let mean = if total > 0.0 { (p * u).sum() / total } else { 0.0 };
+        let largest = largest(p);
+        for ((i, j), &p) in p.indexed_iter() {
+            let at = [i, j];
+            let worn = self.before.worn.as_ref().map_or(0.0, |worn| worn[at]);
+            let found = self.undeformed[at] + worn + u[at] - self.record.approach;
+            let terms = [self.undeformed[at], worn, u[at], self.record.approach, mean];
+            if found != gap[at] {
+                certificate.gap.raise(over(found - gap[at], size(&terms)));
+            }
+            // Without a load the approach is what an overlap can be compared with.
+            let off = if mean > 0.0 {
+                found.min(self.influence.own_normal * p) / mean
+            } else {
+                over(found.min(0.0), size(&terms))
+            };
+            certificate.complementarity.raise(off);
+            certificate.tension.raise(over((-p).max(0.0), largest));
+        }
+    }
+
+    fn judge_friction(&self, certificate: &mut Certificate) {
+        let Fields { p, q, slip, zone, .. } = self.fields;
+        let bound = self.bound();
+        let most = largest(&bound);
+        let norm = bound.iter().map(|bound| bound * bound).sum::<f64>().sqrt();
+        let kt = self.influence.own_tangential;
+        let (mut off, mut work, mut limit) = (0.0, 0.0, 0.0);
+        let scale = self.largest_term_of_slip();
+        for ((i, j), &zone) in zone.indexed_iter() {
+            let at = [i, j];
+            let (q, bound) = ([q[0][at], q[1][at]], bound[at]);
+            let length = hypot(q);
+            certificate.excess.raise(over((length - bound).max(0.0), most));
+            let kept = [0, 1].map(|axis| slip[axis][at] - self.before.slip[axis][at]);
+            work += dissipated([self.before.pressure[at], p[at]], q, kept);
+            limit += bound * hypot(kept);
+            if zone == Zone::Slip {
+                certificate.on_circle.raise(over((bound - length).max(0.0), most));
+            } else if certificate.whole {
+                // Exactly: nothing is added to the slip of a cell that does not slip.
+                certificate.slip.raise(if kept == [0.0; 2] { 0.0 } else { 1.0 });
+            }
+            if !certificate.whole || !self.slides || zone == Zone::Open || p[at] <= 0.0 {
+                continue;
+            }
+            let v = self.slip_increment(at);
+            let w = v.map(|v| v / kt);
+            let image = project([q[0] + w[0], q[1] + w[1]], bound);
+            off += (q[0] - image[0]).powi(2) + (q[1] - image[1]).powi(2);
+            if zone == Zone::Stick {
+                certificate.stick.raise(over(hypot(w), norm));
+                continue;
+            }
+            certificate.slip.raise(over(hypot([kept[0] - v[0], kept[1] - v[1]]), scale));
+            if bound > 0.0 {
+                let across = (q[0] * w[1] - q[1] * w[0]).abs() / bound;
+                certificate.direction.raise(over(across, norm * (1.0 + hypot(w) / bound)));
+                certificate.against.raise(over((-dot(q, w) / bound).max(0.0), norm));
+            }
+        }
+        certificate.coulomb = over(off.sqrt(), norm);
+        let area = self.grid.cell_area();
+        let more = self.record.dissipated_energy - self.before.energy;
+        let unit = size(&[limit * area, self.record.dissipated_energy]);
+        // Of an increment in parts only the sign is known; one that ends a cycle counts those as well that the cycle stands for.
+        let wrong = match (certificate.whole, self.jumps) {
+            (true, false) => more - work * area,
+            (true, true) => (work * area - more).max(0.0),
+            (false, _) => (-more).max(0.0),
+        };
+        certificate.energy = over(wrong, unit);
+    }
+
+    /// `mu p` of every cell.
+    fn bound(&self) -> Array2<f64> {
+        let mut bound = self.fields.p.clone();
+        bound.indexed_iter_mut().for_each(|((i, j), p)| *p *= self.law.at(i, j));
+        bound
+    }
+
+    /// Motion of the upper point less that of the lower one in the increment [length].
+    fn slip_increment(&self, at: [usize; 2]) -> [f64; 2] {
+        let turned = self.record.twist - self.before.twist;
+        let turn = [-turned * self.grid.centre(1, at[1]), turned * self.grid.centre(0, at[0])];
+        [0, 1].map(|axis| {
+            let moved = self.record.shift[axis] - self.before.shift[axis] + turn[axis];
+            moved - (self.displacements[1 + axis][at] - self.before.tangential[axis][at])
+        })
+    }
+
+    /// Largest number that enters a slip increment [length].
+    fn largest_term_of_slip(&self) -> f64 {
+        let [_, x, y] = self.displacements;
+        let [half_x, half_y] = self.grid.size().map(|side| 0.5 * side);
+        let fields = [x, y, &self.before.tangential[0], &self.before.tangential[1]].map(largest);
+        let slips = [&self.fields.slip[0], &self.fields.slip[1]].map(largest);
+        let turn = self.record.twist.abs().max(self.before.twist.abs()) * half_x.hypot(half_y);
+        let shifts = [self.record.shift, self.before.shift].map(hypot);
+        size(&[size(&fields), size(&slips), size(&shifts), turn])
+    }
+
+    /// Sums of the tractions: normal force, tangential forces, moment about z.
+    fn resultants(&self) -> [f64; 4] {
+        let Fields { p, q, .. } = self.fields;
+        let mut moment = 0.0;
+        for ((i, j), &x) in q[0].indexed_iter() {
+            moment += q[1][[i, j]] * self.grid.centre(0, i) - x * self.grid.centre(1, j);
+        }
+        [p.sum(), q[0].sum(), q[1].sum(), moment].map(|sum| sum * self.grid.cell_area())
+    }
+
+    /// What each resultant is compared with: the normal force; all the friction there can be; its moment.
+    fn units(&self) -> [f64; 4] {
+        let mut arm = 0.0_f64;
+        for ((i, j), &p) in self.fields.p.indexed_iter() {
+            if p > 0.0 {
+                arm = arm.max(self.grid.centre(0, i).abs()).max(self.grid.centre(1, j).abs());
+            }
+        }
+        let [normal, ..] = self.resultants();
+        let friction = self.bound().sum() * self.grid.cell_area();
+        [normal, friction, friction, friction * arm]
+    }
+
+    fn controls(&self) -> [Control; 4] {
+        let LoadStep { normal, tangential: [x, y], twist } = self.load;
+        [normal, x, y, twist]
+    }
+
+    fn equilibrium(&self) -> f64 {
+        let (found, units) = (self.resultants(), self.units());
+        let mut worst = 0.0;
+        for (mode, control) in self.controls().into_iter().enumerate() {
+            match control {
+                // Bodies pulled apart carry nothing.
+                Control::Force(asked) if mode == 0 && asked <= 0.0 => {
+                    worst.raise(over(found[0].abs(), found[0].abs()));
+                }
+                Control::Force(asked) => worst.raise(over(found[mode] - asked, units[mode])),
+                Control::Motion(_) => {}
+            }
+        }
+        worst
+    }
+
+    fn motion(&self) -> f64 {
+        let (now, then) = (self.record, self.before);
+        let pairs = [
+            (now.approach, then.approach),
+            (now.shift[0], then.shift[0]),
+            (now.shift[1], then.shift[1]),
+            (now.twist, then.twist),
+        ];
+        let mut worst = 0.0;
+        for (control, (found, from)) in self.controls().into_iter().zip(pairs) {
+            if let Control::Motion(asked) = control {
+                worst.raise(over(found - asked, size(&[asked, from])));
+            }
+        }
+        worst
+    }
+
+    fn columns(&self) -> f64 {
+        let Fields { p, q, zone, .. } = self.fields;
+        let record = self.record;
+        let (found, units) = (self.resultants(), self.units());
+        let [x, y] = record.tangential_force;
+        let mut worst = 0.0;
+        for (mode, said) in [record.normal_force, x, y].into_iter().enumerate() {
+            worst.raise(over(said - found[mode], units[mode]));
+        }
+        let peak = largest(p);
+        worst.raise(over(record.max_pressure - peak, peak));
+        let shear = q[0].iter().zip(&q[1]).fold(0.0_f64, |most, (x, y)| most.max(x.hypot(*y)));
+        worst.raise(over(record.max_shear - shear, shear));
+        let count = |wanted: Zone| zone.iter().filter(|&&zone| zone == wanted).count();
+        let (stick, slip) = (count(Zone::Stick), count(Zone::Slip));
+        let loaded = p.iter().filter(|p| **p > 0.0).count();
+        let open = zone.iter().zip(p).all(|(zone, p)| (*zone == Zone::Open) == (*p == 0.0));
+        let regime = match (loaded, stick) {
+            (0, _) => Regime::Apart,
+            _ if self.bound().sum() == 0.0 => Regime::Frictionless,
+            (_, 0) => Regime::GrossSlip,
+            _ if slip == 0 => Regime::FullStick,
+            _ => Regime::PartialSlip,
+        };
+        let facts = [
+            open,
+            record.contact_cells == loaded,
+            record.stick_cells == stick,
+            record.regime == regime,
+            (record.contact_area > 0.0) == (loaded > 0),
+        ];
+        worst.raise(if facts.contains(&false) { 1.0 } else { 0.0 });
+        let share = stick as f64 / loaded.max(1) as f64;
+        worst.raise(over(record.stick_area - share * record.contact_area, record.contact_area));
+        worst
+    }
+}
+
+/// Nearest point of a disc.
+fn project(q: [f64; 2], bound: f64) -> [f64; 2] {
+    let length = hypot(q);
+    if length <= bound { q } else { q.map(|q| q * (bound / length)) }
+}

@@ -1,0 +1,141 @@
+//! How a case ended, and whether what it says is true.
+
+use fret_core::case::{Attachments, Case, CaseError};
+use fret_core::plan::Plan;
+use fret_core::simulation::{RunError, Silent, Simulation};
+use ndarray::Array2;
+
+use super::Family;
+use super::body::Body;
+use super::loads::MOST_PULL_ON_MAP;
+use crate::certifier::Ended;
+
+/// How a case ended.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Outcome {
+    /// Every increment was solved and certified.
+    Certified,
+    /// There is no answer, for this reason; every increment before was certified.
+    Refused(Refusal),
+    /// An increment was not solved, although it may have an answer.
+    Unsolved(String),
+    /// A solved increment breaks a law, or a reason that was given is not true.
+    Wrong(String),
+}
+
+/// Why there is no answer.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Refusal {
+    /// A nearly incompressible film thinner than a fifth of a cell, on a stiff base.
+    UnseenFilm,
+    /// The contact reaches the edge of the grid.
+    ContactAtEdge,
+    /// More tangential force than friction carries.
+    AboveSliding,
+    /// More wear in a cycle than the grid can follow.
+    WearTooFast,
+}
+
+impl Refusal {
+    /// In words.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::UnseenFilm => "an incompressible film thinner than the cells can see",
+            Self::ContactAtEdge => "contact at the edge of the grid",
+            Self::AboveSliding => "more tangential force than friction carries",
+            Self::WearTooFast => "more wear in a cycle than the grid can follow",
+        }
+    }
+}
+
+/// How a run ended, and whether what it says is true.
+pub(super) fn judged(
+    body: &Body,
+    text: &str,
+    maps: &[Array2<f64>],
+    ended: &Result<Ended, CaseError>,
+) -> Outcome {
+    let ended = match ended {
+        Ok(ended) => ended,
+        Err(error) => {
+            let words = error.to_string();
+            return if words.contains("film") && body.has_unseen_film() {
+                Outcome::Refused(Refusal::UnseenFilm)
+            } else if words.contains("reaches the edge") {
+                at_edge(body, text, maps)
+            } else if words.contains("friction carries at most") && pulls_more_than_its_map(body, maps) {
+                Outcome::Refused(Refusal::AboveSliding)
+            } else {
+                Outcome::Wrong(format!("refused: {}", words.lines().next().unwrap_or_default()))
+            };
+        }
+    };
+    if let Some(wrong) = ended.wrong() {
+        return Outcome::Wrong(wrong);
+    }
+    match &ended.error {
+        None if ended.run.is_empty() => Outcome::Wrong("no increment".to_owned()),
+        None => Outcome::Certified,
+        Some(RunError::ContactAtEdge { .. }) => at_edge(body, text, maps),
+        Some(RunError::WearTooFast { share, .. }) if body.family == Family::Wear && *share > 0.4 => {
+            Outcome::Refused(Refusal::WearTooFast)
+        }
+        Some(RunError::AboveSliding { asked, .. }) => match carried(ended) {
+            Some(carried) if *asked < 0.999 * carried => {
+                Outcome::Wrong(format!("asked {asked:e}, but friction carries {carried:e}"))
+            }
+            _ => Outcome::Refused(Refusal::AboveSliding),
+        },
+        Some(error @ RunError::NotConverged { .. }) => Outcome::Unsolved(error.to_string()),
+        Some(error) => Outcome::Wrong(error.to_string()),
+    }
+}
+
+/// Whether a pull that is drawn can be more than the best patch carries; one on a single coefficient never is.
+pub(super) fn pulls_more_than_its_map(body: &Body, maps: &[Array2<f64>]) -> bool {
+    maps.first()
+        .is_some_and(|map| map.iter().all(|coefficient| *coefficient < MOST_PULL_ON_MAP * body.friction))
+}
+
+/// A contact that is said to reach the edge has to do so where there is more room: on a grid of three times as many cells.
+pub(super) fn at_edge(body: &Body, text: &str, maps: &[Array2<f64>]) -> Outcome {
+    let [nx, ny] = body.cells;
+    let wide = text.replacen(&body.grid(1), &body.grid(3), 1);
+    let kept = format!("{wide}[output]\nfields = [\"pressure\"]\nevery = 1\n");
+    let inside = |place: usize, cells: usize| place.clamp(cells, 2 * cells - 1) - cells;
+    let padded = |map: &Array2<f64>| {
+        Array2::from_shape_fn([3 * nx, 3 * ny], |(i, j)| map[[inside(i, nx), inside(j, ny)]])
+    };
+    let maps: Vec<_> = maps.iter().map(padded).collect();
+    let case = Case::from_toml_with(&kept, "wide.toml", Attachments { arrays: &maps, ..Attachments::none() });
+    // What is still too wide, or not solved there, is wide enough.
+    let Ok(plan) = case.and_then(Plan::new) else { return Outcome::Refused(Refusal::ContactAtEdge) };
+    let Ok(history) = Simulation::new(&plan).run(&mut Silent) else {
+        return Outcome::Refused(Refusal::ContactAtEdge);
+    };
+    let outside = |place: usize, cells: usize| place <= cells || place >= 2 * cells - 1;
+    let reaches = history.fields.iter().filter_map(|kept| kept.pressure.as_ref()).any(|pressure| {
+        pressure.indexed_iter().any(|((i, j), p)| *p > 0.0 && (outside(i, nx) || outside(j, ny)))
+    });
+    if reaches {
+        Outcome::Refused(Refusal::ContactAtEdge)
+    } else {
+        Outcome::Wrong("contact at the edge, where a wider grid finds none".to_owned())
+    }
+}
+
+/// What friction carried in the last solved increment, `sum mu p dA`, when the normal load and the friction stay in the next.
+pub(super) fn carried(ended: &Ended) -> Option<f64> {
+    let last = ended.run.last()?;
+    let case = &ended.plan.case;
+    let number = ended.error.as_ref()?.increment();
+    let mut first = 0;
+    let stage = case.stages.iter().find(|stage| {
+        first += stage.increments_in_all();
+        number < first
+    })?;
+    let stays = stage.normal.is_none() && stage.friction.is_none();
+    let pressure = last.fields.pressure.as_ref().filter(|_| stays)?;
+    let sum: f64 = pressure.indexed_iter().map(|((i, j), p)| p * case.friction.at(i, j)).sum();
+    Some(sum * ended.plan.grid.cell_area())
+}
