@@ -25,6 +25,8 @@ pub(super) struct Fields<'a> {
 
 /// One increment with all it has to hold.
 pub(super) struct Increment<'a> {
+    /// Cycles may stand for others that are not computed.
+    pub(super) jumps: bool,
     pub(super) grid: &'a SurfaceGrid,
     pub(super) influence: &'a Influence,
     pub(super) undeformed: &'a Array2<f64>,

@@ -132,7 +132,7 @@ impl<'a> Simulation<'a> {
     pub fn follow(&self, from: Checkpoint, observer: &mut dyn Observer) -> (History, Result<(), RunError>) {
         match self.memory(observer.leaves_fields(), from.place.solved) {
             Ok(_memory) => self.journey(from, observer),
-            Err(error) => (self.history_from(from.place, from.state, from.wear.as_ref()), Err(error)),
+            Err(error) => (self.history_from(&from.place, from.state, from.wear.as_ref()), Err(error)),
         }
     }
 
@@ -147,7 +147,7 @@ impl<'a> Simulation<'a> {
     }
 
     /// A history that has only its start.
-    fn history_from(&self, place: Place, state: ContactState, wear: Option<&Collected>) -> History {
+    fn history_from(&self, place: &Place, state: ContactState, wear: Option<&Collected>) -> History {
         let plan = self.plan;
         let case = &plan.case;
         History {
@@ -159,7 +159,7 @@ impl<'a> Simulation<'a> {
             cycles: Vec::new(),
             worn_through: None,
             fields: Vec::new(),
-            end: solved_state(&place, &state, wear).beside(|_| true),
+            end: solved_state(place, &state, wear).beside(|_| true),
             state,
             plan: plan.to_json(),
             warnings: Vec::new(),
@@ -170,7 +170,7 @@ impl<'a> Simulation<'a> {
         let plan = self.plan;
         let case = &plan.case;
         let Checkpoint { place, state, memory, cycle, wear } = from;
-        let history = self.history_from(place, state, wear.as_ref());
+        let history = self.history_from(&place, state, wear.as_ref());
         let response = self.response();
         let own = response.own_normal(case.cells);
         let unworn = case.profile.gap(&plan.grid);
