@@ -75,7 +75,7 @@ fn every_bad_array_is_one_clear_message_at_its_place() {
     let file = |name: &str| heights(&format!("file = \"{name}\""));
     for (case, place, words) in [
         (file("nowhere.npy"), "14:8", vec!["nowhere.npy", "no such file"]),
-        (file("."), "14:8", vec!["a folder, not a file"]),
+        (file("."), "14:8", vec!["no ordinary file"]),
         (file("/dev/zero"), "14:8", vec!["no ordinary file"]),
         (file("turned.npy"), "14:8", vec!["24 x 12 numbers", "24 x 24 cells"]),
         (file("nan.npy"), "14:8", vec!["height [1, 3] = NaN", "finite"]),
