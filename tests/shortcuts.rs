@@ -4,7 +4,7 @@ use std::time::Instant;
 
 use fret_core::case::Case;
 use fret_core::history::{History, KeptFields, StepRecord};
-use fret_core::plan::{LeaveOut, Plan, Shortcut};
+use fret_core::plan::{LeaveOut, Plan, Simplification};
 use fret_core::simulation::{Silent, Simulation};
 
 use crate::{Sphere, keeping};
@@ -20,7 +20,7 @@ pub struct Example {
     /// The case.
     pub text: String,
     /// The shortcut.
-    pub shortcut: Option<Shortcut>,
+    pub shortcut: Option<Simplification>,
 }
 
 /// A run that left out what it was allowed to.
@@ -78,7 +78,7 @@ pub fn difference(one: &History, other: &History) -> f64 {
 
 /// The cases, with `cells` a side.
 pub fn cases(cells: usize) -> Vec<Example> {
-    use Shortcut::{Box, Coupling, Digits, LayeredResponse, Mirror, Pressure, Tangential, Transverse};
+    use Simplification::{Box, Coupling, Digits, LayeredResponse, Mirror, Pressure, Tangential, Transverse};
     let rigid = Sphere { cells, tolerance: TOLERANCE, friction: 0.3, ..Sphere::default() };
     let equal = Sphere { identical: true, ..rigid.clone() };
     let coated = Sphere { coating: Some((4.0, 0.5)), ..rigid.clone() };
