@@ -14,7 +14,9 @@ use super::shape::profile;
 use super::stages::{sliding, stages};
 use super::stress::stress;
 use super::wearing::wear;
-use super::{Case, FIELD_NAMES, GridSize, Origin, Output, Stage};
+use super::course::Stage;
+use super::definition::{Case, GridSize, Origin};
+use super::output::{FIELD_NAMES, Output};
 use crate::model::{CoulombFriction, Scheme};
 
 /// Cells along one side of the grid, at the least.

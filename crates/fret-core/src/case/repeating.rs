@@ -5,7 +5,8 @@ use toml::Spanned;
 use super::file::GridFile;
 use super::judge::Judge;
 use super::stage_file::StageFile;
-use super::{GridSize, Stage, StageControl};
+use super::course::{Stage, StageControl};
+use super::definition::GridSize;
 use crate::kernel::uniform_response;
 use crate::model::{ContactPair, Profile, Shape};
 

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 use toml::Spanned;
 
-use super::Output;
+use super::output::Output;
 use super::file::{DepthsFile, SideFile, StressFile};
 use super::judge::Judge;
 use crate::model::{Body, ContactPair};

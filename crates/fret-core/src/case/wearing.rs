@@ -2,7 +2,7 @@
 
 use super::judge::Judge;
 use super::stage_file::{WearFile, WearLawFile, WornBodyFile};
-use super::{Course, Stage};
+use super::course::{Course, Stage};
 use crate::model::{Body, ContactPair, WearLaw, WearRule};
 
 /// Cycles a computed one may stand for.

@@ -13,7 +13,7 @@ use faer::Mat;
 use faer::linalg::solvers::Solve;
 
 use super::contact_set::ContactSet;
-use super::increment::{Method, RegionOperators};
+use super::operators::{Method, RegionOperators};
 use super::laws::projection::project_pressure;
 use super::laws::rigid_motions::RigidMotions;
 use super::laws::slip::{SlipIncrement, TangentialProblem};

@@ -5,7 +5,7 @@
 
 use super::contact_set::ContactSet;
 use super::contact_vector::ContactVector;
-use super::increment::RegionOperators;
+use super::operators::RegionOperators;
 use super::laws::active_sets::ActiveSets;
 use super::laws::complementarity::{NormalResidual, normal_residual};
 use super::laws::friction::{FrictionBound, FrictionLaw};
@@ -90,6 +90,7 @@ pub fn solve(
     operators.linear.begin();
     for iteration in 0..settings.max_newton_iterations {
         let residual = iterate.evaluate();
+        if std::env::var("FTRACE").is_ok() { eprintln!("TRACE {iteration} res {residual:.3e} n {:.3e} t {:.3e} cells {} stick {}", iterate.normal.map_or(0.0,|n| n.residual), iterate.tangential.residual, iterate.contact.len(), iterate.sets.stick.iter().sum::<f64>()); }
         if callback(iteration, residual).is_break() {
             return Err(SolveError::Stopped);
         }
@@ -97,7 +98,7 @@ pub fn solve(
             return Ok(iterate.solution(iteration));
         }
         if backtracking.rejects(residual) {
-            iterate.go_halfway_back();
+            iterate.go_halfway_back(operators);
             continue;
         }
         if iteration >= LOST_AFTER && forcing.best > FAR {
@@ -152,7 +153,7 @@ struct Iterate<'a> {
     tractions: &'a mut Tractions,
     displacements: &'a mut Displacements,
     /// Those before the last step.
-    last: (Tractions, Displacements),
+    last: Tractions,
     /// Self-influence of a cell, normal and tangential [length/pressure].
     self_influence: [f64; 2],
     contact: ContactSet,
@@ -210,7 +211,7 @@ impl<'a> Iterate<'a> {
         let motions = problem.positions.motions_of(&contact);
         let mut iterate = Self {
             problem,
-            last: (Tractions::default(), Displacements::default()),
+            last: Tractions::default(),
             tractions,
             displacements,
             self_influence: [own.normal, own.tangential],
@@ -312,22 +313,26 @@ impl<'a> Iterate<'a> {
             }
             law.find_bound(pressure, bound);
         }
-        let mut shear = std::mem::take(&mut self.packed.shear);
-        let [_, own] = self.self_influence;
-        let equations = self.packed.tangential_problem(self.problem, &self.motions, own);
-        self.projection.project(&mut shear, &self.sets, &equations);
-        self.packed.shear = shear;
-        let Self { contact, packed, tractions, last, .. } = self;
-        last.0.clone_from(tractions);
+        self.project_shear();
+        self.last.clone_from(self.tractions);
+        let Self { contact, packed, tractions, .. } = self;
         contact.scatter(&packed.pressure, &mut tractions.pressure);
         contact.scatter_tangential(&packed.shear, &mut tractions.shear);
         true
     }
 
+    /// Brings packed shear to its discs, where it slips to its circles, and to its resultants.
+    fn project_shear(&mut self) {
+        let mut shear = std::mem::take(&mut self.packed.shear);
+        let [_, own] = self.self_influence;
+        let equations = self.packed.tangential_problem(self.problem, &self.motions, own);
+        self.projection.project(&mut shear, &self.sets, &equations);
+        self.packed.shear = shear;
+    }
+
     /// The displacements of the tractions.
     fn find_displacements(&mut self, operators: &mut RegionOperators) {
-        let Self { problem, tractions, displacements, last, .. } = self;
-        last.1.clone_from(displacements);
+        let Self { problem, tractions, displacements, .. } = self;
         match problem.pressure {
             Pressure::Unknown => operators.compliance.full(tractions.parts(), displacements.parts_mut()),
             Pressure::Given => {
@@ -336,10 +341,19 @@ impl<'a> Iterate<'a> {
         }
     }
 
-    /// To the middle between here and where the last step began: feasible too.
-    fn go_halfway_back(&mut self) {
-        self.tractions.average_with(&self.last.0);
-        self.displacements.average_with(&self.last.1);
+    /// To the middle between here and where the last step began, as far as the contact is the same; what slipped there is put back on
+    /// its circle.
+    fn go_halfway_back(&mut self, operators: &mut RegionOperators) {
+        self.tractions.average_with(&self.last);
+        if self.sets.len() == self.contact.len() {
+            let Self { contact, packed, tractions, .. } = self;
+            contact.pack(&tractions.pressure, &mut packed.pressure);
+            contact.pack_tangential(&tractions.shear, &mut packed.shear);
+            packed.law.find_bound(&packed.pressure, &mut packed.bound);
+            self.project_shear();
+            self.contact.scatter_tangential(&self.packed.shear, &mut self.tractions.shear);
+        }
+        self.find_displacements(operators);
     }
 
     fn solution(self, iterations: usize) -> Solution {
@@ -387,7 +401,7 @@ impl ForcingTerm {
         }
         let wanted = (Self::GAMMA * ratio).clamp(Self::LEAST, Self::MOST) * 0.1_f64.powi(self.in_vain.min(6));
         let wanted = if ratio.is_finite() && ratio > 0.0 { wanted } else { Self::MOST };
-        wanted.max(Self::ENOUGH * tolerance / residual)
+        wanted.max((Self::ENOUGH * tolerance / residual).min(Self::MOST))
     }
 }
 
