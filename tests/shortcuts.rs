@@ -78,7 +78,9 @@ pub fn difference(one: &History, other: &History) -> f64 {
 
 /// The cases, with `cells` a side.
 pub fn cases(cells: usize) -> Vec<Example> {
-    use Simplification::{Region, Coupling, Precision, LayeredResponse, Mirror, Pressure, Tangential, Transverse};
+    use Simplification::{
+        Coupling, LayeredResponse, Mirror, Precision, Pressure, Region, Tangential, Transverse,
+    };
     let rigid = Sphere { cells, tolerance: TOLERANCE, friction: 0.3, ..Sphere::default() };
     let equal = Sphere { identical: true, ..rigid.clone() };
     let coated = Sphere { coating: Some((4.0, 0.5)), ..rigid.clone() };

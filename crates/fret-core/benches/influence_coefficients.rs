@@ -9,7 +9,7 @@ use std::error::Error;
 use std::fmt::Write;
 use std::time::Instant;
 
-use fret_core::compliance::{SpectralCompliance, SurfaceCompliance, SurfaceResponse, OperatorSet};
+use fret_core::compliance::{OperatorSet, SpectralCompliance, SurfaceCompliance, SurfaceResponse};
 use fret_core::kernel::sublayers::RESPONSE_BOUND;
 use fret_core::kernel::{
     Components, InfluenceCoefficients, influence_coefficients, layered_half_space, sampled_coefficients,

@@ -6,9 +6,9 @@ use serde_json::Value;
 
 use crate::cycle::CycleRecord;
 use crate::footprint::Footprint;
-pub use crate::solver::{Regime, Residual, Work};
-use crate::solver::worst;
 use crate::model::{ContactPair, ContactState, SolvedState, SurfaceGrid, Zone};
+use crate::solver::worst;
+pub use crate::solver::{Regime, Residual, Work};
 use crate::warning::Warning;
 use crate::wear::WornThrough;
 

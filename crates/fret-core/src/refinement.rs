@@ -246,7 +246,11 @@ mod tests {
         });
         let response =
             SurfaceResponse::FreeSpace(influence_coefficients(&pair, [CELLS; 2], spacing, Components::ALL));
-        let settings = SolverSettings { max_newton_iterations: most_changes, max_direct_unknowns: 0, ..SolverSettings::new(1e-9) };
+        let settings = SolverSettings {
+            max_newton_iterations: most_changes,
+            max_direct_unknowns: 0,
+            ..SolverSettings::new(1e-9)
+        };
         ContactSolver::new(grid, gap, friction, Coupling::Coupled, response, settings, true)
     }
 

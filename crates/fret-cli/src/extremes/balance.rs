@@ -9,7 +9,7 @@
 
 use std::ops::ControlFlow;
 
-use fret_core::compliance::{SpectralCompliance, SurfaceCompliance, SurfaceResponse, OperatorSet};
+use fret_core::compliance::{OperatorSet, SpectralCompliance, SurfaceCompliance, SurfaceResponse};
 use fret_core::history::{KeptFields, StepRecord};
 use fret_core::kernel::{Components, influence_coefficients, periodic_symbols};
 use fret_core::model::{ContactState, TangentialField};

@@ -1,6 +1,6 @@
 //! The elastic operator of a scene as a matrix on a few cells: is it symmetric, is it positive?
 
-use fret_core::compliance::{SpectralCompliance, SurfaceCompliance, SurfaceResponse, OperatorSet};
+use fret_core::compliance::{OperatorSet, SpectralCompliance, SurfaceCompliance, SurfaceResponse};
 use fret_core::kernel::{Components, influence_coefficients, periodic_symbols};
 use fret_core::model::ContactPair;
 use fret_fft::ConvolutionError;

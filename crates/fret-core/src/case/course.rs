@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use serde::Serialize;
 
-use crate::model::{CoulombFriction, Control, LoadStep};
+use crate::model::{Control, CoulombFriction, LoadStep};
 
 /// One stage of the loading history.
 #[derive(Debug, Clone, PartialEq, Serialize)]

@@ -7,11 +7,11 @@ use toml::Spanned;
 use toml::de::{DeTable, DeValue, Deserializer};
 
 use super::attachments::Attachments;
-use super::refusal::{CaseError, Mistake};
-use super::wording::in_words;
 use super::check;
 use super::definition::Case;
 use super::file::CaseFile;
+use super::refusal::{CaseError, Mistake};
+use super::wording::in_words;
 
 /// More mistakes than this are not looked for.
 const MOST_MISTAKES: usize = 30;

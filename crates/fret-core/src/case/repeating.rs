@@ -2,11 +2,11 @@
 
 use toml::Spanned;
 
+use super::course::{Stage, StageControl};
+use super::definition::GridSize;
 use super::file::GridFile;
 use super::judge::Judge;
 use super::stage_file::StageFile;
-use super::course::{Stage, StageControl};
-use super::definition::GridSize;
 use crate::kernel::uniform_response;
 use crate::model::{ContactPair, Profile, Shape};
 

@@ -19,21 +19,19 @@ pub struct CellResponse {
 }
 
 /// Parities of the kernels.
-const PARITIES: [Parity; 6] = [
-    Parity::EvenEven,
-    Parity::EvenEven,
-    Parity::EvenEven,
-    Parity::OddOdd,
-    Parity::OddEven,
-    Parity::EvenOdd,
-];
+const PARITIES: [Parity; 6] =
+    [Parity::EvenEven, Parity::EvenEven, Parity::EvenEven, Parity::OddOdd, Parity::OddEven, Parity::EvenOdd];
 
 impl CellResponse {
     /// Of a response on the part of a grid before its mirrors, of `cells`.
     ///
     /// # Errors
     /// When the symbols of a periodic response are not of this grid.
-    pub fn new(response: &SurfaceResponse, cells: [usize; 2], symmetry: Symmetry) -> Result<Self, ConvolutionError> {
+    pub fn new(
+        response: &SurfaceResponse,
+        cells: [usize; 2],
+        symmetry: Symmetry,
+    ) -> Result<Self, ConvolutionError> {
         let (kernels, period) = match response {
             SurfaceResponse::FreeSpace(coefficients) => {
                 (signed_kernels(coefficients).map(|(kernel, _)| kernel.clone()), None)
@@ -43,7 +41,8 @@ impl CellResponse {
                 let mut kernels = [const { None }; 6];
                 for (kernel, (symbol, parity)) in kernels.iter_mut().zip(signed_symbols(symbols)) {
                     if let Some(values) = symbol {
-                        *kernel = Some(response_to_one_cell(&Symbol { values: values.view(), parity }, whole)?);
+                        *kernel =
+                            Some(response_to_one_cell(&Symbol { values: values.view(), parity }, whole)?);
                     }
                 }
                 (kernels, Some(whole))
@@ -92,7 +91,8 @@ impl CellResponse {
                 return kernel[[i, j]];
             }
             let odd = PARITIES[index].odd();
-            let turns = (0..2).fold(1.0, |sign, axis| if odd[axis] { sign * offset[axis].signum() as f64 } else { sign });
+            let turns = (0..2)
+                .fold(1.0, |sign, axis| if odd[axis] { sign * offset[axis].signum() as f64 } else { sign });
             turns * kernel[[offset[0].unsigned_abs(), offset[1].unsigned_abs()]]
         };
         let [zz, xx, yy, xy, zx, zy] = [0, 1, 2, 3, 4, 5].map(value);
@@ -103,7 +103,8 @@ impl CellResponse {
 /// The displacements of all cells of a period by a unit traction on the first.
 fn response_to_one_cell(symbol: &Symbol<'_>, cells: [usize; 2]) -> Result<Array2<f64>, ConvolutionError> {
     let block = [Block { output: 0, input: 0, kernel: 0, sign: 1.0 }];
-    let product = PeriodicProduct::mirrored(cells, std::slice::from_ref(symbol), &block, fret_fft::Mirrors::NONE)?;
+    let product =
+        PeriodicProduct::mirrored(cells, std::slice::from_ref(symbol), &block, fret_fft::Mirrors::NONE)?;
     let mut traction = vec![0.0; cells[0] * cells[1]];
     traction[0] = 1.0;
     let mut displacement = vec![0.0; traction.len()];

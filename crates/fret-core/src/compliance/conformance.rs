@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use super::{DirectCompliance, SpectralCompliance, SurfaceCompliance, SurfaceResponse, OperatorSet};
+use super::{DirectCompliance, OperatorSet, SpectralCompliance, SurfaceCompliance, SurfaceResponse};
 use crate::kernel::samples::{Random, stack, under_rigid};
 use crate::kernel::{
     Components, cells_too_coarse_for_incompressible_film, influence_coefficients, periodic_symbols,

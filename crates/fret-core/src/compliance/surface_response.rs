@@ -48,7 +48,6 @@ pub(super) const FULL_BLOCKS: [Block; 9] = [
     block(2, 0, 5, -1.0),
 ];
 
-
 /// The kernels that the blocks of [`FULL_BLOCKS`] name, each with its parity.
 pub(super) fn signed_kernels(c: &InfluenceCoefficients) -> [(&Option<Array2<f64>>, Parity); 6] {
     [

@@ -18,13 +18,13 @@ use crate::kernel::{PairResponse, cells_too_coarse_for_incompressible_film};
 use crate::machine::memory::{MemoryError, claim};
 use crate::model::{Body, ContactState, SurfaceGrid, Symmetry};
 pub use crate::solver::Coupling;
-pub use simplification::{LeaveOut, Simplification};
 use crate::start::Start;
 pub use advance::Advance;
 pub use extent::ExpectedContact;
-pub use left_out::LeftOut;
 use extent::{automatic_size, expected_contact, reaches_beyond};
+pub use left_out::LeftOut;
 pub use memory::of_stress as memory_of_stress;
+pub use simplification::{LeaveOut, Simplification};
 
 /// A case ready to be computed.
 #[derive(Debug, Clone, Serialize)]
@@ -142,9 +142,10 @@ impl Plan {
         let along = left_out::one_way(&case, &grid, &response, coupling, state)
             .filter(|_| leave_out.takes(Simplification::Transverse));
         let symmetry = mirrors(&case, &grid, coupling, state, leave_out);
-        let single_precision =
-            leave_out.takes(Simplification::Precision) && precision::single_precision_does(&case, &grid, &response, coupling);
-        let left_out = left_out::left_out(&case, &grid, coupling, (along, symmetry, single_precision), leave_out);
+        let single_precision = leave_out.takes(Simplification::Precision)
+            && precision::single_precision_does(&case, &grid, &response, coupling);
+        let left_out =
+            left_out::left_out(&case, &grid, coupling, (along, symmetry, single_precision), leave_out);
         let increments = case.increments();
         let plan = Self {
             memory_bytes: memory::of_run(&case, &grid, coupling, symmetry),

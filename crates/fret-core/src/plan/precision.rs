@@ -19,7 +19,12 @@ const LEAST_CELLS: usize = 64 * 64;
 /// Whether single precision does in linear problems and approximate inverses: not in periodic problems, where the inverse is exact and
 /// solves full contact at once, not over coatings much stiffer or softer than what lies below, not where pressure and shear are
 /// coupled with hardly any friction.
-pub fn single_precision_does(case: &Case, grid: &SurfaceGrid, response: &PairResponse, coupling: Coupling) -> bool {
+pub fn single_precision_does(
+    case: &Case,
+    grid: &SurfaceGrid,
+    response: &PairResponse,
+    coupling: Coupling,
+) -> bool {
     let [longest, shortest] = [grid.size(), grid.spacing()].map(|[x, y]| (x.max(y), x.min(y)));
     let at = |k: f64| response.times_k(k).zz;
     let softening = at(TAU / longest.0) / at(PI / shortest.1);

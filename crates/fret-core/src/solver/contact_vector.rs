@@ -129,7 +129,10 @@ impl<N: Number> RegionFields<N> {
         for (packed, field) in fields.zip(&mut from[first..]) {
             contact.place(packed, 1.0, field);
         }
-        operator(&from.each_ref().map(Vec::as_slice)[first..], &mut to.each_mut().map(Vec::as_mut_slice)[first..]);
+        operator(
+            &from.each_ref().map(Vec::as_slice)[first..],
+            &mut to.each_mut().map(Vec::as_mut_slice)[first..],
+        );
         displacements.reset_like(tractions);
         for (field, packed) in to[first..].iter().zip(displacements.fields_mut()) {
             contact.gather(field, 1.0, packed);

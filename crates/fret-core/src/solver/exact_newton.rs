@@ -13,12 +13,12 @@ use faer::Mat;
 use faer::linalg::solvers::Solve;
 
 use super::contact_set::ContactSet;
-use super::operators::{Method, RegionOperators};
 use super::laws::projection::project_pressure;
 use super::laws::rigid_motions::RigidMotions;
 use super::laws::slip::{SlipIncrement, TangentialProblem};
 use super::newton::{self, ContactProblem, Solution};
 use super::normal::{NormalEquations, solve_normal};
+use super::operators::{Method, RegionOperators};
 use super::settings::{IterationCallback, SolveError, SolverSettings};
 use super::tractions::{Displacements, Tractions};
 use crate::compliance::{CellResponse, SurfaceCompliance};
@@ -207,7 +207,8 @@ impl<'a> Attempt<'a> {
         let Self { problem, self_influence: [_, own], here, .. } = self;
         let contact = ContactSet::loaded(&here.tractions.pressure);
         if problem.total.is_some() && contact.len() > 0 {
-            let heights = contact.cells().map(|cell| here.displacements.normal[cell] + problem.undeformed[cell]);
+            let heights =
+                contact.cells().map(|cell| here.displacements.normal[cell] + problem.undeformed[cell]);
             here.approach = heights.sum::<f64>() / contact.len() as f64;
         }
         let bound = problem.friction.packed(&contact).bound(&contact.packed(&here.tractions.pressure));
@@ -375,7 +376,8 @@ impl<'a> Attempt<'a> {
         let mut matrix = Mat::<f64>::zeros(size, size);
         let mut right = Mat::<f64>::zeros(size, 1);
         let place = |cell: usize| [cell / self.columns, cell % self.columns];
-        let prescribed = [0, 1, 2].map(|mode| if motions.by_force[mode] { 0.0 } else { problem.motion[mode] });
+        let prescribed =
+            [0, 1, 2].map(|mode| if motions.by_force[mode] { 0.0 } else { problem.motion[mode] });
         let mode_at = |mode: usize, cell: usize| {
             let mut amounts = [0.0; 3];
             amounts[mode] = 1.0;
@@ -387,7 +389,8 @@ impl<'a> Attempt<'a> {
                 let block = self.response.between(place(to.cell), place(from.cell));
                 let columns = from.columns();
                 for (row, vector) in rows.iter().enumerate().take(to.unknowns()) {
-                    let answer = [0, 1, 2].map(|k| (0..3).map(|l| vector[l] * block[l][k]).sum::<f64>() / unit);
+                    let answer =
+                        [0, 1, 2].map(|k| (0..3).map(|l| vector[l] * block[l][k]).sum::<f64>() / unit);
                     for (column, traction) in columns.iter().enumerate().take(from.unknowns()) {
                         matrix[(to.first + row, from.first + column)] =
                             (0..3).map(|k| answer[k] * traction[k]).sum();

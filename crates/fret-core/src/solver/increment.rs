@@ -185,7 +185,9 @@ impl<'a> IncrementProblem<'a> {
             }
         };
         let solution = match solution {
-            Err(SolveError::NotConverged { reached, iterations }) if settings.scheme == Scheme::Monolithic => {
+            Err(SolveError::NotConverged { reached, iterations })
+                if settings.scheme == Scheme::Monolithic =>
+            {
                 let failed = SolveError::NotConverged { reached, iterations };
                 let mut unsolved = (start, failed);
                 exact_newton::solve(
@@ -203,7 +205,16 @@ impl<'a> IncrementProblem<'a> {
         let Solution { normal, tangential, gap, slip, iterations } = solution;
         let normal = normal.unwrap_or(NormalResidual { approach: self.approach, residual: f64::INFINITY });
         let tangential_stiffness = 1.0 / own.tangential;
-        Ok(Solved { tractions, displacements, gap, slip, normal, tangential, tangential_stiffness, iterations })
+        Ok(Solved {
+            tractions,
+            displacements,
+            gap,
+            slip,
+            normal,
+            tangential,
+            tangential_stiffness,
+            iterations,
+        })
     }
 
     /// Pressure first, then shear on it: for bodies whose shear does not move the surfaces normally.
@@ -251,7 +262,16 @@ impl<'a> IncrementProblem<'a> {
             iterations += solution.iterations;
         }
         let tangential_stiffness = if own.tangential > 0.0 { 1.0 / own.tangential } else { 0.0 };
-        Ok(Solved { tractions, displacements, gap, slip, normal, tangential, tangential_stiffness, iterations })
+        Ok(Solved {
+            tractions,
+            displacements,
+            gap,
+            slip,
+            normal,
+            tangential,
+            tangential_stiffness,
+            iterations,
+        })
     }
 
     /// Solves the frictionless problem from the pressure there is; shear stays as it is.
@@ -312,8 +332,11 @@ impl<'a> IncrementProblem<'a> {
             return start.clone();
         }
         let equations = self.normal_equations();
-        let full =
-            if self.periodic { full_contact_pressure(&equations, &mut operators.preconditioner) } else { None };
+        let full = if self.periodic {
+            full_contact_pressure(&equations, &mut operators.preconditioner)
+        } else {
+            None
+        };
         full.unwrap_or_else(|| first_pressure(&equations, operators.compliance.self_influence().normal))
     }
 

@@ -41,8 +41,8 @@ use increment::{IncrementProblem, Solved};
 use linear::preconditioner::{CellWaves, Preconditioner};
 use linear::solver::LinearSolver;
 use memory::{Before, GridTractions, LastIncrement};
-use operators::{Method, RegionOperators};
 use normal::coarse_grids::{CoarseGrids, Prescribed};
+use operators::{Method, RegionOperators};
 use region::Region;
 use tractions::Tractions;
 
@@ -257,8 +257,15 @@ impl<'a> ContactSolver<'a> {
     ) -> Result<(Solved, ContactState, Outcome), SolveError> {
         let grid = self.grid;
         let periodic = self.response.is_periodic();
-        let increment =
-            IncrementProblem::new(&grid, &self.undeformed, &self.friction, (state, load), region, periodic, start);
+        let increment = IncrementProblem::new(
+            &grid,
+            &self.undeformed,
+            &self.friction,
+            (state, load),
+            region,
+            periodic,
+            start,
+        );
         if let Some(solved) = increment.apart() {
             let (after, outcome) = settle::settle(&increment, &solved);
             return Ok((solved, after, outcome));
@@ -271,7 +278,8 @@ impl<'a> ContactSolver<'a> {
             shear: region.gather_tangential(&predicted.1),
         };
         let mut operators = self.operators_for(region)?;
-        let counted = (operators.compliance.applications, operators.preconditioner.passes, operators.direct_solves);
+        let counted =
+            (operators.compliance.applications, operators.preconditioner.passes, operators.direct_solves);
         let last = self.memory.last.as_ref().filter(|last| last.region == region);
         let unchanged = last.is_some_and(|last| last.load.normal == load.normal);
         let last = last.map(|last| &last.displacements);

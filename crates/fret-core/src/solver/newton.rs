@@ -5,7 +5,6 @@
 
 use super::contact_set::ContactSet;
 use super::contact_vector::ContactVector;
-use super::operators::RegionOperators;
 use super::laws::active_sets::ActiveSets;
 use super::laws::complementarity::{NormalResidual, normal_residual};
 use super::laws::friction::{FrictionBound, FrictionLaw};
@@ -13,6 +12,7 @@ use super::laws::projection::{ShearProjection, project_pressure};
 use super::laws::rigid_motions::{CellPositions, RigidMotions};
 use super::laws::slip::{SlipIncrement, TangentialProblem, TangentialResidual};
 use super::linear::solver::Linearised;
+use super::operators::RegionOperators;
 use super::settings::{IterationCallback, SolveError, SolverSettings};
 use super::tractions::{Displacements, Tractions};
 use crate::compliance::SurfaceCompliance;
@@ -90,7 +90,6 @@ pub fn solve(
     operators.linear.begin();
     for iteration in 0..settings.max_newton_iterations {
         let residual = iterate.evaluate();
-        if std::env::var("FTRACE").is_ok() { eprintln!("TRACE {iteration} res {residual:.3e} n {:.3e} t {:.3e} cells {} stick {}", iterate.normal.map_or(0.0,|n| n.residual), iterate.tangential.residual, iterate.contact.len(), iterate.sets.stick.iter().sum::<f64>()); }
         if callback(iteration, residual).is_break() {
             return Err(SolveError::Stopped);
         }
@@ -128,7 +127,11 @@ pub fn evaluate(
 }
 
 /// Brings shear to what the friction law allows under its pressure, with exact resultants.
-pub fn make_shear_feasible(problem: &ContactProblem<'_>, tractions: &mut Tractions, operators: &RegionOperators) {
+pub fn make_shear_feasible(
+    problem: &ContactProblem<'_>,
+    tractions: &mut Tractions,
+    operators: &RegionOperators,
+) {
     let self_influence = operators.compliance.self_influence().tangential;
     let contact = ContactSet::loaded(&tractions.pressure);
     let bound = problem.friction.packed(&contact).bound(&contact.packed(&tractions.pressure));
@@ -336,7 +339,9 @@ impl<'a> Iterate<'a> {
         match problem.pressure {
             Pressure::Unknown => operators.compliance.full(tractions.parts(), displacements.parts_mut()),
             Pressure::Given => {
-                operators.compliance.tangential(tractions.shear.parts(), displacements.tangential.parts_mut());
+                operators
+                    .compliance
+                    .tangential(tractions.shear.parts(), displacements.tangential.parts_mut());
             }
         }
     }
@@ -382,12 +387,12 @@ impl Default for ForcingTerm {
 
 impl ForcingTerm {
     /// Forcing terms of a residual that falls, at the most and at the least.
-    const MOST: f64 = 0.1;
+    const MOST: f64 = 0.5;
     const LEAST: f64 = 0.003;
     /// Times the ratio of the last two residuals.
     const GAMMA: f64 = 0.3;
     /// Fraction of the tolerance that the next residual is to reach: what is solved further is lost.
-    const ENOUGH: f64 = 0.7;
+    const ENOUGH: f64 = 0.8;
     /// So many iterations in vain leave nothing to chance: all in double precision.
     const PATIENCE: i32 = 3;
 

@@ -14,13 +14,11 @@ fn shear_across_the_one_axis_is_not_certified() {
     let gap = Array2::from_shape_fn((32, 32), |(i, j)| {
         0.5 * (grid.centre(0, i).powi(2) + grid.centre(1, j).powi(2))
     });
-    let response =
-        SurfaceResponse::FreeSpace(influence_coefficients(&pair, cells, spacing, Components::ALL));
+    let response = SurfaceResponse::FreeSpace(influence_coefficients(&pair, cells, spacing, Components::ALL));
     let friction = CoulombFriction::Uniform(0.5);
     let settings = SolverSettings::new(1e-8);
-    let mut solver =
-        ContactSolver::new(grid, gap, &friction, Coupling::Uncoupled, response, settings, true)
-            .with_shear_axis(Some(0));
+    let mut solver = ContactSolver::new(grid, gap, &friction, Coupling::Uncoupled, response, settings, true)
+        .with_shear_axis(Some(0));
     let load = |pull| LoadStep {
         normal: Control::Force(0.5),
         tangential: [Control::Force(pull), Control::Force(0.0)],

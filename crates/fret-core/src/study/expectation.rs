@@ -11,7 +11,7 @@ use ndarray::Array2;
 use serde::Serialize;
 
 use super::variation::Variation;
-use crate::compliance::{SpectralCompliance, SurfaceCompliance, SurfaceResponse, OperatorSet};
+use crate::compliance::{OperatorSet, SpectralCompliance, SurfaceCompliance, SurfaceResponse};
 use crate::cycle::CycleRecord;
 use crate::history::{KeptFields, StepRecord, Work};
 use crate::kernel::{Components, InfluenceCoefficients, influence_coefficients};

@@ -27,7 +27,12 @@ pub struct ActiveSets {
 impl ActiveSets {
     /// Those of feasible shear `q`, its bounds and its slip increment, all packed. `self_influence`: tangential, of a cell
     /// [length/pressure].
-    pub fn of(q: &TangentialField, slip: &TangentialField, bound: &FrictionBound, self_influence: f64) -> Self {
+    pub fn of(
+        q: &TangentialField,
+        slip: &TangentialField,
+        bound: &FrictionBound,
+        self_influence: f64,
+    ) -> Self {
         let mut sets = Self::default();
         sets.classify(q, slip, bound, self_influence);
         sets
@@ -47,7 +52,8 @@ impl ActiveSets {
         for field in &mut write {
             field.resize(bound.bound.len(), 0.0);
         }
-        let rule = Classify { least: LEAST_BOUND * largest(&bound.bound), cell_stiffness: 1.0 / self_influence };
+        let rule =
+            Classify { least: LEAST_BOUND * largest(&bound.bound), cell_stiffness: 1.0 / self_influence };
         let read = [&q.x[..], &q.y, &slip_increment.x, &slip_increment.y, &bound.bound];
         each_cell(&rule, read, write.map(Vec::as_mut_slice));
     }

@@ -78,7 +78,10 @@ mod tests {
             normal_residual(&pressure, &mut gap, &undeformed, 0.5, approach)
         };
         // Mean displacement under the load: 2.
-        assert_eq!(residual([1.0, 3.0, 0.0], [2.0, 2.0, 1.0], None), NormalResidual { approach: 2.0, residual: 0.0 });
+        assert_eq!(
+            residual([1.0, 3.0, 0.0], [2.0, 2.0, 1.0], None),
+            NormalResidual { approach: 2.0, residual: 0.0 }
+        );
         assert_eq!(residual([1.0, 3.0, 0.0], [2.0, 2.0, -4.0], None).residual, 0.5); // overlap of 1
         assert_eq!(residual([1.0, 3.0, 0.0], [2.0, 2.0, 1.0], Some(1.5)).residual, 0.25); // a gap of 0.5 under load
         assert_eq!(residual([2.0, 2.0, -0.8], [2.0, 2.0, 4.0], Some(2.0)).residual, 0.4 / (4.8 / 3.2));

@@ -151,10 +151,10 @@ impl<R: Reals> CellState<R> {
         let slip = size.if_at_most(zero, zero, bound.if_at_most(zero, zero, dragged));
         let enters = bound.if_at_most(zero, one, zero);
         let drag = (slip_x * slip_x + slip_y * slip_y).sqrt();
-        let entering = [drag.if_at_most(zero, one, slip_x / drag), drag.if_at_most(zero, zero, slip_y / drag)];
-        let direction = |towards: R, entering: R| {
-            slip.if_at_most(zero, enters.if_at_most(zero, zero, entering), towards)
-        };
+        let entering =
+            [drag.if_at_most(zero, one, slip_x / drag), drag.if_at_most(zero, zero, slip_y / drag)];
+        let direction =
+            |towards: R, entering: R| slip.if_at_most(zero, enters.if_at_most(zero, zero, entering), towards);
         Self {
             stick: one - slip - enters,
             slip,

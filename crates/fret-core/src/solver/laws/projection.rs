@@ -41,7 +41,12 @@ struct Balance {
 impl ShearProjection {
     /// Brings shear back to its discs and to its resultants. A slipping cell stays on its circle; a cell that was just cut
     /// moves along its tangent only, since pulling it back would undo the slip zone.
-    pub fn project(&mut self, shear: &mut TangentialField, sets: &ActiveSets, problem: &TangentialProblem<'_>) {
+    pub fn project(
+        &mut self,
+        shear: &mut TangentialField,
+        sets: &ActiveSets,
+        problem: &TangentialProblem<'_>,
+    ) {
         self.on_circle.clear();
         self.on_circle.resize(sets.len(), 0.0);
         let motions = problem.motions;
@@ -105,7 +110,12 @@ impl ShearProjection {
     }
 
     /// The trial: `shear` after a push by rigid motions, back on its discs.
-    fn moved(&mut self, shear: &TangentialField, problem: &TangentialProblem<'_>, amounts: [f64; 3]) -> Balance {
+    fn moved(
+        &mut self,
+        shear: &TangentialField,
+        problem: &TangentialProblem<'_>,
+        amounts: [f64; 3],
+    ) -> Balance {
         let Self { on_circle, trial, trial_on } = self;
         for field in [&mut trial.x, &mut trial.y, &mut *trial_on] {
             field.resize(problem.bound.len(), 0.0);

@@ -74,7 +74,8 @@ impl SlipIncrement {
         let Self { slip, .. } = self;
         let read = [&q.x, &q.y, bound, rotation[0], rotation[1]];
         let [off] = each_cell(&OffLaw { motion: found, stiffness }, read, [&mut slip.x, &mut slip.y]);
-        let motion = [0, 1, 2].map(|mode| if motions.by_force[mode] { found[mode] } else { problem.motion[mode] });
+        let motion =
+            [0, 1, 2].map(|mode| if motions.by_force[mode] { found[mode] } else { problem.motion[mode] });
         let residual = if bound_squares > 0.0 { (off / bound_squares).sqrt() } else { 0.0 };
         TangentialResidual { motion, residual }
     }

@@ -127,7 +127,8 @@ mod tests {
     #[test]
     fn a_small_system_is_solved_in_as_many_steps_as_it_has_unknowns() {
         let matrix = |row: usize, column: usize| {
-            ((3 * row + 5 * column * column + row * column) % 7) as f64 - if row == column { 9.0 } else { 2.0 }
+            ((3 * row + 5 * column * column + row * column) % 7) as f64
+                - if row == column { 9.0 } else { 2.0 }
         };
         let product = |from: &[f64]| -> Vec<f64> {
             (0..6).map(|row| (0..6).map(|column| matrix(row, column) * from[column]).sum()).collect()
@@ -145,7 +146,8 @@ mod tests {
         let mut before = 1.0;
         for most in 1..=6 {
             let mut found = ContactVector::default();
-            let apply = |from: &ContactVector<f64>, to: &mut ContactVector<f64>| *to = vector(product(from.values()));
+            let apply =
+                |from: &ContactVector<f64>, to: &mut ContactVector<f64>| *to = vector(product(from.values()));
             Gmres::default().solve(&unit, apply, (0.0, most), &mut found);
             let image = product(found.values());
             let left: f64 = image.iter().zip(unit.values()).map(|(a, b)| (a - b).powi(2)).sum::<f64>().sqrt();

@@ -91,7 +91,14 @@ impl LinearSolver {
         if let Some(mut operator) = operator {
             let unit = operator.unit();
             let apply = |q: &[&[f32]], u: &mut [&mut [f32]]| operator.apply(q, u);
-            single.solve(problem, (right, size, weights), (unit, forcing.max(SINGLE)), nx * ny, apply, preconditioner);
+            single.solve(
+                problem,
+                (right, size, weights),
+                (unit, forcing.max(SINGLE)),
+                nx * ny,
+                apply,
+                preconditioner,
+            );
             step.convert(&single.step, size / unit);
         } else {
             let apply = |q: &[&[f64]], u: &mut [&mut [f64]]| match (q, u) {

@@ -188,14 +188,12 @@ impl Level {
         loop {
             let symmetry = self.symmetry;
             let operators = OperatorSet { normal: true, symmetry, ..OperatorSet::default() };
-            
-            let mut compliance =
-                SpectralCompliance::new(&self.response, region.shape, operators)?;
+
+            let mut compliance = SpectralCompliance::new(&self.response, region.shape, operators)?;
             let single = settings.single_precision;
             let shape = region.shape;
             let mut preconditioner =
-                Preconditioner::new(&self.response, waves, shape, [true, false], None, symmetry, single)
-                    ?;
+                Preconditioner::new(&self.response, waves, shape, [true, false], None, symmetry, single)?;
             let undeformed = region.gather(&self.undeformed);
             let task = NormalEquations {
                 undeformed: &undeformed,

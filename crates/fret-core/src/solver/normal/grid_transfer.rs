@@ -18,13 +18,11 @@ pub fn prolonged(
     total: Option<f64>,
 ) -> Option<Array2<f64>> {
     let view = |field| ArrayView2::from_shape(region.shape, field).ok();
-    let level =
-        level_function(&view(pressure)?, &view(gap)?, f64::INFINITY)?;
+    let level = level_function(&view(pressure)?, &view(gap)?, f64::INFINITY)?;
     let fine = Region {
         origin: region.origin.map(|first| 2 * first),
-        shape: [0, 1].map(|axis| {
-            (2 * region.shape[axis]).min(cells[axis].saturating_sub(2 * region.origin[axis]))
-        }),
+        shape: [0, 1]
+            .map(|axis| (2 * region.shape[axis]).min(cells[axis].saturating_sub(2 * region.origin[axis]))),
     };
     let height = interpolated(&level, fine.shape);
     let [nx, ny] = fine.shape;

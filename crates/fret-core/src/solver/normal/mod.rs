@@ -65,7 +65,10 @@ pub fn solve_normal(
 }
 
 /// A first pressure for a periodic problem: the one of full contact, without its tension.
-pub fn full_contact_pressure(task: &NormalEquations<'_>, preconditioner: &mut Preconditioner) -> Option<Vec<f64>> {
+pub fn full_contact_pressure(
+    task: &NormalEquations<'_>,
+    preconditioner: &mut Preconditioner,
+) -> Option<Vec<f64>> {
     let mean = task.total? / task.undeformed.len() as f64;
     let mut removed = vec![0.0; task.undeformed.len()];
     preconditioner.normal(task.undeformed, &mut removed);

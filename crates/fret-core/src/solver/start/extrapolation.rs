@@ -23,7 +23,8 @@ impl ContactSolver<'_> {
             return Region::whole(cells);
         }
         let has_friction = self.coupling != Coupling::Frictionless;
-        let loaded = |i: usize, j: usize| pressure[[i, j]] > 0.0 || has_friction && state.pressure[[i, j]] > 0.0;
+        let loaded =
+            |i: usize, j: usize| pressure[[i, j]] > 0.0 || has_friction && state.pressure[[i, j]] > 0.0;
         let axes = self.symmetry.axes();
         let margin = if self.coupling == Coupling::Coupled {
             (self.width(&Region::around(cells, axes, 1, |n| n, loaded)) / MARGIN_FRACTION).max(MARGIN)
@@ -78,7 +79,11 @@ impl ContactSolver<'_> {
 
     /// Tractions to start from while the load keeps its direction: those of a contact that goes on growing without changing its
     /// shape, or extrapolated linearly in the load where the normal load stays.
-    pub(in super::super) fn extrapolated(&self, state: &ContactState, load: &LoadStep) -> (Array2<f64>, [Array2<f64>; 2]) {
+    pub(in super::super) fn extrapolated(
+        &self,
+        state: &ContactState,
+        load: &LoadStep,
+    ) -> (Array2<f64>, [Array2<f64>; 2]) {
         let (Some(before), Some(fraction)) = (&self.memory.before, self.continuation(load)) else {
             return (state.pressure.clone(), state.shear.clone());
         };
@@ -119,8 +124,12 @@ impl ContactSolver<'_> {
             return None;
         }
         Some(
-            SelfSimilarGrowth { widening: area.sqrt(), strengthening: force / area, mirrored: self.symmetry.axes() }
-                .of(state, &last_solved.gap),
+            SelfSimilarGrowth {
+                widening: area.sqrt(),
+                strengthening: force / area,
+                mirrored: self.symmetry.axes(),
+            }
+            .of(state, &last_solved.gap),
         )
     }
 
@@ -136,8 +145,12 @@ impl ContactSolver<'_> {
         let area = cells(pressure) / cells(&state.pressure);
         let force = sum_of(pressure) / sum_of(&state.pressure);
         (area.is_finite() && area > 0.0 && force > 0.0).then(|| {
-            SelfSimilarGrowth { widening: area.sqrt(), strengthening: force / area, mirrored: self.symmetry.axes() }
-                .of(state, &last_solved.gap)
+            SelfSimilarGrowth {
+                widening: area.sqrt(),
+                strengthening: force / area,
+                mirrored: self.symmetry.axes(),
+            }
+            .of(state, &last_solved.gap)
         })
     }
 
