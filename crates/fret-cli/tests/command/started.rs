@@ -151,7 +151,7 @@ fn a_failing_stage_is_mended_without_solving_the_ones_before_again_to_the_bit() 
     solved(&bench, &format!("{head}{press}{rub}"), &["whole"]);
     bench.file("failing.toml", &format!("{head}{press}{}", rub.replace("[0.06, 0.03]", "[9.0, 4.5]")));
     let failed = bench.fret(&["run", "failing.toml", "--out", "failed"]);
-    assert_eq!(failed.code, Some(2), "{}", failed.err);
+    assert_eq!(failed.code, Some(1), "{}", failed.err);
     assert!(failed.err.contains("--resume would end in the same increment"), "{}", failed.err);
     assert!(failed.err.contains("--from failed"), "{}", failed.err);
     solved(&bench, &format!("{head}{rub}"), &["--from", "failed", "mended"]);
@@ -194,7 +194,7 @@ fn a_failing_stage_is_mended_without_solving_the_ones_before_again_to_the_bit() 
         again.err
     );
     let resumed = bench.fret(&["run", "failing.toml", "--out", "failed", "--resume"]);
-    assert_eq!(resumed.code, Some(2));
+    assert_eq!(resumed.code, Some(1));
     assert!(resumed.err.contains("may do so again"), "{}", resumed.err);
 }
 
@@ -203,8 +203,8 @@ fn an_unfinished_run_is_shown_reported_exported_and_its_stresses_are_told() {
     let bench = Bench::new("shown-unfinished");
     let press = PRESS.replace("normal_force = 1.0", "approach = 70e-9");
     bench.file("case.toml", &format!("{HEAD}{press}{}", RUB.replace("[0.1, 0.05]", "[9.0, 4.5]")));
-    assert_eq!(bench.fret(&["run", "case.toml", "--out", "failed", "--quiet"]).code, Some(2));
-    let why = "ot the whole history, 6 of 22 increments: failed, increment 6 (rub) not solved";
+    assert_eq!(bench.fret(&["run", "case.toml", "--out", "failed", "--quiet"]).code, Some(1));
+    let why = "ot the whole history, 6 of 22 increments: refused, increment 6 (rub): tangential force";
     let report = bench.fret(&["report", "failed"]);
     assert!(report.code == Some(0) && report.out.contains(why), "{}{}", report.out, report.err);
     assert!(bench.text("failed/report.html").contains(why));
