@@ -124,4 +124,4 @@ def _list(value: dict[str, Any], definitions: dict[str, Any]) -> str:
 
 if __name__ == "__main__":
     schema = json.loads((ROOT / "examples" / "fret.schema.json").read_text(encoding="utf-8"))
-    (ROOT / "docs" / "case-format.md").write_text(page(schema), encoding="utf-8")
+    (ROOT / "docs" / "reference" / "case-format.md").write_text(page(schema), encoding="utf-8")

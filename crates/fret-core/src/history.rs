@@ -1,4 +1,4 @@
-//! What a run leaves behind: one record an increment, the fields asked for, the last state.
+//! What a run leaves behind: one record per increment, the fields asked for, the last state.
 
 use ndarray::Array2;
 use serde::{Deserialize, Serialize};
@@ -10,14 +10,17 @@ use crate::model::{ContactPair, ContactState, SolvedState, SurfaceGrid, Zone};
 use crate::warning::Warning;
 use crate::wear::WornThrough;
 
-/// How well an increment satisfies its equations; all parts dimensionless and relative.
+/// Residuals of an increment, dimensionless. An increment is accepted when each is at most `solver.tolerance`.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct Residual {
-    /// `|p - max(p - r gap, 0)| / |p|`, r the inverse self influence of a cell.
+    /// Largest `|min(gap, K00 p)|` over the cells, over the mean normal displacement under the load `|sum p u_z| / sum p`; `K00` is
+    /// the self-influence coefficient of a cell.
     pub complementarity: f64,
-    /// `|q - Proj(q - r s)| / |mu p|`, Proj onto the friction disc, s minus the slip increment.
+    /// `|q - Proj(q - s / K_t)| / |mu p|`, Euclidean norms over the contact; `Proj` onto the friction disc of the cell, `s` minus the
+    /// slip increment, `K_t` the tangential self-influence coefficient.
     pub coulomb: f64,
-    /// Prescribed forces against the sums of the tractions, relative to the normal force (tangential: to mu W).
+    /// Prescribed forces against the sums of the tractions: normal over the normal force, tangential and moment (over the rotation
+    /// length) over `sum mu p`.
     pub equilibrium: f64,
 }
 
