@@ -2,8 +2,8 @@
 
 Periodic contact of identical bodies, nu = 0.3, mu = 0.3, amplitude of the wave 0.01 of the wavelength, mean pressure 0.4 of full contact,
 tangential load 0.7 mu P and back to -0.14 mu P. (a) Shear traction after unloading, line: superposition of Jaeger and Ciavarella, dots: 256
-cells per wavelength. (b) RMS error of the shear traction relative to the RMS of mu p; it scatters, since the borders of stick fall differently
-between the cells.
+cells per wavelength. (b) RMS error of the shear traction relative to the RMS of mu p; it scatters, since the borders of stick
+fall differently relative to cell centres.
 """
 
 import fretting

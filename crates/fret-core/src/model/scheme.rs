@@ -3,13 +3,14 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// How pressure and shear that act on each other are brought to agree.
+/// How coupled pressure and shear are solved.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Scheme {
-    /// One Newton-type iteration on pressure and shear together.
+    /// Monolithic: pressure and shear in one Newton-type iteration.
     #[default]
     Together,
-    /// Pressure and shear in turn until they agree: the published three-level scheme, for comparison.
+    /// Staggered: pressure and shear in alternation until they agree (Panagiotopoulos process), the published three-level scheme, for
+    /// comparison.
     Alternating,
 }
