@@ -10,7 +10,12 @@ from pathlib import Path
 from typing import Any
 
 ROOT = Path(__file__).resolve().parents[2]
-HEAD = """# Every key of a case
+HEAD = """---
+search:
+  boost: 0.5
+---
+
+# Case file: every key
 
 <!-- Written by docs/site/case_format.py from examples/fret.schema.json: edit the comments of the case reader. -->
 

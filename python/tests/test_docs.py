@@ -171,3 +171,6 @@ def test_the_site_builds_without_a_warning(tmp_path: Path) -> None:
     )  # fmt: skip
     assert (done.returncode, done.stdout.strip()) == (0, ""), done.stdout + done.stderr
     assert "contact_area" in (tmp_path / "site" / "reference" / "python.html").read_text(encoding="utf-8")
+    for page in (tmp_path / "site").rglob("*.html"):
+        for formula in re.findall(r"<math.*?</math>", page.read_text(encoding="utf-8"), re.DOTALL):
+            assert "\\" not in re.sub(r"<[^>]+>", "", formula), f"{page.name}: a formula is not understood: {formula[:200]}"

@@ -10,7 +10,12 @@ use ndarray::Array2;
 
 const CELLS: usize = 128;
 
-const HEAD: &str = "# Automatic simplifications, measured
+const HEAD: &str = "---
+search:
+  exclude: true
+---
+
+# Automatic simplifications, measured
 
 What each [automatic simplification](../theory/simplifications.md) changes in the result and in the work. Written by
 `cargo run --release -p fret-validation --example leaving_out > docs/developers/simplifications-measured.md`.
