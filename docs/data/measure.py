@@ -32,7 +32,11 @@ STEEL = {"young": 210e9, "poisson": 0.3}
 def origin() -> dict[str, Any]:
     """Return where and when a measurement was made."""
     commit = subprocess.run(
-        ["git", "log", "-1", "--format=%h", "--", "crates", "python"], capture_output=True, text=True, check=False, cwd=ROOT
+        ["git", "log", "-1", "--format=%h", "--", "crates", "python"],
+        capture_output=True,
+        text=True,
+        check=False,
+        cwd=ROOT,
     ).stdout.strip()
     names = [line.partition(":")[2].strip() for line in _cpu_lines() if line.startswith("model name")]
     return {
@@ -99,9 +103,7 @@ def _coated_spheres() -> dict[str, float]:
             "grid": {"cells": [128, 128], "size": [2.4 * radius, 2.4 * radius]},
             "upper": {"rigid": True},
             "lower": {
-                "coatings": [
-                    {"thickness": hertz.contact_radius, "young": row["young_ratio"] * 210e9, "poisson": 0.3}
-                ],
+                "coatings": [{"thickness": hertz.contact_radius, "young": row["young_ratio"] * 210e9, "poisson": 0.3}],
                 "substrate": STEEL,
             },
             "profile": {"sphere": {"radius": 10e-3}},
@@ -241,7 +243,9 @@ def spence() -> dict[str, Any]:
                         "increments": count,
                         "stick_radius": _stick_radius(history),
                         "shear_error": float(np.linalg.norm(history.field("shear_x") - shear) / np.linalg.norm(shear)),
-                        "energy_error": float(steps["dissipated_energy"][-1] / exact.steps["dissipated_energy"][-1] - 1),
+                        "energy_error": float(
+                            steps["dissipated_energy"][-1] / exact.steps["dissipated_energy"][-1] - 1
+                        ),
                         "convolutions": int(steps["convolutions"].sum()),
                     }
                 )

@@ -113,7 +113,14 @@ def spence() -> str:
         ]
         for row in of["rows"]
     ]
-    head = ["$\\mu$", "ramp, increments", "shear traction, L2", "dissipated energy", "stick radius (Spence)", "convolutions"]
+    head = [
+        "$\\mu$",
+        "ramp, increments",
+        "shear traction, L2",
+        "dissipated energy",
+        "stick radius (Spence)",
+        "convolutions",
+    ]
     return _table(head, rows, of)
 
 
@@ -135,7 +142,9 @@ def cost() -> str:
                 str(simplified["convolutions"]),
             ]
         )
-    return _table(["example", "what", "cells", "increments", "time", "time without simplifications", "convolutions"], rows, of)
+    return _table(
+        ["example", "what", "cells", "increments", "time", "time without simplifications", "convolutions"], rows, of
+    )
 
 
 def others() -> str:
@@ -143,7 +152,9 @@ def others() -> str:
     of = data("others")
     rows = []
     for row in of["rows"]:
-        with_, without, tamaas, aspher = (row[key] for key in ("with_symmetry", "without_symmetry", "tamaas_periodic", "aspher"))
+        with_, without, tamaas, aspher = (
+            row[key] for key in ("with_symmetry", "without_symmetry", "tamaas_periodic", "aspher")
+        )
         rows.append(
             [
                 f"{row['cells']} x {row['cells']}",

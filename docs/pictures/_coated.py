@@ -3,6 +3,7 @@
 from typing import Any
 
 import numpy as np
+
 from fretting import analytic
 
 MU, FORCE, RADIUS, YOUNG, POISSON = 0.3, 12.0, 10e-3, 210e9, 0.3
@@ -28,7 +29,12 @@ def coated(ratio: float, stages: list[dict[str, Any]], cells: int = 96, **more: 
 
 def cycle(amplitude: float, increments: int = 48, cycles: int = 2) -> dict[str, Any]:
     """Return a stage of tangential cycles of amplitude times mu P along x."""
-    return {"name": "fretting", "tangential_force": [amplitude * MU * FORCE, 0.0], "increments": increments, "cycles": cycles}
+    return {
+        "name": "fretting",
+        "tangential_force": [amplitude * MU * FORCE, 0.0],
+        "increments": increments,
+        "cycles": cycles,
+    }
 
 
 def along(history: Any) -> tuple[np.ndarray, np.ndarray]:

@@ -20,7 +20,9 @@ MM = 1 / 25.4
 WIDE, NARROW = 170 * MM, 85 * MM
 """Widths of a figure over two columns and over one [inch]."""
 BLUE, ORANGE, GREEN, PINK, YELLOW, SKY, BLACK = plt.rcParams["axes.prop_cycle"].by_key()["color"]
-BLUE, ORANGE, GREEN, PINK, YELLOW, SKY, BLACK = (f"#{c.lstrip('#')}" for c in (BLUE, ORANGE, GREEN, PINK, YELLOW, SKY, BLACK))
+BLUE, ORANGE, GREEN, PINK, YELLOW, SKY, BLACK = (
+    f"#{c.lstrip('#')}" for c in (BLUE, ORANGE, GREEN, PINK, YELLOW, SKY, BLACK)
+)
 OPEN_COLOUR, STICK_COLOUR, SLIP_COLOUR = "#f2f2f2", BLUE, YELLOW
 
 
@@ -57,7 +59,9 @@ def zone_legend(target: Any, **more: Any) -> None:
 
 def map_of(axes: Any, history: Any, values: Any, unit: float, **more: Any) -> Any:
     """Draw a field over x and y in units of a length."""
-    (x0, x1), (y0, y1) = ((c[0] - (c[1] - c[0]) / 2, c[-1] + (c[1] - c[0]) / 2) for c in (history.x / unit, history.y / unit))
+    (x0, x1), (y0, y1) = (
+        (c[0] - (c[1] - c[0]) / 2, c[-1] + (c[1] - c[0]) / 2) for c in (history.x / unit, history.y / unit)
+    )
     image = axes.imshow(values.T, origin="lower", extent=(x0, x1, y0, y1), interpolation="nearest", **more)
     axes.set_aspect("equal")
     axes.spines[["right", "top"]].set_visible(True)

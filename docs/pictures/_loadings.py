@@ -3,6 +3,7 @@
 from typing import Any
 
 import numpy as np
+
 from fretting import analytic
 
 MU = 0.3
@@ -14,7 +15,9 @@ PEAK = 1.5 * FORCE / np.pi
 ONSET = 3 * MU * FORCE / (16 * SHEAR)  # displacement at the onset of gross slip
 
 
-def problem(cells: int, stages: list[dict[str, Any]], coating: tuple[float, float] | None = None, **more: Any) -> dict[str, Any]:
+def problem(
+    cells: int, stages: list[dict[str, Any]], coating: tuple[float, float] | None = None, **more: Any
+) -> dict[str, Any]:
     """Return a sphere of contact radius 1 on an identical body with nu = 0, or rigid on a coated one with nu = 0.3."""
     body = {"substrate": {"young": 1.0, "poisson": 0.0}}
     upper = body

@@ -8,9 +8,18 @@ from _figures import BLACK, BLUE, ORANGE
 GREY, COAT, BASE = "#d9d9d9", "#b9d3e8", "#e8e0d2"
 
 
-def arrow(axes: Any, start: tuple[float, float], end: tuple[float, float], text: str, at: tuple[float, float], **more: Any) -> None:
+def arrow(
+    axes: Any, start: tuple[float, float], end: tuple[float, float], text: str, at: tuple[float, float], **more: Any
+) -> None:
     """Draw an arrow with its name."""
-    style = {"arrowstyle": "-|>", "lw": 1.2, "color": more.pop("color", BLACK), "shrinkA": 0, "shrinkB": 0, "mutation_scale": 8}
+    style = {
+        "arrowstyle": "-|>",
+        "lw": 1.2,
+        "color": more.pop("color", BLACK),
+        "shrinkA": 0,
+        "shrinkB": 0,
+        "mutation_scale": 8,
+    }
     axes.annotate("", xy=end, xytext=start, arrowprops=style)
     axes.text(*at, text, color=style["color"], ha="center", va="center", **more)
 
@@ -36,7 +45,9 @@ def contact(axes: Any, labels: bool = True) -> None:
     arrow(axes, (-2.45, -1.85), (-1.75, -1.85), "$x$", (-1.6, -1.85))
     arrow(axes, (-2.45, -1.25), (-2.45, -1.92), "$z$", (-2.25, -1.45))
     ends = {"arrowstyle": "<|-|>", "lw": 0.8, "shrinkA": 0, "shrinkB": 0, "mutation_scale": 6}
-    axes.annotate("", xy=(1.95, surface[np.searchsorted(x, 1.95)]), xytext=(1.95, -depth), arrowprops={**ends, "color": BLACK})
+    axes.annotate(
+        "", xy=(1.95, surface[np.searchsorted(x, 1.95)]), xytext=(1.95, -depth), arrowprops={**ends, "color": BLACK}
+    )
     axes.text(2.1, -0.65, "$h$", va="center")
     axes.annotate("", xy=(-edge, -0.86), xytext=(edge, -0.86), arrowprops={**ends, "color": BLUE})
     axes.text(0.0, -1.0, "$2a$", ha="center", va="center", color=BLUE, fontsize=7)

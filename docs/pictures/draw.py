@@ -38,7 +38,9 @@ def fingerprint(script: Path) -> str:
         path = todo.pop()
         seen.add(path)
         text = path.read_text(encoding="utf-8")
-        todo += [p for n in re.findall(r"from (_\w+) import", text) if (p := HERE / f"{n}.py").exists() and p not in seen]
+        todo += [
+            p for n in re.findall(r"from (_\w+) import", text) if (p := HERE / f"{n}.py").exists() and p not in seen
+        ]
         seen |= {p for n in re.findall(r'"([\w/]+\.(?:toml|json))"', text) for p in _named(n)}
     digest = hashlib.sha256()
     for path in sorted(seen):

@@ -8,11 +8,12 @@ slip of the uncoated contact (Cattaneo, Mindlin).
 import concurrent.futures
 import multiprocessing
 
-import fretting
 import numpy as np
-from _figures import SKY, STICK_COLOUR, SLIP_COLOUR, PINK, figure, letters, save
+from _figures import PINK, SKY, SLIP_COLOUR, STICK_COLOUR, figure, letters, save
 from matplotlib.colors import ListedColormap
 from matplotlib.patches import Patch
+
+import fretting
 
 STEEL = {"young": 210e9, "poisson": 0.3}
 FRICTION = 0.3
@@ -29,7 +30,11 @@ CASE = {
     ],
     "output": {"fields": []},
 }
-AXES = {"lower.coatings.0.young": [105e9, 210e9, 420e9], FORCE: np.geomspace(2.0, 40.0, 14), SHIFT: np.geomspace(4e-8, 8e-7, 14)}
+AXES = {
+    "lower.coatings.0.young": [105e9, 210e9, 420e9],
+    FORCE: np.geomspace(2.0, 40.0, 14),
+    SHIFT: np.geomspace(4e-8, 8e-7, 14),
+}
 CONDITIONS = {"full_stick": STICK_COLOUR, "partial_slip": SKY, "mixed": PINK, "gross_slip": SLIP_COLOUR}
 
 
@@ -57,7 +62,14 @@ def main() -> None:
     for axes, young, title in zip(panels, AXES["lower.coatings.0.young"], ("1/2", "1 (uncoated)", "2"), strict=True):
         words = answer["cycle_regime"].sel({"lower.coatings.0.young": young}).transpose(FORCE, SHIFT).values
         codes = np.array([[names.index(word) if word in names else np.nan for word in row] for row in words.tolist()])
-        axes.pcolormesh(edges(AXES[SHIFT]) * 1e6, edges(AXES[FORCE]), codes, cmap=ListedColormap(list(CONDITIONS.values())), vmin=-0.5, vmax=3.5)
+        axes.pcolormesh(
+            edges(AXES[SHIFT]) * 1e6,
+            edges(AXES[FORCE]),
+            codes,
+            cmap=ListedColormap(list(CONDITIONS.values())),
+            vmin=-0.5,
+            vmax=3.5,
+        )
         axes.plot([onset(force) * 1e6 for force in forces], forces, "k--", lw=1, label="onset, uncoated")
         axes.set(xscale="log", yscale="log", xlabel="displacement amplitude [um]", title=f"$E_c/E_s$ = {title}")
         axes.set_xticks([0.05, 0.1, 0.2, 0.5], ["0.05", "0.1", "0.2", "0.5"])

@@ -7,10 +7,11 @@ a dense direct solution without FFT (tests/golden/two_patches.py), logarithmic; 
 
 import json
 
-import fretting
 import numpy as np
 from _figures import ROOT, figure, letters, map_of, save
 from matplotlib.colors import LogNorm
+
+import fretting
 
 golden = json.loads((ROOT / "tests/golden" / "two_patches.json").read_text(encoding="utf-8"))
 n, size = golden["cells"], golden["size"]

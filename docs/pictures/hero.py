@@ -5,12 +5,12 @@ substrate), mu = 0.3, P = 12 N. (b) Fretting loops (second cycle) of amplitude 0
 of the uncoated contact. (c) Stick and slip zones of E_c/E_s = 2 at the points 1 to 4 of the loop. 96 x 96 cells, 20 + 96 increments.
 """
 
-import fretting
+import matplotlib.pyplot as plt
 from _coated import HERTZ, along, coated, cycle
 from _figures import MM, WIDE, save, zone_legend, zones
 from _sketch import contact
 
-import matplotlib.pyplot as plt
+import fretting
 
 drawn = plt.figure(figsize=(WIDE, 60 * MM))
 grid = drawn.add_gridspec(2, 4, width_ratios=[2.3, 2.2, 1, 1])

@@ -7,13 +7,15 @@ value, grey: half a cell. Numbers: docs/data/spence.json.
 
 import json
 
-from _figures import ORANGE, BLUE, ROOT, figure, letters, save
+from _figures import BLUE, ORANGE, ROOT, figure, letters, save
 
 data = json.loads((ROOT / "docs/data" / "spence.json").read_text(encoding="utf-8"))
 drawn, panels = figure(3, height=60)
 for friction, line in ((0.1, ":"), (0.304, "-")):
     for ramp, colour, mark in (("linear", BLUE, "o"), ("cubic", ORANGE, "s")):
-        rows = [r for r in data["rows"] if r["friction"] == friction and r["ramp"] == ramp and r["increments"] != "auto"]
+        rows = [
+            r for r in data["rows"] if r["friction"] == friction and r["ramp"] == ramp and r["increments"] != "auto"
+        ]
         x = [r["increments"] for r in rows]
         name = f"{ramp}, $\\mu$ = {friction:g}"
         exact = rows[0]["stick_radius_exact"]

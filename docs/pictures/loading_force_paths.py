@@ -5,9 +5,10 @@ exact (method of dimensionality reduction, 4000 springs), dots: computed. (b) Er
 shown.
 """
 
-import fretting
 from _figures import figure, letters, save
 from _loadings import FORCE, MU, ONSET, along, problem
+
+import fretting
 
 cases = {
     "Q up, P up slowly": [(0.5, 0.0), (0.5, 0.3), (1.0, 0.9)],
@@ -18,7 +19,9 @@ cases = {
 }
 drawn, (left, right) = figure(2, height=68)
 for (label, points), mark in zip(cases.items(), "osv^D", strict=True):
-    stages = [{"normal_force": p * FORCE, "tangential_force": [t * MU * FORCE, 0.0], "increments": 8} for p, t in points]
+    stages = [
+        {"normal_force": p * FORCE, "tangential_force": [t * MU * FORCE, 0.0], "increments": 8} for p, t in points
+    ]
     history = fretting.run(problem(48, stages))
     exact, _ = along(history)
     force = history.steps["tangential_force_x"] / (MU * FORCE)

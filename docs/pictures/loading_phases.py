@@ -4,9 +4,10 @@ Identical bodies with nu = 0, mu = 0.3, 48 x 48 cells, P = 0.7 + 0.2 sin(wt + ph
 cycle. (a) Lines: exact (method of dimensionality reduction), dots: computed. (b) Error of the displacement relative to its maximum.
 """
 
-import fretting
 from _figures import figure, letters, save
 from _loadings import FORCE, MU, ONSET, along, indentation, problem
+
+import fretting
 
 drawn, (left, right) = figure(2, height=62)
 for phase, mark in ((0, "o"), (90, "s"), (180, "v")):
@@ -23,7 +24,14 @@ for phase, mark in ((0, "o"), (90, "s"), (180, "v")):
     rows = slice(29, None)
     force = history.steps["tangential_force_x"][rows] / (MU * FORCE)
     (line,) = left.plot(exact[rows] / ONSET, force, lw=0.9)
-    left.plot(history.steps["shift_x"][rows] / ONSET, force, mark, color=line.get_color(), ms=2.5, label=f"normal force {phase} degrees ahead")
+    left.plot(
+        history.steps["shift_x"][rows] / ONSET,
+        force,
+        mark,
+        color=line.get_color(),
+        ms=2.5,
+        label=f"normal force {phase} degrees ahead",
+    )
     error = abs(history.steps["shift_x"] - exact)[6:] / abs(exact).max()
     right.semilogy(error, mark + "-", color=line.get_color(), ms=2, lw=0.7)
 left.set(xlabel="$\\delta$ / onset of gross slip", ylabel="$Q / \\mu P_{max}$")

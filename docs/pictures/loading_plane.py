@@ -6,10 +6,10 @@ cells per wavelength. (b) RMS error of the shear traction relative to the RMS of
 fall differently relative to cell centres.
 """
 
-import fretting
 import numpy as np
 from _figures import BLACK, figure, letters, save
 
+import fretting
 from fretting import analytic
 
 MU, amplitude = 0.3, 0.01

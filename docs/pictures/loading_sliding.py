@@ -5,10 +5,11 @@ amplitudes of 0.6, 1.1 and 2 times the onset of gross slip. (b) Energy ratio A =
 with rigid sliding beyond the onset), dots: computed, dotted: criterion A = 0.2.
 """
 
-import fretting
 import numpy as np
 from _figures import BLACK, figure, letters, save
 from _loadings import FORCE, MU, ONSET, SHEAR, indentation, problem
+
+import fretting
 
 
 def ratio(amplitude: np.ndarray) -> np.ndarray:

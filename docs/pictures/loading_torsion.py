@@ -5,11 +5,11 @@ for the first loading and Masing's doubling for the reversals; dots: computed wi
 Error of the rotation relative to its maximum for three grids.
 """
 
-import fretting
 import numpy as np
 from _figures import BLACK, figure, letters, save
 from _loadings import FORCE, MU, indentation, problem, sphere_contact
 
+import fretting
 from fretting import analytic
 
 full = 3 * np.pi * MU * FORCE / 16
@@ -26,7 +26,12 @@ line = np.linspace(0, top, 60)
 sweep = np.linspace(top, -top, 120)
 peak = first(np.array([top]))[0]
 down = peak - 2 * first((top - sweep) / 2)
-left.plot(np.concatenate([first(line), down, -down]), np.concatenate([line, sweep, -sweep]) / full, lw=1, label="Lubkin, Masing")
+left.plot(
+    np.concatenate([first(line), down, -down]),
+    np.concatenate([line, sweep, -sweep]) / full,
+    lw=1,
+    label="Lubkin, Masing",
+)
 for cells, mark in ((24, "v"), (48, "s"), (96, "o")):
     history = fretting.run(problem(cells, [indentation(), {"twist_moment": top, "increments": 16, "cycles": 1}]))
     moment, twist = history.steps["twist_moment"], history.steps["twist"]
@@ -36,7 +41,9 @@ for cells, mark in ((24, "v"), (48, "s"), (96, "o")):
     exact = np.concatenate([exact, back, again])
     if cells == 96:
         left.plot(twist[1:], moment[1:] / full, "o", color=BLACK, ms=3, label="computed")
-    right.semilogy(range(1, 17), abs(twist[1:] - exact) / abs(exact).max(), mark + "-", lw=0.8, label=f"{cells} x {cells} cells")
+    right.semilogy(
+        range(1, 17), abs(twist[1:] - exact) / abs(exact).max(), mark + "-", lw=0.8, label=f"{cells} x {cells} cells"
+    )
 left.set(xlabel="rotation [rad]", ylabel="$M_z$ / full-slip moment")
 left.legend()
 right.set(xlabel="increment", ylabel="error / max rotation", ylim=(3e-6, 3e-2), xticks=[4, 8, 12, 16])

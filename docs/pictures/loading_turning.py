@@ -5,14 +5,19 @@ Identical bodies with nu = 0, mu = 0.3, |Q| = 0.7 mu P, 32 x 32 cells, 24 increm
 rotated by 90 degrees; largest difference relative to mu p_0 (the transient of the first turn decays).
 """
 
-import fretting
 import numpy as np
 from _figures import figure, letters, save
 from _loadings import FORCE, MU, ONSET, PEAK, indentation, problem
 
+import fretting
+
 amplitude = 0.7 * MU * FORCE
 wave = {"tangential_force": [amplitude, amplitude], "phase": {"tangential_force": [90, 0]}, "waveform": "sine"}
-circle = [indentation(), {"tangential_force": [amplitude, 0.0], "increments": 4}, {**wave, "increments": 24, "cycles": 3}]
+circle = [
+    indentation(),
+    {"tangential_force": [amplitude, 0.0], "increments": 4},
+    {**wave, "increments": 24, "cycles": 3},
+]
 spiral = [indentation(), {**wave, "increments": 24, "cycles": 3, "envelope": [0, 1]}]
 drawn, (left, right) = figure(2, height=66)
 for label, stages in {"constant |Q|": circle, "growing |Q|": spiral}.items():

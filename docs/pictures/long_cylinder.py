@@ -5,9 +5,10 @@ lines, closed form for the row; dots, 512 cells per period (every eighth); dashe
 pressure relative to its RMS.
 """
 
-import fretting
 import numpy as np
 from _figures import figure, letters, save
+
+import fretting
 
 MODULUS, A, RADIUS = 1 / 0.91, 1.0, 50.0
 

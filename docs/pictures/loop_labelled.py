@@ -5,10 +5,10 @@ second cycle (solid) and first loading (dotted). W_d is the area of the loop; th
 is the half-width at zero force.
 """
 
-import fretting
-import numpy as np
 from _figures import BLACK, BLUE, ORANGE, figure, save
-from _loadings import FORCE, MU, ONSET, problem, indentation
+from _loadings import FORCE, MU, ONSET, indentation, problem
+
+import fretting
 
 amplitude = 0.85 * MU * FORCE
 stage = {"tangential_force": [amplitude, 0.0], "increments": 96, "cycles": 2}
@@ -23,12 +23,21 @@ axes.plot([-d, d, d, -d, -d], [-q, -q, q, q, -q], color="0.5", lw=0.7, ls="--")
 axes.axhline(0, color="0.8", lw=0.6, zorder=0)
 axes.axvline(0, color="0.8", lw=0.6, zorder=0)
 opening = history.cycles["opening"][1] / ONSET
-axes.annotate("", xy=(opening, 0), xytext=(0, 0), arrowprops={"arrowstyle": "<|-|>", "color": ORANGE, "lw": 1, "shrinkA": 0, "shrinkB": 0, "mutation_scale": 7})
+axes.annotate(
+    "",
+    xy=(opening, 0),
+    xytext=(0, 0),
+    arrowprops={"arrowstyle": "<|-|>", "color": ORANGE, "lw": 1, "shrinkA": 0, "shrinkB": 0, "mutation_scale": 7},
+)
 axes.text(opening / 2, -0.1, "$\\delta_0$", color=ORANGE, ha="center", va="top")
 axes.text(-0.03, q, "$Q^*$", ha="right", va="center", bbox={"fc": "white", "ec": "none", "pad": 1})
 axes.text(d, -0.08, "$\\delta^*$", ha="center", va="top", bbox={"fc": "white", "ec": "none", "pad": 1})
 axes.text(0.02, 0.27, "$W_d$", color=BLUE, ha="center")
 ratio, sliding = history.cycles["energy_ratio"][1], history.cycles["sliding_ratio"][1]
-axes.set_title(f"$A = W_d / (4 Q^* \\delta^*) = {ratio:.3f}$,   $D = \\delta_0 / \\delta^* = {sliding:.3f}$", color=BLACK)
-axes.set(xlabel="relative displacement $\\delta$ / onset of gross slip", ylabel="$Q / \\mu P$", xlim=(-1.15 * d, 1.15 * d))
+axes.set_title(
+    f"$A = W_d / (4 Q^* \\delta^*) = {ratio:.3f}$,   $D = \\delta_0 / \\delta^* = {sliding:.3f}$", color=BLACK
+)
+axes.set(
+    xlabel="relative displacement $\\delta$ / onset of gross slip", ylabel="$Q / \\mu P$", xlim=(-1.15 * d, 1.15 * d)
+)
 save(drawn)

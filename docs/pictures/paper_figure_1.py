@@ -7,11 +7,11 @@ substrate under the same force of 30.8 N. Dots: edge of contact of an axisymmetr
 
 import json
 
-import fretting
+import numpy as np
 from _figures import ROOT, figure, middle, save
 from _paper import case, hertz
 
-import numpy as np
+import fretting
 
 rows = json.loads((ROOT / "tests/golden" / "coated_sphere.json").read_text(encoding="utf-8"))["rows"]
 drawn, axes = figure(height=75, wide=False)
@@ -24,7 +24,9 @@ for ratio, label in [(0.25, "1/4"), (0.5, "1/2"), (1, "1"), (2, "2"), (4, "4")]:
     history = fretting.run(shown)
     pressure = middle(history, "pressure") / peak
     (line,) = axes.plot(history.x / radius, pressure, label=f"$E_c/E_s$ = {label}")
-    edge = next(row["a"] for row in rows if row["h"] == 1.0 and row["young_ratio"] == ratio and row["poisson_coating"] == 0.3)
+    edge = next(
+        row["a"] for row in rows if row["h"] == 1.0 and row["young_ratio"] == ratio and row["poisson_coating"] == 0.3
+    )
     axes.plot([-edge, edge], [0, 0], "o", color=line.get_color(), clip_on=False, zorder=5)
 axes.set(xlabel="$x / a_H$", ylabel="$p / p_H$", xlim=(-1.5, 1.5), ylim=(0, None))
 drawn.legend(loc="outside lower center", ncols=3)

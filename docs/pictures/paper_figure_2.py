@@ -5,10 +5,11 @@ amplitude of the tangential force 0.92 mu P, 128 x 128 cells. Thin lines: comput
 Mindlin and Deresiewicz. Shown between the second zero of Q and the next peak and back; a_H and p_H are the Hertz values.
 """
 
-import fretting
 import numpy as np
 from _figures import figure, middle, save
 from _paper import case, hertz
+
+import fretting
 
 shown = case("paper_figure_2.toml")
 for body in ("upper", "lower"):
@@ -41,7 +42,9 @@ for step, branch in names.items():
     ratio = history.steps["tangential_force_x"][step] / (friction * force)
     ratio = 0.0 if abs(ratio) < 0.005 else ratio
     axes.plot(x / radius, exact(step) / peak, color="0.8", lw=3.5, zorder=1)
-    axes.plot(history.x / radius, middle(history, "shear_x", step) / peak, lw=1, label=f"$Q/\\mu P$ = {ratio:.2f}, {branch}")
+    axes.plot(
+        history.x / radius, middle(history, "shear_x", step) / peak, lw=1, label=f"$Q/\\mu P$ = {ratio:.2f}, {branch}"
+    )
 axes.set(xlabel="$x / a_H$", ylabel="$q_x / p_H$", xlim=(-1.1, 1.1))
 drawn.legend(loc="outside lower center", ncols=2)
 save(drawn)

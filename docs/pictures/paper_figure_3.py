@@ -7,9 +7,10 @@ along x through the centre. Grey: the friction limit. Indentation alone causes s
 
 import copy
 
-import fretting
 from _figures import figure, letters, middle, save
 from _paper import case, hertz
+
+import fretting
 
 shown = case("paper_figure_3.toml")
 radius, peak = hertz(shown)

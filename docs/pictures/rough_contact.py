@@ -5,11 +5,12 @@ Rigid flat on a self-affine rough half-space, periodic, nu = 0.3, frictionless, 
 logarithmic; white: out of contact. (c) Distribution of the contact pressure.
 """
 
-import fretting
 import matplotlib.pyplot as plt
 import numpy as np
 from _figures import figure, letters, map_of, save
 from matplotlib.colors import LogNorm
+
+import fretting
 
 CELLS, MODULUS, SLOPE = 256, 1 / 0.91, 0.05
 wave = np.hypot(*np.meshgrid(np.fft.fftfreq(CELLS) * CELLS, np.fft.rfftfreq(CELLS) * CELLS, indexing="ij"))

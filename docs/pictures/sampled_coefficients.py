@@ -8,9 +8,10 @@ relative to the coefficient itself against 62-digit arithmetic (tests/golden/nor
 
 import json
 
-import fretting
 import numpy as np
 from _figures import BLACK, ROOT, figure, save
+
+import fretting
 
 golden = json.loads((ROOT / "tests/golden" / "normal_coefficients.json").read_text(encoding="utf-8"))
 COATING, SUBSTRATE, CELLS = (2.0, 0.3, 10.0), (1.0, 0.3), 256
@@ -48,7 +49,13 @@ ours = fretting.influence_coefficients([COATING], SUBSTRATE, (CELLS, 1), (1.0, 1
 near = fretting.influence_coefficients([COATING], SUBSTRATE, (4, 3), (1.0, 1.0))["zz"]
 worst = max(abs(v / e - 1) for v, e in zip((near[0, 0], near[3, 2], ours[64, 0], ours[255, 0]), exact, strict=True))
 axes.axhline(max(worst, 1e-16), color=BLACK, ls="--", lw=0.9, label="this program, largest")
-axes.set(xlabel="extension of the grid", ylabel="relative error", xticks=extensions, xticklabels=extensions, ylim=(1e-16, 1e3))
+axes.set(
+    xlabel="extension of the grid",
+    ylabel="relative error",
+    xticks=extensions,
+    xticklabels=extensions,
+    ylim=(1e-16, 1e3),
+)
 axes.minorticks_off()
 axes.legend(fontsize=6, loc="center right")
 save(drawn)

@@ -5,10 +5,11 @@ P = 12 N, amplitude 0.9 mu P, 97 x 97 cells, section y = 0. Stress relative to t
 Bars on top: contact (black) and stick zone (blue).
 """
 
-import fretting
 import numpy as np
 from _coated import HERTZ, coated, cycle
 from _figures import BLUE, figure, save
+
+import fretting
 
 case = coated(2.0, [cycle(0.9, 48, 1)], 97, output={"every": 1})
 case["grid"]["size"] = [3.2 * HERTZ.contact_radius] * 2
@@ -27,7 +28,9 @@ for axes, (step, words) in zip(panels.ravel(), steps.items(), strict=True):
     axes.axhline(1.0, color="w", ls="--", lw=0.8)
     row = history.field("zone", step)[:, len(history.y) // 2]
     for value, colour, place in ((row > 0, "k", -0.05), (row == 1, BLUE, -0.12)):
-        axes.plot(history.x / a, np.where(value, place, np.nan), color=colour, lw=2, solid_capstyle="butt", clip_on=False)
+        axes.plot(
+            history.x / a, np.where(value, place, np.nan), color=colour, lw=2, solid_capstyle="butt", clip_on=False
+        )
     axes.set_title(words, fontsize=7)
 panels[0, 0].set(ylim=(1.8, -0.16), xlim=(-1.6, 1.6))
 for axes in panels[:, 0]:

@@ -14,5 +14,9 @@ from _figures import FOLDER, ROOT
 
 with tempfile.TemporaryDirectory() as folder:
     words = ["--cells", "16,32,64", "--increments", "8,16,32", "--threads", "1", "--quiet", "--out", folder]
-    subprocess.run([sys.executable, "-m", "fretting", "study", ROOT / "examples" / "coated_sphere.toml", *words], check=True, capture_output=True)
+    subprocess.run(
+        [sys.executable, "-m", "fretting", "study", ROOT / "examples" / "coated_sphere.toml", *words],
+        check=True,
+        capture_output=True,
+    )
     shutil.copy(Path(folder) / "study.svg", FOLDER / "study_coated.svg")

@@ -6,10 +6,10 @@ along x with 48 x 48 cells (dots) and closed forms (lines): rounded punch with a
 no order. Ellipsoid: R_x = 220 a, R_y = 70 a.
 """
 
-import fretting
 import numpy as np
 from _figures import figure, letters, save
 
+import fretting
 from fretting import analytic
 
 MODULUS = 1 / 0.91

@@ -5,12 +5,15 @@ peak Q = 0.9 mu P, 128 x 128 cells. p_H is the Hertz pressure of the uncoated co
 traction on the lower body. White line: border of stick.
 """
 
-import fretting
 import numpy as np
 from _coated import HERTZ, MU, coated, cycle
 from _figures import figure, letters, map_of, save
 
-history = fretting.run(coated(2.0, [cycle(0.9, 24, 1)], 128, output={"every": 1, "fields": ["pressure", "shear", "slip", "zone"]}))
+import fretting
+
+history = fretting.run(
+    coated(2.0, [cycle(0.9, 24, 1)], 128, output={"every": 1, "fields": ["pressure", "shear", "slip", "zone"]})
+)
 step = 20 + 6 - 1
 p, qx, qy = (history.field(name, step) for name in ("pressure", "shear_x", "shear_y"))
 slip = np.hypot(history.field("slip_x", step), history.field("slip_y", step))
@@ -24,13 +27,26 @@ shown = [
 for axes, (values, label, colours) in zip(panels, shown, strict=True):
     image = map_of(axes, history, values, HERTZ.contact_radius, cmap=colours, vmin=0)
     drawn.colorbar(image, ax=axes, label=label, location="bottom", shrink=0.9)
-    axes.contour(history.x / HERTZ.contact_radius, history.y / HERTZ.contact_radius, stick.T.astype(float), [0.5], colors="w", linewidths=0.8)
+    axes.contour(
+        history.x / HERTZ.contact_radius,
+        history.y / HERTZ.contact_radius,
+        stick.T.astype(float),
+        [0.5],
+        colors="w",
+        linewidths=0.8,
+    )
     axes.set(xlabel="$x / a_H$", xticks=[-1, 0, 1], yticks=[-1, 0, 1])
 some = slice(3, None, 7)
 size = np.hypot(qx, qy)
 u, v = (np.where(p > 0, q / np.where(size > 0, size, 1), np.nan) for q in (qx, qy))
 panels[1].quiver(
-    history.x[some] / HERTZ.contact_radius, history.y[some] / HERTZ.contact_radius, u[some, some].T, v[some, some].T, color="w", scale=28, width=0.006
+    history.x[some] / HERTZ.contact_radius,
+    history.y[some] / HERTZ.contact_radius,
+    u[some, some].T,
+    v[some, some].T,
+    color="w",
+    scale=28,
+    width=0.006,
 )
 panels[0].set_ylabel("$y / a_H$")
 letters(panels)

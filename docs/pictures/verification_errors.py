@@ -7,11 +7,11 @@ dotted: first and second order. The stick area is counted by cells and scatters.
 
 import json
 
-import fretting
 import numpy as np
 from _figures import ROOT, figure, letters, save
 from _loadings import FORCE, MU, SHEAR, indentation, problem, sphere_contact
 
+import fretting
 from fretting import analytic
 
 GRIDS = [16, 32, 64, 128, 256]
@@ -37,7 +37,9 @@ for ratio, mark, name in ((1.0, "o", "Hertz"), (0.25, "s", "$E_c/E_s$ = 1/4"), (
 exact = analytic.cattaneo_mindlin(sphere_contact(), MU, SHEAR, 0.75 * MU * FORCE)
 values: dict[str, list[float]] = {"relative displacement": [], "dissipated energy": [], "stick area": []}
 for cells in GRIDS:
-    steps = fretting.run(problem(cells, [indentation(), {"tangential_force": [0.75 * MU * FORCE, 0.0], "increments": 1}])).steps
+    steps = fretting.run(
+        problem(cells, [indentation(), {"tangential_force": [0.75 * MU * FORCE, 0.0], "increments": 1}])
+    ).steps
     values["relative displacement"].append(abs(steps["shift_x"][-1] / exact.shift - 1))
     values["dissipated energy"].append(abs(steps["dissipated_energy"][-1] / exact.dissipated_energy - 1))
     values["stick area"].append(abs(steps["stick_area"][-1] - np.pi * exact.stick_radius**2) / np.pi)

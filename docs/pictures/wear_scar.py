@@ -5,11 +5,12 @@ Identical bodies with nu = 0, mu = 0.3, fixed approach, displacement amplitude s
 Normal force above its limit, relative to the start.
 """
 
-import fretting
 import matplotlib.pyplot as plt
 import numpy as np
 from _figures import figure, letters, save
 from _loadings import FORCE, MODULUS, MU, PEAK, RADIUS, SHEAR, problem
+
+import fretting
 
 c, approach = 0.6, 1 / RADIUS
 shift = MU * MODULUS * approach * (1 - c**2) / (4 * SHEAR)
@@ -25,7 +26,9 @@ colours = plt.get_cmap("viridis")(np.linspace(0, 0.85, len(shown)))
 for cycle, colour in zip(shown, colours, strict=True):
     step = int(history.cycles["last_increment"][cycle])
     panels[0].plot(history.x, history.field("pressure", step)[:, half] / PEAK, lw=1, color=colour, label=f"{cycle + 1}")
-    panels[1].plot(history.x, history.field("worn_depth", step)[:, half] / approach, lw=1, color=colour, label=f"{cycle + 1}")
+    panels[1].plot(
+        history.x, history.field("worn_depth", step)[:, half] / approach, lw=1, color=colour, label=f"{cycle + 1}"
+    )
 r = np.linspace(0, 0.999 * c, 300)
 root = np.sqrt(c**2 - r**2)
 limit = MODULUS / np.pi * (2 * root / RADIUS + (approach - c**2 / RADIUS) / root) / PEAK

@@ -5,9 +5,10 @@ amplitude 0.9 mu P, 96 x 96 cells. Second cycle; above each map Q/(mu P). At eac
 grows inward from the edge.
 """
 
-import fretting
 from _coated import HERTZ, along, coated, cycle
 from _figures import figure, save, zone_legend, zones
+
+import fretting
 
 history = fretting.run(coated(2.0, [cycle(0.9)], output={"fields": ["zone"], "every": 1}))
 steps = [79, 80, 84, 88, 92, 96, 100, 103, 104, 108, 112, 115]

@@ -46,13 +46,19 @@ FILES = [
     ("case.toml", "the case as it was read"),
     ("history.csv", "one row per increment"),
     ("cycles.csv", "one row per cycle, of stages with cycles"),
-    ("fields.zarr", "fields of the kept increments (Zarr 3): one array per field, dimensions step, y, x; coordinates step, x, y"),
+    (
+        "fields.zarr",
+        "fields of the kept increments (Zarr 3): one array per field, dimensions step, y, x; coordinates step, x, y",
+    ),
     ("run.json", "the run: program, version, plan, totals, status, warnings, origin"),
     ("error_bars.json", "with `--estimate-error`: value and bar of each quantity at the end of each stage"),
     ("states/", "what a run that starts from a state needs besides the kept fields"),
     ("checkpoint", "of an unfinished run: what `--resume` needs"),
     ("report.html", "written by `fret report`"),
-    ("stress/", "written by `fret stress`: `stress.json` (maxima, fatigue parameters), `depths.csv` (one row per depth), sections (SVG), volume (VTK)"),
+    (
+        "stress/",
+        "written by `fret stress`: `stress.json` (maxima, fatigue parameters), `depths.csv` (one row per depth), sections (SVG), volume (VTK)",
+    ),
     ("export.npz, csv/, vtk/", "written by `fret export`"),
 ]
 RUN = [
@@ -113,7 +119,9 @@ def closed_forms() -> str:
         text = inspect.getdoc(function) or ""
         source = " ".join(text.partition("References\n----------\n")[2].split()).replace("*", "")
         answer = inspect.signature(function).return_annotation
-        fields = ", ".join(f"`{field}`" for field in getattr(answer, "__annotations__", {}) if not field.startswith("_"))
+        fields = ", ".join(
+            f"`{field}`" for field in getattr(answer, "__annotations__", {}) if not field.startswith("_")
+        )
         parts.append(f"| `{name}` | {text.splitlines()[0]} | {fields} | {source} |")
     return "\n".join(parts) + "\n"
 

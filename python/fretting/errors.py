@@ -101,7 +101,8 @@ class RunError(FrettingError, RuntimeError):
 
 class OutOfMemoryError(RunError, MemoryError):
     """A run needs more memory than the machine, a container, a batch job or ``ulimit -v`` leaves; nothing was begun that could
-    not be ended."""
+    not be ended.
+    """
 
     __module__ = "fretting"
 

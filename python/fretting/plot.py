@@ -288,8 +288,8 @@ _LOOPS = {
 """Motions and what drives them."""
 
 _LOOP_LABELS = {
-    "shift_x": "relative displacement along x [length]",
-    "shift_y": "relative displacement along y [length]",
+    "shift_x": "relative displacement x [length]",
+    "shift_y": "relative displacement y [length]",
     "twist": "twist [rad]",
     "tangential_force_x": "tangential force along x [force]",
     "tangential_force_y": "tangential force along y [force]",

@@ -103,7 +103,8 @@ def run(
 
 def ended(answer: _core.History, error: BaseException | None, stacklevel: int = 2) -> History:
     """Return a history that is whole; raise what ended it early, with what there is of it. What about it may mislead goes to
-    Python's warnings, `stacklevel` calls up."""
+    Python's warnings, `stacklevel` calls up.
+    """
     history = History(answer)
     warn(history.warnings, stacklevel=stacklevel)
     if error is None:

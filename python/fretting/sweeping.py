@@ -147,7 +147,8 @@ def sweep(
 
 def _fits_memory(asked: list[Point], executor: Executor | None) -> None:
     """Refuse points beside each other that need more memory than there is; where the number of workers is not told, each
-    point finds out by itself."""
+    point finds out by itself.
+    """
     beside = min(getattr(executor, "_max_workers", 1), len(asked))
     if beside < 2:
         return

@@ -171,6 +171,14 @@ def test_the_site_builds_without_a_warning(tmp_path: Path) -> None:
     )  # fmt: skip
     assert (done.returncode, done.stdout.strip()) == (0, ""), done.stdout + done.stderr
     assert "contact_area" in (tmp_path / "site" / "reference" / "python.html").read_text(encoding="utf-8")
+    for tutorial in (ROOT / "docs" / "learn").glob("*.md"):
+        snippets = [text for language, text in blocks(tutorial) if language == "python"]
+        if snippets:
+            written = json.loads((tmp_path / "site" / "learn" / f"{tutorial.stem}.ipynb").read_text(encoding="utf-8"))
+            code = ["".join(cell["source"]) for cell in written["cells"] if cell["cell_type"] == "code"]
+            assert [text for text in code if "%%writefile" not in text] == [text.strip() for text in snippets], tutorial.name
     for page in (tmp_path / "site").rglob("*.html"):
         for formula in re.findall(r"<math.*?</math>", page.read_text(encoding="utf-8"), re.DOTALL):
-            assert "\\" not in re.sub(r"<[^>]+>", "", formula), f"{page.name}: a formula is not understood: {formula[:200]}"
+            assert "\\" not in re.sub(r"<[^>]+>", "", formula), (
+                f"{page.name}: a formula is not understood: {formula[:200]}"
+            )

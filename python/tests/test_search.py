@@ -11,7 +11,12 @@ import pytest
 ROOT = Path(__file__).resolve().parents[2]
 
 QUERIES = {
-    "stick slip zone": {"learn/quick-start.html", "learn/fretting-loop.html", "do/publication-figures.html", "gallery.html"},
+    "stick slip zone": {
+        "learn/quick-start.html",
+        "learn/fretting-loop.html",
+        "do/publication-figures.html",
+        "gallery.html",
+    },
     "Dundurs": {"reference/glossary.html", "theory/contact-problem.html"},
     "shakedown": {"theory/friction-and-history.html"},
     "mixed precision": {"theory/simplifications.html"},
@@ -32,7 +37,11 @@ QUERIES = {
     "how many cells grid": {"do/choose-grid-and-increments.html", "faq.html"},
     "residual": {"theory/contact-problem.html"},
     "exit codes": {"reference/messages.html"},
-    "Cattaneo Mindlin": {"trust/verification.html", "trust/verification-record.html", "do/coming-from-other-programs.html"},
+    "Cattaneo Mindlin": {
+        "trust/verification.html",
+        "trust/verification-record.html",
+        "do/coming-from-other-programs.html",
+    },
     "cite": {"cite.html"},
     "resume interrupted run": {"do/continue-a-run.html"},
     "tamaas": {"do/coming-from-other-programs.html", "trust/comparison.html"},
@@ -53,9 +62,17 @@ def found(tmp_path_factory: pytest.TempPathFactory) -> dict[str, list[str]]:
         pytest.skip("the search runs in node")
     site = tmp_path_factory.mktemp("site")
     call = [sys.executable, "-m", "mkdocs", "build", "--quiet", "--site-dir", str(site)]
-    subprocess.run(call, check=True, cwd=ROOT, timeout=120, env={"NO_MKDOCS_2_WARNING": "1", "PATH": ""}, capture_output=True)
+    subprocess.run(
+        call, check=True, cwd=ROOT, timeout=120, env={"NO_MKDOCS_2_WARNING": "1", "PATH": ""}, capture_output=True
+    )
     lunr = Path(search.__file__).parent / "templates" / "search" / "lunr.js"
-    call = [node, str(ROOT / "docs" / "site" / "search.js"), str(lunr), str(site / "search" / "search_index.json"), *QUERIES]
+    call = [
+        node,
+        str(ROOT / "docs" / "site" / "search.js"),
+        str(lunr),
+        str(site / "search" / "search_index.json"),
+        *QUERIES,
+    ]
     told = subprocess.run(call, capture_output=True, text=True, check=True, timeout=120).stdout
     answer: dict[str, list[str]] = json.loads(told)
     return answer

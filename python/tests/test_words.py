@@ -71,7 +71,13 @@ ALLOWED = {
 """Expressions that hold a home-made word and are right."""
 
 PAGES = sorted([ROOT / "README.md", ROOT / "CHANGELOG.md", ROOT / "CONTRIBUTING.md", *(ROOT / "docs").rglob("*.md")])
-DIARIES = {"performance-log.md", "2026-11-usability.md", "2026-11-checks.md", "2026-11-refinement-studies.md", "simplifications-measured.md"}
+DIARIES = {
+    "performance-log.md",
+    "2026-11-usability.md",
+    "2026-11-checks.md",
+    "2026-11-refinement-studies.md",
+    "simplifications-measured.md",
+}
 """Developers' notes of a day: kept as they were written, and say so. The last is printed by a program whose cases have short names."""
 
 
@@ -97,7 +103,9 @@ def found(text: str) -> list[str]:
     return hits
 
 
-@pytest.mark.parametrize("page", [p for p in PAGES if p.name not in DIARIES], ids=lambda page: page.relative_to(ROOT).as_posix())
+@pytest.mark.parametrize(
+    "page", [p for p in PAGES if p.name not in DIARIES], ids=lambda page: page.relative_to(ROOT).as_posix()
+)
 def test_pages(page: Path) -> None:
     assert found(plain(page.read_text(encoding="utf-8"))) == []
 
@@ -136,7 +144,11 @@ def docstrings() -> list[tuple[str, str]]:
     for path in sorted((ROOT / "python" / "fretting").glob("*.py")):
         tree = ast.parse(path.read_text(encoding="utf-8"))
         for node in ast.walk(tree):
-            if isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant) and isinstance(node.value.value, str):
+            if (
+                isinstance(node, ast.Expr)
+                and isinstance(node.value, ast.Constant)
+                and isinstance(node.value.value, str)
+            ):
                 all_of_them.append((f"{path.name}:{node.lineno}", node.value.value))
     return all_of_them
 
@@ -147,6 +159,11 @@ def test_docstrings() -> None:
 
 
 def test_the_search_finds_what_it_looks_for() -> None:
-    assert len(found("The scene that repeats has like bodies; the largest pressure is a share of it, a line an increment.")) >= 5
+    assert (
+        len(
+            found("The scene that repeats has like bodies; the largest pressure is a share of it, a line an increment.")
+        )
+        >= 5
+    )
     assert found("The case is periodic; room for the scar; its companion, whose companion is a paper") != []
     assert found("room for the scar") == []
