@@ -203,8 +203,8 @@ pub(super) struct SolverFile {
     /// increment. Default: 0.03.
     #[schemars(with = "Option<f64>")]
     pub history_tolerance: Option<Spanned<f64>>,
-    /// "together": monolithic; "alternating": staggered (Panagiotopoulos process, the published three-level scheme), for
-    /// comparison. Default: "together".
+    /// "monolithic": pressure and shear together; "staggered": in alternation (Panagiotopoulos process, the published three-level
+    /// scheme), for comparison. Default: "monolithic".
     #[schemars(with = "Option<Scheme>")]
     pub scheme: Option<Spanned<Scheme>>,
 }

@@ -7,10 +7,10 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Scheme {
-    /// Monolithic: pressure and shear in one Newton-type iteration.
+    /// One Newton method for pressure and shear together.
     #[default]
-    Together,
-    /// Staggered: pressure and shear in alternation until they agree (Panagiotopoulos process), the published three-level scheme, for
-    /// comparison.
-    Alternating,
+    Monolithic,
+    /// Pressure at given shear, shear at given pressure, until they agree (Panagiotopoulos process): the published three-level scheme,
+    /// for comparison.
+    Staggered,
 }
