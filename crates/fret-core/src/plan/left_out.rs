@@ -2,17 +2,30 @@
 
 use ndarray::Axis;
 
+use serde::Serialize;
+
+use super::simplification::{LeaveOut, Simplification};
 use super::symmetry::{is_loaded, is_twisted};
-use super::{LeaveOut, LeftOut, Simplification};
 use crate::case::{Case, Stage};
 use crate::kernel::PairResponse;
 use crate::model::{Body, ContactState, CoulombFriction, SurfaceGrid, Symmetry};
 use crate::solver::Coupling;
 
+/// An automatic simplification.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct LeftOut {
+    /// What is not computed.
+    pub what: String,
+    /// Why it applies to the case.
+    pub why: String,
+    /// What that saves.
+    pub saves: String,
+}
+
 /// Names of the fields that can be kept, with their bytes per cell.
 const FIELDS: [(&str, usize); 5] = [("pressure", 8), ("shear", 16), ("slip", 16), ("gap", 8), ("zone", 1)];
 
-/// The automatic simplifications of a case that may take the shortcuts of `leave_out`.
+/// The automatic simplifications of a case, of those that `leave_out` allows.
 pub fn left_out(
     case: &Case,
     grid: &SurfaceGrid,
@@ -102,8 +115,8 @@ pub fn left_out(
     }
     if single_precision {
         leave(
-            "double precision, in preconditioners and linearised problems on fixed active sets",
-            "residuals near the solution are evaluated in double precision; no increment is accepted on a single-precision residual",
+            "double precision, in linear problems and approximate inverses",
+            "residuals are evaluated in double precision, which corrects the rounding; no increment is accepted on a single-precision residual",
             "half of the memory traffic of most transforms",
         );
     }
