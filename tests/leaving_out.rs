@@ -116,7 +116,7 @@ fn what_is_left_out_is_said_and_nothing_is_said_of_what_is_computed() {
         (Simplification::Transverse, "shear along y"),
         (Simplification::Mirror, "three quarters of the grid"),
         (Simplification::Region, "cells far from the contact"),
-        (Simplification::Precision, "all but six digits"),
+        (Simplification::Precision, "double precision in linear problems"),
     ];
     let text = &cases(64).pop().expect("the last has all").text;
     let said = |leave_out| {

@@ -11,6 +11,9 @@ import pytest
 ROOT = Path(__file__).resolve().parents[2]
 
 QUERIES = {
+    "active set": {"theory/solution-algorithm.html"},
+    "Newton method": {"theory/solution-algorithm.html"},
+    "preconditioner": {"theory/solution-algorithm.html"},
     "stick slip zone": {
         "learn/quick-start.html",
         "learn/fretting-loop.html",

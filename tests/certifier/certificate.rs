@@ -4,9 +4,6 @@
 /// another order differ by 1e-14; under a coating 1e6 times softer than its base, where displacements nearly cancel, by 1e-12.
 pub const SAME: f64 = 1e-11;
 
-/// Shear counts as on its disc's circle up to this fraction of it; ten times what the program allows itself.
-pub const ON_CIRCLE: f64 = 1e-9;
-
 /// How far an increment is from the laws of contact. Every number is dimensionless and 0 for an exact solution.
 ///
 /// `p` pressure, `q` shear, `g` gap, `v` slip increment (motion of the upper body less that of the lower in the increment);
@@ -34,7 +31,7 @@ pub struct Certificate {
     pub direction: f64,
     /// Largest part of `v/Kt` against the shear of a slipping cell, over `|mu p|`: friction takes energy and never gives any.
     pub against: f64,
-    /// Largest `mu p - |q|` of a slipping cell over the largest `mu p`.
+    /// Largest `mu p - |q|` of a slipping cell over `|mu p|`: a part of what Coulomb's law is off.
     pub on_circle: f64,
     /// Kept slip increment against `v` in slipping cells and against 0 in all others, over the largest term of `v`.
     pub slip: f64,
@@ -68,7 +65,7 @@ impl Certificate {
             ("stick", self.stick, solved),
             ("direction", self.direction, solved),
             ("against", self.against, solved),
-            ("on_circle", self.on_circle, ON_CIRCLE),
+            ("on_circle", self.on_circle, solved),
             ("slip", self.slip, SAME),
             ("equilibrium", self.equilibrium, solved),
             ("motion", self.motion, SAME),

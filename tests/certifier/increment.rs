@@ -100,7 +100,7 @@ impl Increment<'_> {
             work += dissipated([self.before.pressure[at], p[at]], q, kept);
             limit += bound * hypot(kept);
             if zone == Zone::Slip {
-                certificate.on_circle.raise(over((bound - length).max(0.0), most));
+                certificate.on_circle.raise(over((bound - length).max(0.0), norm));
             } else if certificate.whole {
                 // Exactly: nothing is added to the slip of a cell that does not slip.
                 certificate.slip.raise(if kept == [0.0; 2] { 0.0 } else { 1.0 });

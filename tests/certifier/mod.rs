@@ -18,7 +18,7 @@ use increment::{Fields, Increment};
 use influence::Influence;
 use ndarray::Array2;
 
-pub use certificate::{Certificate, ON_CIRCLE, SAME};
+pub use certificate::{Certificate, SAME};
 pub use increment::dissipated;
 pub use run::{Ended, Kept, run_certified};
 

@@ -198,6 +198,7 @@ fn asks_for_another_case(error: &RunError) -> bool {
         error,
         RunError::ContactAtEdge { .. }
             | RunError::AboveSliding { .. }
+            | RunError::AboveFullSlip { .. }
             | RunError::OutOfMemory { error: MemoryError::TooLittle { .. }, .. }
     )
 }

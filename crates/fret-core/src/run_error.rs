@@ -50,6 +50,19 @@ pub enum RunError {
         /// mu P.
         bound: f64,
     },
+    /// Tangential force and moment together above what friction carries.
+    #[error(
+        "increment {increment} ({stage}): friction carries at most {fraction:.4} of the prescribed tangential force and moment: no \
+         equilibrium; prescribe shift and twist to slide"
+    )]
+    AboveFullSlip {
+        /// Number of the increment, from 0.
+        increment: usize,
+        /// Name of its stage.
+        stage: String,
+        /// Fraction of them that friction carries, at the most.
+        fraction: f64,
+    },
     /// Even small parts of an increment leave too large an error in its history.
     #[error(
         "increment {increment} ({stage}): {parts} parts leave an error of {reached:.1e} of the way the tractions go, asked for \
@@ -102,6 +115,7 @@ impl RunError {
             Self::NotConverged { increment, .. }
             | Self::ContactAtEdge { increment, .. }
             | Self::AboveSliding { increment, .. }
+            | Self::AboveFullSlip { increment, .. }
             | Self::HistoryUnresolved { increment, .. }
             | Self::WearTooFast { increment, .. }
             | Self::OutOfMemory { increment, .. }
@@ -125,6 +139,7 @@ pub fn run_error(error: &SolveError, increment: usize, stage: &Stage, tolerance:
         SolveError::AboveSliding { asked, bound } => {
             RunError::AboveSliding { increment, stage, asked, bound }
         }
+        SolveError::AboveFullSlip { fraction } => RunError::AboveFullSlip { increment, stage, fraction },
         SolveError::ContactAtEdge => RunError::ContactAtEdge { increment, stage },
         SolveError::OperatorsMissing(error) => RunError::NotConverged {
             increment,
