@@ -1,5 +1,5 @@
 //! What is left out changes the work, never the answer: every shortcut against the same run without it, and against the run
-//! that computes everything. `docs/leaving-out.md` is the table of the same cases on finer grids.
+//! that computes everything. `docs/developers/simplifications-measured.md` is the table of the same cases on finer grids.
 
 use std::time::Instant;
 

@@ -42,10 +42,10 @@ impl Refusal {
     /// In words.
     pub fn name(self) -> &'static str {
         match self {
-            Self::UnseenFilm => "an incompressible film thinner than the cells can see",
+            Self::UnseenFilm => "an incompressible film thinner than the cells resolve",
             Self::ContactAtEdge => "contact at the edge of the grid",
-            Self::AboveSliding => "more tangential force than friction carries",
-            Self::AboveFullSlip => "more moment than friction carries",
+            Self::AboveSliding => "more tangential force than the friction limit",
+            Self::AboveFullSlip => "more moment than the friction limit",
             Self::WearTooFast => "more wear in a cycle than the grid can follow",
         }
     }
