@@ -110,13 +110,13 @@ fn is_nothing(field: &Array2<f64>) -> bool {
 fn what_is_left_out_is_said_and_nothing_is_said_of_what_is_computed() {
     let phrases = [
         (Simplification::LayeredResponse, "layered response"),
-        (Simplification::Coupling, "coupling of pressure and shear"),
-        (Simplification::Tangential, "before anything causes shear"),
-        (Simplification::Pressure, "normal problem while"),
+        (Simplification::Coupling, "normal-tangential coupling"),
+        (Simplification::Tangential, "before the first tangential load"),
+        (Simplification::Pressure, "normal problem at constant normal load"),
         (Simplification::Transverse, "shear along y"),
         (Simplification::Mirror, "three quarters of the grid"),
         (Simplification::Region, "cells far from the contact"),
-        (Simplification::Precision, "double precision in linear problems"),
+        (Simplification::Precision, "double precision, in linear problems"),
     ];
     let text = &cases(64).pop().expect("the last has all").text;
     let said = |leave_out| {

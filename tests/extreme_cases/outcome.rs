@@ -1,6 +1,6 @@
 //! How a case ended, and whether what it says is true.
 
-use fret_core::case::{Attachments, Case, CaseError};
+use fret_core::case::{Attachments, Case, CaseError, StageControl};
 use fret_core::plan::Plan;
 use fret_core::simulation::{RunError, Silent, Simulation};
 use ndarray::Array2;
@@ -147,8 +147,9 @@ pub(super) fn carried(ended: &Ended) -> Option<f64> {
     Some(sum * ended.plan.grid.cell_area())
 }
 
-/// The moment that is held while the normal force falls, and that of full slip under the force of the increment that failed, `sum mu p r
-/// dA`, with the pressure of the last solved increment scaled to it: more than it is, since the contact shrinks.
+/// The moment asked for in the increment that failed, and that of full slip under its force, `sum mu p r dA` about the middle of the grid,
+/// with the pressure of the last solved increment. Where the force falls the contact shrinks at least as that of a thin film does, by
+/// the fourth root of the force: it carries that much less of the moment per force.
 fn moments(ended: &Ended) -> Option<[f64; 2]> {
     let last = ended.run.last()?;
     let case = &ended.plan.case;
@@ -159,15 +160,24 @@ fn moments(ended: &Ended) -> Option<[f64; 2]> {
         number < first
     })?;
     let before = first - stage.increments_in_all();
-    let start = ended.run.iter().rev().find(|kept| kept.record.increment < before)?.record.normal_force;
-    let force = stage.value(stage.normal.as_ref()?, start, number - before + 1);
+    let start = &ended.run.iter().rev().find(|kept| kept.record.increment < before)?.record;
+    let k = number - before + 1;
+    let at_end = |control: &Option<StageControl>, from: f64, now: f64| match control {
+        None => Some(now),
+        Some(control @ StageControl::Force(_)) => Some(stage.value(control, from, k)),
+        Some(StageControl::Motion(_)) => None,
+    };
+    let asked = at_end(&stage.twist, start.twist_moment, last.record.twist_moment)?;
+    let falls =
+        at_end(&stage.normal, start.normal_force, last.record.normal_force)? / last.record.normal_force;
     let grid = &ended.plan.grid;
-    let pressure = last.fields.pressure.as_ref()?;
-    let turned: f64 = pressure
+    let turned: f64 = last
+        .fields
+        .pressure
+        .as_ref()?
         .indexed_iter()
         .map(|((i, j), p)| p * case.friction.at(i, j) * grid.centre(0, i).hypot(grid.centre(1, j)))
         .sum();
-    let falls = force < last.record.normal_force && stage.twist.is_none() && stage.friction.is_none();
-    let carried = turned * grid.cell_area() * force / last.record.normal_force;
-    falls.then_some([last.record.twist_moment.abs(), carried])
+    let carried = turned * grid.cell_area() * falls.powf(1.25);
+    (falls <= 1.0 && stage.friction.is_none()).then_some([asked.abs(), carried])
 }

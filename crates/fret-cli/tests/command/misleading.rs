@@ -108,7 +108,10 @@ fn a_report_of_torsion_draws_moment_over_twist() {
     assert_eq!(bench.file("case.toml", &case).fret(&["run", "case.toml"]).code, Some(0));
     assert_eq!(bench.fret(&["report", "results/case"]).code, Some(0));
     let page = bench.text("results/case/report.html");
-    assert!(page.contains("torsional moment over rotation") && page.contains("Moment over rotation"), "no loop");
+    assert!(
+        page.contains("torsional moment over rotation") && page.contains("Moment over rotation"),
+        "no loop"
+    );
     assert!(page.contains("Dissipated energy"), "no energy");
     assert!(!page.contains("tangential force over relative displacement"));
 }

@@ -263,13 +263,16 @@ mod tests {
     }
 
     #[test]
-    fn a_motion_of_a_table_has_no_meaning_in_a_scene_that_repeats() {
+    fn a_motion_of_a_table_has_no_meaning_in_a_periodic_problem() {
         let head = HEAD.replace("size = [3.0, 3.0]", "size = [3.0, 3.0]\nperiodic = true");
         let text = format!("{head}[[load]]\nincrements = 1\ntable = \"path.csv\"\n");
         for (table, words) in [
-            ("twist\n1e-3\n", "a rotation does not repeat"),
-            ("approach\n1e-3\n", "half-space under a repeating load has no such motion"),
-            ("normal_force,shift_x\n1e-3,1e-3\n", "half-space under a repeating load has no such motion"),
+            ("twist\n1e-3\n", "a rotation is not periodic"),
+            ("approach\n1e-3\n", "half-space under a periodic load has no such rigid motion"),
+            (
+                "normal_force,shift_x\n1e-3,1e-3\n",
+                "half-space under a periodic load has no such rigid motion",
+            ),
         ] {
             let files = |_: &str| Ok(table.as_bytes().to_vec());
             let error = Case::from_toml_with(&text, "case.toml", Attachments::files(&files)).unwrap_err();

@@ -132,7 +132,8 @@ fn stick_share(scene: &Scene<'_>) -> String {
             })
             .collect();
         curves.push(Curve { stroke: Stroke::Dashed, ..line(pairs(number, &exact), "closed form", 1) });
-        caption += " Dashed: the closed form. The computed area counts whole cells, and slip within an increment.";
+        caption +=
+            " Dashed: the closed form. The computed area counts whole cells, and slip within an increment.";
     }
     let chart = Chart {
         what: "stick fraction of the contact over the increments".to_owned(),
