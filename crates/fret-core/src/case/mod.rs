@@ -10,6 +10,7 @@ mod course;
 mod file;
 mod friction;
 mod judge;
+mod line;
 mod numbers;
 mod pair;
 mod read;
@@ -46,10 +47,13 @@ pub const FIELD_NAMES: [&str; 6] = ["pressure", "shear", "slip", "gap", "zone", 
 pub struct Case {
     /// Title, or an empty text.
     pub title: String,
-    /// Cells `[nx, ny]`.
+    /// Cells `[nx, ny]`; `[n, 1]` in a line contact.
     pub cells: [usize; 2],
     /// Side lengths of the grid.
     pub size: GridSize,
+    /// Depth below the load that approach and shift of a line contact are relative to \[length\]; `None`: the size of the grid.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub datum: Option<f64>,
     /// Whether the scene repeats in x and y.
     pub periodic: bool,
     /// The two bodies.
@@ -90,7 +94,7 @@ pub(crate) struct Origin {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum GridSize {
-    /// Given [length].
+    /// Given [length]; of a line contact, the length and the width of one strip.
     Given([f64; 2]),
     /// Chosen so that the largest contact of the history fits with a margin.
     Auto,
@@ -177,6 +181,11 @@ impl Case {
             .map_err(|error| refuse(format!("not a case: {error}")))?;
         let text = toml::to_string(&table).map_err(|error| refuse(format!("not a case: {error}")))?;
         Self::from_toml_with(&text, name, attachments)
+    }
+
+    /// Whether it is a line contact: plane strain across a line along y, all loads per unit length.
+    pub fn is_line(&self) -> bool {
+        self.cells[1] == 1
     }
 
     /// Whether there is no friction anywhere in the whole history.

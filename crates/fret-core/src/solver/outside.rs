@@ -82,6 +82,10 @@ impl ContactSolver<'_> {
 pub(super) fn touches_edge(pressure: &Array2<f64>, mirrored: [bool; 2]) -> bool {
     let (nx, ny) = pressure.dim();
     let any = |view: ndarray::ArrayView1<'_, f64>| view.iter().any(|p| *p > 0.0);
+    // A line contact has no edge along its line.
+    if ny == 1 {
+        return pressure[[nx - 1, 0]] > 0.0 || !mirrored[0] && pressure[[0, 0]] > 0.0;
+    }
     (!mirrored[0] && any(pressure.row(0)))
         || any(pressure.row(nx - 1))
         || (!mirrored[1] && any(pressure.column(0)))
