@@ -20,6 +20,7 @@ mod friction_on_patches;
 mod frictional_counts;
 mod invariants;
 mod leaving_out;
+mod line_coefficients;
 mod loadings;
 mod misleading;
 mod mutilated_cases;

@@ -199,7 +199,8 @@ impl<'a> Simulation<'a> {
         let plain = plan.leave_out.takes(Shortcut::LayeredResponse);
         let [width, depth] = plan.grid.size();
         let layered = || PairResponse::all_layers(&case.bodies, width.max(depth));
-        if let Some(datum) = plan.datum {
+        if plan.grid.is_line() {
+            let datum = plan.datum.unwrap_or(width);
             let response = if plain { PairResponse::new(&case.bodies) } else { layered() };
             let strips = case.cells[0];
             return SurfaceResponse::FreeSpace(line_coefficients_of(

@@ -8,14 +8,6 @@ use super::stage_file::StageFile;
 use super::{GridSize, Stage};
 use crate::model::{Axis, ContactPair, Profile, Shape};
 
-/// What an elastic half-space needs to have a datum, and a stack on a rigid base does not.
-fn has_an_elastic_base(bodies: &ContactPair) -> bool {
-    use crate::model::{Base, Body};
-    [bodies.lower(), bodies.upper()]
-        .into_iter()
-        .any(|body| matches!(body, Body::Elastic(half_space) if *half_space.base() != Base::Rigid))
-}
-
 /// Refuses what a line contact has no place for: rotations, shapes that end or curve along the line, a second period.
 pub(super) fn line(
     judge: &mut Judge,
@@ -97,10 +89,10 @@ pub(super) fn datum(
             "cells = 512 makes a line contact",
         );
     }
-    if bodies.is_some_and(|bodies| !has_an_elastic_base(bodies)) {
+    if bodies.is_some_and(|bodies| !bodies.has_elastic_base()) {
         return judge.refuse(
             given.span(),
-            "grid.datum: both bodies have a zero of their own, a rigid base",
+            "grid.datum: no body has an elastic base, so that displacements have a zero of their own",
             "leave it out",
         );
     }

@@ -151,7 +151,8 @@ impl Plan {
             );
             return Err(case.refuse_size(message, "enlarge it, or write size = \"auto\""));
         }
-        let datum = case.is_line().then(|| case.datum.unwrap_or(size[0]));
+        let has_datum = case.is_line() && case.bodies.has_elastic_base();
+        let datum = has_datum.then(|| case.datum.unwrap_or(size[0]));
         let along = left_out::one_way(&case, &grid, &response, coupling, state)
             .filter(|_| leave_out.takes(Shortcut::Transverse));
         let symmetry = mirrors(&case, &grid, coupling, state, leave_out);

@@ -264,9 +264,11 @@ fn components(plan: &Plan) -> Components {
 fn table_seconds(plan: &Plan) -> f64 {
     let started = Instant::now();
     let (bodies, spacing) = (&plan.case.bodies, plan.grid.spacing());
-    let _ = match plan.datum {
-        Some(datum) => line_coefficients(bodies, 2, spacing[0], datum, components(plan)),
-        None => influence_coefficients(bodies, [2, 2], spacing, components(plan)),
+    let _ = if plan.grid.is_line() {
+        let datum = plan.datum.unwrap_or(plan.grid.size()[0]);
+        line_coefficients(bodies, 2, spacing[0], datum, components(plan))
+    } else {
+        influence_coefficients(bodies, [2, 2], spacing, components(plan))
     };
     started.elapsed().as_secs_f64()
 }
