@@ -1,7 +1,7 @@
 //! What must not change: units, mirrors, axes, threads.
 
 use fret_core::history::{History, StepRecord};
-use fret_core::plan::{LeaveOut, Shortcut};
+use fret_core::plan::{LeaveOut, Simplification};
 use fret_validation::shortcuts;
 use fret_validation::{Sphere, keeping, solved};
 
@@ -53,7 +53,7 @@ fn relative(a: &StepRecord, b: &StepRecord, length: f64, modulus: f64) -> [f64; 
 fn mirrors_of_the_scene_are_mirrors_of_the_fields() {
     // Six digits on frozen zones are rounded differently on either side: what the laws leave open must lie below the bound.
     let text = coupled_text(1.0, 1.0).replace("1e-10", "1e-11");
-    let history = shortcuts::solved(&text, LeaveOut::all_but(Shortcut::Mirror)).history;
+    let history = shortcuts::solved(&text, LeaveOut::all_but(Simplification::Mirror)).history;
     let kept = history.fields.last().unwrap();
     let [nx, ny] = history.grid.cells();
     let pressure = kept.pressure.as_ref().unwrap();

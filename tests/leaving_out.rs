@@ -8,7 +8,7 @@ use fret_core::kernel::{
     Components, InfluenceCoefficients, PairResponse, coefficients_of, influence_coefficients,
 };
 use fret_core::model::ContactPair;
-use fret_core::plan::{LeaveOut, Plan, Shortcut};
+use fret_core::plan::{LeaveOut, Plan, Simplification};
 use fret_validation::shortcuts::{TOLERANCE, cases, difference, solved};
 use ndarray::Array2;
 
@@ -43,27 +43,29 @@ fn leaving_out_changes_the_work_and_not_the_answer() {
         });
         match shortcut {
             // Nothing is approximated: the same numbers are reached by one convolution an increment more.
-            Shortcut::Pressure => {
+            Simplification::Pressure => {
                 assert!(least.convolutions + 7 <= more.convolutions, "{name}: {least:?} {more:?}");
             }
-            Shortcut::Box => assert!(times(2.0), "{name}: {least:?} {more:?}"),
+            Simplification::Region => assert!(times(2.0), "{name}: {least:?} {more:?}"),
             // A convolution of a half or a quarter of the cells; pressure first and then shear, instead of both in every step.
-            Shortcut::Mirror | Shortcut::Coupling => assert!(times(1.6), "{name}: {least:?} {more:?}"),
+            Simplification::Mirror | Simplification::Coupling => {
+                assert!(times(1.6), "{name}: {least:?} {more:?}")
+            }
             // No convolution of shear in any increment, and none of it to the bit.
-            Shortcut::Tangential => {
+            Simplification::Tangential => {
                 assert!(least.convolutions + increments <= more.convolutions, "{name}: {least:?} {more:?}");
                 assert_eq!(alone, 0.0, "{name}");
                 assert!(short.fields.iter().flat_map(|kept| kept.shear.iter().flatten()).all(is_nothing));
             }
             // Other roundings, on a way as long; today within 0.8 %. What it saves is half of the numbers' size.
-            Shortcut::Digits => {
-                assert!(planned.six_digits && !planned_without.six_digits, "{name}");
+            Simplification::Precision => {
+                assert!(planned.single_precision && !planned_without.single_precision, "{name}");
                 assert!(alone > 0.0, "{name}: no other digits");
                 let most = 1.02 * more.full_grid_convolutions;
                 assert!(least.full_grid_convolutions <= most, "{name}: {least:?} {more:?}");
             }
             // The same steps, each of one component less.
-            Shortcut::Transverse => {
+            Simplification::Transverse => {
                 assert!(planned.along == Some(0) && planned_without.along.is_none(), "{name}");
                 assert_eq!(least, more, "{name}");
                 assert!(
@@ -72,7 +74,7 @@ fn leaving_out_changes_the_work_and_not_the_answer() {
                 );
             }
             // The same steps; what it saves is before them.
-            Shortcut::LayeredResponse => {
+            Simplification::LayeredResponse => {
                 assert_eq!(least.convolutions, more.convolutions, "{name}");
                 let [plain, layered] = seconds_of_coefficients(&planned.case.bodies);
                 // Forty times by the documentation of the coefficients; the machine may do other things besides.
@@ -106,14 +108,14 @@ fn is_nothing(field: &Array2<f64>) -> bool {
 #[test]
 fn what_is_left_out_is_said_and_nothing_is_said_of_what_is_computed() {
     let phrases = [
-        (Shortcut::LayeredResponse, "layered response"),
-        (Shortcut::Coupling, "coupling of pressure and shear"),
-        (Shortcut::Tangential, "before anything causes shear"),
-        (Shortcut::Pressure, "normal problem while"),
-        (Shortcut::Transverse, "shear along y"),
-        (Shortcut::Mirror, "three quarters of the grid"),
-        (Shortcut::Box, "cells far from the contact"),
-        (Shortcut::Digits, "all but six digits"),
+        (Simplification::LayeredResponse, "layered response"),
+        (Simplification::Coupling, "coupling of pressure and shear"),
+        (Simplification::Tangential, "before anything causes shear"),
+        (Simplification::Pressure, "normal problem while"),
+        (Simplification::Transverse, "shear along y"),
+        (Simplification::Mirror, "three quarters of the grid"),
+        (Simplification::Region, "cells far from the contact"),
+        (Simplification::Precision, "all but six digits"),
     ];
     let text = &cases(64).pop().expect("the last has all").text;
     let said = |leave_out| {

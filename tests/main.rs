@@ -21,6 +21,7 @@ mod frictional_counts;
 mod invariants;
 mod leaving_out;
 mod line_coefficients;
+mod line_contact;
 mod loadings;
 mod misleading;
 mod mutilated_cases;

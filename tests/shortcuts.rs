@@ -4,7 +4,7 @@ use std::time::Instant;
 
 use fret_core::case::Case;
 use fret_core::history::{History, KeptFields, StepRecord};
-use fret_core::plan::{LeaveOut, Plan, Shortcut};
+use fret_core::plan::{LeaveOut, Plan, Simplification};
 use fret_core::simulation::{Silent, Simulation};
 
 use crate::{Sphere, keeping};
@@ -20,7 +20,7 @@ pub struct Example {
     /// The case.
     pub text: String,
     /// The shortcut.
-    pub shortcut: Option<Shortcut>,
+    pub shortcut: Option<Simplification>,
 }
 
 /// A run that left out what it was allowed to.
@@ -78,7 +78,9 @@ pub fn difference(one: &History, other: &History) -> f64 {
 
 /// The cases, with `cells` a side.
 pub fn cases(cells: usize) -> Vec<Example> {
-    use Shortcut::{Box, Coupling, Digits, LayeredResponse, Mirror, Pressure, Tangential, Transverse};
+    use Simplification::{
+        Coupling, LayeredResponse, Mirror, Precision, Pressure, Region, Tangential, Transverse,
+    };
     let rigid = Sphere { cells, tolerance: TOLERANCE, friction: 0.3, ..Sphere::default() };
     let equal = Sphere { identical: true, ..rigid.clone() };
     let coated = Sphere { coating: Some((4.0, 0.5)), ..rigid.clone() };
@@ -111,22 +113,22 @@ pub fn cases(cells: usize) -> Vec<Example> {
         ("two equal bodies, pulled at one load", pulled(&equal, 1, 8), Some(Pressure)),
         ("two equal bodies without lateral contraction", pulled(&straight, 1, 8), Some(Transverse)),
         ("endless cylinder, pulled across its axis", line(cells.max(64)), Some(Transverse)),
-        ("coated, on a wide grid", pulled(&wide, 2, 4), Some(Box)),
+        ("coated, on a wide grid", pulled(&wide, 2, 4), Some(Region)),
         ("coated, pulled: half", pulled(&coated, 3, 5), Some(Mirror)),
         ("two equal bodies, pulled: a quarter", pulled(&equal, 2, 6), Some(Mirror)),
         ("coated, no friction: a quarter", smooth.pressed(1.0, 3, "cubic"), Some(Mirror)),
         ("endless cylinder, periodic: half", line(cells.max(64)), Some(Mirror)),
-        ("two equal bodies, unloaded at once on a wide grid", unloaded(&fine_equal), Some(Box)),
-        ("coated, unloaded at once on a wide grid", unloaded(&fine), Some(Box)),
+        ("two equal bodies, unloaded at once on a wide grid", unloaded(&fine_equal), Some(Region)),
+        ("coated, unloaded at once on a wide grid", unloaded(&fine), Some(Region)),
         (
             "coated, pulled: digits",
             pulled(&Sphere { cells: cells.max(64), ..coated.clone() }, 3, 5),
-            Some(Digits),
+            Some(Precision),
         ),
         (
             "two equal bodies, pulled: digits",
             pulled(&Sphere { cells: cells.max(64), ..equal.clone() }, 2, 6),
-            Some(Digits),
+            Some(Precision),
         ),
         ("two equal bodies, wide grid, pressed and pulled", pulled(&everything, 3, 6), None),
     ];

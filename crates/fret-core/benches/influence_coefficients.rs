@@ -9,7 +9,7 @@ use std::error::Error;
 use std::fmt::Write;
 use std::time::Instant;
 
-use fret_core::compliance::{SpectralCompliance, SurfaceCompliance, SurfaceResponse, Wanted};
+use fret_core::compliance::{OperatorSet, SpectralCompliance, SurfaceCompliance, SurfaceResponse};
 use fret_core::kernel::sublayers::RESPONSE_BOUND;
 use fret_core::kernel::{
     Components, InfluenceCoefficients, influence_coefficients, layered_half_space, sampled_coefficients,
@@ -108,7 +108,7 @@ fn graded_costs() -> Result<(), Box<dyn Error>> {
 }
 
 fn convolution_seconds(coefficients: &InfluenceCoefficients, n: usize) -> Result<f64, Box<dyn Error>> {
-    let wanted = Wanted { full: true, ..Wanted::default() };
+    let wanted = OperatorSet { full: true, ..OperatorSet::default() };
     let mut compliance =
         SpectralCompliance::new(&SurfaceResponse::FreeSpace(coefficients.clone()), [n, n], wanted)?;
     let pressure = vec![1.0; n * n];

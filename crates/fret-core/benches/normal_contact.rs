@@ -274,7 +274,8 @@ fn solve(scene: &Scene, gap: Array2<f64>, tolerance: f64, mirrors: bool) -> Answ
         ContactSolver::new(grid, gap, &friction, Coupling::Frictionless, response, settings, true)
             .mirrored(symmetry);
     if !scene.periodic {
-        solver = solver.with_waves(ResponseTable::new(&scene.pair, TAU / scene.side, 5.0 * PI / side));
+        solver =
+            solver.with_response_table(ResponseTable::new(&scene.pair, TAU / scene.side, 5.0 * PI / side));
     }
     let load =
         LoadStep { normal: scene.load, tangential: [Control::Force(0.0); 2], twist: Control::Motion(0.0) };

@@ -1,6 +1,7 @@
-//! The elastic answer of the pair: tractions in, relative surface displacements out.
+//! The elastic response of the pair: tractions in, relative surface displacements out.
 //! The one place where kernels meet components and signs: z into the lower body, displacements lower minus upper.
 
+mod cell_response;
 #[cfg(test)]
 mod conformance;
 mod direct;
@@ -15,14 +16,15 @@ use fret_fft::{
 };
 use product::Product;
 
+pub use cell_response::CellResponse;
 pub use direct::DirectCompliance;
 
-/// Elastic answer of a box of cells. Tractions [pressure], displacements [length]; rows of cells, index `i * ny + j`.
+/// Elastic response of a region. Tractions [pressure], displacements [length]; rows of cells, index `i * ny + j`.
 pub trait SurfaceCompliance {
-    /// Cells `[nx, ny]` of the box.
+    /// Cells `[nx, ny]` of the region.
     fn shape(&self) -> [usize; 2];
     /// Influence of a cell's pressure on its own normal displacement, and of its shear on its own tangential one [length/pressure].
-    fn own(&self) -> Own;
+    fn self_influence(&self) -> SelfInfluence;
     /// `u_z` from pressure alone.
     fn normal(&mut self, pressure: &[f64], normal: &mut [f64]);
     /// `(u_x, u_y)` from shear alone.
@@ -30,25 +32,25 @@ pub trait SurfaceCompliance {
     /// All displacements `[normal, along x, along y]` from all tractions `[pressure, along x, along y]`.
     fn full(&mut self, tractions: [&[f64]; 3], displacements: [&mut [f64]; 3]);
 
-    /// [`tangential`](Self::tangential) in single precision, for shear of a size near one; `None` where double precision is wanted.
-    fn tangential_single(&mut self) -> Option<SingleAnswer<'_>> {
+    /// [`tangential`](Self::tangential) in single precision, for shear of a size near one; `None` where double precision is operators.
+    fn tangential_single(&mut self) -> Option<SinglePrecisionOperator<'_>> {
         None
     }
 
-    /// [`full`](Self::full) in single precision, for tractions of a size near one; `None` where double precision is wanted.
-    fn full_single(&mut self) -> Option<SingleAnswer<'_>> {
+    /// [`full`](Self::full) in single precision, for tractions of a size near one; `None` where double precision is operators.
+    fn full_single(&mut self) -> Option<SinglePrecisionOperator<'_>> {
         None
     }
 }
 
-/// An elastic answer in single precision.
-pub struct SingleAnswer<'a> {
+/// An elastic response in single precision.
+pub struct SinglePrecisionOperator<'a> {
     product: &'a mut SingleProduct,
-    along: Option<usize>,
+    shear_axis: Option<usize>,
     applications: &'a mut usize,
 }
 
-impl SingleAnswer<'_> {
+impl SinglePrecisionOperator<'_> {
     /// What the displacements are to be multiplied with [length/pressure], a power of two.
     pub fn unit(&self) -> f64 {
         self.product.unit()
@@ -57,7 +59,7 @@ impl SingleAnswer<'_> {
     /// The displacements, divided by [`unit`](Self::unit), of tractions.
     pub fn apply(&mut self, tractions: &[&[f32]], displacements: &mut [&mut [f32]]) {
         *self.applications += 1;
-        along_one(self.along, tractions, displacements, |from, to| self.product.apply(from, to));
+        along_one(self.shear_axis, tractions, displacements, |from, to| self.product.apply(from, to));
     }
 }
 
@@ -82,16 +84,16 @@ fn along_one<T: Copy + Default>(
 
 /// Influence of a cell on itself [length/pressure].
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Own {
+pub struct SelfInfluence {
     /// Normal.
     pub normal: f64,
     /// Tangential, the smaller of the two directions.
     pub tangential: f64,
 }
 
-/// Which answers a solver will ask for.
+/// Which operators a solver will ask for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub struct Wanted {
+pub struct OperatorSet {
     /// Normal from pressure.
     pub normal: bool,
     /// Tangential from shear.
@@ -101,19 +103,19 @@ pub struct Wanted {
     /// Normal from pressure and shear.
     pub normal_from_all: bool,
     /// The one axis (0: x, 1: y) along which shear acts, where it causes no displacement across it.
-    pub along: Option<usize>,
-    /// Mirrors of the scene: the box is what lies in front of them.
+    pub shear_axis: Option<usize>,
+    /// Mirrors of the problem: the region is what lies before them.
     pub symmetry: Symmetry,
     /// Single precision, where a solver can do with it.
     pub single: bool,
 }
 
-/// How the surface answers, as far as a grid needs to know it.
+/// How the surface responds, as far as a grid needs to know it.
 #[derive(Debug, Clone)]
 pub enum SurfaceResponse {
-    /// The scene stands alone: coefficients over cell offsets.
+    /// A non-periodic problem: coefficients over cell offsets.
     FreeSpace(InfluenceCoefficients),
-    /// The scene repeats: the response at the grid's own wavenumbers.
+    /// A periodic problem: the response at the grid's own wavenumbers.
     Periodic(PeriodicSymbols),
 }
 
@@ -126,16 +128,16 @@ impl SurfaceResponse {
         }
     }
 
-    /// Whether the scene repeats.
+    /// Whether the problem is periodic.
     pub fn is_periodic(&self) -> bool {
         matches!(self, Self::Periodic(_))
     }
 }
 
-/// The elastic answer by fast products in Fourier space.
+/// The elastic response by fast products in Fourier space.
 pub struct SpectralCompliance {
     shape: [usize; 2],
-    own: Own,
+    self_influence: SelfInfluence,
     normal: Option<Product>,
     tangential: Option<Product>,
     full: Option<Product>,
@@ -143,7 +145,7 @@ pub struct SpectralCompliance {
     /// The same in single precision, made when first asked for.
     single: Singles,
     /// The one axis along which shear acts.
-    along: Option<usize>,
+    shear_axis: Option<usize>,
     /// Applications so far.
     pub applications: usize,
 }
@@ -211,9 +213,9 @@ fn signed_kernels(c: &InfluenceCoefficients) -> [(&Option<Array2<f64>>, Parity);
 }
 
 /// Influence of a cell on itself; zero where the coefficient is absent.
-fn own_of(c: &InfluenceCoefficients) -> Own {
+fn own_of(c: &InfluenceCoefficients) -> SelfInfluence {
     let own = |values: &Option<Array2<f64>>| values.as_ref().map_or(0.0, |values| values[[0, 0]]);
-    Own { normal: own(&c.zz), tangential: own(&c.xx).min(own(&c.yy)) }
+    SelfInfluence { normal: own(&c.zz), tangential: own(&c.xx).min(own(&c.yy)) }
 }
 
 /// The symbols that the blocks of [`FULL_BLOCKS`] name, each with its parity.
@@ -229,7 +231,7 @@ fn signed_symbols(symbols: &PeriodicSymbols) -> [(&Option<Array2<f64>>, Parity);
 }
 
 /// Influence of a cell and of its periodic images on itself: the mean of the symbol over all wavenumbers.
-fn own_in_period(symbols: &PeriodicSymbols, shape: [usize; 2]) -> Own {
+fn own_in_period(symbols: &PeriodicSymbols, shape: [usize; 2]) -> SelfInfluence {
     let times = |index: usize, count: usize| if index == 0 || 2 * index == count { 1.0 } else { 2.0 };
     let own = |values: &Option<Array2<f64>>| {
         values.as_ref().map_or(0.0, |values| {
@@ -240,25 +242,25 @@ fn own_in_period(symbols: &PeriodicSymbols, shape: [usize; 2]) -> Own {
             sum / (shape[0] * shape[1]) as f64
         })
     };
-    Own { normal: own(&symbols.zz), tangential: own(&symbols.xx).min(own(&symbols.yy)) }
+    SelfInfluence { normal: own(&symbols.zz), tangential: own(&symbols.xx).min(own(&symbols.yy)) }
 }
 
 impl SpectralCompliance {
-    /// Operators of a box of `shape` cells, which stands for a larger one with mirrors; in free space the coefficients must cover at
+    /// Operators of a region of `shape` cells, which stands for a larger one with mirrors; in free space the coefficients must cover at
     /// least the offsets of the whole, periodic symbols must be of its very shape.
     ///
     /// # Errors
-    /// When a wanted coefficient is missing or does not cover the box.
+    /// When a coefficient is missing or does not cover the region.
     pub fn new(
         response: &SurfaceResponse,
         shape: [usize; 2],
-        wanted: Wanted,
+        operators: OperatorSet,
     ) -> Result<Self, ConvolutionError> {
         let list = match response {
             SurfaceResponse::FreeSpace(coefficients) => signed_kernels(coefficients),
             SurfaceResponse::Periodic(symbols) => signed_symbols(symbols),
         };
-        let symmetry = wanted.symmetry;
+        let symmetry = operators.symmetry;
         let build = |wanted: bool, members: &[usize], fields: &[usize], blocks: &[Block]| {
             if !wanted {
                 return Ok(None);
@@ -288,11 +290,11 @@ impl SpectralCompliance {
             };
             Ok(Some(product))
         };
-        let own = match response {
+        let self_influence = match response {
             SurfaceResponse::FreeSpace(coefficients) => own_of(coefficients),
             SurfaceResponse::Periodic(symbols) => own_in_period(symbols, symmetry.whole_of(shape)),
         };
-        let [tangential, full, normal_from_all]: [(&[usize], &[Block]); 3] = match wanted.along {
+        let [tangential, full, normal_from_all]: [(&[usize], &[Block]); 3] = match operators.shear_axis {
             Some(axis) => [
                 (&TANGENTIAL_MEMBERS_ALONG[axis], &NORMAL_BLOCKS),
                 (&FULL_MEMBERS_ALONG[axis], &FULL_BLOCKS_ALONG),
@@ -304,19 +306,19 @@ impl SpectralCompliance {
                 (&[0, 4, 5], &NORMAL_FROM_ALL_BLOCKS),
             ],
         };
-        let (sheared, all): (&[usize], &[usize]) = match wanted.along {
+        let (sheared, all): (&[usize], &[usize]) = match operators.shear_axis {
             Some(axis) => (&[[1], [2]][axis], &[[0, 1], [0, 2]][axis]),
             None => (&[1, 2], &[0, 1, 2]),
         };
         Ok(Self {
             shape,
-            own,
-            normal: build(wanted.normal, &[0], &[0], &NORMAL_BLOCKS)?,
-            tangential: build(wanted.tangential, tangential.0, sheared, tangential.1)?,
-            full: build(wanted.full, full.0, all, full.1)?,
-            normal_from_all: build(wanted.normal_from_all, normal_from_all.0, all, normal_from_all.1)?,
-            single: Singles { wanted: wanted.single, ..Singles::default() },
-            along: wanted.along,
+            self_influence,
+            normal: build(operators.normal, &[0], &[0], &NORMAL_BLOCKS)?,
+            tangential: build(operators.tangential, tangential.0, sheared, tangential.1)?,
+            full: build(operators.full, full.0, all, full.1)?,
+            normal_from_all: build(operators.normal_from_all, normal_from_all.0, all, normal_from_all.1)?,
+            single: Singles { wanted: operators.single, ..Singles::default() },
+            shear_axis: operators.shear_axis,
             applications: 0,
         })
     }
@@ -325,7 +327,7 @@ impl SpectralCompliance {
     pub fn normal_from_all(&mut self, pressure: &[f64], shear: &TangentialField, normal: &mut [f64]) {
         if let Some(product) = &mut self.normal_from_all {
             self.applications += 1;
-            match self.along {
+            match self.shear_axis {
                 Some(axis) => product.apply(&[pressure, shear.parts()[axis]], &mut [normal]),
                 None => product.apply(&[pressure, &shear.x, &shear.y], &mut [normal]),
             }
@@ -341,7 +343,7 @@ impl SpectralCompliance {
     }
 }
 
-/// How fields (0: normal, 1 and 2: along x and y) go on behind the mirrors of a scene.
+/// How fields (0: normal, 1 and 2: along x and y) go on behind the mirrors.
 pub(crate) fn mirrors(symmetry: Symmetry, fields: &[usize]) -> Mirrors {
     if !symmetry.any() {
         return Mirrors::NONE;
@@ -361,8 +363,8 @@ impl SurfaceCompliance for SpectralCompliance {
         self.shape
     }
 
-    fn own(&self) -> Own {
-        self.own
+    fn self_influence(&self) -> SelfInfluence {
+        self.self_influence
     }
 
     fn normal(&mut self, pressure: &[f64], normal: &mut [f64]) {
@@ -379,7 +381,7 @@ impl SurfaceCompliance for SpectralCompliance {
     fn tangential(&mut self, shear: [&[f64]; 2], mut tangential: [&mut [f64]; 2]) {
         if let Some(product) = &mut self.tangential {
             self.applications += 1;
-            along_one(self.along, &shear, &mut tangential, |from, to| product.apply(from, to));
+            along_one(self.shear_axis, &shear, &mut tangential, |from, to| product.apply(from, to));
         } else {
             let zero = vec![0.0; shear[0].len()];
             let mut aside = zero.clone();
@@ -391,7 +393,7 @@ impl SurfaceCompliance for SpectralCompliance {
     fn full(&mut self, tractions: [&[f64]; 3], mut displacements: [&mut [f64]; 3]) {
         if let Some(product) = &mut self.full {
             self.applications += 1;
-            along_one(self.along, &tractions, &mut displacements, |from, to| product.apply(from, to));
+            along_one(self.shear_axis, &tractions, &mut displacements, |from, to| product.apply(from, to));
         } else {
             debug_assert!(self.normal.is_some() && self.tangential.is_some(), "no operator was asked for");
             let ([pressure, from_x, from_y], [normal, to_x, to_y]) = (tractions, displacements);
@@ -400,15 +402,15 @@ impl SurfaceCompliance for SpectralCompliance {
         }
     }
 
-    fn tangential_single(&mut self) -> Option<SingleAnswer<'_>> {
-        let Self { single: Singles { wanted, tangential, .. }, along, applications, .. } = self;
+    fn tangential_single(&mut self) -> Option<SinglePrecisionOperator<'_>> {
+        let Self { single: Singles { wanted, tangential, .. }, shear_axis, applications, .. } = self;
         let product = made(tangential, self.tangential.as_ref(), *wanted)?;
-        Some(SingleAnswer { product, along: *along, applications })
+        Some(SinglePrecisionOperator { product, shear_axis: *shear_axis, applications })
     }
 
-    fn full_single(&mut self) -> Option<SingleAnswer<'_>> {
-        let Self { single: Singles { wanted, full, .. }, along, applications, .. } = self;
+    fn full_single(&mut self) -> Option<SinglePrecisionOperator<'_>> {
+        let Self { single: Singles { wanted, full, .. }, shear_axis, applications, .. } = self;
         let product = made(full, self.full.as_ref(), *wanted)?;
-        Some(SingleAnswer { product, along: *along, applications })
+        Some(SinglePrecisionOperator { product, shear_axis: *shear_axis, applications })
     }
 }

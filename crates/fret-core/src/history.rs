@@ -7,76 +7,10 @@ use serde_json::Value;
 use crate::cycle::CycleRecord;
 use crate::footprint::Footprint;
 use crate::model::{ContactPair, ContactState, SolvedState, SurfaceGrid, Zone};
+use crate::solver::worst;
+pub use crate::solver::{Regime, Residual, Work};
 use crate::warning::Warning;
 use crate::wear::WornThrough;
-
-/// How well an increment satisfies its equations; all parts dimensionless and relative.
-#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
-pub struct Residual {
-    /// `|p - max(p - r gap, 0)| / |p|`, r the inverse self influence of a cell.
-    pub complementarity: f64,
-    /// `|q - Proj(q - r s)| / |mu p|`, Proj onto the friction disc, s minus the slip increment.
-    pub coulomb: f64,
-    /// Prescribed forces against the sums of the tractions, relative to the normal force (tangential: to mu W).
-    pub equilibrium: f64,
-}
-
-impl Residual {
-    /// The worse of two, each kind by itself.
-    #[must_use]
-    pub fn worse(&self, other: &Self) -> Self {
-        Self {
-            complementarity: worst([self.complementarity, other.complementarity]),
-            coulomb: worst([self.coulomb, other.coulomb]),
-            equilibrium: worst([self.equilibrium, other.equilibrium]),
-        }
-    }
-
-    /// The worst of the three; not a number when any of them is none.
-    pub fn largest(&self) -> f64 {
-        worst([self.complementarity, self.coulomb, self.equilibrium])
-    }
-}
-
-/// Work spent, in counts that do not depend on the machine.
-#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
-pub struct Work {
-    /// Operator applications, each one fused pass whatever its components.
-    pub convolutions: usize,
-    /// The same, each weighted by its number of cells over that of the whole grid: what applications in boxes and on coarser
-    /// grids are worth.
-    #[serde(default)]
-    pub full_grid_convolutions: f64,
-    /// Preconditioner applications (unpadded).
-    pub preconditioner_passes: usize,
-    /// Outer iterations: changes of the contact, stick and slip zones.
-    pub outer_iterations: usize,
-}
-
-impl std::ops::AddAssign for Work {
-    fn add_assign(&mut self, other: Self) {
-        self.convolutions += other.convolutions;
-        self.full_grid_convolutions += other.full_grid_convolutions;
-        self.preconditioner_passes += other.preconditioner_passes;
-        self.outer_iterations += other.outer_iterations;
-    }
-}
-
-/// What the contact as a whole does in an increment.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Regime {
-    /// The bodies do not touch.
-    Apart,
-    /// Every cell in contact sticks.
-    FullStick,
-    /// Some cells stick, some slip.
-    PartialSlip,
-    /// Every cell in contact slips.
-    GrossSlip,
-    /// There is no friction.
-    Frictionless,
-}
 
 /// One increment of the history. Units are those of the case.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -216,9 +150,4 @@ impl History {
         let position = self.fields.binary_search_by_key(&increment, |kept| kept.increment).ok()?;
         self.fields.get(position)
     }
-}
-
-/// Largest of some values that are not negative; a value that is no number stays one.
-fn worst(values: impl IntoIterator<Item = f64>) -> f64 {
-    values.into_iter().fold(0.0, |most: f64, value| if value.is_nan() || value > most { value } else { most })
 }

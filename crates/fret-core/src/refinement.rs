@@ -5,7 +5,7 @@ use ndarray::Zip;
 
 use crate::history::Work;
 use crate::model::{ContactState, LoadStep};
-use crate::solver::{ContactSolver, Increment, SolveError, SolverMemory, Watch};
+use crate::solver::{ContactSolver, Increment, IterationCallback, SolveError, SolverMemory};
 use crate::wear::Wearing;
 
 /// Halvings of a step that is not solved as a whole, at the most.
@@ -36,7 +36,7 @@ pub fn in_halves(
     solver: &mut ContactSolver<'_>,
     wearing: &mut Option<Wearing>,
     span: Span<'_>,
-    watch: Watch<'_>,
+    watch: IterationCallback<'_>,
 ) -> Result<(Increment, usize), SolveError> {
     halved(solver, wearing, span, MOST_HALVINGS, watch)
 }
@@ -46,7 +46,7 @@ fn halved(
     wearing: &mut Option<Wearing>,
     span: Span<'_>,
     halvings: u32,
-    watch: Watch<'_>,
+    watch: IterationCallback<'_>,
 ) -> Result<(Increment, usize), SolveError> {
     match solver.step(span.state, span.to, watch) {
         Ok(end) => {
@@ -141,12 +141,12 @@ impl Refinement {
         wearing: Option<&Wearing>,
         span: Span<'_>,
         parts: usize,
-        watch: Watch<'_>,
+        watch: IterationCallback<'_>,
     ) -> Result<Divided, DivisionError> {
         let memory = solver.memory().clone();
         let mut work = Work::default();
         let mut try_in = |parts: usize| {
-            solver.remember(memory.clone());
+            solver.restore_memory(memory.clone());
             let way = self.way(solver, wearing.cloned(), span, parts, watch);
             if let Ok(way) = &way {
                 work += way.end.work;
@@ -165,7 +165,7 @@ impl Refinement {
             if error <= bound {
                 let Way { mut end, memory, wearing, steps, .. } = fine;
                 end.work = work;
-                solver.remember(memory);
+                solver.restore_memory(memory);
                 let next = if error < 0.25 * bound { parts / 4 } else { parts / 2 };
                 return Ok(Divided { end, parts: steps, next: next.max(1), wearing });
             }
@@ -182,7 +182,7 @@ impl Refinement {
         mut wearing: Option<Wearing>,
         span: Span<'_>,
         parts: usize,
-        watch: Watch<'_>,
+        watch: IterationCallback<'_>,
     ) -> Result<Way, SolveError> {
         let mut from = *span.from;
         let mut steps = 0;
@@ -192,7 +192,7 @@ impl Refinement {
             let (solved, made) = in_halves(solver, &mut wearing, here, watch)?;
             from = to;
             steps += made;
-            Ok((self.distance(before, &solved.state), solved))
+            Ok::<_, SolveError>((self.distance(before, &solved.state), solved))
         };
         let (mut length, mut end) = step(span.state, 1)?;
         for part in 2..=parts {
@@ -246,7 +246,11 @@ mod tests {
         });
         let response =
             SurfaceResponse::FreeSpace(influence_coefficients(&pair, [CELLS; 2], spacing, Components::ALL));
-        let settings = SolverSettings { most_outer_iterations: most_changes, ..SolverSettings::new(1e-9) };
+        let settings = SolverSettings {
+            max_newton_iterations: most_changes,
+            max_direct_unknowns: 0,
+            ..SolverSettings::new(1e-9)
+        };
         ContactSolver::new(grid, gap, friction, Coupling::Coupled, response, settings, true)
     }
 
@@ -261,7 +265,7 @@ mod tests {
     #[test]
     fn a_step_that_asks_for_too_many_changes_of_the_zones_is_solved_in_parts() {
         let friction = CoulombFriction::Uniform(0.3);
-        let go_on: Watch<'_> = &mut |_, _| ControlFlow::Continue(());
+        let go_on: IterationCallback<'_> = &mut |_, _| ControlFlow::Continue(());
         let (pressed, pulled) = (load(1.0, 0.0), load(1.0, 0.28));
         let untouched = ContactState::untouched([CELLS; 2]);
 
@@ -275,11 +279,11 @@ mod tests {
             let mut patient = solver(&friction, 200);
             patient.step(&untouched, &pressed, &mut |_, _| ControlFlow::Continue(())).unwrap();
             let mut hasty = solver(&friction, most);
-            hasty.remember(patient.memory().clone());
+            hasty.restore_memory(patient.memory().clone());
             hasty
         };
         let in_two = (1..needed).rev().find_map(|most| {
-            let watch: Watch<'_> = &mut |_, _| ControlFlow::Continue(());
+            let watch: IterationCallback<'_> = &mut |_, _| ControlFlow::Continue(());
             hasty_one(most).step(&start.state, &pulled, watch).err()?;
             let span = Span { state: &start.state, from: &pressed, to: &pulled };
             let (end, parts) = in_halves(&mut hasty_one(most), &mut None, span, watch).ok()?;

@@ -113,7 +113,7 @@ impl RunError {
 /// What a solver's error means for increment `increment` of `stage`.
 pub fn run_error(error: &SolveError, increment: usize, stage: &Stage, tolerance: f64) -> RunError {
     let stage = stage.name.clone();
-    match *error {
+    match error.clone() {
         SolveError::NotConverged { reached, iterations } => RunError::NotConverged {
             increment,
             stage,
@@ -126,14 +126,15 @@ pub fn run_error(error: &SolveError, increment: usize, stage: &Stage, tolerance:
             RunError::AboveSliding { increment, stage, asked, bound }
         }
         SolveError::ContactAtEdge => RunError::ContactAtEdge { increment, stage },
-        SolveError::OperatorsMissing => RunError::NotConverged {
+        SolveError::OperatorsMissing(error) => RunError::NotConverged {
             increment,
             stage,
             reached: f64::INFINITY,
             tolerance,
             iterations: 0,
-            advice: "the elastic answer could not be computed: check moduli and lengths for extreme values"
-                .to_owned(),
+            advice: format!(
+                "the elastic response could not be computed ({error}): check moduli and lengths for extreme values"
+            ),
         },
         SolveError::Stopped => RunError::Interrupted { increment },
     }

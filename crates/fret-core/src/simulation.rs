@@ -19,7 +19,7 @@ use crate::kernel::{
 };
 use crate::machine::memory::{Claim, claim};
 use crate::model::{ContactState, CoulombFriction, LoadStep, SolvedState};
-use crate::plan::{Coupling, Plan, Shortcut};
+use crate::plan::{Coupling, Plan, Simplification};
 use crate::plausibility::Gauge;
 use crate::recording::{copied, kept, record};
 use crate::refinement::{DivisionError, Refinement, Span, in_halves};
@@ -176,11 +176,11 @@ impl<'a> Simulation<'a> {
         let unworn = case.profile.gap(&plan.grid);
         let mut solver = self.solver(response, unworn.clone());
         if let Some(depth) = &history.state.worn_depth {
-            solver.reshape(&unworn + depth);
+            solver.set_gap(&unworn + depth);
         }
         let wearing = case.wear.zip(wear).map(|(rule, collected)| Wearing::new(rule, own, unworn, collected));
         // Last: a new gap makes a solver forget.
-        solver.remember(memory);
+        solver.restore_memory(memory);
         let journey =
             Journey { plan, solver, wearing, history, gauge: Gauge::default(), place, cycle, observer };
         journey.through_all_stages()
@@ -196,7 +196,7 @@ impl<'a> Simulation<'a> {
             Coupling::Coupled => Components::ALL,
         };
         let spacing = plan.grid.spacing();
-        let plain = plan.leave_out.takes(Shortcut::LayeredResponse);
+        let plain = plan.leave_out.takes(Simplification::LayeredResponse);
         let [width, depth] = plan.grid.size();
         let layered = || PairResponse::all_layers(&case.bodies, width.max(depth));
         if plan.grid.is_line() {
@@ -240,19 +240,20 @@ impl<'a> Simulation<'a> {
             response,
             SolverSettings {
                 scheme: case.scheme,
-                leave_out: plan.leave_out,
-                six_digits: plan.six_digits,
+                single_precision: plan.single_precision,
+                reuse_pressure: plan.leave_out.takes(Simplification::Pressure),
+                skip_unloaded_shear: plan.leave_out.takes(Simplification::Tangential),
                 ..SolverSettings::new(case.tolerance)
             },
-            plan.leave_out.takes(Shortcut::Box),
+            plan.leave_out.takes(Simplification::Region),
         )
-        .sheared_along(plan.along)
-        .mirrored(plan.symmetry);
+        .with_shear_axis(plan.along)
+        .with_symmetry(plan.symmetry);
         if case.periodic {
             return solver;
         }
         let [longest, shortest] = [plan.grid.size(), plan.grid.spacing()].map(|[x, y]| (x.max(y), x.min(y)));
-        solver.with_waves(ResponseTable::new(&case.bodies, TAU / longest.0, 5.0 * PI / shortest.1))
+        solver.with_response_table(ResponseTable::new(&case.bodies, TAU / longest.0, 5.0 * PI / shortest.1))
     }
 }
 
@@ -316,7 +317,7 @@ impl<'a> Journey<'a> {
 
     /// Solves what is left of the stage at work.
     fn through_stage(&mut self, stage: &'a Stage) -> Result<(), RunError> {
-        self.solver.rub_with(self.friction());
+        self.solver.set_friction(self.friction());
         let place = &self.place;
         let (number, begins) = (place.stage, place.solved_of_stage == 0);
         let steps = if begins {
@@ -493,7 +494,7 @@ impl<'a> Journey<'a> {
             && block.depth.iter().any(|depth| *depth > 0.0)
         {
             *depth += &block.depth;
-            self.solver.reshape(wearing.gap(depth));
+            self.solver.set_gap(wearing.gap(depth));
         }
         self.place.worn_through = block.through.map(|cell| WornThrough {
             increment,

@@ -138,7 +138,8 @@ fn setting(plan: &Value) -> Value {
 /// What a solver's memory belongs to besides.
 fn way_of_solving(plan: &Value) -> String {
     let case = &plan["case"];
-    let shortcuts = ["coupling", "along", "symmetry", "six_digits", "leave_out"].map(|name| &plan[name]);
+    let shortcuts =
+        ["coupling", "along", "symmetry", "single_precision", "leave_out"].map(|name| &plan[name]);
     json!([shortcuts, case["tolerance"], case["scheme"]]).to_string()
 }
 

@@ -9,7 +9,7 @@
 
 use std::ops::ControlFlow;
 
-use fret_core::compliance::{SpectralCompliance, SurfaceCompliance, SurfaceResponse, Wanted};
+use fret_core::compliance::{OperatorSet, SpectralCompliance, SurfaceCompliance, SurfaceResponse};
 use fret_core::history::{KeptFields, StepRecord};
 use fret_core::kernel::{Components, influence_coefficients, periodic_symbols};
 use fret_core::model::{ContactState, TangentialField};
@@ -58,7 +58,7 @@ impl Accounts {
             let all = influence_coefficients(&case.bodies, case.cells, spacing, Components::ALL);
             SurfaceResponse::FreeSpace(all)
         };
-        let wanted = Wanted { full: true, ..Wanted::default() };
+        let wanted = OperatorSet { full: true, ..OperatorSet::default() };
         let len = plan.grid.len();
         let undeformed: Vec<f64> = case.profile.gap(&plan.grid).iter().copied().collect();
         let lowest = undeformed.iter().copied().fold(f64::INFINITY, f64::min);

@@ -1,6 +1,6 @@
 //! The elastic operator of a scene as a matrix on a few cells: is it symmetric, is it positive?
 
-use fret_core::compliance::{SpectralCompliance, SurfaceCompliance, SurfaceResponse, Wanted};
+use fret_core::compliance::{OperatorSet, SpectralCompliance, SurfaceCompliance, SurfaceResponse};
 use fret_core::kernel::{Components, influence_coefficients, periodic_symbols};
 use fret_core::model::ContactPair;
 use fret_fft::ConvolutionError;
@@ -26,7 +26,7 @@ pub fn shown(pair: &ContactPair, spacing: [f64; 2], periodic: bool) -> Result<Sh
     } else {
         SurfaceResponse::FreeSpace(influence_coefficients(pair, shape, spacing, Components::ALL))
     };
-    let wanted = Wanted { full: true, ..Wanted::default() };
+    let wanted = OperatorSet { full: true, ..OperatorSet::default() };
     let mut compliance = SpectralCompliance::new(&response, shape, wanted)?;
     let cells = SIDE * SIDE;
     let mut matrix: Vec<Vec<f64>> = Vec::with_capacity(3 * cells);

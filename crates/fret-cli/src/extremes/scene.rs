@@ -5,7 +5,7 @@ use std::fmt::Write;
 use fret_core::case::Case;
 use fret_core::history::{History, StepRecord};
 use fret_core::kernel::PairResponse;
-use fret_core::plan::{LeaveOut, Plan, Shortcut};
+use fret_core::plan::{LeaveOut, Plan, Simplification};
 use fret_core::simulation::{RunError, Simulation};
 
 use super::balance::Accounts;
@@ -116,7 +116,7 @@ impl Scene {
              [[load]]\ntangential_force = [{along:e}, 0.0]\nincrements = {pull}\n"
         );
         let plan = planned(&text)?;
-        let whole = planned_leaving_out(&text, LeaveOut::all_but(Shortcut::Mirror))?;
+        let whole = planned_leaving_out(&text, LeaveOut::all_but(Simplification::Mirror))?;
         let operator_failed = |error: fret_fft::ConvolutionError| Outcome::Failed(error.to_string());
         let failed = |error: RunError| failed("", &error);
         let mut accounts = Accounts::of(&plan).map_err(operator_failed)?;

@@ -260,7 +260,7 @@ pub(super) struct SolverFile {
     /// in it; 0.03 when not given.
     #[schemars(with = "Option<f64>")]
     pub history_tolerance: Option<Spanned<f64>>,
-    /// "together" (when not given), or "alternating": pressure and shear in turn until they agree, as in the published
+    /// "together" (when not given), or "staggered": pressure and shear in turn until they agree, as in the published
     /// three-level scheme, for comparison.
     #[schemars(with = "Option<Scheme>")]
     pub scheme: Option<Spanned<Scheme>>,

@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use super::{DirectCompliance, SpectralCompliance, SurfaceCompliance, SurfaceResponse, Wanted};
+use super::{DirectCompliance, OperatorSet, SpectralCompliance, SurfaceCompliance, SurfaceResponse};
 use crate::kernel::samples::{Random, stack, under_rigid};
 use crate::kernel::{
     Components, cells_too_coarse_for_incompressible_film, influence_coefficients, periodic_symbols,
@@ -126,7 +126,7 @@ fn conforms(compliance: &mut dyn SurfaceCompliance, random: &mut Random, name: &
     }
     assert!(found.distance(&expected) < rounding, "{name}: depends on the place");
 
-    let own = compliance.own();
+    let own = compliance.self_influence();
     let mut point = Field::zeros(len);
     point.normal[0] = 1.0;
     assert!(
@@ -178,14 +178,14 @@ fn both_compliances_keep_every_promise() {
                 continue;
             }
             let coefficients = influence_coefficients(&pair, shape, spacing, Components::ALL);
-            let all = Wanted {
+            let all = OperatorSet {
                 normal: true,
                 tangential: true,
                 full: true,
                 normal_from_all: true,
-                ..Wanted::default()
+                ..OperatorSet::default()
             };
-            let fused = Wanted { full: true, ..Wanted::default() };
+            let fused = OperatorSet { full: true, ..OperatorSet::default() };
             for (name, wanted) in [("spectral", all), ("spectral, fused only", fused)] {
                 let mut spectral =
                     SpectralCompliance::new(&SurfaceResponse::FreeSpace(coefficients.clone()), shape, wanted)
@@ -204,7 +204,7 @@ fn the_fast_convolution_is_the_plain_sum() {
     for pair in pairs() {
         for (shape, spacing) in GRIDS {
             let coefficients = influence_coefficients(&pair, shape, spacing, Components::ALL);
-            let wanted = Wanted { full: true, normal_from_all: true, ..Wanted::default() };
+            let wanted = OperatorSet { full: true, normal_from_all: true, ..OperatorSet::default() };
             let mut spectral =
                 SpectralCompliance::new(&SurfaceResponse::FreeSpace(coefficients.clone()), shape, wanted)
                     .unwrap();
@@ -237,12 +237,12 @@ fn a_compliance_that_repeats_keeps_every_promise() {
         for (shape, spacing) in GRIDS {
             let symbols = periodic_symbols(&pair, shape, spacing, Components::ALL, 0);
             let response = SurfaceResponse::Periodic(symbols.clone());
-            let all = Wanted {
+            let all = OperatorSet {
                 normal: true,
                 tangential: true,
                 full: true,
                 normal_from_all: true,
-                ..Wanted::default()
+                ..OperatorSet::default()
             };
             let mut periodic = SpectralCompliance::new(&response, shape, all).unwrap();
             conforms(&mut periodic, &mut random, "periodic");

@@ -1,6 +1,6 @@
 //! The elastic answer by a plain double sum over cells.
 
-use super::{FULL_BLOCKS, Own, SurfaceCompliance, own_of, signed_kernels};
+use super::{FULL_BLOCKS, SelfInfluence, SurfaceCompliance, own_of, signed_kernels};
 use crate::kernel::InfluenceCoefficients;
 use fret_fft::{Block, ConvolutionError};
 
@@ -68,7 +68,7 @@ impl SurfaceCompliance for DirectCompliance {
         self.shape
     }
 
-    fn own(&self) -> Own {
+    fn self_influence(&self) -> SelfInfluence {
         own_of(&self.coefficients)
     }
 

@@ -7,9 +7,10 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Scheme {
-    /// One Newton-type iteration on pressure and shear together.
+    /// One Newton method for pressure and shear together.
     #[default]
-    Together,
-    /// Pressure and shear in turn until they agree: the published three-level scheme, for comparison.
-    Alternating,
+    Monolithic,
+    /// Pressure at given shear, shear at given pressure, until they agree (Panagiotopoulos process): the published three-level scheme,
+    /// for comparison.
+    Staggered,
 }

@@ -3,7 +3,7 @@
 use ndarray::Axis;
 
 use super::symmetry::{is_loaded, is_twisted};
-use super::{LeaveOut, LeftOut, Shortcut};
+use super::{LeaveOut, LeftOut, Simplification};
 use crate::case::{Case, Stage};
 use crate::kernel::PairResponse;
 use crate::model::{Body, ContactState, CoulombFriction, SurfaceGrid, Symmetry};
@@ -17,7 +17,7 @@ pub fn left_out(
     case: &Case,
     grid: &SurfaceGrid,
     coupling: Coupling,
-    (along, symmetry, six_digits): (Option<usize>, Symmetry, bool),
+    (along, symmetry, single_precision): (Option<usize>, Symmetry, bool),
     leave_out: LeaveOut,
 ) -> Vec<LeftOut> {
     let mut list = Vec::new();
@@ -29,7 +29,7 @@ pub fn left_out(
         Body::Elastic(half_space) => half_space.single_material().is_some(),
     };
     let plain = homogeneous(case.bodies.upper()) && homogeneous(case.bodies.lower());
-    if plain && leave_out.takes(Shortcut::LayeredResponse) {
+    if plain && leave_out.takes(Simplification::LayeredResponse) {
         leave(
             "layered response",
             "no body has a coating that differs from what lies below it",
@@ -53,7 +53,7 @@ pub fn left_out(
         Coupling::Coupled => {}
     }
     if coupling == Coupling::Uncoupled
-        && leave_out.takes(Shortcut::Tangential)
+        && leave_out.takes(Simplification::Tangential)
         && case.start.is_none()
         && let Some(increments) = increments_before_a_cause(case)
     {
@@ -63,7 +63,7 @@ pub fn left_out(
             &format!("every tangential iteration of the first {increments} increments"),
         );
     }
-    if coupling != Coupling::Coupled && leave_out.takes(Shortcut::Pressure) {
+    if coupling != Coupling::Coupled && leave_out.takes(Simplification::Pressure) {
         let increments = increments_at_one_load(case);
         if increments > 0 {
             leave(
@@ -93,14 +93,14 @@ pub fn left_out(
             &format!("{share} of the solver's fields and transforms"),
         );
     }
-    if !case.periodic && leave_out.takes(Shortcut::Box) {
+    if !case.periodic && leave_out.takes(Simplification::Region) {
         leave(
             "cells far from the contact, in the iterations",
             "they carry nothing; whether the surfaces overlap there is checked once the box is solved",
             "the share of the grid outside the box, in every iteration",
         );
     }
-    if six_digits {
+    if single_precision {
         leave(
             "all but six digits, in approximate inverses and on frozen zones",
             "looks at the equations near the solution are taken with all of them, and mend what rounding did; none with six is accepted",

@@ -1,10 +1,11 @@
 //! The question made numerical, before any work: grid, sizes, what is computed and what is left out and why.
 
 mod advance;
-mod digits;
 mod extent;
 mod left_out;
 mod memory;
+mod precision;
+mod simplification;
 mod symmetry;
 
 use std::sync::Arc;
@@ -16,12 +17,13 @@ use crate::case::{Case, CaseError, GridSize};
 use crate::kernel::{PairResponse, cells_too_coarse_for_incompressible_film};
 use crate::machine::memory::{MemoryError, claim};
 use crate::model::{Body, ContactState, SurfaceGrid, Symmetry};
-pub use crate::solver::{Coupling, LeaveOut, Shortcut};
+pub use crate::solver::Coupling;
 use crate::start::Start;
 pub use advance::Advance;
 pub use extent::ExpectedContact;
 use extent::{automatic_size, expected_contact, reaches_beyond};
 pub use memory::of_stress as memory_of_stress;
+pub use simplification::{LeaveOut, Simplification};
 
 /// Something the scene does not need.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
@@ -54,9 +56,9 @@ pub struct Plan {
     pub along: Option<usize>,
     /// Mirrors of scene and loads, in front of which the solver works.
     pub symmetry: Symmetry,
-    /// Six digits do on frozen zones and in approximate inverses.
-    pub six_digits: bool,
-    /// The shortcuts that may be taken.
+    /// Single precision does in linear problems and approximate inverses.
+    pub single_precision: bool,
+    /// The simplifications that may be made.
     pub leave_out: LeaveOut,
     /// What is left out.
     pub left_out: Vec<LeftOut>,
@@ -101,9 +103,9 @@ impl Plan {
         let sheared = |state: &ContactState| state.shear.iter().flatten().any(|shear| *shear != 0.0);
         let frictionless = case.is_frictionless() && !state.is_some_and(sheared);
         let uncoupled = frictionless || response.is_uncoupled();
-        let coupling = if frictionless && leave_out.takes(Shortcut::Tangential) {
+        let coupling = if frictionless && leave_out.takes(Simplification::Tangential) {
             Coupling::Frictionless
-        } else if uncoupled && leave_out.takes(Shortcut::Coupling) {
+        } else if uncoupled && leave_out.takes(Simplification::Coupling) {
             Coupling::Uncoupled
         } else {
             Coupling::Coupled
@@ -154,11 +156,12 @@ impl Plan {
         let has_datum = case.is_line() && case.bodies.has_elastic_base();
         let datum = has_datum.then(|| case.datum.unwrap_or(size[0]));
         let along = left_out::one_way(&case, &grid, &response, coupling, state)
-            .filter(|_| leave_out.takes(Shortcut::Transverse));
+            .filter(|_| leave_out.takes(Simplification::Transverse));
         let symmetry = mirrors(&case, &grid, coupling, state, leave_out);
-        let six_digits =
-            leave_out.takes(Shortcut::Digits) && digits::six_digits_do(&case, &grid, &response, coupling);
-        let left_out = left_out::left_out(&case, &grid, coupling, (along, symmetry, six_digits), leave_out);
+        let single_precision = leave_out.takes(Simplification::Precision)
+            && precision::single_precision_does(&case, &grid, &response, coupling);
+        let left_out =
+            left_out::left_out(&case, &grid, coupling, (along, symmetry, single_precision), leave_out);
         let increments = case.increments();
         let plan = Self {
             memory_bytes: memory::of_run(&case, &grid, coupling, symmetry),
@@ -170,7 +173,7 @@ impl Plan {
             coupling,
             along,
             symmetry,
-            six_digits,
+            single_precision,
             leave_out,
             left_out,
             expected,
@@ -215,7 +218,7 @@ fn mirrors(
     start: Option<&ContactState>,
     leave_out: LeaveOut,
 ) -> Symmetry {
-    if leave_out.takes(Shortcut::Mirror) {
+    if leave_out.takes(Simplification::Mirror) {
         symmetry::symmetry(case, grid, coupling, start)
     } else {
         Symmetry::NONE

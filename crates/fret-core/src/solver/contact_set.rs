@@ -1,4 +1,4 @@
-//! The cells of a box that are in contact. Fields over them are packed: one number a cell, in the order of the cells.
+//! The cells of a region that are in contact. Fields over them are packed: one number per cell, in the order of the cells.
 
 use std::ops::Range;
 
@@ -7,7 +7,7 @@ use pulp::Arch;
 use crate::model::TangentialField;
 use crate::model::each_cell::Number;
 
-/// Cells in contact, as runs along the rows of the box.
+/// Cells in contact, as runs along the rows of the region.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct ContactSet {
     runs: Vec<Range<usize>>,
@@ -28,6 +28,11 @@ impl ContactSet {
         Self { runs, len }
     }
 
+    /// The cells with pressure.
+    pub fn loaded(pressure: &[f64]) -> Self {
+        Self::of(pressure.len(), |cell| pressure[cell] > 0.0)
+    }
+
     /// Number of cells.
     pub fn len(&self) -> usize {
         self.len
@@ -38,17 +43,34 @@ impl ContactSet {
         self.runs.iter().cloned().flatten()
     }
 
-    /// Packs a field of the box, of either precision.
-    pub fn gather<T: Copy>(&self, field: &[T], packed: &mut [T]) {
-        let mut first = 0;
+    /// A packed copy of a field of the region.
+    pub fn packed(&self, field: &[f64]) -> Vec<f64> {
+        let mut packed = Vec::with_capacity(self.len);
+        self.pack(field, &mut packed);
+        packed
+    }
+
+    /// A packed copy of a tangential field of the region.
+    pub fn packed_tangential(&self, field: &TangentialField) -> TangentialField {
+        TangentialField { x: self.packed(&field.x), y: self.packed(&field.y) }
+    }
+
+    /// Packs a field of the region into one of any length, keeping the memory.
+    pub fn pack(&self, field: &[f64], packed: &mut Vec<f64>) {
+        packed.clear();
         for run in &self.runs {
-            packed[first..first + run.len()].copy_from_slice(&field[run.clone()]);
-            first += run.len();
+            packed.extend_from_slice(&field[run.clone()]);
         }
     }
 
-    /// The same times a factor, into a packed field of any precision.
-    pub fn gather_scaled<A: Number, B: Number>(&self, field: &[A], factor: f64, packed: &mut [B]) {
+    /// Packs a tangential field of the region into one of any length, keeping the memory.
+    pub fn pack_tangential(&self, field: &TangentialField, packed: &mut TangentialField) {
+        self.pack(&field.x, &mut packed.x);
+        self.pack(&field.y, &mut packed.y);
+    }
+
+    /// Packs `factor` times a field of the region, into any precision.
+    pub fn gather<A: Number, B: Number>(&self, field: &[A], factor: f64, packed: &mut [B]) {
         Arch::new().dispatch(
             #[inline(always)]
             || {
@@ -64,49 +86,8 @@ impl ContactSet {
         );
     }
 
-    /// A packed copy of a field of the box.
-    pub fn packed(&self, field: &[f64]) -> Vec<f64> {
-        let mut packed = Vec::with_capacity(self.len);
-        self.pack(field, &mut packed);
-        packed
-    }
-
-    /// Packs a field of the box into one of any length, keeping the memory.
-    pub fn pack(&self, field: &[f64], packed: &mut Vec<f64>) {
-        packed.clear();
-        for run in &self.runs {
-            packed.extend_from_slice(&field[run.clone()]);
-        }
-    }
-
-    /// Packs a tangential field of the box into one of any length, keeping the memory.
-    pub fn pack_tangential(&self, field: &TangentialField, packed: &mut TangentialField) {
-        self.pack(&field.x, &mut packed.x);
-        self.pack(&field.y, &mut packed.y);
-    }
-
-    /// Packs a tangential field of the box.
-    pub fn gather_tangential(&self, field: &TangentialField, packed: &mut TangentialField) {
-        self.gather(&field.x, &mut packed.x);
-        self.gather(&field.y, &mut packed.y);
-    }
-
-    /// A packed copy of a tangential field of the box.
-    pub fn packed_tangential(&self, field: &TangentialField) -> TangentialField {
-        TangentialField { x: self.packed(&field.x), y: self.packed(&field.y) }
-    }
-
-    /// Writes a packed field into one of the box, of either precision, which keeps what it holds elsewhere.
-    pub fn place<T: Copy>(&self, packed: &[T], field: &mut [T]) {
-        let mut first = 0;
-        for run in &self.runs {
-            field[run.clone()].copy_from_slice(&packed[first..first + run.len()]);
-            first += run.len();
-        }
-    }
-
-    /// The same times a factor, into a field of any precision.
-    pub fn place_scaled<A: Number, B: Number>(&self, packed: &[A], factor: f64, field: &mut [B]) {
+    /// Writes `factor` times a packed field into one of the region, which keeps what it holds elsewhere, in any precision.
+    pub fn place<A: Number, B: Number>(&self, packed: &[A], factor: f64, field: &mut [B]) {
         Arch::new().dispatch(
             #[inline(always)]
             || {
@@ -122,21 +103,36 @@ impl ContactSet {
         );
     }
 
-    /// Writes a packed tangential field into one of the box, which keeps what it holds elsewhere.
-    pub fn place_tangential(&self, packed: &TangentialField, field: &mut TangentialField) {
-        self.place(&packed.x, &mut field.x);
-        self.place(&packed.y, &mut field.y);
-    }
-
-    /// Writes a packed field into one of the box, which is zero elsewhere.
+    /// Writes a packed field into one of the region, which is zero elsewhere.
     pub fn scatter(&self, packed: &[f64], field: &mut [f64]) {
         field.fill(0.0);
-        self.place(packed, field);
+        self.place(packed, 1.0, field);
     }
 
-    /// Writes a packed tangential field into one of the box, which is zero elsewhere.
+    /// Writes a packed tangential field into one of the region, which is zero elsewhere.
     pub fn scatter_tangential(&self, packed: &TangentialField, field: &mut TangentialField) {
         self.scatter(&packed.x, &mut field.x);
         self.scatter(&packed.y, &mut field.y);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn fields_are_packed_and_put_back_in_the_order_of_the_cells() {
+        let contact = ContactSet::of(7, |cell| [1, 2, 5].contains(&cell));
+        assert_eq!((contact.len(), contact.cells().collect::<Vec<_>>()), (3, vec![1, 2, 5]));
+        let field = [0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0];
+        assert_eq!(contact.packed(&field), [1.0, 2.0, 5.0]);
+        let mut single = [0.0_f32; 3];
+        contact.gather(&field, 2.0, &mut single);
+        assert_eq!(single, [2.0, 4.0, 10.0]);
+        let mut back = [9.0; 7];
+        contact.place(&single, 0.5, &mut back);
+        assert_eq!(back, [9.0, 1.0, 2.0, 9.0, 9.0, 5.0, 9.0]);
+        contact.scatter(&[7.0, 8.0, 9.0], &mut back);
+        assert_eq!(back, [0.0, 7.0, 8.0, 0.0, 0.0, 9.0, 0.0]);
     }
 }

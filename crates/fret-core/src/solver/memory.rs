@@ -1,6 +1,6 @@
 //! What a solver remembers from one increment to the next, apart from the state it is handed.
 //!
-//! Operators and workspaces are no memory: they follow from the scene and from the box named here. A new field here is stored
+//! Operators and workspaces are no memory: they follow from the problem and from the region named here. A new field here is stored
 //! with a run and comes back with it; whatever can change later bits has to stand here.
 
 use ndarray::Array2;
@@ -13,11 +13,11 @@ use crate::model::{ContactState, LoadStep, stored};
 /// All that later increments depend on besides the last state.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct SolverMemory {
-    /// The box of the last operators.
+    /// The region of the last operators.
     pub(super) region: Option<Region>,
-    /// What the last increment settled.
-    pub(super) settled: Option<Settled>,
-    /// What was there before the last increment, for the predictor.
+    /// What the last increment ended with.
+    pub(super) last: Option<LastIncrement>,
+    /// What was there before the last increment, for the extrapolation.
     pub(super) before: Option<Before>,
     /// The load that led to the last state.
     pub(super) last_load: Option<LoadStep>,
@@ -58,9 +58,9 @@ fn copied(field: &Array2<f64>) -> Array2<f64> {
     if field.iter().all(|value| *value == 0.0) { Array2::zeros(field.dim()) } else { field.clone() }
 }
 
-/// Displacements of the last state in its box, and its gap on the whole grid.
+/// Displacements of the last state in its region, and its gap on the whole grid.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub(super) struct Settled {
+pub(super) struct LastIncrement {
     pub region: Region,
     pub displacements: Displacements,
     #[serde(with = "stored")]
@@ -70,17 +70,17 @@ pub(super) struct Settled {
 }
 
 impl SolverMemory {
-    /// Whether this can be the memory of a solver on a grid of `cells`: sizes agree and boxes lie inside.
+    /// Whether this can be the memory of a solver on a grid of `cells`: sizes agree and regions lie inside.
     pub fn fits(&self, cells: [usize; 2]) -> bool {
-        let settled_fits = |settled: &Settled| {
-            let len = settled.region.len();
-            let Displacements { normal, tangential } = &settled.displacements;
-            settled.region.lies_within(cells)
+        let last_fits = |last: &LastIncrement| {
+            let len = last.region.len();
+            let Displacements { normal, tangential } = &last.displacements;
+            last.region.lies_within(cells)
                 && [normal.len(), tangential.x.len(), tangential.y.len()] == [len; 3]
-                && settled.gap.dim() == cells.into()
+                && last.gap.dim() == cells.into()
         };
         self.region.is_none_or(|region| region.lies_within(cells))
-            && self.settled.as_ref().is_none_or(settled_fits)
+            && self.last.as_ref().is_none_or(last_fits)
             && self.before.as_ref().is_none_or(|before| before.tractions.fits(cells))
     }
 }

@@ -1,4 +1,4 @@
-//! The box around the contact: where the iteration works, and how fields pass between it and the whole grid.
+//! The active subdomain around the contact: where the iteration works, and how fields pass between it and the whole grid.
 
 use std::ops::Range;
 
@@ -74,7 +74,7 @@ impl Region {
         rows.contains(&i) && columns.contains(&j)
     }
 
-    /// Whether another box lies inside.
+    /// Whether another region lies inside.
     pub fn contains_all(&self, other: &Self) -> bool {
         (0..2).all(|axis| {
             self.origin[axis] <= other.origin[axis]
@@ -102,7 +102,7 @@ impl Region {
             .then(|| [0, 1].map(|axis| if mirrored[axis] { 0 } else { low[axis] }..high[axis] + 1))
     }
 
-    /// The smallest box around all cells where `wanted`, with a `margin` of cells on each side, its sides rounded up by
+    /// The smallest region around all cells where `wanted`, with a `margin` of cells on each side, its sides rounded up by
     /// `good_length`; the whole grid when that is hardly larger, or when nothing is wanted. Along a mirrored axis it begins at the
     /// mirror.
     pub fn around(

@@ -1,10 +1,10 @@
-//! What an increment is asked for, and how it can end without an answer.
+//! What a solver is asked for, and how an increment can end without a solution.
 
 use std::ops::ControlFlow;
 
+use fret_fft::ConvolutionError;
 use serde::Serialize;
 
-use super::shortcut::LeaveOut;
 use crate::model::Scheme;
 
 /// How pressure and shear act on each other.
@@ -19,38 +19,47 @@ pub enum Coupling {
     Coupled,
 }
 
-/// Limits of the solver.
+/// What a user may want to set. What stands beside a method in its own file is a property of the method.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SolverSettings {
     /// Bound on the residual, dimensionless.
     pub tolerance: f64,
-    /// Changes of the zones before an increment is given up.
-    pub most_outer_iterations: usize,
-    /// Krylov steps on frozen zones.
-    pub most_inner_iterations: usize,
     /// How coupled pressure and shear are solved.
     pub scheme: Scheme,
-    /// What is left out where the scene allows it.
-    pub leave_out: LeaveOut,
-    /// Six digits do in approximate inverses and on frozen zones. What is accepted was judged in double precision.
-    pub six_digits: bool,
+    /// Newton iterations, each with new active sets, before an increment is left to the exact Newton method.
+    pub max_newton_iterations: usize,
+    /// Krylov steps in each of them.
+    pub max_krylov_steps: usize,
+    /// Iterations of the frictionless solver.
+    pub max_normal_iterations: usize,
+    /// Unknowns up to which the exact Newton method, with its dense matrix, is the last resort; 0: never.
+    pub max_direct_unknowns: usize,
+    /// Linear problems and approximate inverses in single precision. Residuals are found in double precision.
+    pub single_precision: bool,
+    /// Without coupling the pressure is not solved again while the normal load stays.
+    pub reuse_pressure: bool,
+    /// Without coupling no shear is solved for before something causes it.
+    pub skip_unloaded_shear: bool,
 }
 
 impl SolverSettings {
-    /// Settings for a tolerance; coupled tractions together.
+    /// Settings for a tolerance.
     pub fn new(tolerance: f64) -> Self {
         Self {
             tolerance,
-            most_outer_iterations: 200,
-            most_inner_iterations: 30,
             scheme: Scheme::default(),
-            leave_out: LeaveOut::ALL,
-            six_digits: false,
+            max_newton_iterations: 60,
+            max_krylov_steps: 30,
+            max_normal_iterations: 8000,
+            max_direct_unknowns: 4500,
+            single_precision: false,
+            reuse_pressure: true,
+            skip_unloaded_shear: true,
         }
     }
 }
 
-/// Why an increment has no answer.
+/// Why an increment has no solution.
 #[derive(Debug, Clone, PartialEq)]
 pub enum SolveError {
     /// The residual stayed above the tolerance.
@@ -64,19 +73,25 @@ pub enum SolveError {
     AboveSliding {
         /// Force asked for [force].
         asked: f64,
-        /// mu W [force].
+        /// What friction carries [force].
         bound: f64,
     },
     /// The contact reaches the edge of the grid.
     ContactAtEdge,
-    /// The influence coefficients do not cover the scene.
-    OperatorsMissing,
-    /// Somebody stopped the iteration.
+    /// The influence coefficients do not cover the grid.
+    OperatorsMissing(ConvolutionError),
+    /// The caller stopped the iteration.
     Stopped,
 }
 
+impl From<ConvolutionError> for SolveError {
+    fn from(error: ConvolutionError) -> Self {
+        Self::OperatorsMissing(error)
+    }
+}
+
 impl SolveError {
-    /// The error of a scene with mirrors, of whose cells one in `copies` was solved.
+    /// The error of a grid of whose cells one in `copies` was solved.
     pub(super) fn of_whole(self, copies: usize) -> Self {
         match self {
             Self::AboveSliding { asked, bound } => {
@@ -88,5 +103,5 @@ impl SolveError {
     }
 }
 
-/// Hears of every outer iteration and its residual; may stop it.
-pub type Watch<'a> = &'a mut dyn FnMut(usize, f64) -> ControlFlow<()>;
+/// Is called in every iteration with its number and residual; may stop it.
+pub type IterationCallback<'a> = &'a mut dyn FnMut(usize, f64) -> ControlFlow<()>;

@@ -11,7 +11,7 @@ use ndarray::Array2;
 use serde::Serialize;
 
 use super::variation::Variation;
-use crate::compliance::{SpectralCompliance, SurfaceCompliance, SurfaceResponse, Wanted};
+use crate::compliance::{OperatorSet, SpectralCompliance, SurfaceCompliance, SurfaceResponse};
 use crate::cycle::CycleRecord;
 use crate::history::{KeptFields, StepRecord, Work};
 use crate::kernel::{Components, InfluenceCoefficients, influence_coefficients, line_coefficients};
@@ -287,13 +287,13 @@ fn slowness(plan: &Plan, habit: &Habit) -> f64 {
         zx: any(coupling),
         zy: any(coupling),
     });
-    let wanted = Wanted {
+    let wanted = OperatorSet {
         normal: normal && !coupling,
         tangential: tangential && !coupling,
         full: coupling,
-        along: plan.along,
+        shear_axis: plan.along,
         symmetry: plan.symmetry,
-        ..Wanted::default()
+        ..OperatorSet::default()
     };
     let Ok(mut operators) = SpectralCompliance::new(&response, timed, wanted) else { return 1.0 };
     let cells = timed[0] * timed[1];

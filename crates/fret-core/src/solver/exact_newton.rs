@@ -1,0 +1,473 @@
+//! The last resort: the semismooth Newton method on the projection equations with exact, dense linear algebra (Alart & Curnier 1991;
+//! Christensen, Klarbring, Pang & Stromberg 1998). With `y = p - g / K_n` and `w = q + slip / K_t` of every cell:
+//!
+//! ```text
+//! p = max(y, 0),    q = Proj(w) onto the disc of radius b(y)
+//! ```
+//!
+//! The bound takes the augmented pressure y, so that its derivative ties shear to pressure and gap at once; and nothing is feasible on
+//! the way. For contacts of some thousand unknowns: membranes on soft layers, stiff wavy films, friction near 1, where active sets read
+//! off feasible tractions wander.
+
+use faer::Mat;
+use faer::linalg::solvers::Solve;
+
+use super::contact_set::ContactSet;
+use super::increment::{Method, RegionOperators};
+use super::laws::projection::project_pressure;
+use super::laws::rigid_motions::RigidMotions;
+use super::laws::slip::{SlipIncrement, TangentialProblem};
+use super::newton::{self, ContactProblem, Solution};
+use super::normal::{NormalEquations, solve_normal};
+use super::settings::{IterationCallback, SolveError, SolverSettings};
+use super::tractions::{Displacements, Tractions};
+use crate::compliance::{CellResponse, SurfaceCompliance};
+use crate::model::TangentialField;
+use crate::model::field::norm;
+
+/// Iterations from one start.
+const MOST_ITERATIONS: usize = 40;
+/// Halvings of a step.
+const MOST_HALVINGS: usize = 12;
+/// Residual of the projection equations that the certified residual is sure to follow, as a fraction of the tolerance.
+const ENOUGH: f64 = 1e-2;
+/// Residual of the frictionless pressure that the second start is.
+const FRICTIONLESS: f64 = 1e-6;
+
+/// Solves what the inexact method `failed` at, from the tractions it started from; then from the frictionless pressure. What is
+/// found is accepted by the same residuals as ever.
+///
+/// # Errors
+/// The error of the inexact method, where this one finds nothing or would be too large; when the iteration is stopped.
+pub fn solve(
+    problem: &ContactProblem<'_>,
+    (start, failed): &mut (Tractions, SolveError),
+    (tractions, displacements): (&mut Tractions, &mut Displacements),
+    operators: &mut RegionOperators,
+    method: &Method<'_>,
+    callback: IterationCallback<'_>,
+) -> Result<Solution, SolveError> {
+    if method.settings.max_direct_unknowns == 0 {
+        return Err(failed.clone());
+    }
+    let response = (method.cells)()?;
+    for frictionless in [false, true] {
+        tractions.clone_from(start);
+        if frictionless {
+            tractions.shear.clear();
+            start_without_friction(problem, tractions, displacements, operators, method.settings, callback)?;
+        }
+        let mut attempt = Attempt::new(problem, tractions, &response, operators);
+        if attempt.iterate(tractions, operators, method.settings, callback)? {
+            operators.compliance.full(tractions.parts(), displacements.parts_mut());
+            match newton::solve(problem, tractions, displacements, operators, method.settings, callback) {
+                Err(SolveError::NotConverged { .. }) => {}
+                other => return other,
+            }
+        }
+    }
+    Err(failed.clone())
+}
+
+fn start_without_friction(
+    problem: &ContactProblem<'_>,
+    tractions: &mut Tractions,
+    displacements: &mut Displacements,
+    operators: &mut RegionOperators,
+    settings: &SolverSettings,
+    callback: IterationCallback<'_>,
+) -> Result<(), SolveError> {
+    let ContactProblem { undeformed, total, approach, .. } = *problem;
+    let equations = NormalEquations { undeformed, total, approach };
+    let RegionOperators { compliance, preconditioner, .. } = operators;
+    compliance.normal(&tractions.pressure, &mut displacements.normal);
+    let settings = SolverSettings { tolerance: FRICTIONLESS, ..*settings };
+    let Displacements { normal, .. } = displacements;
+    match solve_normal(
+        &equations,
+        &mut tractions.pressure,
+        normal,
+        compliance,
+        preconditioner,
+        &settings,
+        callback,
+    ) {
+        Err(SolveError::Stopped) => Err(SolveError::Stopped),
+        _ => Ok(()),
+    }
+}
+
+/// What a cell whose augmented pressure is positive does.
+struct ActiveCell {
+    cell: usize,
+    /// Unit vectors along and across its trial shear.
+    along: [f64; 2],
+    across: [f64; 2],
+    /// Where it slips: bound and slope at the augmented pressure y, with `bound - slope y`.
+    slope: f64,
+    offset: f64,
+    /// Slip stiffness [length/pressure]; `None` where it sticks.
+    stiffness: Option<f64>,
+    /// Place of its pressure among the unknowns; its shear follows, two of them in stick and one in slip.
+    first: usize,
+    /// Unknowns of its shear.
+    shear_unknowns: usize,
+}
+
+impl ActiveCell {
+    /// The traction `[p, qx, qy]` of a unit of each of its unknowns.
+    fn columns(&self) -> [[f64; 3]; 3] {
+        let Self { along, across, slope, .. } = self;
+        match self.stiffness {
+            None => [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
+            Some(_) => [[1.0, slope * along[0], slope * along[1]], [0.0, across[0], across[1]], [0.0; 3]],
+        }
+    }
+
+    /// The displacement that each of its equations is about.
+    fn rows(&self) -> [[f64; 3]; 3] {
+        match self.stiffness {
+            None => [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
+            Some(_) => [[1.0, 0.0, 0.0], [0.0, self.across[0], self.across[1]], [0.0; 3]],
+        }
+    }
+
+    fn unknowns(&self) -> usize {
+        1 + self.shear_unknowns
+    }
+}
+
+/// Tractions and rigid motions.
+#[derive(Clone)]
+struct Point {
+    tractions: Tractions,
+    displacements: Displacements,
+    approach: f64,
+    motion: [f64; 3],
+}
+
+impl Point {
+    /// `self + fraction (other - self)`.
+    fn towards(&self, other: &Self, fraction: f64) -> Self {
+        let between = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a + fraction * (b - a)).collect();
+        let [p, qx, qy] = [0, 1, 2].map(|k| between(self.tractions.parts()[k], other.tractions.parts()[k]));
+        let [normal, x, y] =
+            [0, 1, 2].map(|k| between(self.displacements.parts()[k], other.displacements.parts()[k]));
+        Self {
+            tractions: Tractions { pressure: p, shear: TangentialField { x: qx, y: qy } },
+            displacements: Displacements { normal, tangential: TangentialField { x, y } },
+            approach: self.approach + fraction * (other.approach - self.approach),
+            motion: [0, 1, 2].map(|k| self.motion[k] + fraction * (other.motion[k] - self.motion[k])),
+        }
+    }
+}
+
+/// One run of the method.
+struct Attempt<'a> {
+    problem: &'a ContactProblem<'a>,
+    response: &'a CellResponse,
+    /// Rigid motions of all cells of the region.
+    motions: RigidMotions,
+    /// Self-influence of a cell, normal and tangential [length/pressure].
+    self_influence: [f64; 2],
+    columns: usize,
+    here: Point,
+}
+
+impl<'a> Attempt<'a> {
+    fn new(
+        problem: &'a ContactProblem<'a>,
+        tractions: &Tractions,
+        response: &'a CellResponse,
+        operators: &mut RegionOperators,
+    ) -> Self {
+        let cells = problem.undeformed.len();
+        let own = operators.compliance.self_influence();
+        let mut displacements = Displacements::zeros(cells);
+        operators.compliance.full(tractions.parts(), displacements.parts_mut());
+        let mut attempt = Self {
+            problem,
+            response,
+            motions: problem.positions.motions_of(&ContactSet::of(cells, |_| true)),
+            self_influence: [own.normal, own.tangential],
+            columns: operators.region.shape[1],
+            here: Point {
+                tractions: tractions.clone(),
+                displacements,
+                approach: problem.approach,
+                motion: problem.motion,
+            },
+        };
+        attempt.guess_motions();
+        attempt
+    }
+
+    /// Approach and motions by force that go with the tractions to start from.
+    fn guess_motions(&mut self) {
+        let Self { problem, self_influence: [_, own], here, .. } = self;
+        let contact = ContactSet::loaded(&here.tractions.pressure);
+        if problem.total.is_some() && contact.len() > 0 {
+            let heights =
+                contact.cells().map(|cell| here.displacements.normal[cell] + problem.undeformed[cell]);
+            here.approach = heights.sum::<f64>() / contact.len() as f64;
+        }
+        let bound = problem.friction.packed(&contact).bound(&contact.packed(&here.tractions.pressure));
+        let equations = TangentialProblem {
+            bound: &bound.bound,
+            before: &contact.packed_tangential(problem.before),
+            motions: &problem.positions.motions_of(&contact),
+            motion: problem.motion,
+            resultant: problem.resultant,
+            self_influence: *own,
+        };
+        let shear = contact.packed_tangential(&here.tractions.shear);
+        let displacement = contact.packed_tangential(&here.displacements.tangential);
+        here.motion = SlipIncrement::default().find(&equations, &shear, &displacement, [0.0; 3]).motion;
+    }
+
+    /// Whether the equations were solved; then `tractions` hold the solution, projected onto what the laws allow.
+    fn iterate(
+        &mut self,
+        tractions: &mut Tractions,
+        operators: &mut RegionOperators,
+        settings: &SolverSettings,
+        callback: IterationCallback<'_>,
+    ) -> Result<bool, SolveError> {
+        let mut merit = self.merit(&self.here);
+        for iteration in 0..MOST_ITERATIONS {
+            let size = norm(&self.here.tractions.pressure);
+            let residual = merit.sqrt() / size;
+            if callback(iteration, residual).is_break() {
+                return Err(SolveError::Stopped);
+            }
+            if residual < ENOUGH * settings.tolerance {
+                tractions.clone_from(&self.here.tractions);
+                self.project(tractions);
+                return Ok(true);
+            }
+            let active = self.active_cells();
+            let unknowns = active.last().map_or(0, |cell| cell.first + cell.unknowns());
+            if unknowns == 0 || unknowns > settings.max_direct_unknowns || !residual.is_finite() {
+                return Ok(false);
+            }
+            operators.direct_solves += 1;
+            let Some(mut next) = self.newton_point(&active, unknowns) else { return Ok(false) };
+            operators.compliance.full(next.tractions.parts(), next.displacements.parts_mut());
+            let mut fraction = 1.0;
+            let mut found = None;
+            for _ in 0..MOST_HALVINGS {
+                let trial = self.here.towards(&next, fraction);
+                let there = self.merit(&trial);
+                if there < merit * (1.0 - 1e-4 * fraction) {
+                    found = Some((trial, there));
+                    break;
+                }
+                fraction *= 0.5;
+            }
+            // Where no part of the step is better, all of it: the equations have kinks.
+            (self.here, merit) = found.unwrap_or_else(|| {
+                let there = self.merit(&next);
+                (next, there)
+            });
+        }
+        Ok(false)
+    }
+
+    /// Gap, augmented pressure, slip and trial shear of a cell.
+    fn cell(&self, point: &Point, cell: usize) -> (f64, f64, [f64; 2]) {
+        let Self { problem, self_influence: [normal, tangential], .. } = self;
+        let gap = problem.undeformed[cell] + point.displacements.normal[cell] - point.approach;
+        let slip = self.slip(point, cell);
+        let q = point.tractions.shear.at(cell);
+        let trial = [0, 1].map(|axis| q[axis] + slip[axis] / tangential);
+        (gap, point.tractions.pressure[cell] - gap / normal, trial)
+    }
+
+    fn slip(&self, point: &Point, cell: usize) -> [f64; 2] {
+        let [u, before] = [point.displacements.tangential.at(cell), self.problem.before.at(cell)];
+        let rigid = self.rigid(point.motion, cell);
+        [0, 1].map(|axis| rigid[axis] + before[axis] - u[axis])
+    }
+
+    fn rigid(&self, [x, y, turned]: [f64; 3], cell: usize) -> [f64; 2] {
+        if !self.motions.rotates {
+            return [x, y];
+        }
+        let around = self.motions.rotation.at(cell);
+        [x + turned * around[0], y + turned * around[1]]
+    }
+
+    /// Squared length of what the equations leave over [pressure^2].
+    fn merit(&self, point: &Point) -> f64 {
+        let Self { problem, .. } = self;
+        let mut square = 0.0;
+        let mut sums = [0.0; 4];
+        for cell in 0..problem.undeformed.len() {
+            let p = point.tractions.pressure[cell];
+            let q = point.tractions.shear.at(cell);
+            let (_, augmented, trial) = self.cell(point, cell);
+            let (bound, _) = problem.friction.at(cell, augmented.max(0.0));
+            let size = trial[0].hypot(trial[1]);
+            let fraction = if size > bound { bound / size } else { 1.0 };
+            square += (p - augmented.max(0.0)).powi(2);
+            for axis in 0..2 {
+                square += (q[axis] - fraction * trial[axis]).powi(2);
+            }
+            sums[0] += p;
+            sums[1] += q[0];
+            sums[2] += q[1];
+            if self.motions.rotates {
+                let around = self.motions.rotation.at(cell);
+                sums[3] += q[0] * around[0] + q[1] * around[1];
+            }
+        }
+        let cells = point.tractions.pressure.iter().filter(|p| **p > 0.0).count().max(1) as f64;
+        if let Some(total) = problem.total {
+            square += (sums[0] - total).powi(2) / cells;
+        }
+        for mode in 0..3 {
+            if self.motions.by_force[mode] {
+                square += (sums[1 + mode] - problem.resultant[mode]).powi(2) / cells;
+            }
+        }
+        square
+    }
+
+    /// Cells in contact by their augmented pressure, and what they do.
+    fn active_cells(&self) -> Vec<ActiveCell> {
+        let Self { problem, self_influence: [_, tangential], here, .. } = self;
+        let mut active = Vec::new();
+        let mut first = 0;
+        for cell in 0..problem.undeformed.len() {
+            let (_, augmented, trial) = self.cell(here, cell);
+            if augmented <= 0.0 {
+                continue;
+            }
+            let (bound, slope) = problem.friction.at(cell, augmented);
+            let size = trial[0].hypot(trial[1]);
+            let along = if size > 0.0 { trial.map(|part| part / size) } else { [1.0, 0.0] };
+            let (stiffness, shear_unknowns) = match (bound > 0.0, size > bound) {
+                (true, false) => (None, 2),
+                (true, true) => (Some((size - bound) * tangential / bound), 1),
+                (false, _) => (Some(0.0), 0),
+            };
+            active.push(ActiveCell {
+                cell,
+                along,
+                across: [-along[1], along[0]],
+                slope,
+                offset: if stiffness.is_some() { bound - slope * augmented } else { 0.0 },
+                stiffness,
+                first,
+                shear_unknowns,
+            });
+            first += 1 + shear_unknowns;
+        }
+        active
+    }
+
+    /// Tractions and motions that solve the equations linearised here; displacements are left to be found.
+    fn newton_point(&self, active: &[ActiveCell], unknowns: usize) -> Option<Point> {
+        let Self { problem, motions, self_influence: [unit, _], .. } = self;
+        // Rows of displacements and columns of motions are in units of the normal self-influence.
+        let motion_unknown: Vec<usize> = (0..3).filter(|&mode| motions.by_force[mode]).collect();
+        let approach_unknown = usize::from(problem.total.is_some());
+        let size = unknowns + approach_unknown + motion_unknown.len();
+        let mut matrix = Mat::<f64>::zeros(size, size);
+        let mut right = Mat::<f64>::zeros(size, 1);
+        let place = |cell: usize| [cell / self.columns, cell % self.columns];
+        let prescribed =
+            [0, 1, 2].map(|mode| if motions.by_force[mode] { 0.0 } else { problem.motion[mode] });
+        let mode_at = |mode: usize, cell: usize| {
+            let mut amounts = [0.0; 3];
+            amounts[mode] = 1.0;
+            self.rigid(amounts, cell)
+        };
+        for to in active {
+            let rows = to.rows();
+            for from in active {
+                let block = self.response.between(place(to.cell), place(from.cell));
+                let columns = from.columns();
+                for (row, vector) in rows.iter().enumerate().take(to.unknowns()) {
+                    let answer =
+                        [0, 1, 2].map(|k| (0..3).map(|l| vector[l] * block[l][k]).sum::<f64>() / unit);
+                    for (column, traction) in columns.iter().enumerate().take(from.unknowns()) {
+                        matrix[(to.first + row, from.first + column)] =
+                            (0..3).map(|k| answer[k] * traction[k]).sum();
+                    }
+                    let constant = answer[1] * from.along[0] + answer[2] * from.along[1];
+                    right[(to.first + row, 0)] -= constant * from.offset;
+                }
+            }
+            let approach = if approach_unknown == 1 { 0.0 } else { problem.approach };
+            right[(to.first, 0)] += (approach - problem.undeformed[to.cell]) / unit;
+            if approach_unknown == 1 {
+                matrix[(to.first, unknowns)] = -1.0;
+                matrix[(unknowns, to.first)] = 1.0;
+            }
+            let (before, moved) = (problem.before.at(to.cell), self.rigid(prescribed, to.cell));
+            for (row, vector) in rows.iter().enumerate().take(to.unknowns()).skip(1) {
+                let wanted = vector[1] * (before[0] + moved[0]) + vector[2] * (before[1] + moved[1]);
+                right[(to.first + row, 0)] += wanted / unit;
+                if let Some(stiffness) = to.stiffness {
+                    matrix[(to.first + row, to.first + row)] += stiffness / unit;
+                }
+            }
+            let columns = to.columns();
+            for (index, &mode) in motion_unknown.iter().enumerate() {
+                let along = mode_at(mode, to.cell);
+                let at = unknowns + approach_unknown + index;
+                for (row, vector) in rows.iter().enumerate().take(to.unknowns()).skip(1) {
+                    matrix[(to.first + row, at)] = -(vector[1] * along[0] + vector[2] * along[1]);
+                }
+                for (column, traction) in columns.iter().enumerate().take(to.unknowns()) {
+                    matrix[(at, to.first + column)] = traction[1] * along[0] + traction[2] * along[1];
+                }
+                right[(at, 0)] -= to.offset * (to.along[0] * along[0] + to.along[1] * along[1]);
+            }
+        }
+        if let Some(total) = problem.total {
+            right[(unknowns, 0)] = total;
+        }
+        for (index, &mode) in motion_unknown.iter().enumerate() {
+            right[(unknowns + approach_unknown + index, 0)] += problem.resultant[mode];
+        }
+        let solution = matrix.partial_piv_lu().solve(&right);
+        let value = |index: usize| solution[(index, 0)];
+        if (0..size).any(|index| !value(index).is_finite()) {
+            return None;
+        }
+        let mut tractions = Tractions::zeros(problem.undeformed.len());
+        for cell in active {
+            let mut found = [0.0, cell.offset * cell.along[0], cell.offset * cell.along[1]];
+            for (column, traction) in cell.columns().iter().enumerate().take(cell.unknowns()) {
+                found = [0, 1, 2].map(|k| found[k] + traction[k] * value(cell.first + column));
+            }
+            tractions.pressure[cell.cell] = found[0];
+            tractions.shear.set(cell.cell, [found[1], found[2]]);
+        }
+        let mut motion = problem.motion;
+        for (index, &mode) in motion_unknown.iter().enumerate() {
+            motion[mode] = value(unknowns + approach_unknown + index) * unit;
+        }
+        Some(Point {
+            displacements: Displacements::zeros(problem.undeformed.len()),
+            tractions,
+            approach: if approach_unknown == 1 { value(unknowns) * unit } else { problem.approach },
+            motion,
+        })
+    }
+
+    /// Takes away what rounding left of tension and of shear beyond the bound.
+    fn project(&self, tractions: &mut Tractions) {
+        project_pressure(&mut tractions.pressure, self.problem.total);
+        for cell in 0..tractions.pressure.len() {
+            let (bound, _) = self.problem.friction.at(cell, tractions.pressure[cell]);
+            let [x, y] = tractions.shear.at(cell);
+            let size = x.hypot(y);
+            if size > bound * (1.0 - 1e-9) && size > 0.0 {
+                tractions.shear.set(cell, [x * bound / size, y * bound / size]);
+            }
+        }
+    }
+}

@@ -1,0 +1,98 @@
+//! What lies outside the region of an increment: the gap of the whole grid, whether surfaces overlap there or touch at its edge, the
+//! area of contact.
+
+use ndarray::{Array2, ArrayView2};
+
+use super::increment::Solved;
+use super::outcome::Work;
+use super::region::Region;
+use super::{ContactSolver, Coupling, SolveError};
+use crate::compliance::{OperatorSet, SpectralCompliance, SurfaceCompliance};
+use crate::edge;
+use crate::model::{BEYOND_THE_BODY, ContactState};
+
+impl ContactSolver<'_> {
+    /// Gap on the whole grid from tractions in a region.
+    pub(super) fn gap_everywhere(
+        &mut self,
+        region: Region,
+        solved: &Solved,
+        state: &ContactState,
+        work: &mut Work,
+    ) -> Result<Array2<f64>, SolveError> {
+        let cells = self.grid.cells();
+        let whole = Region::whole(cells);
+        let mut gap = Array2::zeros(cells);
+        if region == whole {
+            whole.scatter(&solved.gap, &mut gap);
+            return Ok(gap);
+        }
+        gap.assign(&self.undeformed);
+        gap -= state.approach;
+        let coupled = self.coupling == Coupling::Coupled;
+        let operator = match &mut self.full_grid {
+            Some(operator) => operator,
+            none => {
+                let operators = OperatorSet {
+                    normal: !coupled,
+                    normal_from_all: coupled,
+                    shear_axis: self.shear_axis,
+                    symmetry: self.symmetry,
+                    ..OperatorSet::default()
+                };
+                none.insert(SpectralCompliance::new(&self.response, cells, operators)?)
+            }
+        };
+        let mut normal = vec![0.0; whole.len()];
+        let pressure = whole.gather(&state.pressure);
+        if coupled {
+            operator.normal_from_all(&pressure, &whole.gather_tangential(&state.shear), &mut normal);
+        } else {
+            operator.normal(&pressure, &mut normal);
+        }
+        work.convolutions += 1;
+        work.full_grid_convolutions += 1.0 / self.symmetry.copies() as f64;
+        for (gap, u) in gap.iter_mut().zip(&normal) {
+            *gap += u;
+        }
+        Ok(gap)
+    }
+
+    /// Whether the surfaces would overlap somewhere outside the region.
+    pub(super) fn overlaps_outside(&self, region: Region, gap: &Array2<f64>) -> bool {
+        region != Region::whole(self.grid.cells())
+            && gap.indexed_iter().any(|((i, j), gap)| *gap < 0.0 && !region.contains(i, j))
+    }
+
+    /// Contact area [length^2] from the edge between the cells of a region.
+    pub(super) fn contact_area(&self, region: Region, solved: &Solved) -> f64 {
+        let view = |field| ArrayView2::from_shape(region.shape, field);
+        let (Ok(pressure), Ok(gap)) =
+            (view(solved.tractions.pressure.as_slice()), view(solved.gap.as_slice()))
+        else {
+            return 0.0;
+        };
+        let [cells_x, cells_y] = self.symmetry.whole_of(self.grid.cells());
+        let [dx, dy] = self.grid.spacing();
+        let beyond = 0.5 * BEYOND_THE_BODY * (cells_x as f64 * dx).hypot(cells_y as f64 * dy);
+        // At a mirror the edge goes on as it does at a side of the region: with the same value in the next cell.
+        let cells = edge::contact_cells(&pressure, &gap, beyond) * self.symmetry.copies() as f64;
+        cells * self.grid.cell_area()
+    }
+
+    /// Whether there is pressure in an outermost row or column, apart from those at a mirror.
+    pub(super) fn touches_edge(&self, pressure: &Array2<f64>) -> bool {
+        if self.response.is_periodic() {
+            return false;
+        }
+        let mirrored = self.symmetry.axes();
+        let (nx, ny) = pressure.dim();
+        let any = |view: ndarray::ArrayView1<'_, f64>| view.iter().any(|p| *p > 0.0);
+        let across = (!mirrored[0] && any(pressure.row(0))) || any(pressure.row(nx - 1));
+        // a line contact has no edge along its line
+        if ny == 1 {
+            return across;
+        }
+        across || (!mirrored[1] && any(pressure.column(0))) || any(pressure.column(ny - 1))
+    }
+}

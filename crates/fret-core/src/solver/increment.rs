@@ -1,0 +1,419 @@
+//! One increment in a region: everything the equations need, gathered; and the order in which it is solved.
+
+use ndarray::Array2;
+
+use super::exact_newton;
+use super::laws::complementarity::{NormalResidual, normal_residual};
+use super::laws::friction::FrictionLaw;
+use super::laws::projection::project_pressure;
+use super::laws::rigid_motions::CellPositions;
+use super::laws::slip::TangentialResidual;
+use super::linear::preconditioner::Preconditioner;
+use super::linear::solver::LinearSolver;
+use super::newton::{self, ContactProblem, Pressure, Solution};
+use super::normal::{NormalEquations, first_pressure, full_contact_pressure, solve_normal};
+use super::outcome::{Resultants, settle};
+use super::region::Region;
+use super::settings::{Coupling, IterationCallback, SolveError, SolverSettings};
+use super::staggered;
+use super::tractions::{Displacements, Tractions};
+use super::{ContactState, Outcome};
+use crate::compliance::{CellResponse, SpectralCompliance, SurfaceCompliance};
+use crate::model::{Control, CoulombFriction, LoadStep, Scheme, SurfaceGrid, TangentialField};
+
+/// Residual to which the frictionless start of a coupled contact is solved.
+const ROUGH: f64 = 1e-2;
+
+/// The operators of a region.
+pub struct RegionOperators {
+    /// Where the region lies.
+    pub region: Region,
+    /// The elastic response.
+    pub compliance: SpectralCompliance,
+    /// Its approximate inverse.
+    pub preconditioner: Preconditioner,
+    /// Solver of linearised problems.
+    pub linear: LinearSolver,
+    /// Iterations of the exact Newton method so far.
+    pub direct_solves: usize,
+}
+
+/// What an increment is solved with besides its operators.
+pub struct Method<'a> {
+    pub coupling: Coupling,
+    pub settings: &'a SolverSettings,
+    /// The response of a cell to another, for the exact Newton method.
+    pub cells: &'a dyn Fn() -> Result<CellResponse, SolveError>,
+}
+
+/// One increment in one region.
+pub struct IncrementProblem<'a> {
+    pub grid: &'a SurfaceGrid,
+    /// The state before.
+    pub state: &'a ContactState,
+    pub region: Region,
+    pub friction: FrictionLaw,
+    pub positions: CellPositions,
+    undeformed: Vec<f64>,
+    /// Sum of the pressures over the cells, when the force is prescribed [pressure].
+    total: Option<f64>,
+    approach: f64,
+    /// Increments of prescribed motions: shift, twist x length [length].
+    motion: [f64; 3],
+    /// Sums of shear times mode over the cells, for motions by force [pressure].
+    resultant: [f64; 3],
+    periodic: bool,
+    /// A pressure to start from, whatever the state before.
+    start: Option<Vec<f64>>,
+}
+
+/// A solved region.
+pub struct Solved {
+    /// Pressure and shear.
+    pub tractions: Tractions,
+    /// Their displacements.
+    pub displacements: Displacements,
+    /// Gap [length].
+    pub gap: Vec<f64>,
+    /// Slip increment [length].
+    pub slip: TangentialField,
+    pub normal: NormalResidual,
+    pub tangential: TangentialResidual,
+    /// 1 / K of a cell [pressure/length].
+    pub tangential_stiffness: f64,
+    /// Outer iterations.
+    pub iterations: usize,
+}
+
+impl<'a> IncrementProblem<'a> {
+    /// Gathers what an increment needs inside `region`.
+    pub fn new(
+        grid: &'a SurfaceGrid,
+        undeformed: &Array2<f64>,
+        friction: &CoulombFriction,
+        (state, load): (&'a ContactState, &LoadStep),
+        region: Region,
+        periodic: bool,
+        start: Option<&Array2<f64>>,
+    ) -> Self {
+        let centres = |axis: usize| -> Vec<f64> {
+            (0..region.shape[axis]).map(|index| grid.centre(axis, region.origin[axis] + index)).collect()
+        };
+        let controls = [load.tangential[0], load.tangential[1], load.twist];
+        let by_force = controls.map(|control| matches!(control, Control::Force(_)));
+        let rotates = state.twist != 0.0 || load.twist != Control::Motion(0.0);
+        let positions = CellPositions::new(centres(0), centres(1), rotates, by_force);
+        let area = grid.cell_area();
+        let now = [state.shift[0], state.shift[1], state.twist];
+        let units = [1.0, 1.0, positions.length];
+        let mut motion = [0.0; 3];
+        let mut resultant = [0.0; 3];
+        for mode in 0..3 {
+            match controls[mode] {
+                Control::Motion(target) => motion[mode] = (target - now[mode]) * units[mode],
+                Control::Force(target) => resultant[mode] = target / (area * units[mode]),
+            }
+        }
+        let (total, approach) = match load.normal {
+            Control::Force(force) => (Some(force / area), state.approach),
+            Control::Motion(approach) => (None, approach),
+        };
+        Self {
+            grid,
+            state,
+            region,
+            friction: FrictionLaw::in_region(friction, region),
+            positions,
+            undeformed: region.gather(undeformed),
+            total,
+            approach,
+            motion,
+            resultant,
+            periodic,
+            start: start.map(|pressure| region.gather(pressure)),
+        }
+    }
+
+    /// The solution where the bodies do not touch under these loads.
+    pub fn apart(&self) -> Option<Solved> {
+        let lowest = self.undeformed.iter().copied().fold(f64::INFINITY, f64::min);
+        let (apart, approach) = match self.total {
+            Some(total) => (total <= 0.0, lowest),
+            None => (self.approach <= lowest, self.approach),
+        };
+        let len = self.region.len();
+        apart.then(|| Solved {
+            tractions: Tractions::zeros(len),
+            displacements: Displacements::zeros(len),
+            gap: self.undeformed.iter().map(|gap| gap - approach).collect(),
+            slip: TangentialField::zeros(len),
+            normal: NormalResidual { approach, residual: 0.0 },
+            tangential: TangentialResidual { motion: self.motion, residual: 0.0 },
+            tangential_stiffness: 1.0,
+            iterations: 0,
+        })
+    }
+
+    /// Solves the increment from predicted `tractions`. `last`: displacements of the state before, when they are known; `unchanged`:
+    /// its normal load is the one asked for.
+    ///
+    /// # Errors
+    /// When no method converges, or the iteration is stopped.
+    pub fn solve(
+        &self,
+        tractions: Tractions,
+        (last, unchanged): (Option<&Displacements>, bool),
+        operators: &mut RegionOperators,
+        method: &Method<'_>,
+        callback: IterationCallback<'_>,
+    ) -> Result<(Solved, ContactState, Outcome), SolveError> {
+        let solved = match method.coupling {
+            Coupling::Coupled => self.solve_coupled(tractions, last, operators, method, callback),
+            Coupling::Uncoupled | Coupling::Frictionless => {
+                self.solve_sequentially(tractions, (last, unchanged), operators, method, callback)
+            }
+        }?;
+        let (state, outcome) = settle(self, &solved);
+        Ok((solved, state, outcome))
+    }
+
+    /// Pressure and shear together.
+    fn solve_coupled(
+        &self,
+        mut tractions: Tractions,
+        last: Option<&Displacements>,
+        operators: &mut RegionOperators,
+        method: &Method<'_>,
+        callback: IterationCallback<'_>,
+    ) -> Result<Solved, SolveError> {
+        let settings = method.settings;
+        let mut displacements = Displacements::zeros(self.region.len());
+        let mut before = TangentialField::zeros(self.region.len());
+        if self.touched() {
+            before = self.displacement_before(last, &mut operators.compliance, true);
+        } else {
+            tractions.shear.clear();
+            tractions.pressure = self.first_pressure(operators);
+            let rough = SolverSettings { tolerance: ROUGH, ..*settings };
+            self.solve_pressure(&mut tractions, &mut displacements, operators, &rough, callback)?;
+        }
+        self.make_pressure_feasible(&mut tractions);
+        let problem = self.contact_problem(Pressure::Unknown, &before);
+        newton::make_shear_feasible(&problem, &mut tractions, operators);
+        operators.compliance.full(tractions.parts(), displacements.parts_mut());
+        let start = tractions.clone();
+        let solution = match settings.scheme {
+            Scheme::Monolithic => {
+                newton::solve(&problem, &mut tractions, &mut displacements, operators, settings, callback)
+            }
+            Scheme::Staggered => {
+                staggered::solve(&problem, &mut tractions, &mut displacements, operators, settings, callback)
+            }
+        };
+        let solution = match solution {
+            Err(SolveError::NotConverged { reached, iterations })
+                if settings.scheme == Scheme::Monolithic =>
+            {
+                let failed = SolveError::NotConverged { reached, iterations };
+                let mut unsolved = (start, failed);
+                exact_newton::solve(
+                    &problem,
+                    &mut unsolved,
+                    (&mut tractions, &mut displacements),
+                    operators,
+                    method,
+                    callback,
+                )
+            }
+            other => other,
+        }?;
+        let own = operators.compliance.self_influence();
+        let Solution { normal, tangential, gap, slip, iterations } = solution;
+        let normal = normal.unwrap_or(NormalResidual { approach: self.approach, residual: f64::INFINITY });
+        let tangential_stiffness = 1.0 / own.tangential;
+        Ok(Solved {
+            tractions,
+            displacements,
+            gap,
+            slip,
+            normal,
+            tangential,
+            tangential_stiffness,
+            iterations,
+        })
+    }
+
+    /// Pressure first, then shear on it: for bodies whose shear does not move the surfaces normally.
+    fn solve_sequentially(
+        &self,
+        mut tractions: Tractions,
+        (last, unchanged): (Option<&Displacements>, bool),
+        operators: &mut RegionOperators,
+        method: &Method<'_>,
+        callback: IterationCallback<'_>,
+    ) -> Result<Solved, SolveError> {
+        let len = self.region.len();
+        let settings = method.settings;
+        let own = operators.compliance.self_influence();
+        let mut displacements = Displacements::zeros(len);
+        let (mut gap, normal, mut iterations);
+        if let (true, Some(last)) = (unchanged && settings.reuse_pressure, last) {
+            tractions.pressure = self.region.gather(&self.state.pressure);
+            displacements.normal.clone_from(&last.normal);
+            gap = displacements.normal.iter().zip(&self.undeformed).map(|(u, g)| u + g).collect::<Vec<_>>();
+            let approach = self.total.is_none().then_some(self.approach);
+            normal = normal_residual(&tractions.pressure, &mut gap, &self.undeformed, own.normal, approach);
+            iterations = 0;
+        } else {
+            let usable = project_pressure(&mut tractions.pressure, self.total);
+            if self.start.is_some() || !self.touched() || !usable {
+                tractions.pressure = self.first_pressure(operators);
+            }
+            (normal, gap, iterations) =
+                self.solve_pressure(&mut tractions, &mut displacements, operators, settings, callback)?;
+        }
+        let mut slip = TangentialField::zeros(len);
+        let mut tangential = TangentialResidual { motion: self.motion, residual: 0.0 };
+        if method.coupling == Coupling::Frictionless || settings.skip_unloaded_shear && !self.causes_shear() {
+            tractions.shear.clear();
+        } else {
+            let before = self.displacement_before(last, &mut operators.compliance, false);
+            let problem = self.contact_problem(Pressure::Given, &before);
+            newton::make_shear_feasible(&problem, &mut tractions, operators);
+            operators.compliance.tangential(tractions.shear.parts(), displacements.tangential.parts_mut());
+            let solution =
+                newton::solve(&problem, &mut tractions, &mut displacements, operators, settings, callback)?;
+            slip = solution.slip;
+            tangential = solution.tangential;
+            iterations += solution.iterations;
+        }
+        let tangential_stiffness = if own.tangential > 0.0 { 1.0 / own.tangential } else { 0.0 };
+        Ok(Solved {
+            tractions,
+            displacements,
+            gap,
+            slip,
+            normal,
+            tangential,
+            tangential_stiffness,
+            iterations,
+        })
+    }
+
+    /// Solves the frictionless problem from the pressure there is; shear stays as it is.
+    fn solve_pressure(
+        &self,
+        tractions: &mut Tractions,
+        displacements: &mut Displacements,
+        operators: &mut RegionOperators,
+        settings: &SolverSettings,
+        callback: IterationCallback<'_>,
+    ) -> Result<(NormalResidual, Vec<f64>, usize), SolveError> {
+        let RegionOperators { compliance, preconditioner, .. } = operators;
+        compliance.normal(&tractions.pressure, &mut displacements.normal);
+        let solution = solve_normal(
+            &self.normal_equations(),
+            &mut tractions.pressure,
+            &mut displacements.normal,
+            compliance,
+            preconditioner,
+            settings,
+            callback,
+        )?;
+        Ok((solution.residual, solution.gap, solution.iterations))
+    }
+
+    fn touched(&self) -> bool {
+        self.state.pressure.iter().any(|p| *p > 0.0)
+    }
+
+    /// Whether anything asks for shear, or has left some.
+    fn causes_shear(&self) -> bool {
+        self.motion != [0.0; 3]
+            || self.resultant != [0.0; 3]
+            || self.state.shear.iter().any(|shear| shear.iter().any(|q| *q != 0.0))
+    }
+
+    fn contact_problem<'b>(&'b self, pressure: Pressure, before: &'b TangentialField) -> ContactProblem<'b> {
+        ContactProblem {
+            pressure,
+            undeformed: &self.undeformed,
+            friction: &self.friction,
+            total: self.total,
+            approach: self.approach,
+            before,
+            positions: &self.positions,
+            motion: self.motion,
+            resultant: self.resultant,
+        }
+    }
+
+    fn normal_equations(&self) -> NormalEquations<'_> {
+        NormalEquations { undeformed: &self.undeformed, total: self.total, approach: self.approach }
+    }
+
+    /// A first pressure; exact at once where a periodic problem is in full contact.
+    fn first_pressure(&self, operators: &mut RegionOperators) -> Vec<f64> {
+        if let Some(start) = &self.start {
+            return start.clone();
+        }
+        let equations = self.normal_equations();
+        let full = if self.periodic {
+            full_contact_pressure(&equations, &mut operators.preconditioner)
+        } else {
+            None
+        };
+        full.unwrap_or_else(|| first_pressure(&equations, operators.compliance.self_influence().normal))
+    }
+
+    /// Brings predicted pressure to what its laws allow.
+    fn make_pressure_feasible(&self, tractions: &mut Tractions) {
+        if let Some(total) = self.total {
+            // Shear keeps its ratio to the pressure: what was on its circle stays there.
+            let found: f64 = tractions.pressure.iter().map(|p| p.max(0.0)).sum();
+            if found > 0.0 {
+                for q in tractions.shear.x.iter_mut().chain(&mut tractions.shear.y) {
+                    *q *= total / found;
+                }
+            }
+        }
+        project_pressure(&mut tractions.pressure, self.total);
+    }
+
+    /// Tangential displacement of the state before, in the region.
+    fn displacement_before(
+        &self,
+        last: Option<&Displacements>,
+        compliance: &mut SpectralCompliance,
+        from_pressure: bool,
+    ) -> TangentialField {
+        if let Some(last) = last {
+            return last.tangential.clone();
+        }
+        let mut before = TangentialField::zeros(self.region.len());
+        let shear = self.region.gather_tangential(&self.state.shear);
+        if from_pressure {
+            let pressure = self.region.gather(&self.state.pressure);
+            let mut normal = vec![0.0; self.region.len()];
+            let ([from_x, from_y], [to_x, to_y]) = (shear.parts(), before.parts_mut());
+            compliance.full([&pressure, from_x, from_y], [&mut normal, to_x, to_y]);
+        } else if shear.x.iter().chain(&shear.y).any(|q| *q != 0.0) {
+            compliance.tangential(shear.parts(), before.parts_mut());
+        }
+        before
+    }
+
+    /// How far resultants are from the prescribed ones, relative to the normal force; the tangential ones to the `limit` of friction.
+    pub fn off_equilibrium(&self, found: &Resultants, limit: f64) -> f64 {
+        let area = self.grid.cell_area();
+        let normal = match self.total {
+            Some(total) if total > 0.0 => (found.normal / (total * area) - 1.0).abs(),
+            _ => 0.0,
+        };
+        let lengths = [1.0, 1.0, self.positions.length];
+        let found = [found.tangential[0], found.tangential[1], found.moment];
+        (0..3).filter(|&mode| limit > 0.0 && self.positions.by_force[mode]).fold(normal, |worst, mode| {
+            worst.max((found[mode] / lengths[mode] - self.resultant[mode] * area).abs() / limit)
+        })
+    }
+}

@@ -1,0 +1,97 @@
+//! Complementarity of gap and pressure: `g >= 0`, `p >= 0`, `g p = 0` (Signorini). The one residual of it, for every way of solving.
+
+use crate::model::each_cell::{CellRule, CellSize, Reals, each_cell, largest_of};
+use crate::model::field::lower;
+
+/// How well pressure and gap satisfy complementarity, and the approach found on the way.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct NormalResidual {
+    /// Rigid approach [length].
+    pub approach: f64,
+    /// Largest `|min(g, K p)|` over the cells, in units of the mean displacement under the load; K is a cell's self-influence.
+    pub residual: f64,
+}
+
+/// Evaluates pressures. `gap` comes as normal displacement + undeformed gap, and becomes the gap. Without a prescribed `approach`
+/// it is the mean of the loaded cells.
+pub fn normal_residual(
+    pressure: &[f64],
+    gap: &mut [f64],
+    undeformed: &[f64],
+    self_influence: f64,
+    approach: Option<f64>,
+) -> NormalResidual {
+    let [load, cells, heights, work, undeformed_work] = each_cell(&Loads, [pressure, gap, undeformed], []);
+    if load <= 0.0 {
+        let lowest = gap.iter().copied().fold(f64::INFINITY, f64::min);
+        let approach = approach.unwrap_or(lowest);
+        lower(gap, approach);
+        return NormalResidual { approach, residual: if lowest >= approach { 0.0 } else { 1.0 } };
+    }
+    let approach = approach.unwrap_or(heights / cells);
+    let scale = ((work - undeformed_work) / load).abs();
+    lower(gap, approach);
+    let worst = violation(gap, pressure, self_influence);
+    NormalResidual { approach, residual: if scale > 0.0 { worst / scale } else { f64::INFINITY } }
+}
+
+/// Largest `|min(g, K p)|` over the cells [length], K being the self-influence.
+pub fn violation(gap: &[f64], pressure: &[f64], self_influence: f64) -> f64 {
+    largest_of(&Violation { self_influence }, [gap, pressure])
+}
+
+/// Sums of pressure, of loaded cells and of their heights, of pressure times height, and of pressure times undeformed gap.
+struct Loads;
+
+impl CellRule<3, 0, 5> for Loads {
+    #[inline(always)]
+    fn at<R: Reals>(&self, [p, height, undeformed]: [R; 3], _: &mut [R; 0]) -> [R; 5] {
+        let (zero, one) = (p.all(0.0), p.all(1.0));
+        [p, p.if_at_most(zero, zero, one), p.if_at_most(zero, zero, height), p * height, p * undeformed]
+    }
+}
+
+/// `|min(g, K p)|`.
+struct Violation {
+    self_influence: f64,
+}
+
+impl CellSize<2> for Violation {
+    #[inline(always)]
+    fn of<R: Reals>(&self, [gap, p]: [R; 2]) -> R {
+        let off = gap.min(p * self.self_influence);
+        off.max(off * -1.0)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Two loaded cells at one height, an open one above: complementary. A cell in tension, an overlap, a loaded cell that is open:
+    /// each by its own measure.
+    #[test]
+    fn every_kind_of_violation_is_seen() {
+        let undeformed = [0.0, 0.0, 5.0];
+        let residual = |pressure: [f64; 3], displacement: [f64; 3], approach| {
+            let mut gap = [0, 1, 2].map(|cell| undeformed[cell] + displacement[cell]);
+            normal_residual(&pressure, &mut gap, &undeformed, 0.5, approach)
+        };
+        // Mean displacement under the load: 2.
+        assert_eq!(
+            residual([1.0, 3.0, 0.0], [2.0, 2.0, 1.0], None),
+            NormalResidual { approach: 2.0, residual: 0.0 }
+        );
+        assert_eq!(residual([1.0, 3.0, 0.0], [2.0, 2.0, -4.0], None).residual, 0.5); // overlap of 1
+        assert_eq!(residual([1.0, 3.0, 0.0], [2.0, 2.0, 1.0], Some(1.5)).residual, 0.25); // a gap of 0.5 under load
+        assert_eq!(residual([2.0, 2.0, -0.8], [2.0, 2.0, 4.0], Some(2.0)).residual, 0.4 / (4.8 / 3.2));
+    }
+
+    #[test]
+    fn bodies_apart_are_complementary_and_bodies_through_each_other_are_not() {
+        let mut gap = [1.0, 2.0];
+        assert_eq!(normal_residual(&[0.0; 2], &mut gap, &[1.0, 2.0], 1.0, Some(0.5)).residual, 0.0);
+        assert_eq!(gap, [0.5, 1.5]);
+        assert_eq!(normal_residual(&[0.0; 2], &mut [1.0, 2.0], &[1.0, 2.0], 1.0, Some(1.5)).residual, 1.0);
+    }
+}

@@ -1,0 +1,302 @@
+//! The slip increment of given shear, with the rigid motions that its resultants ask for, and how far all of it is from Coulomb's
+//! law: `q = Proj(q + slip / K)`, the projection onto the friction disc (Alart & Curnier 1991), K a cell's self-influence.
+//!
+//! Motions that follow from a resultant are those under which the projected shear has it: the minimum of a convex potential,
+//! found by Newton's method with Armijo's rule.
+
+use super::friction::{OnDisc, onto_disc};
+use super::rigid_motions::RigidMotions;
+use crate::model::TangentialField;
+use crate::model::each_cell::{CellRule, Reals, each_cell};
+
+/// What the tangential equations of one increment ask for; fields are packed over the cells in contact.
+#[derive(Debug, Clone, Copy)]
+pub struct TangentialProblem<'a> {
+    /// Friction bound [pressure].
+    pub bound: &'a [f64],
+    /// Tangential displacement before the increment [length].
+    pub before: &'a TangentialField,
+    /// Rigid motions.
+    pub motions: &'a RigidMotions,
+    /// Increments of the motions that are prescribed [length]; 0 for the others.
+    pub motion: [f64; 3],
+    /// Sums over the cells of shear times mode, for the motions that follow from a resultant [pressure].
+    pub resultant: [f64; 3],
+    /// Influence of a cell's shear on its own displacement [length/pressure].
+    pub self_influence: f64,
+}
+
+/// How well shear satisfies Coulomb's law, and the motions found on the way.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TangentialResidual {
+    /// Increments of shift (x, y) and of twist x length [length].
+    pub motion: [f64; 3],
+    /// `|q - Proj(q + slip / K)| / |b|`, Euclidean norms over the cells.
+    pub residual: f64,
+}
+
+/// The slip increment of the cells in contact.
+#[derive(Debug, Default)]
+pub struct SlipIncrement {
+    /// Slip of the upper body over the lower in the increment, packed [length].
+    pub slip: TangentialField,
+    /// Vectors `q + slip / K` before the motions that follow from resultants [pressure].
+    trial: TangentialField,
+}
+
+impl SlipIncrement {
+    /// Finds slip, motions and residual of shear `q` with displacement `u`; `guess` starts the search for the motions.
+    pub fn find(
+        &mut self,
+        problem: &TangentialProblem<'_>,
+        q: &TangentialField,
+        u: &TangentialField,
+        guess: [f64; 3],
+    ) -> TangentialResidual {
+        let TangentialProblem { bound, before, motions, .. } = *problem;
+        let stiffness = 1.0 / problem.self_influence;
+        let Self { slip, trial } = self;
+        for part in [&mut slip.x, &mut slip.y, &mut trial.x, &mut trial.y] {
+            part.resize(bound.len(), 0.0);
+        }
+        let rotation = motions.rotation.parts();
+        let read = [&u.x, &u.y, &before.x, &before.y, &q.x, &q.y, bound, rotation[0], rotation[1]];
+        let write = [&mut slip.x[..], &mut slip.y, &mut trial.x, &mut trial.y];
+        let rule = PrescribedSlip { motion: problem.motion, stiffness };
+        let [trial_squares, bounds, bound_squares] = each_cell(&rule, read, write);
+        let mut found = [0.0; 3];
+        if motions.any_by_force() && bounds > 0.0 {
+            let count = bound.len() as f64;
+            let scale = Scale { total: bounds, spread: (trial_squares / count).sqrt() + bounds / count };
+            found = self.motion_by_force(problem, scale, guess.map(|motion| stiffness * motion));
+            found = found.map(|motion| motion / stiffness);
+        }
+        let Self { slip, .. } = self;
+        let read = [&q.x, &q.y, bound, rotation[0], rotation[1]];
+        let [off] = each_cell(&OffLaw { motion: found, stiffness }, read, [&mut slip.x, &mut slip.y]);
+        let motion =
+            [0, 1, 2].map(|mode| if motions.by_force[mode] { found[mode] } else { problem.motion[mode] });
+        let residual = if bound_squares > 0.0 { (off / bound_squares).sqrt() } else { 0.0 };
+        TangentialResidual { motion, residual }
+    }
+
+    /// Root of `sum Proj(trial + motion) . mode = resultant`. Motions are in units of pressure.
+    fn motion_by_force(&self, problem: &TangentialProblem<'_>, scale: Scale, guess: [f64; 3]) -> [f64; 3] {
+        let motions = problem.motions;
+        let mut motion = motions.only_by_force(guess);
+        let mut here = self.potential(problem, motion);
+        if size(&here.defect) > 0.5 * scale.total {
+            // A guess far off: nothing moved may be nearer.
+            let at_rest = self.potential(problem, [0.0; 3]);
+            if at_rest.value < here.value {
+                motion = [0.0; 3];
+                here = at_rest;
+            }
+        }
+        for _ in 0..60 {
+            let defect = size(&here.defect);
+            if defect <= 4e-16 * scale.total {
+                break;
+            }
+            let mut change = motions.solve(here.curvature, here.defect.map(|d| -d));
+            let length = size(&change);
+            if length > 4.0 * scale.spread {
+                change = change.map(|c| c * 4.0 * scale.spread / length);
+            }
+            let slope: f64 = change.iter().zip(&here.defect).map(|(c, d)| c * d).sum();
+            if slope >= 0.0 {
+                break;
+            }
+            let slack = 1e-15 * (here.value.abs() + scale.total * scale.spread);
+            let mut fraction = 1.0;
+            let mut accepted = false;
+            for _ in 0..30 {
+                let there_motion = [0, 1, 2].map(|mode| motion[mode] + fraction * change[mode]);
+                let there = self.potential(problem, there_motion);
+                if there.value <= here.value + 1e-4 * fraction * slope
+                    || (there.value <= here.value + slack && size(&there.defect) < defect)
+                {
+                    motion = there_motion;
+                    here = there;
+                    accepted = true;
+                    break;
+                }
+                fraction *= 0.5;
+            }
+            if !accepted || (size(&here.defect) > 0.5 * defect && size(&here.defect) < 1e-14 * scale.total) {
+                break;
+            }
+        }
+        motion
+    }
+
+    fn potential(&self, problem: &TangentialProblem<'_>, motion: [f64; 3]) -> Potential {
+        let TangentialProblem { motions, bound, .. } = *problem;
+        let mut potential = if motions.rotates {
+            let [around_x, around_y] = motions.rotation.parts();
+            let read = [&self.trial.x, &self.trial.y, bound, around_x, around_y];
+            let [value, x, y, r, xx, yy, rr, xy, xr, yr] = each_cell(&Turning(motion), read, []);
+            Potential { value, defect: [x, y, r], curvature: [xx, yy, rr, xy, xr, yr] }
+        } else {
+            let read = [&self.trial.x, &self.trial.y, bound];
+            let [value, x, y, xx, yy, xy] = each_cell(&Straight([motion[0], motion[1]]), read, []);
+            Potential { value, defect: [x, y, 0.0], curvature: [xx, yy, 0.0, xy, 0.0, 0.0] }
+        };
+        for mode in 0..3 {
+            if motions.by_force[mode] {
+                potential.value -= motion[mode] * problem.resultant[mode];
+                potential.defect[mode] -= problem.resultant[mode];
+            } else {
+                potential.defect[mode] = 0.0;
+            }
+        }
+        potential
+    }
+}
+
+/// Sizes that the search for motions measures itself by [pressure].
+#[derive(Debug, Clone, Copy)]
+struct Scale {
+    /// Sum of the friction bounds.
+    total: f64,
+    /// A common size of trial vectors and bounds.
+    spread: f64,
+}
+
+/// Value, gradient and curvature of the convex potential whose minimum is the rigid motion.
+struct Potential {
+    value: f64,
+    defect: [f64; 3],
+    curvature: [f64; 6],
+}
+
+fn size(vector: &[f64; 3]) -> f64 {
+    vector.iter().map(|v| v * v).sum::<f64>().sqrt()
+}
+
+/// Slip without the motions that follow from resultants, and the vectors `q + slip / K`.
+struct PrescribedSlip {
+    motion: [f64; 3],
+    stiffness: f64,
+}
+
+impl CellRule<9, 4, 3> for PrescribedSlip {
+    const OPTIONAL: usize = 2;
+
+    #[inline(always)]
+    fn at<R: Reals>(
+        &self,
+        [ux, uy, before_x, before_y, qx, qy, bound, around_x, around_y]: [R; 9],
+        [slip_x, slip_y, trial_x, trial_y]: &mut [R; 4],
+    ) -> [R; 3] {
+        let [shift_x, shift_y, twist] = self.motion;
+        *slip_x = around_x * twist + shift_x + before_x - ux;
+        *slip_y = around_y * twist + shift_y + before_y - uy;
+        *trial_x = qx + *slip_x * self.stiffness;
+        *trial_y = qy + *slip_y * self.stiffness;
+        [*trial_x * *trial_x + *trial_y * *trial_y, bound, bound * bound]
+    }
+}
+
+/// Slip with all motions, and the squared distance of `q` from the projection of `q + slip / K`.
+struct OffLaw {
+    motion: [f64; 3],
+    stiffness: f64,
+}
+
+impl CellRule<5, 2, 1> for OffLaw {
+    const OPTIONAL: usize = 2;
+
+    #[inline(always)]
+    fn at<R: Reals>(
+        &self,
+        [qx, qy, bound, around_x, around_y]: [R; 5],
+        [slip_x, slip_y]: &mut [R; 2],
+    ) -> [R; 1] {
+        let [shift_x, shift_y, twist] = self.motion;
+        *slip_x = *slip_x + around_x * twist + shift_x;
+        *slip_y = *slip_y + around_y * twist + shift_y;
+        let image = onto_disc([qx + *slip_x * self.stiffness, qy + *slip_y * self.stiffness], bound);
+        let off = [qx - image[0], qy - image[1]];
+        [off[0] * off[0] + off[1] * off[1]]
+    }
+}
+
+/// Sums of the potential without rotation.
+struct Straight([f64; 2]);
+
+impl CellRule<3, 0, 6> for Straight {
+    #[inline(always)]
+    fn at<R: Reals>(&self, [x, y, bound]: [R; 3], _: &mut [R; 0]) -> [R; 6] {
+        let on = OnDisc::new([x + self.0[0], y + self.0[1]], bound);
+        let [along_x, along_y] = on.along;
+        [
+            on.potential,
+            on.image[0],
+            on.image[1],
+            on.fraction - on.fraction * along_x * along_x,
+            on.fraction - on.fraction * along_y * along_y,
+            on.fraction * along_x * along_y * -1.0,
+        ]
+    }
+}
+
+/// Sums of the potential with all three motions.
+struct Turning([f64; 3]);
+
+impl CellRule<5, 0, 10> for Turning {
+    #[inline(always)]
+    fn at<R: Reals>(&self, [x, y, bound, around_x, around_y]: [R; 5], _: &mut [R; 0]) -> [R; 10] {
+        let [shift_x, shift_y, twist] = self.0;
+        let on = OnDisc::new([x + (around_x * twist + shift_x), y + (around_y * twist + shift_y)], bound);
+        let [along_x, along_y] = on.along;
+        let turned = along_x * around_x + along_y * around_y;
+        [
+            on.potential,
+            on.image[0],
+            on.image[1],
+            on.image[0] * around_x + on.image[1] * around_y,
+            on.fraction - on.fraction * along_x * along_x,
+            on.fraction - on.fraction * along_y * along_y,
+            on.fraction * (around_x * around_x + around_y * around_y - turned * turned),
+            on.fraction * along_x * along_y * -1.0,
+            on.fraction * (around_x - along_x * turned),
+            on.fraction * (around_y - along_y * turned),
+        ]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::super::contact_set::ContactSet;
+    use super::super::rigid_motions::CellPositions;
+    use super::*;
+
+    /// Two cells under bounds of 1 and 3, pulled by 2 along x: the first slips at 1, the second carries the other 1. Its trial is then
+    /// 1 with the motion m that it needs: K (1 - 0.25) = m - u.
+    #[test]
+    fn motion_follows_from_the_force() {
+        let contact = ContactSet::of(2, |_| true);
+        let positions = CellPositions::new(vec![0.0, 1.0], vec![0.0], false, [true, true, false]);
+        let motions = positions.motions_of(&contact);
+        let field = |x: [f64; 2]| TangentialField { x: x.to_vec(), y: vec![0.0; 2] };
+        let problem = TangentialProblem {
+            bound: &[1.0, 3.0],
+            before: &TangentialField::zeros(2),
+            motions: &motions,
+            motion: [0.0; 3],
+            resultant: [2.0, 0.0, 0.0],
+            self_influence: 0.5,
+        };
+        let mut increment = SlipIncrement::default();
+        let (q, u) = (field([1.0, 0.25]), field([0.1, 0.2]));
+        let found = increment.find(&problem, &q, &u, [0.0; 3]);
+        assert!((found.motion[0] - (0.5 * 0.75 + 0.2)).abs() < 1e-15);
+        assert!((increment.slip.x[0] - (found.motion[0] - 0.1)).abs() < 1e-15);
+        // The first is on its circle and dragged outward: satisfied. The second is off by 0.75 of bounds of length sqrt 10.
+        assert!((found.residual - 0.75 / 10.0_f64.sqrt()).abs() < 1e-15);
+        // With the shear of the solution nothing is off.
+        let found = increment.find(&problem, &field([1.0, 1.0]), &u, found.motion);
+        assert!(found.residual < 1e-15 && (found.motion[0] - 0.2).abs() < 1e-15);
+    }
+}

@@ -1,0 +1,9 @@
+//! The linearised problem on fixed active sets, and its solution: a Krylov method with an approximate inverse in Fourier space.
+//! Single precision begins and ends in [`solver`].
+
+mod gmres;
+mod inverse;
+pub mod preconditioner;
+mod problem;
+mod rigid_projector;
+pub mod solver;

@@ -1,0 +1,309 @@
+//! An approximate inverse of the elastic response by unpadded transforms on the region, wavenumber by wavenumber (a circulant
+//! preconditioner: Strang 1986, T. Chan 1988): for pressure the frequency response of the pair where it is known; else the kernel
+//! made periodic with the nearest image of each offset only; in slipping cells the slip stiffness takes its part.
+
+use ndarray::{Array2, s};
+
+use super::super::contact_set::ContactSet;
+use super::inverse::{Inverse, InverseFields};
+use crate::compliance::{SurfaceResponse, mirrors};
+use crate::kernel::ResponseTable;
+use crate::model::Symmetry;
+use crate::model::each_cell::{CellRule, Number, Reals, each_cell};
+use fret_fft::{Block, ConvolutionError, Kernel, Parity, PeriodicProduct, Symbol};
+
+/// A pair is stiff at the surface when the longest waves of a region meet this many times the compliance times wavenumber that
+/// the shortest ones meet: a thin coating more than about five times stiffer than what lies below.
+const STIFF_ABOVE: f64 = 4.0;
+
+const NORMAL: [Block; 1] = [Block { output: 0, input: 0, kernel: 0, sign: 1.0 }];
+const TANGENTIAL: [Block; 4] = [
+    Block { output: 0, input: 0, kernel: 0, sign: 1.0 },
+    Block { output: 1, input: 1, kernel: 1, sign: 1.0 },
+    Block { output: 0, input: 1, kernel: 2, sign: 1.0 },
+    Block { output: 1, input: 0, kernel: 2, sign: 1.0 },
+];
+
+/// Approximate inverses for a region.
+pub struct Preconditioner {
+    normal: Option<Inverse>,
+    shear: Option<Inverse>,
+    /// Smallest symbol of the tangential response [length/pressure].
+    softest: f64,
+    /// The one axis along which shear acts.
+    shear_axis: Option<usize>,
+    fields: InverseFields,
+    cells: usize,
+    /// The contact that fields were last spread from.
+    contact: ContactSet,
+    stiff: bool,
+    /// Passes so far.
+    pub passes: usize,
+}
+
+/// Slip stiffness as the preconditioner sees it: where little resists turning the inverse of the elastic response counts, where much
+/// does a cell's own slip stiffness.
+#[derive(Debug, Default)]
+pub struct SlipWeights<N> {
+    /// Weights of the elastic inverse in the cells in contact, on both of its sides.
+    elastic: Vec<N>,
+    /// Inverses of slip stiffness, each by its weight [pressure/length].
+    slip: Vec<N>,
+    /// Unit of displacements over that of tractions [length/pressure].
+    compliance: f64,
+    weighted: [Vec<N>; 2],
+    part: [Vec<N>; 2],
+}
+
+/// The frequency response of a pair on the cells of a region: what the coefficients, cut off at its sides, no longer tell.
+#[derive(Debug, Clone, Copy)]
+pub struct CellWaves<'a> {
+    /// The response.
+    pub table: &'a ResponseTable,
+    /// Sides of a cell [length].
+    pub spacing: [f64; 2],
+}
+
+impl CellWaves<'_> {
+    /// Whether long waves meet a body much softer than short ones do.
+    fn are_stiff(&self, shape: [usize; 2]) -> bool {
+        let longest = (0..2).map(|axis| shape[axis] as f64 * self.spacing[axis]).fold(0.0, f64::max);
+        let shortest = 2.0 * self.spacing[0].min(self.spacing[1]);
+        let at = |length: f64| self.table.times_k(std::f64::consts::TAU / length).zz;
+        at(longest) > STIFF_ABOVE * at(shortest)
+    }
+}
+
+impl Preconditioner {
+    /// Inverses for a region of `shape` cells; normal, tangential or both. `waves` serves pressure in free space, `shear_axis` is the one
+    /// axis of shear where the other part vanishes; with mirrors the region stands for a larger one; `single`: in single precision.
+    ///
+    /// # Errors
+    /// When a coefficient is missing or does not cover the region.
+    pub fn new(
+        response: &SurfaceResponse,
+        waves: Option<CellWaves<'_>>,
+        shape: [usize; 2],
+        [normal, tangential]: [bool; 2],
+        shear_axis: Option<usize>,
+        symmetry: Symmetry,
+        single: bool,
+    ) -> Result<Self, ConvolutionError> {
+        let (part, shape) = (shape, symmetry.whole_of(shape));
+        let [zz, xx, yy, xy] = match response {
+            SurfaceResponse::FreeSpace(c) => [&c.zz, &c.xx, &c.yy, &c.xy],
+            SurfaceResponse::Periodic(c) => [&c.zz, &c.xx, &c.yy, &c.xy],
+        };
+        let symbol = |values: &Option<Array2<f64>>, parity: Parity| {
+            let values = values.as_ref().ok_or(ConvolutionError::EmptyShape(0, 0))?;
+            Ok(if response.is_periodic() { values.clone() } else { nearest_images(values, shape, parity) })
+        };
+        let product = |symbols: &[Symbol<'_>], fields: &[usize], blocks: &[Block]| {
+            let product = PeriodicProduct::mirrored(part, symbols, blocks, mirrors(symmetry, fields))?;
+            Ok::<_, ConvolutionError>(Inverse::new(product, single))
+        };
+        let normal = if normal {
+            let mut inverse = match (response, waves, zz) {
+                (SurfaceResponse::FreeSpace(_), Some(waves), Some(zz)) => waves_of_cells(zz, waves, shape),
+                _ => symbol(zz, Parity::EvenEven)?,
+            };
+            let least = smallest_positive(&inverse);
+            inverse.mapv_inplace(|value| if value == 0.0 { 0.0 } else { 1.0 / value.max(least) });
+            Some(product(&[Symbol { values: inverse.view(), parity: Parity::EvenEven }], &[0], &NORMAL)?)
+        } else {
+            None
+        };
+        let mut softest = 0.0;
+        let shear = if tangential {
+            let xx = symbol(xx, Parity::EvenEven)?;
+            let yy = symbol(yy, Parity::EvenEven)?;
+            let xy = symbol(xy, Parity::OddOdd)?;
+            softest = smallest_positive(&xx).min(smallest_positive(&yy));
+            let [xx, yy, xy] = inverse(&xx, &yy, &xy, softest);
+            let symbols = [
+                Symbol { values: xx.view(), parity: Parity::EvenEven },
+                Symbol { values: yy.view(), parity: Parity::EvenEven },
+                Symbol { values: xy.view(), parity: Parity::OddOdd },
+            ];
+            Some(match shear_axis {
+                Some(axis) => product(&symbols[axis..=axis], &[1 + axis], &NORMAL)?,
+                None => product(&symbols, &[1, 2], &TANGENTIAL)?,
+            })
+        } else {
+            None
+        };
+        Ok(Self {
+            normal,
+            shear,
+            softest,
+            shear_axis,
+            stiff: waves.is_some_and(|waves| waves.are_stiff(shape)),
+            fields: InverseFields::default(),
+            contact: ContactSet::default(),
+            cells: part[0] * part[1],
+            passes: 0,
+        })
+    }
+
+    /// Whether short waves on the region meet a response much stiffer than long ones do.
+    pub fn is_stiff(&self) -> bool {
+        self.stiff
+    }
+
+    /// Pressures that would remove normal displacements `right`, before any restriction to a set.
+    pub fn normal(&mut self, right: &[f64], pressure: &mut [f64]) {
+        if let Some(inverse) = &mut self.normal {
+            self.passes += 1;
+            self.contact = ContactSet::default(); // its fields are overwritten
+            inverse.apply_to_region(right, pressure, &mut self.fields);
+        }
+    }
+
+    /// Prepares [`Preconditioner::shear`] and [`Preconditioner::pressure`] for a contact with its slip `stiffness`, in units of
+    /// `compliance`, that of displacements over that of tractions [length/pressure].
+    pub fn prepare<N: Number>(
+        &mut self,
+        contact: &ContactSet,
+        stiffness: &[N],
+        compliance: f64,
+        weights: &mut SlipWeights<N>,
+    ) {
+        let SlipWeights { elastic, slip, weighted, part, .. } = weights;
+        let [weighted_x, weighted_y] = weighted;
+        let [part_x, part_y] = part;
+        for field in [&mut *elastic, &mut *slip, weighted_x, weighted_y, part_x, part_y] {
+            field.clear(); // where shear acts along one axis nobody writes the other component
+            field.resize(stiffness.len(), N::default());
+        }
+        each_cell(&Weights { softest: self.softest / compliance }, [stiffness], [elastic, slip]);
+        weights.compliance = compliance;
+        if self.contact != *contact {
+            self.contact.clone_from(contact);
+            // All inverses of a region are of one precision.
+            if let Some(inverse) = self.normal.iter().chain(&self.shear).next() {
+                inverse.clear(&mut self.fields, self.cells);
+            }
+        }
+    }
+
+    /// Pressures that would remove normal displacements `right`, packed over the contact prepared last.
+    pub fn pressure<N: Number>(&mut self, right: &[N], pressure: &mut [N], weights: &SlipWeights<N>) {
+        let Self { normal: Some(inverse), fields, contact, .. } = self else { return };
+        self.passes += 1;
+        inverse.apply(contact, &[right], &mut [pressure], weights.compliance, fields);
+    }
+
+    /// Shears that would remove tangential displacements `right`, before any restriction to what the active sets leave free; packed
+    /// over the contact prepared last.
+    pub fn shear<N: Number>(&mut self, right: [&[N]; 2], shear: [&mut [N]; 2], weights: &mut SlipWeights<N>) {
+        let Self { shear: Some(inverse), shear_axis, fields, contact, .. } = self else { return };
+        let SlipWeights { elastic, slip, compliance, weighted, part } = weights;
+        let [weighted_x, weighted_y] = &mut *weighted;
+        each_cell(&Weighted, [right[0], right[1], elastic], [weighted_x, weighted_y]);
+        self.passes += 1;
+        // Where shear acts along one axis the other component stays zero.
+        let axes = shear_axis.map_or(0..2, |axis| axis..axis + 1);
+        let from = weighted.each_ref().map(Vec::as_slice);
+        let mut to = part.each_mut().map(Vec::as_mut_slice);
+        inverse.apply(contact, &from[axes.clone()], &mut to[axes], *compliance, fields);
+        let [part_x, part_y] = part;
+        each_cell(&Sum, [part_x, part_y, right[0], right[1], elastic, slip], shear);
+    }
+}
+
+/// Weights of the elastic response and of the slip stiffness D of a cell in the inverse of both: the latter's is
+/// `s = (r - 1) / (r + 2)` with `r = sqrt(1 + D / softest)`, found by trial.
+struct Weights {
+    softest: f64,
+}
+
+impl CellRule<1, 2, 0> for Weights {
+    #[inline(always)]
+    fn at<R: Reals>(&self, [stiffness]: [R; 1], [elastic, slip]: &mut [R; 2]) -> [R; 0] {
+        let one = stiffness.all(1.0);
+        let both = stiffness / self.softest + 1.0;
+        let root = both.sqrt();
+        let weight = (root - one) / (root + 2.0);
+        *elastic = ((one - weight) / both).sqrt();
+        *slip = weight / (stiffness + self.softest);
+        []
+    }
+}
+
+struct Weighted;
+
+impl CellRule<3, 2, 0> for Weighted {
+    #[inline(always)]
+    fn at<R: Reals>(&self, [from_x, from_y, weight]: [R; 3], [x, y]: &mut [R; 2]) -> [R; 0] {
+        *x = from_x * weight;
+        *y = from_y * weight;
+        []
+    }
+}
+
+/// The elastic part times its weight and the slip part.
+struct Sum;
+
+impl CellRule<6, 2, 0> for Sum {
+    #[inline(always)]
+    fn at<R: Reals>(
+        &self,
+        [part_x, part_y, right_x, right_y, elastic, slip]: [R; 6],
+        [x, y]: &mut [R; 2],
+    ) -> [R; 0] {
+        *x = part_x * elastic + right_x * slip;
+        *y = part_y * elastic + right_y * slip;
+        []
+    }
+}
+
+/// Response of cells to waves, for uniform pressure on the region the sum of the nearest images.
+fn waves_of_cells(zz: &Array2<f64>, waves: CellWaves<'_>, shape: [usize; 2]) -> Array2<f64> {
+    let mut symbol = waves.table.cell_response(shape, waves.spacing);
+    let times = |index: usize, count: usize| if index == 0 || 2 * index == count { 1.0 } else { 2.0 };
+    let [half_x, half_y] = [0, 1].map(|axis| (shape[axis] / 2 + 1).min(zz.shape()[axis]));
+    let near = zz.slice(s![..half_x, ..half_y]);
+    symbol[[0, 0]] =
+        near.indexed_iter().map(|((i, j), value)| times(i, shape[0]) * times(j, shape[1]) * value).sum();
+    symbol
+}
+
+/// Symbol of a kernel made periodic with the nearest image of each offset only.
+fn nearest_images(values: &Array2<f64>, shape: [usize; 2], parity: Parity) -> Array2<f64> {
+    let half = [shape[0] / 2 + 1, shape[1] / 2 + 1];
+    let mut near = values.slice(s![..half[0].min(values.nrows()), ..half[1].min(values.ncols())]).to_owned();
+    // An odd kernel has no nearest image half a period away.
+    for (axis, odd) in parity.odd().into_iter().enumerate() {
+        if odd && shape[axis].is_multiple_of(2) && near.shape()[axis] == half[axis] {
+            near.index_axis_mut(ndarray::Axis(axis), half[axis] - 1).fill(0.0);
+        }
+    }
+    PeriodicProduct::symbol_of(shape, &Kernel { values: near.view(), parity })
+}
+
+/// Smallest positive value of a symbol: what any that is not positive is raised to.
+fn smallest_positive(symbol: &Array2<f64>) -> f64 {
+    symbol.iter().copied().filter(|value| *value > 0.0).fold(f64::INFINITY, f64::min)
+}
+
+/// Wave by wave inverse of `[[xx, t], [t, yy]]`, with the transfer function `t = -xy` of an odd-odd kernel.
+fn inverse(xx: &Array2<f64>, yy: &Array2<f64>, xy: &Array2<f64>, softest: f64) -> [Array2<f64>; 3] {
+    let mut result = [xx.clone(), yy.clone(), xy.clone()];
+    for (index, &cross) in xy.indexed_iter() {
+        if xx[index] == 0.0 && yy[index] == 0.0 {
+            // A uniform traction on a periodic half-space: its displacement is a rigid motion, found elsewhere.
+            for part in &mut result {
+                part[index] = 0.0;
+            }
+            continue;
+        }
+        let (a, d) = (xx[index].max(softest), yy[index].max(softest));
+        let det = a * d - cross * cross;
+        // Not positive: as if uncoupled.
+        let (det, cross) = if det > 1e-3 * a * d { (det, cross) } else { (a * d, 0.0) };
+        result[0][index] = d / det;
+        result[1][index] = a / det;
+        result[2][index] = -cross / det;
+    }
+    result
+}

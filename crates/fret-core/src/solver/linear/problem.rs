@@ -1,0 +1,275 @@
+//! The linearised problem on fixed active sets, in one precision. Unknown are the changes of pressure on the contact, of shear in
+//! stick, and of the direction of shear in slip, where its size follows the pressure. Asked for are changes of displacement that
+//! close the gap and the slip of sticking cells, and turn the shear of slipping ones along their slip.
+
+use super::super::contact_set::ContactSet;
+use super::super::contact_vector::ContactVector;
+use super::super::laws::active_sets::ActiveSets;
+use super::super::laws::rigid_motions::RigidMotions;
+use super::preconditioner::{Preconditioner, SlipWeights};
+use super::rigid_projector::{RigidProjector, SetFields, free_part, products, rigid};
+use crate::model::each_cell::{CellRule, Number, Reals, convert, each_cell};
+use crate::model::field::{add_scaled, lower, sum};
+
+/// Active sets and what goes with them, packed, in the precision of a linear problem.
+#[derive(Debug, Default)]
+pub struct LinearSets<N> {
+    stick: Vec<N>,
+    slip: Vec<N>,
+    slip_weight: Vec<N>,
+    direction: [Vec<N>; 2],
+    /// In units of the problem.
+    stiffness: Vec<N>,
+    /// Rotation about z; empty when the bodies do not rotate.
+    rotation: [Vec<N>; 2],
+    /// Derivative of the friction bound by the pressure [-].
+    slope: Vec<N>,
+}
+
+impl<N: Number> LinearSets<N> {
+    /// Takes over active sets, rotation and slopes; `compliance` is the unit of slip stiffness [length/pressure].
+    pub fn take(&mut self, sets: &ActiveSets, motions: &RigidMotions, slope: &[f64], compliance: f64) {
+        let take = |from: &[f64], factor: f64, to: &mut Vec<N>| {
+            to.resize(from.len(), N::default());
+            convert(from, factor, to);
+        };
+        take(&sets.stick, 1.0, &mut self.stick);
+        take(&sets.slip, 1.0, &mut self.slip);
+        take(&sets.slip_weight, 1.0, &mut self.slip_weight);
+        take(&sets.stiffness, 1.0 / compliance, &mut self.stiffness);
+        take(slope, 1.0, &mut self.slope);
+        for (from, to) in sets.direction.parts().into_iter().zip(&mut self.direction) {
+            take(from, 1.0, to);
+        }
+        for (from, to) in motions.rotation.parts().into_iter().zip(&mut self.rotation) {
+            take(from, 1.0, to);
+        }
+    }
+
+    fn fields(&self) -> SetFields<'_, N> {
+        let ([along_x, along_y], [around_x, around_y]) = (&self.direction, &self.rotation);
+        [&self.stick, &self.slip, along_x, along_y, around_x, around_y]
+    }
+
+    /// The same with the weights of the equations in slip.
+    fn weighted_fields(&self) -> SetFields<'_, N> {
+        let [stick, _, along_x, along_y, around_x, around_y] = self.fields();
+        [stick, &self.slip_weight, along_x, along_y, around_x, around_y]
+    }
+}
+
+/// Workspace of a linear problem.
+#[derive(Debug, Default)]
+pub struct LinearWorkspace<N> {
+    slip_weights: SlipWeights<N>,
+    /// Tangential part of a residual without weights.
+    unweighted: [Vec<N>; 2],
+    /// Part of the newest direction that turns shear: by itself, since beside the part that follows pressure digits would be lost.
+    turning: Vec<N>,
+}
+
+/// The linear problem in one precision.
+pub struct LinearProblem<'a, N> {
+    sets: &'a LinearSets<N>,
+    workspace: &'a mut LinearWorkspace<N>,
+    preconditioner: &'a mut Preconditioner,
+    /// The normal force is prescribed: the mean gap follows.
+    holds_force: bool,
+    /// Weight of the tangential equations: shear counts in units of the pressure that carries it [-].
+    weight: f64,
+    tractions: RigidProjector<'a, N>,
+    equations: RigidProjector<'a, N>,
+}
+
+impl<'a, N: Number> LinearProblem<'a, N> {
+    /// The problem on `sets` of a contact; `compliance` is the unit of displacements over that of tractions [length/pressure].
+    pub fn new(
+        (contact, sets): (&'a ContactSet, &'a LinearSets<N>),
+        motions: &'a RigidMotions,
+        (holds_force, weight): (bool, f64),
+        compliance: f64,
+        preconditioner: &'a mut Preconditioner,
+        workspace: &'a mut LinearWorkspace<N>,
+    ) -> Self {
+        preconditioner.prepare(contact, &sets.stiffness, compliance, &mut workspace.slip_weights);
+        for field in &mut workspace.unweighted {
+            field.resize(contact.len(), N::default());
+        }
+        workspace.turning.resize(contact.len(), N::default());
+        Self {
+            tractions: RigidProjector::new(motions, sets.fields()),
+            equations: RigidProjector::new(motions, sets.weighted_fields()),
+            sets,
+            workspace,
+            preconditioner,
+            holds_force,
+            weight,
+        }
+    }
+
+    /// Tractions that nearly remove a residual: pressure and shear each by its own inverse, shear following the pressure in slip,
+    /// resultants kept.
+    pub fn precondition(&mut self, residual: &ContactVector<N>, tractions: &mut ContactVector<N>) {
+        let Self { sets, workspace, preconditioner, .. } = self;
+        let LinearWorkspace { slip_weights, unweighted, turning } = &mut **workspace;
+        let [stick, slip, along_x, along_y, around_x, around_y] = sets.fields();
+        let (normal, [x, y]) = residual.parts();
+        let [unweighted_x, unweighted_y] = unweighted;
+        let read = [stick, slip, &sets.slip_weight, x, y, around_x, around_y];
+        let rule = Unweigh { unweight: 1.0 / self.weight };
+        let left = each_cell(&rule, read, [&mut *unweighted_x, &mut *unweighted_y]);
+        self.tractions.remove([&mut *unweighted_x, &mut *unweighted_y], left);
+
+        tractions.reset_like(residual);
+        let (pressure, [x, y]) = tractions.parts_mut();
+        preconditioner.shear([unweighted_x, unweighted_y], [&mut *x, &mut *y], slip_weights);
+        if pressure.is_empty() {
+            self.tractions.keep_free([x, y]);
+            each_cell(&Turning, [slip, along_x, along_y, &*x, &*y], [turning]);
+            return;
+        }
+        preconditioner.pressure(normal, pressure, slip_weights);
+        if self.holds_force {
+            remove_mean(pressure);
+        }
+        let read = [stick, slip, along_x, along_y, &sets.slope, &*pressure, around_x, around_y];
+        let resultant = each_cell(&FreeAndFollow, read, [&mut *x, &mut *y]);
+        let amounts = self.tractions.amounts(resultant);
+        each_cell(&Follow(amounts), read, [x, y, turning]);
+    }
+
+    /// Makes of the displacements of the tractions preconditioned last the left side of the equations.
+    pub fn complete(&self, displacements: &mut ContactVector<N>) {
+        let sets = self.sets;
+        let (normal, [x, y]) = displacements.parts_mut();
+        if self.holds_force && !normal.is_empty() {
+            remove_mean(normal);
+        }
+        let [stick, _, along_x, along_y, around_x, around_y] = sets.fields();
+        let turning = &self.workspace.turning;
+        let read = [stick, &sets.slip_weight, along_x, along_y, &sets.stiffness, turning, around_x, around_y];
+        let found = each_cell(&FreeAndStiff { weight: self.weight }, read, [&mut *x, &mut *y]);
+        self.equations.remove([x, y], found);
+    }
+}
+
+/// The right side of the equations in double precision, from gap and slip on the contact; gap empty where the pressure is given.
+pub fn right_side(
+    (gap, slip): (&[f64], [&[f64]; 2]),
+    sets: &ActiveSets,
+    motions: &RigidMotions,
+    (holds_force, weight): (bool, f64),
+    right: &mut ContactVector<f64>,
+) {
+    right.clear(if gap.is_empty() { 2 } else { 3 }, sets.len());
+    let (normal, [x, y]) = right.parts_mut();
+    add_scaled(normal, -1.0, gap);
+    if holds_force && !normal.is_empty() {
+        remove_mean(normal);
+    }
+    add_scaled(x, weight, slip[0]);
+    add_scaled(y, weight, slip[1]);
+    let ([along_x, along_y], [around_x, around_y]) = (sets.direction.parts(), motions.rotation.parts());
+    let fields: SetFields<'_, f64> = [&sets.stick, &sets.slip_weight, along_x, along_y, around_x, around_y];
+    RigidProjector::new(motions, fields).keep_free([x, y]);
+}
+
+fn remove_mean<N: Number>(field: &mut [N]) {
+    let mean = sum(field) / field.len().max(1) as f64;
+    lower(field, mean);
+}
+
+/// Takes the weights off a residual.
+struct Unweigh {
+    unweight: f64,
+}
+
+impl CellRule<7, 2, 3> for Unweigh {
+    const OPTIONAL: usize = 2;
+
+    #[inline(always)]
+    fn at<R: Reals>(
+        &self,
+        [stick, slip, weight, x, y, around_x, around_y]: [R; 7],
+        [to_x, to_y]: &mut [R; 2],
+    ) -> [R; 3] {
+        let zero = x.all(0.0);
+        let factor = (stick + weight.if_at_most(zero, zero, slip / weight)) * self.unweight;
+        [*to_x, *to_y] = [x * factor, y * factor];
+        products([*to_x, *to_y], stick + slip, [around_x, around_y])
+    }
+}
+
+/// The tangential component in slip.
+struct Turning;
+
+impl CellRule<5, 1, 0> for Turning {
+    #[inline(always)]
+    fn at<R: Reals>(&self, [slip, along_x, along_y, x, y]: [R; 5], [turning]: &mut [R; 1]) -> [R; 0] {
+        *turning = slip * (along_x * y - along_y * x);
+        []
+    }
+}
+
+/// Keeps the free part of shear; sums the resultants of it and of the shear that follows pressure.
+struct FreeAndFollow;
+
+impl CellRule<8, 2, 3> for FreeAndFollow {
+    const OPTIONAL: usize = 2;
+
+    #[inline(always)]
+    fn at<R: Reals>(
+        &self,
+        [stick, slip, along_x, along_y, slope, p, around_x, around_y]: [R; 8],
+        [x, y]: &mut [R; 2],
+    ) -> [R; 3] {
+        [*x, *y] = free_part([*x, *y], stick, slip, [along_x, along_y]);
+        let follow = slope * p;
+        let both = [*x + follow * along_x, *y + follow * along_y];
+        [both[0], both[1], both[0] * around_x + both[1] * around_y]
+    }
+}
+
+/// Takes the free part of a rigid motion off, and adds the shear that follows pressure; tells what turns before that.
+struct Follow([f64; 3]);
+
+impl CellRule<8, 3, 0> for Follow {
+    const OPTIONAL: usize = 2;
+
+    #[inline(always)]
+    fn at<R: Reals>(
+        &self,
+        [stick, slip, along_x, along_y, slope, p, around_x, around_y]: [R; 8],
+        [x, y, turning]: &mut [R; 3],
+    ) -> [R; 0] {
+        let part = free_part(rigid(self.0, [around_x, around_y]), stick, slip, [along_x, along_y]);
+        let follow = slope * p;
+        let free = [*x - part[0], *y - part[1]];
+        *turning = slip * (along_x * free[1] - along_y * free[0]);
+        *x = free[0] + follow * along_x;
+        *y = free[1] + follow * along_y;
+        []
+    }
+}
+
+/// Keeps the free part of a displacement, adds the slip stiffness times the turning shear, and weights both; sums the products with
+/// the free parts of the motions.
+struct FreeAndStiff {
+    weight: f64,
+}
+
+impl CellRule<8, 2, 3> for FreeAndStiff {
+    const OPTIONAL: usize = 2;
+
+    #[inline(always)]
+    fn at<R: Reals>(
+        &self,
+        [stick, slip, along_x, along_y, stiffness, turning, around_x, around_y]: [R; 8],
+        [x, y]: &mut [R; 2],
+    ) -> [R; 3] {
+        let turn = slip * (along_x * *y - along_y * *x + stiffness * turning);
+        *x = (stick * *x - along_y * turn) * self.weight;
+        *y = (stick * *y + along_x * turn) * self.weight;
+        products([*x, *y], stick + slip, [around_x, around_y])
+    }
+}

@@ -1,0 +1,159 @@
+//! Solves linearised problems: the one boundary between double and single precision. The right side is taken, and the step handed
+//! back, in double precision; between the two everything may be single (iterative refinement: what is left over is found again by
+//! the next evaluation of the nonlinear residual).
+
+use super::super::contact_set::ContactSet;
+use super::super::contact_vector::{ContactVector, RegionFields};
+use super::super::laws::active_sets::ActiveSets;
+use super::super::laws::rigid_motions::RigidMotions;
+use super::gmres::Gmres;
+use super::preconditioner::Preconditioner;
+use super::problem::{LinearProblem, LinearSets, LinearWorkspace, right_side};
+use crate::compliance::SurfaceCompliance;
+use crate::model::each_cell::Number;
+use crate::model::field::largest;
+
+/// Relative residual to which a problem is solved in single precision at the most.
+const SINGLE: f64 = 1e-5;
+
+/// A linearised problem.
+#[derive(Debug)]
+pub struct Linearised<'a> {
+    /// Cells in contact.
+    pub contact: &'a ContactSet,
+    /// What they do.
+    pub sets: &'a ActiveSets,
+    /// Rigid motions.
+    pub motions: &'a RigidMotions,
+    /// Derivative of the friction bound by the pressure, packed [-].
+    pub slope: &'a [f64],
+    /// Gap on the contact [length]; empty where the pressure is given.
+    pub gap: &'a [f64],
+    /// Slip increment on the contact [length].
+    pub slip: [&'a [f64]; 2],
+    /// The normal force is prescribed.
+    pub holds_force: bool,
+    /// Relative residual at which it is solved well enough.
+    pub forcing: f64,
+    /// Krylov steps at the most.
+    pub most_steps: usize,
+    /// Size of a residual that is small beside the tolerance [length].
+    pub floor: f64,
+}
+
+/// Solver of linearised problems, with its memory.
+#[derive(Debug, Default)]
+pub struct LinearSolver {
+    right: ContactVector<f64>,
+    double: Krylov<f64>,
+    single: Krylov<f32>,
+    /// Nothing is left to chance any more: everything in double precision.
+    double_only: bool,
+}
+
+impl LinearSolver {
+    /// Makes ready for an increment.
+    pub fn begin(&mut self) {
+        self.double_only = false;
+    }
+
+    /// From now on everything in double precision.
+    pub fn avoid_single_precision(&mut self) {
+        self.double_only = true;
+    }
+
+    /// Finds the `step` of the tractions.
+    pub fn solve(
+        &mut self,
+        problem: &Linearised<'_>,
+        compliance: &mut dyn SurfaceCompliance,
+        preconditioner: &mut Preconditioner,
+        step: &mut ContactVector<f64>,
+    ) {
+        let Self { right, double, single, double_only } = self;
+        let steepest = largest(problem.slope);
+        let weights = (problem.holds_force, if steepest > 0.0 { 1.0 / steepest } else { 1.0 });
+        right_side((problem.gap, problem.slip), problem.sets, problem.motions, weights, right);
+        let size = right.norm();
+        if !(size > 0.0) {
+            return step.clear_like(right);
+        }
+        let coupled = !problem.gap.is_empty();
+        let forcing = problem.forcing.max(problem.floor / size);
+        let [nx, ny] = compliance.shape();
+        let operator = if *double_only {
+            None
+        } else if coupled {
+            compliance.full_single()
+        } else {
+            compliance.tangential_single()
+        };
+        if let Some(mut operator) = operator {
+            let unit = operator.unit();
+            let apply = |q: &[&[f32]], u: &mut [&mut [f32]]| operator.apply(q, u);
+            single.solve(
+                problem,
+                (right, size, weights),
+                (unit, forcing.max(SINGLE)),
+                nx * ny,
+                apply,
+                preconditioner,
+            );
+            step.convert(&single.step, size / unit);
+        } else {
+            let apply = |q: &[&[f64]], u: &mut [&mut [f64]]| match (q, u) {
+                ([p, qx, qy], [uz, ux, uy]) => compliance.full([p, qx, qy], [uz, ux, uy]),
+                ([qx, qy], [ux, uy]) => compliance.tangential([qx, qy], [ux, uy]),
+                _ => {}
+            };
+            double.solve(problem, (right, size, weights), (1.0, forcing), nx * ny, apply, preconditioner);
+            step.convert(&double.step, size);
+        }
+    }
+}
+
+/// The method in one precision.
+#[derive(Debug, Default)]
+struct Krylov<N> {
+    gmres: Gmres<N>,
+    sets: LinearSets<N>,
+    workspace: LinearWorkspace<N>,
+    fields: RegionFields<N>,
+    right: ContactVector<N>,
+    combination: ContactVector<N>,
+    tractions: ContactVector<N>,
+    /// The step for a right side of length one, in units of the problem.
+    step: ContactVector<N>,
+}
+
+impl<N: Number> Krylov<N> {
+    fn solve(
+        &mut self,
+        problem: &Linearised<'_>,
+        (right, size, weights): (&ContactVector<f64>, f64, (bool, f64)),
+        (unit, forcing): (f64, f64),
+        cells: usize,
+        mut operator: impl FnMut(&[&[N]], &mut [&mut [N]]),
+        preconditioner: &mut Preconditioner,
+    ) {
+        let Self { gmres, sets, workspace, fields, right: unit_right, combination, tractions, step } = self;
+        unit_right.convert(right, 1.0 / size);
+        sets.take(problem.sets, problem.motions, problem.slope, unit);
+        fields.begin(problem.contact, cells);
+        let mut linear = LinearProblem::new(
+            (problem.contact, sets),
+            problem.motions,
+            weights,
+            unit,
+            preconditioner,
+            workspace,
+        );
+        let apply = |from: &ContactVector<N>, to: &mut ContactVector<N>| {
+            linear.precondition(from, tractions);
+            fields.apply(tractions, to, &mut operator);
+            linear.complete(to);
+        };
+        gmres.solve(unit_right, apply, (forcing, problem.most_steps), combination);
+        linear.precondition(combination, step);
+    }
+}

@@ -1,0 +1,437 @@
+//! Semismooth Newton method for pressure and shear at once (Christensen, Klarbring, Pang & Stromberg 1998; Alart & Curnier 1991), as a
+//! primal-dual active set strategy (Hintermueller, Ito & Kunisch 2003): what every cell does is read off feasible tractions, the
+//! problem linearised on these sets is solved inexactly by a Krylov method, and what comes out is projected onto what the laws
+//! allow, with exact resultants; until all laws hold. Where the pressure is given, the same for shear alone.
+
+use super::contact_set::ContactSet;
+use super::contact_vector::ContactVector;
+use super::increment::RegionOperators;
+use super::laws::active_sets::ActiveSets;
+use super::laws::complementarity::{NormalResidual, normal_residual};
+use super::laws::friction::{FrictionBound, FrictionLaw};
+use super::laws::projection::{ShearProjection, project_pressure};
+use super::laws::rigid_motions::{CellPositions, RigidMotions};
+use super::laws::slip::{SlipIncrement, TangentialProblem, TangentialResidual};
+use super::linear::solver::Linearised;
+use super::settings::{IterationCallback, SolveError, SolverSettings};
+use super::tractions::{Displacements, Tractions};
+use crate::compliance::SurfaceCompliance;
+use crate::model::TangentialField;
+use crate::model::each_cell::{CellRule, Reals, each_cell};
+use crate::model::field::{add_scaled, largest};
+
+/// What the equations of one increment ask for, over the cells of a region.
+#[derive(Debug, Clone, Copy)]
+pub struct ContactProblem<'a> {
+    /// Whether the pressure is unknown, or given with the tractions to start from.
+    pub pressure: Pressure,
+    /// Gap before deformation [length].
+    pub undeformed: &'a [f64],
+    /// The friction law of every cell.
+    pub friction: &'a FrictionLaw,
+    /// Sum of the pressures over the cells, when the force is prescribed [pressure].
+    pub total: Option<f64>,
+    /// Approach, when it is prescribed [length].
+    pub approach: f64,
+    /// Tangential displacement before the increment [length].
+    pub before: &'a TangentialField,
+    /// Where the cells are.
+    pub positions: &'a CellPositions,
+    /// Increments of the motions that are prescribed [length].
+    pub motion: [f64; 3],
+    /// Sums over the cells of shear times mode, for motions that follow from a resultant [pressure].
+    pub resultant: [f64; 3],
+}
+
+/// Whether the pressure is one of the unknowns.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Pressure {
+    /// It is.
+    Unknown,
+    /// It is known, and so is the contact.
+    Given,
+}
+
+/// What was reached besides tractions and displacements.
+#[derive(Debug)]
+pub struct Solution {
+    /// Approach and complementarity; `None` where the pressure was given.
+    pub normal: Option<NormalResidual>,
+    /// Motions and Coulomb's law.
+    pub tangential: TangentialResidual,
+    /// Gap [length]; empty where the pressure was given.
+    pub gap: Vec<f64>,
+    /// Slip increment [length].
+    pub slip: TangentialField,
+    /// Newton iterations made.
+    pub iterations: usize,
+}
+
+/// The sets are lost when so many iterations have not brought the residual below [`FAR`].
+const LOST_AFTER: usize = 15;
+/// A residual at which the sets are not yet those of the solution.
+const FAR: f64 = 0.1;
+
+/// Solves the equations from feasible `tractions` with their `displacements`; both end at the solution, or at what was reached.
+///
+/// # Errors
+/// When the iteration does not converge or is stopped.
+pub fn solve(
+    problem: &ContactProblem<'_>,
+    tractions: &mut Tractions,
+    displacements: &mut Displacements,
+    operators: &mut RegionOperators,
+    settings: &SolverSettings,
+    callback: IterationCallback<'_>,
+) -> Result<Solution, SolveError> {
+    let mut iterate = Iterate::new(problem, tractions, displacements, operators);
+    let mut forcing = ForcingTerm::default();
+    let mut backtracking = Backtracking::default();
+    operators.linear.begin();
+    for iteration in 0..settings.max_newton_iterations {
+        let residual = iterate.evaluate();
+        if callback(iteration, residual).is_break() {
+            return Err(SolveError::Stopped);
+        }
+        if residual < settings.tolerance {
+            return Ok(iterate.solution(iteration));
+        }
+        if backtracking.rejects(residual) {
+            iterate.go_halfway_back();
+            continue;
+        }
+        if iteration >= LOST_AFTER && forcing.best > FAR {
+            break;
+        }
+        let forcing = forcing.next(residual, settings.tolerance, operators);
+        iterate.find_sets();
+        iterate.find_step(forcing, settings, operators);
+        if !iterate.take_step() {
+            break;
+        }
+        iterate.find_displacements(operators);
+    }
+    Err(SolveError::NotConverged { reached: forcing.best, iterations: settings.max_newton_iterations })
+}
+
+/// The residual of tractions with their `displacements`, and what goes with it.
+pub fn evaluate(
+    problem: &ContactProblem<'_>,
+    tractions: &mut Tractions,
+    displacements: &mut Displacements,
+    operators: &RegionOperators,
+) -> (f64, Solution) {
+    let mut iterate = Iterate::new(problem, tractions, displacements, operators);
+    let residual = iterate.evaluate();
+    (residual, iterate.solution(0))
+}
+
+/// Brings shear to what the friction law allows under its pressure, with exact resultants.
+pub fn make_shear_feasible(
+    problem: &ContactProblem<'_>,
+    tractions: &mut Tractions,
+    operators: &RegionOperators,
+) {
+    let self_influence = operators.compliance.self_influence().tangential;
+    let contact = ContactSet::loaded(&tractions.pressure);
+    let bound = problem.friction.packed(&contact).bound(&contact.packed(&tractions.pressure));
+    let mut shear = contact.packed_tangential(&tractions.shear);
+    let at_rest = TangentialField::zeros(contact.len());
+    let equations = TangentialProblem {
+        bound: &bound.bound,
+        before: &at_rest,
+        motions: &problem.positions.motions_of(&contact),
+        motion: problem.motion,
+        resultant: problem.resultant,
+        self_influence,
+    };
+    let sets = ActiveSets::of(&shear, &at_rest, &bound, self_influence);
+    ShearProjection::default().project(&mut shear, &sets, &equations);
+    contact.scatter_tangential(&shear, &mut tractions.shear);
+}
+
+/// Tractions on their way to the solution, with everything that follows from them.
+struct Iterate<'a> {
+    problem: &'a ContactProblem<'a>,
+    tractions: &'a mut Tractions,
+    displacements: &'a mut Displacements,
+    /// Those before the last step.
+    last: (Tractions, Displacements),
+    /// Self-influence of a cell, normal and tangential [length/pressure].
+    self_influence: [f64; 2],
+    contact: ContactSet,
+    motions: RigidMotions,
+    /// Of the region [length].
+    gap: Vec<f64>,
+    normal: Option<NormalResidual>,
+    tangential: TangentialResidual,
+    slip: SlipIncrement,
+    sets: ActiveSets,
+    step: ContactVector<f64>,
+    packed: Packed,
+    projection: ShearProjection,
+}
+
+/// Fields packed over the contact.
+#[derive(Default)]
+struct Packed {
+    pressure: Vec<f64>,
+    shear: TangentialField,
+    law: FrictionLaw,
+    bound: FrictionBound,
+    before: TangentialField,
+    displacement: TangentialField,
+    gap: Vec<f64>,
+}
+
+impl Packed {
+    fn tangential_problem<'a>(
+        &'a self,
+        problem: &ContactProblem<'_>,
+        motions: &'a RigidMotions,
+        self_influence: f64,
+    ) -> TangentialProblem<'a> {
+        TangentialProblem {
+            bound: &self.bound.bound,
+            before: &self.before,
+            motions,
+            motion: problem.motion,
+            resultant: problem.resultant,
+            self_influence,
+        }
+    }
+}
+
+impl<'a> Iterate<'a> {
+    fn new(
+        problem: &'a ContactProblem<'a>,
+        tractions: &'a mut Tractions,
+        displacements: &'a mut Displacements,
+        operators: &RegionOperators,
+    ) -> Self {
+        let own = operators.compliance.self_influence();
+        let contact = ContactSet::loaded(&tractions.pressure);
+        let motions = problem.positions.motions_of(&contact);
+        let mut iterate = Self {
+            problem,
+            last: (Tractions::default(), Displacements::default()),
+            tractions,
+            displacements,
+            self_influence: [own.normal, own.tangential],
+            contact: ContactSet::default(),
+            motions,
+            gap: Vec::new(),
+            normal: None,
+            tangential: TangentialResidual { motion: [0.0; 3], residual: 0.0 },
+            slip: SlipIncrement::default(),
+            sets: ActiveSets::default(),
+            step: ContactVector::default(),
+            packed: Packed::default(),
+            projection: ShearProjection::default(),
+        };
+        iterate.change_contact(contact);
+        iterate
+    }
+
+    fn change_contact(&mut self, contact: ContactSet) {
+        let Self { problem, packed, .. } = self;
+        self.motions = problem.positions.motions_of(&contact);
+        packed.law = problem.friction.packed(&contact);
+        contact.pack_tangential(problem.before, &mut packed.before);
+        self.contact = contact;
+    }
+
+    /// The residual of complementarity and of Coulomb's law; finds gap, contact, slip and motions.
+    fn evaluate(&mut self) -> f64 {
+        let problem = self.problem;
+        let mut worst = 0.0;
+        if problem.pressure == Pressure::Unknown {
+            let Self { gap, tractions, displacements, .. } = self;
+            gap.resize(problem.undeformed.len(), 0.0);
+            each_cell(&Height, [&displacements.normal, problem.undeformed], [gap]);
+            let approach = problem.total.is_none().then_some(problem.approach);
+            let [own, _] = self.self_influence;
+            let normal = normal_residual(&tractions.pressure, gap, problem.undeformed, own, approach);
+            self.normal = Some(normal);
+            worst = normal.residual;
+            let contact =
+                ContactSet::of(gap.len(), |cell| self.tractions.pressure[cell] > 0.0 || self.gap[cell] < 0.0);
+            if contact != self.contact {
+                self.change_contact(contact);
+            }
+            self.contact.pack(&self.gap, &mut self.packed.gap);
+        }
+        let Self { contact, packed, tractions, displacements, .. } = self;
+        contact.pack(&tractions.pressure, &mut packed.pressure);
+        contact.pack_tangential(&tractions.shear, &mut packed.shear);
+        contact.pack_tangential(&displacements.tangential, &mut packed.displacement);
+        packed.law.find_bound(&packed.pressure, &mut packed.bound);
+        let Self { packed, motions, self_influence: [_, own], .. } = self;
+        let equations = packed.tangential_problem(problem, motions, *own);
+        let Packed { shear, displacement, .. } = &*packed;
+        self.tangential = self.slip.find(&equations, shear, displacement, self.tangential.motion);
+        worst.max(self.tangential.residual)
+    }
+
+    /// What every cell in contact does.
+    fn find_sets(&mut self) {
+        let Self { packed, slip, self_influence: [_, own], .. } = self;
+        self.sets.classify(&packed.shear, &slip.slip, &packed.bound, *own);
+    }
+
+    /// The step that solves the linearised problem as far as the sets deserve it.
+    fn find_step(&mut self, forcing: f64, settings: &SolverSettings, operators: &mut RegionOperators) {
+        let Self { problem, packed, self_influence, .. } = self;
+        let Packed { pressure, bound, gap, .. } = packed;
+        let (size, own) = match problem.pressure {
+            Pressure::Unknown => (largest(pressure), self_influence[0]),
+            Pressure::Given => (largest(&bound.bound), self_influence[1]),
+        };
+        let linearised = Linearised {
+            contact: &self.contact,
+            sets: &self.sets,
+            motions: &self.motions,
+            slope: &bound.slope,
+            gap,
+            slip: self.slip.slip.parts(),
+            holds_force: problem.total.is_some(),
+            forcing,
+            most_steps: settings.max_krylov_steps,
+            floor: 0.02 * settings.tolerance * size * own,
+        };
+        let RegionOperators { compliance, preconditioner, linear, .. } = operators;
+        linear.solve(&linearised, compliance, preconditioner, &mut self.step);
+    }
+
+    /// Adds the step and projects onto what the laws allow. False when no pressure is left.
+    fn take_step(&mut self) -> bool {
+        let Packed { pressure, shear, law, bound, .. } = &mut self.packed;
+        let (step, [x, y]) = self.step.parts();
+        add_scaled(&mut shear.x, 1.0, x);
+        add_scaled(&mut shear.y, 1.0, y);
+        if self.problem.pressure == Pressure::Unknown {
+            add_scaled(pressure, 1.0, step);
+            if !project_pressure(pressure, self.problem.total) {
+                return false;
+            }
+            law.find_bound(pressure, bound);
+        }
+        let mut shear = std::mem::take(&mut self.packed.shear);
+        let [_, own] = self.self_influence;
+        let equations = self.packed.tangential_problem(self.problem, &self.motions, own);
+        self.projection.project(&mut shear, &self.sets, &equations);
+        self.packed.shear = shear;
+        let Self { contact, packed, tractions, last, .. } = self;
+        last.0.clone_from(tractions);
+        contact.scatter(&packed.pressure, &mut tractions.pressure);
+        contact.scatter_tangential(&packed.shear, &mut tractions.shear);
+        true
+    }
+
+    /// The displacements of the tractions.
+    fn find_displacements(&mut self, operators: &mut RegionOperators) {
+        let Self { problem, tractions, displacements, last, .. } = self;
+        last.1.clone_from(displacements);
+        match problem.pressure {
+            Pressure::Unknown => operators.compliance.full(tractions.parts(), displacements.parts_mut()),
+            Pressure::Given => {
+                operators
+                    .compliance
+                    .tangential(tractions.shear.parts(), displacements.tangential.parts_mut());
+            }
+        }
+    }
+
+    /// To the middle between here and where the last step began: feasible too.
+    fn go_halfway_back(&mut self) {
+        self.tractions.average_with(&self.last.0);
+        self.displacements.average_with(&self.last.1);
+    }
+
+    fn solution(self, iterations: usize) -> Solution {
+        let mut slip = TangentialField::zeros(self.tractions.pressure.len());
+        self.contact.scatter_tangential(&self.slip.slip, &mut slip);
+        let Self { normal, tangential, gap, .. } = self;
+        Solution { normal, tangential, gap, slip, iterations }
+    }
+}
+
+/// How far linear problems are solved (Eisenstat & Walker 1996): further while the residual falls fast, and while it does not fall.
+#[derive(Debug)]
+struct ForcingTerm {
+    last: f64,
+    /// Smallest residual so far.
+    best: f64,
+    /// Iterations in a row that did not pay.
+    in_vain: i32,
+}
+
+impl Default for ForcingTerm {
+    fn default() -> Self {
+        Self { last: f64::INFINITY, best: f64::INFINITY, in_vain: 0 }
+    }
+}
+
+impl ForcingTerm {
+    /// Forcing terms of a residual that falls, at the most and at the least.
+    const MOST: f64 = 0.1;
+    const LEAST: f64 = 0.003;
+    /// Times the ratio of the last two residuals.
+    const GAMMA: f64 = 0.3;
+    /// Fraction of the tolerance that the next residual is to reach: what is solved further is lost.
+    const ENOUGH: f64 = 0.7;
+    /// So many iterations in vain leave nothing to chance: all in double precision.
+    const PATIENCE: i32 = 3;
+
+    fn next(&mut self, residual: f64, tolerance: f64, operators: &mut RegionOperators) -> f64 {
+        let ratio = residual / self.last;
+        self.in_vain = if ratio > 0.9 && self.last.is_finite() { self.in_vain + 1 } else { 0 };
+        self.last = residual;
+        self.best = self.best.min(residual);
+        if self.in_vain >= Self::PATIENCE {
+            operators.linear.avoid_single_precision();
+        }
+        let wanted = (Self::GAMMA * ratio).clamp(Self::LEAST, Self::MOST) * 0.1_f64.powi(self.in_vain.min(6));
+        let wanted = if ratio.is_finite() && ratio > 0.0 { wanted } else { Self::MOST };
+        wanted.max(Self::ENOUGH * tolerance / residual)
+    }
+}
+
+/// Takes back by half a step that made things much worse.
+#[derive(Debug)]
+struct Backtracking {
+    residual: f64,
+    halvings: usize,
+}
+
+impl Default for Backtracking {
+    fn default() -> Self {
+        Self { residual: f64::INFINITY, halvings: 0 }
+    }
+}
+
+impl Backtracking {
+    /// A residual may grow by this: active sets change.
+    const GROWTH: f64 = 4.0;
+    const MOST_HALVINGS: usize = 4;
+
+    /// Whether the step that led to a residual is to be halved.
+    fn rejects(&mut self, residual: f64) -> bool {
+        if residual > Self::GROWTH * self.residual && self.halvings < Self::MOST_HALVINGS {
+            self.halvings += 1;
+            return true;
+        }
+        *self = Self { residual, halvings: 0 };
+        false
+    }
+}
+
+struct Height;
+
+impl CellRule<2, 1, 0> for Height {
+    #[inline(always)]
+    fn at<R: Reals>(&self, [u, g]: [R; 2], [height]: &mut [R; 1]) -> [R; 0] {
+        *height = u + g;
+        []
+    }
+}

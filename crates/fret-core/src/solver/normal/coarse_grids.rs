@@ -1,0 +1,254 @@
+//! The pressure of a first contact from coarser grids (nested iteration): each grid starts from the one twice as coarse, prolonged by
+//! the level function of the contact's edge, and works in a region around what it starts from.
+
+use ndarray::Array2;
+
+use super::super::linear::preconditioner::{CellWaves, Preconditioner};
+use super::super::outcome::Work;
+use super::super::region::Region;
+use super::super::settings::{IterationCallback, SolveError, SolverSettings};
+use super::grid_transfer::{coarser_heights, coarser_response, prolonged};
+use super::{NormalEquations, first_pressure, solve_normal};
+use crate::compliance::{OperatorSet, SpectralCompliance, SurfaceCompliance, SurfaceResponse};
+use crate::kernel::ResponseTable;
+use crate::model::Symmetry;
+use fret_fft::good_length;
+
+/// No grid with fewer cells per side is made coarser.
+const COARSEST: usize = 32;
+/// Residual on coarse grids: at 1e-3 the contact of large grids starts out wrong.
+const TOLERANCE: f64 = 3e-4;
+/// The same for stiff coatings, whose contact settles late: coarse iterations are cheaper than fine ones.
+const TOLERANCE_STIFF: f64 = 3e-6;
+/// The prolonged edge is moved out by this fraction of a fine cell, since cells are added more cheaply than removed.
+const SHIFT: f64 = 0.05;
+/// The same for stiff coatings, whose active sets shrink more surely than they grow.
+const SHIFT_STIFF: f64 = 0.15;
+/// Cells kept free around the predicted contact.
+pub const MARGIN: usize = 2;
+/// A periodic problem starts from the pressure of full contact where that is positive on more of the coarsest grid than this.
+const NEARLY_FULL: f64 = 0.9;
+
+/// One coarse grid.
+struct Level {
+    response: SurfaceResponse,
+    undeformed: Array2<f64>,
+    spacing: [f64; 2],
+    symmetry: Symmetry,
+}
+
+/// The grids below one, the finest of them first.
+pub struct CoarseGrids {
+    levels: Vec<Level>,
+    cells: [usize; 2],
+}
+
+/// What is prescribed: sum of the pressures over the cells of the finest grid, or the approach.
+#[derive(Debug, Clone, Copy)]
+pub struct Prescribed {
+    /// Sum of the pressures [pressure].
+    pub total: Option<f64>,
+    /// Approach [length].
+    pub approach: f64,
+}
+
+impl CoarseGrids {
+    /// The grids below one of the given cells, with symmetry reduction; none when it is small.
+    pub fn below(
+        response: &SurfaceResponse,
+        undeformed: &Array2<f64>,
+        spacing: [f64; 2],
+        symmetry: Symmetry,
+    ) -> Self {
+        let (nx, ny) = undeformed.dim();
+        let mut levels: Vec<Level> = Vec::new();
+        loop {
+            let (response, undeformed, spacing) =
+                levels.last().map_or((response, undeformed, spacing), |last| {
+                    (&last.response, &last.undeformed, last.spacing)
+                });
+            let (nx, ny) = undeformed.dim();
+            let cells = symmetry.whole_of([nx, ny]);
+            let periodic = response.is_periodic();
+            let halves =
+                |axis: usize| !(periodic || symmetry.axes()[axis]) || [nx, ny][axis].is_multiple_of(2);
+            if cells[0].min(cells[1]) < COARSEST || !(halves(0) && halves(1)) {
+                break;
+            }
+            let Some(response) = coarser_response(response, cells) else { break };
+            let level = Level {
+                response,
+                undeformed: coarser_heights(undeformed),
+                spacing: spacing.map(|side| 2.0 * side),
+                symmetry,
+            };
+            levels.push(level);
+        }
+        Self { levels, cells: [nx, ny] }
+    }
+
+    /// A pressure for the grid above, close to the solution, or none when coarse grids do not help. `work` counts what it cost.
+    ///
+    /// # Errors
+    /// When the caller stopped the iteration.
+    pub fn pressure_above(
+        &self,
+        prescribed: Prescribed,
+        table: Option<&ResponseTable>,
+        settings: &SolverSettings,
+        work: &mut Work,
+        callback: IterationCallback<'_>,
+    ) -> Result<Option<Array2<f64>>, SolveError> {
+        if self.levels.last().is_some_and(|coarsest| coarsest.is_nearly_full(prescribed.total, self.cells)) {
+            return Ok(None);
+        }
+        let mut start: Option<Array2<f64>> = None;
+        for (index, level) in self.levels.iter().enumerate().rev() {
+            let total = prescribed.total.map(|total| total * 0.25_f64.powi(index as i32 + 1));
+            let above = if index == 0 { self.cells } else { self.levels[index - 1].cells() };
+            let prescribed = Prescribed { total, ..prescribed };
+            let waves = table.map(|table| CellWaves { table, spacing: level.spacing });
+            let solved = match level.solve(start.take(), prescribed, waves, settings, callback) {
+                Ok(solved) => solved,
+                Err(SolveError::Stopped) => return Err(SolveError::Stopped),
+                Err(_) => return Ok(None),
+            };
+            work.convolutions += solved.convolutions;
+            work.preconditioner_passes += solved.passes;
+            work.full_grid_convolutions +=
+                solved.cell_convolutions / (self.cells[0] * self.cells[1] * level.symmetry.copies()) as f64;
+            let Some(finer) = solved.prolonged(above, total) else { return Ok(None) };
+            start = Some(finer);
+        }
+        Ok(start)
+    }
+}
+
+/// A solved coarse grid.
+struct SolvedLevel {
+    region: Region,
+    pressure: Vec<f64>,
+    gap: Vec<f64>,
+    shift: f64,
+    convolutions: usize,
+    passes: usize,
+    /// Convolutions times the cells of their regions.
+    cell_convolutions: f64,
+}
+
+impl Level {
+    fn cells(&self) -> [usize; 2] {
+        self.undeformed.dim().into()
+    }
+
+    /// Whether a periodic problem is in contact nearly everywhere, judged by the pressure that closes all gaps. `total`: sum of
+    /// the pressures over the finest grid's `cells`.
+    fn is_nearly_full(&self, total: Option<f64>, cells: [usize; 2]) -> bool {
+        let (true, Some(total)) = (self.response.is_periodic(), total) else { return false };
+        let mean = total / (cells[0] * cells[1]) as f64;
+        let Ok(mut inverse) = Preconditioner::new(
+            &self.response,
+            None,
+            self.cells(),
+            [true, false],
+            None,
+            self.symmetry,
+            false,
+        ) else {
+            return false;
+        };
+        let undeformed = Region::whole(self.cells()).gather(&self.undeformed);
+        let mut removed = vec![0.0; undeformed.len()];
+        inverse.normal(&undeformed, &mut removed);
+        let mean = mean + removed.iter().sum::<f64>() / removed.len() as f64;
+        let loaded = removed.iter().filter(|part| mean > **part).count();
+        loaded as f64 > NEARLY_FULL * removed.len() as f64
+    }
+
+    /// Solves the level in a region; on the whole grid when the contact outgrows it.
+    fn solve(
+        &self,
+        start: Option<Array2<f64>>,
+        prescribed: Prescribed,
+        waves: Option<CellWaves<'_>>,
+        settings: &SolverSettings,
+        callback: IterationCallback<'_>,
+    ) -> Result<SolvedLevel, SolveError> {
+        let whole = Region::whole(self.cells());
+        let mut region = match &start {
+            Some(start) if !self.response.is_periodic() => {
+                Region::around(self.cells(), self.symmetry.axes(), MARGIN, good_length, |i, j| {
+                    start[[i, j]] > 0.0
+                })
+            }
+            _ => whole,
+        };
+        let mut start = start;
+        let (mut convolutions, mut passes, mut cell_convolutions) = (0, 0, 0.0);
+        loop {
+            let symmetry = self.symmetry;
+            let operators = OperatorSet { normal: true, symmetry, ..OperatorSet::default() };
+
+            let mut compliance = SpectralCompliance::new(&self.response, region.shape, operators)?;
+            let single = settings.single_precision;
+            let shape = region.shape;
+            let mut preconditioner =
+                Preconditioner::new(&self.response, waves, shape, [true, false], None, symmetry, single)?;
+            let undeformed = region.gather(&self.undeformed);
+            let task = NormalEquations {
+                undeformed: &undeformed,
+                total: prescribed.total,
+                approach: prescribed.approach,
+            };
+            let mut pressure = match &start {
+                Some(start) => region.gather(start),
+                None => first_pressure(&task, compliance.self_influence().normal),
+            };
+            let mut displacement = vec![0.0; region.len()];
+            compliance.normal(&pressure, &mut displacement);
+            let stiff = preconditioner.is_stiff();
+            let tolerance = if stiff { TOLERANCE_STIFF } else { TOLERANCE };
+            let coarse = SolverSettings { tolerance: tolerance.max(settings.tolerance), ..*settings };
+            let solution = solve_normal(
+                &task,
+                &mut pressure,
+                &mut displacement,
+                &mut compliance,
+                &mut preconditioner,
+                &coarse,
+                callback,
+            )?;
+            convolutions += compliance.applications;
+            passes += preconditioner.passes;
+            cell_convolutions += (compliance.applications * region.len()) as f64;
+            if region != whole && touches_side(region, self.cells(), &pressure) {
+                let mut found = Array2::zeros(self.cells());
+                region.scatter(&pressure, &mut found);
+                start = Some(found);
+                region = whole;
+                continue;
+            }
+            let shift = if stiff { SHIFT_STIFF } else { SHIFT };
+            let gap = solution.gap;
+            return Ok(SolvedLevel { region, pressure, gap, shift, convolutions, passes, cell_convolutions });
+        }
+    }
+}
+
+/// Whether the contact reaches a side of its region that is not one of the grid's.
+fn touches_side(region: Region, cells: [usize; 2], pressure: &[f64]) -> bool {
+    let [nx, ny] = region.shape;
+    let low = [0, 1].map(|axis| region.origin[axis] > 0);
+    let high = [0, 1].map(|axis| region.origin[axis] + region.shape[axis] < cells[axis]);
+    let loaded = |i: usize, j: usize| pressure[i * ny + j] > 0.0;
+    (0..ny).any(|j| (low[0] && loaded(0, j)) || (high[0] && loaded(nx - 1, j)))
+        || (0..nx).any(|i| (low[1] && loaded(i, 0)) || (high[1] && loaded(i, ny - 1)))
+}
+
+impl SolvedLevel {
+    /// Pressure on a grid twice as fine, of `cells` and with the sum that goes with `total` here.
+    fn prolonged(&self, cells: [usize; 2], total: Option<f64>) -> Option<Array2<f64>> {
+        let Self { region, pressure, gap, shift, .. } = self;
+        prolonged((*region, pressure, gap), *shift, cells, total.map(|total| 4.0 * total))
+    }
+}

@@ -1,0 +1,104 @@
+//! The frictionless problem: which iteration works when, and what it starts from.
+
+mod active_set;
+pub mod coarse_grids;
+mod grid_transfer;
+mod problem;
+mod projected_cg;
+
+use super::laws::complementarity::NormalResidual;
+use super::linear::preconditioner::Preconditioner;
+use super::settings::{IterationCallback, SolveError, SolverSettings};
+use crate::compliance::SurfaceCompliance;
+use crate::model::field::sum;
+
+pub use problem::NormalEquations;
+use problem::{Ending, NormalIteration};
+
+/// What the normal solver reached.
+#[derive(Debug)]
+pub struct NormalSolution {
+    /// Approach and residual.
+    pub residual: NormalResidual,
+    /// Gap [length].
+    pub gap: Vec<f64>,
+    /// Iterations made.
+    pub iterations: usize,
+}
+
+/// Iterations of projected conjugate gradients that need not halve the residual before the active set is tried.
+const PATIENCE: usize = 10;
+
+/// Solves the normal equations from a feasible `pressure` with its `displacement`; both end at the solution.
+///
+/// Projected conjugate gradients come first, the active set where the response is stiff (see [`Preconditioner::is_stiff`]); each
+/// takes over when the other stalls.
+pub fn solve_normal(
+    task: &NormalEquations<'_>,
+    pressure: &mut [f64],
+    displacement: &mut [f64],
+    compliance: &mut dyn SurfaceCompliance,
+    preconditioner: &mut Preconditioner,
+    settings: &SolverSettings,
+    callback: IterationCallback<'_>,
+) -> Result<NormalSolution, SolveError> {
+    let mut by_active_set = preconditioner.is_stiff();
+    let bounds = (settings.tolerance, settings.max_normal_iterations);
+    let fields = [pressure, displacement];
+    let mut problem = NormalIteration::new(task, fields, compliance, preconditioner, bounds, callback);
+    let mut patience = PATIENCE;
+    loop {
+        let ending = if by_active_set {
+            active_set::iterate(&mut problem)?
+        } else {
+            projected_cg::iterate(&mut problem, patience)?
+        };
+        if let Ending::Solved(residual) = ending {
+            let (gap, iterations) = (problem.gap, problem.iterations);
+            return Ok(NormalSolution { residual, gap, iterations });
+        }
+        if by_active_set {
+            patience = patience.saturating_mul(2);
+        }
+        by_active_set = !by_active_set;
+    }
+}
+
+/// A first pressure for a periodic problem: the one of full contact, without its tension.
+pub fn full_contact_pressure(
+    task: &NormalEquations<'_>,
+    preconditioner: &mut Preconditioner,
+) -> Option<Vec<f64>> {
+    let mean = task.total? / task.undeformed.len() as f64;
+    let mut removed = vec![0.0; task.undeformed.len()];
+    preconditioner.normal(task.undeformed, &mut removed);
+    // Layers on a rigid base respond to a uniform pressure too; the approach takes that.
+    let level = sum(&removed) / removed.len() as f64;
+    for part in &mut removed {
+        *part -= level;
+    }
+    let mut pressure: Vec<f64> = removed.iter().map(|part| (mean - part).max(0.0)).collect();
+    let found = sum(&pressure);
+    if !(found > 0.0) {
+        return None;
+    }
+    for p in &mut pressure {
+        *p *= mean * task.undeformed.len() as f64 / found;
+    }
+    Some(pressure)
+}
+
+/// A first pressure: uniform over the eighth of the cells with the smallest gap under a force, the self-influences alone under an approach.
+pub fn first_pressure(task: &NormalEquations<'_>, own: f64) -> Vec<f64> {
+    match task.total {
+        Some(total) => {
+            let mut gaps: Vec<f64> = task.undeformed.to_vec();
+            let eighth = (gaps.len() / 8).max(1);
+            let (_, limit, _) = gaps.select_nth_unstable_by(eighth - 1, f64::total_cmp);
+            let limit = *limit;
+            let count = task.undeformed.iter().filter(|gap| **gap <= limit).count();
+            task.undeformed.iter().map(|gap| if *gap <= limit { total / count as f64 } else { 0.0 }).collect()
+        }
+        None => task.undeformed.iter().map(|gap| ((task.approach - gap) / own).max(0.0) * 0.1).collect(),
+    }
+}

@@ -1,0 +1,179 @@
+//! The frictionless problem in a region: its equations, the fields both iterations work on, and how they report.
+
+use super::super::laws::complementarity::NormalResidual;
+use super::super::linear::preconditioner::Preconditioner;
+use super::super::settings::{IterationCallback, SolveError};
+use crate::compliance::SurfaceCompliance;
+use crate::model::each_cell::{CellRule, Reals, each_cell};
+
+/// What the normal equations of one increment ask for, over the cells of a region.
+#[derive(Debug)]
+pub struct NormalEquations<'a> {
+    /// Gap before deformation, with whatever else moves the surfaces at given shear [length].
+    pub undeformed: &'a [f64],
+    /// Sum of the pressures over the cells, when the force is prescribed [pressure].
+    pub total: Option<f64>,
+    /// Approach, when it is prescribed [length].
+    pub approach: f64,
+}
+
+/// How an iteration ended.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Ending {
+    /// The residual is below the tolerance; pressures are feasible and displacements are theirs.
+    Solved(NormalResidual),
+    /// It makes no progress; pressures are feasible and displacements are theirs.
+    Stalled,
+}
+
+/// Unknowns, work fields and operators of one normal problem. Fields are flat rows of one length, made once.
+pub struct NormalIteration<'a> {
+    pub task: &'a NormalEquations<'a>,
+    /// Pressure [pressure].
+    pub pressure: &'a mut [f64],
+    /// Its displacement [length].
+    pub displacement: &'a mut [f64],
+    /// Gap [length].
+    pub gap: Vec<f64>,
+    /// Cells on which pressure is unknown: 1, all others: 0.
+    pub active: Vec<f64>,
+    /// Gap on the active cells, zero elsewhere [length].
+    pub residual: Vec<f64>,
+    /// Preconditioned residual [pressure].
+    pub steepest: Vec<f64>,
+    /// Change of pressure, and its displacement.
+    pub change: Vec<f64>,
+    pub image: Vec<f64>,
+    /// The change before, and its displacement.
+    pub last_change: Vec<f64>,
+    pub last_image: Vec<f64>,
+    compliance: &'a mut dyn SurfaceCompliance,
+    preconditioner: &'a mut Preconditioner,
+    /// Influence of a cell on itself [length/pressure].
+    pub self_influence: f64,
+    pub tolerance: f64,
+    callback: IterationCallback<'a>,
+    /// Iterations so far.
+    pub iterations: usize,
+    /// Iterations that are allowed.
+    pub most: usize,
+    /// Least residual so far.
+    pub best: f64,
+}
+
+impl<'a> NormalIteration<'a> {
+    /// The problem from a feasible pressure with its displacement.
+    pub fn new(
+        task: &'a NormalEquations<'a>,
+        [pressure, displacement]: [&'a mut [f64]; 2],
+        compliance: &'a mut dyn SurfaceCompliance,
+        preconditioner: &'a mut Preconditioner,
+        (tolerance, most): (f64, usize),
+        callback: IterationCallback<'a>,
+    ) -> Self {
+        let field = || vec![0.0; task.undeformed.len()];
+        Self {
+            gap: field(),
+            active: field(),
+            residual: field(),
+            steepest: field(),
+            change: field(),
+            image: field(),
+            last_change: field(),
+            last_image: field(),
+            self_influence: compliance.self_influence().normal,
+            tolerance,
+            iterations: 0,
+            most,
+            best: f64::INFINITY,
+            task,
+            pressure,
+            displacement,
+            compliance,
+            preconditioner,
+            callback,
+        }
+    }
+
+    /// Reports a residual.
+    ///
+    /// # Errors
+    /// When the caller stopped the iteration, or it has gone on for too long.
+    pub fn report(&mut self, residual: f64) -> Result<(), SolveError> {
+        if (self.callback)(self.iterations, residual).is_break() {
+            return Err(SolveError::Stopped);
+        }
+        self.best = self.best.min(residual);
+        if self.iterations >= self.most {
+            return Err(SolveError::NotConverged { reached: self.best, iterations: self.iterations });
+        }
+        Ok(())
+    }
+
+    /// `image` becomes the displacement of `change`.
+    pub fn convolve_change(&mut self) {
+        self.iterations += 1;
+        self.compliance.normal(&self.change, &mut self.image);
+    }
+
+    /// `displacement` becomes that of `pressure`.
+    pub fn convolve_pressure(&mut self) {
+        self.iterations += 1;
+        self.compliance.normal(self.pressure, self.displacement);
+    }
+
+    /// `steepest` becomes the preconditioned residual, on all cells.
+    pub fn precondition(&mut self) {
+        self.preconditioner.normal(&self.residual, &mut self.steepest);
+    }
+
+    /// Height `u + g0` into `gap`; the approach (mean height of the loaded cells under a force) and the mean displacement under
+    /// the load. `None` when no cell is loaded.
+    pub fn measure(&mut self) -> (f64, Option<f64>) {
+        let read = [&*self.displacement, self.task.undeformed, &*self.pressure];
+        let [heights, count, work, load] = each_cell(&Measure, read, [&mut self.gap]);
+        let approach = match self.task.total {
+            Some(_) if count > 0.0 => heights / count,
+            _ => self.task.approach,
+        };
+        (approach, (load > 0.0).then(|| (work / load).abs()))
+    }
+
+    /// Adds `fraction` of the change to pressures and displacements; rounding leaves no tension.
+    pub fn advance(&mut self, fraction: f64) {
+        let write = [&mut *self.pressure, &mut *self.displacement];
+        each_cell(&Advance { fraction }, [&self.change, &self.image], write);
+    }
+
+    /// What was changed becomes what was changed last.
+    pub fn remember(&mut self) {
+        std::mem::swap(&mut self.change, &mut self.last_change);
+        std::mem::swap(&mut self.image, &mut self.last_image);
+    }
+}
+
+/// Height; sums of the heights of loaded cells, of these, of work and of load.
+struct Measure;
+
+impl CellRule<3, 1, 4> for Measure {
+    #[inline(always)]
+    fn at<R: Reals>(&self, [u, undeformed, p]: [R; 3], [height]: &mut [R; 1]) -> [R; 4] {
+        let (zero, one) = (p.all(0.0), p.all(1.0));
+        *height = u + undeformed;
+        let loaded = p.if_at_most(zero, zero, one);
+        [loaded * *height, loaded, p * u, p]
+    }
+}
+
+struct Advance {
+    fraction: f64,
+}
+
+impl CellRule<2, 2, 0> for Advance {
+    #[inline(always)]
+    fn at<R: Reals>(&self, [change, image]: [R; 2], [p, u]: &mut [R; 2]) -> [R; 0] {
+        *p = (*p + change * self.fraction).max(p.all(0.0));
+        *u = *u + image * self.fraction;
+        []
+    }
+}

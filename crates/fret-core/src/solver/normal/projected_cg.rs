@@ -1,0 +1,208 @@
+//! Projected, preconditioned conjugate gradients (Polonsky & Keer 1999, with a preconditioner and an exact line search), one operator
+//! application an iteration: pressures stay feasible throughout; a nearly empty cell that is pulled apart leaves; the energy never
+//! rises.
+
+use super::super::laws::complementarity::{NormalResidual, violation};
+use super::super::settings::SolveError;
+use super::problem::{Ending, NormalIteration};
+use crate::model::each_cell::{CellRule, CellSize, Reals, each_cell, largest_of};
+
+/// A loaded cell leaves when its own pressure could close less than this fraction of its gap.
+const LEAVE_BELOW: f64 = 0.15;
+
+/// Iterates until solved, or until `patience` iterations have not halved the residual.
+///
+/// # Errors
+/// When the caller stopped the iteration, or it has gone on for too long.
+pub fn iterate(problem: &mut NormalIteration<'_>, patience: usize) -> Result<Ending, SolveError> {
+    let self_influence = problem.self_influence;
+    let by_force = problem.task.total.is_some();
+    let mut step = 0.8_f64;
+    let mut leave_below = LEAVE_BELOW;
+    let mut conjugate = false;
+    let mut best = f64::INFINITY;
+    let mut waited = 0;
+    loop {
+        let (approach, scale) = problem.measure();
+        let sets = Sets { approach, stretch: self_influence / leave_below };
+        let NormalIteration { gap, residual, active, pressure, .. } = &mut *problem;
+        let [gaps, count] = each_cell(&sets, [pressure], [gap, residual, active]);
+        let worst = violation(gap, pressure, self_influence);
+        let residual = scale.map_or(if worst > 0.0 { 1.0 } else { 0.0 }, |scale| worst / scale);
+        problem.report(residual)?;
+        if residual < problem.tolerance {
+            return Ok(Ending::Solved(NormalResidual { approach, residual }));
+        }
+        waited += 1;
+        if residual < 0.5 * best {
+            (best, waited) = (residual, 0);
+        }
+        if waited > patience {
+            return Ok(Ending::Stalled);
+        }
+        let mean = if by_force { gaps / count.max(1.0) } else { 0.0 };
+        if mean != 0.0 {
+            each_cell(&WithoutMean(mean), [&problem.active], [&mut problem.residual]);
+        }
+        problem.precondition();
+        let along = Direction::new(problem, conjugate, by_force.then_some(count.max(1.0)));
+        if !along.clip(problem, step) {
+            return Ok(Ending::Stalled);
+        }
+        // Clipped before the convolution with a step guessed from the last line search, so that what is convolved is
+        // feasible and the displacement stays linear in it.
+        problem.convolve_change();
+        let NormalIteration { change, image, gap, pressure, .. } = &mut *problem;
+        let [curvature, slope] = each_cell(&Along, [change, image, gap], []);
+        let steepest_fall = largest_of(&Fall, [change, pressure]);
+        let exact = -slope / curvature;
+        if !(curvature > 0.0 && exact > 0.0) {
+            step *= 0.3;
+            leave_below *= 0.5;
+            conjugate = false;
+            if step < 1e-12 {
+                return Ok(Ending::Stalled);
+            }
+            continue;
+        }
+        // Beyond the change itself as far as no pressure becomes tension.
+        let fraction = if exact > 1.0 { exact.min((1.0 / steepest_fall).max(1.0)) } else { exact };
+        problem.advance(fraction);
+        step = (step * exact).clamp(0.2, 1.5);
+        problem.remember();
+        conjugate = true;
+    }
+}
+
+/// Downhill direction on the active cells: `-(z - mean) + beta last - mean`.
+struct Direction {
+    /// Factor of the last change.
+    beta: f64,
+    /// Added on active cells, so that the sum stays.
+    constant: f64,
+}
+
+impl Direction {
+    /// The preconditioned residual, made conjugate to the last change where that still points down. `count`: active cells, when
+    /// the sum of the pressures stays.
+    fn new(problem: &NormalIteration<'_>, conjugate: bool, count: Option<f64>) -> Self {
+        let NormalIteration { steepest, active, residual, last_change, last_image, .. } = problem;
+        let read = [steepest, active, residual, last_change, last_image].map(Vec::as_slice);
+        let [z, z_image, image, last, last_image, z_slope, last_slope] = each_cell(&Products, read, []);
+        let mean = |sum: f64| count.map_or(0.0, |count| sum / count);
+        let mut beta = 0.0;
+        if conjugate && last_image > 0.0 {
+            beta = (z_image - mean(z) * image) / last_image;
+            if !(beta * last_slope < z_slope) {
+                beta = 0.0;
+            }
+        }
+        Self { beta, constant: mean(z) - beta * mean(last) }
+    }
+
+    /// `change` becomes the way to the pressures after a `step`, without tension, without the leaving cells, under the
+    /// prescribed force. False when no pressure would be left.
+    fn clip(&self, problem: &mut NormalIteration<'_>, step: f64) -> bool {
+        let Self { beta, constant } = *self;
+        let NormalIteration { steepest, active, last_change, pressure, change, .. } = &mut *problem;
+        let target = Target { step, constant, beta };
+        let [found] = each_cell(&target, [steepest, active, last_change, pressure], [change]);
+        let fraction = match problem.task.total {
+            Some(_) if !(found > 0.0) => return false,
+            Some(total) => total / found,
+            None => 1.0,
+        };
+        each_cell(&ChangeTo { fraction }, [&*problem.pressure], [&mut problem.change]);
+        true
+    }
+}
+
+/// Gap of a height, the cells where pressure is unknown, and the gap on them; sums of both.
+struct Sets {
+    approach: f64,
+    /// A loaded cell whose pressure times this is less than its gap leaves.
+    stretch: f64,
+}
+
+impl CellRule<1, 3, 2> for Sets {
+    #[inline(always)]
+    fn at<R: Reals>(&self, [p]: [R; 1], [gap, residual, active]: &mut [R; 3]) -> [R; 2] {
+        let (zero, one) = (p.all(0.0), p.all(1.0));
+        *gap = *gap - self.approach;
+        let overlaps = zero.if_at_most(*gap, zero, one);
+        let stays = gap.if_at_most(p * self.stretch, one, zero);
+        *active = p.if_at_most(zero, overlaps, stays);
+        *residual = *active * *gap;
+        [*residual, *active]
+    }
+}
+
+struct WithoutMean(f64);
+
+impl CellRule<1, 1, 0> for WithoutMean {
+    #[inline(always)]
+    fn at<R: Reals>(&self, [active]: [R; 1], [residual]: &mut [R; 1]) -> [R; 0] {
+        *residual = *residual - active * self.0;
+        []
+    }
+}
+
+/// Curvature and slope along a change.
+struct Along;
+
+impl CellRule<3, 0, 2> for Along {
+    #[inline(always)]
+    fn at<R: Reals>(&self, [change, image, gap]: [R; 3], _: &mut [R; 0]) -> [R; 2] {
+        [change * image, gap * change]
+    }
+}
+
+/// Fraction of its pressure that a cell loses.
+struct Fall;
+
+impl CellSize<2> for Fall {
+    #[inline(always)]
+    fn of<R: Reals>(&self, [change, p]: [R; 2]) -> R {
+        let zero = p.all(0.0);
+        zero.if_at_most(change, zero, change / p * -1.0)
+    }
+}
+
+struct Products;
+
+impl CellRule<5, 0, 7> for Products {
+    #[inline(always)]
+    fn at<R: Reals>(&self, [z, active, residual, change, image]: [R; 5], _: &mut [R; 0]) -> [R; 7] {
+        let (z, change) = (active * z, active * change);
+        [z, z * image, active * image, change, change * image, z * residual, change * residual]
+    }
+}
+
+/// Pressure after a step, without tension.
+struct Target {
+    step: f64,
+    constant: f64,
+    beta: f64,
+}
+
+impl CellRule<4, 1, 1> for Target {
+    #[inline(always)]
+    fn at<R: Reals>(&self, [z, active, last, p]: [R; 4], [target]: &mut [R; 1]) -> [R; 1] {
+        let moved = p + (last * self.beta - z + self.constant) * self.step;
+        *target = (active * moved).max(p.all(0.0));
+        [*target]
+    }
+}
+
+/// What brings pressure to a fraction of its target.
+struct ChangeTo {
+    fraction: f64,
+}
+
+impl CellRule<1, 1, 0> for ChangeTo {
+    #[inline(always)]
+    fn at<R: Reals>(&self, [p]: [R; 1], [target]: &mut [R; 1]) -> [R; 0] {
+        *target = *target * self.fraction - p;
+        []
+    }
+}

@@ -1,0 +1,231 @@
+//! What an increment ends with: residuals, resultants, counts, the state after it.
+
+use ndarray::Array2;
+use serde::{Deserialize, Serialize};
+
+use super::contact_set::ContactSet;
+use super::increment::{IncrementProblem, Solved};
+use super::laws::friction::{dissipation, slips};
+use crate::model::field::sum;
+use crate::model::{ContactState, Symmetry, Zone};
+
+/// How well an increment satisfies its equations; all parts dimensionless.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+pub struct Residual {
+    /// Largest `|min(g, K p)|` over the cells, relative to the mean displacement under the load; g gap, p pressure, K normal
+    /// self-influence of a cell.
+    pub complementarity: f64,
+    /// `|q - Proj(q + slip / K)| / |b|`, Euclidean norms over the cells in contact; Proj onto the friction disc of radius b, K tangential
+    /// self-influence, slip the slip increment.
+    pub coulomb: f64,
+    /// Prescribed forces against the sums of the tractions, relative to the normal force (tangential: to the sum of the bounds).
+    pub equilibrium: f64,
+}
+
+impl Residual {
+    /// The worse of two, each kind by itself.
+    #[must_use]
+    pub fn worse(&self, other: &Self) -> Self {
+        Self {
+            complementarity: worst([self.complementarity, other.complementarity]),
+            coulomb: worst([self.coulomb, other.coulomb]),
+            equilibrium: worst([self.equilibrium, other.equilibrium]),
+        }
+    }
+
+    /// The worst of the three; not a number when any of them is none.
+    pub fn largest(&self) -> f64 {
+        worst([self.complementarity, self.coulomb, self.equilibrium])
+    }
+}
+
+/// Largest of some values that are not negative; a value that is no number stays one.
+pub fn worst(values: impl IntoIterator<Item = f64>) -> f64 {
+    values.into_iter().fold(0.0, |most: f64, value| if value.is_nan() || value > most { value } else { most })
+}
+
+/// Work spent, in counts that do not depend on the machine.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+pub struct Work {
+    /// Operator applications, each one fused pass whatever its components.
+    pub convolutions: usize,
+    /// The same, each weighted by its number of cells over that of the whole grid: what applications in regions and on coarser
+    /// grids are worth.
+    #[serde(default)]
+    pub full_grid_convolutions: f64,
+    /// Preconditioner applications (unpadded).
+    pub preconditioner_passes: usize,
+    /// Outer iterations: changes of the contact, stick and slip zones.
+    pub outer_iterations: usize,
+    /// Iterations of the exact Newton method, the last resort: 0 where the usual way solved the increment.
+    #[serde(default)]
+    pub direct_solves: usize,
+}
+
+impl std::ops::AddAssign for Work {
+    fn add_assign(&mut self, other: Self) {
+        self.convolutions += other.convolutions;
+        self.full_grid_convolutions += other.full_grid_convolutions;
+        self.preconditioner_passes += other.preconditioner_passes;
+        self.outer_iterations += other.outer_iterations;
+        self.direct_solves += other.direct_solves;
+    }
+}
+
+/// What the contact as a whole does in an increment.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Regime {
+    /// The bodies do not touch.
+    Apart,
+    /// Every cell in contact sticks.
+    FullStick,
+    /// Some cells stick, some slip.
+    PartialSlip,
+    /// Every cell in contact slips.
+    GrossSlip,
+    /// There is no friction.
+    Frictionless,
+}
+
+/// Sums of the tractions.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+pub struct Resultants {
+    /// Normal force [force].
+    pub normal: f64,
+    /// Tangential force on the lower body [force].
+    pub tangential: [f64; 2],
+    /// Moment about the z axis of the grid on the lower body [force x length].
+    pub moment: f64,
+}
+
+/// What an increment did, apart from the fields.
+#[derive(Debug, Clone, Copy)]
+pub struct Outcome {
+    /// Resultants of the tractions.
+    pub resultants: Resultants,
+    /// Cells in contact.
+    pub contact_cells: usize,
+    /// Cells that stick.
+    pub stick_cells: usize,
+    /// What the contact does.
+    pub regime: Regime,
+    /// How well the equations hold.
+    pub residual: Residual,
+}
+
+/// A solved increment.
+#[derive(Debug)]
+pub struct Increment {
+    /// Tractions, motions and history after the increment.
+    pub state: ContactState,
+    /// Resultants, counts, residuals.
+    pub outcome: Outcome,
+    /// Area of contact [length^2], from its edge between the cells.
+    pub contact_area: f64,
+    /// Area that sticks [length^2]: the fraction of the cells in contact that stick.
+    pub stick_area: f64,
+    /// Gap on the whole grid [length].
+    pub gap: Array2<f64>,
+    /// Work spent.
+    pub work: Work,
+}
+
+impl Increment {
+    /// The increment of the whole grid from that of the part before its mirrors.
+    pub(super) fn of_whole(self, symmetry: Symmetry) -> Self {
+        let copies = symmetry.copies();
+        let Outcome { resultants: Resultants { normal, tangential, .. }, .. } = self.outcome;
+        let resultants = Resultants {
+            normal: normal * copies as f64,
+            tangential: symmetry.whole_force(tangential),
+            moment: 0.0, // one side turns against the other
+        };
+        Self {
+            state: symmetry.whole_state(&self.state),
+            outcome: Outcome {
+                resultants,
+                contact_cells: self.outcome.contact_cells * copies,
+                stick_cells: self.outcome.stick_cells * copies,
+                ..self.outcome
+            },
+            gap: symmetry.whole(&self.gap, [false; 2]),
+            ..self
+        }
+    }
+}
+
+/// The state after an increment, and what happened.
+pub(super) fn settle(problem: &IncrementProblem<'_>, solved: &Solved) -> (ContactState, Outcome) {
+    let IncrementProblem { grid, region, state: before, .. } = *problem;
+    let pressure = &solved.tractions.pressure;
+    let contact = ContactSet::loaded(pressure);
+    let law = problem.friction.packed(&contact);
+    let bound = law.bound(&contact.packed(pressure)).bound;
+    let bound_before = law.bound(&contact.packed(&region.gather(&before.pressure))).bound;
+    let shear = contact.packed_tangential(&solved.tractions.shear);
+    let slip = contact.packed_tangential(&solved.slip);
+    let mut state = state_after(problem, solved);
+    let columns = region.shape[1];
+    let mut stick_cells = 0;
+    let mut moment = 0.0;
+    let mut dissipated = 0.0;
+    for (place, cell) in contact.cells().enumerate() {
+        let at = [region.origin[0] + cell / columns, region.origin[1] + cell % columns];
+        let [q, slip] = [shear.at(place), slip.at(place)];
+        moment += grid.centre(0, at[0]) * q[1] - grid.centre(1, at[1]) * q[0];
+        if slips(q, slip, bound[place], solved.tangential_stiffness) {
+            state.zone[at] = Zone::Slip;
+            for axis in 0..2 {
+                state.slip[axis][at] += slip[axis];
+            }
+            dissipated += dissipation([bound_before[place], bound[place]], q, slip);
+        } else {
+            state.zone[at] = Zone::Stick;
+            stick_cells += 1;
+        }
+    }
+    let area = grid.cell_area();
+    state.dissipated_energy += dissipated * area;
+    let limit = sum(&bound);
+    let resultants = Resultants {
+        normal: sum(pressure) * area,
+        tangential: [sum(&shear.x) * area, sum(&shear.y) * area],
+        moment: moment * area,
+    };
+    let regime = match (contact.len(), stick_cells) {
+        (0, _) => Regime::Apart,
+        _ if limit == 0.0 => Regime::Frictionless,
+        (_, 0) => Regime::GrossSlip,
+        (all, stick) if all == stick => Regime::FullStick,
+        _ => Regime::PartialSlip,
+    };
+    let residual = Residual {
+        complementarity: solved.normal.residual,
+        coulomb: solved.tangential.residual,
+        equilibrium: problem.off_equilibrium(&resultants, limit * area),
+    };
+    let outcome = Outcome { resultants, contact_cells: contact.len(), stick_cells, regime, residual };
+    (state, outcome)
+}
+
+/// Tractions and motions after an increment; slip, zones and dissipated energy are still those before.
+fn state_after(problem: &IncrementProblem<'_>, solved: &Solved) -> ContactState {
+    let IncrementProblem { grid, region, state: before, .. } = *problem;
+    let mut state = ContactState::untouched(grid.cells());
+    state.worn_depth.clone_from(&before.worn_depth);
+    region.place(&solved.tractions.pressure, &mut state.pressure);
+    region.place(&solved.tractions.shear.x, &mut state.shear[0]);
+    region.place(&solved.tractions.shear.y, &mut state.shear[1]);
+    for (slip, before) in state.slip.iter_mut().zip(&before.slip) {
+        if before.iter().any(|slip| *slip != 0.0) {
+            slip.assign(before);
+        }
+    }
+    let [shift_x, shift_y, turned] = solved.tangential.motion;
+    state.approach = solved.normal.approach;
+    state.shift = [before.shift[0] + shift_x, before.shift[1] + shift_y];
+    state.twist = before.twist + turned / problem.positions.length;
+    state.dissipated_energy = before.dissipated_energy;
+    state
+}

@@ -1,0 +1,5 @@
+//! What an increment starts from, apart from coarse grids: extrapolated tractions, or those of a contact that grows self-similarly. A
+//! start changes what a solution costs, never what it is.
+
+mod extrapolation;
+mod self_similar;
