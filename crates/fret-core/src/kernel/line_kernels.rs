@@ -29,7 +29,7 @@ type Lanes = [f64; 4];
 
 /// Weights of the transform. They depend on no case.
 #[derive(Clone, Debug)]
-struct LineLattice {
+pub(super) struct LineLattice {
     angle: f64,
     step: f64,
     /// Index of the first weight.
@@ -46,7 +46,7 @@ struct LineLattice {
 
 impl LineLattice {
     /// The lattice of the method, made once per process.
-    fn standard() -> &'static Self {
+    pub(super) fn standard() -> &'static Self {
         static STANDARD: OnceLock<LineLattice> = OnceLock::new();
         STANDARD.get_or_init(|| Self::new(ANGLE, STEPS_PER_E_FOLD))
     }
@@ -82,11 +82,38 @@ impl LineLattice {
         Self { angle, step, lowest, real, ray, mean_real, mean_ray }
     }
 
-    fn last_real(&self) -> i32 {
+    /// Angle of the ray.
+    pub(super) fn angle(&self) -> f64 {
+        self.angle
+    }
+
+    /// Step of the lattice in the logarithm.
+    pub(super) fn step(&self) -> f64 {
+        self.step
+    }
+
+    /// Index of the first weight.
+    pub(super) fn lowest(&self) -> i32 {
+        self.lowest
+    }
+
+    /// Weights `[cosine - 1, sine]` on the axis, counted from the first; beyond the last the filter leaves nothing.
+    pub(super) fn real_at(&self, place: usize) -> [f64; 2] {
+        self.real.get(place).copied().unwrap_or([-self.step * FRAC_1_PI, 0.0])
+    }
+
+    /// Weight of `exp(i z)` on the ray, counted from the first.
+    pub(super) fn ray_at(&self, place: usize) -> Option<Complex> {
+        self.ray.get(place).copied()
+    }
+
+    /// Index of the last weight on the axis.
+    pub(super) fn last_real(&self) -> i32 {
         self.lowest + self.real.len() as i32 - 1
     }
 
-    fn last_ray(&self) -> i32 {
+    /// Index of the last weight on the ray.
+    pub(super) fn last_ray(&self) -> i32 {
         self.lowest + self.ray.len() as i32 - 1
     }
 }

@@ -15,6 +15,7 @@ pub(crate) mod depth_periodic;
 pub(crate) mod depth_radial;
 pub(crate) mod depth_response;
 pub(crate) mod layer;
+pub(crate) mod line_depth;
 pub(crate) mod matrix;
 
 mod bessel;
