@@ -294,7 +294,6 @@ fn wear_that_the_gap_does_not_show_is_found() {
 }
 
 #[test]
-#[ignore = "the moment that holds a twist of zero is reported as zero"]
 fn the_moment_that_holds_the_bodies_from_turning_is_reported() {
     // Friction on one half only: a shift along x pulls off the middle, and the bodies do not turn.
     let map = Array2::from_shape_fn((24, 24), |(_, j)| if j < 12 { 0.0 } else { 0.3 });

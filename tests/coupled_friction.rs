@@ -227,9 +227,9 @@ fn along_x(grid: &fret_core::model::SurfaceGrid, field: &ndarray::Array2<f64>, r
     f64::midpoint(row(ny / 2 - 1), row(ny / 2))
 }
 
-/// The text with the published alternating scheme.
+/// The text with the published staggered scheme.
 fn in_turn(text: &str) -> String {
-    text.replace("[solver]\n", "[solver]\nscheme = \"alternating\"\n")
+    text.replace("[solver]\n", "[solver]\nscheme = \"staggered\"\n")
 }
 
 #[test]

@@ -64,10 +64,11 @@ fn leaving_out_changes_the_work_and_not_the_answer() {
                 let most = 1.02 * more.full_grid_convolutions;
                 assert!(least.full_grid_convolutions <= most, "{name}: {least:?} {more:?}");
             }
-            // The same steps, each of one component less.
+            // The same steps, each of one component less; that component holds roundings, which may end a Krylov iteration one step later.
             Simplification::Transverse => {
                 assert!(planned.along == Some(0) && planned_without.along.is_none(), "{name}");
-                assert_eq!(least, more, "{name}");
+                let steps = [least, more].map(|work| work.convolutions as f64);
+                assert!((steps[0] / steps[1] - 1.0).abs() < 0.02, "{name}: {least:?} {more:?}");
                 assert!(
                     short.fields.iter().all(|kept| is_nothing(&kept.shear.as_ref().unwrap()[1])),
                     "{name}"

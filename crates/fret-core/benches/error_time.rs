@@ -141,7 +141,7 @@ fn solve(scene: &Scene, grid: &SurfaceGrid, extension: usize) -> Answer<Incremen
         true,
     )
     // A sphere pressed alone is its own image in both directions.
-    .mirrored(Symmetry { odd_shear: [Some(0), Some(1)] });
+    .with_symmetry(Symmetry { odd_shear: [Some(0), Some(1)] });
     let none = Control::Force(0.0);
     let load =
         LoadStep { normal: Control::Force(force()), tangential: [none; 2], twist: Control::Motion(0.0) };

@@ -272,7 +272,7 @@ fn solve(scene: &Scene, gap: Array2<f64>, tolerance: f64, mirrors: bool) -> Answ
     let symmetry = Symmetry { odd_shear: [odd(0), odd(1)] };
     let mut solver =
         ContactSolver::new(grid, gap, &friction, Coupling::Frictionless, response, settings, true)
-            .mirrored(symmetry);
+            .with_symmetry(symmetry);
     if !scene.periodic {
         solver =
             solver.with_response_table(ResponseTable::new(&scene.pair, TAU / scene.side, 5.0 * PI / side));

@@ -4,17 +4,19 @@ use toml::Spanned;
 
 use super::attachments::Attachments;
 use super::bodies::bodies;
+use super::course::Stage;
+use super::definition::{Case, GridSize, Origin};
 use super::file::{CaseFile, CellsFile, OutputFile, SizeFile};
 use super::friction::{friction, of_stages};
 use super::judge::Judge;
 use super::line::{datum, line};
+use super::output::{FIELD_NAMES, Output};
 use super::refusal::Mistake;
 use super::repeating::repeats;
 use super::shape::profile;
 use super::stages::{sliding, stages};
 use super::stress::stress;
 use super::wearing::wear;
-use super::{Case, FIELD_NAMES, GridSize, Origin, Output, Stage};
 use crate::model::{CoulombFriction, Scheme};
 
 /// Cells along one side of the grid, at the least.

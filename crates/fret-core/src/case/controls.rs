@@ -2,10 +2,10 @@
 
 use toml::Spanned;
 
+use super::course::{Path, StageControl};
 use super::judge::Judge;
 use super::stage_file::{AxisFile, PhaseFile, StageFile};
 use super::table::{COLUMNS, Columns};
-use super::{Path, StageControl};
 
 /// Normal, along x, along y, about z.
 pub(super) type Controls = [Option<StageControl>; 4];

@@ -4,8 +4,41 @@ use std::f64::consts::TAU;
 
 use serde::Serialize;
 
-use super::{Stage, StageControl};
-use crate::model::{Control, LoadStep};
+use crate::model::{Control, CoulombFriction, LoadStep};
+
+/// One stage of the loading history.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Stage {
+    /// Name for messages and tables.
+    pub name: String,
+    /// What changes normally, if anything.
+    pub normal: Option<StageControl>,
+    /// What changes tangentially along x and y, if anything.
+    pub tangential: [Option<StageControl>; 2],
+    /// What changes about z, if anything.
+    pub twist: Option<StageControl>,
+    /// Increments of the stage, or of one cycle, all rows of a table included.
+    pub increments: usize,
+    /// Each increment is solved in as many parts as this bound on the error of its history asks for (in shares of the way that the
+    /// tractions go in it); in one when not given.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub history_tolerance: Option<f64>,
+    /// How the stage runs through its increments.
+    pub course: Course,
+    /// Friction from this stage on; as before when not given.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub friction: Option<CoulombFriction>,
+}
+
+/// What a stage prescribes in one direction, and how it runs.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum StageControl {
+    /// A force [force] or moment [force x length].
+    Force(Path),
+    /// A motion [length] or rotation [rad].
+    Motion(Path),
+}
 
 /// How a stage runs from where it starts.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]

@@ -7,9 +7,11 @@ use toml::Spanned;
 use toml::de::{DeTable, DeValue, Deserializer};
 
 use super::attachments::Attachments;
+use super::check;
+use super::definition::Case;
+use super::file::CaseFile;
 use super::refusal::{CaseError, Mistake};
 use super::wording::in_words;
-use super::{Case, check, file::CaseFile};
 
 /// More mistakes than this are not looked for.
 const MOST_MISTAKES: usize = 30;
@@ -279,5 +281,58 @@ fn take_inside(
             items.iter_mut().find_map(|item| take_inside(item, span, instead))
         }
         _ => None,
+    }
+}
+
+impl Case {
+    /// Reads and checks a case from TOML text that names no other files. `name` stands in messages (a file name).
+    ///
+    /// # Errors
+    /// With every mistake found, each with its place and a way out.
+    pub fn from_toml(text: &str, name: &str) -> Result<Self, CaseError> {
+        Self::from_toml_with(text, name, Attachments::none())
+    }
+
+    /// As [`Case::from_toml`]; `attachments` hands in the files and arrays the case names.
+    ///
+    /// # Errors
+    /// As [`Case::from_toml`]; also when a file or an array cannot be had or does not hold what the case says.
+    pub fn from_toml_with(text: &str, name: &str, attachments: Attachments<'_>) -> Result<Self, CaseError> {
+        case(text, name, attachments)
+    }
+
+    /// Reads and checks a case given as JSON text of the same structure; messages show it as TOML.
+    ///
+    /// # Errors
+    /// As [`Case::from_toml`]; also when the text is not a JSON object.
+    pub fn from_json(text: &str, name: &str) -> Result<Self, CaseError> {
+        Self::from_json_with(text, name, Attachments::none())
+    }
+
+    /// As [`Case::from_json`]; `attachments` hands in the files and arrays the case names. The n-th array stands in the case as
+    /// `{ "array": n }`.
+    ///
+    /// # Errors
+    /// As [`Case::from_json`]; also when a file or an array cannot be had or does not hold what the case says.
+    pub fn from_json_with(text: &str, name: &str, attachments: Attachments<'_>) -> Result<Self, CaseError> {
+        let refuse = |message: String| CaseError::plain(name, message);
+        let value: serde_json::Value =
+            serde_json::from_str(text).map_err(|error| refuse(format!("not readable as JSON: {error}")))?;
+        let table = toml::Table::try_from(without_null(value))
+            .map_err(|error| refuse(format!("not a case: {error}")))?;
+        let text = toml::to_string(&table).map_err(|error| refuse(format!("not a case: {error}")))?;
+        Self::from_toml_with(&text, name, attachments)
+    }
+}
+
+/// JSON's null means "not given"; TOML has no word for it.
+fn without_null(value: serde_json::Value) -> serde_json::Value {
+    use serde_json::Value;
+    match value {
+        Value::Object(map) => Value::Object(
+            map.into_iter().filter(|(_, v)| !v.is_null()).map(|(k, v)| (k, without_null(v))).collect(),
+        ),
+        Value::Array(items) => Value::Array(items.into_iter().map(without_null).collect()),
+        other => other,
     }
 }

@@ -2,10 +2,11 @@
 
 use toml::Spanned;
 
+use super::course::{Stage, StageControl};
+use super::definition::GridSize;
 use super::file::GridFile;
 use super::judge::Judge;
 use super::stage_file::StageFile;
-use super::{GridSize, Stage, StageControl};
 use crate::kernel::uniform_response;
 use crate::model::{ContactPair, Profile, Shape};
 

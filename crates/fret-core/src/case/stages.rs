@@ -3,11 +3,10 @@
 use toml::Spanned;
 
 use super::controls::controls;
-use super::course::{Course, Cycles, Waveform, walk};
+use super::course::{Course, Cycles, Stage, StageControl, Waveform, walk};
 use super::judge::Judge;
 use super::stage_file::{IncrementsFile, RampFile, StageFile, WaveformFile};
 use super::table::table;
-use super::{Stage, StageControl};
 use crate::model::{Control, CoulombFriction};
 
 /// Increments of a whole history, at the most.

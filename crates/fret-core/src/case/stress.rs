@@ -3,9 +3,9 @@
 use serde::{Deserialize, Serialize};
 use toml::Spanned;
 
-use super::Output;
 use super::file::{DepthsFile, SideFile, StressFile};
 use super::judge::Judge;
+use super::output::Output;
 use crate::model::{Body, ContactPair};
 use crate::subsurface::depth_points;
 use crate::subsurface::fatigue::Endurance;

@@ -1,8 +1,8 @@
 //! The judgement of wear.
 
+use super::course::{Course, Stage};
 use super::judge::Judge;
 use super::stage_file::{WearFile, WearLawFile, WornBodyFile};
-use super::{Course, Stage};
 use crate::model::{Body, ContactPair, WearLaw, WearRule};
 
 /// Cycles a computed one may stand for.

@@ -2,7 +2,7 @@
 
 use ndarray::Array2;
 
-use super::{SurfaceResponse, signed_kernels, signed_symbols};
+use super::surface_response::{SurfaceResponse, signed_kernels, signed_symbols};
 use crate::model::Symmetry;
 use fret_fft::{Block, ConvolutionError, Parity, PeriodicProduct, Symbol};
 

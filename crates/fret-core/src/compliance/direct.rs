@@ -1,6 +1,7 @@
 //! The elastic answer by a plain double sum over cells.
 
-use super::{FULL_BLOCKS, SelfInfluence, SurfaceCompliance, own_of, signed_kernels};
+use super::operator::{SelfInfluence, SurfaceCompliance};
+use super::surface_response::{FULL_BLOCKS, own_of, signed_kernels};
 use crate::kernel::InfluenceCoefficients;
 use fret_fft::{Block, ConvolutionError};
 

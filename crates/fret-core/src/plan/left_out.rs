@@ -2,17 +2,30 @@
 
 use ndarray::Axis;
 
+use serde::Serialize;
+
+use super::simplification::{LeaveOut, Simplification};
 use super::symmetry::{is_loaded, is_twisted};
-use super::{LeaveOut, LeftOut, Simplification};
 use crate::case::{Case, Stage};
 use crate::kernel::PairResponse;
 use crate::model::{Body, ContactState, CoulombFriction, SurfaceGrid, Symmetry};
 use crate::solver::Coupling;
 
+/// Something the problem does not need.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct LeftOut {
+    /// What is not computed.
+    pub what: String,
+    /// Why the result is the same without it.
+    pub why: String,
+    /// What that saves.
+    pub saves: String,
+}
+
 /// Names of the fields that can be kept, with their bytes a cell.
 const FIELDS: [(&str, usize); 5] = [("pressure", 8), ("shear", 16), ("slip", 16), ("gap", 8), ("zone", 1)];
 
-/// The list of what is left out of a case that may take the shortcuts of `leave_out`.
+/// The list of what is left out of a case that may take the simplifications of `leave_out`.
 pub fn left_out(
     case: &Case,
     grid: &SurfaceGrid,
@@ -96,14 +109,14 @@ pub fn left_out(
     if !case.periodic && leave_out.takes(Simplification::Region) {
         leave(
             "cells far from the contact, in the iterations",
-            "they carry nothing; whether the surfaces overlap there is checked once the box is solved",
-            "the share of the grid outside the box, in every iteration",
+            "they carry nothing; whether the surfaces overlap there is checked once the region is solved",
+            "the fraction of the grid outside the region, in every iteration",
         );
     }
     if single_precision {
         leave(
-            "all but six digits, in approximate inverses and on frozen zones",
-            "looks at the equations near the solution are taken with all of them, and mend what rounding did; none with six is accepted",
+            "double precision in linear problems and approximate inverses",
+            "residuals are in double precision, and correct what rounding did",
             "half of the numbers in most transforms",
         );
     }

@@ -22,19 +22,9 @@ use crate::start::Start;
 pub use advance::Advance;
 pub use extent::ExpectedContact;
 use extent::{automatic_size, expected_contact, reaches_beyond};
+pub use left_out::LeftOut;
 pub use memory::of_stress as memory_of_stress;
 pub use simplification::{LeaveOut, Simplification};
-
-/// Something the scene does not need.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
-pub struct LeftOut {
-    /// What is not computed.
-    pub what: String,
-    /// Why the answer is the same without it.
-    pub why: String,
-    /// What that saves.
-    pub saves: String,
-}
 
 /// A case ready to be computed.
 #[derive(Debug, Clone, Serialize)]

@@ -13,12 +13,12 @@ use faer::Mat;
 use faer::linalg::solvers::Solve;
 
 use super::contact_set::ContactSet;
-use super::increment::{Method, RegionOperators};
 use super::laws::projection::project_pressure;
 use super::laws::rigid_motions::RigidMotions;
 use super::laws::slip::{SlipIncrement, TangentialProblem};
 use super::newton::{self, ContactProblem, Solution};
 use super::normal::{NormalEquations, solve_normal};
+use super::operators::{Method, RegionOperators};
 use super::settings::{IterationCallback, SolveError, SolverSettings};
 use super::tractions::{Displacements, Tractions};
 use crate::compliance::{CellResponse, SurfaceCompliance};

@@ -8,43 +8,19 @@ use super::laws::friction::FrictionLaw;
 use super::laws::projection::project_pressure;
 use super::laws::rigid_motions::CellPositions;
 use super::laws::slip::TangentialResidual;
-use super::linear::preconditioner::Preconditioner;
-use super::linear::solver::LinearSolver;
 use super::newton::{self, ContactProblem, Pressure, Solution};
 use super::normal::{NormalEquations, first_pressure, full_contact_pressure, solve_normal};
-use super::outcome::{Resultants, settle};
+use super::operators::{Method, RegionOperators};
+use super::outcome::Resultants;
 use super::region::Region;
 use super::settings::{Coupling, IterationCallback, SolveError, SolverSettings};
 use super::staggered;
 use super::tractions::{Displacements, Tractions};
-use super::{ContactState, Outcome};
-use crate::compliance::{CellResponse, SpectralCompliance, SurfaceCompliance};
-use crate::model::{Control, CoulombFriction, LoadStep, Scheme, SurfaceGrid, TangentialField};
+use crate::compliance::{SpectralCompliance, SurfaceCompliance};
+use crate::model::{ContactState, Control, CoulombFriction, LoadStep, Scheme, SurfaceGrid, TangentialField};
 
 /// Residual to which the frictionless start of a coupled contact is solved.
 const ROUGH: f64 = 1e-2;
-
-/// The operators of a region.
-pub struct RegionOperators {
-    /// Where the region lies.
-    pub region: Region,
-    /// The elastic response.
-    pub compliance: SpectralCompliance,
-    /// Its approximate inverse.
-    pub preconditioner: Preconditioner,
-    /// Solver of linearised problems.
-    pub linear: LinearSolver,
-    /// Iterations of the exact Newton method so far.
-    pub direct_solves: usize,
-}
-
-/// What an increment is solved with besides its operators.
-pub struct Method<'a> {
-    pub coupling: Coupling,
-    pub settings: &'a SolverSettings,
-    /// The response of a cell to another, for the exact Newton method.
-    pub cells: &'a dyn Fn() -> Result<CellResponse, SolveError>,
-}
 
 /// One increment in one region.
 pub struct IncrementProblem<'a> {
@@ -166,15 +142,13 @@ impl<'a> IncrementProblem<'a> {
         operators: &mut RegionOperators,
         method: &Method<'_>,
         callback: IterationCallback<'_>,
-    ) -> Result<(Solved, ContactState, Outcome), SolveError> {
-        let solved = match method.coupling {
+    ) -> Result<Solved, SolveError> {
+        match method.coupling {
             Coupling::Coupled => self.solve_coupled(tractions, last, operators, method, callback),
             Coupling::Uncoupled | Coupling::Frictionless => {
                 self.solve_sequentially(tractions, (last, unchanged), operators, method, callback)
             }
-        }?;
-        let (state, outcome) = settle(self, &solved);
-        Ok((solved, state, outcome))
+        }
     }
 
     /// Pressure and shear together.

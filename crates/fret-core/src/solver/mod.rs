@@ -15,9 +15,11 @@ mod linear;
 mod memory;
 mod newton;
 mod normal;
+mod operators;
 mod outcome;
 mod region;
 mod settings;
+mod settle;
 mod staggered;
 mod start;
 mod tractions;
@@ -35,11 +37,12 @@ pub(crate) use outcome::worst;
 pub use outcome::{Increment, Outcome, Regime, Residual, Resultants, Work};
 pub use settings::{Coupling, IterationCallback, SolveError, SolverSettings};
 
-use increment::{IncrementProblem, Method, RegionOperators, Solved};
+use increment::{IncrementProblem, Solved};
 use linear::preconditioner::{CellWaves, Preconditioner};
 use linear::solver::LinearSolver;
 use memory::{Before, GridTractions, LastIncrement};
 use normal::coarse_grids::{CoarseGrids, Prescribed};
+use operators::{Method, RegionOperators};
 use region::Region;
 use tractions::Tractions;
 
@@ -264,7 +267,7 @@ impl<'a> ContactSolver<'a> {
             start,
         );
         if let Some(solved) = increment.apart() {
-            let (after, outcome) = outcome::settle(&increment, &solved);
+            let (after, outcome) = settle::settle(&increment, &solved);
             return Ok((solved, after, outcome));
         }
         let coupled = self.coupling == Coupling::Coupled;
@@ -291,7 +294,8 @@ impl<'a> ContactSolver<'a> {
         work.direct_solves += operators.direct_solves - counted.2;
         self.operators = Some(operators);
         self.memory.region = Some(region);
-        let (solved, after, outcome) = solved?;
+        let solved = solved?;
+        let (after, outcome) = settle::settle(&increment, &solved);
         work.outer_iterations += solved.iterations;
         Ok((solved, after, outcome))
     }

@@ -5,7 +5,6 @@
 
 use super::contact_set::ContactSet;
 use super::contact_vector::ContactVector;
-use super::increment::RegionOperators;
 use super::laws::active_sets::ActiveSets;
 use super::laws::complementarity::{NormalResidual, normal_residual};
 use super::laws::friction::{FrictionBound, FrictionLaw};
@@ -13,6 +12,7 @@ use super::laws::projection::{ShearProjection, project_pressure};
 use super::laws::rigid_motions::{CellPositions, RigidMotions};
 use super::laws::slip::{SlipIncrement, TangentialProblem, TangentialResidual};
 use super::linear::solver::Linearised;
+use super::operators::RegionOperators;
 use super::settings::{IterationCallback, SolveError, SolverSettings};
 use super::tractions::{Displacements, Tractions};
 use crate::compliance::SurfaceCompliance;
@@ -97,7 +97,7 @@ pub fn solve(
             return Ok(iterate.solution(iteration));
         }
         if backtracking.rejects(residual) {
-            iterate.go_halfway_back();
+            iterate.go_halfway_back(operators);
             continue;
         }
         if iteration >= LOST_AFTER && forcing.best > FAR {
@@ -156,7 +156,7 @@ struct Iterate<'a> {
     tractions: &'a mut Tractions,
     displacements: &'a mut Displacements,
     /// Those before the last step.
-    last: (Tractions, Displacements),
+    last: Tractions,
     /// Self-influence of a cell, normal and tangential [length/pressure].
     self_influence: [f64; 2],
     contact: ContactSet,
@@ -214,7 +214,7 @@ impl<'a> Iterate<'a> {
         let motions = problem.positions.motions_of(&contact);
         let mut iterate = Self {
             problem,
-            last: (Tractions::default(), Displacements::default()),
+            last: Tractions::default(),
             tractions,
             displacements,
             self_influence: [own.normal, own.tangential],
@@ -316,22 +316,26 @@ impl<'a> Iterate<'a> {
             }
             law.find_bound(pressure, bound);
         }
-        let mut shear = std::mem::take(&mut self.packed.shear);
-        let [_, own] = self.self_influence;
-        let equations = self.packed.tangential_problem(self.problem, &self.motions, own);
-        self.projection.project(&mut shear, &self.sets, &equations);
-        self.packed.shear = shear;
-        let Self { contact, packed, tractions, last, .. } = self;
-        last.0.clone_from(tractions);
+        self.project_shear();
+        self.last.clone_from(self.tractions);
+        let Self { contact, packed, tractions, .. } = self;
         contact.scatter(&packed.pressure, &mut tractions.pressure);
         contact.scatter_tangential(&packed.shear, &mut tractions.shear);
         true
     }
 
+    /// Brings packed shear to its discs, where it slips to its circles, and to its resultants.
+    fn project_shear(&mut self) {
+        let mut shear = std::mem::take(&mut self.packed.shear);
+        let [_, own] = self.self_influence;
+        let equations = self.packed.tangential_problem(self.problem, &self.motions, own);
+        self.projection.project(&mut shear, &self.sets, &equations);
+        self.packed.shear = shear;
+    }
+
     /// The displacements of the tractions.
     fn find_displacements(&mut self, operators: &mut RegionOperators) {
-        let Self { problem, tractions, displacements, last, .. } = self;
-        last.1.clone_from(displacements);
+        let Self { problem, tractions, displacements, .. } = self;
         match problem.pressure {
             Pressure::Unknown => operators.compliance.full(tractions.parts(), displacements.parts_mut()),
             Pressure::Given => {
@@ -342,10 +346,19 @@ impl<'a> Iterate<'a> {
         }
     }
 
-    /// To the middle between here and where the last step began: feasible too.
-    fn go_halfway_back(&mut self) {
-        self.tractions.average_with(&self.last.0);
-        self.displacements.average_with(&self.last.1);
+    /// To the middle between here and where the last step began, as far as the contact is the same; what slipped there is put back on
+    /// its circle.
+    fn go_halfway_back(&mut self, operators: &mut RegionOperators) {
+        self.tractions.average_with(&self.last);
+        if self.sets.len() == self.contact.len() {
+            let Self { contact, packed, tractions, .. } = self;
+            contact.pack(&tractions.pressure, &mut packed.pressure);
+            contact.pack_tangential(&tractions.shear, &mut packed.shear);
+            packed.law.find_bound(&packed.pressure, &mut packed.bound);
+            self.project_shear();
+            self.contact.scatter_tangential(&self.packed.shear, &mut self.tractions.shear);
+        }
+        self.find_displacements(operators);
     }
 
     fn solution(self, iterations: usize) -> Solution {
@@ -374,12 +387,12 @@ impl Default for ForcingTerm {
 
 impl ForcingTerm {
     /// Forcing terms of a residual that falls, at the most and at the least.
-    const MOST: f64 = 0.1;
+    const MOST: f64 = 0.5;
     const LEAST: f64 = 0.003;
     /// Times the ratio of the last two residuals.
     const GAMMA: f64 = 0.3;
     /// Fraction of the tolerance that the next residual is to reach: what is solved further is lost.
-    const ENOUGH: f64 = 0.7;
+    const ENOUGH: f64 = 0.8;
     /// So many iterations in vain leave nothing to chance: all in double precision.
     const PATIENCE: i32 = 3;
 
@@ -393,7 +406,7 @@ impl ForcingTerm {
         }
         let wanted = (Self::GAMMA * ratio).clamp(Self::LEAST, Self::MOST) * 0.1_f64.powi(self.in_vain.min(6));
         let wanted = if ratio.is_finite() && ratio > 0.0 { wanted } else { Self::MOST };
-        wanted.max(Self::ENOUGH * tolerance / residual)
+        wanted.max((Self::ENOUGH * tolerance / residual).min(Self::MOST))
     }
 }
 

@@ -3,11 +3,7 @@
 use ndarray::Array2;
 use serde::{Deserialize, Serialize};
 
-use super::contact_set::ContactSet;
-use super::increment::{IncrementProblem, Solved};
-use super::laws::friction::{dissipation, slips};
-use crate::model::field::sum;
-use crate::model::{ContactState, Symmetry, Zone};
+use crate::model::{ContactState, Symmetry};
 
 /// How well an increment satisfies its equations; all parts dimensionless.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
@@ -153,79 +149,4 @@ impl Increment {
             ..self
         }
     }
-}
-
-/// The state after an increment, and what happened.
-pub(super) fn settle(problem: &IncrementProblem<'_>, solved: &Solved) -> (ContactState, Outcome) {
-    let IncrementProblem { grid, region, state: before, .. } = *problem;
-    let pressure = &solved.tractions.pressure;
-    let contact = ContactSet::loaded(pressure);
-    let law = problem.friction.packed(&contact);
-    let bound = law.bound(&contact.packed(pressure)).bound;
-    let bound_before = law.bound(&contact.packed(&region.gather(&before.pressure))).bound;
-    let shear = contact.packed_tangential(&solved.tractions.shear);
-    let slip = contact.packed_tangential(&solved.slip);
-    let mut state = state_after(problem, solved);
-    let columns = region.shape[1];
-    let mut stick_cells = 0;
-    let mut moment = 0.0;
-    let mut dissipated = 0.0;
-    for (place, cell) in contact.cells().enumerate() {
-        let at = [region.origin[0] + cell / columns, region.origin[1] + cell % columns];
-        let [q, slip] = [shear.at(place), slip.at(place)];
-        moment += grid.centre(0, at[0]) * q[1] - grid.centre(1, at[1]) * q[0];
-        if slips(q, slip, bound[place], solved.tangential_stiffness) {
-            state.zone[at] = Zone::Slip;
-            for axis in 0..2 {
-                state.slip[axis][at] += slip[axis];
-            }
-            dissipated += dissipation([bound_before[place], bound[place]], q, slip);
-        } else {
-            state.zone[at] = Zone::Stick;
-            stick_cells += 1;
-        }
-    }
-    let area = grid.cell_area();
-    state.dissipated_energy += dissipated * area;
-    let limit = sum(&bound);
-    let resultants = Resultants {
-        normal: sum(pressure) * area,
-        tangential: [sum(&shear.x) * area, sum(&shear.y) * area],
-        moment: moment * area,
-    };
-    let regime = match (contact.len(), stick_cells) {
-        (0, _) => Regime::Apart,
-        _ if limit == 0.0 => Regime::Frictionless,
-        (_, 0) => Regime::GrossSlip,
-        (all, stick) if all == stick => Regime::FullStick,
-        _ => Regime::PartialSlip,
-    };
-    let residual = Residual {
-        complementarity: solved.normal.residual,
-        coulomb: solved.tangential.residual,
-        equilibrium: problem.off_equilibrium(&resultants, limit * area),
-    };
-    let outcome = Outcome { resultants, contact_cells: contact.len(), stick_cells, regime, residual };
-    (state, outcome)
-}
-
-/// Tractions and motions after an increment; slip, zones and dissipated energy are still those before.
-fn state_after(problem: &IncrementProblem<'_>, solved: &Solved) -> ContactState {
-    let IncrementProblem { grid, region, state: before, .. } = *problem;
-    let mut state = ContactState::untouched(grid.cells());
-    state.worn_depth.clone_from(&before.worn_depth);
-    region.place(&solved.tractions.pressure, &mut state.pressure);
-    region.place(&solved.tractions.shear.x, &mut state.shear[0]);
-    region.place(&solved.tractions.shear.y, &mut state.shear[1]);
-    for (slip, before) in state.slip.iter_mut().zip(&before.slip) {
-        if before.iter().any(|slip| *slip != 0.0) {
-            slip.assign(before);
-        }
-    }
-    let [shift_x, shift_y, turned] = solved.tangential.motion;
-    state.approach = solved.normal.approach;
-    state.shift = [before.shift[0] + shift_x, before.shift[1] + shift_y];
-    state.twist = before.twist + turned / problem.positions.length;
-    state.dissipated_energy = before.dissipated_energy;
-    state
 }

@@ -1,9 +1,9 @@
 //! The scheme of the published three-level methods (Panagiotopoulos 1975): pressure at given shear, then shear at given pressure, until
 //! the laws of both hold at once. A cross-check of the Newton method, which needs several times fewer operator applications.
 
-use super::increment::RegionOperators;
 use super::newton::{self, ContactProblem, Pressure, Solution};
 use super::normal::{NormalEquations, solve_normal};
+use super::operators::RegionOperators;
 use super::settings::{IterationCallback, SolveError, SolverSettings};
 use super::tractions::{Displacements, Tractions};
 use crate::compliance::SurfaceCompliance;

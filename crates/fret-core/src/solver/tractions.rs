@@ -58,11 +58,6 @@ impl Displacements {
         let [x, y] = self.tangential.parts_mut();
         [&mut self.normal, x, y]
     }
-
-    /// Goes halfway to other displacements.
-    pub fn average_with(&mut self, other: &Self) {
-        average(self.parts_mut(), other.parts());
-    }
 }
 
 fn average(fields: [&mut [f64]; 3], others: [&[f64]; 3]) {

@@ -13,8 +13,8 @@ use super::super::region::Region;
 
 /// A cell is on its friction circle from this fraction of the radius on: shear is put there by a multiplication.
 const ON_CIRCLE: f64 = 1.0 - 1e-10;
-/// A cell slips when the shear that would hold it exceeds its bound by more than this fraction, which is rounding.
-const EXCEEDS: f64 = 1.0 + 1e-10;
+/// Fraction of a bound that is rounding.
+const ROUNDING: f64 = 1e-10;
 
 /// Parameters of the law in some cells: of a region, or packed over a contact.
 #[derive(Debug, Clone, Default)]
@@ -77,11 +77,12 @@ pub fn dissipation([before, after]: [f64; 2], shear: [f64; 2], slip: [f64; 2]) -
     if after > 0.0 { mean_bound(before, after) * (shear[0] * slip[0] + shear[1] * slip[1]) } else { 0.0 }
 }
 
-/// Whether a cell slips, in a solution: the shear that would hold it, `q + slip / K`, lies outside the disc. `stiffness` is 1 / K of
-/// its own influence [pressure/length].
+/// Whether a cell slips, in a solution: the shear that would hold it, `q + slip / K`, lies outside the disc, by more than the shear lies
+/// inside, which is what the solution is off. `stiffness` is 1 / K of its own influence [pressure/length].
 pub fn slips(shear: [f64; 2], slip: [f64; 2], bound: f64, stiffness: f64) -> bool {
     let trial = [0, 1].map(|axis| shear[axis] + stiffness * slip[axis]);
-    bound <= 0.0 || trial[0].hypot(trial[1]) > bound * EXCEEDS
+    let inside = bound - shear[0].hypot(shear[1]);
+    bound <= 0.0 || trial[0].hypot(trial[1]) - bound > inside.max(bound * ROUNDING)
 }
 
 /// Nearest point of the friction disc.

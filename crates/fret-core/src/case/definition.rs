@@ -1,0 +1,138 @@
+//! A case: the whole question, checked.
+
+use serde::Serialize;
+
+use super::course::Stage;
+use super::output::Output;
+use super::refusal::{CaseError, Difference, Mistake};
+use super::stress::StressRequest;
+use crate::model::{ContactPair, CoulombFriction, LoadStep, Profile, Scheme, WearRule};
+
+/// A case that has passed every check.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Case {
+    /// Title, or an empty text.
+    pub title: String,
+    /// Cells `[nx, ny]`; `[n, 1]` in a line contact.
+    pub cells: [usize; 2],
+    /// Side lengths of the grid.
+    pub size: GridSize,
+    /// Depth below the load that approach and shift of a line contact are relative to \[length\]; `None`: the size of the grid.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub datum: Option<f64>,
+    /// Whether the problem is periodic in x and y.
+    pub periodic: bool,
+    /// The two bodies.
+    pub bodies: ContactPair,
+    /// Undeformed gap.
+    pub profile: Profile,
+    /// Friction law at the start; stages may change it.
+    pub friction: CoulombFriction,
+    /// What is prescribed where the history starts; `None`: bodies that have not touched yet.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub start: Option<LoadStep>,
+    /// Loading history.
+    pub stages: Vec<Stage>,
+    /// How the surfaces wear, when they do.
+    pub wear: Option<WearRule>,
+    /// Bound on the residual of every increment.
+    pub tolerance: f64,
+    /// How coupled pressure and shear are solved.
+    pub scheme: Scheme,
+    /// What is kept.
+    pub output: Output,
+    /// What is asked about stresses under the surface.
+    pub stress: Option<StressRequest>,
+    /// Where the case was written, for messages.
+    #[serde(skip)]
+    pub(crate) origin: Origin,
+}
+
+/// The text a case was read from, and where in it things stand.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub(crate) struct Origin {
+    pub name: String,
+    pub text: String,
+    pub size: std::ops::Range<usize>,
+}
+
+/// Side lengths of the grid.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum GridSize {
+    /// Given [length]; of a line contact, the length and the width of one strip.
+    Given([f64; 2]),
+    /// Chosen so that the largest contact of the history fits with a margin.
+    Auto,
+}
+
+impl Case {
+    /// Whether it is a line contact: plane strain across a line along y, all loads per unit length.
+    pub fn is_line(&self) -> bool {
+        self.cells[1] == 1
+    }
+
+    /// Whether there is no friction anywhere in the whole history.
+    pub fn is_frictionless(&self) -> bool {
+        let changes = self.stages.iter().filter_map(|stage| stage.friction.as_ref());
+        std::iter::once(&self.friction).chain(changes).all(CoulombFriction::is_frictionless)
+    }
+
+    /// Refuses the case for its grid's side lengths.
+    pub(crate) fn refuse_size(&self, message: String, help: &str) -> CaseError {
+        let mistake = Mistake { message, help: Some(help.to_owned()), span: Some(self.origin.size.clone()) };
+        CaseError::new(&self.origin.name, &self.origin.text, vec![mistake])
+    }
+
+    /// Refuses the case for the state that its history would start from, which is one of another setting.
+    pub(crate) fn refuse_start(&self, differences: &[Difference]) -> CaseError {
+        let text = &self.origin.text;
+        let tables = toml::de::DeTable::parse(text).ok().map(toml::Spanned::into_inner);
+        let mistakes = differences.iter().map(|Difference { key, case, state }| {
+            let table = key.split(['.', '[']).next().unwrap_or_default();
+            let found = tables.as_ref().and_then(|tables| {
+                tables.keys().find(|written| written.get_ref().as_ref() == table).map(toml::Spanned::span)
+            });
+            Mistake {
+                message: format!("{key} = {case}: the state to start from has {state}"),
+                help: Some(
+                    "grid, bodies and profile are those of the state; loads, friction and wear may differ"
+                        .to_owned(),
+                ),
+                span: found,
+            }
+        });
+        CaseError::new(&self.origin.name, text, mistakes.collect())
+    }
+
+    /// Whether fields are kept of increment `k` (from 1) of a stage: of every `output.every`-th, and of the last.
+    pub fn keeps(&self, stage: usize, k: usize) -> bool {
+        self.output.every.is_some_and(|every| k.is_multiple_of(every))
+            || k == self.stages[stage].increments_in_all()
+    }
+
+    /// Numbers in the whole history, from 0, of the increments whose fields are kept.
+    pub fn kept_increments(&self) -> Vec<usize> {
+        let mut kept = Vec::new();
+        let mut before = 0;
+        for (number, stage) in self.stages.iter().enumerate() {
+            let all = stage.increments_in_all();
+            kept.extend((1..=all).filter(|&k| self.keeps(number, k)).map(|k| before + k - 1));
+            before += all;
+        }
+        kept
+    }
+
+    /// Whether the history may end before all its increments: a stage that stops when it is steady, or wear in blocks of
+    /// cycles or up to a limit.
+    pub fn is_open_ended(&self) -> bool {
+        let steady = |stage: &Stage| stage.cycles().is_some_and(|cycles| cycles.until_steady.is_some());
+        self.stages.iter().any(steady)
+            || self.wear.as_ref().is_some_and(|wear| wear.every > 1 || wear.limit.is_some())
+    }
+
+    /// Increments of the whole history, at the most.
+    pub fn increments(&self) -> usize {
+        self.stages.iter().map(Stage::increments_in_all).sum()
+    }
+}

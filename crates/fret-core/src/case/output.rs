@@ -1,0 +1,15 @@
+//! What of the solution is kept.
+
+use serde::Serialize;
+
+/// Fields that can be kept, by the names of the case file.
+pub const FIELD_NAMES: [&str; 6] = ["pressure", "shear", "slip", "gap", "zone", "worn_depth"];
+
+/// What of the solution is kept.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct Output {
+    /// Names out of [`FIELD_NAMES`].
+    pub fields: Vec<String>,
+    /// Fields of every so many increments of a stage are kept, and of its last; `None`: of the last only.
+    pub every: Option<usize>,
+}
