@@ -23,7 +23,7 @@ pub struct Tractions<'a> {
 /// Stress and displacement at one depth of one body, under the centres of the cells.
 ///
 /// In free space: kernels of the whole stack at that depth, tabulated in the distance and integrated over cells, as for the
-/// surface, or over the strips of a line contact (plane strain); at depth 0 they give the stress in the surface itself. In scenes that repeat: the response at the grid's own
+/// surface, or over the strips of a line contact (plane strain); at depth 0 they give the stress in the surface itself. In periodic problems: the response at the grid's own
 /// wavenumbers. Exact for tractions that are uniform over each cell (free space), to rounding: about 1e-13 of the largest
 /// traction for contrasts up to 1e4.
 ///
@@ -136,7 +136,7 @@ impl DepthOperator {
         apply(&self.planned.stress[1], &mut self.workspace, &input, shear);
     }
 
-    /// Displacement `u_x, u_y, u_z` of the body [length]; `None` when the operator was not made for it, and in line contacts. In scenes that repeat
+    /// Displacement `u_x, u_y, u_z` of the body [length]; `None` when the operator was not made for it, and in line contacts. In periodic problems
     /// without the mean, which a half-space does not determine.
     ///
     /// # Panics
