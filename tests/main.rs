@@ -20,6 +20,8 @@ mod friction_on_patches;
 mod frictional_counts;
 mod invariants;
 mod leaving_out;
+mod line_coefficients;
+mod line_contact;
 mod loadings;
 mod misleading;
 mod mutilated_cases;

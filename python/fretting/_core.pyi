@@ -12,12 +12,14 @@ __all__ = [
     "Solution",
     "Start",
     "__version__",
+    "cattaneo_line",
     "cattaneo_mindlin",
     "check_memory",
     "check_threads",
     "command_line",
     "cone",
     "effective_moduli",
+    "equibiaxial_sphere",
     "expected",
     "flat_punch",
     "frequency_response",
@@ -30,7 +32,12 @@ __all__ = [
     "mindlin_deresiewicz_at",
     "plan",
     "run",
+    "sliding_cylinder",
+    "stretched_line",
+    "stretched_sphere",
     "subsurface_stress",
+    "tilted_line_punch",
+    "tilted_punch",
     "torsion",
     "westergaard",
 ]
@@ -111,6 +118,7 @@ def subsurface_stress(
 class Solution:
     def numbers(self) -> str: ...
     def curve(self, name: str, at: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]: ...
+    def surface(self, x: npt.NDArray[np.float64], y: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]: ...
 
 def effective_moduli(lower: tuple[float, float], upper: tuple[float, float] | None) -> Solution: ...
 def hertz(sphere: tuple[float, float, float]) -> Solution: ...
@@ -133,6 +141,23 @@ def mindlin_deresiewicz_at(
     branch: str,
     tangential_force: float,
 ) -> Solution: ...
+def cattaneo_line(
+    cylinder: tuple[float, float, float], friction: float, tangential_force: float, strain: float
+) -> Solution: ...
+def stretched_line(cylinder: tuple[float, float, float], friction: float, strain: float) -> Solution: ...
+def stretched_sphere(
+    sphere: tuple[float, float, float],
+    friction: float,
+    shear_modulus: float,
+    tangential_force: float,
+    strain: float,
+) -> Solution: ...
+def equibiaxial_sphere(sphere: tuple[float, float, float], friction: float, strain: float) -> Solution: ...
+def sliding_cylinder(
+    radius: float, line_force: float, modulus: float, coupling: float, friction: float
+) -> Solution: ...
+def tilted_punch(radius: float, force: float, modulus: float, tilt: float) -> Solution: ...
+def tilted_line_punch(half_width: float, line_force: float, modulus: float, tilt: float) -> Solution: ...
 def torsion(sphere: tuple[float, float, float], friction: float, shear_modulus: float, moment: float) -> Solution: ...
 
 def check_memory(what: str, bytes: int) -> None: ...

@@ -27,10 +27,12 @@ def of_history(history: "History", every: bool) -> "xarray.Dataset":
     coordinates: dict[str, Any] = {
         "step": ("step", chosen, increment),
         "x": ("x", history.x, {"long_name": "cell centres along x [length]"}),
-        "y": ("y", history.y, {"long_name": "cell centres along y [length]"}),
         "stage": ("step", history.steps["stage"][chosen], {"long_name": MEANING["stage"]}),
         "stage_name": ("step", _names(history, history.steps["stage"][chosen])),
     }
+    if not history.is_line:
+        coordinates["y"] = ("y", history.y, {"long_name": "cell centres along y [length]"})
+    across = ("x",) if history.is_line else ("y", "x")
     variables: dict[str, Any] = {
         name: ("step", column[chosen], {"long_name": MEANING[name]})
         for name, column in history.steps.items()
@@ -44,7 +46,7 @@ def of_history(history: "History", every: bool) -> "xarray.Dataset":
         if name == "zone":
             attributes["flag_values"] = np.arange(len(ZONE_NAMES), dtype=np.uint8)
             attributes["flag_meanings"] = " ".join(ZONE_NAMES)
-        variables[name] = ((fields_along, "y", "x"), stack, attributes)
+        variables[name] = ((fields_along, *across), stack, attributes)
     if len(history.cycles["cycle"]):
         coordinates |= _cycle_coordinates(history)
         for name, column in history.cycles.items():
@@ -55,13 +57,13 @@ def of_history(history: "History", every: bool) -> "xarray.Dataset":
 
 
 def _stack(history: "History", name: str) -> npt.NDArray[Any] | None:
-    """Return a field of all kept increments, shape (kept, ny, nx); None when it is not kept."""
+    """Return a field of all kept increments, shape (kept, ny, nx) or (kept, nx); None when it is not kept."""
     if not history.kept_steps or name not in history._kept.kept_fields(history.kept_steps[0]):
         return None
-    nx, ny = history.shape
-    stack = np.empty((len(history.kept_steps), ny, nx), dtype=np.uint8 if name == "zone" else np.float64)
+    shape = (len(history.kept_steps), *reversed(history.shape))
+    stack = np.empty(shape, dtype=np.uint8 if name == "zone" else np.float64)
     for place, increment in enumerate(history.kept_steps):
-        stack[place] = history._kept.field(name, increment).T
+        stack[place] = history._kept.field(name, increment).reshape(history.shape).T
     return stack
 
 

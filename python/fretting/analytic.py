@@ -22,25 +22,39 @@ from fretting import _core
 from fretting._arrays import Reals, real_array
 
 __all__ = [
+    "CattaneoLine",
     "CattaneoMindlin",
     "Cone",
     "EffectiveModuli",
+    "EquibiaxialSphere",
     "FlatPunch",
     "Hertz",
     "HertzEllipse",
     "HertzLine",
     "LoopPoint",
     "MindlinDeresiewicz",
+    "SlidingCylinder",
+    "StretchedLine",
+    "StretchedSphere",
+    "TiltedLinePunch",
+    "TiltedPunch",
     "Torsion",
     "Westergaard",
+    "cattaneo_line",
     "cattaneo_mindlin",
     "cone",
     "effective_moduli",
+    "equibiaxial_sphere",
     "flat_punch",
     "hertz",
     "hertz_ellipse",
     "hertz_line",
     "mindlin_deresiewicz",
+    "sliding_cylinder",
+    "stretched_line",
+    "stretched_sphere",
+    "tilted_line_punch",
+    "tilted_punch",
     "torsion",
     "westergaard",
 ]
@@ -112,6 +126,10 @@ class HertzEllipse:
 class HertzLine:
     """Frictionless line contact of a cylinder (gap ``x^2 / (2 R)``)."""
 
+    radius: float
+    """Relative radius R [length]."""
+    modulus: float
+    """Effective modulus E* [pressure]."""
     line_force: float
     """Force per length [force/length]."""
     half_width: float
@@ -284,6 +302,135 @@ class Torsion:
         return _curve(self._solution, "shear", r)
 
 
+@dataclass(frozen=True)
+class CattaneoLine:
+    """Partial slip of a Hertz line contact under a tangential force and a strain that grow together."""
+
+    tangential_force: float
+    """Tangential force per length [force/length], signed."""
+    friction_force: float
+    """Largest tangential force per length that friction holds [force/length]."""
+    half_width: float
+    """Half-width a of the contact [length]."""
+    peak_friction: float
+    """Largest shear that friction holds anywhere, mu p0 [pressure]."""
+    stick_half_width: float
+    """Half-width c of what sticks [length]."""
+    stick_offset: float
+    """Middle e of what sticks [length]."""
+    _solution: _core.Solution = field(repr=False, compare=False)
+
+    def shear(self, x: npt.ArrayLike) -> Reals:
+        """Shear at `x` from the middle [pressure], with the sign of the force; zero outside the contact."""
+        return _curve(self._solution, "shear", x)
+
+
+@dataclass(frozen=True)
+class StretchedLine:
+    """A Hertz line contact whose bodies are stretched against each other without a tangential force."""
+
+    half_width: float
+    """Half-width a of the contact [length]."""
+    stick_half_width: float
+    """Half-width c of what sticks [length]."""
+
+
+@dataclass(frozen=True)
+class StretchedSphere:
+    """Partial slip of a Hertz contact under a tangential force and a strain along it, Poisson's ratio 0."""
+
+    tangential_force: float
+    """Tangential force along x [force], signed."""
+    friction_force: float
+    """Largest tangential force that friction holds [force]."""
+    contact_radius: float
+    """Radius a of the contact [length]."""
+    peak_friction: float
+    """Largest shear that friction holds anywhere, mu p0 [pressure]."""
+    stick_radius: float
+    """Radius c of the disc that sticks [length]."""
+    stick_offset: float
+    """Middle e of that disc along x [length]."""
+    _solution: _core.Solution = field(repr=False, compare=False)
+
+    def shear(self, x: npt.ArrayLike, y: npt.ArrayLike) -> Reals:
+        """Shear along x at points [pressure], of the broadcast shape of `x` and `y`; zero outside the contact."""
+        return _surface(self._solution, x, y)
+
+
+@dataclass(frozen=True)
+class EquibiaxialSphere:
+    """A Hertz contact whose bodies are stretched against each other alike in all directions of the surface."""
+
+    contact_radius: float
+    """Radius a of the contact [length]."""
+    stick_radius: float
+    """Radius c of the disc that sticks [length]."""
+
+
+@dataclass(frozen=True)
+class SlidingCylinder:
+    """Line contact of a cylinder in full sliding, with normal-tangential coupling."""
+
+    line_force: float
+    """Force per length [force/length]."""
+    half_width: float
+    """Half-width a of the contact [length]."""
+    exponent: float
+    """Exponent gamma [-], ``tan(pi gamma) = beta mu``."""
+    offset: float
+    """Middle of the contact from the cylinder's axis [length], with the shear on the lower body along +x."""
+    peak_pressure: float
+    """Largest pressure [pressure]."""
+    _solution: _core.Solution = field(repr=False, compare=False)
+
+    def pressure(self, x: npt.ArrayLike) -> Reals:
+        """Pressure at `x` from the middle of the contact [pressure]; zero outside."""
+        return _curve(self._solution, "pressure", x)
+
+
+@dataclass(frozen=True)
+class TiltedPunch:
+    """A flat circular punch under a force and tilted by a slope along x, deeper at positive x, without friction."""
+
+    force: float
+    """Normal force [force]."""
+    tilt: float
+    """Slope [-]."""
+    moment: float
+    """Moment [force x length], positive with the pressure to positive x."""
+    contact_radius: float
+    """Radius of the punch and of the contact [length]."""
+    modulus: float
+    """Effective modulus E* [pressure]."""
+    _solution: _core.Solution = field(repr=False, compare=False)
+
+    def pressure(self, x: npt.ArrayLike, y: npt.ArrayLike) -> Reals:
+        """Pressure at points [pressure], of the broadcast shape of `x` and `y`; infinite at the edge, zero outside."""
+        return _surface(self._solution, x, y)
+
+
+@dataclass(frozen=True)
+class TiltedLinePunch:
+    """A flat punch of infinite length under a force and tilted by a slope across it, deeper at positive x."""
+
+    line_force: float
+    """Force per length [force/length]."""
+    tilt: float
+    """Slope [-]."""
+    moment: float
+    """Moment per length [force], positive with the pressure to positive x."""
+    half_width: float
+    """Half-width of the punch and of the contact [length]."""
+    modulus: float
+    """Effective modulus E* [pressure]."""
+    _solution: _core.Solution = field(repr=False, compare=False)
+
+    def pressure(self, x: npt.ArrayLike) -> Reals:
+        """Pressure at `x` from the middle [pressure]; infinite at the edge, zero outside."""
+        return _curve(self._solution, "pressure", x)
+
+
 def effective_moduli(lower: Material, upper: Material | None = None) -> EffectiveModuli:
     """Effective moduli of two bodies, each (young, poisson); default: a rigid upper body."""
     return EffectiveModuli(**_numbers(_core.effective_moduli(lower, upper)))
@@ -338,7 +485,7 @@ def hertz_line(radius: float, line_force: float, modulus: float) -> HertzLine:
     Hertz (1881); Johnson (1985), *Contact Mechanics*, section 4.2(c).
     """
     solution = _core.hertz_line(radius, line_force, modulus)
-    return HertzLine(**_numbers(solution), _solution=solution)
+    return HertzLine(radius=float(radius), modulus=float(modulus), **_numbers(solution), _solution=solution)
 
 
 def flat_punch(radius: float, force: float, modulus: float) -> FlatPunch:
@@ -451,8 +598,99 @@ def torsion(sphere: Hertz, friction: float, shear_modulus: float, moment: float)
     return Torsion(**_numbers(solution), _solution=solution)
 
 
+def cattaneo_line(cylinder: HertzLine, friction: float, tangential_force: float, strain: float = 0.0) -> CattaneoLine:
+    """Push a Hertz line contact across its axis, while a strain grows in proportion.
+
+    ``c = a sqrt(1 - |Q|/(mu P))``, ``e = a E* strain/(2 mu p0)``; for bodies that do not couple, as long as all that slips
+    slips one way (``|e| + c <= a``).
+
+    Parameters
+    ----------
+    cylinder : HertzLine
+        The normal contact.
+    friction : float
+        Friction coefficient [-].
+    tangential_force : float
+        Tangential force per length [force/length], at most friction times normal force.
+    strain : float
+        Strain of the lower surface less that of the upper one [-]: ``sigma (1 - nu^2)/E`` under a tension of the lower body.
+
+    References
+    ----------
+    Cattaneo (1938); Mindlin (1949); Nowell & Hills (1987), Int. J. Mech. Sci. 29, 355.
+    """
+    solution = _core.cattaneo_line(_line_numbers(cylinder), friction, tangential_force, strain)
+    return CattaneoLine(**_numbers(solution), _solution=solution)
+
+
+def stretched_line(cylinder: HertzLine, friction: float, strain: float) -> StretchedLine:
+    """Stretch a Hertz line contact without a tangential force: both edges slip, in opposite senses.
+
+    ``E* strain/(2 mu p0) = (2/pi) [K(k) - E(k)]``, ``k^2 = 1 - c^2/a^2``, for bodies that do not couple.
+    """
+    return StretchedLine(**_numbers(_core.stretched_line(_line_numbers(cylinder), friction, strain)))
+
+
+def stretched_sphere(
+    sphere: Hertz, friction: float, shear_modulus: float, tangential_force: float, strain: float
+) -> StretchedSphere:
+    """Push a Hertz contact along x while a strain along x grows in proportion; Poisson's ratio 0.
+
+    ``c = a (1 - |T|/(mu P))^(1/3)``, ``e = 8 a G* strain/(pi mu p0)``, as long as ``|e| + c <= a``.
+    """
+    solution = _core.stretched_sphere(_hertz_numbers(sphere), friction, shear_modulus, tangential_force, strain)
+    return StretchedSphere(**_numbers(solution), _solution=solution)
+
+
+def equibiaxial_sphere(sphere: Hertz, friction: float, strain: float) -> EquibiaxialSphere:
+    """Stretch a Hertz contact alike in all directions: ``E* strain/(mu p0) = K(k) - E(k)``, ``k^2 = 1 - c^2/a^2``."""
+    return EquibiaxialSphere(**_numbers(_core.equibiaxial_sphere(_hertz_numbers(sphere), friction, strain)))
+
+
+def sliding_cylinder(
+    radius: float, line_force: float, modulus: float, coupling: float, friction: float
+) -> SlidingCylinder:
+    """Slide a cylinder across its axis on a half-space, with Dundurs' coupling beta [-].
+
+    ``p = (E*/2R) cos(pi g) (a + x)^(1/2 - g) (a - x)^(1/2 + g)``, ``tan(pi g) = beta mu``; friction is negative for shear on the
+    lower body along -x.
+
+    References
+    ----------
+    Bufler (1959); Johnson (1985), *Contact Mechanics*, section 8.2.
+    """
+    solution = _core.sliding_cylinder(radius, line_force, modulus, coupling, friction)
+    return SlidingCylinder(**_numbers(solution), _solution=solution)
+
+
+def tilted_punch(radius: float, force: float, modulus: float, tilt: float) -> TiltedPunch:
+    """Press a flat circular punch that is tilted by a slope, all of it in contact.
+
+    References
+    ----------
+    Johnson (1985), *Contact Mechanics*, sections 3.4 and 5.5(c).
+    """
+    solution = _core.tilted_punch(radius, force, modulus, tilt)
+    return TiltedPunch(**_numbers(solution), _solution=solution)
+
+
+def tilted_line_punch(half_width: float, line_force: float, modulus: float, tilt: float) -> TiltedLinePunch:
+    """Press a flat punch of infinite length that is tilted by a slope, all of it in contact.
+
+    References
+    ----------
+    Johnson (1985), *Contact Mechanics*, section 2.8.
+    """
+    solution = _core.tilted_line_punch(half_width, line_force, modulus, tilt)
+    return TiltedLinePunch(**_numbers(solution), _solution=solution)
+
+
 def _hertz_numbers(sphere: Hertz) -> tuple[float, float, float]:
     return sphere.radius, sphere.force, sphere.modulus
+
+
+def _line_numbers(cylinder: HertzLine) -> tuple[float, float, float]:
+    return cylinder.radius, cylinder.line_force, cylinder.modulus
 
 
 def _numbers(solution: _core.Solution) -> dict[str, Any]:
@@ -463,3 +701,9 @@ def _numbers(solution: _core.Solution) -> dict[str, Any]:
 def _curve(solution: _core.Solution, name: str, at: npt.ArrayLike) -> Reals:
     places = real_array(name, at)
     return solution.curve(name, places.ravel()).reshape(places.shape)
+
+
+def _surface(solution: _core.Solution, x: npt.ArrayLike, y: npt.ArrayLike) -> Reals:
+    along, across = np.broadcast_arrays(real_array("x", x), real_array("y", y))
+    flat = [np.ascontiguousarray(places.ravel(), dtype=np.float64) for places in (along, across)]
+    return solution.surface(flat[0], flat[1]).reshape(along.shape)

@@ -58,7 +58,8 @@ class _Copied:
 class History:
     """All of a run: numbers of every increment, fields of those that were kept.
 
-    Values are in the units of the case. Fields have shape (nx, ny), index ``[i, j]`` at ``(x[i], y[j])``.
+    Values are in the units of the case. Fields have shape (nx, ny), index ``[i, j]`` at ``(x[i], y[j])``; of a line contact
+    (``cells`` a single number) shape (nx,), and forces, areas and energies are those of a unit of its length.
 
     Attributes
     ----------
@@ -69,7 +70,7 @@ class History:
         stand for), ``max_worn_depth``, ``residual``, ``wall_s`` (float); ``increment``, ``stage``, ``contact_cells``, ``stick_cells``, ``convolutions``, ``preconditioner_passes``, ``outer_iterations``, ``parts``
         (int); ``full_grid_convolutions`` (float); ``regime`` (str).
     x, y : ndarray
-        Coordinates of the cell centres [length], shapes (nx,) and (ny,).
+        Coordinates of the cell centres [length], shapes (nx,) and (ny,); of a line contact `y` is one zero.
     stages : list of str
         Names of the stages.
     cycles : dict of str to ndarray
@@ -156,9 +157,14 @@ class History:
         return self.status == "solved"
 
     @property
-    def shape(self) -> tuple[int, int]:
-        """Shape (nx, ny) of the fields."""
-        return len(self.x), len(self.y)
+    def is_line(self) -> bool:
+        """Whether it is a line contact: the same all along y."""
+        return len(self.y) == 1
+
+    @property
+    def shape(self) -> tuple[int, ...]:
+        """Shape (nx, ny) of the fields; (nx,) of a line contact."""
+        return (len(self.x),) if self.is_line else (len(self.x), len(self.y))
 
     @property
     def kept_steps(self) -> list[int]:
@@ -179,7 +185,7 @@ class History:
         Returns
         -------
         ndarray
-            Shape (nx, ny); float64 [pressure or length], ``zone`` uint8. The caller's own copy.
+            Shape (nx, ny), of a line contact (nx,); float64 [pressure or length], ``zone`` uint8. The caller's own copy.
 
         Raises
         ------
@@ -205,7 +211,7 @@ class History:
             )
         if name not in kept:
             raise KeyError(f"{name} is not kept; kept are: {', '.join(kept)} ([output] fields = [...] keeps more)")
-        return self._kept.field(name, increment)
+        return self._kept.field(name, increment).reshape(self.shape)
 
     def to_xarray(self, steps: Literal["all", "kept"] = "all") -> "xarray.Dataset":
         """Return everything as a Dataset: numbers of the increments and cycles, fields of the kept increments.
@@ -269,8 +275,8 @@ class History:
 
     def _facts(self) -> list[tuple[str, str]]:
         """Return what a person wants to know first."""
-        nx, ny = self.shape
-        facts = [("stages", ", ".join(self.stages)), ("increments", str(len(self))), ("cells", f"{nx} x {ny}")]
+        cells = "a line contact of " * self.is_line + " x ".join(map(str, self.shape))
+        facts = [("stages", ", ".join(self.stages)), ("increments", str(len(self))), ("cells", cells)]
         if not self.finished:
             facts.append(("not the whole history", ": ".join(filter(None, (self.status, self.message)))))
         if not len(self):
@@ -300,8 +306,8 @@ class History:
 
     def __repr__(self) -> str:
         """Sizes, the last step, and what is kept."""
-        nx, ny = self.shape
-        head = f"History: {len(self)} increments, {nx} x {ny} cells, stages: {', '.join(self.stages)}"
+        cells = " x ".join(map(str, self.shape)) + " cells" + " of a line contact" * self.is_line
+        head = f"History: {len(self)} increments, {cells}, stages: {', '.join(self.stages)}"
         return "\n".join([head, *(f"  {name}: {value}" for name, value in self._facts()[3:])])
 
     def _repr_html_(self) -> str:

@@ -99,6 +99,8 @@ class _Stored:
         self._names = [name for name in FIELD_NAMES if (path / name / "zarr.json").is_file()]
 
     def coordinate(self, name: str) -> npt.NDArray[np.float64]:
+        if name == "y" and self._cells[1] == 1:  # a line contact, the same all along y
+            return np.zeros(1)
         centres = self._numbers(self._path / name / "c" / "0", "<f8").astype(np.float64)
         if len(centres) != self._cells["xy".index(name)] or not np.isfinite(centres).all():
             _refuse(self._path / name, "does not hold the centres of the grid's cells")
@@ -111,7 +113,9 @@ class _Stored:
         return list(self._names) if increment in self._steps else []
 
     def field(self, name: str, increment: int) -> npt.NDArray[Any]:
-        place = self._path / name / "c" / str(self._steps.index(increment)) / "0" / "0"
+        place = self._path / name / "c" / str(self._steps.index(increment)) / "0"
+        if self._cells[1] > 1:
+            place /= "0"
         zone = name == "zone"
         values = self._numbers(place, "|u1" if zone else "<f8")
         if values.size != self._cells[0] * self._cells[1]:

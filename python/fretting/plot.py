@@ -86,7 +86,8 @@ def section(
     along : {"x", "y"}
         Direction of the line.
     at : float
-        Where the line crosses the other axis [length]. Between two rows of cells the values are interpolated.
+        Where the line crosses the other axis [length]. Between two rows of cells the values are interpolated. In a line
+        contact it does not matter.
     axes : matplotlib Axes, optional
         Where to draw.
 
@@ -95,6 +96,10 @@ def section(
     matplotlib Axes
     """
     _component(along)
+    if history.is_line:
+        if along == "y":
+            raise ValueError("along = 'y': nothing changes along the line of a line contact")
+        at = 0.0
     names = [fields] if isinstance(fields, str) else list(fields)
     here, across = (history.x, history.y) if along == "x" else (history.y, history.x)
     half = 0.5 * (across[1] - across[0]) if len(across) > 1 else np.inf
@@ -112,7 +117,7 @@ def section(
 
 
 def field(history: "History", name: str = "pressure", step: int = -1, axes: "Axes | None" = None) -> "Axes":
-    """Draw a kept field as a map, with a colour bar.
+    """Draw a kept field as a map, with a colour bar; of a line contact, as a line.
 
     Parameters
     ----------
@@ -131,6 +136,8 @@ def field(history: "History", name: str = "pressure", step: int = -1, axes: "Axe
     """
     if name == "zone":
         return zones(history, step, axes)
+    if history.is_line:
+        return section(history, name, step, axes=axes)
     values = history.field(name, step)  # type: ignore[arg-type]
     axes = _own_axes(axes)
     image = _image(history, values, axes)
@@ -335,6 +342,8 @@ def _stage_number(history: "History", stage: int | str) -> int:
 
 
 def _along(values: Reals, along: Direction, across: Reals, at: float) -> Reals:
+    if values.ndim == 1:
+        return values
     rows = values if along == "y" else values.T
     if len(across) == 1:
         only: Reals = rows[0]
@@ -355,14 +364,17 @@ def _image(
 ) -> "AxesImage":
     from matplotlib.colors import ListedColormap
 
-    edges = (*_ends(history.x), *_ends(history.y))
+    edges = (*_ends(history.x), *((0.0, 1.0) if history.is_line else _ends(history.y)))
+    values = values.reshape(len(history.x), len(history.y))
     low, high = (-0.5, len(words) - 0.5) if words else limits or _limits(values)
     colours = ListedColormap([c for _, c in words]) if words else "RdBu_r" if low < 0.0 else "viridis"
     image: AxesImage = axes.imshow(
         values.T, origin="lower", extent=edges, cmap=colours, vmin=low, vmax=high, interpolation="nearest"
     )
-    axes.set(xlabel="x [length]", ylabel="y [length]")
-    axes.ticklabel_format(scilimits=(-2, 3))
+    axes.set(xlabel="x [length]", ylabel="" if history.is_line else "y [length]")
+    if history.is_line:
+        axes.set(aspect="auto", yticks=[])
+    axes.ticklabel_format(scilimits=(-2, 3), axis="x" if history.is_line else "both")
     return image
 
 

@@ -38,7 +38,7 @@ def subsurface_stress(
     Returns
     -------
     dict of str to ndarray
-        ``xx``, ``yy``, ``zz``, ``xy``, ``xz``, ``yz``, ``von_mises`` [pressure] of shape (nz, nx, ny); ``depth`` [length]
+        ``xx``, ``yy``, ``zz``, ``xy``, ``xz``, ``yz``, ``von_mises`` [pressure] of shape (nz, nx, ny), of a line contact (nz, nx); ``depth`` [length]
         and ``layer`` of shape (nz,). A depth at an interface appears twice, first as seen from above, then from below;
         ``layer`` is 0 in the outermost coating and the number of coatings in the substrate.
 
@@ -69,6 +69,11 @@ def subsurface_stress(
     shear = None
     if "frictionless" not in history.steps["regime"]:
         shear = (history.field("shear_x", step), history.field("shear_y", step))
-    return _core.subsurface_stress(
-        (history._bodies, body == "upper"), history._spacing, history._periodic, (pressure, shear), points.tolist(), threads
+    grid = len(history.x), len(history.y)
+    tractions = pressure.reshape(grid), shear and (shear[0].reshape(grid), shear[1].reshape(grid))
+    stress = _core.subsurface_stress(
+        (history._bodies, body == "upper"), history._spacing, history._periodic, tractions, points.tolist(), threads
     )
+    if history.is_line:
+        return {name: values.reshape(len(values), *history.shape) if values.ndim == 3 else values for name, values in stress.items()}
+    return stress

@@ -90,6 +90,7 @@ impl Estimate {
             }
             table.push('\n');
         };
+        let is_line = self.cells[1] == 1;
         for quantity in Quantity::ALL {
             let scalar = |bars: &Bars| number(&bars.of(quantity), 0);
             match quantity {
@@ -101,6 +102,8 @@ impl Estimate {
                         });
                     }
                 }
+                Quantity::ContactArea if is_line => row("contact width", &scalar),
+                Quantity::StickArea if is_line => row("stick width", &scalar),
                 Quantity::ContactArea => {
                     row(name(quantity), &scalar);
                     row("radius of a circle of that area", &|bars| radius(&bars.of(quantity)));
@@ -109,9 +112,10 @@ impl Estimate {
             }
         }
         let [nx, ny] = self.cells;
+        let cells = if is_line { nx.to_string() } else { format!("{nx} x {ny}") };
         let _ = write!(
             table,
-            "from an auxiliary coarse solution on {nx} x {ny} cells with {}, {}",
+            "from an auxiliary coarse solution on {cells} cells with {}, {}",
             counted(self.increments, "increment"),
             duration(self.wall_s)
         );

@@ -81,6 +81,10 @@ impl Summary<'_> {
         }
         let residual =
             format!("{:.1e} (tolerance {:.1e})", self.tally.largest_residual, self.plan.case.tolerance);
+        if let Some(datum) = self.plan.datum {
+            let _ =
+                writeln!(table, "{:<NAMES$}{} below the load", "approach, shift relative to", figure(datum));
+        }
         for (name, value) in [
             ("increments", self.tally.solved.to_string()),
             ("max residual", residual),
@@ -102,11 +106,16 @@ impl Summary<'_> {
             ("normal force", |record| figure(record.normal_force)),
             ("approach", |record| figure(record.approach)),
             ("max pressure", |record| figure(record.max_pressure)),
-            ("contact area", |record| figure(record.contact_area)),
-            ("radius of a circle of that area", |record| {
-                figure((record.contact_area / std::f64::consts::PI).sqrt())
-            }),
         ];
+        if self.plan.grid.is_line() {
+            readings[0].0 = "normal force per unit length";
+            readings.push(("contact width", |record| figure(record.contact_area)));
+        } else {
+            readings.push(("contact area", |record| figure(record.contact_area)));
+            readings.push(("radius of a circle of that area", |record| {
+                figure((record.contact_area / std::f64::consts::PI).sqrt())
+            }));
+        }
         if self.plan.coupling != Coupling::Frictionless {
             readings.extend::<[(&'static str, Reading); 7]>([
                 ("tangential force x", |record| {
@@ -178,7 +187,9 @@ impl Summary<'_> {
             .map(|record| {
                 let mut value = serde_json::to_value(record).unwrap_or(Value::Null);
                 value["name"] = json!(self.stage_name(record.stage));
-                value["equivalent_radius"] = json!((record.contact_area / std::f64::consts::PI).sqrt());
+                if !self.plan.grid.is_line() {
+                    value["equivalent_radius"] = json!((record.contact_area / std::f64::consts::PI).sqrt());
+                }
                 value["stick_share"] = json!(stick_share(record));
                 value
             })
@@ -197,6 +208,8 @@ impl Summary<'_> {
             "status": failure.map_or("solved", Failure::status),
             "message": failure.map(Failure::message),
             "title": self.plan.case.title,
+            "line_contact": self.plan.grid.is_line(),
+            "datum": self.plan.datum,
             "stages": stages,
             "cycles": cycles,
             "worn_through": self.tally.worn_through,

@@ -10,7 +10,7 @@ use crate::model::Zone;
 pub struct Footprint {
     /// Radius of the contact in cells: that of a circle of as many cells, or less where the contact is narrow: 1.1 times the radius
     /// of the disc whose chords are as long as its own are on the average along x, or along y. So it is the radius of a disc, 1.4
-    /// half-widths of a strip, and about the mean radius of the patches where there are many. `None` without contact, and for a
+    /// half-widths of a strip or a line contact, and about the mean radius of the patches where there are many. `None` without contact, and for a
     /// contact without any edge.
     pub radius: Option<f64>,
     /// Open cells between the contact and the nearest edge of the grid.
@@ -34,14 +34,15 @@ impl Footprint {
             faces[0] += usize::from(i + 1 < nx && (zone[[i + 1, j]] != Zone::Open) != loaded);
             faces[1] += usize::from(j + 1 < ny && (zone[[i, j + 1]] != Zone::Open) != loaded);
         }
+        let axes = if ny == 1 { 0..1 } else { 0..2 };
         if cells == 0 {
-            return Self { radius: None, free: nx.min(ny) };
+            return Self { radius: None, free: axes.map(|axis| [nx, ny][axis]).min().unwrap_or(0) };
         }
-        let free = (0..2).map(|axis| least[axis].min([nx, ny][axis] - 1 - most[axis])).min().unwrap_or(0);
+        let free = axes.map(|axis| least[axis].min([nx, ny][axis] - 1 - most[axis])).min().unwrap_or(0);
         // Every chord has two ends; a disc's are pi/2 radii long in the mean.
         let by_chords = faces.map(|faces| 4.0 * cells as f64 / (std::f64::consts::PI * faces as f64));
         let narrow = by_chords[0].min(by_chords[1]);
-        let circle = (cells as f64 / std::f64::consts::PI).sqrt();
+        let circle = if ny == 1 { f64::INFINITY } else { (cells as f64 / std::f64::consts::PI).sqrt() };
         Self { radius: narrow.is_finite().then_some(circle.min(1.1 * narrow)), free }
     }
 }

@@ -14,8 +14,8 @@ use crate::cycle::CycleRecord;
 use crate::fretting_loop::{CycleEnd, FrettingLoop};
 use crate::history::{History, KeptFields, StepRecord};
 use crate::kernel::{
-    Components, PairResponse, ResponseTable, coefficients_of, influence_coefficients, periodic_symbols,
-    symbols_of,
+    Components, PairResponse, ResponseTable, coefficients_of, influence_coefficients, line_coefficients_of,
+    periodic_symbols, symbols_of,
 };
 use crate::machine::memory::{Claim, claim};
 use crate::model::{ContactState, CoulombFriction, LoadStep, SolvedState};
@@ -199,6 +199,19 @@ impl<'a> Simulation<'a> {
         let plain = plan.leave_out.takes(Simplification::LayeredResponse);
         let [width, depth] = plan.grid.size();
         let layered = || PairResponse::all_layers(&case.bodies, width.max(depth));
+        if plan.grid.is_line() {
+            let datum = plan.datum.unwrap_or(width);
+            let response = if plain { PairResponse::new(&case.bodies) } else { layered() };
+            let strips = case.cells[0];
+            return SurfaceResponse::FreeSpace(line_coefficients_of(
+                &response,
+                &case.bodies,
+                strips,
+                spacing[0],
+                datum,
+                wanted,
+            ));
+        }
         match (case.periodic, plain) {
             (true, true) => {
                 SurfaceResponse::Periodic(periodic_symbols(&case.bodies, case.cells, spacing, wanted, 0))

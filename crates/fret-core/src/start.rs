@@ -118,7 +118,7 @@ impl Start {
 /// What a state belongs to, with the keys that a case has for it.
 fn setting(plan: &Value) -> Value {
     let case = &plan["case"];
-    json!({
+    let mut setting = json!({
         "grid": {
             "cells": plan["grid"]["cells"],
             "spacing": plan["grid"]["spacing"],
@@ -127,7 +127,12 @@ fn setting(plan: &Value) -> Value {
         "upper": case["bodies"]["upper"],
         "lower": case["bodies"]["lower"],
         "profile": case["profile"],
-    })
+    });
+    // approach and shift of a line contact are relative to it
+    if !plan["datum"].is_null() {
+        setting["grid"]["datum"] = plan["datum"].clone();
+    }
+    setting
 }
 
 /// What a solver's memory belongs to besides.

@@ -66,10 +66,12 @@ impl PlannedProduct {
         }
     }
 
-    /// Free-space product; with more fields than the lane engine takes, line by line.
+    /// Free-space product; with more fields than the lane engine takes, line by line. So is a single line along x, which the lane
+    /// engine would pad to eight.
     pub fn free_space(engine: Engine, terms: &Terms, kernels: &[Kernel<'_>]) -> Self {
+        let single_line = terms.shape[1] == 1 && !terms.mirrors.any();
         match engine.0 {
-            Choice::Lanes(set) if LaneProduct::takes(terms) => {
+            Choice::Lanes(set) if LaneProduct::takes(terms) && !single_line => {
                 Self::Lanes(LaneProduct::free_space(set, terms, kernels))
             }
             _ => Self::lines(terms, |terms| LineProduct::free_space(terms, kernels)),

@@ -56,6 +56,9 @@ impl LineTransform {
 
     /// Transforms each of the contiguous `lines` in place.
     pub fn forward(&self, lines: &mut [Complex<f64>], scratch: &mut [Complex<f64>]) {
+        if self.length == 1 {
+            return; // a point is its own transform
+        }
         for line in lines.chunks_exact_mut(self.length) {
             for (value, shift) in line.iter_mut().zip(&self.shift) {
                 *value *= shift;
@@ -66,6 +69,9 @@ impl LineTransform {
 
     /// Undoes [`forward`](Self::forward) up to the factor `n`.
     pub fn inverse(&self, lines: &mut [Complex<f64>], scratch: &mut [Complex<f64>]) {
+        if self.length == 1 {
+            return;
+        }
         self.inverse.process_with_scratch(lines, scratch);
         for line in lines.chunks_exact_mut(self.length) {
             for (value, shift) in line.iter_mut().zip(&self.shift) {

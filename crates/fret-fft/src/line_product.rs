@@ -1,7 +1,7 @@
 //! Both products computed line by line with the transforms of [`fourier`](super::fourier), for grids of any size.
 //!
-//! This is the plain statement of what the lane engine does in another order, and its judge; it also serves the
-//! periodic grids whose lengths the lane engine does not do.
+//! This is the plain statement of what the lane engine does in another order, and its judge; it also serves single lines, along
+//! which it has nothing to pad, and the periodic grids whose lengths the lane engine does not do.
 
 use ndarray::{Array2, ArrayView2, s};
 use rustfft::num_complex::Complex;
@@ -92,10 +92,15 @@ impl LineProduct {
         }
     }
 
+    /// Parts of each column that are transformed: of a single real column the second would repeat the first.
+    fn parts(&self) -> usize {
+        if self.frequencies == Frequencies::HalfShifted && self.terms.shape[1] > 1 { 2 } else { 1 }
+    }
+
     /// Forward transform, kernels and inverse transform of some columns of all fields.
     ///
     /// Half-shifted lines have two parts: the columns at `w_k`, and those at `-w_k`, which are the columns at `w_k` of
-    /// the field with real and imaginary part exchanged.
+    /// the field with real and imaginary part exchanged; of a single column, which is real, each gives half of the result.
     fn columns(
         &self,
         columns: std::ops::Range<usize>,
@@ -105,7 +110,7 @@ impl LineProduct {
         scratch: &mut [Complex<f64>],
     ) {
         let [nx, ny] = self.terms.shape;
-        let parts = if self.frequencies == Frequencies::HalfShifted { 2 } else { 1 };
+        let parts = self.parts();
         let part_len = nx * columns.len();
         let (before, after) = strips.split_at_mut(self.terms.inputs * parts * part_len);
         let after = &mut after[..self.terms.outputs * parts * part_len];
@@ -147,6 +152,9 @@ impl LineProduct {
                     if parts == 2 {
                         let mirrored = strip[part_len + column * nx + kx];
                         value += Complex::new(mirrored.im, mirrored.re);
+                    }
+                    if self.frequencies == Frequencies::HalfShifted && parts == 1 {
+                        value *= 2.0;
                     }
                     result[kx * ny + ky] = value;
                 }

@@ -202,10 +202,12 @@ fn tolerance(problem: &Problem) -> f64 {
         * problem.blocks.len() as f64
 }
 
-const SHAPES: [[usize; 2]; 16] = [
+const SHAPES: [[usize; 2]; 18] = [
     [1, 1],
     [1, 7],
     [6, 1],
+    [97, 1],
+    [120, 1],
     [2, 3],
     [4, 4],
     [5, 8],

@@ -1,8 +1,9 @@
 //! Closed-form solutions: their numbers as JSON text, their curves evaluated on arrays. `fretting.analytic` gives them names.
 
 use fret_core::analytic::{
-    AnalyticError, Branch, CattaneoMindlin, Cone, EffectiveModuli, FlatPunch, Hertz, HertzEllipse, HertzLine,
-    MindlinDeresiewicz, Torsion, Westergaard,
+    AnalyticError, Branch, CattaneoLine, CattaneoMindlin, Cone, EffectiveModuli, EquibiaxialSphere,
+    FlatPunch, Hertz, HertzEllipse, HertzLine, MindlinDeresiewicz, SlidingCylinder, StretchedLine,
+    StretchedSphere, TiltedLinePunch, TiltedPunch, Torsion, Westergaard,
 };
 use fret_core::model::ElasticMaterial;
 use numpy::{IntoPyArray, PyArray1, PyReadonlyArray1};
@@ -14,7 +15,9 @@ use crate::error::bad_value;
 
 /// A function of one coordinate.
 type Curve = Box<dyn Fn(f64) -> f64 + Send + Sync>;
-/// `(sphere radius, force, effective modulus)`.
+/// A function of a point of the surface.
+type Surface = Box<dyn Fn(f64, f64) -> f64 + Send + Sync>;
+/// `(sphere radius, force, effective modulus)`; of a cylinder, per length.
 type HertzNumbers = (f64, f64, f64);
 
 /// One closed-form solution.
@@ -22,6 +25,8 @@ type HertzNumbers = (f64, f64, f64);
 pub struct Solution {
     numbers: Value,
     curves: Vec<(&'static str, Curve)>,
+    /// Its only function of a point, where it has one.
+    surface: Option<Surface>,
 }
 
 #[pymethods]
@@ -43,10 +48,31 @@ impl Solution {
         let values: Vec<f64> = at.as_slice()?.iter().map(|&at| curve(at)).collect();
         Ok(values.into_pyarray(py))
     }
+
+    /// The solution's function of a point at every point of two contiguous arrays of one length.
+    fn surface<'py>(
+        &self,
+        py: Python<'py>,
+        x: PyReadonlyArray1<'py, f64>,
+        y: PyReadonlyArray1<'py, f64>,
+    ) -> PyResult<Bound<'py, PyArray1<f64>>> {
+        let surface = self.surface.as_ref().ok_or_else(|| PyKeyError::new_err("no function of a point"))?;
+        let points = x.as_slice()?.iter().zip(y.as_slice()?);
+        let values: Vec<f64> = points.map(|(&x, &y)| surface(x, y)).collect();
+        Ok(values.into_pyarray(py))
+    }
 }
 
 fn solution(numbers: Value, curves: Vec<(&'static str, Curve)>) -> Solution {
-    Solution { numbers, curves }
+    Solution { numbers, curves, surface: None }
+}
+
+fn solution_of_points(numbers: Value, surface: Surface) -> Solution {
+    Solution { numbers, curves: vec![], surface: Some(surface) }
+}
+
+fn hertz_line_of((radius, line_force, modulus): HertzNumbers) -> PyResult<HertzLine> {
+    HertzLine::cylinder(radius, line_force, modulus).map_err(refused)
 }
 
 fn numbers(of: impl serde::Serialize) -> PyResult<Value> {
@@ -190,4 +216,78 @@ pub fn torsion(sphere: HertzNumbers, friction: f64, shear_modulus: f64, moment: 
     let torsion =
         Torsion::under_moment(&hertz_of(sphere)?, friction, shear_modulus, moment).map_err(refused)?;
     Ok(solution(numbers(torsion)?, vec![("shear", Box::new(move |r| torsion.shear(r)))]))
+}
+
+/// Cylinder pushed across its axis, with a strain.
+#[pyfunction]
+pub fn cattaneo_line(
+    cylinder: HertzNumbers,
+    friction: f64,
+    tangential_force: f64,
+    strain: f64,
+) -> PyResult<Solution> {
+    let contact =
+        CattaneoLine::new(&hertz_line_of(cylinder)?, friction, cylinder.2, tangential_force, strain)
+            .map_err(refused)?;
+    Ok(solution(numbers(contact)?, vec![("shear", Box::new(move |x| contact.shear(x)))]))
+}
+
+/// Cylinder on a body that is stretched.
+#[pyfunction]
+pub fn stretched_line(cylinder: HertzNumbers, friction: f64, strain: f64) -> PyResult<Solution> {
+    let contact =
+        StretchedLine::new(&hertz_line_of(cylinder)?, friction, cylinder.2, strain).map_err(refused)?;
+    Ok(solution(numbers(contact)?, vec![]))
+}
+
+/// Sphere pushed sideways on a body that is stretched along the force, Poisson's ratio 0.
+#[pyfunction]
+pub fn stretched_sphere(
+    sphere: HertzNumbers,
+    friction: f64,
+    shear_modulus: f64,
+    tangential_force: f64,
+    strain: f64,
+) -> PyResult<Solution> {
+    let contact = StretchedSphere::new(&hertz_of(sphere)?, friction, shear_modulus, tangential_force, strain)
+        .map_err(refused)?;
+    Ok(solution_of_points(numbers(contact)?, Box::new(move |x, y| contact.shear(x, y))))
+}
+
+/// Sphere on a body that is stretched alike in all directions.
+#[pyfunction]
+pub fn equibiaxial_sphere(sphere: HertzNumbers, friction: f64, strain: f64) -> PyResult<Solution> {
+    let contact = EquibiaxialSphere::new(&hertz_of(sphere)?, friction, sphere.2, strain).map_err(refused)?;
+    Ok(solution(numbers(contact)?, vec![]))
+}
+
+/// Cylinder that slides, with coupling.
+#[pyfunction]
+pub fn sliding_cylinder(
+    radius: f64,
+    line_force: f64,
+    modulus: f64,
+    coupling: f64,
+    friction: f64,
+) -> PyResult<Solution> {
+    let contact = SlidingCylinder::new(radius, line_force, modulus, coupling, friction).map_err(refused)?;
+    let mut numbers = numbers(contact)?;
+    if let Some(numbers) = numbers.as_object_mut() {
+        numbers.remove("scale");
+    }
+    Ok(solution(numbers, vec![("pressure", Box::new(move |x| contact.pressure(x)))]))
+}
+
+/// Flat circular punch under a force and a slope.
+#[pyfunction]
+pub fn tilted_punch(radius: f64, force: f64, modulus: f64, tilt: f64) -> PyResult<Solution> {
+    let punch = TiltedPunch::new(radius, force, modulus, tilt).map_err(refused)?;
+    Ok(solution_of_points(numbers(punch)?, Box::new(move |x, y| punch.pressure(x, y))))
+}
+
+/// Flat punch of infinite length under a force and a slope.
+#[pyfunction]
+pub fn tilted_line_punch(half_width: f64, line_force: f64, modulus: f64, tilt: f64) -> PyResult<Solution> {
+    let punch = TiltedLinePunch::new(half_width, line_force, modulus, tilt).map_err(refused)?;
+    Ok(solution(numbers(punch)?, vec![("pressure", Box::new(move |x| punch.pressure(x)))]))
 }

@@ -23,8 +23,9 @@ mod _core {
 
     #[pymodule_export]
     use crate::analytic::{
-        Solution, cattaneo_mindlin, cone, effective_moduli, flat_punch, hertz, hertz_ellipse, hertz_line,
-        mindlin_deresiewicz, mindlin_deresiewicz_at, torsion, westergaard,
+        Solution, cattaneo_line, cattaneo_mindlin, cone, effective_moduli, equibiaxial_sphere, flat_punch,
+        hertz, hertz_ellipse, hertz_line, mindlin_deresiewicz, mindlin_deresiewicz_at, sliding_cylinder,
+        stretched_line, stretched_sphere, tilted_line_punch, tilted_punch, torsion, westergaard,
     };
     #[pymodule_export]
     use crate::case::Case;

@@ -120,6 +120,12 @@ pub fn left_out_in_short(plan: &Plan) -> String {
 /// The grid in a line.
 pub fn cells(plan: &Plan) -> String {
     let ([nx, ny], [dx, dy], [width, depth]) = (plan.grid.cells(), plan.grid.spacing(), plan.grid.size());
+    if plan.grid.is_line() {
+        let datum = plan.datum.map_or_else(String::new, |datum| {
+            format!("; approach and shift are relative to {} below the load", figure(datum))
+        });
+        return format!("line contact of {nx} cells of {}, {} in all{datum}", figure(dx), figure(width));
+    }
     format!(
         "{nx} x {ny} cells of {} x {}, {} x {} in all",
         figure(dx),

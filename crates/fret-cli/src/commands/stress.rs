@@ -196,7 +196,7 @@ fn loaded_surfaces(
     Ok(surfaces)
 }
 
-/// How deep to look: three times the largest radius of the loaded area, about its centre.
+/// How deep to look: three times the largest radius, or half-width, of the loaded area, about its centre.
 fn reach(run: &KeptRun, surfaces: &[LoadedSurface]) -> f64 {
     let most = surfaces
         .iter()
@@ -206,6 +206,10 @@ fn reach(run: &KeptRun, surfaces: &[LoadedSurface]) -> f64 {
     let [width, length] = run.grid.size();
     if run.periodic {
         return 0.5 * width.max(length);
+    }
+    if run.grid.is_line() {
+        let half_width = 0.5 * most as f64 * run.grid.spacing()[0];
+        return if half_width > 0.0 { 3.0 * half_width } else { width };
     }
     let radius = (most as f64 * run.grid.cell_area() / std::f64::consts::PI).sqrt();
     if radius > 0.0 { 3.0 * radius } else { width.min(length) }

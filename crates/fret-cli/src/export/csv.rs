@@ -21,10 +21,11 @@ pub fn write(results: &Results, path: &Path) -> Result<Vec<PathBuf>, Failure> {
         let columns: Vec<Field> =
             fields.names.iter().map(|name| fields.field(name, position)).collect::<Result<_, _>>()?;
         written(&file, |writer| {
-            let mut row = format!("x,y,{}\n", fields.names.join(","));
+            let is_line = fields.is_line();
+            let mut row = format!("x,{}{}\n", if is_line { "" } else { "y," }, fields.names.join(","));
             for (i, x) in fields.x.iter().enumerate() {
                 for (j, y) in fields.y.iter().enumerate() {
-                    let _ = write!(row, "{x:?},{y:?}");
+                    let _ = if is_line { write!(row, "{x:?}") } else { write!(row, "{x:?},{y:?}") };
                     for (name, column) in fields.names.iter().zip(&columns) {
                         let value = column.at(i, j);
                         let _ =

@@ -35,12 +35,15 @@ pub fn write(results: &Results, path: &Path) -> Result<Vec<PathBuf>, Failure> {
         let mut archive = Archive { zip: ZipWriter::new(UntilFailed::new(writer)), path };
         let steps: Vec<u8> = fields.steps.iter().flat_map(|&step| (step as i64).to_le_bytes()).collect();
         archive.array("x", "<f8", &[nx], &bytes(&fields.x))?;
-        archive.array("y", "<f8", &[ny], &bytes(&fields.y))?;
+        if !fields.is_line() {
+            archive.array("y", "<f8", &[ny], &bytes(&fields.y))?;
+        }
         archive.array("step", "<i8", &[fields.steps.len()], &steps)?;
         for name in &fields.names {
             let (kind, width) = if *name == "zone" { ("|u1", 1) } else { ("<f8", 8) };
             let shape = [fields.steps.len(), nx, ny];
-            archive.begin(name, kind, &shape, width * shape.iter().product::<usize>())?;
+            let shape = if fields.is_line() { &shape[..2] } else { &shape[..] };
+            archive.begin(name, kind, shape, width * shape.iter().product::<usize>())?;
             for position in 0..fields.steps.len() {
                 let values = fields.field(name, position)?.values;
                 let content = if width == 1 {

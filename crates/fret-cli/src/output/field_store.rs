@@ -133,7 +133,7 @@ impl FieldStore {
         }
         let chunks = store.arrays.iter().flat_map(|array| {
             let bytes = if array.name == "zone" { cells } else { 8 * cells };
-            (0..kept).map(move |step| (format!("{}/c/{step}/0/0", array.name), Some(bytes as u64)))
+            (0..kept).map(move |step| (chunk(&plan.grid, array.name, step), Some(bytes as u64)))
         });
         let metadata = store.arrays.iter().map(|array| (format!("{}/zarr.json", array.name), None));
         metadata.chain(chunks).map(|(key, bytes)| (path.join(key), bytes)).find_map(|(file, bytes)| {
@@ -179,7 +179,7 @@ impl FieldStore {
                 _ => kept.zone.as_ref().map(zones),
             };
             if let Some(bytes) = bytes {
-                self.write(&format!("{}/c/{step}/0/0", array.name), &bytes)?;
+                self.write(&chunk(&self.grid, array.name, step), &bytes)?;
             }
         }
         self.kept = step + 1;
@@ -204,7 +204,9 @@ impl FieldStore {
         let centre = |length: usize| ("float64", LENGTH, "cell centre", length);
         let number = ("int64", "1", "number of the increment, from 0", self.steps.len());
         let axes = [("x", centre(nx)), ("y", centre(ny)), ("step", number)];
-        let axes = axes.into_iter().map(|(name, axis)| (name, axis_metadata(name, axis)));
+        let is_line = self.grid.is_line();
+        let axes = axes.into_iter().filter(|(name, _)| !(is_line && *name == "y"));
+        let axes = axes.map(|(name, axis)| (name, axis_metadata(name, axis)));
         let arrays = self.arrays.iter().map(|array| (array.name, self.field_metadata(array)));
         let mut all = serde_json::Map::new();
         for (name, metadata) in axes.chain(arrays) {
@@ -228,19 +230,26 @@ impl FieldStore {
             attributes["flag_values"] = json!([0, 1, 2]);
             attributes["flag_meanings"] = json!("open stick slip");
         }
-        // Seen with y before x, stored with x before y.
-        let stored = json!({ "name": "transpose", "configuration": { "order": [0, 2, 1] } });
+        // Seen with y before x, stored with x before y; of a line contact there is no y.
+        let transposed = json!({ "name": "transpose", "configuration": { "order": [0, 2, 1] } });
+        let steps = self.steps.len();
+        let (shape, chunk, codecs, names) = if self.grid.is_line() {
+            (json!([steps, nx]), json!([1, nx]), json!([little_endian_bytes()]), json!(["step", "x"]))
+        } else {
+            let codecs = json!([transposed, little_endian_bytes()]);
+            (json!([steps, ny, nx]), json!([1, ny, nx]), codecs, json!(["step", "y", "x"]))
+        };
         json!({
             "zarr_format": 3,
             "node_type": "array",
-            "shape": [self.steps.len(), ny, nx],
+            "shape": shape,
             "data_type": if zone { "uint8" } else { "float64" },
-            "chunk_grid": { "name": "regular", "configuration": { "chunk_shape": [1, ny, nx] } },
+            "chunk_grid": { "name": "regular", "configuration": { "chunk_shape": chunk } },
             "chunk_key_encoding": { "name": "default", "configuration": { "separator": "/" } },
             "fill_value": if zone { json!(255) } else { json!("NaN") },
-            "codecs": [stored, little_endian_bytes()],
+            "codecs": codecs,
             "attributes": attributes,
-            "dimension_names": ["step", "y", "x"],
+            "dimension_names": names,
         })
     }
 
@@ -255,6 +264,11 @@ impl FieldStore {
         }
         write_whole(&path, content)
     }
+}
+
+/// Where a field of the increment at a place along `step` lies in the store.
+pub fn chunk(grid: &SurfaceGrid, name: &str, place: usize) -> String {
+    format!("{name}/c/{place}/0{}", if grid.is_line() { "" } else { "/0" })
 }
 
 /// Numbers of the increments in the store at `path`, as far as they can be read.

@@ -10,6 +10,7 @@ use ndarray::Array2;
 use serde::de::DeserializeOwned;
 use serde_json::Value;
 
+use super::field_store::chunk;
 use super::{FIELDS, HISTORY, RECORD};
 use crate::failure::Failure;
 use crate::results::{Table, unfinished};
@@ -94,7 +95,7 @@ impl KeptRun {
     /// When its file has the wrong length or holds a number that is not finite.
     pub fn field(&self, name: &str, increment: usize) -> Result<Option<Array2<f64>>, Failure> {
         let Ok(position) = self.steps.binary_search(&increment) else { return Ok(None) };
-        let path = self.fields.join(name).join(format!("c/{position}/0/0"));
+        let path = self.fields.join(chunk(&self.grid, name, position));
         let Ok(bytes) = fs::read(&path) else { return Ok(None) };
         let [nx, ny] = self.grid.cells();
         let values: Vec<f64> = numbers(&bytes).map(f64::from_le_bytes).collect();

@@ -43,6 +43,7 @@ impl RunRecord {
                 "increment": origin.increment,
                 "fnv1a64": origin.start.digest(),
             })),
+            "line_contact": plan.grid.is_line(),
             "plan": resolved(plan),
             "warnings": plausibility::of_plan(plan),
         }))

@@ -42,7 +42,8 @@ impl Window {
 /// A map of zones, x to the right and y upwards, cells of `spacing`. Drawn in cells, so that neighbours share their edges.
 pub fn zones(field: &Field, window: Window, spacing: [f64; 2], what: &str) -> String {
     let [width, height] = window.cells;
-    let ratio = width as f64 * spacing[0] / (height as f64 * spacing[1]);
+    // a line contact is one row of cells: a bar
+    let ratio = if height == 1 { 16.0 } else { width as f64 * spacing[0] / (height as f64 * spacing[1]) };
     let mut svg = format!(
         "<svg viewBox=\"0 0 {width} {height}\" preserveAspectRatio=\"none\" style=\"aspect-ratio:{ratio:.4}\" role=\"img\" \
          aria-label=\"{}\" shape-rendering=\"crispEdges\"><rect class=\"open\" width=\"{width}\" height=\"{height}\"/>\n",

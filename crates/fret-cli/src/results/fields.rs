@@ -47,7 +47,9 @@ impl Fields {
     /// Looks at a store; fields beyond the `rows` of the history table are left away.
     pub fn read(path: &Path, rows: usize) -> Result<Self, Failure> {
         let x = floats(&coordinate(path, "x")?);
-        let y = floats(&coordinate(path, "y")?);
+        // a line contact is the same all along y
+        let is_line = !path.join("y").exists();
+        let y = if is_line { vec![0.0] } else { floats(&coordinate(path, "y")?) };
         let numbers = coordinate(path, "step")?;
         let numbers = numbers.chunks_exact(8).map(|eight| i64::from_le_bytes(whole(eight)));
         let names: Vec<&'static str> =
@@ -74,9 +76,16 @@ impl Fields {
         [self.x.len(), self.y.len()]
     }
 
-    /// Sides of a cell [length]; of a grid of one cell along an axis nothing is known: 1.
+    /// Whether they are those of a line contact, the same all along y.
+    pub fn is_line(&self) -> bool {
+        self.y.len() == 1
+    }
+
+    /// Sides of a cell [length]; of a line contact, the width of a strip twice.
     pub fn spacing(&self) -> [f64; 2] {
-        [&self.x, &self.y].map(|centres| if let [a, b, ..] = centres[..] { b - a } else { 1.0 })
+        let of = |centres: &[f64]| if let [a, b, ..] = centres[..] { b - a } else { 1.0 };
+        let dx = of(&self.x);
+        [dx, if self.is_line() { dx } else { of(&self.y) }]
     }
 
     /// Whether an array is there.
@@ -88,7 +97,8 @@ impl Fields {
     pub fn field(&self, name: &str, position: usize) -> Result<Field, Failure> {
         let cells = self.cells();
         let place = self.places[position];
-        let file = self.path.join(name).join(format!("c/{place}/0/0"));
+        let end = if self.is_line() { "" } else { "/0" };
+        let file = self.path.join(name).join(format!("c/{place}/0{end}"));
         let bytes_each = if name == "zone" { 1 } else { 8 };
         let expected = cells[0] * cells[1] * bytes_each;
         let bytes = fs::read(&file).map_err(|error| unusable(&file, &format!("cannot be read: {error}")))?;
@@ -108,13 +118,19 @@ impl Fields {
         let [nx, ny] = self.cells();
         let data_type = if name == "zone" { "uint8" } else { "float64" };
         let shape = metadata["shape"].as_array().map_or(&[][..], Vec::as_slice);
-        let is_ours = shape.len() == 3
-            && shape[1] == ny
-            && shape[2] == nx
-            && metadata["data_type"] == data_type
-            && metadata["codecs"][0]["configuration"]["order"] == json!([0, 2, 1])
-            && metadata["codecs"][1]["configuration"]["endian"] == "little"
-            && metadata["codecs"].as_array().is_some_and(|codecs| codecs.len() == 2);
+        let codecs = metadata["codecs"].as_array().map_or(&[][..], Vec::as_slice);
+        let little = |codec: &Value| codec["configuration"]["endian"] == "little";
+        let in_order = match (shape, codecs) {
+            ([_, along_x], [bytes]) => self.is_line() && *along_x == nx && little(bytes),
+            ([_, along_y, along_x], [order, bytes]) => {
+                *along_y == ny
+                    && *along_x == nx
+                    && order["configuration"]["order"] == json!([0, 2, 1])
+                    && little(bytes)
+            }
+            _ => false,
+        };
+        let is_ours = in_order && metadata["data_type"] == data_type;
         if is_ours { Ok(()) } else { Err(unusable(&file, "not an array as a run writes it")) }
     }
 }

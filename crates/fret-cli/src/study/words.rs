@@ -50,7 +50,7 @@ pub fn choice(advice: &[Advice], cells: bool, increments: bool, ny_over_nx: f64)
         let percent = format!("for {} % ", 100.0 * advice.accuracy);
         let grid = advice.cells.map(|nx| {
             let ny = (nx as f64 * ny_over_nx).round().max(1.0) as usize;
-            format!("{nx} x {ny} cells")
+            if ny == 1 { format!("{nx} cells") } else { format!("{nx} x {ny} cells") }
         });
         let steps = advice.increments.map(|count| format!("{count} increments per stage or cycle"));
         let mut chosen: Vec<String> = [(cells, grid), (increments, steps)]

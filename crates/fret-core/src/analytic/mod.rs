@@ -3,6 +3,7 @@
 //! Signs: pressure and approach are positive in compression; shear, shift and tangential force are those of the upper body on the
 //! lower; stresses are positive in tension. Any consistent unit system. The effective moduli come from [`EffectiveModuli`].
 
+mod cattaneo_line;
 mod cattaneo_mindlin;
 mod cone;
 mod elliptic_integrals;
@@ -17,13 +18,17 @@ mod no_slip;
 mod quadrature;
 mod root;
 mod rounded_punch;
+mod sliding_cylinder;
 mod spence;
+mod stretched_sphere;
 mod tangential_history;
 mod thick_layer;
 mod thin_layer;
+mod tilted_punch;
 mod torsion;
 mod westergaard;
 
+pub use cattaneo_line::{CattaneoLine, StretchedLine};
 pub use cattaneo_mindlin::CattaneoMindlin;
 pub use cone::Cone;
 pub use elliptic_integrals::CompleteElliptic;
@@ -36,9 +41,12 @@ pub use mindlin_deresiewicz::{Branch, LoopPoint, MindlinDeresiewicz};
 pub use moduli::EffectiveModuli;
 pub use no_slip::{NoSlipPunch, NoSlipSphere};
 pub use rounded_punch::RoundedPunch;
+pub use sliding_cylinder::SlidingCylinder;
 pub use spence::{SPENCE_TABLE, SpencePoint, half_plane_friction, half_plane_stick_ratio};
+pub use stretched_sphere::{EquibiaxialSphere, StretchedSphere};
 pub use tangential_history::TangentialHistory;
 pub use thick_layer::ThickLayer;
 pub use thin_layer::ThinLayer;
+pub use tilted_punch::{TiltedLinePunch, TiltedPunch};
 pub use torsion::Torsion;
 pub use westergaard::Westergaard;

@@ -61,6 +61,9 @@ pub(super) fn fitting(
     if [nx, ny] == cells {
         return Some(array);
     }
+    if cells[1] == 1 && [ny, nx] == cells {
+        return Some(array.reversed_axes().as_standard_layout().into_owned()); // of a line contact, also written in one row
+    }
     let turned = if [ny, nx] == cells { "; its rows seem to run along y: rows = \"y\"" } else { "" };
     judge.refuse(
         span,

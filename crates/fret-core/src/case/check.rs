@@ -6,11 +6,11 @@ use super::attachments::Attachments;
 use super::bodies::bodies;
 use super::course::Stage;
 use super::definition::{Case, GridSize, Origin};
-use super::file::{CaseFile, OutputFile, SizeFile};
+use super::file::{CaseFile, CellsFile, OutputFile, SizeFile};
 use super::friction::{friction, of_stages};
 use super::judge::Judge;
+use super::line::{datum, line};
 use super::output::{FIELD_NAMES, Output};
-use super::pair::Pair;
 use super::refusal::Mistake;
 use super::repeating::repeats;
 use super::shape::profile;
@@ -53,7 +53,13 @@ pub(super) fn case(
     let stages = stages(&mut judge, &file.load, laws.as_deref(), history_tolerance);
     let stages = stages.zip(changes.as_ref()).map(|(stages, changes)| with_friction(stages, changes));
     let loading = (&file.load, stages.as_deref());
-    let periodic = repeats(&mut judge, &file.grid, size, loading, profile.as_ref(), bodies.as_ref());
+    let is_line = matches!(file.grid.cells.get_ref(), CellsFile::Line(_));
+    let datum = datum(&mut judge, &file.grid, (is_line, size), bodies.as_ref());
+    if is_line {
+        line(&mut judge, &file.grid, loading, profile.as_ref());
+    }
+    let periodic =
+        !is_line && repeats(&mut judge, &file.grid, size, loading, profile.as_ref(), bodies.as_ref());
     let mapped = friction.iter().chain(changes.iter().flatten().flatten()).any(CoulombFriction::is_map);
     let has_arrays = mapped || profile.as_ref().is_some_and(|profile| !profile.heights.is_empty());
     if let (true, Some(GridSize::Auto), false) = (has_arrays, size, periodic) {
@@ -93,6 +99,7 @@ pub(super) fn case(
             title: file.title.unwrap_or_default(),
             cells,
             size,
+            datum,
             periodic,
             bodies,
             profile,
@@ -114,8 +121,20 @@ pub(super) fn case(
     }
 }
 
-fn cells(judge: &mut Judge, given: &Spanned<Pair<usize>>) -> Option<[usize; 2]> {
-    let cells = given.get_ref().0;
+fn cells(judge: &mut Judge, given: &Spanned<CellsFile>) -> Option<[usize; 2]> {
+    let cells = match *given.get_ref() {
+        CellsFile::Grid(cells) => cells,
+        CellsFile::Line(count) if (FEWEST_CELLS..=MOST_CELLS).contains(&count) => return Some([count, 1]),
+        CellsFile::Line(count) => {
+            return judge.refuse(
+                given.span(),
+                format!(
+                    "grid.cells = {count}: a line contact needs between {FEWEST_CELLS} and {MOST_CELLS} cells"
+                ),
+                "256 to 1024 cells serve most line contacts",
+            );
+        }
+    };
     if cells.iter().any(|&side| !(FEWEST_CELLS..=MOST_CELLS).contains(&side)) {
         return judge.refuse(
             given.span(),
@@ -134,8 +153,31 @@ fn cells(judge: &mut Judge, given: &Spanned<Pair<usize>>) -> Option<[usize; 2]> 
 }
 
 fn size(judge: &mut Judge, given: &Spanned<SizeFile>, cells: Option<[usize; 2]>) -> Option<GridSize> {
+    let is_line = cells.is_some_and(|cells| cells[1] == 1);
     match *given.get_ref() {
         SizeFile::Auto => Some(GridSize::Auto),
+        SizeFile::Given(_) if is_line => judge.refuse(
+            given.span(),
+            "grid.size: two side lengths, but a single number of cells, which makes a line contact",
+            "size = length, or cells = [x, y]",
+        ),
+        SizeFile::Line(_) if !is_line => {
+            cells?;
+            judge.refuse(
+                given.span(),
+                "grid.size: one length, but two numbers of cells; one length is that of a line contact",
+                "size = [x, y], or cells = n",
+            )
+        }
+        SizeFile::Line(length) if !(1.0 / HUGE..=HUGE).contains(&length) => judge.refuse(
+            given.span(),
+            format!("grid.size = {length:?}: must be a length between {:e} and {HUGE:e}", 1.0 / HUGE),
+            "or size = \"auto\"",
+        ),
+        SizeFile::Line(length) => {
+            let [strips, _] = cells?;
+            Some(GridSize::Given([length, length / strips as f64]))
+        }
         SizeFile::Given(sides) if !sides.iter().all(|side| side.is_finite() && *side > 0.0) => judge.refuse(
             given.span(),
             format!("grid.size = {sides:?}: both must be positive finite lengths"),

@@ -13,10 +13,13 @@ use crate::model::{ContactPair, CoulombFriction, LoadStep, Profile, Scheme, Wear
 pub struct Case {
     /// Title, or an empty text.
     pub title: String,
-    /// Cells `[nx, ny]`.
+    /// Cells `[nx, ny]`; `[n, 1]` in a line contact.
     pub cells: [usize; 2],
     /// Side lengths of the grid.
     pub size: GridSize,
+    /// Depth below the load that approach and shift of a line contact are relative to \[length\]; `None`: the size of the grid.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub datum: Option<f64>,
     /// Whether the problem is periodic in x and y.
     pub periodic: bool,
     /// The two bodies.
@@ -57,13 +60,18 @@ pub(crate) struct Origin {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum GridSize {
-    /// Given [length].
+    /// Given [length]; of a line contact, the length and the width of one strip.
     Given([f64; 2]),
     /// Chosen so that the largest contact of the history fits with a margin.
     Auto,
 }
 
 impl Case {
+    /// Whether it is a line contact: plane strain across a line along y, all loads per unit length.
+    pub fn is_line(&self) -> bool {
+        self.cells[1] == 1
+    }
+
     /// Whether there is no friction anywhere in the whole history.
     pub fn is_frictionless(&self) -> bool {
         let changes = self.stages.iter().filter_map(|stage| stage.friction.as_ref());

@@ -48,21 +48,68 @@ pub(super) struct CaseFile {
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(super) struct GridFile {
-    /// Number of cells along x and y.
-    #[schemars(with = "[usize; 2]")]
-    pub cells: Spanned<Pair<usize>>,
-    /// Side lengths along x and y, or "auto": chosen so that the contact fits with a margin.
+    /// Number of cells along x and y; a single number makes a line contact: plane strain across it, all loads per unit length.
+    #[schemars(with = "CellsSchema")]
+    pub cells: Spanned<CellsFile>,
+    /// Side lengths along x and y, or "auto": chosen so that the contact fits with a margin. A single number in a line contact.
     #[schemars(with = "SizeSchema")]
     pub size: Spanned<SizeFile>,
+    /// Depth below the load of the point that approach and shift of a line contact are relative to [length], in each body that has
+    /// an elastic base; default: the size of the grid.
+    #[schemars(with = "Option<f64>")]
+    pub datum: Option<Spanned<f64>>,
     /// Periodic in x and y. Default: false, infinite half-space.
     #[schemars(with = "Option<bool>")]
     pub periodic: Option<Spanned<bool>>,
 }
 
-/// Side lengths, or the word "auto".
+/// Numbers of cells: of a grid, or of a line contact.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum CellsFile {
+    Grid([usize; 2]),
+    Line(usize),
+}
+
+#[derive(JsonSchema)]
+#[serde(untagged)]
+#[expect(dead_code, reason = "stands for CellsFile in the schema")]
+enum CellsSchema {
+    Grid([usize; 2]),
+    Line(usize),
+}
+
+impl<'de> Deserialize<'de> for CellsFile {
+    fn deserialize<D: de::Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct CellsVisitor;
+        impl<'de> Visitor<'de> for CellsVisitor {
+            type Value = CellsFile;
+            fn expecting(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+                formatter.write_str("numbers of cells [x, y], or one number for a line contact")
+            }
+            fn visit_i64<E: de::Error>(self, value: i64) -> Result<CellsFile, E> {
+                let count = usize::try_from(value);
+                count.map(CellsFile::Line).map_err(|_| E::invalid_value(de::Unexpected::Signed(value), &self))
+            }
+            fn visit_u64<E: de::Error>(self, value: u64) -> Result<CellsFile, E> {
+                let count = usize::try_from(value);
+                count
+                    .map(CellsFile::Line)
+                    .map_err(|_| E::invalid_value(de::Unexpected::Unsigned(value), &self))
+            }
+            fn visit_seq<A: SeqAccess<'de>>(self, sequence: A) -> Result<CellsFile, A::Error> {
+                let pair = Pair::deserialize(de::value::SeqAccessDeserializer::new(sequence))?;
+                Ok(CellsFile::Grid(pair.0))
+            }
+        }
+        deserializer.deserialize_any(CellsVisitor)
+    }
+}
+
+/// Side lengths, the length of a line contact's grid, or the word "auto".
 #[derive(Debug, Clone, Copy)]
 pub(super) enum SizeFile {
     Given([f64; 2]),
+    Line(f64),
     Auto,
 }
 
@@ -71,6 +118,7 @@ pub(super) enum SizeFile {
 #[expect(dead_code, reason = "stands for SizeFile in the schema")]
 enum SizeSchema {
     Given([f64; 2]),
+    Line(f64),
     Auto(AutoWord),
 }
 
@@ -80,7 +128,16 @@ impl<'de> Deserialize<'de> for SizeFile {
         impl<'de> Visitor<'de> for SizeVisitor {
             type Value = SizeFile;
             fn expecting(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-                formatter.write_str("two side lengths [x, y] or \"auto\"")
+                formatter.write_str("two side lengths [x, y], one of a line contact, or \"auto\"")
+            }
+            fn visit_f64<E: de::Error>(self, value: f64) -> Result<SizeFile, E> {
+                Ok(SizeFile::Line(value))
+            }
+            fn visit_i64<E: de::Error>(self, value: i64) -> Result<SizeFile, E> {
+                Ok(SizeFile::Line(value as f64))
+            }
+            fn visit_u64<E: de::Error>(self, value: u64) -> Result<SizeFile, E> {
+                Ok(SizeFile::Line(value as f64))
             }
             fn visit_str<E: de::Error>(self, word: &str) -> Result<SizeFile, E> {
                 if word == "auto" {

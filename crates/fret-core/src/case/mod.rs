@@ -11,6 +11,7 @@ mod definition;
 mod file;
 mod friction;
 mod judge;
+mod line;
 mod numbers;
 mod output;
 mod pair;

@@ -199,7 +199,9 @@ fn stand_in(message: &str) -> Option<DeValue<'static>> {
     if !message.starts_with("invalid ") {
         return None;
     }
-    let text = if message.ends_with("expected an array of length 2") {
+    let text = if message.ends_with("expected an array of length 2")
+        || message.ends_with("one number for a line contact")
+    {
         // enough for a number of cells, and what a side, a force or a motion may be
         "x = [64, 64]"
     } else if message.ends_with("or \"auto\"") && message.contains("two side lengths") {

@@ -119,7 +119,11 @@ mod tests {
             ("[32, 32]", "[32, -4]", "found -4, expected a whole number, 0 or more"),
             ("[32, 32]", "[32, 2.5]", "found 2.5, expected a whole number, 0 or more"),
             ("[32, 32]", "[32]", "found 1 value, expected a list of two values"),
-            ("[32, 32]", "32", "found 32, expected a list of two values"),
+            (
+                "[32, 32]",
+                "3.5",
+                "found 3.5, expected numbers of cells [x, y], or one number for a line contact",
+            ),
             ("rigid = true", "rigid = 'yes'", "found the text \"yes\", expected true or false"),
             ("{ young = 210e9, poisson = 0.3 }", "210e9", "found 210000000000.0, expected a table"),
             ("{ young = 210e9, poisson = 0.3 }", "{ young = 210e9 }", "missing key `poisson`"),

@@ -3,6 +3,7 @@
 pub mod collocation;
 pub mod frequency_response;
 pub mod influence;
+pub mod line_influence;
 pub mod pair_response;
 pub mod periodic;
 pub mod sampled;
@@ -14,18 +15,21 @@ pub(crate) mod depth_periodic;
 pub(crate) mod depth_radial;
 pub(crate) mod depth_response;
 pub(crate) mod layer;
+pub(crate) mod line_depth;
 pub(crate) mod matrix;
 
 mod bessel;
 mod cells;
 #[cfg(test)]
 mod closed_form;
+mod datum;
 mod depth_integrals;
 mod depth_lattice;
 mod depth_panels;
 mod depth_quartets;
 mod far_cells;
 mod homogeneous;
+mod line_kernels;
 mod panels;
 mod quadrature;
 mod radial;
@@ -35,6 +39,7 @@ pub(crate) mod samples;
 pub use collocation::cells_too_coarse_for_incompressible_film;
 pub use frequency_response::{FrequencyResponse, Response};
 pub use influence::{Components, InfluenceCoefficients, coefficients_of, influence_coefficients};
+pub use line_influence::{line_coefficients, line_coefficients_of};
 pub use pair_response::PairResponse;
 pub use periodic::{PeriodicSymbols, ResponseTable, periodic_symbols, symbols_of, uniform_response};
 pub use sampled::sampled_coefficients;

@@ -4,6 +4,9 @@ use ndarray::Array1;
 use serde::{Deserialize, Serialize};
 
 /// A uniform grid of `cells[0] x cells[1]` rectangular cells. Fields on it have shape `(nx, ny)`, index `[i, j]` = `[x, y]`.
+///
+/// A grid of `n x 1` cells is that of a line contact: strips that reach to infinity along y. Its areas, forces and energies are
+/// those of a unit of length along y, and the second of its sides repeats the first.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct SurfaceGrid {
     cells: [usize; 2],
@@ -33,7 +36,21 @@ impl SurfaceGrid {
         if spacing.iter().any(|side| !(side.is_finite() && *side > 0.0)) {
             return Err(GridError::Spacing(spacing[0], spacing[1]));
         }
+        let spacing = if cells[1] == 1 { [spacing[0]; 2] } else { spacing };
         Ok(Self { cells, spacing })
+    }
+
+    /// Grid of a line contact from the number of its strips and their width [length].
+    ///
+    /// # Errors
+    /// As [`SurfaceGrid::new`].
+    pub fn line(strips: usize, width: f64) -> Result<Self, GridError> {
+        Self::new([strips, 1], [width; 2])
+    }
+
+    /// Whether it is the grid of a line contact.
+    pub fn is_line(&self) -> bool {
+        self.cells[1] == 1
     }
 
     /// Number of cells `[nx, ny]`.
@@ -51,9 +68,9 @@ impl SurfaceGrid {
         [self.cells[0] as f64 * self.spacing[0], self.cells[1] as f64 * self.spacing[1]]
     }
 
-    /// Area of one cell [length^2].
+    /// Area of one cell [length^2]; of a line contact, of a unit of its length [length].
     pub fn cell_area(&self) -> f64 {
-        self.spacing[0] * self.spacing[1]
+        if self.is_line() { self.spacing[0] } else { self.spacing[0] * self.spacing[1] }
     }
 
     /// Number of all cells.

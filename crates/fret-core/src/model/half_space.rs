@@ -217,6 +217,13 @@ impl ContactPair {
         Ok(Self { upper, lower })
     }
 
+    /// Whether any of the bodies rests on an elastic half-space, which under a line load has no zero of displacement.
+    pub fn has_elastic_base(&self) -> bool {
+        let elastic =
+            |body: &Body| matches!(body, Body::Elastic(half_space) if half_space.base != Base::Rigid);
+        elastic(&self.upper) || elastic(&self.lower)
+    }
+
     /// The body that moves.
     pub fn upper(&self) -> &Body {
         &self.upper

@@ -6,7 +6,7 @@ use serde::Serialize;
 
 use crate::case::{Case, walk};
 use crate::compliance::SurfaceResponse;
-use crate::kernel::{Components, influence_coefficients};
+use crate::kernel::{Components, influence_coefficients, line_coefficients};
 use crate::model::{
     Axis, Base, Body, ContactState, Control, CoulombFriction, ElasticMaterial, LoadStep, Shape, SurfaceGrid,
 };
@@ -14,13 +14,15 @@ use crate::solver::{ContactSolver, Coupling, SolveError, SolverSettings};
 
 /// Cells a side of the coarse grid.
 const COARSE: usize = 48;
+/// Cells of the coarse grid of a line contact.
+const COARSE_LINE: usize = 192;
 /// Side of an automatic grid in units of the contact's width.
 const MARGIN: f64 = 1.2;
 
 /// The contact under the heaviest load, without friction, as a coarse grid shows it.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct ExpectedContact {
-    /// Half of its widths along x and y [length], to a twentieth.
+    /// Half of its widths along x and y [length], to a twentieth; of a line contact, its half-width twice.
     pub half_widths: [f64; 2],
     /// Approach [length].
     pub approach: f64,
@@ -49,10 +51,21 @@ pub fn reaches_beyond(case: &Case, size: [f64; 2]) -> bool {
     match contact_extent(case, wider) {
         Extent::Beyond => true,
         Extent::Inside(widths, _) => {
-            (0..2).any(|axis| widths[axis] - wider[axis] / COARSE as f64 > size[axis])
+            let cells = coarse_cells(case);
+            axes(case).any(|axis| widths[axis] - wider[axis] / cells[axis] as f64 > size[axis])
         }
         Extent::Nothing | Extent::Unknown => false,
     }
+}
+
+/// The coarse grid of a case.
+fn coarse_cells(case: &Case) -> [usize; 2] {
+    if case.is_line() { [COARSE_LINE, 1] } else { [COARSE; 2] }
+}
+
+/// The axes along which the contact of a case ends.
+fn axes(case: &Case) -> std::ops::Range<usize> {
+    if case.is_line() { 0..1 } else { 0..2 }
 }
 
 /// Extent of the contact of a case on a grid of side lengths `size`.
@@ -76,8 +89,9 @@ fn contact_extent(case: &Case, size: [f64; 2]) -> Extent {
 }
 
 /// Side lengths such that a contact fits with a margin.
-pub fn automatic_size(contact: &ExpectedContact) -> [f64; 2] {
-    contact.half_widths.map(|half| MARGIN * 2.0 * half)
+pub fn automatic_size(case: &Case, contact: &ExpectedContact) -> [f64; 2] {
+    let [x, y] = contact.half_widths.map(|half| MARGIN * 2.0 * half);
+    if case.is_line() { [x, x / case.cells[0] as f64] } else { [x, y] }
 }
 
 /// The contact of a case on a coarse grid that it about fills; `None` when no contact was found.
@@ -90,7 +104,7 @@ pub fn expected_contact(case: &Case) -> Option<ExpectedContact> {
         match contact_extent(case, size) {
             Extent::Beyond => size = size.map(|side| 2.0 * side),
             Extent::Inside(widths, approach) => {
-                let fine = (0..2).all(|axis| widths[axis] >= 0.45 * size[axis]);
+                let fine = axes(case).all(|axis| widths[axis] >= 0.45 * size[axis]);
                 if fine {
                     return Some(ExpectedContact { half_widths: widths.map(|width| 0.5 * width), approach });
                 }
@@ -122,12 +136,17 @@ fn heaviest_loads(case: &Case) -> Vec<Control> {
 }
 
 fn extent_under(case: &Case, size: [f64; 2], normal: Control) -> Extent {
-    let cells = [COARSE; 2];
-    let spacing = [size[0] / COARSE as f64, size[1] / COARSE as f64];
+    let cells = coarse_cells(case);
+    let spacing = [size[0] / cells[0] as f64, size[1] / cells[1] as f64];
     let Ok(grid) = SurfaceGrid::new(cells, spacing) else { return Extent::Unknown };
     let frictionless = CoulombFriction::Uniform(0.0);
-    let response =
-        SurfaceResponse::FreeSpace(influence_coefficients(&case.bodies, cells, spacing, Components::NORMAL));
+    let coefficients = if case.is_line() {
+        let datum = case.datum.unwrap_or(size[0]);
+        line_coefficients(&case.bodies, cells[0], spacing[0], datum, Components::NORMAL)
+    } else {
+        influence_coefficients(&case.bodies, cells, spacing, Components::NORMAL)
+    };
+    let response = SurfaceResponse::FreeSpace(coefficients);
     let settings = SolverSettings::new(1e-4);
     let mut solver = ContactSolver::new(
         grid,
@@ -151,10 +170,11 @@ fn extent_under(case: &Case, size: [f64; 2], normal: Control) -> Extent {
             pressure.axis_iter(ndarray::Axis(axis)).filter(|line| line.iter().any(|p| *p > 0.0)).count();
         touched as f64 * spacing[axis]
     };
+    let widths = if case.is_line() { [width(0); 2] } else { [width(0), width(1)] };
     if solved.outcome.contact_cells == 0 {
         Extent::Nothing
     } else {
-        Extent::Inside([width(0), width(1)], solved.state.approach)
+        Extent::Inside(widths, solved.state.approach)
     }
 }
 
@@ -163,6 +183,9 @@ fn extent_under(case: &Case, size: [f64; 2], normal: Control) -> Extent {
 fn first_guess(case: &Case) -> Option<[f64; 2]> {
     let compliance = compliance(case.bodies.upper()) + compliance(case.bodies.lower());
     let [x, y] = case.profile.curvatures();
+    if case.is_line() {
+        return first_guess_of_line(case, x, compliance).map(|half| [half; 2]);
+    }
     let round = (x > 0.0 && y > 0.0).then(|| Shape::Sphere { radius: (x * y).sqrt().recip() });
     let others = case.profile.shapes.iter().copied().filter(|shape| shape.curvatures().is_none());
     let shapes: Vec<Shape> = round.into_iter().chain(others).collect();
@@ -175,6 +198,28 @@ fn first_guess(case: &Case) -> Option<[f64; 2]> {
         .map(under)
         .reduce(|a, b| [a[0].max(b[0]), a[1].max(b[1])])
         .filter(|guess| guess.iter().all(|half| half.is_finite() && *half > 0.0))
+}
+
+/// Order of the half-width of a line contact [length]; `curvature` of all its cylinders.
+fn first_guess_of_line(case: &Case, curvature: f64, compliance: f64) -> Option<f64> {
+    use std::f64::consts::PI;
+    let hertz = |radius: f64, load: Control| match load {
+        Control::Force(force) => (4.0 * force * radius * compliance / PI).sqrt(),
+        Control::Motion(approach) => (radius * approach).sqrt(),
+    };
+    let half_width = |shape: &Shape, load: Control| match (*shape, load) {
+        (Shape::RoundedPunch { flat_radius, edge_radius }, _) => flat_radius + hertz(edge_radius, load),
+        (Shape::FlatPunch { radius }, _) => radius,
+        (Shape::Cone { slope }, Control::Force(force)) => 2.0 * force * compliance / slope,
+        (Shape::Cone { slope }, Control::Motion(approach)) => approach / slope,
+        _ => f64::INFINITY,
+    };
+    let under = |load: Control| {
+        let round = if curvature > 0.0 { hertz(curvature.recip(), load) } else { f64::INFINITY };
+        case.profile.shapes.iter().map(|shape| half_width(shape, load)).fold(round, f64::min)
+    };
+    let guess = heaviest_loads(case).into_iter().map(under).fold(0.0, f64::max);
+    (guess.is_finite() && guess > 0.0).then_some(guess)
 }
 
 /// Half-widths of the contact of a shape alone [length]: closed forms, or their order; infinite where nothing ends it.

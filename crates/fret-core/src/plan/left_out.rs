@@ -168,6 +168,7 @@ pub fn one_way(
         return None;
     }
     let axis = match [is_loaded(case, 0, start), is_loaded(case, 1, start)] {
+        [_, false] if grid.is_line() => 0,
         [true, false] => 0,
         [false, true] => 1,
         _ => return None,
@@ -183,8 +184,11 @@ pub fn one_way(
     (starts_so && (straight || line(axis))).then_some(axis)
 }
 
-/// Whether a case is periodic and nothing in it changes along an axis.
+/// Whether a problem is periodic and nothing in it changes along an axis, or that is the axis of a line contact.
 fn is_endless(case: &Case, grid: &SurfaceGrid, axis: usize) -> bool {
+    if grid.is_line() {
+        return axis == 1;
+    }
     let maps = case.stages.iter().filter_map(|stage| stage.friction.as_ref()).chain([&case.friction]);
     case.periodic
         && maps.into_iter().all(|friction| matches!(friction, CoulombFriction::Uniform(_)))

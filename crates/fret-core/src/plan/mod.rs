@@ -36,6 +36,10 @@ pub struct Plan {
     pub start: Option<Arc<Start>>,
     /// The grid.
     pub grid: SurfaceGrid,
+    /// Depth below the load of the point that approach and shift are relative to [length], in each body with an elastic base; of a
+    /// line contact alone.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub datum: Option<f64>,
     /// How pressure and shear act on each other.
     pub coupling: Coupling,
     /// The one axis (0: x, 1: y) along which shear acts, where the other part vanishes.
@@ -101,7 +105,7 @@ impl Plan {
             GridSize::Given(size) => size,
             GridSize::Auto => match start.as_deref().and_then(Start::spacing) {
                 Some(spacing) => [0, 1].map(|axis| spacing[axis] * case.cells[axis] as f64),
-                None => expected.as_ref().map(automatic_size).ok_or_else(|| {
+                None => expected.as_ref().map(|contact| automatic_size(&case, contact)).ok_or_else(|| {
                     let message =
                         "grid.size = \"auto\": no contact was found under the heaviest load".to_owned();
                     case.refuse_size(message, "give the side lengths")
@@ -139,6 +143,8 @@ impl Plan {
             );
             return Err(case.refuse_size(message, "enlarge it, or write size = \"auto\""));
         }
+        let has_datum = case.is_line() && case.bodies.has_elastic_base();
+        let datum = has_datum.then(|| case.datum.unwrap_or(size[0]));
         let along = left_out::one_way(&case, &grid, &response, coupling, state)
             .filter(|_| leave_out.takes(Simplification::Transverse));
         let symmetry = mirrors(&case, &grid, coupling, state, leave_out);
@@ -153,6 +159,7 @@ impl Plan {
             case,
             start,
             grid,
+            datum,
             coupling,
             along,
             symmetry,

@@ -16,7 +16,8 @@ const LEAST_FRICTION: f64 = 0.01;
 /// On fewer cells (32, 48 and 64 per side were measured) nothing is gained.
 const LEAST_CELLS: usize = 64 * 64;
 
-/// Whether single precision does in linear problems and approximate inverses: not in periodic problems, where the inverse is exact and
+/// Whether single precision does in linear problems and approximate inverses: not in line contacts, whose products are too short to
+/// gain by it, not in periodic problems, where the inverse is exact and
 /// solves full contact at once, not over coatings much stiffer or softer than what lies below, not where pressure and shear are
 /// coupled with hardly any friction.
 pub fn single_precision_does(
@@ -33,5 +34,5 @@ pub fn single_precision_does(
     let has_friction =
         coupling != Coupling::Coupled || frictions.all(|friction| friction.largest() >= LEAST_FRICTION);
     let alike = softening < ALIKE && softening > 1.0 / ALIKE;
-    !case.periodic && grid.len() >= LEAST_CELLS && alike && has_friction
+    !case.periodic && !grid.is_line() && grid.len() >= LEAST_CELLS && alike && has_friction
 }

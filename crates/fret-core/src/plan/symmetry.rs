@@ -18,7 +18,8 @@ pub fn symmetry(
     coupling: Coupling,
     start: Option<&ContactState>,
 ) -> Symmetry {
-    if is_twisted(case, start) {
+    // The products of a line contact are too short for a mirror to save anything.
+    if grid.is_line() || is_twisted(case, start) {
         return Symmetry::NONE;
     }
     let coupled = coupling == Coupling::Coupled;

@@ -88,9 +88,11 @@ impl ContactSolver<'_> {
         let mirrored = self.symmetry.axes();
         let (nx, ny) = pressure.dim();
         let any = |view: ndarray::ArrayView1<'_, f64>| view.iter().any(|p| *p > 0.0);
-        (!mirrored[0] && any(pressure.row(0)))
-            || any(pressure.row(nx - 1))
-            || (!mirrored[1] && any(pressure.column(0)))
-            || any(pressure.column(ny - 1))
+        let across = (!mirrored[0] && any(pressure.row(0))) || any(pressure.row(nx - 1));
+        // a line contact has no edge along its line
+        if ny == 1 {
+            return across;
+        }
+        across || (!mirrored[1] && any(pressure.column(0))) || any(pressure.column(ny - 1))
     }
 }

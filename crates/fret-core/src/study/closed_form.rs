@@ -55,7 +55,7 @@ impl ClosedForm {
     pub fn of(plan: &Plan) -> Option<Self> {
         let case = &plan.case;
         let changes = case.wear.is_some() || case.is_open_ended();
-        if case.periodic || changes || plan.coupling == Coupling::Coupled {
+        if case.periodic || case.is_line() || changes || plan.coupling == Coupling::Coupled {
             return None;
         }
         let moduli = moduli(plan)?;

@@ -14,7 +14,7 @@ use super::variation::Variation;
 use crate::compliance::{OperatorSet, SpectralCompliance, SurfaceCompliance, SurfaceResponse};
 use crate::cycle::CycleRecord;
 use crate::history::{KeptFields, StepRecord, Work};
-use crate::kernel::{Components, InfluenceCoefficients, influence_coefficients};
+use crate::kernel::{Components, InfluenceCoefficients, influence_coefficients, line_coefficients};
 use crate::model::ContactState;
 use crate::model::field::largest;
 use crate::plan::{Advance, Coupling, Plan};
@@ -263,7 +263,13 @@ fn components(plan: &Plan) -> Components {
 /// Time to tabulate how the pair answers [s], which depends on the layers and hardly on the grid.
 fn table_seconds(plan: &Plan) -> f64 {
     let started = Instant::now();
-    let _ = influence_coefficients(&plan.case.bodies, [2, 2], plan.grid.spacing(), components(plan));
+    let (bodies, spacing) = (&plan.case.bodies, plan.grid.spacing());
+    let _ = if plan.grid.is_line() {
+        let datum = plan.datum.unwrap_or(plan.grid.size()[0]);
+        line_coefficients(bodies, 2, spacing[0], datum, components(plan))
+    } else {
+        influence_coefficients(bodies, [2, 2], spacing, components(plan))
+    };
     started.elapsed().as_secs_f64()
 }
 

@@ -146,6 +146,9 @@ fn edge_cells(zone: &Array2<Zone>, within: impl Fn(Zone) -> bool) -> f64 {
         faces += usize::from(i + 1 < nx && within(zone[[i + 1, j]]) != here);
         faces += usize::from(j + 1 < ny && within(zone[[i, j + 1]]) != here);
     }
+    if ny == 1 {
+        return faces as f64; // of a line contact: its ends
+    }
     std::f64::consts::FRAC_PI_4 * faces as f64
 }
 

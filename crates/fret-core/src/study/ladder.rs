@@ -92,10 +92,14 @@ impl Ladder {
             only_one_grid(plan)?;
         }
         let [nx, ny] = own.cells;
-        let across = |count: usize| (count as f64 * ny as f64 / nx as f64).round().max(1.0) as usize;
+        let is_line = plan.grid.is_line();
+        let across = |count: usize| {
+            if is_line { 1 } else { (count as f64 * ny as f64 / nx as f64).round().max(1.0) as usize }
+        };
         let grids: Vec<[usize; 2]> = cells.iter().map(|count| [*count, across(*count)]).collect();
         for &[along, across] in &grids {
-            if [along, across].iter().any(|side| !(FEWEST_OF_A_CASE..=MOST_CELLS).contains(side)) {
+            let sides = if is_line { [along; 2] } else { [along, across] };
+            if sides.iter().any(|side| !(FEWEST_OF_A_CASE..=MOST_CELLS).contains(side)) {
                 return Err(LadderError::Cells(along, across));
             }
             if along * across > MOST_CELLS_IN_ALL {
@@ -144,7 +148,9 @@ impl Ladder {
         let mut cells = vec![own.cells];
         let mut increments = vec![own.increments.clone()];
         for coarser in [half, quarter] {
-            if only_one_grid(plan).is_ok() && coarser.cells.iter().all(|count| *count >= FEWEST_CELLS) {
+            if only_one_grid(plan).is_ok()
+                && coarser.cells.iter().all(|count| *count >= FEWEST_CELLS || *count == 1)
+            {
                 cells.insert(0, coarser.cells);
             }
             if plan.coupling != Coupling::Frictionless && !increments.contains(&coarser.increments) {

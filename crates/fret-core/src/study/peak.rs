@@ -25,6 +25,9 @@ fn largest_cell(pressure: &ArrayView2<'_, f64>) -> Option<([usize; 2], f64)> {
 /// Top of the quadratic through `p^2` around a cell.
 fn top(pressure: &ArrayView2<'_, f64>, [i, j]: [usize; 2]) -> Option<f64> {
     let (nx, ny) = pressure.dim();
+    if ny == 1 {
+        return top_of_line(pressure, i);
+    }
     if i == 0 || j == 0 || i + 1 >= nx || j + 1 >= ny {
         return None;
     }
@@ -53,6 +56,14 @@ fn top(pressure: &ArrayView2<'_, f64>, [i, j]: [usize; 2]) -> Option<f64> {
     }
     let (u, v) = ((hxy * gy - hy * gx) / determinant, (hxy * gx - hx * gy) / determinant);
     (u.abs() <= 1.0 && v.abs() <= 1.0).then_some(centre + 0.5 * (gx * u + gy * v))
+}
+
+/// Top of the parabola through `p^2` of a cell of a line contact and its two neighbours.
+fn top_of_line(pressure: &ArrayView2<'_, f64>, i: usize) -> Option<f64> {
+    let square = |i: usize| pressure.get([i, 0]).filter(|p| **p > 0.0).map(|p| p * p);
+    let (left, middle, right) = (square(i.checked_sub(1)?)?, square(i)?, square(i + 1)?);
+    let (slope, bend) = (0.5 * (right - left), left - 2.0 * middle + right);
+    (bend < 0.0).then(|| middle - 0.5 * slope * slope / bend)
 }
 
 #[cfg(test)]

@@ -59,12 +59,12 @@ impl Variation {
     /// When a side has no cells, or there is no memory to plan so many.
     pub fn planned(&self, plan: &Plan) -> Result<Plan, VariationError> {
         let size = plan.grid.size();
-        let spacing = [size[0] / self.cells[0] as f64, size[1] / self.cells[1] as f64];
+        let spacing = [size[0] / self.cells[0] as f64, size[1] / self.cells[1] as f64]; // of a line contact the second is not looked at
         let mut varied = plan.clone();
         varied.grid = SurfaceGrid::new(self.cells, spacing)?;
         let case = &mut varied.case;
         case.cells = self.cells;
-        case.size = GridSize::Given(size);
+        case.size = GridSize::Given(varied.grid.size());
         case.tolerance = self.tolerance;
         case.output.fields.clear();
         case.output.every = None;

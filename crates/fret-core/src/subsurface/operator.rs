@@ -7,6 +7,7 @@ use super::tensor::StressField;
 use crate::kernel::depth_cells::{displacement_coefficients, stress_coefficients};
 use crate::kernel::depth_periodic::{displacement_symbols, stress_symbols};
 use crate::kernel::depth_response::DepthResponse;
+use crate::kernel::line_depth::line_stress_coefficients;
 use crate::model::{HalfSpace, SurfaceGrid};
 use fret_fft::{Block, Convolution, ConvolutionError, Kernel, Parity, PeriodicProduct, Symbol, Workspace};
 
@@ -22,7 +23,7 @@ pub struct Tractions<'a> {
 /// Stress and displacement at one depth of one body, under the centres of the cells.
 ///
 /// In free space: kernels of the whole stack at that depth, tabulated in the distance and integrated over cells, as for the
-/// surface; at depth 0 they give the stress in the surface itself. In scenes that repeat: the response at the grid's own
+/// surface, or over the strips of a line contact (plane strain); at depth 0 they give the stress in the surface itself. In periodic problems: the response at the grid's own
 /// wavenumbers. Exact for tractions that are uniform over each cell (free space), to rounding: about 1e-13 of the largest
 /// traction for contrasts up to 1e4.
 ///
@@ -135,7 +136,7 @@ impl DepthOperator {
         apply(&self.planned.stress[1], &mut self.workspace, &input, shear);
     }
 
-    /// Displacement `u_x, u_y, u_z` of the body [length]; `None` when the operator was not made for it. In scenes that repeat
+    /// Displacement `u_x, u_y, u_z` of the body [length]; `None` when the operator was not made for it, and in line contacts. In periodic problems
     /// without the mean, which a half-space does not determine.
     ///
     /// # Panics
@@ -174,6 +175,8 @@ impl Scene {
         let response = DepthResponse::new(&self.half_space, point.layer, point.depth);
         let coefficients = if periodic {
             stress_symbols(&response, shape, spacing)
+        } else if shape[1] == 1 {
+            line_stress_coefficients(&response, shape[0], spacing[0], with_shear)
         } else {
             stress_coefficients(&response, shape, spacing, with_shear, std::mem::take(memory))
         };
@@ -185,7 +188,7 @@ impl Scene {
         });
         *memory = coefficients.into_memory();
         let [normal, shear] = stress;
-        let displacement = if self.with_displacement {
+        let displacement = if self.with_displacement && shape[1] > 1 {
             let coefficients = if periodic {
                 displacement_symbols(&response, shape, spacing)
             } else {

@@ -100,7 +100,14 @@ pub fn question(scene: &Scene<'_>) -> String {
     let [nx, ny] = scene.results.fields.cells();
     let [dx, dy] = scene.results.fields.spacing();
     let repeats = if case["periodic"] == true { ", repeating in x and y" } else { "" };
-    rows.push(("grid".to_owned(), format!("{nx} × {ny} cells of {} × {}{repeats}", number(dx), number(dy))));
+    rows.push(if scene.results.fields.is_line() {
+        ("line contact".to_owned(), format!("{nx} cells of {}; loads per unit length", number(dx)))
+    } else {
+        ("grid".to_owned(), format!("{nx} × {ny} cells of {} × {}{repeats}", number(dx), number(dy)))
+    });
+    if let Some(datum) = plan["datum"].as_f64() {
+        rows.push(("approach and shift".to_owned(), format!("relative to {} below the load", number(datum))));
+    }
     let solved = match plan["coupling"].as_str() {
         Some("frictionless") => "pressure alone: there is no friction",
         Some("uncoupled") => "pressure, then shear: they do not act on each other",

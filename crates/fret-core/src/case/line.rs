@@ -1,0 +1,111 @@
+//! The judgement of line contacts: what has no meaning in plane strain, and the depth that motions are relative to.
+
+use toml::Spanned;
+
+use super::file::GridFile;
+use super::judge::Judge;
+use super::stage_file::StageFile;
+use super::{GridSize, Stage};
+use crate::model::{Axis, ContactPair, Profile, Shape};
+
+/// Refuses what a line contact has no place for: rotations, shapes that end or curve along the line, a second period.
+pub(super) fn line(
+    judge: &mut Judge,
+    grid: &GridFile,
+    (stages, checked): (&Spanned<Vec<Spanned<StageFile>>>, Option<&[Stage]>),
+    profile: Option<&Profile>,
+) {
+    if let Some(periodic) = grid.periodic.as_ref().filter(|periodic| *periodic.get_ref()) {
+        judge.refuse::<()>(
+            periodic.span(),
+            "grid.periodic = true in a line contact, which is not periodic",
+            "cells = [n, 4] with periodic = true is a periodic line contact",
+        );
+    }
+    for (index, stage) in stages.get_ref().iter().enumerate() {
+        let stage = stage.get_ref();
+        let twists =
+            checked.and_then(|checked| checked.get(index)).is_some_and(|stage| stage.twist.is_some());
+        for (key, span) in [
+            ("twist_moment", stage.twist_moment.as_ref().map(Spanned::span)),
+            ("twist", stage.twist.as_ref().map(Spanned::span)),
+            ("a twist", stage.table.as_ref().filter(|_| twists).map(Spanned::span)),
+        ] {
+            if let Some(span) = span {
+                judge.refuse::<()>(
+                    span,
+                    format!("{key} in a line contact: its strips cannot turn about z"),
+                    "prescribe tangential_force or shift: [across the line, along it]",
+                );
+            }
+        }
+    }
+    let Some(profile) = profile else { return };
+    let mut shapes = profile.shapes.iter();
+    if let Some((name, help)) = shapes.find_map(of_a_surface) {
+        judge.refuse::<()>(
+            grid.cells.span(),
+            format!("profile.{name} in a line contact: the bodies are the same all along y"),
+            help,
+        );
+    } else if profile.is_straight_along(0) {
+        judge.refuse::<()>(
+            grid.cells.span(),
+            "profile: without an end along x, in a line contact along y",
+            "a cylinder with axis = \"y\" and a radius, a flat_punch, a rounded_punch, a cone (a wedge) or heights",
+        );
+    }
+}
+
+/// The name of a shape that is not the same all along y, and what is.
+fn of_a_surface(shape: &Shape) -> Option<(&'static str, &'static str)> {
+    let cylinder = "[profile.cylinder] radius = ..., axis = \"y\", without a length";
+    match shape {
+        Shape::Sphere { .. } => Some(("sphere", cylinder)),
+        Shape::Ellipsoid { .. } => Some(("ellipsoid", cylinder)),
+        Shape::Cylinder { axis: Axis::X, .. } | Shape::Cylinder { length: Some(_), .. } => {
+            Some(("cylinder, across y or with ends,", cylinder))
+        }
+        Shape::Wave { .. } => {
+            Some(("wave", "a wave is periodic: cells = [n, 4], size = [x, y], periodic = true"))
+        }
+        _ => None,
+    }
+}
+
+/// The depth that approach and shift are relative to; `None` where it follows from the size of the grid or has no meaning.
+pub(super) fn datum(
+    judge: &mut Judge,
+    grid: &GridFile,
+    (is_line, size): (bool, Option<GridSize>),
+    bodies: Option<&ContactPair>,
+) -> Option<f64> {
+    let given = grid.datum.as_ref()?;
+    let depth = *given.get_ref();
+    if !is_line {
+        return judge.refuse(
+            given.span(),
+            "grid.datum: only a line contact needs one; here approach and shift are relative to infinity",
+            "cells = 512 makes a line contact",
+        );
+    }
+    if bodies.is_some_and(|bodies| !bodies.has_elastic_base()) {
+        return judge.refuse(
+            given.span(),
+            "grid.datum: no body has an elastic base, so that displacements have a zero of their own",
+            "leave it out",
+        );
+    }
+    let usable = match size {
+        Some(GridSize::Given([length, _])) => (1e-3 * length..=1e12 * length).contains(&depth),
+        _ => depth.is_finite() && depth > 0.0,
+    };
+    if usable {
+        return Some(depth);
+    }
+    judge.refuse(
+        given.span(),
+        format!("grid.datum = {depth:?}: must lie between a thousandth and 1e12 of the size of the grid"),
+        "the size of the grid serves when nothing else is known",
+    )
+}
