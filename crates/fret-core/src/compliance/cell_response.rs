@@ -79,7 +79,7 @@ impl CellResponse {
     /// Sign of a component of shear behind these mirrors.
     fn sign(&self, component: usize, behind: [bool; 2]) -> f64 {
         let odd = self.symmetry.shear_is_odd(component);
-        if (behind[0] && odd[0]) != (behind[1] && odd[1]) { -1.0 } else { 1.0 }
+        if (behind[0] && odd[0]) == (behind[1] && odd[1]) { 1.0 } else { -1.0 }
     }
 
     /// Displacements at an offset from unit tractions.
