@@ -3,7 +3,7 @@ frequency response of most of the literature, and tamaas and aspher where they c
 
     pip install tamaas numpy matplotlib                          # aspher: see README.md
     cargo bench -p fret-core --bench error_time --no-run         # prints the path of the binary
-    python benches/error_against_others.py PATH_OF_THE_BINARY docs/pictures/error_against_others.png
+    python benches/error_against_others.py PATH_OF_THE_BINARY error_against_others.png
 
 Side four contact radii, solved to residuals at which the grid alone makes the error. Time of the first two includes the
 coefficients, in the mean of many runs; that of tamaas only the solution, that of aspher all it does, the

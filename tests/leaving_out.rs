@@ -1,5 +1,5 @@
 //! What is left out changes the work, never the answer: every shortcut against the same run without it, and against the run
-//! that computes everything. `docs/leaving-out.md` is the table of the same cases on finer grids.
+//! that computes everything. `docs/developers/simplifications-measured.md` is the table of the same cases on finer grids.
 
 use std::time::Instant;
 
@@ -116,7 +116,7 @@ fn what_is_left_out_is_said_and_nothing_is_said_of_what_is_computed() {
         (Simplification::Transverse, "shear along y"),
         (Simplification::Mirror, "three quarters of the grid"),
         (Simplification::Region, "cells far from the contact"),
-        (Simplification::Precision, "all but six digits"),
+        (Simplification::Precision, "double precision in linear problems"),
     ];
     let text = &cases(64).pop().expect("the last has all").text;
     let said = |leave_out| {

@@ -85,7 +85,6 @@ fn a_force_that_a_prescribed_approach_carries_is_carried_and_more_is_not_answere
 }
 
 #[test]
-#[ignore = "it is called not solved, with the advice to try more increments"]
 fn a_force_a_tenth_above_what_a_prescribed_approach_carries_is_called_so() {
     for pulled in pulled() {
         let refusal = pulled.run(APPROACH, 1.1 * pulled.carried).unwrap_err();

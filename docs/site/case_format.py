@@ -10,7 +10,12 @@ from pathlib import Path
 from typing import Any
 
 ROOT = Path(__file__).resolve().parents[2]
-HEAD = """# Every key of a case
+HEAD = """---
+search:
+  boost: 0.5
+---
+
+# Case file: every key
 
 <!-- Written by docs/site/case_format.py from examples/fret.schema.json: edit the comments of the case reader. -->
 
@@ -124,4 +129,4 @@ def _list(value: dict[str, Any], definitions: dict[str, Any]) -> str:
 
 if __name__ == "__main__":
     schema = json.loads((ROOT / "examples" / "fret.schema.json").read_text(encoding="utf-8"))
-    (ROOT / "docs" / "case-format.md").write_text(page(schema), encoding="utf-8")
+    (ROOT / "docs" / "reference" / "case-format.md").write_text(page(schema), encoding="utf-8")

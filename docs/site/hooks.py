@@ -1,6 +1,7 @@
-"""What the site does beyond mkdocs: pages nobody listed, links out of the pages, formulas without a network."""
+"""What the site does beyond mkdocs: unlisted pages, links out of the pages, formulas without a network, tutorials as notebooks."""
 
 import html
+import json
 import re
 from pathlib import Path
 from typing import Any
@@ -40,14 +41,48 @@ def on_page_markdown(markdown: str, page: Any, **_: object) -> str:  # noqa: ANN
     return LINK.sub(name, markdown)
 
 
-def on_page_content(content: str, **_: object) -> str:
-    """Write formulas as MathML, which browsers draw themselves."""
+def on_page_content(content: str, page: Any, **_: object) -> str:  # noqa: ANN401
+    """Write formulas as MathML, which browsers draw themselves; offer tutorials as notebooks."""
 
     def drawn(formula: re.Match[str]) -> str:
         display = "block" if formula[2] == "[" else "inline"
         return convert(html.unescape(formula[3]).strip(), display=display)
 
-    return FORMULA.sub(drawn, content)
+    content = FORMULA.sub(drawn, content)
+    if _is_tutorial(page.file.src_path) and "```python" in page.markdown:
+        name = Path(page.file.src_path).stem
+        content += f'<p><a href="{name}.ipynb" download>This page as a notebook</a></p>'
+    return content
+
+
+def on_post_build(config: Any) -> None:  # noqa: ANN401
+    """Write the tutorials as notebooks beside their pages; the tests run the same snippets."""
+    for source in sorted((Path(config["docs_dir"]) / "learn").glob("*.md")):
+        text = source.read_text(encoding="utf-8")
+        if "```python" in text:
+            target = Path(config["site_dir"]) / "learn" / f"{source.stem}.ipynb"
+            target.write_text(json.dumps(notebook(text), indent=1) + "\n", encoding="utf-8")
+
+
+def notebook(markdown: str) -> dict[str, Any]:
+    """Return a page as a Jupyter notebook: Python snippets as code, case files written, the rest as text."""
+    text = re.sub(r"<!--.*?-->", "", markdown, flags=re.DOTALL)
+    text = re.sub(r"^```toml\n# ([\w.-]+\.toml)\n", r"```python\n%%writefile \1\n", text, flags=re.MULTILINE)
+    cells: list[dict[str, Any]] = []
+    for number, part in enumerate(re.split(r"^```python\n(.*?)^```$", text, flags=re.MULTILINE | re.DOTALL)):
+        if not part.strip():
+            continue
+        cell: dict[str, Any] = {"id": f"cell-{number}", "metadata": {}, "source": part.strip().splitlines(keepends=True)}
+        if number % 2:
+            cells.append({**cell, "cell_type": "code", "execution_count": None, "outputs": []})
+        else:
+            cells.append({**cell, "cell_type": "markdown"})
+    kernel = {"display_name": "Python 3", "language": "python", "name": "python3"}
+    return {"cells": cells, "metadata": {"kernelspec": kernel}, "nbformat": 4, "nbformat_minor": 5}
+
+
+def _is_tutorial(path: str) -> bool:
+    return path.startswith("learn/")
 
 
 def _pages(nav: Any) -> list[str]:  # noqa: ANN401

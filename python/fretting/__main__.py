@@ -8,7 +8,7 @@ from fretting import _core
 
 
 def main(words: Sequence[str] | None = None) -> int:
-    """Do what the words after ``fret`` ask for (those of the process when not given), and return the exit code."""
+    """Do what the words after ``fret`` ask for (default: those of the process), and return the exit code."""
     if words is None:
         # As in a program of its own: until the command listens itself, Ctrl-C ends it at once.
         signal.signal(signal.SIGINT, signal.SIG_DFL)

@@ -36,7 +36,7 @@ def read(case: CaseLike, start: _core.Start | None = None) -> _core.Case:
     Raises
     ------
     CaseError
-        With all mistakes of the case.
+        With all errors of the case.
     UnreadableError
         When the file cannot be read; ``MissingFileError`` when there is none.
     """

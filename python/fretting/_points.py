@@ -25,14 +25,14 @@ class Axis:
     Examples
     --------
     >>> import fretting
-    >>> def amplitude(case, share):
+    >>> def amplitude(case, fraction):
     ...     limit = case["friction"]["coefficient"] * case["load"][0]["normal_force"]
-    ...     case["load"][1]["tangential_force"] = [share * limit, 0.0]
+    ...     case["load"][1]["tangential_force"] = [fraction * limit, 0.0]
     >>> axes = {"amplitude": fretting.Axis([0.2, 0.5, 0.9], amplitude)}
     """
 
     values: Sequence[Any]
-    """The values, one a point of the axis."""
+    """The values, one per point of the axis."""
     apply: Callable[[Table, Any], object]
     """Called with a copy of the case (a dict, the caller's to change) and a value."""
 
@@ -44,7 +44,7 @@ Axes: TypeAlias = Mapping[Any, Values] | Sequence[Mapping[str, Any]]
 
 @dataclass(frozen=True)
 class Dimension:
-    """An axis, understood: what a dimension of the answer is called, and how each of its points changes the case."""
+    """An axis, understood: what a dimension of the result is called, and how each of its points changes the case."""
 
     name: str
     coordinates: dict[str, list[Any]]
@@ -53,7 +53,7 @@ class Dimension:
 
 @dataclass(frozen=True)
 class Point:
-    """A point of the sweep: its place in the answer, its name in messages, its case."""
+    """A point of the sweep: its place in the result, its name in messages, its case."""
 
     place: tuple[int, ...]
     name: str
@@ -76,14 +76,14 @@ def dimensions(axes: Axes) -> list[Dimension]:
             raise ValueError(f"axis {dimension.name!r} has no values")
         for name in {dimension.name, *dimension.coordinates}:
             if name in RESERVED or name.startswith("cycle_"):
-                raise ValueError(f"axis {name!r}: a variable of the answer is called so; choose another name")
+                raise ValueError(f"axis {name!r}: a variable of the result has this name; choose another name")
         if sum(name == dimension.name for name in names) > 2:
             raise ValueError(f"axis {dimension.name!r} is there twice")
     return found
 
 
 RESERVED = {"step", "status", "error", *MEANING}
-"""Names that the answer of a sweep needs itself."""
+"""Names that the result of a sweep uses itself."""
 
 
 def points(base: Table, found: Sequence[Dimension]) -> Iterable[Point]:

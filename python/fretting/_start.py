@@ -1,4 +1,4 @@
-"""Where a history starts that goes on from a solved state."""
+"""The solved state from which a history starts."""
 
 import os
 from pathlib import Path

@@ -1,4 +1,4 @@
-"""Where a sweep keeps its finished points, so that one that was stopped goes on where it was."""
+"""Where a sweep keeps its finished points, so that an interrupted sweep can be resumed."""
 
 import hashlib
 import json
@@ -42,7 +42,7 @@ class SweepFolder:
         write_whole(record, {"format": FORMAT, "program": "fretting", "base": fingerprint, **self._settings})
 
     def finished(self, case: Table) -> Table | None:
-        """Return the answer of a finished point; a file that cannot be read is no answer."""
+        """Return the result of a finished point; a file that cannot be read is no result."""
         answer = _read(self._place(case))
         return answer if answer and answer.get("format") == FORMAT and "status" in answer else None
 

@@ -1,4 +1,4 @@
-"""Closed-form contact solutions, to plot and to judge by.
+"""Closed-form contact solutions, to plot and to compare with.
 
 Signs: pressure and approach are positive in compression; shear, shift and tangential force are those of the upper body
 on the lower. Any consistent system of units. Everything here holds for homogeneous half-spaces;
@@ -75,7 +75,7 @@ class EffectiveModuli:
     torsional: float
     """``1/G = sum of 1/G`` [pressure]: torsion."""
     coupling: float
-    """Dundurs' beta [-], 0 for like bodies."""
+    """Dundurs' beta [-], 0 for elastically similar bodies."""
 
 
 @dataclass(frozen=True)
@@ -91,7 +91,7 @@ class Hertz:
     contact_radius: float
     """Radius a of the contact [length]."""
     peak_pressure: float
-    """Pressure p0 in the middle [pressure]."""
+    """Maximum contact pressure p0 [pressure]."""
     approach: float
     """Approach of distant points [length]."""
     _solution: _core.Solution = field(repr=False, compare=False)
@@ -110,7 +110,7 @@ class HertzEllipse:
     semi_axes: tuple[float, float]
     """Semi-axes of the contact along x and y [length]."""
     peak_pressure: float
-    """Pressure p0 in the middle [pressure]."""
+    """Maximum contact pressure p0 [pressure]."""
     approach: float
     """Approach of distant points [length]."""
 
@@ -135,7 +135,7 @@ class HertzLine:
     half_width: float
     """Half-width of the contact [length]."""
     peak_pressure: float
-    """Pressure in the middle [pressure]."""
+    """Maximum contact pressure p0 [pressure]."""
     _solution: _core.Solution = field(repr=False, compare=False)
 
     def pressure(self, x: npt.ArrayLike) -> Reals:
@@ -203,7 +203,7 @@ class CattaneoMindlin:
     """Partial slip of a Hertz contact under a growing tangential force at constant normal force."""
 
     tangential_force: float
-    """Tangential force T [force], signed."""
+    """Tangential force Q [force], signed."""
     friction_force: float
     """Largest tangential force that friction holds, mu P [force]."""
     contact_radius: float
@@ -213,13 +213,13 @@ class CattaneoMindlin:
     initial_stiffness: float
     """Tangential stiffness before any slip [force/length]."""
     stick_radius: float
-    """Radius c of the disc that sticks [length]."""
+    """Stick radius c [length]."""
     shift: float
-    """Tangential shift of the bodies [length], with the sign of T."""
+    """Relative tangential displacement of the bodies [length], with the sign of Q."""
     full_slip_shift: float
-    """Shift at the onset of full slip [length]."""
+    """Relative displacement at the onset of full slip [length]."""
     dissipated_energy: float
-    """Work of friction since the tangential force was zero [force x length]."""
+    """Dissipated energy since the tangential force was zero [force x length]."""
     _solution: _core.Solution = field(repr=False, compare=False)
 
     def shear(self, r: npt.ArrayLike) -> Reals:
@@ -236,9 +236,9 @@ class LoopPoint:
     """A Hertz contact at one point of its fretting loop."""
 
     tangential_force: float
-    """Tangential force T [force]."""
+    """Tangential force Q [force]."""
     shift: float
-    """Tangential shift of the bodies [length]."""
+    """Relative tangential displacement of the bodies [length]."""
     stick_radius: float
     """Radius of the disc that has not slipped since the last turning point [length]."""
     _solution: _core.Solution = field(repr=False, compare=False)
@@ -261,9 +261,9 @@ class MindlinDeresiewicz:
     amplitude: float
     """Amplitude of the tangential force [force]."""
     dissipated_energy_per_cycle: float
-    """Work of friction in one cycle [force x length]: the area of the loop."""
+    """Dissipated energy W_d of one cycle [force x length]: the area of the loop."""
     energy_ratio: float
-    """That work over ``4 T0 shift0`` [-]: 0.2 at the onset of full slip."""
+    """``A = W_d / (4 Q* delta*)`` [-]: 0.2 at the onset of full slip."""
     peak: CattaneoMindlin
     """The contact at the first peak."""
 
@@ -283,14 +283,14 @@ class MindlinDeresiewicz:
 
 @dataclass(frozen=True)
 class Torsion:
-    """Partial slip of a Hertz contact under a growing twisting moment at constant normal force."""
+    """Partial slip of a Hertz contact under a growing torsional moment at constant normal force."""
 
     moment: float
-    """Twisting moment [force x length], signed."""
+    """Torsional moment [force x length], signed."""
     twist: float
     """Rotation of the upper body against the lower [rad]."""
     stick_radius: float
-    """Radius of the disc that sticks [length]."""
+    """Stick radius [length]."""
     contact_radius: float
     """Radius of the contact [length]."""
     peak_friction: float
@@ -432,7 +432,7 @@ class TiltedLinePunch:
 
 
 def effective_moduli(lower: Material, upper: Material | None = None) -> EffectiveModuli:
-    """Effective moduli of two bodies, each (young, poisson); a rigid upper body when it is not given."""
+    """Effective moduli of two bodies, each (young, poisson); default: a rigid upper body."""
     return EffectiveModuli(**_numbers(_core.effective_moduli(lower, upper)))
 
 
@@ -522,7 +522,7 @@ def westergaard(amplitude: float, wavelength: float, mean_pressure: float, modul
 
 
 def cattaneo_mindlin(sphere: Hertz, friction: float, shear_modulus: float, tangential_force: float) -> CattaneoMindlin:
-    """Push a Hertz contact sideways for the first time.
+    """Partial slip of a Hertz contact under a first tangential load.
 
     Exact for uncoupled bodies with Poisson's ratio 0; otherwise it neglects the slip across the force.
 
@@ -546,7 +546,7 @@ def cattaneo_mindlin(sphere: Hertz, friction: float, shear_modulus: float, tange
 
 
 def mindlin_deresiewicz(sphere: Hertz, friction: float, shear_modulus: float, amplitude: float) -> MindlinDeresiewicz:
-    """Push a Hertz contact to and fro between two equal tangential forces.
+    """Fretting loop of a Hertz contact between two equal and opposite tangential forces.
 
     Limits as for :func:`cattaneo_mindlin`.
 
@@ -588,7 +588,7 @@ def torsion(sphere: Hertz, friction: float, shear_modulus: float, moment: float)
     shear_modulus : float
         Torsional shear modulus [pressure].
     moment : float
-        Twisting moment [force x length], less than ``3 pi mu P a / 16``.
+        Torsional moment [force x length], less than ``3 pi mu P a / 16``.
 
     References
     ----------

@@ -1,4 +1,4 @@
-"""What each fretting cycle of a history came to."""
+"""Quantities of each fretting cycle of a history."""
 
 from typing import Any
 
@@ -12,26 +12,26 @@ _MEANING: dict[str, tuple[type, str]] = {
     "cycle": (int, "number of the cycle in its stage, from 1"),
     "first_increment": (int, "first increment of the cycle"),
     "last_increment": (int, "last increment of the cycle"),
-    "stands_for": (int, "cycles it stands for: more than 1 where wear is extrapolated"),
-    "last_cycle": (int, "number in its stage of the last cycle it stands for, from 1"),
-    "dissipated_energy": (float, "work of friction in this one computed cycle [force x length]"),
+    "stands_for": (int, "cycles it represents: more than 1 with cycle jumps"),
+    "last_cycle": (int, "number in its stage of the last cycle it represents, from 1"),
+    "dissipated_energy": (float, "dissipated energy W_d of this simulated cycle [force x length]"),
     "total_dissipated_energy": (
         float,
-        "work of friction since the start of the history, over all cycles that computed ones stand for [force x length]",
+        "dissipated energy since the start of the history, including the cycles represented by cycle jumps [force x length]",
     ),
     "drive": (str, "tangential, or torsional"),
     "direction": (float, "direction of the tangential force's main axis, from x [rad]"),
-    "force_amplitude": (float, "half the range of the force along it, or of the moment"),
-    "displacement_amplitude": (float, "half the range of the shift along it, or of the twist"),
-    "opening": (float, "half the width of the loop at the middle of the force's range"),
-    "energy_ratio": (float, "dissipated energy over 4 force amplitude x displacement amplitude [-]"),
-    "sliding_ratio": (float, "opening over displacement amplitude [-]"),
-    "stiffness": (float, "slope of the loop just after reversal"),
-    "regime": (str, "full_stick, partial_slip, mixed or gross_slip"),
-    "closure": (float, "how far the end of the cycle is from its start, relative [-]"),
-    "steady": (bool, "whether the stage ended here because the cycle closed"),
-    "worn_volume": (float, "volume worn off since the start of the history [length^3]"),
-    "max_worn_depth": (float, "largest worn depth after them [length]"),
+    "force_amplitude": (float, "Q*: half the range of the force along it, or of the moment"),
+    "displacement_amplitude": (float, "delta*: half the range of the relative displacement along it, or of the twist"),
+    "opening": (float, "delta_0: loop half-width at the middle of the force range"),
+    "energy_ratio": (float, "A = W_d / (4 Q* delta*) [-]"),
+    "sliding_ratio": (float, "D = delta_0 / delta* [-]"),
+    "stiffness": (float, "slope of the loop directly after reversal"),
+    "regime": (str, "sliding condition: full_stick, partial_slip, mixed or gross_slip"),
+    "closure": (float, "cycle-to-cycle change of tractions, forces and motions, relative [-]"),
+    "steady": (bool, "whether the stage ended here because the cycle is steady"),
+    "worn_volume": (float, "wear volume since the start of the history [length^3]"),
+    "max_worn_depth": (float, "maximum wear depth after the cycle [length]"),
 }
 
 MEANING = {name: meaning for name, (_, meaning) in _MEANING.items()}

@@ -9,10 +9,10 @@ if TYPE_CHECKING:
 
 
 class Mistake(NamedTuple):
-    """One mistake in a case."""
+    """One error in a case."""
 
     line: int | None
-    """Line in the case text, from 1; ``None`` when the mistake stands nowhere in particular."""
+    """Line in the case text, from 1; ``None`` when the error has no single place."""
     column: int | None
     """Column in that line, from 1."""
     message: str
@@ -33,7 +33,7 @@ class CaseError(FrettingError, ValueError):
     Attributes
     ----------
     mistakes : list of Mistake
-        All mistakes found, each ``(line, column, message, help)``, in the order of the text. Line and column of a
+        All errors found, each ``(line, column, message, help)``, in the order of the text. Line and column of a
         case given as a dict count in its TOML form, which the message shows.
     """
 
@@ -77,7 +77,7 @@ class FrettingWarning(UserWarning):
 
 
 class RunError(FrettingError, RuntimeError):
-    """A run ended without its answer; there is no silent wrong one.
+    """Raised when an increment did not converge, or the run ended before its last increment. No unconverged field is returned.
 
     Attributes
     ----------
@@ -101,7 +101,8 @@ class RunError(FrettingError, RuntimeError):
 
 class OutOfMemoryError(RunError, MemoryError):
     """A run needs more memory than the machine, a container, a batch job or ``ulimit -v`` leaves; nothing was begun that could
-    not be ended."""
+    not be ended.
+    """
 
     __module__ = "fretting"
 
@@ -133,7 +134,7 @@ class RunInterrupted(KeyboardInterrupt):
 
 
 class Fact(TypedDict):
-    """Something about a case or its answer that may mislead."""
+    """A plausibility warning about a case or its result."""
 
     name: str
     """Stable name, such as ``"few_cells"``."""

@@ -1,9 +1,9 @@
-"""The answer of a run."""
+"""The result of a run."""
 
 import json
 import operator
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Literal, Protocol, Self, get_args
+from typing import TYPE_CHECKING, Any, Literal, Protocol, Self
 
 import numpy as np
 import numpy.typing as npt
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 class Steps(dict[str, npt.NDArray[Any]]):
-    """The numbers of every increment by name; a name it does not have is answered with those it has."""
+    """The numbers of every increment by name; an unknown name raises a KeyError that lists the known ones."""
 
     def __missing__(self, name: object) -> npt.NDArray[Any]:
         """Refuse a name."""
@@ -177,7 +177,8 @@ class History:
         Parameters
         ----------
         name : {"pressure", "shear_x", "shear_y", "slip_x", "slip_y", "gap", "zone", "worn_depth"}
-            ``slip_x``, ``slip_y`` are accumulated along the path; ``zone`` is 0 open, 1 stick, 2 slip.
+            ``slip_x``, ``slip_y``: relative slip since the start of the history, signed (the sum of the slip increments, not the
+            slip distance); ``zone``: 0 open, 1 stick, 2 slip.
         step : int
             Number of the increment in the whole history, from 0; negative from the end.
 
@@ -282,13 +283,13 @@ class History:
             return facts
         last = {name: column[-1] for name, column in self.steps.items()}
         facts += [
-            ("regime at the end", last["regime"].replace("_", " ")),
+            ("sliding condition at the end", last["regime"].replace("_", " ")),
             ("normal force", f"{last['normal_force']:.6g}"),
             ("max pressure", f"{last['max_pressure']:.6g}"),
             ("contact area", f"{last['contact_area']:.6g}"),
             ("dissipated energy", f"{last['dissipated_energy']:.6g}"),
             *(
-                [("worn volume", f"{last['worn_volume']:.6g}"), ("largest worn depth", f"{last['max_worn_depth']:.6g}")]
+                [("worn volume", f"{last['worn_volume']:.6g}"), ("max wear depth", f"{last['max_worn_depth']:.6g}")]
                 if last["worn_volume"] > 0.0
                 else []
             ),

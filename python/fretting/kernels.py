@@ -1,4 +1,4 @@
-"""How the surface of a layered half-space answers, and products of fields with such answers."""
+"""Surface response of layered half-spaces, and convolutions of fields with it."""
 
 from collections.abc import Sequence
 from typing import Literal, TypeAlias
@@ -61,7 +61,7 @@ def influence_coefficients(
     cells: tuple[int, int],
     spacing: tuple[float, float],
 ) -> dict[str, Reals]:
-    """Displacement of a cell by unit traction on another, in free space.
+    """Displacement of a cell by unit traction on another; non-periodic (infinite half-space).
 
     Entry ``[i, j]`` is the displacement at the centre of the cell at the offset ``(i dx, j dy)`` from the loaded one.
     Other signs of the offset follow by symmetry: ``zz``, ``xx``, ``yy`` are even in both, ``xy`` is odd in both, ``zx``
@@ -100,7 +100,7 @@ def influence_coefficients(
 
 
 class Convolution:
-    """Free-space product of a field with one translation-invariant kernel.
+    """Non-periodic product of a field with one translation-invariant kernel.
 
     ``result[i, j] = sum over (m, n) of K[i - m, j - n] field[m, n]``, with nothing outside the grid.
 

@@ -86,7 +86,7 @@ def load(folder: str | os.PathLike[str]) -> History:
 
 
 class _Stored:
-    """Fields in a run's store: little-endian numbers, a file an increment."""
+    """Fields in a run's store: little-endian numbers, one file per increment."""
 
     def __init__(self, path: Path, cells: list[int], increments: int, whole: bool) -> None:
         self._path = path
@@ -195,7 +195,7 @@ def _value(cell: str) -> object:
 
 
 def _running_condition(cycles: dict[str, npt.NDArray[Any]], stage: int) -> str | None:
-    """Return the running condition of a stage: gross where all cycles slide, partial where none slides or is mixed."""
+    """Return the fretting regime of a stage: gross if all cycles slide, partial if none slides or is mixed."""
     regimes = Counter(str(regime) for regime in cycles["regime"][cycles["stage"] == stage] if regime)
     if not regimes:
         return None

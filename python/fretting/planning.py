@@ -9,12 +9,12 @@ from fretting.errors import Fact
 
 
 class LeftOut(TypedDict):
-    """Something the scene does not need."""
+    """An automatic simplification."""
 
     what: str
     """What is not computed."""
     why: str
-    """Why the answer is the same without it."""
+    """Why it applies to the case."""
     saves: str
     """What that saves."""
 
@@ -63,7 +63,7 @@ class Plan(Mapping[str, Any]):
         return len(self._entries)
 
     def __repr__(self) -> str:
-        """Sizes, expected work, and what is left out."""
+        """Sizes, expected work, and automatic simplifications."""
         nx, ny = self["grid"]["cells"]
         dx, dy = self["grid"]["spacing"]
         lines = [
@@ -71,7 +71,7 @@ class Plan(Mapping[str, Any]):
             f"  memory about {_amount(self['memory_bytes'])}, kept fields {_amount(self['kept_bytes'])}",
             f"  {self._expected()}",
         ]
-        lines += [f"  left out: {entry['what']} ({entry['why']})" for entry in self.left_out]
+        lines += [f"  simplification: {entry['what']} ({entry['why']})" for entry in self.left_out]
         lines += [f"  warning: {fact['message']}; {fact['help']}" for fact in self.warnings]
         return "\n".join(lines)
 
@@ -89,11 +89,11 @@ class Plan(Mapping[str, Any]):
             ("cells", f"{nx} x {ny} of {dx:.4g} x {dy:.4g}"),
             ("increments", str(self["increments"])),
             ("coupling", str(self["coupling"])),
-            ("memory at the most", _amount(self["memory_bytes"])),
+            ("maximum memory", _amount(self["memory_bytes"])),
             ("kept fields", _amount(self["kept_bytes"])),
             ("expected", self._expected()),
         ]
-        facts += [(f"left out: {entry['what']}", entry["why"]) for entry in self.left_out]
+        facts += [(f"simplification: {entry['what']}", entry["why"]) for entry in self.left_out]
         facts += [("warning", f"{fact['message']}; {fact['help']}") for fact in self.warnings]
         return plot.html_table("fretting.Plan", facts)
 
@@ -104,7 +104,7 @@ def _amount(count: int) -> str:
 
 
 def plan(case: _case.CaseLike, *, start: _start.StartLike | None = None) -> Plan:
-    """Plan a case: sizes, expected work, and what is left out and why. Computes nothing heavy: less than a second.
+    """Plan a case: sizes, expected work, and the automatic simplifications. Solves nothing; takes less than a second.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""Pictures of histories and sweeps; needs matplotlib (``pip install fretting[plot]``).
+"""Figures of histories and sweeps; needs matplotlib (``pip install fretting[plot]``).
 
 Every function draws into `axes`, or into a figure of its own when none are given, and returns the axes. Units are those
 of the case, whatever they are: labels say length, force, pressure.
@@ -33,12 +33,12 @@ REGIMES = (
     ("apart", "#f2f2f2"), ("frictionless", "#d9d9d9"), ("full_stick", "#2a6f97"), ("partial_slip", "#a8c686"),
     ("mixed", "#e9d985"), ("gross_slip", "#f4a259"),
 )  # fmt: skip
-"""Names and colours of the regimes, from less to more slip."""
+"""Names and colours of the sliding conditions, from less to more slip."""
 
 def loop(
     history: "History", along: Motion | None = None, stage: int | str | None = None, axes: "Axes | None" = None
 ) -> "Axes":
-    """Draw tangential force over shift, or moment over twist.
+    """Draw tangential force over relative displacement, or moment over twist.
 
     Parameters
     ----------
@@ -80,7 +80,7 @@ def section(
     history : History
         A history.
     fields : str or sequence of str
-        Names of kept fields, of one kind each picture: tractions, or lengths.
+        Names of kept fields, of one kind per figure: tractions, or lengths.
     step : int
         Number of the increment, from 0; negative from the end.
     along : {"x", "y"}
@@ -117,7 +117,7 @@ def section(
 
 
 def field(history: "History", name: str = "pressure", step: int = -1, axes: "Axes | None" = None) -> "Axes":
-    """Draw a kept field as a map, with a bar of its values; of a line contact, as a line.
+    """Draw a kept field as a map, with a colour bar; of a line contact, as a line.
 
     Parameters
     ----------
@@ -146,7 +146,7 @@ def field(history: "History", name: str = "pressure", step: int = -1, axes: "Axe
 
 
 def zones(history: "History", step: int = -1, axes: "Axes | None" = None) -> "Axes":
-    """Draw where the surfaces are apart, stick and slip.
+    """Draw the zones: open, stick and slip.
 
     Parameters
     ----------
@@ -180,7 +180,7 @@ def animation(
     Parameters
     ----------
     history : History
-        A history; ``[output] every`` of the case decides how many pictures there are.
+        A history; ``[output] every`` of the case decides how many frames there are.
     name : str
         Name of the field.
     along : {"x", "y", "twist"}, optional
@@ -188,7 +188,7 @@ def animation(
     stage : int or str, optional
         As for :func:`loop`.
     interval : int
-        Time between pictures [ms].
+        Time between frames [ms].
 
     Returns
     -------
@@ -227,16 +227,16 @@ def animation(
 def regime_map(
     dataset: "xarray.Dataset", x: str, y: str, variable: str = "cycle_regime", axes: "Axes | None" = None
 ) -> "Axes":
-    """Draw a fretting map: the regime over two axes of a sweep.
+    """Draw a fretting map: the sliding condition over two axes of a sweep.
 
     Parameters
     ----------
     dataset : xarray.Dataset
-        Answer of :func:`fretting.sweep`, reduced to the two axes (``dataset.sel(...)``).
+        Result of :func:`fretting.sweep`, reduced to the two axes (``dataset.sel(...)``).
     x, y : str
         Names of the axes; their values are numbers, in ascending or descending order.
     variable : str
-        A variable of regimes: ``"cycle_regime"`` or ``"regime"``.
+        A variable of sliding conditions: ``"cycle_regime"`` or ``"regime"``.
     axes : matplotlib Axes, optional
         Where to draw. Points that were not solved stay white.
 
@@ -272,7 +272,7 @@ def _pyplot() -> Any:  # noqa: ANN401 - a module
     try:
         from matplotlib import pyplot as plt
     except ImportError as error:
-        raise ImportError("pictures need matplotlib: pip install 'fretting[plot]'") from error
+        raise ImportError("figures need matplotlib: pip install 'fretting[plot]'") from error
     return plt
 
 
@@ -295,12 +295,12 @@ _LOOPS = {
 """Motions and what drives them."""
 
 _LOOP_LABELS = {
-    "shift_x": "shift along x [length]",
-    "shift_y": "shift along y [length]",
+    "shift_x": "relative displacement x [length]",
+    "shift_y": "relative displacement y [length]",
     "twist": "twist [rad]",
     "tangential_force_x": "tangential force along x [force]",
     "tangential_force_y": "tangential force along y [force]",
-    "twist_moment": "twist moment [force x length]",
+    "twist_moment": "torsional moment [force x length]",
 }
 
 
@@ -350,8 +350,8 @@ def _along(values: Reals, along: Direction, across: Reals, at: float) -> Reals:
         return only
     place = np.clip((at - across[0]) / (across[1] - across[0]), 0.0, len(across) - 1.0)
     below = min(int(place), len(across) - 2)
-    share = place - below
-    line: Reals = (1.0 - share) * rows[below] + share * rows[below + 1]
+    fraction = place - below
+    line: Reals = (1.0 - fraction) * rows[below] + fraction * rows[below + 1]
     return line
 
 

@@ -25,14 +25,14 @@ def run(
         Path of a TOML file, TOML text, or a mapping of the same structure. A ``str`` is a path when it ends with
         ``.toml`` or names an existing file.
     threads : int, optional
-        Worker threads, from 1 to 1024; all cores when not given. The result is the same for any number.
+        Worker threads, from 1 to 1024; default: all cores. The result is the same for any number.
     progress : bool or callable
-        ``True`` writes a line to stderr. A callable is called after every increment with a dict of its numbers (the
+        ``True`` writes the progress to stderr. A callable is called after every increment with a dict of its numbers (the
         names of ``History.steps``), ``increments``, the number of all that are planned, and ``passed``, how many of these
         are behind the run: cycles that a computed one stands for count. What it raises ends the run, and carries the history so
         far as its attribute ``history``.
     start : path, History or pair, optional
-        A solved state that the stages of the case go on from: the last one of a folder of results or of a history; of
+        A solved state from which the stages of the case continue: the last one of a folder of results or of a history; of
         another increment as ``(folder or history, increment)`` or ``"folder:increment"``, counted from 0. Tractions,
         motions, slip, wear and dissipated energy continue; what is prescribed there stays until a stage changes it.
         Grid, bodies and profile must be those of the state (``size = "auto"`` takes its grid); loads, friction, wear and
@@ -46,7 +46,7 @@ def run(
     Raises
     ------
     CaseError
-        When the case is refused, with all its mistakes.
+        When the case is refused, with all its errors.
     RunError
         When an increment cannot be solved to the tolerance; ``error.history`` holds what was solved before it.
     OutOfMemoryError
@@ -103,7 +103,8 @@ def run(
 
 def ended(answer: _core.History, error: BaseException | None, stacklevel: int = 2) -> History:
     """Return a history that is whole; raise what ended it early, with what there is of it. What about it may mislead goes to
-    Python's warnings, `stacklevel` calls up."""
+    Python's warnings, `stacklevel` calls up.
+    """
     history = History(answer)
     warn(history.warnings, stacklevel=stacklevel)
     if error is None:

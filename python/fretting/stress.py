@@ -1,4 +1,4 @@
-"""Stresses under the surface."""
+"""Subsurface stresses."""
 
 from typing import Any, Literal
 
@@ -17,7 +17,7 @@ def subsurface_stress(
     body: Literal["lower", "upper"] = "lower",
     threads: int | None = None,
 ) -> dict[str, npt.NDArray[Any]]:
-    """Stress under the surface of one body, from the kept tractions of an increment.
+    """Subsurface stress of one body, from the kept tractions of an increment.
 
     Axes x and y of the contact, z into the body in question, from its own surface; tension is positive. Under the
     centres of the cells, exact for tractions that are uniform over each cell.
@@ -33,13 +33,13 @@ def subsurface_stress(
     body : {"lower", "upper"}, optional
         The body.
     threads : int, optional
-        Worker threads; all cores when not given. The result is the same for any number.
+        Worker threads; default: all cores. The result is the same for any number.
 
     Returns
     -------
     dict of str to ndarray
         ``xx``, ``yy``, ``zz``, ``xy``, ``xz``, ``yz``, ``von_mises`` [pressure] of shape (nz, nx, ny), of a line contact (nz, nx); ``depth`` [length]
-        and ``layer`` of shape (nz,). A depth at an interface stands twice, first as seen from above, then from below;
+        and ``layer`` of shape (nz,). A depth at an interface appears twice, first as seen from above, then from below;
         ``layer`` is 0 in the outermost coating and the number of coatings in the substrate.
 
     Raises

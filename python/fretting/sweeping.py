@@ -57,9 +57,9 @@ def sweep(
         from keys to values is a list of points, along one dimension ``point``.
     executor : concurrent.futures.Executor, optional
         Where the points are solved: threads, processes, a dask client's ``get_executor()``, ``MPIPoolExecutor``. In
-        the calling thread, one after the other, when not given.
+        default: the calling thread, one after the other.
     keep : {"last", "stages", "all"}
-        Which increments the answer has: the last of the history, the last of every stage (dimension ``stage``), or all
+        Which increments the result has: the last of the history, the last of every stage (dimension ``stage``), or all
         (dimension ``step``).
     measure : callable, optional
         Called with the :class:`History` of every solved point, where it was solved; the numbers and arrays of the
@@ -70,7 +70,7 @@ def sweep(
     threads : int, optional
         Threads of one solve. Without: 1 with an executor, all cores without one. Results do not depend on it.
     progress : bool or callable
-        ``True`` writes a line to stderr. A callable is called after every point with a dict: ``done``, ``points``,
+        ``True`` writes the progress to stderr. A callable is called after every point with a dict: ``done``, ``points``,
         ``failed``, ``name`` and ``status`` of the point.
     start : path, History or pair, optional
         A solved state that every point starts from, as for :func:`fretting.run`: press once, branch into many loads.
@@ -88,7 +88,7 @@ def sweep(
     Raises
     ------
     CaseError
-        When an axis names what the case cannot have, or every point is refused: then the sweep itself is mistaken.
+        When an axis does not exist in the case, or every point is refused.
     ImportError
         When xarray is not installed (``pip install fretting[xarray]``).
     MemoryError
@@ -147,7 +147,8 @@ def sweep(
 
 def _fits_memory(asked: list[Point], executor: Executor | None) -> None:
     """Refuse points beside each other that need more memory than there is; where the number of workers is not told, each
-    point finds out by itself."""
+    point finds out by itself.
+    """
     beside = min(getattr(executor, "_max_workers", 1), len(asked))
     if beside < 2:
         return
@@ -393,5 +394,5 @@ def _import_xarray() -> Any:  # noqa: ANN401 - a module
     try:
         import xarray
     except ImportError as error:
-        raise ImportError("a sweep answers with an xarray.Dataset: pip install 'fretting[xarray]'") from error
+        raise ImportError("a sweep returns an xarray.Dataset: pip install 'fretting[xarray]'") from error
     return xarray

@@ -1,5 +1,7 @@
 """What the pages show runs as it stands there, and the site builds without a warning."""
 
+import importlib.util
+import json
 import re
 import shlex
 import shutil
@@ -27,8 +29,8 @@ def blocks(page: Path) -> list[tuple[str, str]]:
 
 
 def whole_case(shown: str) -> dict[str, Any]:
-    """Put what a page shows of a case into a scene that has the rest."""
-    scene = tomllib.loads("""
+    """Put what a page shows of a case into a case that has the rest."""
+    rest = tomllib.loads("""
         grid = { cells = [24, 24], size = [240e-6, 240e-6] }
         upper = { rigid = true }
         lower = { coatings = [{ thickness = 5e-6, young = 400e9, poisson = 0.2 }], substrate = { young = 210e9, poisson = 0.3 } }
@@ -39,10 +41,12 @@ def whole_case(shown: str) -> dict[str, Any]:
     part = tomllib.loads(shown)
     stages = part.get("load", [{"normal_force": 1.0}])
     if not {"normal_force", "approach"} & stages[0].keys():
-        part["load"] = [*scene["load"], *stages]
+        part["load"] = [*rest["load"], *stages]
     if "map" in part.get("friction", {}):
-        scene.pop("friction")
-    return {**scene, **part, **{body: {**scene[body], **part.get(body, {})} for body in ("upper", "lower")}}
+        rest.pop("friction")
+    if "substrate" in part.get("upper", {}):
+        rest["upper"] = {}
+    return {**rest, **part, **{body: {**rest[body], **part.get(body, {})} for body in ("upper", "lower")}}
 
 
 def run_shell(text: str, folder: Path) -> None:
@@ -51,8 +55,8 @@ def run_shell(text: str, folder: Path) -> None:
         if not command or command.startswith(NOT_RUN):
             continue
         assert command.startswith("fret "), f"a page shows a command that no test knows: {command}"
-        # The examples are long; that each is a good case is what a page promises, and other tests solve smaller ones.
-        command = command.replace("fret run examples/", "fret plan examples/")
+        # That each example is a good case is what a page promises; other tests solve smaller ones.
+        command = re.sub(r"^fret run (examples/\S+)$", r"fret plan \1", command)
         words = [sys.executable, "-m", "fretting", *shlex.split(command)[1:]]
         if "CASE" in words or "DIR" in words:
             continue
@@ -106,23 +110,75 @@ def test_links_lead_somewhere(page: Path) -> None:
             assert (page.parent / target).exists(), target
 
 
-def test_the_page_of_keys_is_that_of_the_schema(tmp_path: Path) -> None:
-    copy = tmp_path / "docs" / "site"
-    copy.mkdir(parents=True)
-    shutil.copy(ROOT / "docs" / "site" / "case_format.py", copy)
-    shutil.copytree(ROOT / "examples", tmp_path / "examples")
-    subprocess.run([sys.executable, copy / "case_format.py"], check=True, timeout=60)
-    written = (tmp_path / "docs" / "case-format.md").read_text(encoding="utf-8")
-    assert written == (ROOT / "docs" / "case-format.md").read_text(encoding="utf-8"), "run docs/site/case_format.py"
+def module(path: Path) -> Any:  # noqa: ANN401
+    """Load a script of the documentation."""
+    spec = importlib.util.spec_from_file_location(path.stem, path)
+    assert spec is not None
+    assert spec.loader is not None
+    loaded = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(loaded)
+    return loaded
+
+
+def test_the_page_of_keys_is_that_of_the_schema() -> None:
+    schema = json.loads((ROOT / "examples" / "fret.schema.json").read_text(encoding="utf-8"))
+    written = module(ROOT / "docs" / "site" / "case_format.py").page(schema)
+    page = (ROOT / "docs" / "reference" / "case-format.md").read_text(encoding="utf-8")
+    assert page == written, "run docs/site/case_format.py"
+
+
+def test_reference_pages_say_what_the_program_says() -> None:
+    generated = module(ROOT / "docs" / "site" / "reference.py")
+    for name, page in generated.PAGES.items():
+        written = (ROOT / "docs" / "reference" / f"{name}.md").read_text(encoding="utf-8")
+        assert written == page(), "run docs/site/reference.py"
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.relative_to(ROOT).as_posix())
+def test_figures_tables_and_numbers_are_those_of_their_files(page: Path) -> None:
+    render = module(ROOT / "docs" / "data" / "render.py")
+    text = page.read_text(encoding="utf-8")
+    assert render.rendered(text, page) == text, "run docs/data/render.py"
+
+
+def test_measured_numbers_name_their_origin() -> None:
+    for path in (ROOT / "docs" / "data").glob("*.json"):
+        found = json.loads(path.read_text(encoding="utf-8"))
+        assert {"date", "commit", "version", "machine"} <= found["measured"].keys(), path.name
+        assert found["by"], path.name
+
+
+def test_no_picture_is_older_than_its_script() -> None:
+    draw = module(ROOT / "docs" / "pictures" / "draw.py")
+    assert draw.stale() == [], "run docs/pictures/draw.py --stale"
+
+
+def test_every_picture_has_its_script_and_every_script_its_page() -> None:
+    draw = module(ROOT / "docs" / "pictures" / "draw.py")
+    drawn = {path.stem for suffix in ("png", "svg") for path in (ROOT / "docs" / "pictures").glob(f"*.{suffix}")}
+    assert drawn == draw.scripts().keys()
+    shown = "".join(page.read_text(encoding="utf-8") for page in PAGES)
+    assert [name for name in drawn if f"<!-- figure {name} -->" not in shown] == []
 
 
 def test_the_site_builds_without_a_warning(tmp_path: Path) -> None:
-    for module in ("material", "mkdocstrings", "latex2mathml"):
-        pytest.importorskip(module)
+    for name in ("material", "mkdocstrings", "latex2mathml"):
+        pytest.importorskip(name)
     done = subprocess.run(
         [sys.executable, "-m", "mkdocs", "build", "--strict", "--quiet", "--site-dir", tmp_path / "site"],
         capture_output=True, text=True, timeout=120, check=False, cwd=ROOT,
         env={"NO_MKDOCS_2_WARNING": "1", "PATH": ""},
     )  # fmt: skip
     assert (done.returncode, done.stdout.strip()) == (0, ""), done.stdout + done.stderr
-    assert "contact_area" in (tmp_path / "site" / "api" / "python.html").read_text(encoding="utf-8")
+    assert "contact_area" in (tmp_path / "site" / "reference" / "python.html").read_text(encoding="utf-8")
+    for tutorial in (ROOT / "docs" / "learn").glob("*.md"):
+        snippets = [text for language, text in blocks(tutorial) if language == "python"]
+        if snippets:
+            written = json.loads((tmp_path / "site" / "learn" / f"{tutorial.stem}.ipynb").read_text(encoding="utf-8"))
+            code = ["".join(cell["source"]) for cell in written["cells"] if cell["cell_type"] == "code"]
+            assert [text for text in code if "%%writefile" not in text] == [text.strip() for text in snippets], tutorial.name
+    for page in (tmp_path / "site").rglob("*.html"):
+        for formula in re.findall(r"<math.*?</math>", page.read_text(encoding="utf-8"), re.DOTALL):
+            assert "\\" not in re.sub(r"<[^>]+>", "", formula), (
+                f"{page.name}: a formula is not understood: {formula[:200]}"
+            )

@@ -77,7 +77,7 @@ def test_a_scar_is_drawn_as_map_section_and_animation(scar: fretting.History, tm
     assert depth.max() > 0.0
     axes = scar.plot_field("worn_depth")
     np.testing.assert_array_equal(axes.images[0].get_array(), depth.T)
-    assert "depth worn off both bodies together [length]" in {one.get_ylabel() for one in axes.figure.axes}
+    assert "wear depth of both bodies together [length]" in {one.get_ylabel() for one in axes.figure.axes}
     section = scar.plot_section("worn_depth")
     _, line = section.lines[0].get_data()
     np.testing.assert_allclose(np.asarray(line), 0.5 * (depth[:, 7] + depth[:, 8]), rtol=1e-12)
@@ -126,7 +126,7 @@ def test_without_matplotlib_the_error_says_what_to_install() -> None:
         "except ImportError as error: print(error)"
     )
     said = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, timeout=60, check=True)
-    assert said.stdout == "pictures need matplotlib: pip install 'fretting[plot]'\n"
+    assert said.stdout == "figures need matplotlib: pip install 'fretting[plot]'\n"
 
 
 def test_a_loop_of_torsion_is_moment_over_twist(fretting_case: dict[str, Any]) -> None:

@@ -175,7 +175,7 @@ def test_a_sweep_of_refused_points_only_is_refused(case: dict[str, Any]) -> None
         ({}, "at least one axis"),
         ([], "the list of points is empty"),
         ([{FRICTION: 0.1}, {FORCE: 0.1}], "point 1 has the keys"),
-        ({"approach": fretting.Axis([1e-6], lambda case, value: None)}, "a variable of the answer is called so"),
+        ({"approach": fretting.Axis([1e-6], lambda case, value: None)}, "a variable of the result has this name"),
         ("friction", "expected a mapping or a list of mappings, found str"),
     ],
 )

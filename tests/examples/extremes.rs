@@ -1,4 +1,4 @@
-//! `cargo xtask extremes`: five thousand cases drawn at random, run and certified, and the page `docs/random-cases.md` of what
+//! `cargo xtask extremes`: five thousand cases drawn at random, run and certified, and the page `docs/trust/random-cases.md` of what
 //! was found. `cargo run --release -p fret-validation --example extremes -- [--page FILE] [FIRST COUNT]` runs others; with a
 //! count of one it shows the case.
 
@@ -15,19 +15,18 @@ use rayon::prelude::*;
 const COUNT: u64 = 5000;
 const CELLS: [usize; 2] = [16, 40];
 
-const HEAD: &str = "# Cases drawn at random
+const HEAD: &str = "# Random cases
 
-Written by `cargo xtask extremes`, which runs these cases and has each judged by a certifier that shares nothing with the solver:
-from the kept fields of every two increments that follow each other it computes all laws again in double precision, by plain sums over the
-cells. A test runs the first hundred of them. The cases of [Stiff and extreme cases](extremes.md) vary one thing at a time;
-these vary everything at once:
+Written by `cargo xtask extremes`. Every case is solved and then checked by an independent program (the certifier): from the kept
+fields of consecutive increments it evaluates all laws again in double precision by direct summation. A test runs the first hundred
+cases. The cases of [Extreme cases](extremes.md) vary one parameter at a time; these vary all of them:
 
-- coatings 1e-6 to 1e6 times as stiff as what they lie on and 1e-3 to 1e3 contact sizes thick, none to two on either body; rigid
+- coatings 1e-6 to 1e6 times as stiff as the layer below and 1e-3 to 1e3 contact sizes thick, none to two per body; rigid
   bases; Poisson's ratios from -0.9 to 0.5; lengths and moduli over 24 decades each;
-- friction up to 2, or none; forces up to 0.9999 of what friction carries, or motions; reversal, cycles, unloading, lift-off and
-  contact again; friction that changes on the way;
+- friction coefficient up to 2, or none; forces up to 0.9999 of the friction limit, or displacements; reversal, cycles, unloading,
+  lift-off and renewed contact; friction that changes between stages;
 - cells from 1:8 to 8:1, 16 to 40 per side; tolerances of 1e-6 and 1e-8;
-- some of them turn about z, wear, are periodic, or have a coefficient of friction for every patch.
+- some have torsion, wear, periodicity, or a coefficient of friction per patch.
 ";
 
 fn main() -> Result<ExitCode, Box<dyn Error>> {
@@ -53,15 +52,15 @@ fn main() -> Result<ExitCode, Box<dyn Error>> {
 
 fn tables(found: &[Extreme]) -> Result<String, std::fmt::Error> {
     let mut text = String::from(
-        "| kind | cases | certified | refused | not solved | wrong | increments | in parts |\n|---|---|---|---|---|---|---|---|\n",
+        "| kind | cases | certified | refused | not converged | wrong | increments | with sub-steps |\n|---|---|---|---|---|---|---|---|\n",
     );
     for family in Family::ALL {
         let of_family: Vec<_> = found.iter().filter(|extreme| extreme.family == family).collect();
         row(&mut text, family.name(), &of_family)?;
     }
     row(&mut text, "all", &found.iter().collect::<Vec<_>>())?;
-    text += "\nAn increment that the program solved in parts is certified but for the law of slip, which depends on tractions in between \
-             that are not kept.\n\n";
+    text += "\nIncrements that were solved with sub-steps are certified except for the slip law, which depends on intermediate tractions that \
+             are not kept.\n\n";
     let mut reasons = BTreeMap::new();
     for extreme in found {
         if let Outcome::Refused(refusal) = extreme.outcome {
@@ -72,15 +71,15 @@ fn tables(found: &[Extreme]) -> Result<String, std::fmt::Error> {
     for (refusal, count) in reasons {
         writeln!(text, "| {} | {count} |", refusal.name())?;
     }
-    text += "\nA refusal counts only when its reason is true: the film is as thin as that, the contact goes beyond the edge on a grid three \
-             times as wide, friction does carry less.\n\n| law | largest fraction of its bound |\n|---|---|\n";
+    text += "\nA refusal counts only if its reason is true: the film is that thin, the contact passes the edge of a grid three times as \
+             wide, the friction limit is lower.\n\n| law | largest fraction of its bound |\n|---|---|\n";
     let laws = found.first().map_or(&[][..], |extreme| &extreme.laws);
     for (index, (name, _)) in laws.iter().enumerate() {
         let solved = found.iter().filter(|extreme| !matches!(extreme.outcome, Outcome::Wrong(_)));
         let most = solved.map(|extreme| extreme.laws[index].1).fold(0.0, f64::max);
         writeln!(text, "| {} | {most:.0e} |", name.replace('_', " "))?;
     }
-    for (head, list) in [("Not solved", outcomes(found, true)), ("Wrong", outcomes(found, false))] {
+    for (head, list) in [("Not converged", outcomes(found, true)), ("Wrong", outcomes(found, false))] {
         if !list.is_empty() {
             writeln!(text, "\n## {head}\n")?;
         }

@@ -1,5 +1,5 @@
-//! The page `docs/leaving-out.md`: what each shortcut changes in the answer (nothing) and in the work, measured.
-//! `cargo run --release -p fret-validation --example leaving_out > docs/leaving-out.md`
+//! The page `docs/developers/simplifications-measured.md`: what each automatic simplification changes in the result and in the work.
+//! `cargo run --release -p fret-validation --example leaving_out > docs/developers/simplifications-measured.md`
 
 #![expect(clippy::print_stdout, reason = "its output is the page")]
 
@@ -10,45 +10,35 @@ use ndarray::Array2;
 
 const CELLS: usize = 128;
 
-const HEAD: &str = "# What is left out
+const HEAD: &str = "---
+search:
+  exclude: true
+---
 
-Before any work the plan decides what a scene does not need, and says so: `fret plan CASE` lists each thing with the reason and
-with what it saves, and so does `plan.left_out` in Python. `fret run CASE --leave-out none` computes everything all the same: the
-answer does not change, the work does.
+# Automatic simplifications, measured
 
-| left out | when |
-|---|---|
-| layered response | no body has a coating that differs from what lies below it |
-| coupling of pressure and shear | the bodies answer shear with equal normal displacements, or there is no friction |
-| shear and its equations | there is no friction, or nothing has caused shear so far and pressure cannot |
-| normal problem | the load stays and the bodies do not couple; wear changes the gap between cycles alone |
-| shear across the load | nothing loads it, and shear moves nothing across it: bodies without lateral contraction, or a line contact |
-| cells behind a mirror | gap, friction and loads are their own mirror images: half of the grid in general, a quarter without pull or where the bodies do not couple |
-| cells far from the contact | always, but in scenes that repeat; they are checked once an increment |
-| all but six digits | on frozen zones and in approximate inverses, from 64 x 64 cells on, unless the scene repeats, long waves move a surface four times more or less than short ones, or bodies couple under hardly any friction; of coupled bodies also in looks far from the solution; what is accepted was judged with all digits |
-| fields, stresses | nobody asked for them |
+What each [automatic simplification](../theory/simplifications.md) changes in the result and in the work. Written by
+`cargo run --release -p fret-validation --example leaving_out > docs/developers/simplifications-measured.md`.
 
 ";
 
 const TAIL: &str = "
-The largest difference is that of pressure and shear in any cell of any increment over the largest pressure, of approach and
-shift over the largest approach, and of the dissipated energy over the largest force times that; 0 means the same bits. The
-other shortcuts start an iteration elsewhere or round otherwise, and both runs are right to the solver tolerance. The machine
-was loaded by other work: times that differ by less than a quarter do not differ. The layered response of a plain body costs
-too little to be seen.
+Difference: pressure and shear of any cell and increment relative to the maximum contact pressure, approach and relative
+displacement relative to the maximum approach, dissipated energy relative to the maximum force times that. 0 means the same bits.
+Simplifications change where an iteration starts, or its rounding; both results satisfy the solver tolerance. Times are the best of
+three runs on a shared machine: differences below 25 % mean nothing.
 
 ";
 
 fn main() {
     print!("{HEAD}");
     println!(
-        "Measured on {CELLS} x {CELLS} cells with residuals of at most {TOLERANCE:e}, two threads. Convolutions count those of the \
-         whole grid; ones in boxes and on coarser grids by their share of its cells. Times hold everything, kernels included, the \
-         best of three.\n"
+        "Grid {CELLS} x {CELLS}, residuals at most {TOLERANCE:e}, two threads. Convolutions on subdomains and coarser grids count by their \
+         fraction of the cells. Times include everything, influence coefficients too.\n"
     );
     println!(
-        "| scene | left out | largest difference | convolutions without, with | time without, with [s] | \
-         everything computed: largest difference | convolutions | time [s] |"
+        "| case | simplification | max difference | convolutions without, with | time without, with [s] | \
+         no simplification at all: max difference | convolutions | time [s] |"
     );
     println!("|---|---|---|---|---|---|---|---|");
     for case in cases(CELLS) {
@@ -115,11 +105,9 @@ fn mirror() {
     };
     let [whole, half, quarter] = [[false, false], [false, true], [true, true]].map(time);
     println!(
-        "## In front of the mirrors\n\nA sphere pulled along x is its own mirror image in the line of the pull; where pressure and shear \
-         do not act on each other, or without a pull, also in the line across. Fields in front of a mirror are transformed by cosines \
-         or sines, and everything the solver does is done for a half or a quarter of the cells: a convolution of one field on {cells} x \
-         {cells} cells takes {whole:.2} ms, of the half {half:.2} ms, of the quarter {quarter:.2} ms (one thread). The plan looks for \
-         mirrors in the numbers themselves: the gap of every cell and every map of friction have to equal those of the image to the \
-         bit, and the number of cells across the mirror has to be even."
+        "## Symmetry reduction\n\nFields of a symmetric case are transformed by cosine and sine transforms on a half or a quarter of the \
+         cells. One convolution of one field on {cells} x {cells} cells takes {whole:.2} ms, {half:.2} ms on the half and {quarter:.2} ms \
+         on the quarter (one thread). Symmetry is found in the numbers: gap and friction of every cell must equal those of the mirror \
+         cell to the bit, and the number of cells across the plane must be even."
     );
 }

@@ -40,7 +40,7 @@ impl Family {
     /// Its name in tables.
     pub fn name(self) -> &'static str {
         match self {
-            Self::Plain => "pressed and pulled",
+            Self::Plain => "indentation and tangential load",
             Self::Torsion => "torsion",
             Self::Map => "friction map",
             Self::Wear => "wear",

@@ -32,6 +32,8 @@ pub enum Refusal {
     ContactAtEdge,
     /// More tangential force than friction carries.
     AboveSliding,
+    /// More moment than friction carries.
+    AboveFullSlip,
     /// More wear in a cycle than the grid can follow.
     WearTooFast,
 }
@@ -40,9 +42,10 @@ impl Refusal {
     /// In words.
     pub fn name(self) -> &'static str {
         match self {
-            Self::UnseenFilm => "an incompressible film thinner than the cells can see",
+            Self::UnseenFilm => "an incompressible film thinner than the cells resolve",
             Self::ContactAtEdge => "contact at the edge of the grid",
-            Self::AboveSliding => "more tangential force than friction carries",
+            Self::AboveSliding => "more tangential force than the friction limit",
+            Self::AboveFullSlip => "more moment than the friction limit",
             Self::WearTooFast => "more wear in a cycle than the grid can follow",
         }
     }
@@ -85,6 +88,10 @@ pub(super) fn judged(
                 Outcome::Wrong(format!("asked {asked:e}, but friction carries {carried:e}"))
             }
             _ => Outcome::Refused(Refusal::AboveSliding),
+        },
+        Some(RunError::AboveFullSlip { .. }) => match moments(ended) {
+            Some([asked, carried]) if asked > carried => Outcome::Refused(Refusal::AboveFullSlip),
+            found => Outcome::Wrong(format!("moment asked for and moment of full slip: {found:?}")),
         },
         Some(error @ RunError::NotConverged { .. }) => Outcome::Unsolved(error.to_string()),
         Some(error) => Outcome::Wrong(error.to_string()),
@@ -138,4 +145,29 @@ pub(super) fn carried(ended: &Ended) -> Option<f64> {
     let pressure = last.fields.pressure.as_ref().filter(|_| stays)?;
     let sum: f64 = pressure.indexed_iter().map(|((i, j), p)| p * case.friction.at(i, j)).sum();
     Some(sum * ended.plan.grid.cell_area())
+}
+
+/// The moment that is held while the normal force falls, and that of full slip under the force of the increment that failed, `sum mu p r
+/// dA`, with the pressure of the last solved increment scaled to it: more than it is, since the contact shrinks.
+fn moments(ended: &Ended) -> Option<[f64; 2]> {
+    let last = ended.run.last()?;
+    let case = &ended.plan.case;
+    let number = ended.error.as_ref()?.increment();
+    let mut first = 0;
+    let stage = case.stages.iter().find(|stage| {
+        first += stage.increments_in_all();
+        number < first
+    })?;
+    let before = first - stage.increments_in_all();
+    let start = ended.run.iter().rev().find(|kept| kept.record.increment < before)?.record.normal_force;
+    let force = stage.value(stage.normal.as_ref()?, start, number - before + 1);
+    let grid = &ended.plan.grid;
+    let pressure = last.fields.pressure.as_ref()?;
+    let turned: f64 = pressure
+        .indexed_iter()
+        .map(|((i, j), p)| p * case.friction.at(i, j) * grid.centre(0, i).hypot(grid.centre(1, j)))
+        .sum();
+    let falls = force < last.record.normal_force && stage.twist.is_none() && stage.friction.is_none();
+    let carried = turned * grid.cell_area() * force / last.record.normal_force;
+    falls.then_some([last.record.twist_moment.abs(), carried])
 }

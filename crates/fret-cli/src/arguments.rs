@@ -6,15 +6,15 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 
 use crate::threads;
 
-/// Predicts the fretting contact of coated bodies: pressure, shear, stick and slip through the loading history.
+/// Fretting and partial slip of coated elastic contacts: pressure, shear, stick and slip zones through a loading history.
 #[derive(Debug, Parser)]
 #[command(
     name = "fret",
     version,
-    after_help = "Exit codes: 0 solved, 1 refused (also a contact that grows to the edge of its grid), 2 failed (numerically, or a file could not be written), 130 interrupted and resumable. A sweep with points that have no answer ends in 1 when they were all refused, in 2 when one failed."
+    after_help = "Exit codes: 0 solved; 1 the case was refused (also when the contact grows to the edge of its grid); 2 failure (an increment did not converge, or a file could not be written); 130 interrupted, can be resumed. A sweep ends with 1 if points were refused and none failed, with 2 if a point failed."
 )]
 pub struct Arguments {
-    /// Answer in JSON, mistakes too, with nothing else on standard output
+    /// Print JSON and nothing else on standard output; errors too
     #[arg(long, global = true)]
     pub json: bool,
     /// What to do.
@@ -27,7 +27,7 @@ pub struct Arguments {
 pub enum Verb {
     /// Solve a case
     Run(RunArguments),
-    /// Read and judge a case: all mistakes at once, each with its place
+    /// Validate a case: report all errors at once, each with line, column and a suggested fix
     Check {
         /// The case file (TOML)
         case: PathBuf,
@@ -35,7 +35,7 @@ pub enum Verb {
         #[arg(long, value_name = "RESULTS[:INCREMENT]")]
         from: Option<String>,
     },
-    /// Say what will be computed, what is left out and why; compute nothing
+    /// Print the discretisation, the expected cost and the automatic simplifications; solve nothing
     Plan {
         /// The case file (TOML)
         case: PathBuf,
@@ -45,23 +45,23 @@ pub enum Verb {
     },
     /// Print the JSON Schema of the case file
     Schema,
-    /// Show a run in one page: loops, sections, stick and slip, energy, convergence; a browser opens it, no network
+    /// Write one HTML page of a run: loops, sections, zone maps, energy, convergence; needs no network
     Report {
         /// The folder of the results
         results: PathBuf,
-        /// The page [default: report.html in that folder]
+        /// The page to write [default: report.html in that folder]
         #[arg(long, value_name = "FILE")]
         out: Option<PathBuf>,
     },
-    /// Write the results of a run for other programs
+    /// Convert the results of a run: NumPy, CSV, VTK
     Export(ExportArguments),
-    /// Solve a case at many resolutions: errors, orders, times, and which grid and increments to choose
+    /// Refinement study: errors, orders of convergence and times over grids and increments, and which to choose
     Study(StudyArguments),
-    /// Solve stiff and extreme scenes and judge each by what must hold; the exit code says whether all do
+    /// Stress test: solve extreme cases and check invariants. Exit code 0 if all pass, 2 otherwise
     Extremes(ExtremesArguments),
-    /// Stresses under the surface, from the kept tractions of a run
+    /// Subsurface stresses from the kept tractions of a run
     Stress(StressArguments),
-    /// Solve many cases: a base case, and keys of it with lists of values
+    /// Parameter sweep: solve a base case for lists of values of its keys
     Sweep(SweepArguments),
 }
 
@@ -73,26 +73,26 @@ pub struct RunArguments {
     /// Folder for the results [default: results/ and the name of the case]
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
-    /// Threads to compute with [default: all the machine has]
+    /// Number of threads [default: all cores]
     #[arg(long, value_name = "N", value_parser = threads::number)]
     pub threads: Option<u16>,
-    /// Say nothing but errors
+    /// Print only errors
     #[arg(long)]
     pub quiet: bool,
-    /// Write into a folder even when it holds other things; only files of fret are replaced
+    /// Write into the folder even if it holds other files; only files of fret are replaced
     #[arg(long)]
     pub force: bool,
-    /// Go on where a run was broken off; start where there is none, do nothing where it is solved
+    /// Resume an interrupted run; start if there is none; do nothing if it is solved
     #[arg(long, conflicts_with = "force")]
     pub resume: bool,
-    /// Start from a solved state: of the last increment of the results in a folder, or of the one whose number (from 0) follows a
-    /// colon. The loads of the case go on from there; grid, bodies and profile must be those of the results
+    /// Start from a solved state: the last increment of a results folder, or the one whose number (from 0) follows a colon. The
+    /// loads of the case continue from there; grid, bodies and profile must be those of the results
     #[arg(long, value_name = "RESULTS[:INCREMENT]", conflicts_with = "estimate_error")]
     pub from: Option<String>,
-    /// Solve a coarser companion too, and give every headline number an error bar
+    /// Also solve an auxiliary coarse case, and print an error bar for every quantity of interest
     #[arg(long)]
     pub estimate_error: bool,
-    /// What is left out where the answer is the same without it: all that can be, or none, which computes everything
+    /// Automatic simplifications to use (`fret plan` lists them): all, or none
     #[arg(long, value_enum, default_value = "all", value_name = "WHAT")]
     pub leave_out: LeavingOut,
 }
@@ -100,37 +100,37 @@ pub struct RunArguments {
 /// What a run leaves out.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub enum LeavingOut {
-    /// All that the scene does not need
+    /// All that apply to the case
     All,
-    /// Nothing
+    /// None; same result to the solver tolerance, more work
     None,
 }
 
-/// Which resolutions to study, and what to measure them by.
+/// Which resolutions to study, and what to compare them with.
 #[derive(Debug, Args)]
 pub struct StudyArguments {
     /// The case file (TOML)
     pub case: PathBuf,
-    /// Numbers of cells along x; the grid keeps its size and shape [default, without any list: the case's own, a half, a quarter]
+    /// Numbers of cells along x; the grid keeps its size and shape [default, without any list: the case's value, a half, a quarter]
     #[arg(long, value_name = "N,...", value_delimiter = ',')]
     pub cells: Vec<usize>,
-    /// Numbers of increments of every stage, or of one of its cycles [default: as for the cells]
+    /// Numbers of increments per stage, or per cycle [default: as for the cells]
     #[arg(long, value_name = "N,...", value_delimiter = ',')]
     pub increments: Vec<usize>,
     /// Tolerances of the solver [default: that of the case]
     #[arg(long, value_name = "E,...", value_delimiter = ',')]
     pub tolerances: Vec<f64>,
-    /// Measure by: analytic (a closed form), finest (the finest rung), or a TOML file of numbers [default: a closed form where
-    /// the case has one, the limit of the ladder elsewhere]
+    /// Reference: analytic (a closed form), finest (the finest level), or a TOML file of numbers [default: a closed form if the
+    /// case has one, otherwise Richardson extrapolation]
     #[arg(long, value_name = "analytic|finest|FILE")]
     pub against: Option<String>,
-    /// Folder for the table and the picture [default: results/ and the name of the case with -study]
+    /// Folder for the table and the figure [default: results/ and the name of the case with -study]
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
-    /// Threads to compute with [default: all the machine has]
+    /// Number of threads [default: all cores]
     #[arg(long, value_name = "N", value_parser = threads::number)]
     pub threads: Option<u16>,
-    /// Say nothing but errors and the answer
+    /// Print only errors and the result
     #[arg(long)]
     pub quiet: bool,
 }
@@ -144,14 +144,14 @@ pub struct ExportArguments {
     /// One file for numpy.load
     #[arg(long, group = "form")]
     pub npz: bool,
-    /// The history and a file a kept increment, a row a cell
+    /// The history, and one file per kept increment with one row per cell
     #[arg(long, group = "form")]
     pub csv: bool,
     /// What `ParaView` and pyvista read.
     #[arg(
         long,
         group = "form",
-        help = "A .vti image a kept increment and a .pvd list, for ParaView and pyvista"
+        help = "One .vti image per kept increment and a .pvd list, for ParaView and pyvista"
     )]
     pub vtk: bool,
     /// The file (npz) or folder (csv, vtk) to write [default: export.npz, csv, vtk in the folder of the results]
@@ -162,9 +162,9 @@ pub struct ExportArguments {
 /// Which stresses.
 #[derive(Debug, Args)]
 pub struct StressArguments {
-    /// The folder of a run; of one that is not finished what there is
+    /// The results folder of a run, finished or not
     pub folder: PathBuf,
-    /// Depths under the surface of the body, in the units of the case [default: those of the case, or --auto]
+    /// Depths below the surface of the body, in the units of the case [default: those of the case, or --auto]
     #[arg(
         long,
         value_name = "Z,...",
@@ -173,22 +173,22 @@ pub struct StressArguments {
         conflicts_with = "auto"
     )]
     pub depths: Vec<f64>,
-    /// Choose depths: denser toward the surface and the interfaces
+    /// Choose depths automatically: denser near the surface and the interfaces
     #[arg(long)]
     pub auto: bool,
-    /// Look at every N-th kept increment, and the last [default: all]
+    /// Evaluate every N-th kept increment, and the last [default: all]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
     pub every: Option<u32>,
     /// The body: upper or lower
     #[arg(long, value_name = "BODY", value_parser = ["upper", "lower"])]
     pub body: Option<String>,
     /// What `ParaView` reads.
-    #[arg(long, help = "Write a volume for ParaView of the last increment looked at")]
+    #[arg(long, help = "Write a volume for ParaView of the last evaluated increment")]
     pub volume: bool,
-    /// Threads to compute with [default: all the machine has]
+    /// Number of threads [default: all cores]
     #[arg(long, value_name = "N", value_parser = threads::number)]
     pub threads: Option<u16>,
-    /// Say nothing but errors
+    /// Print only errors
     #[arg(long)]
     pub quiet: bool,
 }
@@ -198,16 +198,16 @@ pub struct StressArguments {
 pub struct SweepArguments {
     /// The sweep file (TOML): base = "case.toml", and [axes] with "key.of.the.case" = [values]
     pub sweep: PathBuf,
-    /// Folder for the results; points finished there are not solved again [default: results/ and the name of the sweep]
+    /// Folder for the results; points that are finished there are skipped [default: results/ and the name of the sweep]
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
     /// Start every point from a solved state, as `fret run` does
     #[arg(long, value_name = "RESULTS[:INCREMENT]")]
     pub from: Option<String>,
-    /// Threads to compute with, one a point [default: all the machine has]
+    /// Number of threads, one per point [default: all cores]
     #[arg(long, value_name = "N", value_parser = threads::number)]
     pub threads: Option<u16>,
-    /// Say nothing but errors
+    /// Print only errors
     #[arg(long)]
     pub quiet: bool,
 }
@@ -215,10 +215,10 @@ pub struct SweepArguments {
 /// Which extremes.
 #[derive(Debug, Args)]
 pub struct ExtremesArguments {
-    /// Some of the scenes, on coarser grids: under a minute
+    /// A subset of the cases on coarser grids: under a minute
     #[arg(long)]
     pub quick: bool,
-    /// Write the table as a page of the documentation, too
+    /// Also write the table as a Markdown page
     #[arg(long, value_name = "FILE")]
     pub page: Option<PathBuf>,
 }

@@ -50,7 +50,7 @@ impl Estimate {
     /// Solves the companion of a solved plan, whose own headline numbers are `headlines`, and compares. The reason where that
     /// is not possible: the run itself is none the worse for it.
     pub fn new(plan: &Plan, companion: &Plan, headlines: &[Headline]) -> Result<Self, NoBars> {
-        let because = |why: String| NoBars::Because(format!("the coarser companion run: {why}"));
+        let because = |why: String| NoBars::Because(format!("the auxiliary coarse solution: {why}"));
         let rung = match catch_unwind(AssertUnwindSafe(|| climbed(companion, &mut Listener))) {
             Ok(Ok(rung)) => rung,
             Ok(Err(RunError::Interrupted { .. })) => return Err(NoBars::Interrupted),
@@ -106,7 +106,7 @@ impl Estimate {
                 Quantity::StickArea if is_line => row("stick width", &scalar),
                 Quantity::ContactArea => {
                     row(name(quantity), &scalar);
-                    row("radius of a circle that large", &|bars| radius(&bars.of(quantity)));
+                    row("radius of a circle of that area", &|bars| radius(&bars.of(quantity)));
                 }
                 _ => row(name(quantity), &scalar),
             }
@@ -115,7 +115,7 @@ impl Estimate {
         let cells = if is_line { nx.to_string() } else { format!("{nx} x {ny}") };
         let _ = write!(
             table,
-            "from a companion of {cells} cells and {}, {}",
+            "from an auxiliary coarse solution on {cells} cells with {}, {}",
             counted(self.increments, "increment"),
             duration(self.wall_s)
         );

@@ -138,10 +138,10 @@ impl Failure {
             Self::Memory(error) => format!("this {error}"),
             Self::Unsolved(error) => error.to_string(),
             Self::Unwritten(unwritten) => unwritten.to_string(),
-            Self::Broken(count) => format!("{} of extreme scenes: not everything holds", families(*count)),
+            Self::Broken(count) => format!("{} of extreme cases: a check failed", families(*count)),
             Self::Points { refused, failed } => {
                 format!(
-                    "points without an answer: {refused} refused, {failed} failed; the others are solved and kept"
+                    "points without a result: {refused} refused, {failed} failed; the others are solved and kept"
                 )
             }
             Self::Defect(what) => format!("a defect in fret itself, please report it: {what}"),
@@ -198,6 +198,7 @@ fn asks_for_another_case(error: &RunError) -> bool {
         error,
         RunError::ContactAtEdge { .. }
             | RunError::AboveSliding { .. }
+            | RunError::AboveFullSlip { .. }
             | RunError::OutOfMemory { error: MemoryError::TooLittle { .. }, .. }
     )
 }

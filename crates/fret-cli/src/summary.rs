@@ -80,14 +80,14 @@ impl Summary<'_> {
             let _ = writeln!(table, "{}\n", estimate.table(|stage| self.stage_name(stage).to_owned()));
         }
         let residual =
-            format!("{:.1e} (asked for {:.1e})", self.tally.largest_residual, self.plan.case.tolerance);
+            format!("{:.1e} (tolerance {:.1e})", self.tally.largest_residual, self.plan.case.tolerance);
         if let Some(datum) = self.plan.datum {
             let _ =
                 writeln!(table, "{:<NAMES$}{} below the load", "approach, shift relative to", figure(datum));
         }
         for (name, value) in [
             ("increments", self.tally.solved.to_string()),
-            ("largest residual", residual),
+            ("max residual", residual),
             ("convolutions", self.tally.work.convolutions.to_string()),
             ("wall time", format!("{} on {}", duration(self.wall_s), counted(self.threads, "thread"))),
             ("results", self.folder.display().to_string()),
@@ -112,7 +112,7 @@ impl Summary<'_> {
             readings.push(("contact width", |record| figure(record.contact_area)));
         } else {
             readings.push(("contact area", |record| figure(record.contact_area)));
-            readings.push(("radius of a circle that large", |record| {
+            readings.push(("radius of a circle of that area", |record| {
                 figure((record.contact_area / std::f64::consts::PI).sqrt())
             }));
         }
@@ -127,18 +127,18 @@ impl Summary<'_> {
                 ("shift x", |record| figure_beside(record.shift[0], record.approach)),
                 ("shift y", |record| figure_beside(record.shift[1], record.approach)),
                 ("max shear", |record| figure(record.max_shear)),
-                ("share of the contact in stick", |record| {
+                ("stick fraction of the contact", |record| {
                     stick_share(record).map_or("-".to_owned(), percent)
                 }),
-                ("energy dissipated so far", |record| figure(record.dissipated_energy)),
+                ("dissipated energy so far", |record| figure(record.dissipated_energy)),
             ]);
         }
         if self.plan.case.wear.is_some() {
             readings.push(("worn volume so far", |record| figure(record.worn_volume)));
-            readings.push(("largest worn depth", |record| figure(record.max_worn_depth)));
+            readings.push(("max wear depth", |record| figure(record.max_worn_depth)));
         }
         if self.plan.case.stages.iter().any(|stage| stage.twist.is_some()) {
-            readings.push(("twist moment", |record| figure(record.twist_moment)));
+            readings.push(("torsional moment", |record| figure(record.twist_moment)));
             readings.push(("twist", |record| figure(record.twist)));
         }
         readings

@@ -1,6 +1,6 @@
 //! Influence coefficients: what they cost beside a convolution, and error against time of the exact conversion and of the
 //! sampled one. `cargo bench -p fret-core --bench influence_coefficients -- [TABLE.csv]`; the table is for
-//! `benches/draw_coefficients.py`.
+//! `docs/pictures/sampled_coefficients.py`.
 
 #![expect(clippy::print_stdout, reason = "a benchmark answers on the terminal")]
 

@@ -1,4 +1,4 @@
-//! What a run leaves behind: one record an increment, the fields asked for, the last state.
+//! What a run leaves behind: one record per increment, the fields asked for, the last state.
 
 use ndarray::Array2;
 use serde::{Deserialize, Serialize};

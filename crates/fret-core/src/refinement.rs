@@ -262,39 +262,40 @@ mod tests {
         }
     }
 
+    /// Newton iterations that a whole step needs and has not got are enough for its halves: a first pressing and pulling at once, whose
+    /// stick zone comes from far, asks for more than a half of the way does.
     #[test]
     fn a_step_that_asks_for_too_many_changes_of_the_zones_is_solved_in_parts() {
         let friction = CoulombFriction::Uniform(0.3);
         let go_on: IterationCallback<'_> = &mut |_, _| ControlFlow::Continue(());
-        let (pressed, pulled) = (load(1.0, 0.0), load(1.0, 0.28));
         let untouched = ContactState::untouched([CELLS; 2]);
-
-        let mut patient = solver(&friction, 200);
-        let start = patient.step(&untouched, &pressed, go_on).unwrap();
-        let needed = patient.step(&start.state, &pulled, go_on).unwrap().work.outer_iterations;
-
-        // The same state, and so few changes allowed that the whole step is not solved, even when it is tried in turn, but each
-        // half of it is.
-        let hasty_one = |most: usize| {
-            let mut patient = solver(&friction, 200);
-            patient.step(&untouched, &pressed, &mut |_, _| ControlFlow::Continue(())).unwrap();
+        let pressed = load(1.0, 0.0);
+        // A solver of so many iterations after the pressing, and where that ended.
+        let pressed_with = |most: usize| {
+            let mut patient = solver(&friction, 60);
+            let watch: IterationCallback<'_> = &mut |_, _| ControlFlow::Continue(());
+            let start = patient.step(&untouched, &pressed, watch).unwrap();
             let mut hasty = solver(&friction, most);
             hasty.restore_memory(patient.memory().clone());
-            hasty
+            (hasty, start.state)
         };
-        let in_two = (1..needed).rev().find_map(|most| {
-            let watch: IterationCallback<'_> = &mut |_, _| ControlFlow::Continue(());
-            hasty_one(most).step(&start.state, &pulled, watch).err()?;
-            let span = Span { state: &start.state, from: &pressed, to: &pulled };
-            let (end, parts) = in_halves(&mut hasty_one(most), &mut None, span, watch).ok()?;
-            (parts == 2).then_some(end)
+        let in_two = [0.1, 0.15, 0.2, 0.25, 0.28, 0.29, 0.295, 0.299].into_iter().find_map(|force| {
+            let pulled = load(1.0, force);
+            (1..20).rev().find_map(|most| {
+                let watch: IterationCallback<'_> = &mut |_, _| ControlFlow::Continue(());
+                let (mut whole, start) = pressed_with(most);
+                whole.step(&start, &pulled, watch).err()?;
+                let (mut halves, start) = pressed_with(most);
+                let span = Span { state: &start, from: &pressed, to: &pulled };
+                let (end, parts) = in_halves(&mut halves, &mut None, span, watch).ok()?;
+                (parts == 2).then_some((pulled, end))
+            })
         });
-        let end =
-            in_two.expect("a number of changes that is too few for the whole step and enough for its halves");
+        let (pulled, end) = in_two.expect("iterations too few for a whole step and enough for its halves");
         assert!(end.outcome.residual.largest() < 1e-9);
 
         // The two halves, asked for one by one.
-        let mut patient = solver(&friction, 200);
+        let mut patient = solver(&friction, 60);
         let mut state = patient.step(&untouched, &pressed, go_on).unwrap().state;
         for half in [0.5, 1.0] {
             state = patient.step(&state, &LoadStep::between(&pressed, &pulled, half), go_on).unwrap().state;

@@ -9,7 +9,7 @@ use crate::solver::SolveError;
 pub enum RunError {
     /// The equations could not be satisfied to the tolerance.
     #[error(
-        "increment {increment} ({stage}) not solved: residual {reached:.1e} after {iterations} iterations, asked for {tolerance:.1e}; {advice}"
+        "increment {increment} ({stage}) not solved: residual {reached:.1e} after {iterations} iterations, required {tolerance:.1e}; {advice}"
     )]
     NotConverged {
         /// Number of the increment, from 0.
@@ -37,7 +37,7 @@ pub enum RunError {
     },
     /// A tangential load above what friction carries.
     #[error(
-        "increment {increment} ({stage}): tangential force {} is above mu W = {}: no equilibrium; prescribe the shift to slide",
+        "increment {increment} ({stage}): tangential force {} is above mu P = {}: no equilibrium; prescribe the shift to slide",
         apart(*asked, *bound)[0], apart(*asked, *bound)[1]
     )]
     AboveSliding {
@@ -47,8 +47,21 @@ pub enum RunError {
         stage: String,
         /// Force asked for.
         asked: f64,
-        /// mu W.
+        /// mu P.
         bound: f64,
+    },
+    /// Tangential force and moment together above what friction carries.
+    #[error(
+        "increment {increment} ({stage}): friction carries at most {fraction:.4} of the prescribed tangential force and moment: no \
+         equilibrium; prescribe shift and twist to slide"
+    )]
+    AboveFullSlip {
+        /// Number of the increment, from 0.
+        increment: usize,
+        /// Name of its stage.
+        stage: String,
+        /// Fraction of them that friction carries, at the most.
+        fraction: f64,
     },
     /// Even small parts of an increment leave too large an error in its history.
     #[error(
@@ -102,6 +115,7 @@ impl RunError {
             Self::NotConverged { increment, .. }
             | Self::ContactAtEdge { increment, .. }
             | Self::AboveSliding { increment, .. }
+            | Self::AboveFullSlip { increment, .. }
             | Self::HistoryUnresolved { increment, .. }
             | Self::WearTooFast { increment, .. }
             | Self::OutOfMemory { increment, .. }
@@ -125,6 +139,7 @@ pub fn run_error(error: &SolveError, increment: usize, stage: &Stage, tolerance:
         SolveError::AboveSliding { asked, bound } => {
             RunError::AboveSliding { increment, stage, asked, bound }
         }
+        SolveError::AboveFullSlip { fraction } => RunError::AboveFullSlip { increment, stage, fraction },
         SolveError::ContactAtEdge => RunError::ContactAtEdge { increment, stage },
         SolveError::OperatorsMissing(error) => RunError::NotConverged {
             increment,

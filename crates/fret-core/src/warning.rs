@@ -112,23 +112,25 @@ impl Concern {
     /// What it means for the numbers.
     fn consequence(self) -> &'static str {
         match self {
-            Self::FewCells => "the cells hardly show the contact, and its numbers may be off by much",
+            Self::FewCells => "the contact is under-resolved; errors may be large",
             Self::ContactRadiusOverBodyRadius => {
-                "the contact must be small against the bodies; a forgotten factor of a unit does this"
+                "the contact must be small against the bodies; a wrong unit is a common cause"
             }
             Self::ApproachOverContactRadius => {
-                "strains must be small; a forgotten factor of a unit, in a modulus say, does this"
+                "strains must be small; a wrong unit, of a modulus for example, is a common cause"
             }
             Self::ApproachOverLayerThickness => "strains of the layers must be small",
-            Self::ShiftOverContactRadius => "surfaces are taken to face each other as they do without shift",
-            Self::SteepTopography => "slopes must be small; a forgotten unit of the heights does this",
+            Self::ShiftOverContactRadius => {
+                "opposite surface points are assumed not to move along the surface"
+            }
+            Self::SteepTopography => "slopes must be small; a wrong unit of the heights is a common cause",
             Self::CoatingThinnerThanCell => {
-                "displacements are right, but stresses inside the coating show the cells of the tractions"
+                "displacements are accurate, but stresses inside the coating are affected by the cell-wise constant tractions"
             }
             Self::WearDepthOverCoatingThickness => "the elastic response stays that of the unworn coating",
-            Self::ContactNearEdge => "the edge of contact and its area cannot be read there",
+            Self::ContactNearEdge => "the contact edge and area cannot be evaluated there",
             Self::PressingInFewIncrements => {
-                "each increment leaves a ring in the shear, and the slip is that of large steps"
+                "each increment leaves a ring in the shear traction, and the slip is resolved in few steps"
             }
         }
     }
@@ -137,15 +139,15 @@ impl Concern {
     fn help(self) -> &'static str {
         match self {
             Self::FewCells => {
-                "more cells or a smaller grid (size = \"auto\" finds it); on a rough surface finer pixels"
+                "more cells or a smaller grid (size = \"auto\" finds it); on a rough surface finer sampling"
             }
             Self::ContactRadiusOverBodyRadius
             | Self::ApproachOverContactRadius
             | Self::ApproachOverLayerThickness => {
-                "look at the units of moduli, lengths and loads; or press less"
+                "check the units of moduli, lengths and loads; or reduce the load"
             }
-            Self::ShiftOverContactRadius => "look at the unit of the shift; or shift less",
-            Self::SteepTopography => "look at the unit of the heights, and at the size of the grid",
+            Self::ShiftOverContactRadius => "check the unit of the shift; or reduce it",
+            Self::SteepTopography => "check the unit of the heights and the size of the grid",
             Self::CoatingThinnerThanCell => "more cells or a smaller grid, where such stresses matter",
             Self::WearDepthOverCoatingThickness => "wear.limit = ... ends the run sooner",
             Self::ContactNearEdge => "a larger grid",

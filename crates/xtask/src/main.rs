@@ -11,7 +11,7 @@ usage: cargo xtask CHORE
   test      all tests: Rust in release mode, then the Python package, built and installed into target/venv
   check     format, clippy, documentation: warnings are errors
   bench     the benchmarks
-  extremes  five thousand cases drawn at random, each certified, and their page docs/random-cases.md; half an hour at the most
+  extremes  five thousand random cases, each certified, and their page docs/trust/random-cases.md; half an hour at the most
   docs      the site, into target/site, and the Rust documentation, into target/doc: warnings are errors
   wheel     the Python wheel, into target/wheels
   coverage  lines that the Rust tests reach, into target/coverage; wants `cargo install cargo-tarpaulin`
@@ -142,9 +142,8 @@ fn check() -> Vec<Step> {
 }
 
 fn extremes() -> Step {
-    let words =
-        "run --release --locked --package fret-validation --example extremes -- --page docs/random-cases.md";
-    cargo(&words.split_whitespace().collect::<Vec<_>>()).called("cases drawn at random")
+    let words = "run --release --locked --package fret-validation --example extremes -- --page docs/trust/random-cases.md";
+    cargo(&words.split_whitespace().collect::<Vec<_>>()).called("random cases")
 }
 
 fn docs() -> Vec<Step> {

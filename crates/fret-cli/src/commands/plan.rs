@@ -75,9 +75,9 @@ fn table(plan: &Plan, expected: Option<&Expectation>, lacking: Option<&MemoryErr
          work       {work}\n\n{}{}",
         cells(plan),
         if plan.case.periodic {
-            "on the whole grid: the scene repeats"
+            "on the whole grid: periodic"
         } else {
-            "in a box around the contact where that is smaller than the grid, the rest checked once an increment"
+            "on the active subdomain around the contact; the rest of the grid is checked once per increment"
         },
         layers(plan),
         counted(plan.increments, "increment"),
@@ -91,30 +91,30 @@ fn table(plan: &Plan, expected: Option<&Expectation>, lacking: Option<&MemoryErr
     )
 }
 
-/// What about the case may mislead, a line each, a line break before.
+/// Warnings about the case, one per line, a line break before.
 pub fn warnings(plan: &Plan) -> String {
     plausibility::of_plan(plan).iter().map(|warning| format!("\n{}", warning_line(warning))).collect()
 }
 
-/// What is left out, as a block of text.
+/// The automatic simplifications, as a block of text.
 pub fn left_out(plan: &Plan) -> String {
     if plan.left_out.is_empty() {
-        return "nothing is left out".to_owned();
+        return "automatic simplifications: none".to_owned();
     }
     let items = plan
         .left_out
         .iter()
         .map(|item| format!("  {}\n    because {}\n    saves {}", item.what, item.why, item.saves));
-    format!("left out, the answer being the same without it:\n{}", items.collect::<Vec<_>>().join("\n"))
+    format!(
+        "automatic simplifications (same result to the solver tolerance):\n{}",
+        items.collect::<Vec<_>>().join("\n")
+    )
 }
 
 /// The same for the start of a run: a line an item.
 pub fn left_out_in_short(plan: &Plan) -> String {
     let items = plan.left_out.iter().map(|item| format!("\n  {}", item.what));
-    format!(
-        "left out, the answer being the same without it (`fret plan` says why):{}",
-        items.collect::<String>()
-    )
+    format!("automatic simplifications (`fret plan` gives the reasons):{}", items.collect::<String>())
 }
 
 /// The grid in a line.

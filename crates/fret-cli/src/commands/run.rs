@@ -113,7 +113,7 @@ fn prepared(arguments: &RunArguments) -> Result<Preparation, Failure> {
         (false, false) => Wish::Start,
     };
     let companion = arguments.estimate_error.then(|| companion(&plan)).transpose().map_err(|error| {
-        Failure::Call(format!("--estimate-error: {error}"), "the same call without it".to_owned())
+        Failure::Call(format!("--estimate-error: {error}"), "the same command without it".to_owned())
     })?;
     let standing = ResultFolder::standing(&folder, &case_file, &plan, wish)?;
     let threads = threads::asked(arguments.threads);
@@ -127,9 +127,7 @@ fn prepared(arguments: &RunArguments) -> Result<Preparation, Failure> {
     if !arguments.quiet && !matches!(standing, Standing::Solved(_)) {
         announce(&plan, &folder, &standing);
         if let Some(Origin { results, increment, .. }) = &origin {
-            terminal::say(&format!(
-                "starts from {results}, the end of increment {increment} (counted from 0)"
-            ));
+            terminal::say(&format!("starts from {results}, end of increment {increment} (counted from 0)"));
         }
     }
     Ok(Preparation { case_file, plan, origin, folder, standing, companion, threads, pool, claim })
@@ -160,7 +158,7 @@ fn announce(plan: &Plan, folder: &Path, standing: &Standing) {
                 terminal::say(&format!("{shown}: still of the earlier run: {}", old.join(", ")));
             }
         }
-        Standing::Forced => terminal::say(&format!("{shown}: written into as it is, by --force")),
+        Standing::Forced => terminal::say(&format!("{shown}: existing folder used, by --force")),
     }
 }
 
@@ -179,10 +177,10 @@ impl Preparation {
                     terminal::say(&format!("an older checkpoint is taken: {why}"));
                 }
                 if let Some(why) = &taken.ended {
-                    terminal::say(&format!("it ended without its answer before, and may do so again: {why}"));
+                    terminal::say(&format!("it failed before, and may fail again: {why}"));
                 }
                 terminal::say(&format!(
-                    "{}: {}; going on with increment {} (counted from 0)",
+                    "{}: {}; continuing with increment {} (counted from 0)",
                     self.folder.display(),
                     head.tally.standing(),
                     checkpoint.solved()
@@ -270,7 +268,7 @@ impl Preparation {
         }
         match &failure {
             Some(Failure::Unwritten(_)) if tally.solved > 0 => {
-                terminal::say(&format!("{}; once it can be written, --resume goes on", self.kept(&tally)));
+                terminal::say(&format!("{}; once it can be written, --resume continues", self.kept(&tally)));
             }
             Some(Failure::Unsolved(_)) if tally.solved > 0 => {
                 let shown = self.folder.display();
@@ -301,7 +299,7 @@ impl Preparation {
                 Ok(Some(estimate))
             }
             Err(NoBars::Interrupted) => Err(Failure::Interrupted(format!(
-                "the case is solved and kept in {}, its error bars are not; --resume --estimate-error goes on with them",
+                "the case is solved and kept in {}, its error bars are not; --resume --estimate-error continues with them",
                 self.folder.display()
             ))),
             Err(NoBars::Because(why)) => {
@@ -321,7 +319,7 @@ impl Preparation {
             Ok(Ok(worn_through)) => Ok(worn_through),
             Ok(Err(RunError::Interrupted { .. })) => {
                 let kept = self.kept(&witness.tally);
-                Err(Failure::Interrupted(format!("{kept}; --resume goes on from there")))
+                Err(Failure::Interrupted(format!("{kept}; --resume continues from there")))
             }
             Ok(Err(error)) => Err(Failure::Unsolved(error)),
             Err(panic) => Err(Failure::Defect(defect::words_of(panic.as_ref()))),

@@ -144,7 +144,7 @@ fn computed(folder: &Path, run: &KeptRun, request: &StressRequest) -> Result<Ans
 fn stopped(folder: &Path) -> Failure {
     let shown = folder.display();
     Failure::Interrupted(format!(
-        "the stresses are not finished and nothing of them is written; `fret stress {shown}` starts them again"
+        "the stresses are not finished and nothing is written; run `fret stress {shown}` again"
     ))
 }
 
@@ -408,7 +408,7 @@ impl<'a> Sheet<'a> {
         let unfinished = self.run.unfinished.as_ref().map_or(String::new(), |why| format!("{why}\n"));
         let mut text = unfinished
             + &format!(
-                "stress in the {} body: {} at {}, counted from 0\n\n  largest            value        increment  x            y            depth        in\n",
+                "stress in the {} body: {} at {}, counted from 0\n\n  maximum            value        increment  x            y            depth        in\n",
                 self.request.body.name(),
                 counted(self.points.len(), "depth"),
                 counted(self.surfaces.len(), "increment"),

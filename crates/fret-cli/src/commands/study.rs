@@ -46,7 +46,7 @@ pub fn study(arguments: &StudyArguments, as_json: bool) -> Result<(), Failure> {
     let levels = Levels::below(&folder)?;
     let (climb, unsolved) = pool.install(|| climb(&plan, ladder, &levels, arguments.quiet))?;
     let truth = against.truth(&climb).ok_or_else(|| {
-        Failure::Defect("a solved ladder has no finest rung".to_owned()) // `climb` fails without it
+        Failure::Defect("a solved study has no finest level".to_owned()) // `climb` fails without it
     })?;
     let lines = climb.judged(&truth);
     let advice = ACCURACIES.map(|accuracy| climb.advice(&truth, accuracy));
@@ -100,7 +100,7 @@ fn fits_memory(ladder: &Ladder, plan: &Plan) -> Result<(), Failure> {
     memory::check(planned.memory_bytes).map_err(|error| too_many(&error))
 }
 
-/// What is asked to be measured by.
+/// What the study is compared with.
 enum Against {
     /// A closed form where there is one, the limit of the ladder elsewhere.
     Best(Option<ClosedForm>),
@@ -119,8 +119,8 @@ impl Against {
             Some("finest") => Ok(Self::Finest),
             Some("analytic") => ClosedForm::of(plan).map(Self::Analytic).ok_or_else(|| {
                 Failure::Call(
-                    "--against analytic: no closed form speaks about this case".to_owned(),
-                    "without --against the limit of the ladder is taken; --against finest takes its finest rung"
+                    "--against analytic: no closed form is available for this case".to_owned(),
+                    "without --against Richardson extrapolation is used; --against finest compares with the finest level"
                         .to_owned(),
                 )
             }),
@@ -164,7 +164,7 @@ fn climb(plan: &Plan, ladder: Ladder, levels: &Levels, quiet: bool) -> Result<(C
         let variation = ladder.at(*place);
         let [nx, ny] = variation.cells;
         let head = format!(
-            "rung {}/{}  {nx} x {ny} cells, {}, tolerance {:.0e}",
+            "level {}/{}  {nx} x {ny} cells, {}, tolerance {:.0e}",
             number + 1,
             places.len(),
             counted(variation.increments.iter().sum(), "increment"),
@@ -185,12 +185,12 @@ fn climb(plan: &Plan, ladder: Ladder, levels: &Levels, quiet: bool) -> Result<(C
                 rungs.push((*place, rung));
             }
             Err(failure @ Failure::Unsolved(_)) if *place != ladder.finest() => {
-                say(&format!("{head}: left out, {}", failure.message()));
+                say(&format!("{head}: skipped, {}", failure.message()));
                 unsolved.push((*place, failure.message()));
             }
             Err(Failure::Interrupted(_)) => {
                 return Err(Failure::Interrupted(format!(
-                    "{} of {} levels of the study are solved and kept; the same call goes on with the others",
+                    "{} of {} levels of the study are solved and kept; the same command continues with the others",
                     rungs.len(),
                     places.len()
                 )));

@@ -191,7 +191,7 @@ impl<'a> Board<'a> {
                 Ok(Ok(answer)) => answer,
                 Ok(Err(Failure::Interrupted(_))) => {
                     return Err(Failure::Interrupted(
-                        "finished points are kept; the same call goes on with the others".to_owned(),
+                        "finished points are kept; the same command continues with the others".to_owned(),
                     ));
                 }
                 // Not an answer of the point: another machine has the memory.

@@ -21,7 +21,7 @@ const POISSON: [f64; 6] = [-0.9, -0.5, 0.0, 0.3, 0.49, 0.5];
 pub fn families(quick: bool) -> Vec<Family> {
     let cells = if quick { 20 } else { 32 };
     let mut all = vec![
-        family("benign", "a sphere on a plain half-space, mu 0.3, T 0.8 mu W", vec![benign("plain", cells)]),
+        family("benign", "a sphere on a plain half-space, mu 0.3, Q 0.8 mu P", vec![benign("plain", cells)]),
         contrasts(quick, cells),
         thicknesses(quick, cells),
         poissons(quick, cells),
@@ -58,9 +58,9 @@ fn decades(from: i32, to: i32, step: usize) -> impl Iterator<Item = (i32, f64)> 
 fn contrasts(quick: bool, cells: usize) -> Family {
     let step = if quick { 3 } else { 1 };
     let scenes = decades(-6, 6, step).map(|(power, contrast)| {
-        benign(format!("E1/E2 = 1e{power}"), cells).on(Stack::coated(contrast, 0.3, 0.5))
+        benign(format!("E_c/E_s = 1e{power}"), cells).on(Stack::coated(contrast, 0.3, 0.5))
     });
-    family("coating contrast", "E1/E2 1e-6 .. 1e6, h = 0.5 a", scenes.collect())
+    family("coating contrast", "E_c/E_s 1e-6 .. 1e6, h = 0.5 a", scenes.collect())
 }
 
 fn thicknesses(quick: bool, cells: usize) -> Family {
@@ -68,11 +68,11 @@ fn thicknesses(quick: bool, cells: usize) -> Family {
     let contrasts: &[f64] = if quick { &[100.0] } else { &[0.01, 100.0] };
     let scenes = contrasts.iter().flat_map(|contrast| {
         decades(-4, 4, step).map(move |(power, thickness)| {
-            benign(format!("h/a = 1e{power}, E1/E2 = {contrast}"), cells)
+            benign(format!("h/a = 1e{power}, E_c/E_s = {contrast}"), cells)
                 .on(Stack::coated(*contrast, 0.3, thickness))
         })
     });
-    family("coating thickness", "h/a 1e-4 .. 1e4, E1/E2 0.01 and 100", scenes.collect())
+    family("coating thickness", "h/a 1e-4 .. 1e4, E_c/E_s 0.01 and 100", scenes.collect())
 }
 
 fn poissons(quick: bool, cells: usize) -> Family {
@@ -84,7 +84,7 @@ fn poissons(quick: bool, cells: usize) -> Family {
             benign(format!("nu1 = {coating}, nu2 = {substrate}"), cells).on(stack)
         })
     });
-    family("Poisson's ratios", "-0.9 .. 0.5 in coating and substrate, E1/E2 = 4", scenes.collect())
+    family("Poisson's ratios", "-0.9 .. 0.5 in coating and substrate, E_c/E_s = 4", scenes.collect())
 }
 
 fn rigid_bases(quick: bool, cells: usize) -> Family {
@@ -115,12 +115,11 @@ fn pulls(quick: bool, cells: usize) -> Family {
     let all = [0.9, 0.99, 0.999, 0.9999];
     let shares = if quick { &all[3..] } else { &all };
     let scenes = shares.iter().flat_map(|&pull| {
-        [("plain", Stack::plain()), ("E1/E2 = 4", Stack::coated(4.0, 0.3, 0.5))].map(|(name, stack)| Scene {
-            pull,
-            ..benign(format!("T/(mu W) = {pull}, {name}"), cells).on(stack)
+        [("plain", Stack::plain()), ("E_c/E_s = 4", Stack::coated(4.0, 0.3, 0.5))].map(|(name, stack)| {
+            Scene { pull, ..benign(format!("Q/(mu P) = {pull}, {name}"), cells).on(stack) }
         })
     });
-    family("near gross slip", "T 0.9 .. 0.9999 mu W", scenes.collect())
+    family("near gross slip", "Q 0.9 .. 0.9999 mu P", scenes.collect())
 }
 
 fn long_cells(quick: bool) -> Family {
@@ -180,25 +179,27 @@ fn layers(quick: bool, cells: usize) -> Family {
 }
 
 fn single_cell() -> Family {
-    let scenes =
-        [("plain", Stack::plain()), ("E1/E2 = 100", Stack::coated(100.0, 0.3, 0.5))].map(|(name, stack)| {
+    let scenes = [("plain", Stack::plain()), ("E_c/E_s = 100", Stack::coated(100.0, 0.3, 0.5))].map(
+        |(name, stack)| {
             // A sphere on an odd grid, pressed by a tenth of what would reach the next cell.
             let side = 1.8;
             let cell = side / 9.0;
             Scene { cells: [9; 2], size: [side; 2], contact: 0.2 * cell, ..benign(name, 9).on(stack) }
-        });
+        },
+    );
     family("single cell in contact", "9 x 9 cells", scenes.into())
 }
 
 fn full_contact(cells: usize) -> Family {
-    let scenes = [("plain", Stack::plain(), 2.0), ("E1/E2 = 100", Stack::coated(100.0, 0.3, 0.05), 100.0)]
+    let scenes = [("plain", Stack::plain(), 2.0), ("E_c/E_s = 100", Stack::coated(100.0, 0.3, 0.05), 100.0)]
         .map(|(name, stack, pressed)| wave(name, cells, stack, pressed));
     family("contact fills the period", "a wave pressed flat, and as much again", scenes.into())
 }
 
 fn nearly_full_contact(cells: usize) -> Family {
-    let scenes = [10.0, 100.0]
-        .map(|contrast| wave(&format!("E1/E2 = {contrast}"), cells, Stack::coated(contrast, 0.3, 0.05), 2.0));
+    let scenes = [10.0, 100.0].map(|contrast| {
+        wave(&format!("E_c/E_s = {contrast}"), cells, Stack::coated(contrast, 0.3, 0.05), 2.0)
+    });
     family(
         "contact nearly fills the period",
         "the same force under stiff coatings, h = 0.05 wavelengths",

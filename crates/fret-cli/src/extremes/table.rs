@@ -7,18 +7,18 @@ use super::judgement::Row;
 /// Heads of the columns.
 pub const HEADS: [&str; 10] = [
     "family",
-    "scenes",
+    "cases",
     "response",
     "asymmetry",
     "least pivot",
     "residual",
     "energy",
-    "mirror",
+    "symmetry",
     "iterations",
-    "verdict",
+    "result",
 ];
 
-/// The cells of a row. Iterations are the convolutions an increment, over those of the benign scene.
+/// The cells of a row. Iterations are the convolutions per increment, relative to the benign case.
 pub fn cells(row: &Row, benign: f64) -> [String; 10] {
     let [response, asymmetry, pivot, residual, balance, mirror, effort] = match &row.worst {
         Some(worst) => [
@@ -46,12 +46,12 @@ pub fn cells(row: &Row, benign: f64) -> [String; 10] {
     ]
 }
 
-/// Convolutions an increment of the benign scene, which is the first family.
+/// Convolutions per increment of the benign case, which is the first family.
 pub fn benign(rows: &[Row]) -> f64 {
     rows.first().and_then(|row| row.worst).map_or(f64::NAN, |worst| worst.effort)
 }
 
-/// The table, and under it what does not hold and what was refused.
+/// The table, and under it what fails and what was refused.
 pub fn table(rows: &[Row]) -> String {
     let benign = benign(rows);
     let mut lines = vec![HEADS.map(str::to_owned)];
@@ -79,7 +79,7 @@ pub fn table(rows: &[Row]) -> String {
         .collect();
     for row in rows {
         for [scene, what] in &row.broken {
-            text.push(format!("does not hold: {}, {scene}: {what}", row.name));
+            text.push(format!("fails: {}, {scene}: {what}", row.name));
         }
         for [scene, why] in &row.refused {
             text.push(format!("refused: {}, {scene}: {why}", row.name));

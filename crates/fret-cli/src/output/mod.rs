@@ -103,7 +103,7 @@ impl ResultFolder {
             return match wish {
                 Wish::Force => Ok(Standing::Forced),
                 Wish::Start | Wish::Resume => refuse(
-                    "holds files that are no results of fret",
+                    "holds files that are not results of fret",
                     format!("{other_folder}, or write beside them with --force"),
                 ),
             };
@@ -123,11 +123,11 @@ impl ResultFolder {
             Wish::Start if is_broken_off && !is_same_question => refuse(
                 "holds an unfinished run of another case, or of this one before it was changed",
                 format!(
-                    "{other_folder} (--from {shown} goes on from what is solved there), or replace it with --force"
+                    "{other_folder} (--from {shown} continues from what is solved there), or replace it with --force"
                 ),
             ),
             Wish::Start if is_broken_off && ended_without_answer(&record) => refuse(
-                &format!("holds this case's run, which ended without its answer: {}", message_of(&record)),
+                &format!("holds this case's run, which failed: {}", message_of(&record)),
                 format!(
                     "it would end there again; a changed case goes on from what is solved with --from {shown} --out OTHER, \
                      and --force starts from the beginning"
@@ -135,7 +135,7 @@ impl ResultFolder {
             ),
             Wish::Start if is_broken_off => refuse(
                 "holds an unfinished run of this case",
-                "go on with --resume, or start from the beginning with --force".to_owned(),
+                "continue with --resume, or start from the beginning with --force".to_owned(),
             ),
             _ if run_record::is_of_case(&record, case_file) || same_text() => Ok(Standing::SameCase),
             Wish::Force => Ok(Standing::Forced),
@@ -175,7 +175,7 @@ impl ResultFolder {
         let question = run_record::question(plan);
         let spoilt = |why: String| {
             Err(Failure::Call(
-                format!("{}: its run cannot be taken up again: {why}", path.display()),
+                format!("{}: its run cannot be resumed: {why}", path.display()),
                 "nothing was touched; --force starts from the beginning, --out DIR elsewhere".to_owned(),
             ))
         };
@@ -280,7 +280,7 @@ fn ended_without_answer(record: &Value) -> bool {
 
 /// Why the run of a record ended.
 fn message_of(record: &Value) -> &str {
-    record["message"].as_str().unwrap_or("nobody knows why")
+    record["message"].as_str().unwrap_or("unknown reason")
 }
 
 /// An unfinished run, taken up again.

@@ -65,7 +65,7 @@ fn kinds(climb: &Climb, lines: &[Line]) -> Panel {
         }
     };
     Panel {
-        title: "worst headline number; ringed: the efficient frontier".to_owned(),
+        title: "largest error of the quantities of interest; ringed: efficient frontier".to_owned(),
         curves: lines.iter().map(curve).collect(),
     }
 }
@@ -75,11 +75,11 @@ fn readings(climb: &Climb, lines: &[Line]) -> Option<Panel> {
     let smooth: &[Quantity] = &[Quantity::MaxPressure, Quantity::Approach];
     let areas: &[Quantity] = &[Quantity::ContactArea, Quantity::StickArea];
     let readings = [
-        (smooth, Form::Plain, "pressure and approach as the cells have them"),
-        (smooth, Form::Between, "the same between the cells"),
-        (smooth, Form::Extrapolated, "the same extrapolated with the next coarser grid"),
+        (smooth, Form::Plain, "pressure and approach, cell values"),
+        (smooth, Form::Between, "the same, sub-cell reconstruction"),
+        (smooth, Form::Extrapolated, "the same, Richardson extrapolation"),
         (areas, Form::Plain, "contact and stick area by counting cells"),
-        (areas, Form::Between, "the same with the edge of contact between the cells"),
+        (areas, Form::Between, "the same, sub-cell edge reconstruction"),
     ];
     let mut curves: Vec<Curve> = readings
         .into_iter()
@@ -96,7 +96,7 @@ fn readings(climb: &Climb, lines: &[Line]) -> Option<Panel> {
     let (of_smooth, of_areas) = curves.split_at_mut(3);
     mark_frontier(of_smooth);
     mark_frontier(of_areas);
-    let title = "cells refined: three ways to read a number".to_owned();
+    let title = "cells refined: three ways to evaluate a quantity".to_owned();
     Some(Panel { title, curves })
 }
 

@@ -8,7 +8,7 @@ use serde_json::{Value, json};
 use crate::study::words::name;
 
 /// Width of a column of errors.
-const COLUMN: usize = 15;
+const COLUMN: usize = 19;
 /// Errors below this are rounding: a rung that is its own measure, or a refinement that changes nothing.
 const ROUNDING: f64 = 1e-12;
 
@@ -49,7 +49,7 @@ pub fn shows_errors(lines: &[Line]) -> bool {
     judged.flat_map(columns).any(|(error, _)| error.is_some())
 }
 
-/// The table: a block a line of the ladder. `*` marks what no other rung beats in time and in its worst headline number.
+/// The table: one block per refined quantity. `*` marks levels that no other level beats in time and in its largest error.
 pub fn table(climb: &Climb, lines: &[Line]) -> String {
     let mut names: Vec<&str> = Quantity::ALL.into_iter().map(name).collect();
     names.extend(["pressure L2", "shear L2"]);
@@ -90,7 +90,7 @@ pub fn table(climb: &Climb, lines: &[Line]) -> String {
                     if error < ROUNDING { "0".to_owned() } else { format!("{error:.1e}") }
                 });
                 let order = order.map_or(String::new(), |order| format!("{order:.1}"));
-                let _ = write!(table, "{error:>9} {order:>5}");
+                let _ = write!(table, "{error:>13} {order:>5}");
             }
             table.truncate(table.trim_end().len());
             table.push('\n');
@@ -101,7 +101,7 @@ pub fn table(climb: &Climb, lines: &[Line]) -> String {
         table.truncate(table.trim_end().len());
         return table;
     }
-    table.push_str("errors are relative; behind each the order it shows against the row above; * nothing is both quicker and closer");
+    table.push_str("errors are relative, each followed by the observed order against the row above; * no other level is both faster and more accurate");
     table
 }
 

@@ -1,12 +1,12 @@
-//! What a study says in words: what it was measured by, and what to choose.
+//! What a study says in words: what it was compared with, and what to choose.
 
 use fret_core::study::{Advice, Quantity, Source, Truth};
 
-/// Why a ladder shows no errors.
-pub const NO_ERRORS: &str = "no errors: no closed form speaks about this case, and one rung has nothing finer to be measured \
-                             by; give more, as in --cells 32,64,128, or numbers with --against FILE";
+/// Why a study shows no errors.
+pub const NO_ERRORS: &str = "no errors: no closed form is available for this case, and a single level cannot be compared \
+                             with a finer one; give more levels, as in --cells 32,64,128, or numbers with --against FILE";
 
-/// A headline number in words.
+/// A quantity of interest in words.
 pub fn name(quantity: Quantity) -> &'static str {
     match quantity {
         Quantity::MaxPressure => "max pressure",
@@ -14,18 +14,18 @@ pub fn name(quantity: Quantity) -> &'static str {
         Quantity::ContactArea => "contact area",
         Quantity::StickArea => "stick area",
         Quantity::Shift => "shift",
-        Quantity::DissipatedEnergy => "energy lost",
+        Quantity::DissipatedEnergy => "dissipated energy",
     }
 }
 
-/// What the errors are measured by, in a sentence a source.
+/// What the quantities are compared with, one sentence per source.
 pub fn measured_by(truth: &Truth) -> String {
     let form = truth.form().map_or("", |form| form.name());
     let sources = [
         (Source::ClosedForm, format!("the closed form ({form})")),
         (Source::Given, "the numbers given".to_owned()),
-        (Source::Limit, "the limit this ladder is heading for (Richardson)".to_owned()),
-        (Source::Finest, "the finest rung".to_owned()),
+        (Source::Limit, "the Richardson extrapolation of this study".to_owned()),
+        (Source::Finest, "the finest level, whose error is then 0 by construction".to_owned()),
     ];
     let said = sources.into_iter().filter_map(|(source, words)| {
         let numbers: Vec<&str> = Quantity::ALL
@@ -33,7 +33,7 @@ pub fn measured_by(truth: &Truth) -> String {
             .filter(|quantity| truth.source(*quantity) == Some(source) && happens(truth, *quantity))
             .map(name)
             .collect();
-        (!numbers.is_empty()).then(|| format!("{} measured by {words}", numbers.join(", ")))
+        (!numbers.is_empty()).then(|| format!("{} compared with {words}", numbers.join(", ")))
     });
     said.collect::<Vec<_>>().join("\n")
 }
@@ -43,7 +43,7 @@ fn happens(truth: &Truth, quantity: Quantity) -> bool {
     truth.of(quantity).iter().flatten().any(|value| *value != [0.0; 2])
 }
 
-/// One sentence: what to choose for each accuracy. `cells` and `increments` tell which of them the ladder has several of, and
+/// One sentence: what to choose for each accuracy. `cells` and `increments` tell which of them the study has several of, and
 /// `ny_over_nx` the shape of its grids.
 pub fn choice(advice: &[Advice], cells: bool, increments: bool, ny_over_nx: f64) -> String {
     let each = advice.iter().map(|advice| {
@@ -52,19 +52,19 @@ pub fn choice(advice: &[Advice], cells: bool, increments: bool, ny_over_nx: f64)
             let ny = (nx as f64 * ny_over_nx).round().max(1.0) as usize;
             if ny == 1 { format!("{nx} cells") } else { format!("{nx} x {ny} cells") }
         });
-        let steps = advice.increments.map(|count| format!("{count} increments a stage or cycle"));
+        let steps = advice.increments.map(|count| format!("{count} increments per stage or cycle"));
         let mut chosen: Vec<String> = [(cells, grid), (increments, steps)]
             .into_iter()
             .filter(|(varied, _)| *varied)
-            .map(|(_, choice)| choice.unwrap_or_else(|| "more than this ladder can tell of".to_owned()))
+            .map(|(_, choice)| choice.unwrap_or_else(|| "not determined by this study".to_owned()))
             .collect();
         chosen.dedup();
-        let beyond = if advice.concluded { " (concluded from the order, not computed)" } else { "" };
+        let beyond = if advice.concluded { " (extrapolated, not computed)" } else { "" };
         format!("{percent}{}{beyond}", chosen.join(" and "))
     });
     if cells || increments {
         format!("Choose {}.", each.collect::<Vec<_>>().join("; "))
     } else {
-        "Nothing to choose: the ladder has neither two grids nor two numbers of increments.".to_owned()
+        "Nothing to choose: the study has neither two grids nor two numbers of increments.".to_owned()
     }
 }

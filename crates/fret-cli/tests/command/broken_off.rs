@@ -272,7 +272,7 @@ fn an_interrupted_run_says_how_to_go_on_and_does() {
     assert!(again.err.contains("--resume") && again.err.contains("--force"), "{}", again.err);
     let answer = resume(&bench);
     assert_eq!(answer.code, Some(0), "{}", answer.err);
-    assert!(answer.err.contains("increments are solved; going on with increment"), "{}", answer.err);
+    assert!(answer.err.contains("increments are solved; continuing with increment"), "{}", answer.err);
     assert_same(&bench, "whole", "broken");
     let record: Value = serde_json::from_str(&bench.text("broken/run.json")).unwrap();
     assert_eq!((&record["status"], &record["resumed"]), (&"solved".into(), &1.into()));
@@ -439,10 +439,10 @@ fn a_full_disk_ends_a_run_and_with_room_it_goes_on() {
     let answer = Answer::from(shell.args(["-c", &limited]).current_dir(&bench.folder).output().unwrap());
     assert_eq!(answer.code, Some(2), "{}", answer.err);
     assert!(answer.err.contains("cannot be written"), "{}", answer.err);
-    assert!(answer.err.contains("--resume goes on"), "{}", answer.err);
+    assert!(answer.err.contains("--resume continues"), "{}", answer.err);
     let answer = resume(&bench);
     assert_eq!(answer.code, Some(0), "{}", answer.err);
-    assert!(answer.err.contains("increments are solved; going on with increment"), "{}", answer.err);
+    assert!(answer.err.contains("increments are solved; continuing with increment"), "{}", answer.err);
     assert_same(&bench, "whole", "broken");
 }
 

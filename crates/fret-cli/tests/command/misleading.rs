@@ -71,7 +71,7 @@ fn a_run_with_wear_sums_up_all_its_cycles() {
     assert!((ratio - 1.0).abs() < 1e-9, "{ratio}");
     assert_eq!(bench.fret(&["run", "case.toml", "--force"]).code, Some(0));
     let table = bench.fret(&["run", "case.toml"]).out;
-    for words in ["worn volume so far", "largest worn depth", "20 (", "in each of cycles"] {
+    for words in ["worn volume so far", "max wear depth", "20 (", "in each of cycles"] {
         assert!(table.contains(words), "expected {words:?}:\n{table}");
     }
 }
@@ -108,7 +108,10 @@ fn a_report_of_torsion_draws_moment_over_twist() {
     assert_eq!(bench.file("case.toml", &case).fret(&["run", "case.toml"]).code, Some(0));
     assert_eq!(bench.fret(&["report", "results/case"]).code, Some(0));
     let page = bench.text("results/case/report.html");
-    assert!(page.contains("twist moment over twist") && page.contains("Moment over twist"), "no loop");
+    assert!(
+        page.contains("torsional moment over rotation") && page.contains("Moment over rotation"),
+        "no loop"
+    );
     assert!(page.contains("Dissipated energy"), "no energy");
-    assert!(!page.contains("tangential force over shift"));
+    assert!(!page.contains("tangential force over relative displacement"));
 }

@@ -61,7 +61,7 @@ fn two_controls_of_one_motion_at_once_are_refused() {
 #[test]
 fn a_tangential_force_above_what_friction_carries_is_refused() {
     let case = changed("[0.05, 0.0]", "[0.15, 0.0]");
-    let words = ["the tangential force reaches 0.15, where friction carries at most mu W = 0.1\n", "shift"];
+    let words = ["the tangential force reaches 0.15, where friction carries at most mu P = 0.1\n", "shift"];
     one_mistake("sliding", &case, "26:20", &words);
 }
 

@@ -137,7 +137,7 @@ fn error_bars_come_with_the_summary() {
     let answer = bench.file("case.toml", HERTZ).fret(&["run", "case.toml", "--estimate-error"]);
     assert_eq!(answer.code, Some(0), "{}", answer.err);
     assert!(
-        answer.out.contains(" ± ") && answer.out.contains("companion of 16 x 16 cells"),
+        answer.out.contains(" ± ") && answer.out.contains("auxiliary coarse solution on 16 x 16 cells"),
         "{}",
         answer.out
     );
@@ -196,5 +196,5 @@ fn one_rung_without_a_closed_form_says_why_there_are_no_errors() {
     let answer = bench.fret(&["study", "case.toml", "--cells", "24", "--against", "finest"]);
     assert_eq!(answer.code, Some(0), "{}", answer.err);
     assert!(answer.out.contains("no errors:") && answer.out.contains("--cells 32,64,128"), "{}", answer.out);
-    assert!(!answer.out.contains("measured by the"), "{}", answer.out);
+    assert!(!answer.out.contains("compared with the"), "{}", answer.out);
 }

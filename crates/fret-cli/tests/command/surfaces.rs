@@ -124,7 +124,7 @@ fn every_bad_shape_is_one_clear_message_at_its_place() {
         (
             shape("[profile.cylinder]\nradius = 0.01\naxis = \"y\""),
             "4:9",
-            vec!["without an end along y", "periodic"],
+            vec!["infinite along y", "periodic"],
         ),
         (
             shape("[profile.cylinder]\nradius = 0.01\naxis = \"y\"\nlength = 0.0"),

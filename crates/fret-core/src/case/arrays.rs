@@ -16,7 +16,7 @@ pub(super) fn of_file(judge: &mut Judge, place: &str, span: Range<usize>, name: 
         Err(why) => judge.refuse(
             span,
             format!("{place} = {name:?}: {why}"),
-            "a .npy file, or a text with a row of numbers a line; a relative path starts at the case file",
+            "a .npy file, or a text file with one row of numbers per line; relative paths start at the case file",
         ),
     }
 }
@@ -68,6 +68,6 @@ pub(super) fn fitting(
     judge.refuse(
         span,
         format!("{place}: {nx} x {ny} numbers, but the grid has {} x {} cells", cells[0], cells[1]),
-        &format!("one number for every cell, index [i, j] = [x, y]{turned}"),
+        &format!("one number per cell, index [i, j] = [x, y]{turned}"),
     )
 }

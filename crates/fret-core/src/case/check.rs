@@ -65,7 +65,7 @@ pub(super) fn case(
     if let (true, Some(GridSize::Auto), false) = (has_arrays, size, periodic) {
         judge.refuse::<()>(
             file.grid.size.span(),
-            "grid.size = \"auto\" with heights or a friction map: their cells have a size, which is for you to say",
+            "grid.size = \"auto\" with heights or a friction map: the size of their cells must be given",
             "size = [x, y]",
         );
     }

@@ -15,7 +15,7 @@ use crate::model::Scheme;
 #[serde(deny_unknown_fields)]
 #[schemars(title = "fretting case")]
 pub(super) struct CaseFile {
-    /// A title for tables and pictures.
+    /// A title for tables and figures.
     pub title: Option<String>,
     /// The mesh of the potential contact area.
     pub grid: GridFile,
@@ -28,18 +28,18 @@ pub(super) struct CaseFile {
     /// Undeformed gap: zero at first touch. The bodies' own profiles are added.
     #[schemars(with = "Option<ProfileFile>")]
     pub profile: Option<Spanned<ProfileFile>>,
-    /// Dry friction. Without it the contact is frictionless.
+    /// Dry friction. Default: frictionless.
     pub friction: Option<FrictionFile>,
     /// Stages of the loading history, in order.
     #[schemars(with = "Vec<StageFile>")]
     pub load: Spanned<Vec<Spanned<StageFile>>>,
-    /// Wear of the surfaces; without it nothing wears.
+    /// Wear of the surfaces. Default: no wear.
     pub wear: Option<WearFile>,
     /// Accuracy of the solution.
     pub solver: Option<SolverFile>,
-    /// What is kept.
+    /// What is written to the results.
     pub output: Option<OutputFile>,
-    /// Stresses under the surface, made from the kept tractions after the run.
+    /// Subsurface stresses, evaluated from the kept tractions after the run.
     #[schemars(with = "Option<StressFile>")]
     pub stress: Option<Spanned<StressFile>>,
 }
@@ -55,10 +55,10 @@ pub(super) struct GridFile {
     #[schemars(with = "SizeSchema")]
     pub size: Spanned<SizeFile>,
     /// Depth below the load of the point that approach and shift of a line contact are relative to [length], in each body that has
-    /// an elastic base; the size of the grid when not given.
+    /// an elastic base. Default: the size of the grid.
     #[schemars(with = "Option<f64>")]
     pub datum: Option<Spanned<f64>>,
-    /// Whether the scene repeats in x and y; free space otherwise.
+    /// Periodic in x and y. Default: false, infinite half-space.
     #[schemars(with = "Option<bool>")]
     pub periodic: Option<Spanned<bool>>,
 }
@@ -222,7 +222,7 @@ pub(super) struct GradientFile {
     /// Rows of depth [length] and Young's modulus [pressure], depths rising from 0 to the thickness; linear between them.
     #[schemars(with = "Option<Vec<[f64; 2]>>")]
     pub table: Option<Spanned<Vec<Pair<f64>>>>,
-    /// Number of uniform sublayers; when not given, as many as keep the surface's response within 1e-4 of itself.
+    /// Number of uniform sublayers. Default: chosen such that the surface response changes by less than 1e-4.
     #[schemars(with = "Option<usize>")]
     pub layers: Option<Spanned<usize>>,
 }
@@ -253,59 +253,60 @@ pub(super) struct MaterialFile {
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(super) struct SolverFile {
-    /// Bound on the complementarity and Coulomb residuals of every increment, relative; 1e-8 when not given.
+    /// Largest accepted residual of every increment (complementarity, Coulomb, equilibrium; dimensionless). Default: 1e-8.
     #[schemars(with = "Option<f64>")]
     pub tolerance: Option<Spanned<f64>>,
-    /// Where increments = "auto": bound on the error that an increment's size leaves in the tractions, in shares of the way they go
-    /// in it; 0.03 when not given.
+    /// With `increments = "auto"`: tolerance of the adaptive sub-stepping, relative to the change of the tractions over the
+    /// increment. Default: 0.03.
     #[schemars(with = "Option<f64>")]
     pub history_tolerance: Option<Spanned<f64>>,
-    /// "together" (when not given), or "staggered": pressure and shear in turn until they agree, as in the published
-    /// three-level scheme, for comparison.
+    /// "monolithic": pressure and shear together; "staggered": in alternation (Panagiotopoulos process, the published three-level
+    /// scheme), for comparison. Default: "monolithic".
     #[schemars(with = "Option<Scheme>")]
     pub scheme: Option<Spanned<Scheme>>,
 }
 
-/// What is kept of the solution.
+/// What is written to the results.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(super) struct OutputFile {
-    /// Fields to keep: "pressure", "shear", "slip", "gap", "zone", "`worn_depth`". All but the gap and the depth when not given.
+    /// Fields to keep: "pressure", "shear", "slip", "gap", "zone", "`worn_depth`". Default: pressure, shear, slip, zone.
     #[schemars(with = "Option<Vec<String>>")]
     pub fields: Option<Vec<Spanned<String>>>,
-    /// Fields of every so many increments are kept, and of the last of each stage; only of the last when not given.
+    /// Keep fields of every n-th increment, and of the last of each stage. Default: only of the last of each stage.
     #[schemars(with = "Option<usize>")]
     pub every: Option<Spanned<usize>>,
 }
 
-/// Stresses under the surface of one body, and what fatigue is judged by.
+/// Subsurface stresses of one body, and the constants of the fatigue parameters.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(super) struct StressFile {
-    /// Depths under the surface of the body [length], or "auto": denser toward the surface and the interfaces.
+    /// Depths below the surface of the body [length], or "auto": denser near the surface and the interfaces.
     #[schemars(with = "Option<DepthsSchema>")]
     pub depths: Option<Spanned<DepthsFile>>,
-    /// The body; "lower" when not given.
+    /// The body. Default: "lower".
     #[schemars(with = "Option<SideFile>")]
     pub body: Option<Spanned<SideFile>>,
-    /// Every so many kept increments are looked at, and the last; all when not given.
+    /// Evaluate every n-th kept increment, and the last. Default: 1.
     #[schemars(with = "Option<usize>")]
     pub every: Option<Spanned<usize>>,
-    /// Whether volumes for `ParaView` are written; not when not given.
+    /// Write volumes for `ParaView`. Default: false.
     pub volume: Option<bool>,
-    /// Amplitude endured in fully reversed torsion [pressure], for Crossland and Dang Van.
+    /// Fatigue limit in fully reversed torsion, amplitude [pressure], for Crossland and Dang Van.
     #[schemars(with = "Option<f64>")]
     pub torsion_limit: Option<Spanned<f64>>,
-    /// Amplitude endured in fully reversed tension or bending [pressure], for Crossland and Dang Van.
+    /// Fatigue limit in fully reversed tension or bending, amplitude [pressure], for Crossland and Dang Van.
     #[schemars(with = "Option<f64>")]
     pub tension_limit: Option<Spanned<f64>>,
     /// Yield strength [pressure], for Fatemi and Socie.
     #[schemars(with = "Option<f64>")]
     pub yield_strength: Option<Spanned<f64>>,
-    /// Weight of the normal stress in Fatemi and Socie's parameter; 1 when not given.
+    /// Weight of the normal stress in Fatemi and Socie's parameter [-]. Default: 1.
     #[schemars(with = "Option<f64>")]
     pub normal_stress_sensitivity: Option<Spanned<f64>>,
-    /// Distance from the surface down over which fatigue parameters are averaged [length].
+    /// Length from the surface down over which fatigue parameters are averaged [length]. For the line method of the theory of
+    /// critical distances enter 2 L.
     #[schemars(with = "Option<f64>")]
     pub critical_distance: Option<Spanned<f64>>,
 }

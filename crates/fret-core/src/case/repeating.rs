@@ -30,7 +30,7 @@ pub(super) fn repeats(
         (Some(GridSize::Auto), _) => {
             judge.refuse::<()>(
                 grid.size.span(),
-                "grid.size = \"auto\" in a scene that repeats: the period is for you to say",
+                "grid.size = \"auto\" in a periodic case: the period must be given",
                 "size = [x, y]",
             );
         }
@@ -59,7 +59,7 @@ pub(super) fn repeats(
             if let Some(span) = span {
                 judge.refuse::<()>(
                     span,
-                    format!("{key} in a scene that repeats: a rotation does not repeat"),
+                    format!("{key} in a periodic case: a rotation is not periodic"),
                     "prescribe normal_force and tangential_force, those of one period",
                 );
             }
@@ -74,7 +74,7 @@ pub(super) fn repeats(
         ];
         for (axis, motions) in [normal, tangential].into_iter().enumerate() {
             let why = match uniform {
-                Some(None) => "a half-space under a repeating load has no such motion",
+                Some(None) => "a half-space under a periodic load has no such rigid motion",
                 Some(Some(response)) if response[axis] == 0.0 => {
                     "layers that keep their volume do not give way to a uniform pressure"
                 }
@@ -84,7 +84,7 @@ pub(super) fn repeats(
                 if let Some(span) = span {
                     judge.refuse::<()>(
                         span,
-                        format!("{key} in a scene that repeats: {why}"),
+                        format!("{key} in a periodic case: {why}"),
                         "prescribe normal_force and tangential_force, those of one period; or, for layers, base = \"rigid\"",
                     );
                 }
@@ -99,7 +99,7 @@ fn endless(judge: &mut Judge, grid: &GridFile, profile: &Profile) {
     if profile.shapes.iter().any(|shape| matches!(shape, Shape::Wave { .. })) {
         judge.refuse::<()>(
             grid.cells.span(),
-            "profile.wave: a wave repeats, the scene does not",
+            "profile.wave: a wave is periodic, the case is not",
             "grid.periodic = true",
         );
         return;
@@ -108,7 +108,7 @@ fn endless(judge: &mut Judge, grid: &GridFile, profile: &Profile) {
         if profile.is_straight_along(axis) {
             judge.refuse::<()>(
                 grid.cells.span(),
-                format!("profile: without an end along {name}, in a scene that does not repeat"),
+                format!("profile: infinite along {name}, in a non-periodic case"),
                 "a cylinder's length = ..., or grid.periodic = true with a period many contact widths wide",
             );
         }
@@ -123,7 +123,7 @@ fn whole_waves(judge: &mut Judge, grid: &GridFile, sides: [f64; 2], wavelengths:
             judge.refuse::<()>(
                 grid.size.span(),
                 format!("grid.size: {side:?} holds {waves:.6} waves of length {wavelength:?}"),
-                "a scene that repeats holds whole waves",
+                "a periodic case must contain whole wavelengths",
             );
         }
     }

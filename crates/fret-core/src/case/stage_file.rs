@@ -40,32 +40,32 @@ pub(super) struct StageFile {
     /// Which column of the table holds which control, when they are named otherwise: `tangential_force_x = "Q [N]"`.
     #[schemars(with = "Option<BTreeMap<String, String>>")]
     pub columns: Option<BTreeMap<Spanned<String>, Spanned<String>>>,
-    /// Number of increments: of the stage; with cycles, of one cycle; with a table, from row to row. "auto": 16 of a stage, 32 of
-    /// a cycle, 4 from row to row, each solved in as many parts as `solver.history_tolerance` asks for.
+    /// Number of increments: per stage; with cycles, per cycle; with a table, per row. "auto": 16 per stage, 32 per cycle, 4 per
+    /// row, each with adaptive sub-steps controlled by `solver.history_tolerance`.
     #[schemars(with = "IncrementsSchema")]
     pub increments: Spanned<IncrementsFile>,
-    /// How the controls run to their targets; "linear" when not given.
+    /// How the controls run to their targets. Default: "linear".
     #[schemars(with = "Option<RampFile>")]
     pub ramp: Option<Spanned<RampFile>>,
     /// Number of cycles 0, +amplitude, -amplitude, 0 about the values before the stage.
     #[schemars(with = "Option<usize>")]
     pub cycles: Option<Spanned<usize>>,
-    /// Instead of a number of cycles: until one ends where it began.
+    /// Instead of a number of cycles: repeat until the cycle is steady.
     #[schemars(with = "Option<SteadyFile>")]
     pub until_steady: Option<Spanned<SteadyFile>>,
-    /// Shape of a cycle; "triangle" when not given.
+    /// Shape of a cycle. Default: "triangle".
     #[schemars(with = "Option<WaveformFile>")]
     pub waveform: Option<Spanned<WaveformFile>>,
-    /// Share of a cycle for which a trapezoid holds each of its two extremes, below a half; 0.25 when not given.
+    /// Fraction of a cycle for which a trapezoid holds each of its two extremes, below 0.5. Default: 0.25.
     #[schemars(with = "Option<f64>")]
     pub dwell: Option<Spanned<f64>>,
-    /// By how much a control's cycle is ahead [degrees]; it goes on from where the control is.
+    /// Phase lead of each control [degrees]. The cycle starts from the current value of the control.
     #[schemars(with = "Option<PhaseFile>")]
     pub phase: Option<Spanned<PhaseFile>>,
-    /// Share of the amplitudes at the start and at the end of the cycles, linear between; [1, 1] when not given.
+    /// Fraction of the amplitudes at the start and at the end of the cycles, linear between. Default: [1, 1].
     #[schemars(with = "Option<[f64; 2]>")]
     pub envelope: Option<Spanned<Pair<f64>>>,
-    /// Friction from this stage on: a coefficient, or a coefficient for every cell (a file, or rows of numbers).
+    /// Friction from this stage on: a coefficient, or one per cell (a file, or rows of numbers).
     #[schemars(with = "Option<CoefficientFile>")]
     pub friction: Option<Spanned<CoefficientFile>>,
 }
@@ -186,7 +186,7 @@ impl<'de> Deserialize<'de> for AxisFile {
 #[derive(Debug, Clone, Copy, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub(super) enum RampFile {
-    /// Equal steps.
+    /// Equal increments.
     Linear,
     /// Forces with (k/n)^3, approach with (k/n)^2: a sphere's contact radius grows evenly.
     Cubic,
@@ -228,42 +228,42 @@ pub(super) struct PhaseFile {
     pub twist: Option<Spanned<f64>>,
 }
 
-/// When a repeated cycle is enough.
+/// When the cycle counts as steady.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(super) struct SteadyFile {
     /// Tractions, forces and motions at the end of a cycle differ from those at its start by at most this, relative.
     #[schemars(with = "f64")]
     pub tolerance: Spanned<f64>,
-    /// Cycles at the most.
+    /// Maximum number of cycles.
     #[schemars(with = "usize")]
     pub most_cycles: Spanned<usize>,
 }
 
-/// Wear of the surfaces: after each computed cycle the gap opens by the worn depth.
+/// Wear of the surfaces: after each computed cycle the gap grows by the wear depth.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(super) struct WearFile {
-    /// What the worn depth follows; "energy" when not given.
+    /// Wear law. Default: "energy".
     pub law: Option<WearLawFile>,
-    /// Worn depth for pressure times slip (Archard), or for shear times slip (energy) [1/pressure].
+    /// Wear coefficient k [1/pressure]: wear depth = k (pressure x slip distance) (Archard), or k (shear . slip) (energy).
     #[schemars(with = "f64")]
     pub coefficient: Spanned<f64>,
-    /// Cycles that a computed one stands for, at the most; 1 when not given.
+    /// Maximum cycle jump: number of cycles one simulated cycle may represent. Default: 1.
     #[schemars(with = "Option<usize>")]
     pub every: Option<Spanned<usize>>,
-    /// Worn depth of such a block of cycles, relative to the approach, at the most; 0.01 when not given.
+    /// Maximum wear depth per cycle jump, relative to the approach. Default: 0.01.
     #[schemars(with = "Option<f64>")]
     pub largest_step: Option<Spanned<f64>>,
-    /// The run ends where the worn depth reaches this [length].
+    /// Stop when the wear depth reaches this value [length].
     #[schemars(with = "Option<f64>")]
     pub limit: Option<Spanned<f64>>,
-    /// The run ends where the outermost coating of this body is worn through.
+    /// Stop when the outermost coating of this body is worn through.
     #[schemars(with = "Option<WornBodyFile>")]
     pub through_coating_of: Option<Spanned<WornBodyFile>>,
 }
 
-/// What the worn depth follows.
+/// Wear law.
 #[derive(Debug, Clone, Copy, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub(super) enum WearLawFile {

@@ -343,9 +343,9 @@ pub(super) fn sliding(
             judge.refuse::<()>(
                 span,
                 format!(
-                    "load[{index}] ({name}).{key}: the tangential force reaches {asked}, where friction carries at most mu W = {bound}"
+                    "load[{index}] ({name}).{key}: the tangential force reaches {asked}, where friction carries at most mu P = {bound}"
                 ),
-                "a force above mu W has no equilibrium; prescribe the shift to slide",
+                "a force above mu P has no equilibrium; prescribe the shift to slide",
             );
             return;
         }

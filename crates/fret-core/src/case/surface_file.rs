@@ -33,7 +33,7 @@ pub(super) struct ProfileFile {
     /// A sinusoidal surface amplitude (1 - cos(2 pi x / Lx) cos(2 pi y / Ly)).
     #[schemars(with = "Option<WaveFile>")]
     pub wave: Option<Spanned<WaveFile>>,
-    /// Heights of a measured or synthetic surface, one for every cell.
+    /// Measured or synthetic topography, one height per cell.
     #[schemars(with = "Option<HeightsFile>")]
     pub heights: Option<Spanned<HeightsFile>>,
 }
@@ -68,7 +68,7 @@ pub(super) struct CylinderFile {
     pub radius: Spanned<f64>,
     /// Direction of its axis.
     pub axis: AxisFile,
-    /// Length along the axis [length], positive, with square ends; without ends when not given.
+    /// Length along the axis [length], positive, with square ends. Default: infinite.
     #[schemars(with = "Option<f64>")]
     pub length: Option<Spanned<f64>>,
 }
@@ -120,37 +120,37 @@ pub(super) struct WaveFile {
     /// Half of the height from valley to crest [length], positive.
     #[schemars(with = "f64")]
     pub amplitude: Spanned<f64>,
-    /// Wavelength along x [length]; straight along x when not given.
+    /// Wavelength along x [length]. Default: constant along x.
     #[schemars(with = "Option<f64>")]
     pub wavelength_x: Option<Spanned<f64>>,
-    /// Wavelength along y [length]; straight along y when not given.
+    /// Wavelength along y [length]. Default: constant along y.
     #[schemars(with = "Option<f64>")]
     pub wavelength_y: Option<Spanned<f64>>,
 }
 
-/// Heights of a surface, one for every cell: `file` or `values`.
+/// Topography, one height per cell: `file` or `values`.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(super) struct HeightsFile {
-    /// A .npy file, or a text file with a row of numbers a line; a relative path starts at the case file.
+    /// A .npy file, or a text file with one row of numbers per line. Relative paths start at the case file.
     #[schemars(with = "Option<String>")]
     pub file: Option<Spanned<String>>,
     /// The heights themselves, as rows of numbers; from Python an array.
     #[schemars(with = "Option<ArrayFile>")]
     pub values: Option<Spanned<ArrayFile>>,
-    /// Length of one unit of the heights, in the case's unit of length; 1 when not given.
+    /// Length of one unit of the heights, in the case's unit of length. Default: 1.
     #[schemars(with = "Option<f64>")]
     pub unit: Option<Spanned<f64>>,
-    /// What the heights are of: a "surface" (the highest point touches first; when not given) or the "gap" (the lowest does).
+    /// What the heights describe: a "surface" (the highest point touches first) or the "gap" (the lowest does). Default: "surface".
     #[schemars(with = "Option<OfFile>")]
     pub of: Option<Spanned<OfFile>>,
-    /// What is taken off: "none" (when not given), the "mean", or the "plane" of least squares.
+    /// What is subtracted: "none", the "mean", or the least-squares "plane". Default: "none".
     pub detrend: Option<DetrendFile>,
-    /// Along which axis the rows follow one another: "x" (index [i, j] = [x, y]; when not given) or "y" (an image's rows).
+    /// Axis along which the rows follow one another: "x" (index [i, j] = [x, y]) or "y" (rows of an image). Default: "x".
     pub rows: Option<AxisFile>,
 }
 
-/// What heights are of.
+/// What heights describe.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub(super) enum OfFile {
@@ -160,7 +160,7 @@ pub(super) enum OfFile {
     Gap,
 }
 
-/// What is taken off heights.
+/// What is subtracted from heights.
 #[derive(Debug, Clone, Copy, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub(super) enum DetrendFile {
@@ -168,7 +168,7 @@ pub(super) enum DetrendFile {
     None,
     /// Their mean.
     Mean,
-    /// The plane of least squares.
+    /// The least-squares plane.
     Plane,
 }
 
@@ -179,7 +179,7 @@ pub(super) struct FrictionFile {
     /// Coefficient, zero or positive.
     #[schemars(with = "Option<f64>")]
     pub coefficient: Option<Spanned<f64>>,
-    /// A coefficient for every cell: a .npy or text file, rows of numbers, or from Python an array; index [i, j] = [x, y].
+    /// One coefficient per cell: a .npy or text file, rows of numbers, or from Python an array; index [i, j] = [x, y].
     #[schemars(with = "Option<MapFile>")]
     pub map: Option<Spanned<MapFile>>,
 }

@@ -1,4 +1,4 @@
-//! What a scene does not need, why, and what that saves.
+//! Automatic simplifications of a case: what is not needed, why, and what that saves.
 
 use ndarray::Axis;
 
@@ -11,21 +11,21 @@ use crate::kernel::PairResponse;
 use crate::model::{Body, ContactState, CoulombFriction, SurfaceGrid, Symmetry};
 use crate::solver::Coupling;
 
-/// Something the problem does not need.
+/// An automatic simplification.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct LeftOut {
     /// What is not computed.
     pub what: String,
-    /// Why the result is the same without it.
+    /// Why it applies to the case.
     pub why: String,
     /// What that saves.
     pub saves: String,
 }
 
-/// Names of the fields that can be kept, with their bytes a cell.
+/// Names of the fields that can be kept, with their bytes per cell.
 const FIELDS: [(&str, usize); 5] = [("pressure", 8), ("shear", 16), ("slip", 16), ("gap", 8), ("zone", 1)];
 
-/// The list of what is left out of a case that may take the simplifications of `leave_out`.
+/// The automatic simplifications of a case, of those that `leave_out` allows.
 pub fn left_out(
     case: &Case,
     grid: &SurfaceGrid,
@@ -45,7 +45,7 @@ pub fn left_out(
     if plain && leave_out.takes(Simplification::LayeredResponse) {
         leave(
             "layered response",
-            "no body has a coating that differs from what lies below it",
+            "no body has a coating that differs from its substrate",
             "the radial table of the coated response",
         );
     }
@@ -59,9 +59,9 @@ pub fn left_out(
             let why = if case.is_frictionless() {
                 "there is no friction"
             } else {
-                "the bodies answer a shear with equal normal displacements, so pressure does not depend on shear"
+                "the bodies are elastically similar, so pressure does not depend on shear"
             };
-            leave("coupling of pressure and shear", why, "two of six kernels and every coupled iteration");
+            leave("normal-tangential coupling", why, "two of six kernels and every coupled iteration");
         }
         Coupling::Coupled => {}
     }
@@ -71,8 +71,8 @@ pub fn left_out(
         && let Some(increments) = increments_before_a_cause(case)
     {
         leave(
-            "tangential equations before anything causes shear",
-            "no tangential force, shift or twist has been asked for so far",
+            "tangential equations before the first tangential load",
+            "no tangential force, shift or twist is prescribed before",
             &format!("every tangential iteration of the first {increments} increments"),
         );
     }
@@ -80,8 +80,8 @@ pub fn left_out(
         let increments = increments_at_one_load(case);
         if increments > 0 {
             leave(
-                "normal problem while the pressure cannot change",
-                "the normal load stays, shear does not act on pressure, and wear changes the gap between cycles alone",
+                "normal problem at constant normal load",
+                "the normal load is constant, pressure does not depend on shear, and wear changes the gap only between cycles",
                 &format!("the pressure, the gap and the edge of contact in up to {increments} increments"),
             );
         }
@@ -90,7 +90,7 @@ pub fn left_out(
         let [name, across] = [["x", "y"], ["y", "x"]][axis];
         leave(
             &format!("shear along {across}"),
-            &format!("nothing loads it, and shear along {name} moves nothing across it"),
+            &format!("no load acts along it, and shear along {name} causes no displacement along it"),
             "three of four tangential kernels, half of the transforms of shear",
         );
     }
@@ -102,34 +102,34 @@ pub fn left_out(
         };
         leave(
             &format!("{share} of the grid"),
-            &format!("gap, friction and loads are their own mirror images at {planes}"),
+            &format!("gap, friction and loads are symmetric about {planes}"),
             &format!("{share} of the solver's fields and transforms"),
         );
     }
     if !case.periodic && leave_out.takes(Simplification::Region) {
         leave(
             "cells far from the contact, in the iterations",
-            "they carry nothing; whether the surfaces overlap there is checked once the region is solved",
-            "the fraction of the grid outside the region, in every iteration",
+            "they carry no pressure; overlap there is checked after the active subdomain is solved",
+            "the fraction of the grid outside the active subdomain, in every iteration",
         );
     }
     if single_precision {
         leave(
-            "double precision in linear problems and approximate inverses",
-            "residuals are in double precision, and correct what rounding did",
-            "half of the numbers in most transforms",
+            "double precision, in linear problems and approximate inverses",
+            "residuals are evaluated in double precision, which corrects the rounding; no increment is accepted on a single-precision residual",
+            "half of the memory traffic of most transforms",
         );
     }
     if let Some((what, saves)) = unasked_fields(case, grid) {
-        leave(&what, "nobody asked for them", &saves);
+        leave(&what, "not requested", &saves);
     }
     if case.stress.is_none() {
-        leave("stress under the surface", "the case has no table [stress]", "its operators, depth by depth");
+        leave("subsurface stress", "the case has no table [stress]", "its operators, depth by depth");
     }
     list
 }
 
-/// The kept fields that nobody asked for, and what they would take.
+/// The fields that are not kept, and what they would take.
 fn unasked_fields(case: &Case, grid: &SurfaceGrid) -> Option<(String, String)> {
     let unasked: Vec<_> =
         FIELDS.iter().filter(|(name, _)| !case.output.fields.iter().any(|asked| asked == name)).collect();
@@ -156,7 +156,7 @@ fn increments_at_one_load(case: &Case) -> usize {
 }
 
 /// The one axis along which shear acts: nothing loads the other, and either the bodies know no way across, or nothing changes
-/// along an axis of a scene that repeats.
+/// along an axis of a periodic case.
 pub fn one_way(
     case: &Case,
     grid: &SurfaceGrid,
@@ -184,7 +184,7 @@ pub fn one_way(
     (starts_so && (straight || line(axis))).then_some(axis)
 }
 
-/// Whether a problem is periodic and nothing in it changes along an axis, or that is the axis of a line contact.
+/// Whether a case is periodic and nothing in it changes along an axis, or that is the axis of a line contact.
 fn is_endless(case: &Case, grid: &SurfaceGrid, axis: usize) -> bool {
     if grid.is_line() {
         return axis == 1;

@@ -128,7 +128,7 @@ impl Plan {
         if !case.periodic && has_unseen_film(&case, &grid) {
             let message = format!(
                 "grid.cells = {:?}: a nearly incompressible film on a stiff base is thinner than a fifth of a cell; it moves \
-                 sideways between the cells' centres, where displacements are taken, and the grid does not see it",
+                 sideways between the cells' centres, where displacements are taken, which the grid cannot resolve",
                 case.cells
             );
             return Err(case.refuse_size(

@@ -285,16 +285,8 @@ impl<'a> Attempt<'a> {
 
     fn slip(&self, point: &Point, cell: usize) -> [f64; 2] {
         let [u, before] = [point.displacements.tangential.at(cell), self.problem.before.at(cell)];
-        let rigid = self.rigid(point.motion, cell);
+        let rigid = self.motions.at(point.motion, cell);
         [0, 1].map(|axis| rigid[axis] + before[axis] - u[axis])
-    }
-
-    fn rigid(&self, [x, y, turned]: [f64; 3], cell: usize) -> [f64; 2] {
-        if !self.motions.rotates {
-            return [x, y];
-        }
-        let around = self.motions.rotation.at(cell);
-        [x + turned * around[0], y + turned * around[1]]
     }
 
     /// Squared length of what the equations leave over [pressure^2].
@@ -381,7 +373,7 @@ impl<'a> Attempt<'a> {
         let mode_at = |mode: usize, cell: usize| {
             let mut amounts = [0.0; 3];
             amounts[mode] = 1.0;
-            self.rigid(amounts, cell)
+            self.motions.at(amounts, cell)
         };
         for to in active {
             let rows = to.rows();
@@ -405,7 +397,7 @@ impl<'a> Attempt<'a> {
                 matrix[(to.first, unknowns)] = -1.0;
                 matrix[(unknowns, to.first)] = 1.0;
             }
-            let (before, moved) = (problem.before.at(to.cell), self.rigid(prescribed, to.cell));
+            let (before, moved) = (problem.before.at(to.cell), self.motions.at(prescribed, to.cell));
             for (row, vector) in rows.iter().enumerate().take(to.unknowns()).skip(1) {
                 let wanted = vector[1] * (before[0] + moved[0]) + vector[2] * (before[1] + moved[1]);
                 right[(to.first + row, 0)] += wanted / unit;

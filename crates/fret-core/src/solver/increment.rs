@@ -2,9 +2,11 @@
 
 use ndarray::Array2;
 
+use super::contact_set::ContactSet;
 use super::exact_newton;
 use super::laws::complementarity::{NormalResidual, normal_residual};
 use super::laws::friction::FrictionLaw;
+use super::laws::limit::carried_fraction;
 use super::laws::projection::project_pressure;
 use super::laws::rigid_motions::CellPositions;
 use super::laws::slip::TangentialResidual;
@@ -21,6 +23,10 @@ use crate::model::{ContactState, Control, CoulombFriction, LoadStep, Scheme, Sur
 
 /// Residual to which the frictionless start of a coupled contact is solved.
 const ROUGH: f64 = 1e-2;
+
+/// Friction that carries less than this fraction of what is prescribed is the reason why there is no solution: coupling changes
+/// pressures, and with them what friction carries, by less than the rest.
+const LIMIT: f64 = 0.98;
 
 /// One increment in one region.
 pub struct IncrementProblem<'a> {
@@ -200,7 +206,11 @@ impl<'a> IncrementProblem<'a> {
                 )
             }
             other => other,
-        }?;
+        };
+        if let Err(SolveError::NotConverged { .. }) = solution {
+            self.check_limit(&tractions)?;
+        }
+        let solution = solution?;
         let own = operators.compliance.self_influence();
         let Solution { normal, tangential, gap, slip, iterations } = solution;
         let normal = normal.unwrap_or(NormalResidual { approach: self.approach, residual: f64::INFINITY });
@@ -256,7 +266,11 @@ impl<'a> IncrementProblem<'a> {
             newton::make_shear_feasible(&problem, &mut tractions, operators);
             operators.compliance.tangential(tractions.shear.parts(), displacements.tangential.parts_mut());
             let solution =
-                newton::solve(&problem, &mut tractions, &mut displacements, operators, settings, callback)?;
+                newton::solve(&problem, &mut tractions, &mut displacements, operators, settings, callback);
+            if let Err(SolveError::NotConverged { .. }) = solution {
+                self.check_limit(&tractions)?;
+            }
+            let solution = solution?;
             slip = solution.slip;
             tangential = solution.tangential;
             iterations += solution.iterations;
@@ -352,6 +366,22 @@ impl<'a> IncrementProblem<'a> {
             }
         }
         project_pressure(&mut tractions.pressure, self.total);
+    }
+
+    /// Whether friction can carry what is prescribed, at a pressure near that of the solution.
+    fn check_limit(&self, tractions: &Tractions) -> Result<(), SolveError> {
+        let contact = ContactSet::loaded(&tractions.pressure);
+        let bound = self.friction.packed(&contact).bound(&contact.packed(&tractions.pressure));
+        let fraction = carried_fraction(&bound.bound, &self.positions.motions_of(&contact), self.resultant);
+        if fraction > LIMIT {
+            return Ok(());
+        }
+        let [x, y, moment] = self.resultant;
+        if moment != 0.0 {
+            return Err(SolveError::AboveFullSlip { fraction });
+        }
+        let asked = x.hypot(y) * self.grid.cell_area();
+        Err(SolveError::AboveSliding { asked, bound: fraction * asked })
     }
 
     /// Tangential displacement of the state before, in the region.

@@ -206,9 +206,8 @@ impl<'a> ContactSolver<'a> {
         };
         let area_before = self.memory.last.as_ref().map_or(0.0, |last| last.contact_area);
         loop {
-            let (solved, after, outcome) = self
-                .solve_in(region, start.as_ref(), (state, load), work, callback)
-                .map_err(|error| self.explained(error, state, load))?;
+            let (solved, after, outcome) =
+                self.solve_in(region, start.as_ref(), (state, load), work, callback)?;
             self.check_equilibrium(load, &outcome)?;
             self.check_across(&after)?;
             if self.touches_edge(&after.pressure) {
@@ -403,21 +402,6 @@ impl<'a> ContactSolver<'a> {
             return Err(SolveError::AboveSliding { asked, bound });
         }
         Ok(())
-    }
-
-    /// What friction carries is known from the pressure before, for a map the sum of its coefficients times the pressure: an increment
-    /// that asks for more has no equilibrium, and did not converge for that reason.
-    fn explained(&self, error: SolveError, state: &ContactState, load: &LoadStep) -> SolveError {
-        let (SolveError::NotConverged { .. }, CoulombFriction::Map(map), Control::Force(normal)) =
-            (&error, &*self.friction, load.normal)
-        else {
-            return error;
-        };
-        let asked = tangential_force(load);
-        let pressed: f64 = state.pressure.iter().sum();
-        let carried: f64 = map.iter().zip(&state.pressure).map(|(mu, p)| mu * p).sum();
-        let bound = carried / pressed * normal;
-        if asked > bound { SolveError::AboveSliding { asked, bound } } else { error }
     }
 }
 

@@ -7,7 +7,7 @@ use super::contact_set::ContactSet;
 use super::contact_vector::ContactVector;
 use super::laws::active_sets::ActiveSets;
 use super::laws::complementarity::{NormalResidual, normal_residual};
-use super::laws::friction::{FrictionBound, FrictionLaw};
+use super::laws::friction::{FrictionBound, FrictionLaw, is_inside, slips};
 use super::laws::projection::{ShearProjection, project_pressure};
 use super::laws::rigid_motions::{CellPositions, RigidMotions};
 use super::laws::slip::{SlipIncrement, TangentialProblem, TangentialResidual};
@@ -69,6 +69,8 @@ pub struct Solution {
 
 /// The sets are lost when so many iterations have not brought the residual below [`FAR`].
 const LOST_AFTER: usize = 15;
+/// Shear of slipping cells that a solution leaves inside its circles, by less than the tolerance, is put there so many times.
+const MOST_ROUNDS_TO_CIRCLES: usize = 3;
 /// A residual at which the sets are not yet those of the solution.
 const FAR: f64 = 0.1;
 
@@ -87,6 +89,7 @@ pub fn solve(
     let mut iterate = Iterate::new(problem, tractions, displacements, operators);
     let mut forcing = ForcingTerm::default();
     let mut backtracking = Backtracking::default();
+    let mut circles_left = MOST_ROUNDS_TO_CIRCLES;
     operators.linear.begin();
     for iteration in 0..settings.max_newton_iterations {
         let residual = iterate.evaluate();
@@ -94,6 +97,11 @@ pub fn solve(
             return Err(SolveError::Stopped);
         }
         if residual < settings.tolerance {
+            if circles_left > 0 && iterate.puts_slipping_cells_on_their_circles() {
+                circles_left -= 1;
+                iterate.find_displacements(operators);
+                continue;
+            }
             return Ok(iterate.solution(iteration));
         }
         if backtracking.rejects(residual) {
@@ -331,6 +339,28 @@ impl<'a> Iterate<'a> {
         let equations = self.packed.tangential_problem(self.problem, &self.motions, own);
         self.projection.project(&mut shear, &self.sets, &equations);
         self.packed.shear = shear;
+    }
+
+    /// Puts the shear of cells that slip, and lie inside their circles by what the solution is off, on these. Whether there were any.
+    fn puts_slipping_cells_on_their_circles(&mut self) -> bool {
+        let [_, own] = self.self_influence;
+        let Packed { shear, bound, .. } = &self.packed;
+        let slipping: Vec<usize> = (0..self.contact.len())
+            .filter(|&cell| {
+                let (q, bound) = (shear.at(cell), bound.bound[cell]);
+                is_inside(q, bound) && slips(q, self.slip.slip.at(cell), bound, 1.0 / own)
+            })
+            .collect();
+        if slipping.is_empty() {
+            return false;
+        }
+        self.find_sets();
+        for cell in slipping {
+            self.sets.stick[cell] = 0.0;
+        }
+        self.project_shear();
+        self.contact.scatter_tangential(&self.packed.shear, &mut self.tractions.shear);
+        true
     }
 
     /// The displacements of the tractions.

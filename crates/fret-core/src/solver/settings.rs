@@ -76,6 +76,11 @@ pub enum SolveError {
         /// What friction carries [force].
         bound: f64,
     },
+    /// More force and moment together than friction carries.
+    AboveFullSlip {
+        /// The fraction of them that it carries at the most [-].
+        fraction: f64,
+    },
     /// The contact reaches the edge of the grid.
     ContactAtEdge,
     /// The influence coefficients do not cover the grid.

@@ -3,6 +3,7 @@
 use serde::Serialize;
 
 use super::errors::{Errors, Form};
+use super::headline::Quantity;
 use super::ladder::{Kind, Ladder, Place};
 use super::rung::Rung;
 use super::truth::Truth;
@@ -41,11 +42,13 @@ pub fn advice<'a>(
         &cells_line.iter().map(|[i, ..]| ladder.cells[*i][0]).collect::<Vec<_>>(),
         &cells_line.iter().map(|place| worst(*place)).collect::<Vec<_>>(),
         accuracy / 2.0,
+        judged(ladder.finest()).is_some_and(|errors| areas(&errors) > accuracy / 2.0),
     );
     let (increments, beyond_increments) = choose(
         &increments_line.iter().map(|[_, j, _]| largest(&ladder.increments[*j])).collect::<Vec<_>>(),
         &increments_line.iter().map(|place| by_increments(*place)).collect::<Vec<_>>(),
         accuracy / 2.0,
+        false,
     );
     Advice { accuracy, cells, increments, concluded: beyond_cells || beyond_increments }
 }
@@ -65,13 +68,27 @@ fn limit_of_increments<'a>(ladder: &Ladder, rung: &impl Fn(Place) -> Option<&'a 
     Truth::limit(&alone, &|[_, j, _]: Place| rung([i, j, k]))
 }
 
-/// The smallest count from which on the errors stay within a bound; concluded from the order of the last two where the ladder
-/// does not reach it.
-fn choose(counts: &[usize], errors: &[Option<f64>], bound: f64) -> (Option<usize>, bool) {
+/// Largest error of the areas. Their error over the cells has no order: it depends on where the edge lies between cell centres.
+fn areas(errors: &Errors) -> f64 {
+    let of = |quantity: Quantity| errors.of(Form::Between)[quantity as usize].unwrap_or(0.0);
+    of(Quantity::ContactArea).max(of(Quantity::StickArea))
+}
+
+/// The smallest count from which on the errors stay within a bound. Beyond the counts it is extrapolated from the order of the last
+/// two, unless the errors are `without_order`.
+fn choose(
+    counts: &[usize],
+    errors: &[Option<f64>],
+    bound: f64,
+    without_order: bool,
+) -> (Option<usize>, bool) {
     let within = |error: &Option<f64>| error.is_some_and(|error| error <= bound);
     let good = errors.iter().rev().take_while(|error| within(error)).count();
     if good > 0 {
         return (Some(counts[counts.len() - good]), false);
+    }
+    if without_order {
+        return (None, false);
     }
     let [.., (n0, Some(e0)), (n1, Some(e1))] =
         counts.iter().zip(errors.iter().copied()).collect::<Vec<_>>()[..]
@@ -113,9 +130,11 @@ mod tests {
     fn counts_are_chosen_from_the_ladder_and_concluded_beyond_it() {
         let counts = [16, 32, 64];
         let errors = [Some(0.04), Some(0.01), Some(0.0025)];
-        assert_eq!(choose(&counts, &errors, 0.01), (Some(32), false));
-        assert_eq!(choose(&counts, &errors, 0.0025 / 4.0), (Some(128), true)); // second order
-        assert_eq!(choose(&counts, &errors, 1e-7), (None, false)); // 10119 cells: too far from 64
-        assert_eq!(choose(&counts, &[Some(0.01), Some(0.001), Some(0.02)], 0.01), (None, false));
+        assert_eq!(choose(&counts, &errors, 0.01, false), (Some(32), false));
+        assert_eq!(choose(&counts, &errors, 0.0025 / 4.0, false), (Some(128), true)); // second order
+        assert_eq!(choose(&counts, &errors, 1e-7, false), (None, false)); // 10119 cells: too far from 64
+        assert_eq!(choose(&counts, &errors, 0.01, true), (Some(32), false)); // seen, not extrapolated
+        assert_eq!(choose(&counts, &errors, 0.0025 / 4.0, true), (None, false));
+        assert_eq!(choose(&counts, &[Some(0.01), Some(0.001), Some(0.02)], 0.01, false), (None, false));
     }
 }

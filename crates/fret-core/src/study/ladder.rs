@@ -48,7 +48,7 @@ pub enum LadderError {
     #[error("--tolerances {0}: must lie between 1e-14 and 0.1")]
     Tolerance(f64),
     /// A grid that cannot be halved.
-    #[error("{0} cells a side are too few to be halved; at least {1}")]
+    #[error("{0} cells per side are too few to be halved; at least {1}")]
     TooCoarse(usize, usize),
     /// A contact that the cells hardly show.
     #[error(

@@ -184,7 +184,7 @@ pub fn convergence(scene: &Scene<'_>) -> String {
         axes: ["increment".to_owned(), "residual".to_owned()],
         curves: vec![Curve { stroke: Stroke::Dots, ..curve("residual") }],
         logarithmic: true,
-        level: tolerance.map(|tolerance| (tolerance, "asked for".to_owned())),
+        level: tolerance.map(|tolerance| (tolerance, "tolerance".to_owned())),
     };
     let work = Chart {
         what: "convolutions of every increment".to_owned(),

@@ -76,12 +76,12 @@ pub fn fretting_loop(scene: &Scene<'_>) -> String {
     let (all, axes, words) = if scene.twists {
         (
             pairs(table.column("twist"), table.column("twist_moment")),
-            ["twist", "twist moment"],
-            "Moment over twist.",
+            ["rotation", "torsional moment"],
+            "Moment over rotation.",
         )
     } else {
-        let words = "Tangential force over shift, both along the push.";
-        (pairs(&scene.shift, &scene.tangential), ["shift", "tangential force"], words)
+        let words = "Tangential force over relative displacement, both along the load.";
+        (pairs(&scene.shift, &scene.tangential), ["relative displacement", "tangential force"], words)
     };
     let cycles = scene.cycles();
     let mut curves = Vec::new();
@@ -132,10 +132,11 @@ fn stick_share(scene: &Scene<'_>) -> String {
             })
             .collect();
         curves.push(Curve { stroke: Stroke::Dashed, ..line(pairs(number, &exact), "closed form", 1) });
-        caption += " Dashed: the closed form. What is computed counts whole cells, and what slipped within an increment.";
+        caption +=
+            " Dashed: the closed form. The computed area counts whole cells, and slip within an increment.";
     }
     let chart = Chart {
-        what: "share of the contact that sticks over the increments".to_owned(),
+        what: "stick fraction of the contact over the increments".to_owned(),
         axes: ["increment".to_owned(), "stick".to_owned()],
         curves,
         logarithmic: false,

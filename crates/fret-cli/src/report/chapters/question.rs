@@ -75,13 +75,13 @@ fn cards(scene: &Scene<'_>) -> String {
         cards.push(("energy dissipated", number(table.at("dissipated_energy", last))));
     }
     if !scene.results.record["plan"]["case"]["wear"].is_null() {
-        cards.push(("worn volume", number(table.at("worn_volume", last))));
-        cards.push(("largest worn depth", number(table.at("max_worn_depth", last))));
+        cards.push(("wear volume", number(table.at("worn_volume", last))));
+        cards.push(("max wear depth", number(table.at("max_worn_depth", last))));
         if let Some(cycle) = scene.results.cycles.last() {
             cards.push(("cycles", cycle.last_cycle.to_string()));
         }
     }
-    cards.push(("largest residual", short(largest("residual"))));
+    cards.push(("max residual", short(largest("residual"))));
     let cards: String =
         cards.iter().map(|(name, value)| format!("<div><dt>{name}</dt><dd>{value}</dd></div>")).collect();
     format!("<dl class=\"cards\">{cards}</dl>\n")
@@ -199,7 +199,7 @@ fn stage(stage: &Value) -> String {
         let force = format!("tangential force {name}");
         parts.extend(to(control, &force, &format!("shift {name}")));
     }
-    parts.extend(to(&stage["twist"], "twist moment", "twist"));
+    parts.extend(to(&stage["twist"], "torsional moment", "rotation"));
     let increments = stage["increments"].as_u64().unwrap_or(0) as usize;
     let cycles = &stage["course"]["cycles"];
     let course = match cycles["most"].as_u64() {
@@ -247,9 +247,9 @@ pub fn left_out(scene: &Scene<'_>) -> String {
     let body = if listed.is_empty() {
         "<p>Nothing: every part of the model was needed.</p>\n".to_owned()
     } else {
-        format!("<p>The answer is the same without it.</p><ul class=\"out\">{}</ul>\n", listed.concat())
+        format!("<p>Same result to the solver tolerance.</p><ul class=\"out\">{}</ul>\n", listed.concat())
     };
-    chapter("What was left out", &body)
+    chapter("Automatic simplifications", &body)
 }
 
 /// The day of a moment, in seconds since 1970 began, in Greenwich.

@@ -85,6 +85,11 @@ pub fn slips(shear: [f64; 2], slip: [f64; 2], bound: f64, stiffness: f64) -> boo
     bound <= 0.0 || trial[0].hypot(trial[1]) - bound > inside.max(bound * ROUNDING)
 }
 
+/// Whether shear lies inside its friction circle, by more than rounding.
+pub fn is_inside(shear: [f64; 2], bound: f64) -> bool {
+    shear[0].hypot(shear[1]) < bound * ON_CIRCLE
+}
+
 /// Nearest point of the friction disc.
 #[inline(always)]
 pub fn onto_disc<R: Reals>([x, y]: [R; 2], bound: R) -> [R; 2] {

@@ -4,6 +4,7 @@
 pub mod active_sets;
 pub mod complementarity;
 pub mod friction;
+pub mod limit;
 pub mod projection;
 pub mod rigid_motions;
 pub mod slip;

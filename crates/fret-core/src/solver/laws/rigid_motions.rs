@@ -54,6 +54,15 @@ impl RigidMotions {
         self.by_force.iter().any(|&by_force| by_force)
     }
 
+    /// A motion of these amounts at a cell.
+    pub fn at(&self, [x, y, turned]: [f64; 3], cell: usize) -> [f64; 2] {
+        if !self.rotates {
+            return [x, y];
+        }
+        let around = self.rotation.at(cell);
+        [x + turned * around[0], y + turned * around[1]]
+    }
+
     /// Amounts of the motions that follow from a resultant; the others zero.
     pub fn only_by_force(&self, amounts: [f64; 3]) -> [f64; 3] {
         [0, 1, 2].map(|mode| if self.by_force[mode] { amounts[mode] } else { 0.0 })

@@ -12,9 +12,9 @@ pub use critical_plane::{CriticalPlane, fatemi_socie, smith_watson_topper};
 pub use invariants::{Endurance, crossland, dang_van};
 pub use surface::{Ruiz, SurfacePoint, ruiz};
 
-/// Mean of a parameter over a critical distance from the surface (line method of the theory of critical distances, Taylor
-/// 2007): values at rising depths from 0, linear between them. Where the distance ends beyond the last depth, the mean goes
-/// so far.
+/// Mean of a parameter from the surface down to `distance`: values at rising depths from 0, linear between them. Where the distance
+/// ends beyond the last depth, the mean goes so far. The line method of the theory of critical distances (Taylor 2007) averages over
+/// `2 L`, where `L` is the critical distance.
 pub fn line_mean(depths: &[f64], values: &[f64], distance: f64) -> f64 {
     let mut integral = 0.0;
     let mut covered = 0.0;

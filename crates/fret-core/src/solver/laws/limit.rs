@@ -1,0 +1,78 @@
+//! The limit of friction: which part of prescribed forces and moments it can carry at all, at a given pressure. By duality: for any
+//! rigid motion `m`, shear within its bounds does at most the work `sum b |m|` on it; forces that would do more have no equilibrium.
+
+use super::rigid_motions::RigidMotions;
+
+/// Iterations of the search for the motion; each one gives a bound, later ones better ones.
+const MOST_ITERATIONS: usize = 60;
+
+/// The fraction of the prescribed `resultant` (sums of shear times mode [pressure]) that friction with these bounds carries, from
+/// above; infinite where nothing is prescribed. Packed over a contact.
+///
+/// The least of `sum b |m| / (m . R)` over the motions: iteratively reweighted least squares (Weiszfeld).
+pub fn carried_fraction(bound: &[f64], motions: &RigidMotions, resultant: [f64; 3]) -> f64 {
+    let resultant = motions.only_by_force(resultant);
+    let mut motion = resultant;
+    let mut least = f64::INFINITY;
+    for _ in 0..MOST_ITERATIONS {
+        let work: f64 = (0..3).map(|mode| motion[mode] * resultant[mode]).sum();
+        if !(work > 0.0) {
+            break;
+        }
+        let (mut dissipated, mut gram) = (0.0, [0.0; 6]);
+        let sizes: Vec<f64> = (0..bound.len())
+            .map(|cell| {
+                let [x, y] = motions.at(motion, cell);
+                x.hypot(y)
+            })
+            .collect();
+        let largest = sizes.iter().copied().fold(0.0, f64::max);
+        for (cell, size) in sizes.iter().enumerate() {
+            dissipated += bound[cell] * size;
+            let weight = bound[cell] / size.max(1e-9 * largest);
+            let [x, y] = if motions.rotates { motions.rotation.at(cell) } else { [0.0; 2] };
+            for (entry, term) in gram.iter_mut().zip([1.0, 1.0, x * x + y * y, 0.0, x, y]) {
+                *entry += weight * term;
+            }
+        }
+        least = least.min(dissipated / work);
+        motion = motions.solve(gram, resultant);
+    }
+    least
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::super::contact_set::ContactSet;
+    use super::super::rigid_motions::CellPositions;
+    use super::*;
+
+    /// A square of cells under one bound.
+    fn square(by_force: [bool; 3]) -> (Vec<f64>, RigidMotions, f64) {
+        let centres: Vec<f64> = (0..40).map(|index| f64::from(index) - 19.5).collect();
+        let positions = CellPositions::new(centres.clone(), centres, true, by_force);
+        let disc =
+            ContactSet::of(1600, |cell| ((cell / 40) as f64 - 19.5).hypot((cell % 40) as f64 - 19.5) < 19.0);
+        (vec![2.0; disc.len()], positions.motions_of(&disc), positions.length)
+    }
+
+    #[test]
+    fn a_force_is_carried_up_to_the_sum_of_the_bounds() {
+        let (bound, motions, _) = square([true, true, false]);
+        let all = 2.0 * bound.len() as f64;
+        let fraction = carried_fraction(&bound, &motions, [0.6 * 2.0 * all, 0.8 * 2.0 * all, 0.0]);
+        assert!((fraction - 0.5).abs() < 1e-12, "{fraction}");
+        assert_eq!(carried_fraction(&bound, &motions, [0.0; 3]), f64::INFINITY);
+    }
+
+    /// The moment that turns a disc is the sum of bounds times distances; a force beside it lessens what is left.
+    #[test]
+    fn a_moment_is_carried_up_to_the_sum_of_bounds_times_distances() {
+        let (bound, motions, length) = square([true, true, true]);
+        let arms: f64 = (0..bound.len()).map(|cell| motions.rotation.at(cell)).map(|[x, y]| x.hypot(y)).sum();
+        let fraction = carried_fraction(&bound, &motions, [0.0, 0.0, 4.0 * arms]);
+        assert!((fraction - 0.5).abs() < 1e-12, "{fraction} {length}");
+        let with_force = carried_fraction(&bound, &motions, [bound.len() as f64, 0.0, 4.0 * arms]);
+        assert!(with_force < 0.5 && with_force > 0.3, "{with_force}");
+    }
+}

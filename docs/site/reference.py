@@ -1,0 +1,133 @@
+"""Write the generated reference pages: command line, output files, closed forms.
+
+    python docs/site/reference.py
+
+from the help texts of the command, the meanings of the columns and the docstrings of the package. A test compares the pages with what
+this would write now.
+"""
+
+import inspect
+import os
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+from fretting import analytic, cycles
+from fretting._meaning import FIELD_NAMES, MEANING
+
+DOCS = Path(__file__).resolve().parents[1]
+
+
+def command_line() -> str:
+    """Return the page of the command line: what ``fret --help`` prints, for every command."""
+    parts = [
+        "# Command line\n",
+        "<!-- Written by docs/site/reference.py from `fret --help`: edit the comments of crates/fret-cli/src/arguments.rs. -->\n",
+        "`fret` is installed with the Python package or with `cargo install --path crates/fret-cli`; `python -m fretting` is the same command. Exit codes: "
+        "[Messages and exit codes](messages.md).\n",
+    ]
+    overview = _help()
+    commands = re.findall(r"^  ([a-z]+) ", overview.partition("Commands:")[2].partition("Options:")[0], re.MULTILINE)
+    parts.append(f"## fret\n\n```text\n{overview}\n```\n")
+    parts += [f"## fret {name}\n\n```text\n{_help(name)}\n```\n" for name in commands if name != "help"]
+    return "\n".join(parts)
+
+
+def _help(*words: str) -> str:
+    # Without a terminal the help is wrapped at 100 columns, whatever COLUMNS says.
+    environment = {**os.environ, "NO_COLOR": "1"}
+    call = [sys.executable, "-m", "fretting", *words, "--help"]
+    done = subprocess.run(call, capture_output=True, text=True, check=True, env=environment)
+    return "\n".join(line.rstrip() for line in done.stdout.strip().splitlines())
+
+
+FILES = [
+    ("case.toml", "the case as it was read"),
+    ("history.csv", "one row per increment"),
+    ("cycles.csv", "one row per cycle, of stages with cycles"),
+    (
+        "fields.zarr",
+        "fields of the kept increments (Zarr 3): one array per field, dimensions step, y, x; coordinates step, x, y",
+    ),
+    ("run.json", "the run: program, version, plan, totals, status, warnings, origin"),
+    ("error_bars.json", "with `--estimate-error`: value and bar of each quantity at the end of each stage"),
+    ("states/", "what a run that starts from a state needs besides the kept fields"),
+    ("checkpoint", "of an unfinished run: what `--resume` needs"),
+    ("report.html", "written by `fret report`"),
+    (
+        "stress/",
+        "written by `fret stress`: `stress.json` (maxima, fatigue parameters), `depths.csv` (one row per depth), sections (SVG), volume (VTK)",
+    ),
+    ("export.npz, csv/, vtk/", "written by `fret export`"),
+]
+RUN = [
+    ("program, version, format", "`fretting`, its version, and the format of the folder (1)"),
+    ("status", "`solved`, `interrupted`, `failed`, `refused`, `running`"),
+    ("message", "why it ended early"),
+    ("plan", "the case with all defaults, grid, automatic simplifications (`left_out`), memory"),
+    ("totals", "increments, convolutions, iterations, dissipated energy, worn volume, largest residual, wall time"),
+    ("warnings", "list of name, value, bound, stage, message, help"),
+    ("start", "the state it started from, or null"),
+    ("worn_through", "cycle and place where a coating was worn through, or null"),
+    ("threads, started_unix_s, tolerance", "threads, start time, solver tolerance"),
+]
+
+
+def output_files() -> str:
+    """Return the page of the output files."""
+    parts = [
+        "# Output files\n",
+        "<!-- Written by docs/site/reference.py from the meanings in python/fretting: edit them there. -->\n",
+        "What `fret run CASE` writes into its results folder. Units are those of the case. How to read it: [Read the results](../do/read-results.md).\n",
+        _table("file", FILES),
+        "## history.csv\n\nAlso `history.steps` in Python. Increments count from 0.\n",
+        _table("column", [(name, text) for name, text in MEANING.items() if name not in FIELD_NAMES]),
+        "## cycles.csv\n\nAlso `history.cycles` in Python. Definitions: [Fretting quantities](../theory/fretting-quantities.md).\n",
+        _table("column", list(cycles.MEANING.items())),
+        "## fields.zarr\n\nAlso `history.field(name, step)`, index `[i, j]` = `[x, y]`. `shear` and `slip` of `[output] fields` are two fields each.\n",
+        _table("field", [(name, MEANING[name]) for name in FIELD_NAMES]),
+        "## run.json\n",
+        _table("key", RUN),
+        "## study.csv, study.json\n\nWritten by `fret study`: one row per level with cells, increments, tolerance, wall time, convolutions, and error and observed order of each "
+        "quantity of interest (sub-cell reconstruction; `_plain`: cell values; `_extrapolated`: Richardson).\n",
+        "## summary.csv\n\nWritten by `fret sweep`: one row per point with the values of the parameters, status, error message, the last row of `history.csv` and of `cycles.csv`.\n",
+    ]
+    return "\n".join(parts)
+
+
+def _table(head: str, rows: list[tuple[str, str]]) -> str:
+    lines = [f"| {head} | meaning |", "|---|---|"]
+    lines += [f"| `{name}` | {text.replace('|', chr(92) + '|')} |" for name, text in rows]
+    return "\n".join(lines) + "\n"
+
+
+def closed_forms() -> str:
+    """Return the page of the closed forms."""
+    parts = [
+        "# Closed-form solutions\n",
+        "<!-- Written by docs/site/reference.py from the docstrings of python/fretting/analytic.py: edit them there. -->\n",
+        "`fretting.analytic`: homogeneous half-spaces; several are recognised by `fret study` and drawn by `fret report`. Arguments and results: "
+        "[Python](python.md#closed-forms).\n",
+        "| function | problem | result | source |",
+        "|---|---|---|---|",
+    ]
+    for name in analytic.__all__:
+        function = getattr(analytic, name)
+        if not inspect.isfunction(function):
+            continue
+        text = inspect.getdoc(function) or ""
+        source = " ".join(text.partition("References\n----------\n")[2].split()).replace("*", "")
+        answer = inspect.signature(function).return_annotation
+        fields = ", ".join(
+            f"`{field}`" for field in getattr(answer, "__annotations__", {}) if not field.startswith("_")
+        )
+        parts.append(f"| `{name}` | {text.splitlines()[0]} | {fields} | {source} |")
+    return "\n".join(parts) + "\n"
+
+
+PAGES = {"command-line": command_line, "output-files": output_files, "closed-forms": closed_forms}
+
+if __name__ == "__main__":
+    for name, page in PAGES.items():
+        (DOCS / "reference" / f"{name}.md").write_text(page(), encoding="utf-8")
