@@ -55,7 +55,7 @@ pub(super) struct GridFile {
     #[schemars(with = "SizeSchema")]
     pub size: Spanned<SizeFile>,
     /// Depth below the load of the point that approach and shift of a line contact are relative to [length], in each body that has
-    /// an elastic base; default: the size of the grid.
+    /// an elastic base. Default: the size of the grid.
     #[schemars(with = "Option<f64>")]
     pub datum: Option<Spanned<f64>>,
     /// Periodic in x and y. Default: false, infinite half-space.

@@ -184,7 +184,7 @@ pub fn one_way(
     (starts_so && (straight || line(axis))).then_some(axis)
 }
 
-/// Whether a problem is periodic and nothing in it changes along an axis, or that is the axis of a line contact.
+/// Whether a case is periodic and nothing in it changes along an axis, or that is the axis of a line contact.
 fn is_endless(case: &Case, grid: &SurfaceGrid, axis: usize) -> bool {
     if grid.is_line() {
         return axis == 1;
