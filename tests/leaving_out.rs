@@ -49,7 +49,7 @@ fn leaving_out_changes_the_work_and_not_the_answer() {
             Simplification::Region => assert!(times(2.0), "{name}: {least:?} {more:?}"),
             // A convolution of a half or a quarter of the cells; pressure first and then shear, instead of both in every step.
             Simplification::Mirror | Simplification::Coupling => {
-                assert!(times(1.6), "{name}: {least:?} {more:?}")
+                assert!(times(1.6), "{name}: {least:?} {more:?}");
             }
             // No convolution of shear in any increment, and none of it to the bit.
             Simplification::Tangential => {

@@ -162,7 +162,7 @@ fn a_rigid_cylinder_slides_as_bufler_says() {
             let contact = || places.iter().zip(&pressure).filter(|(_, p)| **p > 0.0).map(|(x, _)| *x);
             let cell = cylinder.size / 1024.0;
             let [low, high] =
-                [contact().next().unwrap() - 0.5 * cell, contact().last().unwrap() + 0.5 * cell];
+                [contact().next().unwrap() - 0.5 * cell, contact().next_back().unwrap() + 0.5 * cell];
             let (middle, half) = (0.5 * (low + high), 0.5 * (high - low));
             // a cell of 1024 is 1.2e-3 of the half-width: both within that
             assert!((middle - sign * exact.offset).abs() < cell, "{middle} {}", exact.offset);

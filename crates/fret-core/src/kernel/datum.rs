@@ -1,7 +1,7 @@
 //! Where displacements of a line contact are counted from: a point of each body below the load.
 
 use super::depth_response::DepthResponse;
-use crate::model::{Base, Body, ContactPair, HalfSpace};
+use crate::model::{Base, Body, ContactPair, ElasticMaterial, HalfSpace};
 
 /// The displacement of the datum of both bodies by a line load above it: of the point `depth` below the load in every body with an
 /// elastic base. A body on a rigid base has a zero of its own, and a rigid body does not move.
@@ -23,7 +23,7 @@ impl Datum {
             })
         };
         let modulus =
-            |half_space: &HalfSpace| half_space.single_material().map(|material| material.shear_modulus());
+            |half_space: &HalfSpace| half_space.single_material().map(ElasticMaterial::shear_modulus);
         Self {
             depth,
             bodies: bodies()
