@@ -381,7 +381,7 @@ class SlidingCylinder:
     offset: float
     """Middle of the contact from the cylinder's axis [length], with the shear on the lower body along +x."""
     peak_pressure: float
-    """Largest pressure [pressure]."""
+    """Maximum contact pressure [pressure]."""
     _solution: _core.Solution = field(repr=False, compare=False)
 
     def pressure(self, x: npt.ArrayLike) -> Reals:

@@ -100,12 +100,12 @@ def test_a_run_that_failed_opens_as_what_there_is(tmp_path: Path) -> None:
     # Pressed by an approach, so that only the run finds out that friction does not carry the force.
     case = CASE.replace("normal_force = 1.0", "approach = 70e-9")
     (tmp_path / "case.toml").write_text(case.replace("[0.05, 0.0]", "[9.0, 0.0]").replace("every = 4", "every = 1"))
-    assert main(["run", str(tmp_path / "case.toml"), "--out", str(tmp_path / "run"), "--quiet"]) == 2
+    assert main(["run", str(tmp_path / "case.toml"), "--out", str(tmp_path / "run"), "--quiet"]) == 1
     history = fretting.load(tmp_path / "run")
-    assert (history.finished, history.status, len(history)) == (False, "failed", 2)
+    assert (history.finished, history.status, len(history)) == (False, "refused", 2)
     assert history.message is not None
-    assert "increment 2 (rub) not solved" in history.message
-    assert "not the whole history: failed: increment 2" in repr(history)
+    assert "increment 2 (rub): tangential force" in history.message
+    assert "not the whole history: refused: increment 2" in repr(history)
     whole = fretting.run(case)
     np.testing.assert_array_equal(history.steps["approach"], whole.steps["approach"][:2])
     assert history.kept_steps == [0, 1]

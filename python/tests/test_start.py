@@ -127,14 +127,14 @@ def failing(case: dict[str, Any]) -> dict[str, Any]:
 
 def test_what_was_solved_before_a_failure_is_in_the_exception(case: dict[str, Any]) -> None:
     whole = fretting.run(with_load(case, {"approach": 70e-9, "increments": 4}, RUB))
-    with pytest.raises(fretting.RunError, match="increment 4 .*not solved") as raised:
+    with pytest.raises(fretting.RunError, match="increment 4 .*above mu P") as raised:
         fretting.run(failing(case))
     error = raised.value
     history = error.history
     assert history is not None
     assert (error.increment, len(history), history.finished, history.status) == (4, 4, False, "failed")
     assert history.message is not None
-    assert "not solved" in history.message
+    assert "above mu P" in history.message
     assert "not the whole history: failed" in repr(history)
     np.testing.assert_array_equal(history.steps["approach"], whole.steps["approach"][:4])
     assert history.kept_steps == [3]

@@ -53,7 +53,7 @@ pub enum Verb {
         #[arg(long, value_name = "FILE")]
         out: Option<PathBuf>,
     },
-    /// Convert the results of a run: `NumPy`, CSV, VTK
+    /// Convert the results of a run: NumPy, CSV, VTK
     Export(ExportArguments),
     /// Refinement study: errors, orders of convergence and times over grids and increments, and which to choose
     Study(StudyArguments),
