@@ -20,12 +20,12 @@ pub struct Stage {
     /// Increments of the stage, or of one cycle, all rows of a table included.
     pub increments: usize,
     /// Each increment is solved in as many parts as this bound on the error of its history asks for (in shares of the way that the
-    /// tractions go in it); in one when not given.
+    /// tractions go in it). Default: in one.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub history_tolerance: Option<f64>,
     /// How the stage runs through its increments.
     pub course: Course,
-    /// Friction from this stage on; as before when not given.
+    /// Friction from this stage on. Default: as before.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub friction: Option<CoulombFriction>,
 }

@@ -17,7 +17,6 @@ use super::laws::projection::project_pressure;
 use super::laws::rigid_motions::RigidMotions;
 use super::laws::slip::{SlipIncrement, TangentialProblem};
 use super::newton::{self, ContactProblem, Solution};
-use super::normal::{NormalEquations, solve_normal};
 use super::operators::{Method, RegionOperators};
 use super::settings::{IterationCallback, SolveError, SolverSettings};
 use super::tractions::{Displacements, Tractions};
@@ -31,70 +30,36 @@ const MOST_ITERATIONS: usize = 40;
 const MOST_HALVINGS: usize = 12;
 /// Residual of the projection equations that the certified residual is sure to follow, as a fraction of the tolerance.
 const ENOUGH: f64 = 1e-2;
-/// Residual of the frictionless pressure that the second start is.
-const FRICTIONLESS: f64 = 1e-6;
 
-/// Solves what the inexact method `failed` at, from the tractions it started from; then from the frictionless pressure. What is
+/// Solves the equations from one of the `starts`, feasible or not; `None` where none leads to a solution, or it would be too large. What is
 /// found is accepted by the same residuals as ever.
 ///
 /// # Errors
-/// The error of the inexact method, where this one finds nothing or would be too large; when the iteration is stopped.
+/// When the iteration is stopped, or the response has no dense form.
 pub fn solve(
     problem: &ContactProblem<'_>,
-    (start, failed): &mut (Tractions, SolveError),
+    starts: [&Tractions; 2],
     (tractions, displacements): (&mut Tractions, &mut Displacements),
     operators: &mut RegionOperators,
     method: &Method<'_>,
     callback: IterationCallback<'_>,
-) -> Result<Solution, SolveError> {
+) -> Result<Option<Solution>, SolveError> {
     if method.settings.max_direct_unknowns == 0 {
-        return Err(failed.clone());
+        return Ok(None);
     }
     let response = (method.cells)()?;
-    for frictionless in [false, true] {
+    for start in starts {
         tractions.clone_from(start);
-        if frictionless {
-            tractions.shear.clear();
-            start_without_friction(problem, tractions, displacements, operators, method.settings, callback)?;
-        }
         let mut attempt = Attempt::new(problem, tractions, &response, operators);
         if attempt.iterate(tractions, operators, method.settings, callback)? {
             operators.compliance.full(tractions.parts(), displacements.parts_mut());
             match newton::solve(problem, tractions, displacements, operators, method.settings, callback) {
                 Err(SolveError::NotConverged { .. }) => {}
-                other => return other,
+                other => return other.map(Some),
             }
         }
     }
-    Err(failed.clone())
-}
-
-fn start_without_friction(
-    problem: &ContactProblem<'_>,
-    tractions: &mut Tractions,
-    displacements: &mut Displacements,
-    operators: &mut RegionOperators,
-    settings: &SolverSettings,
-    callback: IterationCallback<'_>,
-) -> Result<(), SolveError> {
-    let ContactProblem { undeformed, total, approach, .. } = *problem;
-    let equations = NormalEquations { undeformed, total, approach };
-    let RegionOperators { compliance, preconditioner, .. } = operators;
-    compliance.normal(&tractions.pressure, &mut displacements.normal);
-    let settings = SolverSettings { tolerance: FRICTIONLESS, ..*settings };
-    let Displacements { normal, .. } = displacements;
-    match solve_normal(
-        &equations,
-        &mut tractions.pressure,
-        normal,
-        compliance,
-        preconditioner,
-        &settings,
-        callback,
-    ) {
-        Err(SolveError::Stopped) => Err(SolveError::Stopped),
-        _ => Ok(()),
-    }
+    Ok(None)
 }
 
 /// What a cell whose augmented pressure is positive does.

@@ -9,6 +9,7 @@ mod contact_set;
 mod contact_vector;
 mod exact_newton;
 mod full_grid_check;
+mod globalisation;
 mod increment;
 mod laws;
 mod linear;

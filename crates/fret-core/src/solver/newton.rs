@@ -5,6 +5,7 @@
 
 use super::contact_set::ContactSet;
 use super::contact_vector::ContactVector;
+use super::globalisation::{Backtracking, ForcingTerm};
 use super::laws::active_sets::ActiveSets;
 use super::laws::complementarity::{NormalResidual, normal_residual};
 use super::laws::friction::{FrictionBound, FrictionLaw, is_inside, slips};
@@ -111,9 +112,12 @@ pub fn solve(
         if iteration >= LOST_AFTER && forcing.best > FAR {
             break;
         }
-        let forcing = forcing.next(residual, settings.tolerance, operators);
+        let target = forcing.next(residual, settings.tolerance);
+        if forcing.wants_double_precision() {
+            operators.linear.avoid_single_precision();
+        }
         iterate.find_sets();
-        iterate.find_step(forcing, settings, operators);
+        iterate.find_step(target, settings, operators);
         if !iterate.take_step() {
             break;
         }
@@ -396,76 +400,6 @@ impl<'a> Iterate<'a> {
         self.contact.scatter_tangential(&self.slip.slip, &mut slip);
         let Self { normal, tangential, gap, .. } = self;
         Solution { normal, tangential, gap, slip, iterations }
-    }
-}
-
-/// How far linear problems are solved (Eisenstat & Walker 1996): further while the residual falls fast, and while it does not fall.
-#[derive(Debug)]
-struct ForcingTerm {
-    last: f64,
-    /// Smallest residual so far.
-    best: f64,
-    /// Iterations in a row that did not pay.
-    in_vain: i32,
-}
-
-impl Default for ForcingTerm {
-    fn default() -> Self {
-        Self { last: f64::INFINITY, best: f64::INFINITY, in_vain: 0 }
-    }
-}
-
-impl ForcingTerm {
-    /// Forcing terms of a residual that falls, at the most and at the least.
-    const MOST: f64 = 0.5;
-    const LEAST: f64 = 0.003;
-    /// Times the ratio of the last two residuals.
-    const GAMMA: f64 = 0.3;
-    /// Fraction of the tolerance that the next residual is to reach: what is solved further is lost.
-    const ENOUGH: f64 = 0.8;
-    /// So many iterations in vain leave nothing to chance: all in double precision.
-    const PATIENCE: i32 = 3;
-
-    fn next(&mut self, residual: f64, tolerance: f64, operators: &mut RegionOperators) -> f64 {
-        let ratio = residual / self.last;
-        self.in_vain = if ratio > 0.9 && self.last.is_finite() { self.in_vain + 1 } else { 0 };
-        self.last = residual;
-        self.best = self.best.min(residual);
-        if self.in_vain >= Self::PATIENCE {
-            operators.linear.avoid_single_precision();
-        }
-        let wanted = (Self::GAMMA * ratio).clamp(Self::LEAST, Self::MOST) * 0.1_f64.powi(self.in_vain.min(6));
-        let wanted = if ratio.is_finite() && ratio > 0.0 { wanted } else { Self::MOST };
-        wanted.max((Self::ENOUGH * tolerance / residual).min(Self::MOST))
-    }
-}
-
-/// Takes back by half a step that made things much worse.
-#[derive(Debug)]
-struct Backtracking {
-    residual: f64,
-    halvings: usize,
-}
-
-impl Default for Backtracking {
-    fn default() -> Self {
-        Self { residual: f64::INFINITY, halvings: 0 }
-    }
-}
-
-impl Backtracking {
-    /// A residual may grow by this: active sets change.
-    const GROWTH: f64 = 4.0;
-    const MOST_HALVINGS: usize = 4;
-
-    /// Whether the step that led to a residual is to be halved.
-    fn rejects(&mut self, residual: f64) -> bool {
-        if residual > Self::GROWTH * self.residual && self.halvings < Self::MOST_HALVINGS {
-            self.halvings += 1;
-            return true;
-        }
-        *self = Self { residual, halvings: 0 };
-        false
     }
 }
 

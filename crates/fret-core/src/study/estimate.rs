@@ -20,7 +20,7 @@ const FEWEST_CELLS: usize = 12;
 /// Edge of contact: read to this share of a cell.
 const EDGE: f64 = 0.08;
 /// The same of a line contact, whose two edges lie anywhere between the cells: nothing averages (Hertz contacts of 25 to 127 cells
-/// in the half-width err by up to 0.14 cells a side).
+/// in the half-width err by up to 0.14 cells on either side).
 const EDGE_OF_LINE: f64 = 0.2;
 /// Least relative bar over the number of cells in contact: the edge lies anywhere between the cells, so that errors of second
 /// order scatter, and two runs may agree by chance.
