@@ -31,6 +31,7 @@ mod random_cases;
 mod reduced_contact;
 mod refinement;
 mod rough_surfaces;
+mod shear_strength;
 mod sliding;
 mod subsurface;
 mod surfaces;

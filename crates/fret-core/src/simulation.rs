@@ -178,7 +178,10 @@ impl<'a> Simulation<'a> {
         if let Some(depth) = &history.state.worn_depth {
             solver.set_gap(&unworn + depth);
         }
-        let wearing = case.wear.zip(wear).map(|(rule, collected)| Wearing::new(rule, own, unworn, collected));
+        let wearing = case
+            .wear
+            .zip(wear)
+            .map(|(rule, collected)| Wearing::new(rule, own, unworn, case.friction.clone(), collected));
         // Last: a new gap makes a solver forget.
         solver.restore_memory(memory);
         let journey =
@@ -318,6 +321,10 @@ impl<'a> Journey<'a> {
     /// Solves what is left of the stage at work.
     fn through_stage(&mut self, stage: &'a Stage) -> Result<(), RunError> {
         self.solver.set_friction(self.friction());
+        let friction = self.friction();
+        if let Some(wearing) = &mut self.wearing {
+            wearing.set_friction(friction);
+        }
         let place = &self.place;
         let (number, begins) = (place.stage, place.solved_of_stage == 0);
         let steps = if begins {
@@ -485,10 +492,11 @@ impl<'a> Journey<'a> {
 
     /// Opens the gap by what has worn since the last time; the number of cycles that stands for, out of `left`.
     fn wear(&mut self, stage: &Stage, increment: usize, left: usize) -> Result<usize, RunError> {
-        let friction = self.friction();
         let Some(wearing) = &mut self.wearing else { return Ok(1) };
-        let block = wearing.block(&self.history.state, friction, left).map_err(|too_fast| {
-            RunError::WearTooFast { increment, stage: stage.name.clone(), share: too_fast.share }
+        let block = wearing.block(&self.history.state, left).map_err(|too_fast| RunError::WearTooFast {
+            increment,
+            stage: stage.name.clone(),
+            share: too_fast.share,
         })?;
         if let Some(depth) = &mut self.history.state.worn_depth
             && block.depth.iter().any(|depth| *depth > 0.0)

@@ -17,7 +17,7 @@ pub mod symmetry;
 pub mod wear;
 
 pub use field::TangentialField;
-pub use friction::{CoulombFriction, FrictionError};
+pub use friction::{CellValues, CoulombFriction, FrictionError};
 pub use graded::{GradedCoating, GradientError, Layer, YoungGradient};
 pub use grid::{GridError, SurfaceGrid};
 pub use half_space::{Base, Body, Coating, ContactPair, ElasticMaterial, HalfSpace, MaterialError};
