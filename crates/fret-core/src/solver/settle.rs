@@ -32,7 +32,7 @@ pub(super) fn settle(problem: &IncrementProblem<'_>, solved: &Solved) -> (Contac
             for axis in 0..2 {
                 state.slip[axis][at] += slip[axis];
             }
-            dissipated += dissipation([bound_before[place], bound[place]], q, slip);
+            dissipated += dissipation([bound_before[place], bound[place]], slip);
         } else {
             state.zone[at] = Zone::Stick;
             stick_cells += 1;
