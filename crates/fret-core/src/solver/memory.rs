@@ -8,7 +8,8 @@ use serde::{Deserialize, Serialize};
 
 use super::region::Region;
 use super::tractions::Displacements;
-use crate::model::{ContactState, LoadStep, stored};
+use crate::fields::stored;
+use crate::model::{ContactState, LoadStep};
 
 /// All that later increments depend on besides the last state.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]

@@ -5,6 +5,7 @@
 //! its linear problems in `linear`, the frictionless problem in `normal`. Theory: `docs/theory/contact-problem.md` and
 //! `docs/theory/solution-algorithm.md`.
 
+mod contact_edge;
 mod contact_set;
 mod contact_vector;
 mod exact_newton;

@@ -17,9 +17,8 @@ use super::operators::RegionOperators;
 use super::settings::{IterationCallback, SolveError, SolverSettings};
 use super::tractions::{Displacements, Tractions};
 use crate::compliance::SurfaceCompliance;
+use crate::fields::{CellRule, Reals, add_scaled, each_cell, largest};
 use crate::model::TangentialField;
-use crate::model::each_cell::{CellRule, Reals, each_cell};
-use crate::model::field::{add_scaled, largest};
 
 /// What the equations of one increment ask for, over the cells of a region.
 #[derive(Debug, Clone, Copy)]

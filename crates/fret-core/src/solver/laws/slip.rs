@@ -6,8 +6,8 @@
 
 use super::friction::{OnDisc, onto_disc};
 use super::rigid_motions::RigidMotions;
+use crate::fields::{CellRule, Reals, each_cell};
 use crate::model::TangentialField;
-use crate::model::each_cell::{CellRule, Reals, each_cell};
 
 /// What the tangential equations of one increment ask for; fields are packed over the cells in contact.
 #[derive(Debug, Clone, Copy)]
