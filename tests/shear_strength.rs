@@ -1,7 +1,7 @@
 //! Friction with a shear strength of the interface, `|q| <= min(mu p, tau)`: full sliding and its onset against closed forms, limits
 //! against Coulomb's law, and the laws as the certifier computes them.
 
-use fret_core::simulation::RunError;
+use fret_core::run::RunError;
 use fret_validation::certifier::run_certified;
 use fret_validation::{Sphere, run, solved};
 

@@ -1,7 +1,5 @@
 //! The nouns of a contact: grid, bodies, profile, friction, loads, state. No numerics live here.
 
-pub mod each_cell;
-pub mod field;
 pub mod friction;
 pub mod graded;
 pub mod grid;
@@ -12,11 +10,10 @@ pub mod profile;
 pub mod scheme;
 pub mod shape;
 pub mod state;
-pub(crate) mod stored;
 pub mod symmetry;
 pub mod wear;
 
-pub use field::TangentialField;
+pub use crate::fields::TangentialField;
 pub use friction::{CellValues, CoulombFriction, FrictionError};
 pub use graded::{GradedCoating, GradientError, Layer, YoungGradient};
 pub use grid::{GridError, SurfaceGrid};

@@ -21,8 +21,8 @@ use super::operators::{Method, RegionOperators};
 use super::settings::{IterationCallback, SolveError, SolverSettings};
 use super::tractions::{Displacements, Tractions};
 use crate::compliance::{CellResponse, SurfaceCompliance};
+use crate::fields::norm;
 use crate::model::TangentialField;
-use crate::model::field::norm;
 
 /// Iterations from one start.
 const MOST_ITERATIONS: usize = 40;

@@ -8,7 +8,8 @@ use serde::{Deserialize, Serialize};
 
 use super::region::Region;
 use super::tractions::Displacements;
-use crate::model::{ContactState, LoadStep, TangentialField, stored};
+use crate::fields::{TangentialField, stored};
+use crate::model::{ContactState, LoadStep};
 
 /// All that later increments depend on besides the last state.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
@@ -78,7 +79,9 @@ impl SolverMemory {
             let len = last.region.len();
             let Displacements { normal, tangential } = &last.displacements;
             last.region.lies_within(cells)
-                && [normal, &tangential.x, &tangential.y, &last.slip.x, &last.slip.y].iter().all(|field| field.len() == len)
+                && [normal, &tangential.x, &tangential.y, &last.slip.x, &last.slip.y]
+                    .iter()
+                    .all(|field| field.len() == len)
                 && last.gap.dim() == cells.into()
         };
         self.region.is_none_or(|region| region.lies_within(cells))

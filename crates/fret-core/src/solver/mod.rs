@@ -5,6 +5,7 @@
 //! its linear problems in `linear`, the frictionless problem in `normal`. Theory: `docs/theory/contact-problem.md` and
 //! `docs/theory/solution-algorithm.md`.
 
+mod contact_edge;
 mod contact_set;
 mod contact_vector;
 mod exact_newton;
@@ -31,7 +32,9 @@ use ndarray::Array2;
 
 use crate::compliance::{CellResponse, OperatorSet, SpectralCompliance, SurfaceResponse};
 use crate::kernel::ResponseTable;
-use crate::model::{ContactState, Control, CoulombFriction, Integration, LoadStep, Scheme, SurfaceGrid, Symmetry, Zone};
+use crate::model::{
+    ContactState, Control, CoulombFriction, Integration, LoadStep, Scheme, SurfaceGrid, Symmetry, Zone,
+};
 
 pub use memory::SolverMemory;
 pub(crate) use outcome::worst;
@@ -241,7 +244,9 @@ impl<'a> ContactSolver<'a> {
             });
             let displacements = solved.displacements;
             let mut slip = solved.slip;
-            for (cell, slipped) in region.gather_map(&after.zone, |zone| *zone == Zone::Slip).into_iter().enumerate() {
+            for (cell, slipped) in
+                region.gather_map(&after.zone, |zone| *zone == Zone::Slip).into_iter().enumerate()
+            {
                 if !slipped {
                     slip.set(cell, [0.0; 2]);
                 }

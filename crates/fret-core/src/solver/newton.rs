@@ -11,16 +11,15 @@ use super::laws::complementarity::{NormalResidual, normal_residual};
 use super::laws::friction::{FrictionBound, FrictionLaw, is_inside, slips};
 use super::laws::projection::{ShearProjection, project_pressure};
 use super::laws::rigid_motions::{CellPositions, RigidMotions};
-use super::laws::slip_path::SlipPath;
 use super::laws::slip::{SlipIncrement, TangentialProblem, TangentialResidual};
+use super::laws::slip_path::SlipPath;
 use super::linear::solver::Linearised;
 use super::operators::RegionOperators;
 use super::settings::{IterationCallback, SolveError, SolverSettings};
 use super::tractions::{Displacements, Tractions};
 use crate::compliance::SurfaceCompliance;
+use crate::fields::{CellRule, Reals, add_scaled, each_cell, largest};
 use crate::model::TangentialField;
-use crate::model::each_cell::{CellRule, Reals, each_cell};
-use crate::model::field::{add_scaled, largest};
 
 /// What the equations of one increment ask for, over the cells of a region.
 #[derive(Debug, Clone, Copy)]

@@ -5,7 +5,7 @@ use std::ops::Range;
 use ndarray::{Array2, ArrayBase, Ix2, RawData, s};
 use serde::{Deserialize, Serialize};
 
-use crate::model::field::TangentialField;
+use crate::fields::TangentialField;
 
 /// A rectangular part of the grid.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]

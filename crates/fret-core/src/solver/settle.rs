@@ -4,7 +4,7 @@ use super::contact_set::ContactSet;
 use super::increment::{IncrementProblem, Solved};
 use super::laws::friction::{dissipation, slips};
 use super::outcome::{Outcome, Regime, Residual, Resultants};
-use crate::model::field::sum;
+use crate::fields::sum;
 use crate::model::{ContactState, Zone};
 
 /// The state after an increment, and what happened.

@@ -5,7 +5,7 @@
 //! Coulomb: `|q| <= b(p)`; where `|q| = b` the surfaces may slip, along `q`, the shear on the lower body; elsewhere they stick.
 //! `b = min(mu p, tau)` with the shear strength `tau` of the interface, where it has one.
 
-use crate::model::each_cell::Reals;
+use crate::fields::Reals;
 use crate::model::{CellValues, CoulombFriction};
 
 use super::super::contact_set::ContactSet;

@@ -10,8 +10,7 @@ use super::active_sets::ActiveSets;
 use super::friction::{OnDisc, onto_disc};
 use super::rigid_motions::RigidMotions;
 use super::slip_path::{SlipPath, end_of_chord};
-use crate::model::TangentialField;
-use crate::model::each_cell::{CellRule, Reals, each_cell};
+use crate::fields::{CellRule, Reals, TangentialField, each_cell};
 
 /// Rounds in which motions and the turn of slip find each other; each takes two thirds of the difference away or more.
 const MOST_TURNS: usize = 4;

@@ -15,8 +15,7 @@
 //! `docs/theory/second-order.md`.
 
 use super::super::contact_set::ContactSet;
-use crate::model::TangentialField;
-use crate::model::each_cell::Reals;
+use crate::fields::{Reals, TangentialField};
 
 /// What is known of the paths before an increment is solved, over the cells of a region or packed over a contact. Every field may be
 /// empty, which is as good as zero: the end-point rule.

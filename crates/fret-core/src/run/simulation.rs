@@ -7,12 +7,17 @@ use std::time::Instant;
 
 use ndarray::Array2;
 
+use super::checkpoint::{Checkpoint, Place, Waypoint, solved_state};
+use super::fretting_loop::{CycleEnd, FrettingLoop};
+use super::plausibility::Gauge;
+use super::recording::{copied, kept, record};
+use super::refinement::{DivisionError, Refinement, Span, in_halves};
+use super::run_error::{RunError, run_error};
+use super::stepping::StageSteps;
+use super::wear::{Collected, Wearing, worn};
 use crate::case::{Case, Stage};
-use crate::checkpoint::{Checkpoint, Place, Waypoint, solved_state};
 use crate::compliance::SurfaceResponse;
-use crate::cycle::CycleRecord;
-use crate::fretting_loop::{CycleEnd, FrettingLoop};
-use crate::history::{History, KeptFields, StepRecord};
+use crate::history::{CycleRecord, History, KeptFields, StepRecord, WornThrough};
 use crate::kernel::{
     Components, PairResponse, ResponseTable, coefficients_of, influence_coefficients, line_coefficients_of,
     periodic_symbols, symbols_of,
@@ -20,14 +25,7 @@ use crate::kernel::{
 use crate::machine::memory::{Claim, claim};
 use crate::model::{ContactState, CoulombFriction, LoadStep, SolvedState};
 use crate::plan::{Coupling, Plan, Simplification};
-use crate::plausibility::Gauge;
-use crate::recording::{copied, kept, record};
-use crate::refinement::{DivisionError, Refinement, Span, in_halves};
-pub use crate::run_error::RunError;
-use crate::run_error::run_error;
 use crate::solver::{ContactSolver, Resultants, SolverSettings};
-use crate::stepping::StageSteps;
-use crate::wear::{Collected, Wearing, WornThrough, worn};
 
 /// Where an increment's iteration stands.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -3,10 +3,10 @@
 
 use ndarray::Zip;
 
+use super::wear::Wearing;
 use crate::history::Work;
 use crate::model::{ContactState, LoadStep};
 use crate::solver::{ContactSolver, Increment, IterationCallback, SolveError, SolverMemory};
-use crate::wear::Wearing;
 
 /// Halvings of a step that is not solved as a whole, at the most.
 const MOST_HALVINGS: u32 = 5;

@@ -3,9 +3,9 @@
 use ndarray::Array2;
 use serde::{Deserialize, Serialize};
 
-use crate::cycle::{CycleRecord, CycleRegime, Drive, SLIDING_ENERGY_RATIO};
-use crate::history::{Regime, StepRecord};
-use crate::model::{ContactState, CoulombFriction, stored};
+use crate::fields::stored;
+use crate::history::{CycleRecord, CycleRegime, Drive, Regime, SLIDING_ENERGY_RATIO, StepRecord};
+use crate::model::{ContactState, CoulombFriction};
 
 /// Force and moment, shift and twist at the end of an increment.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]

@@ -3,26 +3,12 @@
 use ndarray::{Array2, Zip};
 use serde::{Deserialize, Serialize};
 
-use crate::model::{ContactState, CoulombFriction, SurfaceGrid, WearLaw, WearRule, stored};
+use crate::fields::stored;
+use crate::model::{ContactState, CoulombFriction, SurfaceGrid, WearLaw, WearRule};
 
 /// Share of a cell's pressure that a block may take off at the most, as far as the cell's own compliance tells. Above 0.8
 /// neighbouring cells would take turns in carrying the load.
 const STABLE_SHARE: f64 = 0.4;
-
-/// The first place at which the surfaces are worn to the limit.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct WornThrough {
-    /// Increment after which it happened, from 0.
-    pub increment: usize,
-    /// Stage, from 0.
-    pub stage: usize,
-    /// Cycles of that stage until then, those that a computed one stands for included.
-    pub cycles: usize,
-    /// Cell.
-    pub cell: [usize; 2],
-    /// Its centre [length].
-    pub place: [f64; 2],
-}
 
 /// The wear of one block of cycles is more than the grid can follow.
 #[derive(Debug, Clone, Copy, PartialEq)]
