@@ -19,6 +19,9 @@
 use super::super::contact_set::ContactSet;
 use crate::fields::{Reals, TangentialField};
 
+/// Cosine of the angle between chords from which on they say nothing of each other.
+const FADED: f64 = 0.766;
+
 /// What is known of the paths before an increment is solved, over the cells of a region or packed over a contact. With empty fields it is
 /// the end-point rule.
 #[derive(Debug, Clone, Default)]
@@ -49,7 +52,7 @@ impl SlipPath {
             return;
         }
         let kept = (1.0 + ratio) / (1.0 + 2.0 * ratio);
-        let root = (weight * (1.0 - kept / (1.0 - stop)).max(0.0)).sqrt();
+        let root = (weight / (1.0 - FADED) * (1.0 - kept / (1.0 - stop)).max(0.0)).sqrt();
         self.turn.set(cell, last.map(|part| part / length * root));
         self.ahead.set(cell, last.map(|part| part * ratio * stop));
     }
@@ -60,7 +63,8 @@ impl SlipPath {
             return slip;
         }
         let turn = self.turn.at(cell);
-        let along = (slip[0] * turn[0] + slip[1] * turn[1]).max(0.0);
+        let straight = slip[0].hypot(slip[1]) * turn[0].hypot(turn[1]);
+        let along = (slip[0] * turn[0] + slip[1] * turn[1] - FADED * straight).max(0.0);
         [slip[0] - along * turn[0], slip[1] - along * turn[1]]
     }
 
@@ -85,7 +89,8 @@ impl SlipPath {
 /// `M v` with `turn = sqrt(c) l`.
 #[inline(always)]
 pub fn end_of_chord<R: Reals>(slip: [R; 2], turn: [R; 2]) -> [R; 2] {
-    let along = (slip[0] * turn[0] + slip[1] * turn[1]).max(slip[0].all(0.0));
+    let lengths = (slip[0] * slip[0] + slip[1] * slip[1]) * (turn[0] * turn[0] + turn[1] * turn[1]);
+    let along = (slip[0] * turn[0] + slip[1] * turn[1] - lengths.sqrt() * FADED).max(slip[0].all(0.0));
     [slip[0] - along * turn[0], slip[1] - along * turn[1]]
 }
 
