@@ -1,0 +1,55 @@
+"""One vocabulary: columns and fields are named in the core alone; what repeats their names agrees with it."""
+
+import json
+import re
+from typing import get_args
+
+import fretting
+from fretting import _core, cycles
+from fretting._meaning import CYCLE_KINDS, FIELD_NAMES, MEANING, STEP_KINDS, FieldName
+
+VOCABULARY = json.loads(_core.vocabulary())
+
+
+def test_fields_of_the_type_hint_are_those_of_the_core() -> None:
+    names = tuple(entry["name"] for entry in VOCABULARY["fields"])
+    assert get_args(FieldName) == names == FIELD_NAMES
+    documented = re.search(r"name : \{(.*?)\}", fretting.History.field.__doc__ or "", re.DOTALL)
+    assert documented is not None
+    assert tuple(re.findall(r'"(\w+)"', documented[1])) == names
+
+
+def test_the_docstring_of_a_history_lists_every_column() -> None:
+    text = fretting.History.__doc__ or ""
+    steps = text[text.index("steps : dict") : text.index("x, y : ndarray")]
+    listed = text[text.index("cycles : dict") : text.index("running_conditions :")]
+    assert sorted(re.findall(r"``(\w+)``", steps)) == sorted(STEP_KINDS)
+    assert sorted(re.findall(r"``(\w+)``", listed)) == sorted(CYCLE_KINDS)
+
+
+def test_a_solved_history_has_every_column_with_its_type() -> None:
+    case = {
+        "format": 1,
+        "upper": {"rigid": True},
+        "lower": {"young": 1.0, "poisson": 0.3},
+        "profile": {"sphere": {"radius": 1.0}},
+        "grid": {"cells": [16, 16], "size": [0.4, 0.4]},
+        "friction": {"coefficient": 0.5},
+        "stages": [
+            {"name": "press", "normal_force": 1e-3, "increments": 1},
+            {
+                "name": "fret",
+                "cycle": {"tangential_force_x": 2e-4, "increments_per_cycle": 4, "cycles": 1},
+            },
+        ],
+    }
+    del case
+    history = fretting.run(SMALL)
+    assert list(history.steps) == list(STEP_KINDS)
+    kinds = {int: "i", float: "f", str: "U"}
+    assert {name: column.dtype.kind for name, column in history.steps.items()} == {
+        name: kinds[kind] for name, kind in STEP_KINDS.items()
+    }
+    assert list(history.cycles) == list(CYCLE_KINDS)
+    assert set(MEANING) == set(STEP_KINDS) | set(FIELD_NAMES)
+    assert set(cycles.MEANING) == set(CYCLE_KINDS)
