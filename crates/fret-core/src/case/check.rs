@@ -17,7 +17,7 @@ use super::shape::profile;
 use super::stages::{sliding, stages};
 use super::stress::stress;
 use super::wearing::wear;
-use crate::model::{CoulombFriction, Scheme};
+use crate::model::{CoulombFriction, Integration, Scheme};
 
 /// Cells along one side of the grid, at the least.
 pub const FEWEST_CELLS: usize = 4;
@@ -114,6 +114,11 @@ pub(super) fn case(
                 .as_ref()
                 .and_then(|solver| solver.scheme.as_ref())
                 .map_or(Scheme::default(), |scheme| *scheme.get_ref()),
+            integration: file
+                .solver
+                .as_ref()
+                .and_then(|solver| solver.integration.as_ref())
+                .map_or(Integration::default(), |integration| *integration.get_ref()),
             output,
             stress,
             origin: Origin { name: name.to_owned(), text: text.to_owned(), size: file.grid.size.span() },

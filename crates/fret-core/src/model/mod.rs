@@ -21,7 +21,7 @@ pub use half_space::{Base, Body, Coating, ContactPair, ElasticMaterial, HalfSpac
 pub use heights::{Detrend, Heights};
 pub use load::{Control, LoadStep};
 pub use profile::{BEYOND_THE_BODY, Profile};
-pub use scheme::Scheme;
+pub use scheme::{Integration, Scheme};
 pub use shape::{Axis, ProfileError, Shape};
 pub use state::{ContactState, SolvedState, Zone, mean_bound};
 pub use symmetry::Symmetry;

@@ -241,6 +241,7 @@ impl<'a> Simulation<'a> {
             response,
             SolverSettings {
                 scheme: case.scheme,
+                integration: case.integration,
                 single_precision: plan.single_precision,
                 reuse_pressure: plan.leave_out.takes(Simplification::Pressure),
                 skip_unloaded_shear: plan.leave_out.takes(Simplification::Tangential),

@@ -41,6 +41,12 @@ impl Region {
         part.into_raw_vec_and_offset().0
     }
 
+    /// Something of every cell of a grid field in the part, as flat rows.
+    pub fn gather_map<T, U>(&self, field: &Array2<T>, of: impl Fn(&T) -> U) -> Vec<U> {
+        let [rows, columns] = self.ranges();
+        field.slice(s![rows, columns]).iter().map(of).collect()
+    }
+
     fn ranges(&self) -> [Range<usize>; 2] {
         [0, 1].map(|axis| self.origin[axis]..self.origin[axis] + self.shape[axis])
     }

@@ -17,6 +17,7 @@ pub(super) fn settle(problem: &IncrementProblem<'_>, solved: &Solved) -> (Contac
     let bound_before = law.bound(&contact.packed(&region.gather(&before.pressure))).bound;
     let shear = contact.packed_tangential(&solved.tractions.shear);
     let slip = contact.packed_tangential(&solved.slip);
+    let end_slip = contact.packed_tangential(&solved.end_slip);
     let mut state = state_after(problem, solved);
     let columns = region.shape[1];
     let mut stick_cells = 0;
@@ -26,12 +27,12 @@ pub(super) fn settle(problem: &IncrementProblem<'_>, solved: &Solved) -> (Contac
         let at = [region.origin[0] + cell / columns, region.origin[1] + cell % columns];
         let [q, slip] = [shear.at(place), slip.at(place)];
         moment += grid.centre(0, at[0]) * q[1] - grid.centre(1, at[1]) * q[0];
-        if slips(q, slip, bound[place], solved.tangential_stiffness) {
+        if slips(q, end_slip.at(place), bound[place], solved.tangential_stiffness) {
             state.zone[at] = Zone::Slip;
             for axis in 0..2 {
                 state.slip[axis][at] += slip[axis];
             }
-            dissipated += dissipation([bound_before[place], bound[place]], q, slip);
+            dissipated += dissipation([bound_before[place], bound[place]], slip);
         } else {
             state.zone[at] = Zone::Stick;
             stick_cells += 1;

@@ -6,7 +6,7 @@
 //! `b = min(mu p, tau)` with the shear strength `tau` of the interface, where it has one.
 
 use crate::fields::Reals;
-use crate::model::{CellValues, CoulombFriction, mean_bound};
+use crate::model::{CellValues, CoulombFriction};
 
 use super::super::contact_set::ContactSet;
 use super::super::region::Region;
@@ -82,8 +82,8 @@ impl FrictionLaw {
 }
 
 /// Energy that friction takes from a cell that slips, per area: the mean of its bounds before and after the increment, along the slip.
-pub fn dissipation([before, after]: [f64; 2], shear: [f64; 2], slip: [f64; 2]) -> f64 {
-    if after > 0.0 { mean_bound(before, after) * (shear[0] * slip[0] + shear[1] * slip[1]) } else { 0.0 }
+pub fn dissipation([before, after]: [f64; 2], slip: [f64; 2]) -> f64 {
+    0.5 * (before + after) * slip[0].hypot(slip[1])
 }
 
 /// Whether a cell slips, in a solution: the shear that would hold it, `q + slip / K`, lies outside the disc, by more than the shear lies
