@@ -30,7 +30,7 @@ def history(fretting_case: dict[str, Any]) -> fretting.History:
 
 
 def test_steps_are_columns_of_one_entry_an_increment(history: fretting.History) -> None:
-    assert set(history.steps) == REALS | COUNTS | {"regime"}
+    assert set(history.steps) >= REALS | COUNTS | {"regime"}
     assert len(history) == 17
     for name, column in history.steps.items():
         assert column.shape == (17,), name

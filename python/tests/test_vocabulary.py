@@ -2,7 +2,7 @@
 
 import json
 import re
-from typing import get_args
+from typing import Any, get_args
 
 import fretting
 from fretting import _core, cycles
@@ -27,24 +27,8 @@ def test_the_docstring_of_a_history_lists_every_column() -> None:
     assert sorted(re.findall(r"``(\w+)``", listed)) == sorted(CYCLE_KINDS)
 
 
-def test_a_solved_history_has_every_column_with_its_type() -> None:
-    case = {
-        "format": 1,
-        "upper": {"rigid": True},
-        "lower": {"young": 1.0, "poisson": 0.3},
-        "profile": {"sphere": {"radius": 1.0}},
-        "grid": {"cells": [16, 16], "size": [0.4, 0.4]},
-        "friction": {"coefficient": 0.5},
-        "stages": [
-            {"name": "press", "normal_force": 1e-3, "increments": 1},
-            {
-                "name": "fret",
-                "cycle": {"tangential_force_x": 2e-4, "increments_per_cycle": 4, "cycles": 1},
-            },
-        ],
-    }
-    del case
-    history = fretting.run(SMALL)
+def test_a_solved_history_has_every_column_with_its_type(fretting_case: dict[str, Any]) -> None:
+    history = fretting.run(fretting_case)
     assert list(history.steps) == list(STEP_KINDS)
     kinds = {int: "i", float: "f", str: "U"}
     assert {name: column.dtype.kind for name, column in history.steps.items()} == {
