@@ -23,6 +23,6 @@ pub use load::{Control, LoadStep};
 pub use profile::{BEYOND_THE_BODY, Profile};
 pub use scheme::{Integration, Scheme};
 pub use shape::{Axis, ProfileError, Shape};
-pub use state::{ContactState, SolvedState, Zone, mean_bound};
+pub use state::{ContactState, SolvedState, Zone};
 pub use symmetry::Symmetry;
 pub use wear::{WearLaw, WearRule};
