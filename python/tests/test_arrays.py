@@ -121,6 +121,7 @@ def test_a_map_of_a_dataset_has_x_to_the_right(history: fretting.History) -> Non
     matplotlib.pyplot.close("all")
 
 
+@pytest.mark.long
 def test_a_long_history_with_few_kept_fields_makes_a_small_dataset(tmp_path: Path) -> None:
     pytest.importorskip("xarray")
     case = {

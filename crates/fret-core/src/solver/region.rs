@@ -43,8 +43,7 @@ impl Region {
 
     /// Something of every cell of a grid field in the part, as flat rows.
     pub fn gather_map<T, U>(&self, field: &Array2<T>, of: impl Fn(&T) -> U) -> Vec<U> {
-        let [rows, columns] = self.ranges();
-        field.slice(s![rows, columns]).iter().map(of).collect()
+        inside(field.view(), self.ranges()).iter().map(of).collect()
     }
 
     fn ranges(&self) -> [Range<usize>; 2] {
@@ -140,10 +139,7 @@ impl Region {
 }
 
 /// The part of a view in these rows and columns.
-fn inside<S: RawData<Elem = f64>>(
-    field: ArrayBase<S, Ix2>,
-    [rows, columns]: [Range<usize>; 2],
-) -> ArrayBase<S, Ix2> {
+fn inside<S: RawData>(field: ArrayBase<S, Ix2>, [rows, columns]: [Range<usize>; 2]) -> ArrayBase<S, Ix2> {
     field.slice_move(s![rows, columns])
 }
 

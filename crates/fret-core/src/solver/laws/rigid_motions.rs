@@ -117,7 +117,7 @@ mod tests {
         positions.motions_of(&ContactSet::of(4, |_| true))
     }
 
-    /// The rotation field is e_z cross r over the length, of the cells in contact alone.
+    /// The rotation field is `(-y, x)` over the length, of the cells in contact alone.
     #[test]
     fn a_motion_is_shift_and_rotation_about_the_origin() {
         let motions = rectangle(true, [true; 3]);
