@@ -6,12 +6,13 @@ use ndarray::Array2;
 
 use super::influence::Influence;
 use super::measure::{Raise, dot, hypot, largest, over, size};
+use super::slip_path::{CellPath, Past};
 use super::{Before, Certificate};
 
-/// The rule by which friction dissipates in a cell, per area: the mean of the friction bounds before and after the increment times the
-/// slip along the shear. The bounds go as the pressures `[before, after]`.
-pub fn dissipated([before, after]: [f64; 2], shear: [f64; 2], slip: [f64; 2]) -> f64 {
-    if after > 0.0 { 0.5 * (before + after) / after * dot(shear, slip) } else { 0.0 }
+/// The rule by which friction dissipates in a cell, per area: the mean of the friction bounds `[before, after]` the increment times the
+/// slip.
+pub fn dissipated([before, after]: [f64; 2], slip: [f64; 2]) -> f64 {
+    0.5 * (before + after) * hypot(slip)
 }
 
 #[derive(Clone, Copy)]
@@ -38,6 +39,10 @@ pub(super) struct Increment<'a> {
     pub(super) load: LoadStep,
     pub(super) fields: Fields<'a>,
     pub(super) displacements: &'a [Array2<f64>; 3],
+    /// What went before, and the length of this increment over the last, where slip is integrated to second order.
+    pub(super) past: Option<(&'a Past, f64)>,
+    /// What went before is known.
+    pub(super) is_known: bool,
 }
 
 impl Increment<'_> {
@@ -45,7 +50,7 @@ impl Increment<'_> {
     pub(super) fn certificate(&self) -> Certificate {
         let mut certificate = Certificate {
             increment: self.record.increment,
-            whole: self.record.parts == 1,
+            whole: self.record.parts == 1 && self.is_known,
             equilibrium: self.equilibrium(),
             motion: self.motion(),
             columns: self.columns(),
@@ -97,18 +102,23 @@ impl Increment<'_> {
             let length = hypot(q);
             certificate.excess.raise(over((length - bound).max(0.0), most));
             let kept = [0, 1].map(|axis| slip[axis][at] - self.before.slip[axis][at]);
-            work += dissipated([self.law.bound(i, j, self.before.pressure[at]), bound], q, kept);
+            work += dissipated([self.law.bound(i, j, self.before.pressure[at]), bound], kept);
             limit += bound * hypot(kept);
             if zone == Zone::Slip {
                 certificate.on_circle.raise(over((bound - length).max(0.0), most));
-            } else if certificate.whole {
+            }
+            let path = self.past.map_or(CellPath::STRAIGHT, |(past, ratio)| past.path(at, ratio));
+            if zone != Zone::Slip && certificate.whole && path.counted([0.0; 2], zone) == [0.0; 2] {
                 // Exactly: nothing is added to the slip of a cell that does not slip.
                 certificate.slip.raise(if kept == [0.0; 2] { 0.0 } else { 1.0 });
             }
             if !certificate.whole || !self.slides || zone == Zone::Open || p[at] <= 0.0 {
                 continue;
             }
-            let v = self.slip_increment(at);
+            let change = self.slip_increment(at);
+            let counted = path.counted(change, zone);
+            certificate.slip.raise(over(hypot([kept[0] - counted[0], kept[1] - counted[1]]), scale));
+            let v = path.end(change);
             let w = v.map(|v| v / kt);
             let image = project([q[0] + w[0], q[1] + w[1]], bound);
             off += (q[0] - image[0]).powi(2) + (q[1] - image[1]).powi(2);
@@ -116,7 +126,6 @@ impl Increment<'_> {
                 certificate.stick.raise(over(hypot(w), norm));
                 continue;
             }
-            certificate.slip.raise(over(hypot([kept[0] - v[0], kept[1] - v[1]]), scale));
             if bound > 0.0 {
                 let across = (q[0] * w[1] - q[1] * w[0]).abs() / bound;
                 certificate.direction.raise(over(across, norm * (1.0 + hypot(w) / bound)));
@@ -141,6 +150,13 @@ impl Increment<'_> {
         let mut bound = self.fields.p.clone();
         bound.indexed_iter_mut().for_each(|((i, j), p)| *p = self.law.bound(i, j, *p));
         bound
+    }
+
+    /// That of every cell.
+    pub(super) fn drift(&self) -> [Array2<f64>; 2] {
+        [0, 1].map(|axis| {
+            Array2::from_shape_fn(self.fields.p.dim(), |(i, j)| self.slip_increment([i, j])[axis])
+        })
     }
 
     /// Motion of the upper point less that of the lower one in the increment [length].

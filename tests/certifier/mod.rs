@@ -9,14 +9,16 @@ mod increment;
 mod influence;
 mod measure;
 mod run;
+mod slip_path;
 
 use fret_core::case::Stage;
 use fret_core::history::{KeptFields, StepRecord};
-use fret_core::model::{Control, LoadStep};
+use fret_core::model::{Control, Integration, LoadStep, Zone};
 use fret_core::plan::Plan;
 use increment::{Fields, Increment};
 use influence::Influence;
 use ndarray::Array2;
+use slip_path::Past;
 
 pub use certificate::{Certificate, ON_CIRCLE, SAME};
 pub use increment::dissipated;
@@ -37,6 +39,9 @@ pub struct Certifier<'a> {
     influence: Influence,
     undeformed: Array2<f64>,
     before: Before,
+    past: Past,
+    /// Increments since one whose parts are not known.
+    whole: usize,
 }
 
 /// What an increment leaves to the next one.
@@ -72,6 +77,8 @@ impl<'a> Certifier<'a> {
             plan,
             influence: Influence::new(&case.bodies, &plan.grid, case.periodic),
             undeformed: case.profile.gap(&plan.grid),
+            past: Past::default(),
+            whole: 2,
             before: Before {
                 slip: [zero(), zero()],
                 worn: None,
@@ -112,6 +119,7 @@ impl<'a> Certifier<'a> {
         let law = case.stages[..=record.stage].iter().rev().find_map(|stage| stage.friction.as_ref());
         let law = law.unwrap_or(&case.friction);
         let displacements = self.influence.displacements(p, q);
+        let ratio = self.past.ratio_to(&load).filter(|_| case.integration == Integration::SecondOrder);
         let increment = Increment {
             grid: &self.plan.grid,
             influence: &self.influence,
@@ -124,10 +132,30 @@ impl<'a> Certifier<'a> {
             load,
             fields: Fields { p, q, slip, gap, zone },
             displacements: &displacements,
+            past: ratio.map(|ratio| (&self.past, ratio)),
+            is_known: self.whole >= 2 || case.integration == Integration::EndPoint,
         };
         let certificate = increment.certificate();
+        let drift = increment.drift();
+        let slipping = zone.indexed_iter().filter(|(_, zone)| **zone == Zone::Slip);
+        let largest_slip = slipping.map(|(at, _)| drift[0][at].hypot(drift[1][at])).fold(0.0, f64::max);
         let [_, x, y] = displacements;
+        self.whole = if record.parts == 1 { self.whole + 1 } else { 0 };
         let before = &mut self.before;
+        let past = &mut self.past;
+        past.loads.push(load);
+        past.is_cut = before.worn != fields.worn_depth;
+        if past.is_cut {
+            *past = Past { loads: std::mem::take(&mut past.loads), is_cut: true, ..Past::default() };
+        } else {
+            let (drift_before, gap_before) = (past.drift[0].take(), past.gap[0].take());
+            past.drift = [Some(drift), drift_before];
+            past.gap = [Some(gap.clone()), gap_before];
+        }
+        past.largest_slip = largest_slip;
+        past.pressure = Some(before.pressure.clone());
+        past.zone = Some(zone.clone());
+        past.ratio = ratio.unwrap_or(1.0);
         before.tangential = [x, y];
         before.pressure.clone_from(p);
         before.slip.clone_from(slip);

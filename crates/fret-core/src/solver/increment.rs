@@ -13,6 +13,7 @@ use super::laws::projection::project_pressure;
 use super::laws::rigid_motions::CellPositions;
 use super::laws::slip::TangentialResidual;
 use super::laws::slip_path::SlipPath;
+use super::memory::{Before, Drift};
 use super::newton::{self, ContactProblem, Pressure, Solution};
 use super::normal::{NormalEquations, first_pressure, full_contact_pressure, solve_normal};
 use super::operators::{Method, RegionOperators};
@@ -22,6 +23,7 @@ use super::settings::{Coupling, IterationCallback, SolveError, SolverSettings};
 use super::staggered;
 use super::tractions::{Displacements, Tractions};
 use crate::compliance::{SpectralCompliance, SurfaceCompliance};
+use crate::fields::add_scaled;
 use crate::model::{ContactState, Control, CoulombFriction, LoadStep, Scheme, SurfaceGrid, TangentialField};
 
 /// Residual to which the frictionless start of a coupled contact is solved.
@@ -88,7 +90,7 @@ impl<'a> IncrementProblem<'a> {
         (state, load): (&'a ContactState, &LoadStep),
         region: Region,
         periodic: bool,
-        (start, path): (Option<&Array2<f64>>, SlipPath),
+        start: Option<&Array2<f64>>,
     ) -> Self {
         let centres = |axis: usize| -> Vec<f64> {
             (0..region.shape[axis]).map(|index| grid.centre(axis, region.origin[axis] + index)).collect()
@@ -124,7 +126,7 @@ impl<'a> IncrementProblem<'a> {
             motion,
             resultant,
             periodic,
-            path,
+            path: SlipPath::default(),
             start: start.map(|pressure| region.gather(pressure)),
         }
     }
@@ -436,6 +438,40 @@ impl<'a> IncrementProblem<'a> {
             drift.set(cell, [here[0] + moved[0], here[1] + moved[1]]);
         }
         drift
+    }
+
+    /// The drift of the last increment in every cell of the region.
+    pub fn drift_to_here(
+        &self,
+        before: &Before,
+        drift: &Drift,
+        operators: &mut RegionOperators,
+        coupling: Coupling,
+    ) -> TangentialField {
+        let Self { region, grid, state, .. } = self;
+        let change = |now: &Array2<f64>, then: &Array2<f64>| {
+            let mut change = region.gather(now);
+            add_scaled(&mut change, -1.0, &region.gather(then));
+            change
+        };
+        let pressure = change(&state.pressure, &before.tractions.pressure);
+        let [x, y] = [0, 1].map(|axis| change(&state.shear[axis], &before.tractions.shear[axis]));
+        let mut moved = Displacements::zeros(region.len());
+        if coupling == Coupling::Coupled {
+            operators.compliance.full([&pressure, &x, &y], moved.parts_mut());
+        } else {
+            operators.compliance.tangential([&x, &y], moved.tangential.parts_mut());
+        }
+        let [shift_x, shift_y, twist] = drift.motion;
+        let mut found = moved.tangential;
+        for cell in 0..region.len() {
+            let [i, j] =
+                [region.origin[0] + cell / region.shape[1], region.origin[1] + cell % region.shape[1]];
+            let u = found.at(cell);
+            let turned = [-twist * grid.centre(1, j), twist * grid.centre(0, i)];
+            found.set(cell, [shift_x + turned[0] - u[0], shift_y + turned[1] - u[1]]);
+        }
+        found
     }
 
     /// Tangential displacement of the state before, in the region.

@@ -46,6 +46,8 @@ pub(super) struct Drift {
     pub region: Option<Region>,
     /// Of its cells [length].
     pub field: TangentialField,
+    /// Shift along x and y [length] and twist [rad] of the increment.
+    pub motion: [f64; 3],
     /// Length of the increment over that of the one before it, in the loads [-]; 1 where it does not go on from that.
     pub ratio: f64,
 }

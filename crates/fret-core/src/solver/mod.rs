@@ -210,8 +210,10 @@ impl<'a> ContactSolver<'a> {
             Some(pressure) => self.region_around(pressure, state),
             None => self.region_for(state, load),
         };
-        let ratio = self.continuation(load).filter(|ratio| *ratio > 0.0);
-        let ratio = ratio.filter(|_| self.settings.integration == Integration::SecondOrder);
+        let ratio = self.ratio_to_last(load);
+        let follows =
+            self.coupling != Coupling::Frictionless && self.settings.integration == Integration::SecondOrder;
+        let ratio = ratio.filter(|_| follows);
         loop {
             let (solved, after, outcome) =
                 self.solve_in(region, (start.as_ref(), ratio), (state, load), work, callback)?;
@@ -243,20 +245,22 @@ impl<'a> ContactSolver<'a> {
             let (gap, contact_area) = found
                 .or_else(|| Some((gap_before.clone()?, contact_area_before)))
                 .unwrap_or_else(|| (Array2::zeros(self.grid.cells()), contact_area_before));
-            let recalls = self.settings.integration == Integration::SecondOrder;
             let previous = self.memory.last_load.replace(*load);
             self.memory.before = previous.map(|load| Before {
                 load,
                 tractions: GridTractions::of(state),
                 contact_area: contact_area_before,
-                gap: gap_before.filter(|_| recalls),
-                drift: drift_before.filter(|_| recalls),
+                gap: gap_before.filter(|_| follows),
+                drift: drift_before.filter(|_| follows),
             });
-            let drift = Drift { region: Some(region), field: solved.drift, ratio: ratio.unwrap_or(1.0) };
+            let motion =
+                [after.shift[0] - state.shift[0], after.shift[1] - state.shift[1], after.twist - state.twist];
+            let drift =
+                Drift { region: Some(region), field: solved.drift, motion, ratio: ratio.unwrap_or(1.0) };
             self.memory.last = Some(LastIncrement {
                 region,
                 displacements: solved.displacements,
-                drift: if recalls { drift } else { Drift::default() },
+                drift: if follows { drift } else { Drift::default() },
                 gap: gap.clone(),
                 contact_area,
                 load: *load,
@@ -278,15 +282,14 @@ impl<'a> ContactSolver<'a> {
     ) -> Result<(Solved, ContactState, Outcome), SolveError> {
         let grid = self.grid;
         let periodic = self.response.is_periodic();
-        let path = ratio.and_then(|ratio| slip_path(&self.memory, state, ratio, region));
-        let increment = IncrementProblem::new(
+        let mut increment = IncrementProblem::new(
             &grid,
             &self.undeformed,
             &self.friction,
             (state, load),
             region,
             periodic,
-            (start, path.unwrap_or_default()),
+            start,
         );
         if let Some(solved) = increment.apart() {
             let (after, outcome) = settle::settle(&increment, &solved);
@@ -302,6 +305,12 @@ impl<'a> ContactSolver<'a> {
         let mut operators = self.operators_for(region)?;
         let counted =
             (operators.compliance.applications, operators.preconditioner.passes, operators.direct_solves);
+        let beyond = |before: &Before, drift: &Drift| {
+            increment.drift_to_here(before, drift, &mut operators, self.coupling)
+        };
+        if let Some(path) = ratio.and_then(|ratio| slip_path(&self.memory, state, (ratio, region), beyond)) {
+            increment.path = path;
+        }
         let last = self.memory.last.as_ref().filter(|last| last.region == region);
         let unchanged = last.is_some_and(|last| last.load.normal == load.normal);
         let last = last.map(|last| &last.displacements);

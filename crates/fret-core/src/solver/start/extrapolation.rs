@@ -155,25 +155,43 @@ impl ContactSolver<'_> {
     }
 
     /// Ratio of this load increment to the last one when it goes on in the same direction.
-    pub(in super::super) fn continuation(&self, load: &LoadStep) -> Option<f64> {
-        let (Some(Before { load: first, .. }), Some(second)) = (&self.memory.before, &self.memory.last_load)
-        else {
-            return None;
-        };
-        let (older, newer) = (change(first, second)?, change(second, load)?);
-        let mut product = 0.0;
-        let (mut old_square, mut new_square) = (0.0, 0.0);
-        for (a, b) in older.iter().zip(&newer) {
-            let scale = a.abs().max(b.abs());
-            if scale > 0.0 {
-                product += (a / scale) * (b / scale);
-                old_square += (a / scale).powi(2);
-                new_square += (b / scale).powi(2);
-            }
-        }
-        let cosine = product / (old_square * new_square).sqrt();
-        (cosine > 0.5).then(|| (product / old_square).min(3.0))
+    fn continuation(&self, load: &LoadStep) -> Option<f64> {
+        let [old, both, new] = self.increments_to(load)?;
+        (both > 0.5 * (old * new).sqrt()).then(|| (both / old).min(3.0))
     }
+
+    /// Length of this load increment over that of the last one, 3 at the most, when it goes on in about the same direction: less than 60
+    /// degrees off.
+    pub(in super::super) fn ratio_to_last(&self, load: &LoadStep) -> Option<f64> {
+        let [old, both, new] = self.increments_to(load)?;
+        (both > 0.5 * (old * new).sqrt()).then(|| (new / old).sqrt().min(3.0))
+    }
+
+    /// The last load increment and the one to `load`, see [`products`].
+    fn increments_to(&self, load: &LoadStep) -> Option<[f64; 3]> {
+        let (before, last) = (&self.memory.before.as_ref()?.load, self.memory.last_load.as_ref()?);
+        let are_alike = matches!(
+            load.tangential,
+            [Control::Force(_), Control::Force(_)] | [Control::Motion(_), Control::Motion(_)]
+        );
+        Some(products(change(before, last)?, change(last, load)?, are_alike))
+    }
+}
+
+/// Squares of the lengths of two increments and their product, each of the normal load, the tangential loads and the twist by itself in
+/// units of the longer one.
+fn products(older: [f64; 4], newer: [f64; 4], are_alike: bool) -> [f64; 3] {
+    let groups: &[&[usize]] = if are_alike { &[&[0], &[1, 2], &[3]] } else { &[&[0], &[1], &[2], &[3]] };
+    let mut found = [0.0; 3];
+    for group in groups {
+        let product = |a: &[f64; 4], b: &[f64; 4]| group.iter().map(|&k| a[k] * b[k]).sum::<f64>();
+        let [old, both, new] = [product(&older, &older), product(&older, &newer), product(&newer, &newer)];
+        let unit = old.max(new);
+        if unit > 0.0 {
+            found = [found[0] + old / unit, found[1] + both / unit, found[2] + new / unit];
+        }
+    }
+    found
 }
 
 /// Loads as numbers, when both name the same controls.
