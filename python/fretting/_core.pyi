@@ -39,6 +39,7 @@ __all__ = [
     "tilted_line_punch",
     "tilted_punch",
     "torsion",
+    "vocabulary",
     "westergaard",
 ]
 
@@ -54,6 +55,7 @@ class Case:
     ) -> Case: ...
     def __reduce__(self) -> tuple[Callable[..., Case], tuple[Any, ...]]: ...
 
+def vocabulary() -> str: ...
 @final
 class History:
     def steps(self) -> dict[str, npt.NDArray[Any] | list[str]]: ...

@@ -10,16 +10,11 @@ from typing import Any, NoReturn
 import numpy as np
 import numpy.typing as npt
 
-from fretting._meaning import FIELD_NAMES, MEANING
+from fretting._meaning import FIELD_NAMES, STEP_KINDS
 from fretting.cycles import MEANING as CYCLE_COLUMNS
 from fretting.cycles import columns
 from fretting.errors import MissingFileError, UnreadableError
 from fretting.history import History, Steps
-
-COUNTS = {
-    "increment", "stage", "parts", "contact_cells", "stick_cells", "convolutions", "preconditioner_passes",
-    "outer_iterations",
-}  # fmt: skip
 
 
 def load(folder: str | os.PathLike[str]) -> History:
@@ -158,9 +153,8 @@ def _steps(path: Path, whole: bool) -> Steps:
     """Return the columns of ``history.csv``."""
     rows = list(csv.reader(_lines(path, whole)))
     head, body = rows[0], rows[1:]
-    known = [name for name in MEANING if name not in FIELD_NAMES]
-    wanted = [name for name in head if name in known]
-    if lost := [name for name in known if name not in head]:
+    wanted = [name for name in head if name in STEP_KINDS]
+    if lost := [name for name in STEP_KINDS if name not in head]:
         _refuse(path, f"has no column {lost[0]}; it may be of an earlier version: run the case again")
     try:
         return Steps((name, _column(name, [row[head.index(name)] for row in body])) for name in wanted)
@@ -169,9 +163,7 @@ def _steps(path: Path, whole: bool) -> Steps:
 
 
 def _column(name: str, cells: list[str]) -> npt.NDArray[Any]:
-    if name == "regime":
-        return np.array(cells, dtype=np.str_)
-    return np.array(cells, dtype=np.int64 if name in COUNTS else np.float64)
+    return np.array(cells, dtype={int: np.int64, float: np.float64, str: np.str_}[STEP_KINDS[name]])
 
 
 def _cycles(path: Path, whole: bool) -> list[dict[str, Any]]:

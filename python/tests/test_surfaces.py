@@ -77,6 +77,7 @@ def test_bad_heights_are_refused_in_one_message(profile: dict[str, Any], said: s
     assert said in str(caught.value)
 
 
+@pytest.mark.long
 def test_a_topography_of_surface_topography_is_read_through_its_heights() -> None:
     topographies = pytest.importorskip("SurfaceTopography")
     topography = topographies.Topography(-GAP, (SIZE, SIZE))

@@ -264,8 +264,8 @@ pub(super) struct SolverFile {
     /// scheme), for comparison. Default: "monolithic".
     #[schemars(with = "Option<Scheme>")]
     pub scheme: Option<Spanned<Scheme>>,
-    /// "second_order": the friction law at the end of an increment takes the direction that slip has there; "end_point": the direction
-    /// of the whole slip increment (backward Euler, of first order), for comparison. Default: "second_order".
+    /// "`second_order`": the friction law at the end of an increment takes the direction that slip has there; "`end_point`": the direction
+    /// of the whole slip increment (backward Euler, of first order), for comparison. Default: "`second_order`".
     #[schemars(with = "Option<Integration>")]
     pub integration: Option<Spanned<Integration>>,
 }

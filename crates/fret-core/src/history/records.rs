@@ -84,21 +84,6 @@ pub struct KeptFields {
     pub rest: Option<Box<SolvedState>>,
 }
 
-impl KeptFields {
-    /// Pressure, shear or slip by its name, where it is kept.
-    pub fn field(&self, name: &str) -> Option<&Array2<f64>> {
-        let [shear, slip] = [&self.shear, &self.slip].map(Option::as_ref);
-        match name {
-            "pressure" => self.pressure.as_ref(),
-            "shear_x" => shear.map(|[x, _]| x),
-            "shear_y" => shear.map(|[_, y]| y),
-            "slip_x" => slip.map(|[x, _]| x),
-            "slip_y" => slip.map(|[_, y]| y),
-            _ => None,
-        }
-    }
-}
-
 /// All of a run.
 #[derive(Debug, Clone)]
 pub struct History {
