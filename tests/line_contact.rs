@@ -315,6 +315,7 @@ fn stress_under_a_sliding_cylinder_follows_muskhelishvili() {
     let points = depth_points(&half_space, &depths).unwrap();
     let [x, y] = kept.shear.clone().unwrap();
     let surface = LoadedSurface {
+        bulk_stress: [0.0; 2],
         increment: 0,
         pressure: kept.pressure.clone().unwrap(),
         shear: Some([x, y]),

@@ -8,6 +8,7 @@
 )]
 
 mod analytic_limits;
+mod bulk_stress;
 mod certified;
 mod coated_limits;
 mod coefficient_regimes;

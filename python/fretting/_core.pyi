@@ -111,6 +111,7 @@ def subsurface_stress(
     periodic: bool,
     tractions: tuple[npt.NDArray[np.float64], tuple[npt.NDArray[np.float64], npt.NDArray[np.float64]] | None],
     depths: list[float],
+    bulk_stress: list[float],
     threads: int | None,
 ) -> dict[str, npt.NDArray[Any]]: ...
 

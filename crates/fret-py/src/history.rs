@@ -14,7 +14,7 @@ use crate::error::bad_value;
 type Entry<T> = (&'static str, fn(&StepRecord) -> T);
 
 /// The real numbers of a step.
-const REALS: [Entry<f64>; 18] = [
+const REALS: [Entry<f64>; 27] = [
     ("normal_force", |step| step.normal_force),
     ("approach", |step| step.approach),
     ("tangential_force_x", |step| step.tangential_force[0]),
@@ -23,6 +23,15 @@ const REALS: [Entry<f64>; 18] = [
     ("shift_y", |step| step.shift[1]),
     ("twist_moment", |step| step.twist_moment),
     ("twist", |step| step.twist),
+    ("tilt_x", |step| step.tilt[0]),
+    ("tilt_y", |step| step.tilt[1]),
+    ("tilt_moment_x", |step| step.tilt_moment[0]),
+    ("tilt_moment_y", |step| step.tilt_moment[1]),
+    ("bulk_stress_x", |step| step.bulk_stress[0][0]),
+    ("bulk_stress_y", |step| step.bulk_stress[0][1]),
+    ("upper_bulk_stress_x", |step| step.bulk_stress[1][0]),
+    ("upper_bulk_stress_y", |step| step.bulk_stress[1][1]),
+    ("bulk_work", |step| step.bulk_work),
     ("max_pressure", |step| step.max_pressure),
     ("max_shear", |step| step.max_shear),
     ("contact_area", |step| step.contact_area),

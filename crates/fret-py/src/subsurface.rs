@@ -28,6 +28,7 @@ pub fn subsurface_stress<'py>(
     periodic: bool,
     tractions: TractionArrays<'py>,
     depths: Vec<f64>,
+    bulk_stress: [f64; 2],
     threads: Threads,
 ) -> PyResult<Bound<'py, PyDict>> {
     let (text, upper) = bodies;
@@ -50,7 +51,7 @@ pub fn subsurface_stress<'py>(
         return Err(PyValueError::new_err(format!("shear of another shape than the pressure, {shape:?}")));
     }
     let grid = SurfaceGrid::new([shape.0, shape.1], spacing).map_err(bad_value)?;
-    let surface = LoadedSurface { increment: 0, pressure, shear, slip: None };
+    let surface = LoadedSurface { increment: 0, pressure, shear, slip: None, bulk_stress };
     let mut stress: [Array3<f64>; 7] =
         std::array::from_fn(|_| Array3::zeros((points.len(), shape.0, shape.1)));
     on_pool(py, threads, || {

@@ -12,7 +12,7 @@ use serde_json::Value;
 use crate::failure::Unwritten;
 
 /// The columns, in order; the names are those of `history.steps` in Python.
-const COLUMNS: [&str; 27] = [
+const COLUMNS: [&str; 36] = [
     "increment",
     "stage",
     "normal_force",
@@ -40,6 +40,15 @@ const COLUMNS: [&str; 27] = [
     "parts",
     "worn_volume",
     "max_worn_depth",
+    "tilt_x",
+    "tilt_y",
+    "tilt_moment_x",
+    "tilt_moment_y",
+    "bulk_stress_x",
+    "bulk_stress_y",
+    "upper_bulk_stress_x",
+    "upper_bulk_stress_y",
+    "bulk_work",
 ];
 
 /// The columns of the cycles, in order; the names are those of `history.cycles` in Python.
@@ -201,6 +210,15 @@ fn line(record: &StepRecord) -> String {
         record.parts.to_string(),
         exact(record.worn_volume),
         exact(record.max_worn_depth),
+        exact(record.tilt[0]),
+        exact(record.tilt[1]),
+        exact(record.tilt_moment[0]),
+        exact(record.tilt_moment[1]),
+        exact(record.bulk_stress[0][0]),
+        exact(record.bulk_stress[0][1]),
+        exact(record.bulk_stress[1][0]),
+        exact(record.bulk_stress[1][1]),
+        exact(record.bulk_work),
     ];
     cells.join(",") + "\n"
 }

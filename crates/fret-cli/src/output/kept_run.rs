@@ -4,7 +4,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use fret_core::case::StressRequest;
+use fret_core::case::{Side, StressRequest};
 use fret_core::model::{ContactPair, SurfaceGrid};
 use ndarray::Array2;
 use serde::de::DeserializeOwned;
@@ -42,6 +42,8 @@ pub struct KeptRun {
     pub steps: Vec<usize>,
     /// Increments that are solved.
     pub solved: usize,
+    /// Bulk stresses of the lower and of the upper body along x and y at the end of every increment.
+    bulk_stress: [[Vec<f64>; 2]; 2],
     /// Why the run is not finished, in a sentence, when it is not.
     pub unfinished: Option<String>,
 }
@@ -84,9 +86,17 @@ impl KeptRun {
             cyclic,
             steps,
             solved,
+            bulk_stress: ["bulk_stress", "upper_bulk_stress"]
+                .map(|name| ["x", "y"].map(|axis| table.column(&format!("{name}_{axis}")).to_vec())),
             unfinished: unfinished(&record, solved),
             record,
         })
+    }
+
+    /// Bulk stress of a body along x and y at the end of an increment [pressure].
+    pub fn bulk_stress(&self, body: Side, increment: usize) -> [f64; 2] {
+        let of_body = &self.bulk_stress[usize::from(body == Side::Upper)];
+        [0, 1].map(|axis| of_body[axis].get(increment).copied().unwrap_or(0.0))
     }
 
     /// A kept field of an increment; `None` when it was not kept.

@@ -16,6 +16,7 @@ use super::repeating::repeats;
 use super::shape::profile;
 use super::stages::{sliding, stages};
 use super::stress::stress;
+use super::substrates::bulk_and_tilt;
 use super::wearing::wear;
 use crate::model::{CoulombFriction, Scheme};
 
@@ -60,6 +61,7 @@ pub(super) fn case(
     }
     let periodic =
         !is_line && repeats(&mut judge, &file.grid, size, loading, profile.as_ref(), bodies.as_ref());
+    bulk_and_tilt(&mut judge, &file.grid, loading, bodies.as_ref(), (is_line, size));
     let mapped = friction.iter().chain(changes.iter().flatten().flatten()).any(CoulombFriction::is_map);
     let has_arrays = mapped || profile.as_ref().is_some_and(|profile| !profile.heights.is_empty());
     if let (true, Some(GridSize::Auto), false) = (has_arrays, size, periodic) {

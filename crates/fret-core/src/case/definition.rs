@@ -72,6 +72,12 @@ impl Case {
         self.cells[1] == 1
     }
 
+    /// Whether the upper body is tilted along an axis (0: x, 1: y) by any stage, or where the history starts.
+    pub fn tilts(&self, axis: usize) -> bool {
+        let starts = self.start.is_some_and(|loads| loads.tilt[axis] != LoadStep::FREE.tilt[axis]);
+        starts || self.stages.iter().any(|stage| stage.tilt[axis].is_some())
+    }
+
     /// Whether there is no friction anywhere in the whole history.
     pub fn is_frictionless(&self) -> bool {
         let changes = self.stages.iter().filter_map(|stage| stage.friction.as_ref());

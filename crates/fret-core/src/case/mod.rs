@@ -1,7 +1,9 @@
 //! The written question: a case, checked. Read from TOML text (`read`), judged all at once (`check`), refused with places (`refusal`).
 
+mod along;
 mod arrays;
 mod attachments;
+mod axis;
 mod bodies;
 pub(crate) mod check;
 mod coating;
@@ -15,6 +17,7 @@ mod line;
 mod numbers;
 mod output;
 mod pair;
+mod phases;
 mod read;
 mod refusal;
 mod repeating;
@@ -22,6 +25,7 @@ mod shape;
 mod stage_file;
 mod stages;
 mod stress;
+mod substrates;
 mod surface_file;
 mod table;
 mod wearing;

@@ -1,5 +1,6 @@
 //! The nouns of a contact: grid, bodies, profile, friction, loads, state. No numerics live here.
 
+pub mod bulk;
 pub mod each_cell;
 pub mod field;
 pub mod friction;
@@ -16,6 +17,7 @@ pub(crate) mod stored;
 pub mod symmetry;
 pub mod wear;
 
+pub use bulk::{BulkCompliance, bulk_stress_in_layer};
 pub use field::TangentialField;
 pub use friction::{CoulombFriction, FrictionError};
 pub use graded::{GradedCoating, GradientError, Layer, YoungGradient};

@@ -177,15 +177,22 @@ impl ContactSolver<'_> {
 }
 
 /// Loads as numbers, when both name the same controls.
-fn change(from: &LoadStep, to: &LoadStep) -> Option<[f64; 4]> {
+fn change(from: &LoadStep, to: &LoadStep) -> Option<[f64; 10]> {
     let difference = |a: Control, b: Control| match (a, b) {
         (Control::Force(a), Control::Force(b)) | (Control::Motion(a), Control::Motion(b)) => Some(b - a),
         _ => None,
     };
+    let bulk = |body: usize, axis: usize| to.bulk_stress[body][axis] - from.bulk_stress[body][axis];
     Some([
         difference(from.normal, to.normal)?,
         difference(from.tangential[0], to.tangential[0])?,
         difference(from.tangential[1], to.tangential[1])?,
         difference(from.twist, to.twist)?,
+        difference(from.tilt[0], to.tilt[0])?,
+        difference(from.tilt[1], to.tilt[1])?,
+        bulk(0, 0),
+        bulk(0, 1),
+        bulk(1, 0),
+        bulk(1, 1),
     ])
 }
