@@ -390,7 +390,7 @@ fn random_case(random: &mut Random, number: usize) -> String {
     let mut text = format!(
         "[grid]\n{grid}\n[upper]\nsubstrate = {{ young = {upper_young:e}, poisson = {upper_poisson:e} }}\n\
          [lower]\n{coating}substrate = {{ young = 1.0, poisson = {poisson:e} }}\n[profile.{profile}\n\
-         [friction]\ncoefficient = {friction:e}\n[solver]\ntolerance = 1e-10\n"
+         [friction]\ncoefficient = {friction:e}\n[solver]\ntolerance = 1e-10\nintegration = \"end_point\"\n"
     );
     let _ = write!(text, "[[load]]\nnormal_force = {force:e}\nincrements = 3\nramp = \"cubic\"\n");
     let scale = 2.0 * friction * force / if line { radius } else { radius * radius };
@@ -403,7 +403,7 @@ fn random_case(random: &mut Random, number: usize) -> String {
         }
     };
     let (lower, upper) = (stress("bulk_stress"), stress("upper_bulk_stress"));
-    let pull = friction * force * between(0.1, 0.6);
+    let pull = friction * force * between(0.05, 0.25);
     let motion = if number % 5 == 0 {
         format!("shift = [{:e}, 0.0]\n", 1e-4 * between(0.1, 1.0))
     } else {

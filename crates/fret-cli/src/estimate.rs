@@ -5,7 +5,7 @@ use std::fmt::Write;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use fret_core::plan::{Coupling, Plan};
-use fret_core::simulation::RunError;
+use fret_core::run::RunError;
 use fret_core::study::{Bar, Bars, Headline, Quantity, climbed, error_bars, resolved};
 use serde_json::{Value, json};
 

@@ -29,7 +29,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use clap::Parser;
 use clap::error::ErrorKind;
-use fret_core::start::Start;
+use fret_core::history::Start;
 
 use arguments::{Arguments, Verb};
 use failure::{Failure, Told};

@@ -1,7 +1,6 @@
 //! The answer of a run, as arrays.
 
-use fret_core::cycle::running_condition;
-use fret_core::history::{self, KeptFields, Regime, StepRecord};
+use fret_core::history::{self, KeptFields, Regime, StepRecord, running_condition};
 use ndarray::Array2;
 use numpy::{IntoPyArray, PyArray1, ToPyArray};
 use pyo3::exceptions::{PyKeyError, PyValueError};

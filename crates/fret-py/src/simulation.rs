@@ -7,12 +7,10 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, SyncSender, sync_channel};
 use std::time::Duration;
 
-use fret_core::checkpoint::Checkpoint;
-use fret_core::cycle::CycleRecord;
-use fret_core::history::{self, KeptFields, StepRecord};
+use fret_core::history::{self, CycleRecord, KeptFields, StepRecord};
 use fret_core::model::ContactState;
 use fret_core::plan::{Advance, Plan};
-use fret_core::simulation::{Iteration, Observer, RunError, Simulation};
+use fret_core::run::{Checkpoint, Iteration, Observer, RunError, Simulation};
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::{Py, PyAny, PyErr, PyResult, Python, pyfunction};
 use rayon::ThreadPool;

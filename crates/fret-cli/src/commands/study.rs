@@ -5,7 +5,7 @@ use std::path::Path;
 
 use fret_core::machine::memory;
 use fret_core::plan::Plan;
-use fret_core::simulation::RunError;
+use fret_core::run::RunError;
 use fret_core::study::{Advice, Climb, ClosedForm, Kind, Ladder, Line, Place, Rung, Truth, climbed};
 use serde_json::{Value, json};
 

@@ -6,7 +6,7 @@ use ndarray::Array2;
 use serde::{Deserialize, Serialize};
 
 use super::load::LoadStep;
-use super::stored::{self, Number};
+use crate::fields::stored::{self, Number};
 
 /// What a cell of the surface does.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]

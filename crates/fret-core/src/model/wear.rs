@@ -3,6 +3,7 @@
 use ndarray::{Array2, Zip};
 use serde::{Deserialize, Serialize};
 
+use super::friction::CoulombFriction;
 use super::state::{ContactState, mean_bound};
 
 /// What the worn depth follows.
@@ -31,17 +32,25 @@ pub struct WearRule {
 }
 
 impl WearRule {
-    /// Adds the depth [length] worn between two states that follow each other. Only slipping cells have slip.
-    pub fn add(&self, before: &ContactState, after: &ContactState, depth: &mut Array2<f64>) {
+    /// Adds the depth [length] worn between two states that follow each other under a friction law. Only slipping cells have slip.
+    pub fn add(
+        &self,
+        before: &ContactState,
+        after: &ContactState,
+        friction: &CoulombFriction,
+        depth: &mut Array2<f64>,
+    ) {
         for axis in 0..2 {
             debug_assert_eq!(before.slip[axis].dim(), depth.dim());
         }
         let k = self.coefficient;
         match self.law {
             WearLaw::Energy => {
-                let ratio = Zip::from(&before.pressure)
-                    .and(&after.pressure)
-                    .map_collect(|then, now| if *now > 0.0 { mean_bound(*then, *now) } else { 0.0 });
+                let ratio =
+                    Zip::indexed(&before.pressure).and(&after.pressure).map_collect(|(i, j), then, now| {
+                        let [then, now] = [then, now].map(|pressure| friction.bound(i, j, *pressure));
+                        if now > 0.0 { mean_bound(then, now) } else { 0.0 }
+                    });
                 for axis in 0..2 {
                     Zip::from(&mut *depth)
                         .and(&ratio)

@@ -10,6 +10,7 @@ use super::laws::limit::carried_fraction;
 use super::laws::projection::project_pressure;
 use super::laws::rigid_motions::CellPositions;
 use super::laws::slip::TangentialResidual;
+use super::laws::slip_path::SlipPath;
 use super::newton::{self, ContactProblem, Pressure, Solution};
 use super::normal::{NormalEquations, first_pressure, full_contact_pressure, solve_normal};
 use super::operators::{Method, RegionOperators};
@@ -48,6 +49,8 @@ pub struct IncrementProblem<'a> {
     /// Sums of shear times mode over the cells, for motions by force [pressure].
     resultant: [f64; 3],
     periodic: bool,
+    /// What is known of the paths of slip.
+    path: SlipPath,
     /// A pressure to start from, whatever the state before.
     start: Option<Vec<f64>>,
     /// What the bulk stresses do in the increment.
@@ -87,6 +90,8 @@ pub struct Solved {
     pub gap: Vec<f64>,
     /// Slip increment [length].
     pub slip: TangentialField,
+    /// Slip at the end of the increment, up to a factor [length].
+    pub end_slip: TangentialField,
     pub normal: NormalResidual,
     pub tangential: TangentialResidual,
     /// 1 / K of a cell [pressure/length].
@@ -104,8 +109,7 @@ impl<'a> IncrementProblem<'a> {
         (state, load): (&'a ContactState, &LoadStep),
         region: Region,
         periodic: bool,
-        start: Option<&Array2<f64>>,
-        stretch: Stretch,
+        (start, path, stretch): (Option<&Array2<f64>>, SlipPath, Stretch),
     ) -> Self {
         let centres = |axis: usize| -> Vec<f64> {
             (0..region.shape[axis]).map(|index| grid.centre(axis, region.origin[axis] + index)).collect()
@@ -141,6 +145,7 @@ impl<'a> IncrementProblem<'a> {
             motion,
             resultant,
             periodic,
+            path,
             start: start.map(|pressure| region.gather(pressure)),
             stretch,
         }
@@ -159,6 +164,7 @@ impl<'a> IncrementProblem<'a> {
             displacements: Displacements::zeros(len),
             gap: self.undeformed.iter().map(|gap| gap - approach).collect(),
             slip: TangentialField::zeros(len),
+            end_slip: TangentialField::zeros(len),
             normal: NormalResidual { approach, residual: 0.0 },
             tangential: TangentialResidual { motion: self.motion, residual: 0.0 },
             tangential_stiffness: 1.0,
@@ -232,7 +238,7 @@ impl<'a> IncrementProblem<'a> {
             other => other,
         }?;
         let own = operators.compliance.self_influence();
-        let Solution { normal, tangential, gap, slip, iterations } = solution;
+        let Solution { normal, tangential, gap, slip, end_slip, iterations } = solution;
         let normal = normal.unwrap_or(NormalResidual { approach: self.approach, residual: f64::INFINITY });
         let tangential_stiffness = 1.0 / own.tangential;
         Ok(Solved {
@@ -240,6 +246,7 @@ impl<'a> IncrementProblem<'a> {
             displacements,
             gap,
             slip,
+            end_slip,
             normal,
             tangential,
             tangential_stiffness,
@@ -276,7 +283,7 @@ impl<'a> IncrementProblem<'a> {
             (normal, gap, iterations) =
                 self.solve_pressure(&mut tractions, &mut displacements, operators, settings, callback)?;
         }
-        let mut slip = TangentialField::zeros(len);
+        let (mut slip, mut end_slip) = (TangentialField::zeros(len), TangentialField::zeros(len));
         let mut tangential = TangentialResidual { motion: self.motion, residual: 0.0 };
         if method.coupling == Coupling::Frictionless || settings.skip_unloaded_shear && !self.causes_shear() {
             tractions.shear.clear();
@@ -292,7 +299,7 @@ impl<'a> IncrementProblem<'a> {
                 self.check_limit(&tractions)?;
             }
             let solution = solution?;
-            slip = solution.slip;
+            (slip, end_slip) = (solution.slip, solution.end_slip);
             tangential = solution.tangential;
             iterations += solution.iterations;
         }
@@ -302,6 +309,7 @@ impl<'a> IncrementProblem<'a> {
             displacements,
             gap,
             slip,
+            end_slip,
             normal,
             tangential,
             tangential_stiffness,
@@ -370,6 +378,7 @@ impl<'a> IncrementProblem<'a> {
             total: self.total,
             approach: self.approach,
             before,
+            path: &self.path,
             positions: &self.positions,
             motion: self.motion,
             resultant: self.resultant,

@@ -8,7 +8,8 @@ use serde::{Deserialize, Serialize};
 
 use super::region::Region;
 use super::tractions::Displacements;
-use crate::model::{ContactState, LoadStep, stored};
+use crate::fields::{TangentialField, stored};
+use crate::model::{ContactState, LoadStep};
 
 /// All that later increments depend on besides the last state.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
@@ -65,6 +66,8 @@ fn copied(field: &Array2<f64>) -> Array2<f64> {
 pub(super) struct LastIncrement {
     pub region: Region,
     pub displacements: Displacements,
+    /// Slip increment of the cells that slipped, in the region [length].
+    pub slip: TangentialField,
     #[serde(with = "stored")]
     pub gap: Array2<f64>,
     pub contact_area: f64,
@@ -78,7 +81,9 @@ impl SolverMemory {
             let len = last.region.len();
             let Displacements { normal, tangential } = &last.displacements;
             last.region.lies_within(cells)
-                && [normal.len(), tangential.x.len(), tangential.y.len()] == [len; 3]
+                && [normal, &tangential.x, &tangential.y, &last.slip.x, &last.slip.y]
+                    .iter()
+                    .all(|field| field.len() == len)
                 && last.gap.dim() == cells.into()
         };
         self.region.is_none_or(|region| region.lies_within(cells))

@@ -5,6 +5,7 @@
 //! its linear problems in `linear`, the frictionless problem in `normal`. Theory: `docs/theory/contact-problem.md` and
 //! `docs/theory/solution-algorithm.md`.
 
+mod contact_edge;
 mod contact_set;
 mod contact_vector;
 mod exact_newton;
@@ -33,7 +34,8 @@ use ndarray::Array2;
 use crate::compliance::{CellResponse, OperatorSet, SpectralCompliance, SurfaceResponse};
 use crate::kernel::ResponseTable;
 use crate::model::{
-    BulkCompliance, ContactState, Control, CoulombFriction, LoadStep, Scheme, SurfaceGrid, Symmetry,
+    BulkCompliance, ContactState, Control, CoulombFriction, Integration, LoadStep, Scheme, SurfaceGrid,
+    Symmetry, Zone,
 };
 
 pub use memory::SolverMemory;
@@ -42,6 +44,7 @@ pub use outcome::{Increment, Outcome, Regime, Residual, Resultants, Work};
 pub use settings::{Coupling, IterationCallback, SolveError, SolverSettings};
 
 use increment::{IncrementProblem, Solved, Stretch};
+use laws::slip_path::SlipPath;
 use linear::preconditioner::{CellWaves, Preconditioner};
 use linear::solver::LinearSolver;
 use memory::{Before, GridTractions, LastIncrement};
@@ -230,10 +233,11 @@ impl<'a> ContactSolver<'a> {
             Some(pressure) => self.region_around(pressure, state),
             None => self.region_for(state, load),
         };
+        let last_slip = self.slip_before(load);
         let area_before = self.memory.last.as_ref().map_or(0.0, |last| last.contact_area);
         loop {
             let (solved, after, outcome) =
-                self.solve_in(region, start.as_ref(), (state, load), work, callback)?;
+                self.solve_in(region, (start.as_ref(), last_slip.as_ref()), (state, load), work, callback)?;
             self.check_equilibrium(load, &outcome)?;
             self.check_across(&after)?;
             if self.touches_edge(&after.pressure) {
@@ -264,25 +268,58 @@ impl<'a> ContactSolver<'a> {
                 contact_area: area_before,
             });
             let displacements = solved.displacements;
-            self.memory.last =
-                Some(LastIncrement { region, displacements, gap: gap.clone(), contact_area, load: *load });
+            let mut slip = solved.slip;
+            for (cell, slipped) in
+                region.gather_map(&after.zone, |zone| *zone == Zone::Slip).into_iter().enumerate()
+            {
+                if !slipped {
+                    slip.set(cell, [0.0; 2]);
+                }
+            }
+            self.memory.last = Some(LastIncrement {
+                region,
+                displacements,
+                slip,
+                gap: gap.clone(),
+                contact_area,
+                load: *load,
+            });
             let fraction = outcome.stick_cells as f64 / outcome.contact_cells.max(1) as f64;
             let stick_area = contact_area * fraction;
             return Ok(Increment { state: after, outcome, contact_area, stick_area, gap, work: *work });
         }
     }
 
+    /// The slip of the last increment on the grid, and how much longer this one is in the load, where this one goes on from it and slip is
+    /// to be integrated to second order.
+    fn slip_before(&self, load: &LoadStep) -> Option<([Array2<f64>; 2], f64)> {
+        if self.settings.integration == Integration::EndPoint {
+            return None;
+        }
+        let ratio = self.continuation(load).filter(|ratio| *ratio > 0.0)?;
+        let last = self.memory.last.as_ref()?;
+        let slip = last.slip.parts().map(|part| {
+            let mut field = Array2::zeros(self.grid.cells());
+            last.region.place(part, &mut field);
+            field
+        });
+        Some((slip, ratio))
+    }
+
     /// One increment with all contact inside `region`, from the pressure `start` when there is one.
     fn solve_in(
         &mut self,
         region: Region,
-        start: Option<&Array2<f64>>,
+        (start, last_slip): (Option<&Array2<f64>>, Option<&([Array2<f64>; 2], f64)>),
         (state, load): (&ContactState, &LoadStep),
         work: &mut Work,
         callback: IterationCallback<'_>,
     ) -> Result<(Solved, ContactState, Outcome), SolveError> {
         let grid = self.grid;
         let periodic = self.response.is_periodic();
+        let path = last_slip
+            .map(|(slip, ratio)| SlipPath::after(&region.gather_tangential(slip), *ratio))
+            .unwrap_or_default();
         let increment = IncrementProblem::new(
             &grid,
             &self.undeformed,
@@ -290,8 +327,7 @@ impl<'a> ContactSolver<'a> {
             (state, load),
             region,
             periodic,
-            start,
-            self.stretch(state, load),
+            (start, path, self.stretch(state, load)),
         );
         if let Some(solved) = increment.apart() {
             let (after, outcome) = settle::settle(&increment, &solved);

@@ -4,7 +4,7 @@ use super::contact_set::ContactSet;
 use super::increment::{IncrementProblem, Solved, Stretch};
 use super::laws::friction::{dissipation, slips};
 use super::outcome::{Outcome, Regime, Residual, Resultants};
-use crate::model::field::sum;
+use crate::fields::sum;
 use crate::model::{ContactState, Control, Zone};
 
 /// The state after an increment, and what happened.
@@ -17,6 +17,7 @@ pub(super) fn settle(problem: &IncrementProblem<'_>, solved: &Solved) -> (Contac
     let bound_before = law.bound(&contact.packed(&region.gather(&before.pressure))).bound;
     let shear = contact.packed_tangential(&solved.tractions.shear);
     let slip = contact.packed_tangential(&solved.slip);
+    let end_slip = contact.packed_tangential(&solved.end_slip);
     let mut state = state_after(problem, solved);
     let columns = region.shape[1];
     let mut stick_cells = 0;
@@ -31,12 +32,12 @@ pub(super) fn settle(problem: &IncrementProblem<'_>, solved: &Solved) -> (Contac
             tilt_moment[axis] +=
                 (problem.stretch.middle[axis] + grid.centre(axis, at[axis])) * pressure[cell];
         }
-        if slips(q, slip, bound[place], solved.tangential_stiffness) {
+        if slips(q, end_slip.at(place), bound[place], solved.tangential_stiffness) {
             state.zone[at] = Zone::Slip;
             for axis in 0..2 {
                 state.slip[axis][at] += slip[axis];
             }
-            dissipated += dissipation([bound_before[place], bound[place]], q, slip);
+            dissipated += dissipation([bound_before[place], bound[place]], slip);
         } else {
             state.zone[at] = Zone::Stick;
             stick_cells += 1;
