@@ -419,3 +419,64 @@ fn random_case(random: &mut Random, number: usize) -> String {
     );
     text
 }
+
+/// Far from the contact, and in a layer of its own stiffness, the stress is that of the bulk under one strain, and what is residual.
+#[test]
+fn stress_below_is_that_of_the_contact_and_of_bulk_and_residual_stress() {
+    use fret_core::model::{Coating, HalfSpace, ResidualLayer, ResidualStress};
+    use fret_core::subsurface::{EvenStress, LoadedSurface, depth_points, survey};
+    let [soft, hard] = [(1.0, 0.3), (3.0, 0.2)].map(|(young, nu)| ElasticMaterial::new(young, nu).unwrap());
+    let coating = Coating::new(hard, 0.01).unwrap();
+    let body = HalfSpace::new(vec![coating], fret_core::model::Base::Elastic(soft)).unwrap();
+    let residual = ResidualStress::new(vec![
+        ResidualLayer { top: 0.0, rows: vec![(0.0, [-5.0, -4.0])] },
+        ResidualLayer { top: 0.01, rows: Vec::new() },
+    ]);
+    for line in [true, false] {
+        let cells = if line { [64, 1] } else { [16, 16] };
+        let grid = fret_core::model::SurfaceGrid::new(cells, [0.01, 0.01]).unwrap();
+        let zero = ndarray::Array2::zeros(cells);
+        let mut pressure = zero.clone();
+        pressure[[cells[0] / 2, cells[1] / 2]] = 1.0;
+        let surface = |even: EvenStress| LoadedSurface {
+            increment: 0,
+            pressure: pressure.clone(),
+            shear: Some([pressure.clone() * 0.3, zero.clone()]),
+            slip: None,
+            even,
+        };
+        let surfaces = [
+            surface(EvenStress::default()),
+            surface(EvenStress { bulk: [2.0, 1.0], residual: residual.clone() }),
+        ];
+        // Substrate: the bulk itself, in plane strain nu s along the line. Coating, by Hooke's law under the same strain.
+        let strain = if line { [2.0 * 0.91, 0.0] } else { [2.0 - 0.3, 1.0 - 0.6] };
+        let stiffness = 3.0 / (1.0 - 0.04);
+        let above = [
+            stiffness * (strain[0] + 0.2 * strain[1]) - 5.0,
+            stiffness * (strain[1] + 0.2 * strain[0]) - 4.0,
+        ];
+        let below = if line { [2.0, 0.6] } else { [2.0, 1.0] };
+        let points = depth_points(&body, &[0.0, 0.01, 0.03]).unwrap();
+        let mut plain = Vec::new();
+        survey(&body, &grid, false, &points, &surfaces, |point, surface, field| {
+            if surface == 0 {
+                plain = field.components.to_vec();
+                return true;
+            }
+            let expected = if points[point].layer == 0 { above } else { below };
+            for (component, values) in field.components.iter().enumerate() {
+                let more = expected.get(component).copied().unwrap_or(0.0);
+                for (found, plain) in values.iter().zip(&plain[component]) {
+                    // Rounding of one sum.
+                    assert!(
+                        (found - plain - more).abs() < 1e-14 * 30.0,
+                        "{component}: {found} {plain} {more}"
+                    );
+                }
+            }
+            true
+        })
+        .unwrap();
+    }
+}

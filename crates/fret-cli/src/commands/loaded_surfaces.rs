@@ -34,8 +34,8 @@ pub fn loaded_surfaces(
         let shear = if run.frictionless { None } else { pair(["shear_x", "shear_y"])? };
         let shear = shear.map(|shear| shear.map(|component| component * sign));
         let slip = pair(["slip_x", "slip_y"])?;
-        let bulk_stress = run.bulk_stress(request.body, increment);
-        surfaces.push(LoadedSurface { increment, pressure, shear, slip, bulk_stress });
+        let even = run.even_stress(request.body, increment);
+        surfaces.push(LoadedSurface { increment, pressure, shear, slip, even });
     }
     let shown = folder.display();
     if surfaces.is_empty() {

@@ -5,7 +5,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use fret_core::case::{Side, StressRequest};
-use fret_core::model::{ContactPair, SurfaceGrid};
+use fret_core::model::{ContactPair, ResidualStress, SurfaceGrid};
+use fret_core::subsurface::EvenStress;
 use ndarray::Array2;
 use serde::de::DeserializeOwned;
 use serde_json::Value;
@@ -44,6 +45,8 @@ pub struct KeptRun {
     pub solved: usize,
     /// Bulk stresses of the lower and of the upper body along x and y at the end of every increment.
     bulk_stress: [[Vec<f64>; 2]; 2],
+    /// Residual stress of the lower and of the upper body.
+    residual_stress: [ResidualStress; 2],
     /// Why the run is not finished, in a sentence, when it is not.
     pub unfinished: Option<String>,
 }
@@ -86,6 +89,7 @@ impl KeptRun {
             cyclic,
             steps,
             solved,
+            residual_stress: part(&plan["case"]["residual_stress"]).unwrap_or_default(),
             bulk_stress: ["bulk_stress", "upper_bulk_stress"]
                 .map(|name| ["x", "y"].map(|axis| table.column(&format!("{name}_{axis}")).to_vec())),
             unfinished: unfinished(&record, solved),
@@ -93,10 +97,12 @@ impl KeptRun {
         })
     }
 
-    /// Bulk stress of a body along x and y at the end of an increment [pressure].
-    pub fn bulk_stress(&self, body: Side, increment: usize) -> [f64; 2] {
-        let of_body = &self.bulk_stress[usize::from(body == Side::Upper)];
-        [0, 1].map(|axis| of_body[axis].get(increment).copied().unwrap_or(0.0))
+    /// What adds to the stress of the tractions in a body, in an increment.
+    pub fn even_stress(&self, body: Side, increment: usize) -> EvenStress {
+        let place = usize::from(body == Side::Upper);
+        let at = |column: &Vec<f64>| column.get(increment).copied().unwrap_or(0.0);
+        let [x, y] = &self.bulk_stress[place];
+        EvenStress { bulk: [at(x), at(y)], residual: self.residual_stress[place].clone() }
     }
 
     /// A kept field of an increment; `None` when it was not kept.

@@ -6,7 +6,9 @@ use super::course::Stage;
 use super::output::Output;
 use super::refusal::{CaseError, Difference, Mistake};
 use super::stress::StressRequest;
-use crate::model::{ContactPair, CoulombFriction, Integration, LoadStep, Profile, Scheme, WearRule};
+use crate::model::{
+    ContactPair, CoulombFriction, Integration, LoadStep, Profile, ResidualStress, Scheme, WearRule,
+};
 
 /// A case that has passed every check.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -24,6 +26,9 @@ pub struct Case {
     pub periodic: bool,
     /// The two bodies.
     pub bodies: ContactPair,
+    /// Residual stress of the lower and of the upper body.
+    #[serde(skip_serializing_if = "are_none")]
+    pub residual_stress: [ResidualStress; 2],
     /// Undeformed gap.
     pub profile: Profile,
     /// Friction law at the start; stages may change it.
@@ -48,6 +53,10 @@ pub struct Case {
     /// Where the case was written, for messages.
     #[serde(skip)]
     pub(crate) origin: Origin,
+}
+
+fn are_none(residual: &[ResidualStress; 2]) -> bool {
+    residual.iter().all(ResidualStress::is_none)
 }
 
 /// The text a case was read from, and where in it things stand.

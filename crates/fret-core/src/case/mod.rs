@@ -21,6 +21,8 @@ mod phases;
 mod read;
 mod refusal;
 mod repeating;
+mod residual;
+mod residual_file;
 mod shape;
 mod stage_file;
 mod stages;

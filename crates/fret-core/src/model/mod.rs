@@ -8,6 +8,7 @@ pub mod half_space;
 pub mod heights;
 pub mod load;
 pub mod profile;
+pub mod residual;
 pub mod scheme;
 pub mod shape;
 pub mod state;
@@ -23,6 +24,7 @@ pub use half_space::{Base, Body, Coating, ContactPair, ElasticMaterial, HalfSpac
 pub use heights::{Detrend, Heights};
 pub use load::{Control, LoadStep};
 pub use profile::{BEYOND_THE_BODY, Profile};
+pub use residual::{ResidualLayer, ResidualStress};
 pub use scheme::{Integration, Scheme};
 pub use shape::{Axis, ProfileError, Shape};
 pub use state::{ContactState, SolvedState, Zone, mean_bound};

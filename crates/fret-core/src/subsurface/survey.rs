@@ -4,9 +4,10 @@
 use ndarray::Array2;
 
 use super::depths::DepthPoint;
+use super::even::EvenStress;
 use super::operator::{DepthOperator, Tractions};
 use super::tensor::StressField;
-use crate::model::{HalfSpace, SurfaceGrid, bulk_stress_in_layer};
+use crate::model::{HalfSpace, SurfaceGrid};
 use fret_fft::ConvolutionError;
 
 /// What acts on the surface of the body in one increment, shape `(nx, ny)`.
@@ -20,11 +21,11 @@ pub struct LoadedSurface {
     pub shear: Option<[Array2<f64>; 2]>,
     /// Accumulated slip, x and y [length].
     pub slip: Option<[Array2<f64>; 2]>,
-    /// Bulk stress of the body's substrate along x and y [pressure]; its layers share the strain.
-    pub bulk_stress: [f64; 2],
+    /// What adds to the stress of the tractions: bulk stress and residual stress.
+    pub even: EvenStress,
 }
 
-/// Stress at all points under all surfaces, that of the bulk included: `visit(point, surface, field)` with their indices, points outermost. `visit`
+/// Stress at all points under all surfaces, that of the bulk and residual stress included: `visit(point, surface, field)` with their indices, points outermost. `visit`
 /// returns whether to go on.
 ///
 /// # Errors
@@ -52,7 +53,7 @@ pub fn survey(
                 None => [none.view(), none.view()],
             });
             operator.stress_into(&Tractions { pressure: surface.pressure.view(), shear }, &mut field);
-            field.add(bulk_stress_in_layer(half_space, point.layer, surface.bulk_stress, grid.is_line()));
+            field.add(surface.even.at(half_space, point, grid.is_line()));
             if !visit(number, index, &field) {
                 return Ok(());
             }
