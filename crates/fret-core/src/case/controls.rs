@@ -128,11 +128,14 @@ fn from_table(columns: &Columns) -> Controls {
     }
 }
 
+/// A key with what stands there.
+type Named<'a> = (&'a str, &'a Option<Spanned<f64>>);
+
 /// A force or a motion that is one number.
 fn scalar(
     judge: &mut Judge,
     place: &str,
-    (force, motion): ((&str, &Option<Spanned<f64>>), (&str, &Option<Spanned<f64>>)),
+    (force, motion): (Named<'_>, Named<'_>),
     phase: f64,
     path: ToPath<'_>,
 ) -> Option<StageControl> {

@@ -218,14 +218,13 @@ impl ContactSolver<'_> {
 /// The step that would end at the moments, no longer than a stiff contact allows.
 fn newton_step(stiffness: &[[f64; 2]; 2], axes: &[usize], here: &Tried) -> Option<[f64; 2]> {
     let mut step = [0.0; 2];
-    match axes {
-        [axis] => step[*axis] = -here.off[*axis] / stiffness[*axis][*axis],
-        _ => {
-            let [[xx, xy], [yx, yy]] = *stiffness;
-            let determinant = xx * yy - xy * yx;
-            step[0] = -(yy * here.off[0] - xy * here.off[1]) / determinant;
-            step[1] = -(xx * here.off[1] - yx * here.off[0]) / determinant;
-        }
+    if let [axis] = axes {
+        step[*axis] = -here.off[*axis] / stiffness[*axis][*axis];
+    } else {
+        let [[xx, xy], [yx, yy]] = *stiffness;
+        let determinant = xx * yy - xy * yx;
+        step[0] = -(yy * here.off[0] - xy * here.off[1]) / determinant;
+        step[1] = -(xx * here.off[1] - yx * here.off[0]) / determinant;
     }
     let longest =
         axes.iter().fold(0.0, |longest: f64, &axis| longest.max(step[axis].abs() / here.slope[axis]));
