@@ -27,6 +27,6 @@ pub use profile::{BEYOND_THE_BODY, Profile};
 pub use residual::{ResidualLayer, ResidualStress};
 pub use scheme::{Integration, Scheme};
 pub use shape::{Axis, ProfileError, Shape};
-pub use state::{ContactState, SolvedState, Zone, mean_bound};
+pub use state::{ContactState, SolvedState, Zone};
 pub use symmetry::Symmetry;
 pub use wear::{WearLaw, WearRule};

@@ -67,15 +67,6 @@ pub struct ContactState {
     pub bulk_work: f64,
 }
 
-/// Mean of a slipping cell's friction bound over an increment in which its pressure goes evenly from `before` to `after`, relative
-/// to the bound at its end [-]. One rule for the dissipated energy and for wear. With it the energy of a pressure that changes is
-/// of second order in the increments; with the bound of the end alone it is of first order, and too large where pressure grows.
-/// Exactly 1 where the pressure stays, a half for a cell that was open before.
-pub fn mean_bound(before: f64, after: f64) -> f64 {
-    // Bounded, so that what is multiplied with a pressure next to nothing stays a number.
-    0.5 * (1.0 + (before / after).min(1e300))
-}
-
 impl ContactState {
     /// Bodies that have not touched yet.
     pub fn untouched(cells: [usize; 2]) -> Self {

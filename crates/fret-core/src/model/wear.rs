@@ -4,7 +4,7 @@ use ndarray::{Array2, Zip};
 use serde::{Deserialize, Serialize};
 
 use super::friction::CoulombFriction;
-use super::state::{ContactState, mean_bound};
+use super::state::ContactState;
 
 /// What the worn depth follows.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
@@ -46,19 +46,17 @@ impl WearRule {
         let k = self.coefficient;
         match self.law {
             WearLaw::Energy => {
-                let ratio =
-                    Zip::indexed(&before.pressure).and(&after.pressure).map_collect(|(i, j), then, now| {
-                        let [then, now] = [then, now].map(|pressure| friction.bound(i, j, *pressure));
-                        if now > 0.0 { mean_bound(then, now) } else { 0.0 }
-                    });
-                for axis in 0..2 {
-                    Zip::from(&mut *depth)
-                        .and(&ratio)
-                        .and(&after.shear[axis])
-                        .and(&after.slip[axis])
-                        .and(&before.slip[axis])
-                        .for_each(|depth, ratio, q, now, then| *depth += k * ratio * q * (now - then));
-                }
+                let slip_y = &after.slip[1] - &before.slip[1];
+                let mut bound = before.pressure.clone();
+                Zip::indexed(&mut bound).and(&after.pressure).for_each(|(i, j), bound, now| {
+                    *bound = 0.5 * (friction.bound(i, j, *bound) + friction.bound(i, j, *now));
+                });
+                Zip::from(depth)
+                    .and(&bound)
+                    .and(&after.slip[0])
+                    .and(&before.slip[0])
+                    .and(&slip_y)
+                    .for_each(|depth, bound, now, then, y| *depth += k * bound * (now - then).hypot(*y));
             }
             WearLaw::Archard => {
                 let slip_y = &after.slip[1] - &before.slip[1];

@@ -22,6 +22,7 @@ mod outcome;
 mod region;
 mod settings;
 mod settle;
+mod slip_history;
 mod staggered;
 mod start;
 mod tilt;
@@ -35,7 +36,7 @@ use crate::compliance::{CellResponse, OperatorSet, SpectralCompliance, SurfaceRe
 use crate::kernel::ResponseTable;
 use crate::model::{
     BulkCompliance, ContactState, Control, CoulombFriction, Integration, LoadStep, Scheme, SurfaceGrid,
-    Symmetry, Zone,
+    Symmetry,
 };
 
 pub use memory::SolverMemory;
@@ -44,13 +45,13 @@ pub use outcome::{Increment, Outcome, Regime, Residual, Resultants, Work};
 pub use settings::{Coupling, IterationCallback, SolveError, SolverSettings};
 
 use increment::{IncrementProblem, Solved, Stretch};
-use laws::slip_path::SlipPath;
 use linear::preconditioner::{CellWaves, Preconditioner};
 use linear::solver::LinearSolver;
-use memory::{Before, GridTractions, LastIncrement};
+use memory::{Before, Drift, GridTractions, LastIncrement};
 use normal::coarse_grids::{CoarseGrids, Prescribed};
 use operators::{Method, RegionOperators};
 use region::Region;
+use slip_history::slip_path;
 use tractions::Tractions;
 
 /// A normal load changes much when it changes by more than this fraction: starting on coarse grids is then cheaper than from the
@@ -233,25 +234,25 @@ impl<'a> ContactSolver<'a> {
             Some(pressure) => self.region_around(pressure, state),
             None => self.region_for(state, load),
         };
-        let last_slip = self.slip_before(load);
-        let area_before = self.memory.last.as_ref().map_or(0.0, |last| last.contact_area);
+        let ratio = self.continuation(load).filter(|ratio| *ratio > 0.0);
+        let ratio = ratio.filter(|_| self.settings.integration == Integration::SecondOrder);
         loop {
             let (solved, after, outcome) =
-                self.solve_in(region, (start.as_ref(), last_slip.as_ref()), (state, load), work, callback)?;
+                self.solve_in(region, (start.as_ref(), ratio), (state, load), work, callback)?;
             self.check_equilibrium(load, &outcome)?;
             self.check_across(&after)?;
             if self.touches_edge(&after.pressure) {
                 return Err(SolveError::ContactAtEdge);
             }
-            let kept = self.memory.last.take().filter(|last| {
+            let same_pressure = self.memory.last.as_ref().is_some_and(|last| {
                 self.coupling != Coupling::Coupled
                     && self.settings.reuse_pressure
                     && last.region == region
                     && last.load.normal == load.normal
                     && last.load.tilt == load.tilt
             });
-            let (gap, contact_area) = if let Some(last) = kept {
-                (last.gap, last.contact_area)
+            let found = if same_pressure {
+                None
             } else {
                 let gap = self.gap_everywhere(region, &solved, &after, work)?;
                 if self.overlaps_outside(region, &gap) {
@@ -259,27 +260,28 @@ impl<'a> ContactSolver<'a> {
                     start = start.map(|_| after.pressure);
                     continue;
                 }
-                (gap, self.contact_area(region, &solved))
+                Some((gap, self.contact_area(region, &solved)))
             };
+            let last = self.memory.last.take();
+            let contact_area_before = last.as_ref().map_or(0.0, |last| last.contact_area);
+            let (gap_before, drift_before) = last.map(|last| (last.gap, last.drift)).unzip();
+            let (gap, contact_area) = found
+                .or_else(|| Some((gap_before.clone()?, contact_area_before)))
+                .unwrap_or_else(|| (Array2::zeros(self.grid.cells()), contact_area_before));
+            let recalls = self.settings.integration == Integration::SecondOrder;
             let previous = self.memory.last_load.replace(*load);
             self.memory.before = previous.map(|load| Before {
                 load,
                 tractions: GridTractions::of(state),
-                contact_area: area_before,
+                contact_area: contact_area_before,
+                gap: gap_before.filter(|_| recalls),
+                drift: drift_before.filter(|_| recalls),
             });
-            let displacements = solved.displacements;
-            let mut slip = solved.slip;
-            for (cell, slipped) in
-                region.gather_map(&after.zone, |zone| *zone == Zone::Slip).into_iter().enumerate()
-            {
-                if !slipped {
-                    slip.set(cell, [0.0; 2]);
-                }
-            }
+            let drift = Drift { region: Some(region), field: solved.drift, ratio: ratio.unwrap_or(1.0) };
             self.memory.last = Some(LastIncrement {
                 region,
-                displacements,
-                slip,
+                displacements: solved.displacements,
+                drift: if recalls { drift } else { Drift::default() },
                 gap: gap.clone(),
                 contact_area,
                 load: *load,
@@ -290,36 +292,18 @@ impl<'a> ContactSolver<'a> {
         }
     }
 
-    /// The slip of the last increment on the grid, and how much longer this one is in the load, where this one goes on from it and slip is
-    /// to be integrated to second order.
-    fn slip_before(&self, load: &LoadStep) -> Option<([Array2<f64>; 2], f64)> {
-        if self.settings.integration == Integration::EndPoint {
-            return None;
-        }
-        let ratio = self.continuation(load).filter(|ratio| *ratio > 0.0)?;
-        let last = self.memory.last.as_ref()?;
-        let slip = last.slip.parts().map(|part| {
-            let mut field = Array2::zeros(self.grid.cells());
-            last.region.place(part, &mut field);
-            field
-        });
-        Some((slip, ratio))
-    }
-
     /// One increment with all contact inside `region`, from the pressure `start` when there is one.
     fn solve_in(
         &mut self,
         region: Region,
-        (start, last_slip): (Option<&Array2<f64>>, Option<&([Array2<f64>; 2], f64)>),
+        (start, ratio): (Option<&Array2<f64>>, Option<f64>),
         (state, load): (&ContactState, &LoadStep),
         work: &mut Work,
         callback: IterationCallback<'_>,
     ) -> Result<(Solved, ContactState, Outcome), SolveError> {
         let grid = self.grid;
         let periodic = self.response.is_periodic();
-        let path = last_slip
-            .map(|(slip, ratio)| SlipPath::after(&region.gather_tangential(slip), *ratio))
-            .unwrap_or_default();
+        let path = ratio.and_then(|ratio| slip_path(&self.memory, state, ratio, region));
         let increment = IncrementProblem::new(
             &grid,
             &self.undeformed,
@@ -327,7 +311,7 @@ impl<'a> ContactSolver<'a> {
             (state, load),
             region,
             periodic,
-            (start, path, self.stretch(state, load)),
+            (start, path.unwrap_or_default(), self.stretch(state, load)),
         );
         if let Some(solved) = increment.apart() {
             let (after, outcome) = settle::settle(&increment, &solved);

@@ -26,22 +26,24 @@ pub(super) fn settle(problem: &IncrementProblem<'_>, solved: &Solved) -> (Contac
     let mut dissipated = 0.0;
     for (place, cell) in contact.cells().enumerate() {
         let at = [region.origin[0] + cell / columns, region.origin[1] + cell % columns];
-        let [q, slip] = [shear.at(place), slip.at(place)];
+        let [q, end] = [shear.at(place), end_slip.at(place)];
         moment += grid.centre(0, at[0]) * q[1] - grid.centre(1, at[1]) * q[0];
         for axis in 0..2 {
             tilt_moment[axis] +=
                 (problem.stretch.middle[axis] + grid.centre(axis, at[axis])) * pressure[cell];
         }
-        if slips(q, end_slip.at(place), bound[place], solved.tangential_stiffness) {
-            state.zone[at] = Zone::Slip;
-            for axis in 0..2 {
-                state.slip[axis][at] += slip[axis];
-            }
-            dissipated += dissipation([bound_before[place], bound[place]], slip);
+        let (zone, slip) = if slips(q, end, bound[place], solved.tangential_stiffness) {
+            (Zone::Slip, slip.at(place))
         } else {
-            state.zone[at] = Zone::Stick;
             stick_cells += 1;
+            (Zone::Stick, [0.0; 2])
+        };
+        let slip = problem.path.counted(cell, slip, before.zone[at] == Zone::Open);
+        state.zone[at] = zone;
+        for axis in 0..2 {
+            state.slip[axis][at] += slip[axis];
         }
+        dissipated += dissipation([bound_before[place], bound[place]], slip);
     }
     let area = grid.cell_area();
     state.dissipated_energy += dissipated * area;
