@@ -23,6 +23,7 @@ mod layers;
 mod leaving_out;
 mod line_coefficients;
 mod line_contact;
+mod line_extremes;
 mod loadings;
 mod misleading;
 mod mutilated_cases;

@@ -65,8 +65,8 @@ pub enum RunError {
     },
     /// No tilt gives the prescribed moment of the pressure.
     #[error(
-        "increment {increment} ({stage}): no tilt gives the prescribed tilt_moment {}, {} was reached: the normal force cannot act so \
-         far from the middle; prescribe the tilt, or a smaller moment",
+        "increment {increment} ({stage}): no tilt was found for the prescribed tilt_moment {}, {} was reached: the normal force may not be \
+         able to act so far from the middle; prescribe the tilt, or a smaller moment",
         apart(*asked, *reached)[0], apart(*asked, *reached)[1]
     )]
     NoTilt {
