@@ -112,6 +112,7 @@ class History:
     _folder: Path | None
     _kept: _Kept
     _bodies: str
+    _residual_stress: str
     _spacing: tuple[float, float]
     _periodic: bool
 
@@ -122,6 +123,7 @@ class History:
         self.y = answer.centres(1)
         self.stages = answer.stages()
         self._bodies = answer.bodies()
+        self._residual_stress = answer.residual_stress()
         dx, dy = answer.spacing()
         self._spacing = (dx, dy)
         self._periodic = answer.periodic()

@@ -74,6 +74,7 @@ def load(folder: str | os.PathLike[str]) -> History:
     history.worn_through = record.get("worn_through")
     history.warnings = record.get("warnings", [])
     history._bodies = json.dumps(plan["case"]["bodies"])
+    history._residual_stress = json.dumps(plan["case"].get("residual_stress", [{"layers": []}, {"layers": []}]))
     dx, dy = plan["grid"]["spacing"]
     history._spacing = (dx, dy)
     history._periodic = bool(plan["case"]["periodic"])

@@ -19,7 +19,7 @@ def subsurface_stress(
 ) -> dict[str, npt.NDArray[Any]]:
     """Subsurface stress of one body, from the kept tractions of an increment.
 
-    Axes x and y of the contact, z into the body in question, from its own surface; tension is positive. Under the
+    Bulk stress and residual stress are included, layer by layer. Axes x and y of the contact, z into the body in question, from its own surface; tension is positive. Under the
     centres of the cells, exact for tractions that are uniform over each cell.
 
     Parameters
@@ -71,8 +71,10 @@ def subsurface_stress(
         shear = (history.field("shear_x", step), history.field("shear_y", step))
     grid = len(history.x), len(history.y)
     tractions = pressure.reshape(grid), shear and (shear[0].reshape(grid), shear[1].reshape(grid))
+    name = "bulk_stress" if body == "lower" else "upper_bulk_stress"
+    bulk_stress = [float(history.steps[f"{name}_{axis}"][step]) for axis in "xy"]
     stress = _core.subsurface_stress(
-        (history._bodies, body == "upper"), history._spacing, history._periodic, tractions, points.tolist(), threads
+        (history._bodies, body == "upper"), history._spacing, history._periodic, tractions, points.tolist(), (bulk_stress, history._residual_stress), threads
     )
     if history.is_line:
         return {name: values.reshape(len(values), *history.shape) if values.ndim == 3 else values for name, values in stress.items()}

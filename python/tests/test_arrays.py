@@ -13,7 +13,8 @@ from fretting._meaning import FieldName
 
 REALS = {
     "normal_force", "approach", "tangential_force_x", "tangential_force_y", "shift_x", "shift_y", "twist_moment",
-    "twist", "max_pressure", "max_shear", "contact_area", "stick_area", "dissipated_energy", "worn_volume",
+    "twist", "tilt_x", "tilt_y", "tilt_moment_x", "tilt_moment_y", "bulk_stress_x", "bulk_stress_y",
+    "upper_bulk_stress_x", "upper_bulk_stress_y", "bulk_work", "max_pressure", "max_shear", "contact_area", "stick_area", "dissipated_energy", "worn_volume",
     "max_worn_depth", "residual", "wall_s",
     "full_grid_convolutions",
 }  # fmt: skip

@@ -43,6 +43,8 @@ pub(super) struct Increment<'a> {
     pub(super) past: Option<(&'a Past, f64)>,
     /// What went before is known.
     pub(super) is_known: bool,
+    /// Strain of the lower surface less that of the upper one.
+    pub(super) strain: [f64; 2],
 }
 
 impl Increment<'_> {
@@ -60,6 +62,7 @@ impl Increment<'_> {
         };
         self.judge_normal(&mut certificate);
         self.judge_friction(&mut certificate);
+        certificate.balance = self.balance();
         certificate
     }
 
@@ -72,8 +75,10 @@ impl Increment<'_> {
         for ((i, j), &p) in p.indexed_iter() {
             let at = [i, j];
             let worn = self.before.worn.as_ref().map_or(0.0, |worn| worn[at]);
-            let found = self.undeformed[at] + worn + u[at] - self.record.approach;
-            let terms = [self.undeformed[at], worn, u[at], self.record.approach, mean];
+            let [x, y] = self.place(at);
+            let tilted = self.record.tilt[0] * x + self.record.tilt[1] * y;
+            let found = self.undeformed[at] - tilted + worn + u[at] - self.record.approach;
+            let terms = [self.undeformed[at], tilted, worn, u[at], self.record.approach, mean];
             if found != gap[at] {
                 certificate.gap.raise(over(found - gap[at], size(&terms)));
             }
@@ -145,6 +150,65 @@ impl Increment<'_> {
         certificate.energy = over(wrong, unit);
     }
 
+    /// Middle of a cell.
+    fn place(&self, at: [usize; 2]) -> [f64; 2] {
+        [0, 1].map(|axis| self.grid.centre(axis, at[axis]))
+    }
+
+    /// The first law of thermodynamics, of the numbers that are kept: the work of all loads, bulk stresses included, less the change of
+    /// the elastic energy, the work of the mean shear on the kept slip and what cells that open or close leave, over the sizes of these.
+    /// Means of both ends are exact for a linear response. Of increments solved as a whole, without wear.
+    fn balance(&self) -> f64 {
+        if self.record.parts > 1 || self.before.worn.is_some() {
+            return 0.0;
+        }
+        let Fields { p, q, slip, gap, .. } = self.fields;
+        let (now, then) = (self.record, self.before);
+        let [u, v, w] = self.displacements;
+        let (mut stored, mut slipped, mut opened, mut friction) = (0.0, 0.0, 0.0, 0.0);
+        let (mut force, mut moment, mut tilting) = ([0.0; 3], 0.0, [0.0; 2]);
+        for ((i, j), &p1) in p.indexed_iter() {
+            let at = [i, j];
+            let (p0, before) = (then.pressure[at], [0, 1].map(|axis| then.shear[axis][at]));
+            let after = [0, 1].map(|axis| q[axis][at]);
+            let mean = [0, 1].map(|axis| 0.5 * (before[axis] + after[axis]));
+            stored += 0.5 * (p1 * u[at] + after[0] * v[at] + after[1] * w[at]);
+            stored -= 0.5
+                * (p0 * then.normal[at]
+                    + before[0] * then.tangential[0][at]
+                    + before[1] * then.tangential[1][at]);
+            // Cells that have opened move as they like, and nothing is kept of it.
+            let moved = if p1 > 0.0 {
+                [0, 1].map(|axis| slip[axis][at] - then.slip[axis][at])
+            } else {
+                self.slip_increment(at)
+            };
+            slipped += dot(mean, moved);
+            friction += hypot(mean) * hypot(self.slip_increment(at));
+            if p0 > 0.0 || p1 > 0.0 {
+                opened += 0.5 * (p1 * then.gap[at] - p0 * gap[at]);
+            }
+            let [x, y] = self.place(at);
+            let pressure = 0.5 * (p0 + p1);
+            for (sum, value) in force.iter_mut().zip([pressure, mean[0], mean[1]]) {
+                *sum += value;
+            }
+            moment += x * mean[1] - y * mean[0];
+            tilting = [tilting[0] + x * pressure, tilting[1] + y * pressure];
+        }
+        let by_tilt = (0..2).map(|axis| tilting[axis] * (now.tilt[axis] - then.tilt[axis])).sum::<f64>();
+        let works = [
+            force[0] * (now.approach - then.approach),
+            force[1] * (now.shift[0] - then.shift[0]),
+            force[2] * (now.shift[1] - then.shift[1]),
+            moment * (now.twist - then.twist),
+            by_tilt,
+            (now.bulk_work - then.bulk_work) / self.grid.cell_area(),
+        ];
+        let off = works.iter().sum::<f64>() - stored - slipped - opened;
+        over(off, size(&works).max(size(&[stored, opened, friction])))
+    }
+
     /// Friction bound of every cell.
     fn bound(&self) -> Array2<f64> {
         let mut bound = self.fields.p.clone();
@@ -164,7 +228,8 @@ impl Increment<'_> {
         let turned = self.record.twist - self.before.twist;
         let turn = [-turned * self.grid.centre(1, at[1]), turned * self.grid.centre(0, at[0])];
         [0, 1].map(|axis| {
-            let moved = self.record.shift[axis] - self.before.shift[axis] + turn[axis];
+            let stretched = (self.strain[axis] - self.before.strain[axis]) * self.place(at)[axis];
+            let moved = self.record.shift[axis] - self.before.shift[axis] + turn[axis] - stretched;
             moved - (self.displacements[1 + axis][at] - self.before.tangential[axis][at])
         })
     }
@@ -177,7 +242,9 @@ impl Increment<'_> {
         let slips = [&self.fields.slip[0], &self.fields.slip[1]].map(largest);
         let turn = self.record.twist.abs().max(self.before.twist.abs()) * half_x.hypot(half_y);
         let shifts = [self.record.shift, self.before.shift].map(hypot);
-        size(&[size(&fields), size(&slips), size(&shifts), turn])
+        let strains =
+            [self.strain, self.before.strain].map(|[x, y]| (x * half_x).abs().max((y * half_y).abs()));
+        size(&[size(&fields), size(&slips), size(&shifts), size(&strains), turn])
     }
 
     /// Sums of the tractions: normal force, tangential forces, moment about z.
@@ -204,7 +271,7 @@ impl Increment<'_> {
     }
 
     fn controls(&self) -> [Control; 4] {
-        let LoadStep { normal, tangential: [x, y], twist } = self.load;
+        let LoadStep { normal, tangential: [x, y], twist, .. } = self.load;
         [normal, x, y, twist]
     }
 
@@ -221,7 +288,30 @@ impl Increment<'_> {
                 Control::Motion(_) => {}
             }
         }
+        let tilted = self.tilt_moments();
+        for (axis, control) in self.load.tilt.into_iter().enumerate() {
+            if let Control::Force(asked) = control {
+                let (found, arm) = tilted[axis];
+                worst.raise(over(found - asked, arm));
+            }
+        }
         worst
+    }
+
+    /// First moments of the pressure, and the normal force times the radius of gyration of the pressure.
+    fn tilt_moments(&self) -> [(f64, f64); 2] {
+        [0, 1].map(|axis| {
+            let (mut force, mut first, mut second) = (0.0, 0.0, 0.0);
+            for ((i, j), p) in self.fields.p.indexed_iter() {
+                let place = self.place([i, j])[axis];
+                force += p;
+                first += p * place;
+                second += p * place * place;
+            }
+            let radius = if force > 0.0 { (second / force).sqrt() } else { 0.0 };
+            let area = self.grid.cell_area();
+            (first * area, radius.max(0.5 * self.grid.spacing()[axis]) * force * area)
+        })
     }
 
     fn motion(&self) -> f64 {
@@ -233,7 +323,9 @@ impl Increment<'_> {
             (now.twist, then.twist),
         ];
         let mut worst = 0.0;
-        for (control, (found, from)) in self.controls().into_iter().zip(pairs) {
+        let tilts = [0, 1].map(|axis| (now.tilt[axis], then.tilt[axis]));
+        let controls = self.controls().into_iter().chain(self.load.tilt);
+        for (control, (found, from)) in controls.zip(pairs.into_iter().chain(tilts)) {
             if let Control::Motion(asked) = control {
                 worst.raise(over(found - asked, size(&[asked, from])));
             }
@@ -250,6 +342,10 @@ impl Increment<'_> {
         for (mode, said) in [record.normal_force, x, y].into_iter().enumerate() {
             worst.raise(over(said - found[mode], units[mode]));
         }
+        for (axis, (found, arm)) in self.tilt_moments().into_iter().enumerate() {
+            worst.raise(over(record.tilt_moment[axis] - found, arm));
+        }
+        worst.raise(if record.bulk_stress == self.load.bulk_stress { 0.0 } else { 1.0 });
         let peak = largest(p);
         worst.raise(over(record.max_pressure - peak, peak));
         let shear = q[0].iter().zip(&q[1]).fold(0.0_f64, |most, (x, y)| most.max(x.hypot(*y)));

@@ -66,9 +66,12 @@ impl Past {
         if self.is_cut {
             return None;
         }
-        let numbers = |step: &LoadStep| [step.normal, step.tangential[0], step.tangential[1], step.twist];
+        let numbers = |step: &LoadStep| {
+            let LoadStep { normal, tangential: [x, y], twist, tilt: [tilt_x, tilt_y], .. } = *step;
+            [normal, x, y, twist, tilt_x, tilt_y]
+        };
         let change = |from: &LoadStep, to: &LoadStep| {
-            let mut found = [0.0; 4];
+            let mut found = [0.0; 10];
             for (found, pair) in found.iter_mut().zip(numbers(from).into_iter().zip(numbers(to))) {
                 *found = match pair {
                     (Control::Force(a), Control::Force(b)) | (Control::Motion(a), Control::Motion(b)) => {
@@ -76,6 +79,9 @@ impl Past {
                     }
                     _ => return None,
                 };
+            }
+            for (k, found) in found[6..].iter_mut().enumerate() {
+                *found = to.bulk_stress[k / 2][k % 2] - from.bulk_stress[k / 2][k % 2];
             }
             Some(found)
         };
@@ -85,10 +91,10 @@ impl Past {
             load.tangential,
             [Control::Force(_), Control::Force(_)] | [Control::Motion(_), Control::Motion(_)]
         );
-        let groups: &[&[usize]] = if alike { &[&[0], &[1, 2], &[3]] } else { &[&[0], &[1], &[2], &[3]] };
+        let tangential: &[&[usize]] = if alike { &[&[1, 2]] } else { &[&[1], &[2]] };
         let (mut both, mut old_square, mut new_square) = (0.0, 0.0, 0.0);
-        for group in groups {
-            let sum = |a: &[f64; 4], b: &[f64; 4]| group.iter().map(|&k| a[k] * b[k]).sum::<f64>();
+        for group in tangential.iter().chain(&[&[0][..], &[3], &[4, 5], &[6, 7], &[8, 9]]) {
+            let sum = |a: &[f64; 10], b: &[f64; 10]| group.iter().map(|&k| a[k] * b[k]).sum::<f64>();
             let unit = f64::max(sum(&old, &old), sum(&new, &new));
             if unit > 0.0 {
                 both += sum(&old, &new) / unit;

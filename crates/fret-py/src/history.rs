@@ -87,6 +87,12 @@ impl History {
         serde_json::to_string(&self.0.bodies).map_err(crate::error::bad_value)
     }
 
+    /// Residual stresses of the lower and the upper body as JSON.
+    fn residual_stress(&self) -> String {
+        let residual = &self.0.plan["case"]["residual_stress"];
+        if residual.is_null() { "[{\"layers\":[]},{\"layers\":[]}]".to_owned() } else { residual.to_string() }
+    }
+
     /// Sides of a cell [length].
     fn spacing(&self) -> [f64; 2] {
         self.0.grid.spacing()

@@ -1,9 +1,9 @@
 //! Stress under the surface of one body of a pair, from tractions.
 
 use fret_core::case::Side;
-use fret_core::model::{Body, ContactPair, SurfaceGrid};
+use fret_core::model::{Body, ContactPair, ResidualStress, SurfaceGrid};
 use fret_core::plan::memory_of_stress;
-use fret_core::subsurface::{LoadedSurface, StressTensor, depth_points, survey};
+use fret_core::subsurface::{EvenStress, LoadedSurface, StressTensor, depth_points, survey};
 use ndarray::{Array2, Array3, Axis};
 use numpy::{IntoPyArray, PyReadonlyArray2};
 use pyo3::exceptions::PyValueError;
@@ -28,6 +28,7 @@ pub fn subsurface_stress<'py>(
     periodic: bool,
     tractions: TractionArrays<'py>,
     depths: Vec<f64>,
+    even: ([f64; 2], &str),
     threads: Threads,
 ) -> PyResult<Bound<'py, PyDict>> {
     let (text, upper) = bodies;
@@ -37,6 +38,9 @@ pub fn subsurface_stress<'py>(
         let message = format!("the {} body is rigid: there is no stress in it", side.name());
         return Err(PyValueError::new_err(message));
     };
+    let residual = serde_json::from_str::<[ResidualStress; 2]>(even.1).map_err(bad_value)?;
+    let residual = residual[usize::from(upper)].clone();
+    let even = EvenStress { bulk: even.0, residual };
     let points = depth_points(half_space, &depths).map_err(bad_value)?;
     let sign = if upper { -1.0 } else { 1.0 };
     let shape = tractions.0.as_array().dim();
@@ -50,7 +54,7 @@ pub fn subsurface_stress<'py>(
         return Err(PyValueError::new_err(format!("shear of another shape than the pressure, {shape:?}")));
     }
     let grid = SurfaceGrid::new([shape.0, shape.1], spacing).map_err(bad_value)?;
-    let surface = LoadedSurface { increment: 0, pressure, shear, slip: None };
+    let surface = LoadedSurface { increment: 0, pressure, shear, slip: None, even };
     let mut stress: [Array3<f64>; 7] =
         std::array::from_fn(|_| Array3::zeros((points.len(), shape.0, shape.1)));
     on_pool(py, threads, || {

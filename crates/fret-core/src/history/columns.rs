@@ -163,6 +163,24 @@ pub static STEP_COLUMNS: &[Column<StepRecord>] = &[
         |step| step.worn_volume,
     ),
     real("max_worn_depth", "maximum wear depth", LENGTH, |step| step.max_worn_depth),
+    real("tilt_x", "slope of the upper body along x, deeper towards positive x", RATIO, |step| step.tilt[0]),
+    real("tilt_y", "slope of the upper body along y, deeper towards positive y", RATIO, |step| step.tilt[1]),
+    real("tilt_moment_x", "first moment of the pressure along x", WORK, |step| step.tilt_moment[0]),
+    real("tilt_moment_y", "first moment of the pressure along y", WORK, |step| step.tilt_moment[1]),
+    real("bulk_stress_x", "bulk stress of the lower body along x", PRESSURE, |step| step.bulk_stress[0][0]),
+    real("bulk_stress_y", "bulk stress of the lower body along y", PRESSURE, |step| step.bulk_stress[0][1]),
+    real("upper_bulk_stress_x", "bulk stress of the upper body along x", PRESSURE, |step| {
+        step.bulk_stress[1][0]
+    }),
+    real("upper_bulk_stress_y", "bulk stress of the upper body along y", PRESSURE, |step| {
+        step.bulk_stress[1][1]
+    }),
+    real(
+        "bulk_work",
+        "work of the bulk stresses on the contact since the start, of the computed increments",
+        WORK,
+        |step| step.bulk_work,
+    ),
 ];
 
 /// Columns of the table of cycles, in its order: `cycles.csv`, and `history.cycles` in Python. Names are those of the record.

@@ -260,7 +260,7 @@ mod tests {
         LoadStep {
             normal: Control::Force(normal),
             tangential: [Control::Force(tangential), Control::Force(0.0)],
-            twist: Control::Motion(0.0),
+            ..LoadStep::FREE
         }
     }
 

@@ -178,13 +178,14 @@ impl ContactSolver<'_> {
     }
 }
 
-/// Squares of the lengths of two increments and their product, each of the normal load, the tangential loads and the twist by itself in
-/// units of the longer one.
-fn products(older: [f64; 4], newer: [f64; 4], are_alike: bool) -> [f64; 3] {
-    let groups: &[&[usize]] = if are_alike { &[&[0], &[1, 2], &[3]] } else { &[&[0], &[1], &[2], &[3]] };
+/// Squares of the lengths of two increments and their product, each of the normal load, the tangential loads, the twist, the tilt and the
+/// bulk stresses by itself in units of the longer one. Loads along x and y go together where `are_alike`.
+fn products(older: Loads, newer: Loads, are_alike: bool) -> [f64; 3] {
+    let tangential: &[&[usize]] = if are_alike { &[&[1, 2]] } else { &[&[1], &[2]] };
+    let others: &[&[usize]] = &[&[0], &[3], &[4, 5], &[6, 7], &[8, 9]];
     let mut found = [0.0; 3];
-    for group in groups {
-        let product = |a: &[f64; 4], b: &[f64; 4]| group.iter().map(|&k| a[k] * b[k]).sum::<f64>();
+    for group in tangential.iter().chain(others) {
+        let product = |a: &Loads, b: &Loads| group.iter().map(|&k| a[k] * b[k]).sum::<f64>();
         let [old, both, new] = [product(&older, &older), product(&older, &newer), product(&newer, &newer)];
         let unit = old.max(new);
         if unit > 0.0 {
@@ -194,16 +195,26 @@ fn products(older: [f64; 4], newer: [f64; 4], are_alike: bool) -> [f64; 3] {
     found
 }
 
+/// Normal load, tangential loads, twist, tilts, bulk stresses of the lower and the upper body.
+type Loads = [f64; 10];
+
 /// Loads as numbers, when both name the same controls.
-fn change(from: &LoadStep, to: &LoadStep) -> Option<[f64; 4]> {
+fn change(from: &LoadStep, to: &LoadStep) -> Option<Loads> {
     let difference = |a: Control, b: Control| match (a, b) {
         (Control::Force(a), Control::Force(b)) | (Control::Motion(a), Control::Motion(b)) => Some(b - a),
         _ => None,
     };
+    let bulk = |body: usize, axis: usize| to.bulk_stress[body][axis] - from.bulk_stress[body][axis];
     Some([
         difference(from.normal, to.normal)?,
         difference(from.tangential[0], to.tangential[0])?,
         difference(from.tangential[1], to.tangential[1])?,
         difference(from.twist, to.twist)?,
+        difference(from.tilt[0], to.tilt[0])?,
+        difference(from.tilt[1], to.tilt[1])?,
+        bulk(0, 0),
+        bulk(0, 1),
+        bulk(1, 0),
+        bulk(1, 1),
     ])
 }
