@@ -180,8 +180,8 @@ impl<'a> Certifier<'a> {
             *past = Past { loads: std::mem::take(&mut past.loads), is_cut: true, ..Past::default() };
         } else {
             let (drift_before, gap_before) = (past.drift[0].take(), past.gap[0].take());
-            past.drift = [Some(drift), drift_before];
-            past.gap = [Some(gap.clone()), gap_before];
+            past.drift = [Some(drift), drift_before.filter(|_| ratio.is_some())];
+            past.gap = [Some(gap.clone()), gap_before.filter(|_| ratio.is_some())];
         }
         past.largest_slip = largest_slip;
         past.pressure = Some(before.pressure.clone());

@@ -43,7 +43,8 @@ impl CellPath {
     /// The slip at the end of the increment, of a change of displacement.
     pub(super) fn end(&self, change: [f64; 2]) -> [f64; 2] {
         let rest = [change[0] - self.ahead[0], change[1] - self.ahead[1]];
-        let along = dot(rest, self.turn).max(0.0);
+        // Nothing from 40 degrees between the chords on.
+        let along = (dot(rest, self.turn) - 0.766 * hypot(rest) * hypot(self.turn)).max(0.0);
         [rest[0] - along * self.turn[0], rest[1] - along * self.turn[1]]
     }
 
@@ -117,7 +118,8 @@ impl Past {
                 if length == 0.0 {
                     return CellPath::STRAIGHT;
                 }
-                let entered = self.pressure.as_ref().is_some_and(|pressure| pressure[at] == 0.0);
+                let entered = self.drift[1].is_some()
+                    && self.pressure.as_ref().is_some_and(|pressure| pressure[at] == 0.0);
                 let fall = match &self.drift[1] {
                     _ if entered => 1.0,
                     None => 0.0,
@@ -131,7 +133,7 @@ impl Past {
                 let c = 1.0 - (1.0 + ratio) / (1.0 + 2.0 * ratio) / (1.0 - stop);
                 CellPath {
                     ahead: last.map(|part| part * ratio * stop),
-                    turn: last.map(|part| part / length * (known * c.max(0.0)).sqrt()),
+                    turn: last.map(|part| part / length * (known * c.max(0.0) / (1.0 - 0.766)).sqrt()),
                     is_open: false,
                 }
             }

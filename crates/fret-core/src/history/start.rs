@@ -140,7 +140,7 @@ fn way_of_solving(plan: &Value) -> String {
     let case = &plan["case"];
     let shortcuts =
         ["coupling", "along", "symmetry", "single_precision", "leave_out"].map(|name| &plan[name]);
-    json!([shortcuts, case["tolerance"], case["scheme"]]).to_string()
+    json!([shortcuts, case["tolerance"], case["scheme"], case["integration"]]).to_string()
 }
 
 fn differences(key: &str, case: &Value, state: &Value, found: &mut Vec<Difference>) {

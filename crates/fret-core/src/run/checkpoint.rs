@@ -133,7 +133,10 @@ impl Checkpoint {
                 (*loads, resultants, state.clone())
             }
         };
-        let memory = start.and_then(|start| start.memory_for(&plan.to_json())).cloned();
+        let memory = start.map(|start| {
+            let known = start.memory_for(&plan.to_json()).cloned();
+            known.unwrap_or_else(|| SolverMemory::starting_at(loads))
+        });
         let place = Place {
             solved: 0,
             stage: 0,

@@ -34,10 +34,10 @@ pub(super) struct Before {
     pub tractions: GridTractions,
     /// Its area of contact [length^2].
     pub contact_area: f64,
-    /// Its gap on the grid [length].
+    /// Its gap on the grid [length], where the increment from there went on from the one before it.
     #[serde(with = "stored")]
     pub gap: Option<Array2<f64>>,
-    /// The drift that led to it.
+    /// The drift that led to it, likewise.
     pub drift: Option<Drift>,
 }
 
@@ -118,6 +118,11 @@ pub(super) struct LastIncrement {
 }
 
 impl SolverMemory {
+    /// That of a solver whose first state is known, with the load that led to it, and nothing else.
+    pub(crate) fn starting_at(load: LoadStep) -> Self {
+        Self { last_load: Some(load), ..Self::default() }
+    }
+
     /// Whether this can be the memory of a solver on a grid of `cells`: sizes agree and regions lie inside.
     pub fn fits(&self, cells: [usize; 2]) -> bool {
         let last_fits = |last: &LastIncrement| {

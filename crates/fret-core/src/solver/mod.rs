@@ -275,8 +275,8 @@ impl<'a> ContactSolver<'a> {
                 load,
                 tractions: GridTractions::of(state),
                 contact_area: contact_area_before,
-                gap: gap_before.filter(|_| follows),
-                drift: drift_before.filter(|_| follows),
+                gap: gap_before.filter(|_| ratio.is_some()),
+                drift: drift_before.filter(|_| ratio.is_some()),
             });
             let motion =
                 [after.shift[0] - state.shift[0], after.shift[1] - state.shift[1], after.twist - state.twist];

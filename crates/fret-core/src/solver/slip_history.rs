@@ -37,18 +37,19 @@ pub fn slip_path(
     let drift = last.drift.on(cells, region);
     let mut path = SlipPath::straight(region.len());
     let before = memory.before.as_ref();
-    let drift_before = before.and_then(|before| before.drift.as_ref()).map(|drift| drift.on(cells, region));
-    let pressure_before = before.map(|before| region.gather(&before.tractions.pressure));
+    let then = before.and_then(|before| {
+        let drift = before.drift.as_ref()?.on(cells, region);
+        Some((drift, region.gather(&before.tractions.pressure)))
+    });
     let zones = region.gather_map(&state.zone, |zone| *zone);
     let slip = |cell: usize| drift.at(cell)[0].hypot(drift.at(cell)[1]);
     let slipping = (0..region.len()).filter(|&cell| zones[cell] == Zone::Slip);
     let largest = slipping.clone().map(slip).fold(0.0, f64::max);
     for cell in slipping {
         let here = drift.at(cell);
-        let entered = pressure_before.as_ref().is_some_and(|pressure| pressure[cell] <= 0.0);
-        let fall = match &drift_before {
-            _ if entered => 1.0,
-            Some(then) => fall(then.at(cell), here, last.drift.ratio),
+        let fall = match &then {
+            Some((_, pressure)) if pressure[cell] <= 0.0 => 1.0,
+            Some((drift, _)) => fall(drift.at(cell), here, last.drift.ratio),
             None => 0.0,
         };
         let weight = (slip(cell) / (KNOWN * largest)).min(1.0);
