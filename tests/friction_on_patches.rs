@@ -42,7 +42,7 @@ fn two_patches_are_those_of_a_dense_solution() {
     let text = format!(
         "[grid]\ncells = [{cells}, {cells}]\nsize = [{size:?}, {size:?}]\n[upper]\nrigid = true\n[lower]\n\
          substrate = {{ young = 1.0, poisson = 0.3 }}\n[profile.sphere]\nradius = 100.0\n[friction]\nmap = {{ array = 0 }}\n\
-         [solver]\ntolerance = 1e-10\n[[load]]\napproach = {approach:e}\nshift = [0.0, 0.0]\nincrements = 1\n\
+         [solver]\nintegration = \"end_point\"\ntolerance = 1e-10\n[[load]]\napproach = {approach:e}\nshift = [0.0, 0.0]\nincrements = 1\n\
          [[load]]\nshift = {first:?}\nincrements = 1\n[[load]]\nshift = {second:?}\nincrements = 1\n{}",
         keeping(1)
     );

@@ -1,10 +1,8 @@
 //! What contacts with friction may cost: operator applications, and the same weighted by their share of the grid's cells. Counts
 //! are the same on every machine. The cases are those of `benches/frictional_cost.py`.
 
+use fret_validation::{Sphere, by_end_points, solved};
 use std::fmt::Write;
-use std::time::Instant;
-
-use fret_validation::{Sphere, solved};
 
 /// The sphere of the benchmark: contact radius 1 under its force.
 fn sphere(cells: usize, friction: f64) -> Sphere {
@@ -53,18 +51,18 @@ fn figure_three(cells: usize) -> String {
     text
 }
 
-/// Applications, and those weighted by cells, may be a tenth more than they were; `was` is what they were.
+/// Applications, and those weighted by cells, of the end-point rule may be a tenth more than they were; `was` is what they were. The rule
+/// of second order may take a quarter more than that: in short pressings on the smallest grids, where single applications find the drift beyond a region
+/// that has grown. In loops and long histories it takes 5 % more.
 fn costs(text: &str, was: [f64; 2]) -> String {
-    let started = Instant::now();
-    let work = solved(text).work();
-    let found = [work.convolutions as f64, work.full_grid_convolutions];
-    let said = format!(
-        "{} applications, {:.1} of the whole grid, {:.2} s",
-        found[0],
-        found[1],
-        started.elapsed().as_secs_f64()
-    );
-    assert!(found[0] <= 1.1 * was[0] && found[1] <= 1.1 * was[1], "{said}, was {was:?}");
+    let [first, second] = [by_end_points(text), text.to_owned()].map(|text| {
+        let work = solved(&text).work();
+        [work.convolutions as f64, work.full_grid_convolutions]
+    });
+    let said =
+        format!("{first:.1?} applications, weighted by cells, were {was:?}; of second order {second:.1?}");
+    assert!((0..2).all(|kind| first[kind] <= 1.1 * was[kind]), "{said}");
+    assert!((0..2).all(|kind| second[kind] <= 1.25 * first[kind]), "{said}");
     said
 }
 

@@ -153,6 +153,11 @@ pub fn solved(text: &str) -> History {
     history
 }
 
+/// The text with slip integrated by the end-point rule.
+pub fn by_end_points(text: &str) -> String {
+    text.replacen("[solver]\n", "[solver]\nintegration = \"end_point\"\n", 1)
+}
+
 /// Output block that keeps all fields of every `every`-th increment.
 pub fn keeping(every: usize) -> String {
     format!("[output]\nfields = [\"pressure\", \"shear\", \"slip\", \"gap\", \"zone\"]\nevery = {every}\n")

@@ -9,7 +9,7 @@ use fret_core::history::{CycleRegime, History};
 use fret_core::model::Zone;
 use fret_core::plan::Plan;
 use fret_core::run::{Silent, Simulation};
-use fret_validation::{RADIUS, Sphere, keeping, solved};
+use fret_validation::{RADIUS, Sphere, by_end_points, keeping, solved};
 
 use crate::reduced_contact::Springs;
 
@@ -354,21 +354,26 @@ fn shift_and_twist_far_together_follow_the_sliding_velocity() {
 }
 
 /// A tangential force turning on a circle, after it was built up along x.
-fn turning(amplitude: f64, coating: Option<(f64, f64)>, more: &str) -> (Sphere, History) {
+fn turning(
+    amplitude: f64,
+    (increments, integration): (usize, &str),
+    coating: Option<(f64, f64)>,
+    more: &str,
+) -> (Sphere, History) {
     let sphere = Sphere { coating, ..Sphere { cells: 32, ..similar(32) } };
     let pull = amplitude * FRICTION * sphere.force();
     let text = format!(
         "{}[[load]]\ntangential_force = [{pull:e}, 0.0]\nincrements = 4\n\
          [[load]]\ntangential_force = [{pull:e}, {pull:e}]\nphase = {{ tangential_force = [90, 0] }}\nwaveform = \"sine\"\n\
-         increments = 16\ncycles = 3\n{more}",
+         increments = {increments}\ncycles = 3\n{more}",
         sphere.pressed(1.0, 1, "linear")
     );
+    let text = text.replacen("[solver]\n", &format!("[solver]\nintegration = \"{integration}\"\n"), 1);
     (sphere, solved(&(text + &keeping(1))))
 }
 
-#[test]
-fn a_turning_force_leads_to_a_turning_state() {
-    let (sphere, history) = turning(0.7, None, "");
+fn assert_turns(per_turn: usize, integration: &str, [most, most_spread]: [f64; 2]) {
+    let (sphere, history) = turning(0.7, (per_turn, integration), None, "");
     let pull = 0.7 * FRICTION * sphere.force();
     let steps = &history.steps;
     for step in &steps[4..] {
@@ -376,7 +381,8 @@ fn a_turning_force_leads_to_a_turning_state() {
         assert!((size / pull - 1.0).abs() < 1e-7, "the force keeps its size");
     }
     // After two turns: the state a quarter of a turn later is the state turned by a quarter. Exact on a square grid.
-    let (a, b) = (&history.fields[5 + 31], &history.fields[5 + 35]);
+    let (a, b) =
+        (&history.fields[5 + 2 * per_turn - 1], &history.fields[5 + 2 * per_turn - 1 + per_turn / 4]);
     let (a, b) = (a.shear.as_ref().unwrap(), b.shear.as_ref().unwrap());
     let n = sphere.cells;
     let mut worst = 0.0_f64;
@@ -388,22 +394,30 @@ fn a_turning_force_leads_to_a_turning_state() {
         }
     }
     let worst = worst / (FRICTION * sphere.peak_pressure());
-    let sizes: Vec<f64> = steps.iter().skip(33).map(|step| step.shift[0].hypot(step.shift[1])).collect();
+    let sizes: Vec<f64> =
+        steps.iter().skip(5 + 2 * per_turn - 4).map(|step| step.shift[0].hypot(step.shift[1])).collect();
     let spread =
         sizes.iter().copied().fold(0.0, f64::max) / sizes.iter().copied().fold(f64::INFINITY, f64::min) - 1.0;
     println!("turning force: state {worst:.1e}, size of the shift varies by {spread:.1e}");
     // Steady after two turns up to the memory of the start, which decays; the rest is the grid's anisotropy.
-    assert!(worst < 1e-3, "{worst}");
-    assert!(spread < 2e-4, "{spread}");
+    assert!(worst < most, "{worst}");
+    assert!(spread < most_spread, "{spread}");
+}
+
+#[test]
+fn a_turning_force_leads_to_a_turning_state() {
+    assert_turns(16, "end_point", [1e-3, 2e-4]);
+    // Which cells at the border of stick come to rest in an increment, and with which offset, is not symmetrical: single cells of 700.
+    assert_turns(16, "second_order", [1e-2, 1e-3]);
 }
 
 #[test]
 fn a_turning_force_at_the_limit_slides_everywhere_and_a_small_one_hardly() {
-    let (_, small) = turning(0.05, None, "");
+    let (_, small) = turning(0.05, (16, "second_order"), None, "");
     let slipping = small.steps.last().unwrap();
     // c/a = (1 - f)^(1/3) = 0.983 for the first pull: less than a cell of the rim.
     assert!(slipping.stick_area > 0.85 * slipping.contact_area);
-    let (_, large) = turning(0.999, None, "");
+    let (_, large) = turning(0.999, (16, "second_order"), None, "");
     let last = large.steps.last().unwrap();
     assert!(last.stick_area < 0.1 * last.contact_area, "{}", last.stick_area / last.contact_area);
 }
@@ -436,6 +450,8 @@ fn force_along_x_with_motion_held_along_y() {
         sphere.pressed(1.0, 1, "linear"),
         1e-4
     );
+    // By end points: how long an increment is beside the last, which the rule of second order asks for, is told by what is prescribed.
+    let text = by_end_points(&text);
     let history = solved(&text);
     let last = history.steps.last().unwrap();
     assert!((last.tangential_force[0] / pull - 1.0).abs() < 1e-7);
@@ -452,7 +468,7 @@ fn force_along_x_with_motion_held_along_y() {
         assert_eq!(name, "path.csv");
         Ok(table.clone().into_bytes())
     };
-    let case = Case::from_toml_with(&text, "case.toml", Attachments::files(&beside));
+    let case = Case::from_toml_with(&by_end_points(&text), "case.toml", Attachments::files(&beside));
     let by_motion = Simulation::new(&Plan::new(case.unwrap()).unwrap()).run(&mut Silent).unwrap();
     let again = by_motion.steps.last().unwrap();
     // Both are solved to 1e-8 of mu W.

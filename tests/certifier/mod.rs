@@ -148,7 +148,9 @@ impl<'a> Certifier<'a> {
         let law = case.stages[..=record.stage].iter().rev().find_map(|stage| stage.friction.as_ref());
         let law = law.unwrap_or(&case.friction);
         let displacements = self.influence.displacements(p, q);
-        let ratio = self.past.ratio_to(&load).filter(|_| case.integration == Integration::SecondOrder);
+        let ratio = self.past.ratio_to(&load).filter(|_| {
+            case.integration == Integration::SecondOrder && record.work.end_point_increments == 0
+        });
         let strain = relative_strain(&case.bodies, case.is_line(), record.bulk_stress);
         let increment = Increment {
             grid: &self.plan.grid,

@@ -68,6 +68,8 @@ struct ActiveCell {
     /// Unit vectors along and across its trial shear.
     along: [f64; 2],
     across: [f64; 2],
+    /// Where it slips, the displacement that turns its shear.
+    turning: [f64; 2],
     /// Where it slips: bound and slope at the augmented pressure y, with `bound - slope y`.
     slope: f64,
     offset: f64,
@@ -93,7 +95,7 @@ impl ActiveCell {
     fn rows(&self) -> [[f64; 3]; 3] {
         match self.stiffness {
             None => [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
-            Some(_) => [[1.0, 0.0, 0.0], [0.0, self.across[0], self.across[1]], [0.0; 3]],
+            Some(_) => [[1.0, 0.0, 0.0], [0.0, self.turning[0], self.turning[1]], [0.0; 3]],
         }
     }
 
@@ -309,10 +311,12 @@ impl<'a> Attempt<'a> {
                 (true, true) => (Some((size - bound) * tangential / bound), 1),
                 (false, _) => (Some(0.0), 0),
             };
+            let across = [-along[1], along[0]];
             active.push(ActiveCell {
                 cell,
                 along,
-                across: [-along[1], along[0]],
+                across,
+                turning: problem.path.row_across(cell, self.slip(here, cell), across),
                 slope,
                 offset: if stiffness.is_some() { bound - slope * augmented } else { 0.0 },
                 stiffness,

@@ -36,6 +36,9 @@ const FRICTIONLESS: f64 = 1e-6;
 /// Poisson's ratio -0.5 to 0.3, with and without coatings).
 const LIMIT: f64 = 0.98;
 
+/// Newton iterations of the rule of second order; where it converges it takes about six.
+const MOST_TURNING: usize = 24;
+
 /// One increment in one region.
 pub struct IncrementProblem<'a> {
     pub grid: &'a SurfaceGrid,
@@ -200,6 +203,12 @@ impl<'a> IncrementProblem<'a> {
         }
     }
 
+    /// Settings with fewer iterations where the end-point rule is left to fall back on.
+    fn patience(&self, settings: &SolverSettings) -> SolverSettings {
+        let most = if self.path.turns() { MOST_TURNING } else { usize::MAX };
+        SolverSettings { max_newton_iterations: settings.max_newton_iterations.min(most), ..*settings }
+    }
+
     /// Pressure and shear together.
     fn solve_coupled(
         &self,
@@ -209,7 +218,7 @@ impl<'a> IncrementProblem<'a> {
         method: &Method<'_>,
         callback: IterationCallback<'_>,
     ) -> Result<Solved, SolveError> {
-        let settings = method.settings;
+        let settings = &self.patience(method.settings);
         let mut displacements = Displacements::zeros(self.region.len());
         let mut before = TangentialField::zeros(self.region.len());
         if self.touched() {
@@ -236,7 +245,9 @@ impl<'a> IncrementProblem<'a> {
             }
         };
         let solution = match solution {
-            Err(failed @ SolveError::NotConverged { .. }) if settings.scheme == Scheme::Monolithic => {
+            Err(failed @ SolveError::NotConverged { .. })
+                if settings.scheme == Scheme::Monolithic && !self.path.turns() =>
+            {
                 let frictionless = self.frictionless(&start, operators, settings, callback)?;
                 self.check_limit(&frictionless)?;
                 let starts = [&start, &frictionless];
@@ -274,7 +285,7 @@ impl<'a> IncrementProblem<'a> {
         callback: IterationCallback<'_>,
     ) -> Result<Solved, SolveError> {
         let len = self.region.len();
-        let settings = method.settings;
+        let settings = &self.patience(method.settings);
         let own = operators.compliance.self_influence();
         let mut displacements = Displacements::zeros(len);
         let (mut gap, normal, mut iterations);
@@ -307,7 +318,7 @@ impl<'a> IncrementProblem<'a> {
             operators.compliance.tangential(tractions.shear.parts(), displacements.tangential.parts_mut());
             let solution =
                 newton::solve(&problem, &mut tractions, &mut displacements, operators, settings, callback);
-            if let Err(SolveError::NotConverged { .. }) = solution {
+            if let (Err(SolveError::NotConverged { .. }), false) = (&solution, self.path.turns()) {
                 self.check_limit(&tractions)?;
             }
             let solution = solution?;

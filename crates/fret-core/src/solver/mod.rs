@@ -237,10 +237,15 @@ impl<'a> ContactSolver<'a> {
         let ratio = self.ratio_to_last(load);
         let follows =
             self.coupling != Coupling::Frictionless && self.settings.integration == Integration::SecondOrder;
-        let ratio = ratio.filter(|_| follows);
+        let mut ratio = ratio.filter(|_| follows);
         loop {
-            let (solved, after, outcome) =
-                self.solve_in(region, (start.as_ref(), ratio), (state, load), work, callback)?;
+            let solved = self.solve_in(region, (start.as_ref(), ratio), (state, load), work, callback);
+            if let (Some(_), Err(SolveError::NotConverged { .. })) = (ratio, &solved) {
+                work.end_point_increments += 1;
+                ratio = None;
+                continue;
+            }
+            let (solved, after, outcome) = solved?;
             self.check_equilibrium(load, &outcome)?;
             self.check_across(&after)?;
             if self.touches_edge(&after.pressure) {

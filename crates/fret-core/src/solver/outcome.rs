@@ -56,6 +56,9 @@ pub struct Work {
     /// Iterations of the exact Newton method, the last resort: 0 where the usual way solved the increment.
     #[serde(default)]
     pub direct_solves: usize,
+    /// Increments and sub-steps that were integrated by the end-point rule because that of second order did not converge.
+    #[serde(default)]
+    pub end_point_increments: usize,
 }
 
 impl std::ops::AddAssign for Work {
@@ -65,6 +68,7 @@ impl std::ops::AddAssign for Work {
         self.preconditioner_passes += other.preconditioner_passes;
         self.outer_iterations += other.outer_iterations;
         self.direct_solves += other.direct_solves;
+        self.end_point_increments += other.end_point_increments;
     }
 }
 
