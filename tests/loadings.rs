@@ -398,7 +398,6 @@ fn assert_turns(per_turn: usize, integration: &str, [most, most_spread]: [f64; 2
         steps.iter().skip(5 + 2 * per_turn - 4).map(|step| step.shift[0].hypot(step.shift[1])).collect();
     let spread =
         sizes.iter().copied().fold(0.0, f64::max) / sizes.iter().copied().fold(f64::INFINITY, f64::min) - 1.0;
-    println!("turning force: state {worst:.1e}, size of the shift varies by {spread:.1e}");
     // Steady after two turns up to the memory of the start, which decays; the rest is the grid's anisotropy.
     assert!(worst < most, "{worst}");
     assert!(spread < most_spread, "{spread}");
