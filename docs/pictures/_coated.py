@@ -39,4 +39,4 @@ def cycle(amplitude: float, increments: int = 48, cycles: int = 2) -> dict[str, 
 
 def along(history: Any) -> tuple[np.ndarray, np.ndarray]:
     """Return relative displacement over that of the onset, and tangential force over mu P."""
-    return history.steps["shift_x"] / ONSET, history.steps["tangential_force_x"] / (MU * FORCE)
+    return history.increments["shift_x"] / ONSET, history.increments["tangential_force_x"] / (MU * FORCE)

@@ -72,7 +72,7 @@ for (name, (profile, force, approach, pressure, size)), mark in zip(SHAPES.items
                 "load": [{"normal_force": force, "increments": 1}],
             }
         )
-        errors.append(abs(history.steps["approach"][0] / approach - 1))
+        errors.append(abs(history.increments["approach"][0] / approach - 1))
         if cells == 48 and pressure is not None:
             p = history.field("pressure")[:, 24]
             x = np.linspace(-1.15, 1.15, 600)

@@ -81,7 +81,7 @@ def output_files() -> str:
         "<!-- Written by docs/site/reference.py from the meanings in python/fretting: edit them there. -->\n",
         "What `fret run CASE` writes into its results folder. Units are those of the case. How to read it: [Read the results](../do/read-results.md).\n",
         _table("file", FILES),
-        "## history.csv\n\nAlso `history.steps` in Python. Increments count from 0.\n",
+        "## history.csv\n\nAlso `history.increments` in Python. Increments count from 0.\n",
         _table("column", [(name, text) for name, text in MEANING.items() if name not in FIELD_NAMES]),
         "## cycles.csv\n\nAlso `history.cycles` in Python. Definitions: [Fretting quantities](../theory/fretting-quantities.md).\n",
         _table("column", list(cycles.MEANING.items())),

@@ -3,12 +3,19 @@
 import json
 import math
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
 
 import fretting
 
+
+def body(coatings: Any, substrate: Any) -> dict[str, Any]:
+    """Return a body as in a case: coatings (young, poisson, thickness), substrate (young, poisson) or None for a rigid base."""
+    layers = [dict(zip(("young", "poisson", "thickness"), coating, strict=True)) for coating in coatings]
+    base = {"base": "rigid"} if substrate is None else {"substrate": dict(zip(("young", "poisson"), substrate, strict=True))}
+    return {"coatings": layers, **base}
 
 def test_agrees_with_numbers_of_120_digit_arithmetic(root: Path) -> None:
     golden = root / "tests" / "golden" / "frequency_response.json"
@@ -17,7 +24,7 @@ def test_agrees_with_numbers_of_120_digit_arithmetic(root: Path) -> None:
     for row in rows:
         coatings = [(young, poisson, thickness) for young, poisson, thickness in row["layers"]]
         substrate = None if row["substrate"] is None else tuple(row["substrate"])
-        found = fretting.frequency_response(row["k"], coatings, substrate)
+        found = fretting.frequency_response(row["k"], body(coatings, substrate))
         expected = {name: float(row[name]) for name in ("zz", "rr", "rz", "tt")}
         for name in ("zz", "rr", "tt"):  # 2e-15 promised; the decimal strings are good to 20 digits
             assert float(found[name]) == pytest.approx(expected[name], rel=1e-14), (row["case"], row["k"], name)
@@ -31,7 +38,7 @@ def test_homogeneous_half_space_follows_its_closed_form(poisson: float) -> None:
     young = 210e9
     shear_modulus = young / (2.0 * (1.0 + poisson))
     k = np.geomspace(1e-3, 1e9, 25)
-    found = fretting.frequency_response(k, [], (young, poisson))
+    found = fretting.frequency_response(k, body([], (young, poisson)))
     np.testing.assert_allclose(found["zz"], (1.0 - poisson) / (shear_modulus * k), rtol=4e-15)
     np.testing.assert_allclose(found["rr"], (1.0 - poisson) / (shear_modulus * k), rtol=4e-15)
     np.testing.assert_allclose(found["tt"], 1.0 / (shear_modulus * k), rtol=4e-15)
@@ -41,8 +48,8 @@ def test_homogeneous_half_space_follows_its_closed_form(poisson: float) -> None:
 
 def test_coating_of_the_substrates_own_material_changes_nothing() -> None:
     k = np.geomspace(1e-4, 1e4, 17)
-    bare = fretting.frequency_response(k, [], (3.0, 0.25))
-    coated = fretting.frequency_response(k, [(3.0, 0.25, 1.0), (3.0, 0.25, 2.0)], (3.0, 0.25))
+    bare = fretting.frequency_response(k, body([], (3.0, 0.25)))
+    coated = fretting.frequency_response(k, body([(3.0, 0.25, 1.0), (3.0, 0.25, 2.0)], (3.0, 0.25)))
     for name in bare:
         np.testing.assert_allclose(coated[name], bare[name], rtol=1e-14)
 
@@ -50,15 +57,15 @@ def test_coating_of_the_substrates_own_material_changes_nothing() -> None:
 def test_short_waves_see_the_coating_and_long_waves_the_substrate() -> None:
     stack = [(400.0, 0.2, 1.0)], (100.0, 0.3)
     k = np.array([1e-9, 200.0])
-    found = fretting.frequency_response(k, *stack)["zz"] * k
-    substrate = fretting.frequency_response(1.0, [], (100.0, 0.3))["zz"]
-    coating = fretting.frequency_response(1.0, [], (400.0, 0.2))["zz"]
+    found = fretting.frequency_response(k, body(*stack))["zz"] * k
+    substrate = fretting.frequency_response(1.0, body([], (100.0, 0.3)))["zz"]
+    coating = fretting.frequency_response(1.0, body([], (400.0, 0.2)))["zz"]
     np.testing.assert_allclose(found, [substrate, coating], rtol=1e-7)  # of order k h at the long end
 
 
 @pytest.mark.parametrize("shape", [(), (1,), (5,), (2, 3), (0,)])
 def test_answers_have_the_shape_of_the_wavenumbers(shape: tuple[int, ...]) -> None:
-    found = fretting.frequency_response(np.ones(shape), [(2.0, 0.3, 0.1)], (1.0, 0.3))
+    found = fretting.frequency_response(np.ones(shape), body([(2.0, 0.3, 0.1)], (1.0, 0.3)))
     assert list(found) == ["zz", "rr", "rz", "tt"]
     for values in found.values():
         assert values.shape == shape
@@ -80,4 +87,4 @@ def test_answers_have_the_shape_of_the_wavenumbers(shape: tuple[int, ...]) -> No
 )
 def test_bad_arguments_are_refused_with_their_value(k, coatings, substrate, said) -> None:  # type: ignore[no-untyped-def]  # noqa: ANN001
     with pytest.raises(ValueError, match=said):
-        fretting.frequency_response(k, coatings, substrate)
+        fretting.frequency_response(k, body(coatings, substrate))

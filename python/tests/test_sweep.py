@@ -39,13 +39,13 @@ def changed(case: dict[str, Any], friction: float, force: float) -> dict[str, An
 
 def energy_outside(history: fretting.History) -> dict[str, Any]:
     """Measured on fields, so that it must have been done where the history was."""
-    return {"row": history.field("pressure").sum(axis=0), "half": 0.5 * history.steps["dissipated_energy"][-1]}
+    return {"row": history.field("pressure").sum(axis=0), "half": 0.5 * history.increments["dissipated_energy"][-1]}
 
 
 @pytest.fixture
 def alone(case: dict[str, Any]) -> np.ndarray[Any, Any]:
     """Dissipated energy of every point, each run by itself."""
-    energies = [[fretting.run(changed(case, mu, q)).steps["dissipated_energy"][-1] for q in AXES[FORCE]]
+    energies = [[fretting.run(changed(case, mu, q)).increments["dissipated_energy"][-1] for q in AXES[FORCE]]
                 for mu in AXES[FRICTION]]  # fmt: skip
     return np.asarray(energies)
 
@@ -145,7 +145,7 @@ def test_points_that_fail_are_recorded_and_the_others_solved(case: dict[str, Any
         case["load"][0] = {"approach": approach, "increments": 1 if approach > 0.0 else 0}
 
     # What force an approach makes is not known before: at 10 nm it cannot carry the tangential one.
-    answer = fretting.sweep(case, {"depth": fretting.Axis([-1e-6, 1e-8, 1e-6], press)})
+    answer = fretting.sweep(case, {"depth": fretting.Parameter([-1e-6, 1e-8, 1e-6], press)})
     assert answer["status"].values.tolist() == ["refused", "failed", "solved"]
     assert np.isnan(answer["normal_force"].values[:2]).all()
     assert answer["increment"].values.tolist() == [-1, -1, 8]
@@ -175,7 +175,7 @@ def test_a_sweep_of_refused_points_only_is_refused(case: dict[str, Any]) -> None
         ({}, "at least one axis"),
         ([], "the list of points is empty"),
         ([{FRICTION: 0.1}, {FORCE: 0.1}], "point 1 has the keys"),
-        ({"approach": fretting.Axis([1e-6], lambda case, value: None)}, "a variable of the result has this name"),
+        ({"approach": fretting.Parameter([1e-6], lambda case, value: None)}, "a variable of the result has this name"),
         ("friction", "expected a mapping or a list of mappings, found str"),
     ],
 )
@@ -195,7 +195,7 @@ def test_axes_may_be_keys_that_change_together_functions_or_points(case: dict[st
         case["friction"]["coefficient"] = 0.2 * scale
         case["load"][1]["tangential_force"] = [0.5 * scale, 0.0]
 
-    by_function = fretting.sweep(case, {"scale": fretting.Axis([1.0, 2.0], both)})
+    by_function = fretting.sweep(case, {"scale": fretting.Parameter([1.0, 2.0], both)})
     by_points = fretting.sweep(case, [{FRICTION: 0.2, FORCE: 0.5}, {FRICTION: 0.4, FORCE: 1.0}])
     assert dict(by_points.sizes) == {"point": 2}
     for other in (by_function, by_points):
@@ -207,7 +207,7 @@ def test_axes_may_be_keys_that_change_together_functions_or_points(case: dict[st
 def test_histories_are_kept_as_asked(case: dict[str, Any]) -> None:
     history = fretting.run(case)
     every = fretting.sweep(case, {FRICTION: [0.2]}, keep="all")
-    np.testing.assert_array_equal(every["shift_x"].values[0], history.steps["shift_x"])
+    np.testing.assert_array_equal(every["shift_x"].values[0], history.increments["shift_x"])
     stages = fretting.sweep(case, {FRICTION: [0.2]}, keep="stages")
     np.testing.assert_array_equal(stages["increment"].values[0], [0, 8])
     with pytest.raises(ValueError, match="keep = 'lots'"):

@@ -1,14 +1,20 @@
 //! The answer of a run, as arrays.
 
+use fret_cli::embedded::{self, CaseText, Solved};
 use fret_core::cycle::running_condition;
 use fret_core::history::{self, KeptFields, Regime, StepRecord};
+use fret_core::plan::Plan;
+use fret_core::study::StageQuantities;
+use std::path::PathBuf;
+
 use ndarray::Array2;
 use numpy::{IntoPyArray, PyArray1, ToPyArray};
 use pyo3::exceptions::{PyKeyError, PyValueError};
 use pyo3::prelude::{Bound, PyAny, PyDictMethods, PyResult, Python, pyclass, pymethods};
 use pyo3::types::PyDict;
 
-use crate::error::bad_value;
+use crate::case::earlier;
+use crate::error::{bad_value, stopped};
 
 /// A public name and the entry of a step it stands for.
 type Entry<T> = (&'static str, fn(&StepRecord) -> T);
@@ -72,13 +78,24 @@ pub fn step_items<'py>(py: Python<'py>, step: &StepRecord) -> PyResult<Bound<'py
 
 /// All of a run.
 #[pyclass(frozen, module = "fretting._core")]
-pub struct History(pub history::History);
+pub struct History {
+    /// Numbers and fields.
+    pub history: history::History,
+    /// What was solved.
+    pub plan: Plan,
+    /// The case as it was read.
+    pub case: CaseText,
+    /// Quantities of interest at the ends of the stages.
+    pub quantities: Vec<StageQuantities>,
+    /// JSON text of its error bars, where they were asked for.
+    pub error_bars: Option<String>,
+}
 
 #[pymethods]
 impl History {
     /// The numbers of all steps: one array a name, one entry an increment; `regime` is a list of words.
-    fn steps<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        let steps = &self.0.steps;
+    fn increments<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let steps = &self.history.steps;
         let items = PyDict::new(py);
         for (name, value) in COUNTS {
             let column: Vec<i64> = steps.iter().map(|step| value(step) as i64).collect();
@@ -94,44 +111,73 @@ impl History {
 
     /// The records of the cycles, as JSON text.
     fn cycles(&self) -> PyResult<String> {
-        serde_json::to_string(&self.0.cycles).map_err(bad_value)
+        serde_json::to_string(&self.history.cycles).map_err(bad_value)
     }
 
     /// Where and when the surfaces were worn to the limit, as JSON text.
     fn worn_through(&self) -> PyResult<String> {
-        serde_json::to_string(&self.0.worn_through).map_err(bad_value)
+        serde_json::to_string(&self.history.worn_through).map_err(bad_value)
     }
 
     /// What about the numbers may mislead, as JSON text.
     fn warnings(&self) -> PyResult<String> {
-        serde_json::to_string(&self.0.warnings).map_err(bad_value)
+        serde_json::to_string(&self.history.warnings).map_err(bad_value)
     }
 
     /// Running condition of each stage's cycles, as JSON text.
     fn running_conditions(&self) -> PyResult<String> {
-        let of = |stage| running_condition(self.0.cycles.iter().filter(|cycle| cycle.stage == stage));
-        let conditions: Vec<_> = (0..self.0.stages.len()).map(of).collect();
+        let of = |stage| running_condition(self.history.cycles.iter().filter(|cycle| cycle.stage == stage));
+        let conditions: Vec<_> = (0..self.history.stages.len()).map(of).collect();
         serde_json::to_string(&conditions).map_err(bad_value)
+    }
+
+    /// The plan, as JSON text.
+    fn plan(&self) -> String {
+        self.history.plan.to_string()
+    }
+
+    /// Error bars, as JSON text, where they were asked for.
+    fn error_bars(&self) -> Option<&str> {
+        self.error_bars.as_deref()
+    }
+
+    /// Writes all of it into a folder, as the run itself would have done; `early` is the status and reason of one that ended early.
+    fn save(
+        &self,
+        py: Python<'_>,
+        folder: PathBuf,
+        replace: bool,
+        early: Option<(String, String)>,
+    ) -> PyResult<()> {
+        let solved = Solved {
+            plan: &self.plan,
+            history: &self.history,
+            quantities: &self.quantities,
+            early: early.as_ref().map(|(status, why)| (status.as_str(), why.as_str())),
+            error_bars: self.error_bars.as_deref(),
+        };
+        let case = self.case.clone();
+        py.detach(|| embedded::save(solved, case, &folder, earlier(false, replace))).map_err(stopped)
     }
 
     /// Names of the stages.
     fn stages(&self) -> Vec<String> {
-        self.0.stages.clone()
+        self.history.stages.clone()
     }
 
     /// The two bodies as JSON.
     fn bodies(&self) -> PyResult<String> {
-        serde_json::to_string(&self.0.bodies).map_err(crate::error::bad_value)
+        serde_json::to_string(&self.history.bodies).map_err(crate::error::bad_value)
     }
 
     /// Sides of a cell [length].
     fn spacing(&self) -> [f64; 2] {
-        self.0.grid.spacing()
+        self.history.grid.spacing()
     }
 
     /// Whether the scene repeats in x and y.
     fn periodic(&self) -> bool {
-        self.0.periodic
+        self.history.periodic
     }
 
     /// Coordinates of the cell centres along axis 0 or 1 [length].
@@ -139,17 +185,17 @@ impl History {
         if axis > 1 {
             return Err(PyValueError::new_err(format!("axis = {axis}: must be 0 or 1")));
         }
-        Ok(self.0.grid.centres(axis).into_pyarray(py))
+        Ok(self.history.grid.centres(axis).into_pyarray(py))
     }
 
     /// Increments whose fields are kept.
-    fn kept_steps(&self) -> Vec<usize> {
-        self.0.fields.iter().map(|kept| kept.increment).collect()
+    fn kept_increments(&self) -> Vec<usize> {
+        self.history.fields.iter().map(|kept| kept.increment).collect()
     }
 
     /// Names of the fields kept of an increment; none when nothing of it is kept.
     fn kept_fields(&self, increment: usize) -> Vec<&'static str> {
-        self.0.fields_of(increment).map_or_else(Vec::new, |kept| {
+        self.history.fields_of(increment).map_or_else(Vec::new, |kept| {
             let groups: [(bool, &[&str]); 6] = [
                 (kept.pressure.is_some(), &["pressure"]),
                 (kept.shear.is_some(), &["shear_x", "shear_y"]),
@@ -165,7 +211,7 @@ impl History {
     /// A kept field, shape `(nx, ny)`: a copy, the caller's own.
     fn field<'py>(&self, py: Python<'py>, name: &str, increment: usize) -> PyResult<Bound<'py, PyAny>> {
         let kept =
-            self.0.fields_of(increment).ok_or_else(|| PyKeyError::new_err((name.to_owned(), increment)))?;
+            self.history.fields_of(increment).ok_or_else(|| PyKeyError::new_err((name.to_owned(), increment)))?;
         if let ("zone", Some(zones)) = (name, &kept.zone) {
             return Ok(zones.mapv(|zone| zone as u8).into_pyarray(py).into_any());
         }

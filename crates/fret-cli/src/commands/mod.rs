@@ -3,7 +3,7 @@
 pub mod check;
 pub mod export;
 pub mod extremes;
-mod fatigue;
+pub mod fatigue;
 pub mod plan;
 pub mod report;
 pub mod run;

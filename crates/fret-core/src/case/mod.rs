@@ -34,6 +34,7 @@ pub use definition::{Case, GridSize};
 pub use file::schema;
 pub use numbers::{NumbersError, numbers};
 pub use output::{FIELD_NAMES, Output};
+pub use read::toml_of;
 pub use refusal::{CaseError, Difference, Mistake};
 pub(crate) use stages::apart;
 pub use stress::{FatigueRequest, Side, StressRequest};
