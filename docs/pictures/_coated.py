@@ -7,7 +7,7 @@ import numpy as np
 from fretting import analytic
 
 MU, FORCE, RADIUS, YOUNG, POISSON = 0.3, 12.0, 10e-3, 210e9, 0.3
-MODULI = analytic.effective_moduli(lower=(YOUNG, POISSON))
+MODULI = analytic.effective_moduli(lower={"young": YOUNG, "poisson": POISSON})
 HERTZ = analytic.hertz(radius=RADIUS, force=FORCE, modulus=MODULI.normal)
 ONSET = 3 * MU * FORCE / (16 * MODULI.shear * HERTZ.contact_radius)
 """Displacement at which the uncoated contact begins to slide (Cattaneo, Mindlin) [m]."""

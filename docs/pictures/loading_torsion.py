@@ -17,7 +17,7 @@ full = 3 * np.pi * MU * FORCE / 16
 
 def first(moments: np.ndarray) -> np.ndarray:
     """Rotation of a first loading."""
-    return np.array([analytic.torsion(sphere_contact(), MU, 0.25, m).twist if m > 0 else 0.0 for m in moments])
+    return np.array([analytic.torsion(sphere_contact(), friction_coefficient=MU, shear_modulus=0.25, moment=m).twist if m > 0 else 0.0 for m in moments])
 
 
 drawn, (left, right) = figure(2, height=62)

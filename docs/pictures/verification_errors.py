@@ -34,7 +34,9 @@ for ratio, mark, name in ((1.0, "o", "Hertz"), (0.25, "s", "$E_c/E_s$ = 1/4"), (
         )
         errors.append(abs(history.increments["approach"][0] / (row["approach"] * hertz.approach) - 1))
     left.loglog(GRIDS, errors, mark + "-", lw=0.8, label=name)
-exact = analytic.cattaneo_mindlin(sphere_contact(), MU, SHEAR, 0.75 * MU * FORCE)
+exact = analytic.cattaneo_mindlin(
+    sphere_contact(), friction_coefficient=MU, shear_modulus=SHEAR, tangential_force=0.75 * MU * FORCE
+)
 values: dict[str, list[float]] = {"relative displacement": [], "dissipated energy": [], "stick area": []}
 for cells in GRIDS:
     steps = fretting.run(

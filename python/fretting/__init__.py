@@ -21,6 +21,7 @@ lower body, compression is positive.
 from fretting import analytic, plot
 from fretting._core import __version__
 from fretting._points import Parameter
+from fretting.case_types import Case
 from fretting.errors import (
     CaseError,
     FrettingError,
@@ -41,6 +42,7 @@ from fretting.studying import study
 from fretting.sweeping import sweep
 
 __all__ = [
+    "Case",
     "CaseError",
     "Convolution",
     "FrettingError",

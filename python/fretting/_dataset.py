@@ -25,7 +25,7 @@ def module(what: str) -> Any:  # noqa: ANN401 - a module
 
 def of_history(history: "History", every: bool) -> "xarray.Dataset":
     """Return a Dataset of every increment, or of the kept ones alone: see :meth:`fretting.History.to_xarray`."""
-    xarray = module("to_xarray")
+    library = module("to_xarray")
     kept = np.asarray(history.kept_increments, dtype=np.int64)
     chosen = np.arange(len(history)) if every else kept
     fields_along = "kept_increment" if every else "increment"
@@ -59,7 +59,8 @@ def of_history(history: "History", every: bool) -> "xarray.Dataset":
             if name not in ("cycle", "stage"):
                 variables[f"cycle_{name}"] = ("cycle", column, described(cycles.MEANING[name], history.units))
     attributes = {"stages": history.stages, "status": history.status}
-    return xarray.Dataset(variables, coords=coordinates, attrs=attributes)
+    dataset: xarray.Dataset = library.Dataset(variables, coords=coordinates, attrs=attributes)
+    return dataset
 
 
 def _stack(history: "History", name: str) -> npt.NDArray[Any] | None:

@@ -108,12 +108,10 @@ def _dimension(key: Key, given: object) -> Dimension:
         if not isinstance(key, str):
             raise TypeError(f"parameter {key!r}: a Parameter has one name")
         values = _values(key, given.values)
-        by_key = isinstance(given.apply, str)
-        return Dimension(
-            key,
-            {key: values},
-            [_by_keys([given.apply], [value]) if by_key else _by_function(given.apply, value) for value in values],
-        )
+        apply = given.apply
+        if isinstance(apply, str):
+            return Dimension(key, {key: values}, [_by_keys([apply], [value]) for value in values])
+        return Dimension(key, {key: values}, [_by_function(apply, value) for value in values])
     if isinstance(key, str):
         values = _values(key, given)
         return Dimension(key, {key: values}, [_by_keys([key], [value]) for value in values])

@@ -291,7 +291,7 @@ class MindlinDeresiewicz:
             When the loop does not reach the force.
         """
         solution = _core.mindlin_deresiewicz_at(
-            _hertz_numbers(self.sphere), self.friction, self.shear_modulus, self.amplitude, branch, tangential_force
+            _hertz_numbers(self.sphere), self.friction_coefficient, self.shear_modulus, self.amplitude, branch, tangential_force
         )
         return LoopPoint(**_numbers(solution), _solution=solution)
 

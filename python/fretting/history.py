@@ -387,7 +387,7 @@ class History:
         -------
         xarray.Dataset
             ``xx``, ``yy``, ``zz``, ``xy``, ``xz``, ``yz``, ``von_mises`` [pressure] with the dimensions (depth, y, x), of a line
-            contact (depth, x); ``principal`` with (principal, depth, y, x), the largest first. Beside ``depth`` stands ``layer``: 0 in
+            contact (depth, x); ``principal`` with (order, depth, y, x), the largest first. Beside ``depth`` stands ``layer``: 0 in
             the outermost coating, the number of coatings in the substrate. A depth at an interface appears twice, first as
             seen from above, then from below.
 

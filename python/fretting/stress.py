@@ -30,7 +30,7 @@ def subsurface(
     history: "History", depths: npt.ArrayLike, increment: int, body: Literal["lower", "upper"], threads: int | None
 ) -> "xarray.Dataset":
     """Return stresses: see :meth:`fretting.History.subsurface`."""
-    xarray = _dataset.module("subsurface")
+    module = _dataset.module("subsurface")
     pressure = _on_grid(history, history.field("pressure", increment))
     shear = None
     if not _frictionless(history):
@@ -57,13 +57,13 @@ def subsurface(
         described("von Mises stress [pressure]", history.units),
     )
     variables["principal"] = (
-        ("principal", "depth", *across),
+        ("order", "depth", *across),
         principal,
         described("principal stress, tension positive [pressure]", history.units),
     )
-    coordinates = {**_coordinates(history, answer), "principal": ("principal", np.arange(1, 4))}
+    coordinates = {**_coordinates(history, answer), "order": ("order", np.arange(1, 4), {"long_name": "1: the largest principal stress"})}
     attributes = {"body": body, "increment": history._number(increment)}
-    dataset: xarray.Dataset = xarray.Dataset(variables, coords=coordinates, attrs=attributes)
+    dataset: xarray.Dataset = module.Dataset(variables, coords=coordinates, attrs=attributes)
     return dataset
 
 
@@ -85,7 +85,7 @@ def fatigue(
     threads: int | None,
 ) -> "xarray.Dataset":
     """Return fatigue parameters: see :meth:`fretting.History.fatigue`."""
-    xarray = _dataset.module("fatigue")
+    module = _dataset.module("fatigue")
     request = _request(constants)
     count = len(history.cycles["cycle"])
     if not -count <= cycle < count:
@@ -110,7 +110,7 @@ def fatigue(
     }
     coordinates = {name: entry for name, entry in _coordinates(history, answer).items() if name != "y"}
     attributes = {"body": body, "increments": chosen}
-    dataset: xarray.Dataset = xarray.Dataset(variables, coords=coordinates, attrs=attributes)
+    dataset: xarray.Dataset = module.Dataset(variables, coords=coordinates, attrs=attributes)
     return dataset
 
 

@@ -76,7 +76,7 @@ def study(
     RunError
         When the finest level cannot be solved.
     """
-    xarray = _dataset.module("study")
+    module = _dataset.module("study")
     resolutions = [int(n) for n in cells], [int(n) for n in increments], [float(t) for t in tolerances], against
     answer = json.loads(_core.study(_case.read(case), resolutions, threads, progress))
     levels = [(line["refined"], level) for line in answer["lines"] for level in line["levels"]]
@@ -111,5 +111,5 @@ def study(
         "closed_form": answer["closed_form"] or "",
         "unsolved": [f"{entry['cells'][0]} x {entry['cells'][1]}: {entry['message']}" for entry in answer["unsolved"]],
     }
-    dataset: xarray.Dataset = xarray.Dataset(variables, coords=coordinates, attrs=attributes)
+    dataset: xarray.Dataset = module.Dataset(variables, coords=coordinates, attrs=attributes)
     return dataset

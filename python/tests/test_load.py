@@ -75,7 +75,7 @@ def test_a_loaded_history_is_the_one_a_run_gives(folder: Path) -> None:
             assert field.dtype == run.field(name, step).dtype
             np.testing.assert_array_equal(field, run.field(name, step), err_msg=name)
     assert repr(loaded) == repr(run)
-    stress = [fretting.subsurface_stress(history, [0.0, 20e-6])["von_mises"] for history in (loaded, run)]
+    stress = [history.subsurface([0.0, 20e-6])["von_mises"] for history in (loaded, run)]
     np.testing.assert_array_equal(*stress)
 
 
@@ -85,7 +85,7 @@ def test_a_pickled_history_does_without_its_folder(copy: Path) -> None:
     shutil.rmtree(copy)
     again = pickle.loads(text)
     np.testing.assert_array_equal(again.field("pressure"), field)
-    with pytest.raises(KeyError, match="it has: increment"):
+    with pytest.raises(KeyError, match="columns are: increment"):
         again.increments["presure"]
 
 
@@ -110,7 +110,7 @@ def test_a_run_that_failed_opens_as_what_there_is(tmp_path: Path) -> None:
     np.testing.assert_array_equal(history.increments["approach"], whole.increments["approach"][:2])
     assert history.kept_increments == [0, 1]
     np.testing.assert_array_equal(history.field("pressure"), whole.field("pressure", 1))
-    assert np.abs(fretting.subsurface_stress(history, [20e-6])["von_mises"]).max() > 0.0
+    assert np.abs(history.subsurface([20e-6])["von_mises"]).max() > 0.0
     assert len(history.cycles["cycle"]) == 0
     assert len(fretting.run(case.partition("[[load]]")[0] + case[case.index('[[load]]\nname = "rub"') :], start=history)) == 16
 
@@ -158,8 +158,8 @@ def test_a_damaged_folder_is_refused_never_half_read(copy: Path, name: str, spoi
 
 def test_a_name_that_steps_do_not_have_is_answered_with_those_they_have(folder: Path) -> None:
     steps = fretting.open_results(folder).increments
-    with pytest.raises(KeyError, match=r"history\.field\('pressure', step\)"):
+    with pytest.raises(KeyError, match=r"history\.field\('pressure', increment\)"):
         steps["pressure"]
-    with pytest.raises(KeyError, match=r"it has: increment, .*max_pressure"):
+    with pytest.raises(KeyError, match=r"columns are: increment, .*max_pressure"):
         steps["presure"]
     assert steps.get("presure") is None

@@ -64,7 +64,7 @@ def test_press_once_branch_into_many(case: dict[str, Any], tmp_path: Path) -> No
     np.testing.assert_allclose(energy[1], whole.increments["dissipated_energy"][-1], rtol=SAME)
     with ProcessPoolExecutor(1) as pool:
         again = fretting.sweep(
-            rub, {"load.0.tangential_force.0": [0.01, 0.05]}, pool, start=pressed, folder=tmp_path / "s"
+            rub, {"load.0.tangential_force.0": [0.01, 0.05]}, executor=pool, start=pressed, folder=tmp_path / "s"
         )
     np.testing.assert_array_equal(again["dissipated_energy"].values, energy)
     # Another state to start from makes other points.

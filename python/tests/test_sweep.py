@@ -61,7 +61,7 @@ EXECUTORS: dict[str, Callable[[], concurrent.futures.Executor | None]] = {
 def test_every_point_is_what_a_run_alone_gives(case: dict[str, Any], alone: np.ndarray[Any, Any], kind: str) -> None:
     """To the last bit: results do not depend on threads or on the process."""
     executor = EXECUTORS[kind]()
-    answer = fretting.sweep(case, AXES, executor)
+    answer = fretting.sweep(case, AXES, executor=executor)
     if executor:
         executor.shutdown()
     assert answer["dissipated_energy"].dims == (FRICTION, FORCE)
@@ -87,7 +87,7 @@ CASE = {
 AXES = {"load.0.normal_force": [4.0, 8.0, 12.0]}
 here = fretting.sweep(CASE, AXES)["approach"].values.tolist()
 with concurrent.futures.ProcessPoolExecutor(2, multiprocessing.get_context("fork")) as executor:
-    there = fretting.sweep(CASE, AXES, executor)["approach"].values.tolist()
+    there = fretting.sweep(CASE, AXES, executor=executor)["approach"].values.tolist()
 assert there == here, (there, here)
 print("done")
 """
@@ -109,7 +109,7 @@ def test_a_sweep_on_a_dask_cluster(case: dict[str, Any], alone: np.ndarray[Any, 
         distributed.LocalCluster(n_workers=1, threads_per_worker=2, processes=False, dashboard_address=None) as cluster,
         distributed.Client(cluster) as client,
     ):
-        answer = fretting.sweep(case, AXES, client.get_executor())
+        answer = fretting.sweep(case, AXES, executor=client.get_executor())
     np.testing.assert_array_equal(answer["dissipated_energy"].values, alone)
 
 
@@ -120,7 +120,7 @@ CASE, AXES = {case!r}, {axes!r}
 if __name__ == "__main__":
     with MPIPoolExecutor() as executor:
         assert executor.num_workers == 2
-        answer = fretting.sweep(CASE, AXES, executor)
+        answer = fretting.sweep(CASE, AXES, executor=executor)
     print(answer["dissipated_energy"].values.tolist())
 """
 
@@ -172,7 +172,7 @@ def test_a_sweep_of_refused_points_only_is_refused(case: dict[str, Any]) -> None
         ({FRICTION: 0.1}, "expected a list of values, found float"),
         ({FRICTION: [0.1, float("nan")]}, "must be finite"),
         ({(FRICTION, FORCE): [(0.1,)]}, "value 0 must hold 2 values"),
-        ({}, "at least one axis"),
+        ({}, "at least one"),
         ([], "the list of points is empty"),
         ([{FRICTION: 0.1}, {FORCE: 0.1}], "point 1 has the keys"),
         ({"approach": fretting.Parameter([1e-6], lambda case, value: None)}, "a variable of the result has this name"),
@@ -285,3 +285,10 @@ def test_a_folder_of_other_things_is_left_alone(case: dict[str, Any], tmp_path: 
 def test_progress_is_told(case: dict[str, Any], capsys: pytest.CaptureFixture[str]) -> None:
     fretting.sweep(case, {FRICTION: [-1.0, 0.4]}, progress=True)
     assert "point 2/2  1 failed" in capsys.readouterr().err
+
+
+def test_a_parameter_has_a_short_name(case: dict[str, Any]) -> None:
+    answer = fretting.sweep(case, {"mu": fretting.Parameter([0.2, 0.4], FRICTION)})
+    assert answer["approach"].dims == ("mu",)
+    by_key = fretting.sweep(case, {FRICTION: [0.2, 0.4]})
+    np.testing.assert_array_equal(answer["dissipated_energy"].values, by_key["dissipated_energy"].values)
