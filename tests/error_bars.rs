@@ -6,7 +6,7 @@
 
 use fret_core::case::Case;
 use fret_core::plan::Plan;
-use fret_core::simulation::Silent;
+use fret_core::run::Silent;
 use fret_core::study::{Bars, ClosedForm, Quantity, solved_level, companion, error_bars};
 use fret_validation::Sphere;
 use serde::Deserialize;

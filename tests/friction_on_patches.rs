@@ -5,7 +5,7 @@ use std::path::Path;
 
 use fret_core::case::{Attachments, Case};
 use fret_core::plan::Plan;
-use fret_core::simulation::{RunError, Silent, Simulation};
+use fret_core::run::{RunError, Silent, Simulation};
 use fret_validation::{Sphere, keeping, solved, solved_with};
 use ndarray::Array2;
 use serde::Deserialize;

@@ -10,7 +10,7 @@ use std::fmt::Write;
 use fret_core::case::{Attachments, Case};
 use fret_core::history::History;
 use fret_core::plan::Plan;
-use fret_core::simulation::{RunError, Silent, Simulation};
+use fret_core::run::{RunError, Silent, Simulation};
 use ndarray::Array2;
 
 /// A sphere of radius 100 pressed so that a Hertz contact on a half-space of modulus `E = 1`, `nu = poisson` under it has

@@ -5,11 +5,10 @@ use std::fmt::Write;
 
 use fret_core::analytic::{Hertz, Torsion, Westergaard};
 use fret_core::case::{Attachments, Case};
-use fret_core::cycle::CycleRegime;
-use fret_core::history::History;
+use fret_core::history::{CycleRegime, History};
 use fret_core::model::Zone;
 use fret_core::plan::Plan;
-use fret_core::simulation::{Silent, Simulation};
+use fret_core::run::{Silent, Simulation};
 use fret_validation::{RADIUS, Sphere, keeping, solved};
 
 use crate::reduced_contact::Springs;

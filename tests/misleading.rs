@@ -2,9 +2,9 @@
 //! of the tutorials is not.
 
 use fret_core::case::Case;
+use fret_core::history::{Concern, Warning};
 use fret_core::plan::Plan;
-use fret_core::plausibility::{Gauge, of_plan};
-use fret_core::warning::{Concern, Warning};
+use fret_core::run::plausibility::{Gauge, of_plan};
 use fret_validation::{Sphere, solved, solved_with};
 use ndarray::Array2;
 

@@ -2,7 +2,7 @@
 
 use fret_core::case::Case;
 use fret_core::plan::Plan;
-use fret_core::simulation::Silent;
+use fret_core::run::Silent;
 use fret_core::study::{
     RefinementStudy, ClosedForm, Form, Kind, Resolutions, ResolutionError, Line, Quantity, Source, Reference, solved_level,
 };

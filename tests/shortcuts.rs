@@ -5,7 +5,7 @@ use std::time::Instant;
 use fret_core::case::Case;
 use fret_core::history::{History, KeptFields, StepRecord};
 use fret_core::plan::{LeaveOut, Plan, Simplification};
-use fret_core::simulation::{Silent, Simulation};
+use fret_core::run::{Silent, Simulation};
 
 use crate::{Sphere, keeping};
 

@@ -3,7 +3,7 @@
 //! until T is close to mu W, and the shift can grow without bound only there.
 
 use fret_core::history::History;
-use fret_core::simulation::RunError;
+use fret_core::run::RunError;
 use fret_validation::{Sphere, run};
 
 /// Tangential force over mu W at which the last stick cell vanishes, and that at a shift far beyond.

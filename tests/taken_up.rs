@@ -4,11 +4,9 @@
 use std::ops::ControlFlow;
 
 use fret_core::case::Case;
-use fret_core::checkpoint::{Checkpoint, CheckpointError, Waypoint};
-use fret_core::history::{History, StepRecord};
+use fret_core::history::{History, Start, StepRecord};
 use fret_core::plan::Plan;
-use fret_core::simulation::{Observer, RunError, Silent, Simulation};
-use fret_core::start::Start;
+use fret_core::run::{Checkpoint, CheckpointError, Observer, RunError, Silent, Simulation, Waypoint};
 
 /// Pressed with 1 N: contact radius 32e-6, approach 0.1e-6.
 const HEAD: &str = r#"

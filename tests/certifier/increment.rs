@@ -97,7 +97,7 @@ impl Increment<'_> {
             let length = hypot(q);
             certificate.excess.raise(over((length - bound).max(0.0), most));
             let kept = [0, 1].map(|axis| slip[axis][at] - self.before.slip[axis][at]);
-            work += dissipated([self.before.pressure[at], p[at]], q, kept);
+            work += dissipated([self.law.bound(i, j, self.before.pressure[at]), bound], q, kept);
             limit += bound * hypot(kept);
             if zone == Zone::Slip {
                 certificate.on_circle.raise(over((bound - length).max(0.0), most));
@@ -136,10 +136,10 @@ impl Increment<'_> {
         certificate.energy = over(wrong, unit);
     }
 
-    /// `mu p` of every cell.
+    /// Friction bound of every cell.
     fn bound(&self) -> Array2<f64> {
         let mut bound = self.fields.p.clone();
-        bound.indexed_iter_mut().for_each(|((i, j), p)| *p *= self.law.at(i, j));
+        bound.indexed_iter_mut().for_each(|((i, j), p)| *p = self.law.bound(i, j, *p));
         bound
     }
 

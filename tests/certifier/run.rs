@@ -6,7 +6,7 @@ use fret_core::case::{Attachments, Case, CaseError};
 use fret_core::history::{KeptFields, StepRecord};
 use fret_core::model::ContactState;
 use fret_core::plan::Plan;
-use fret_core::simulation::{Iteration, Observer, RunError, Simulation};
+use fret_core::run::{Iteration, Observer, RunError, Simulation};
 use ndarray::Array2;
 
 use super::{Certificate, certify};

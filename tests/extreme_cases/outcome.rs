@@ -2,7 +2,7 @@
 
 use fret_core::case::{Attachments, Case, CaseError, StageControl};
 use fret_core::plan::Plan;
-use fret_core::simulation::{RunError, Silent, Simulation};
+use fret_core::run::{RunError, Silent, Simulation};
 use ndarray::Array2;
 
 use super::Family;

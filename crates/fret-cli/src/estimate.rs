@@ -5,7 +5,7 @@ use std::fmt::Write;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use fret_core::plan::{Coupling, Plan};
-use fret_core::simulation::{Observer, RunError};
+use fret_core::run::{Observer, RunError};
 use fret_core::study::{Bar, Bars, StageQuantities, Quantity, solved_level, error_bars, resolved};
 use serde_json::{Value, json};
 

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use fret_core::case::{CaseError, printable};
 use fret_core::machine::memory::MemoryError;
-use fret_core::simulation::RunError;
+use fret_core::run::RunError;
 use serde_json::{Value, json};
 
 use crate::figures::shortened;

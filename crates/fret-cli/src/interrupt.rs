@@ -7,7 +7,7 @@ use std::time::Duration;
 
 use fret_core::history::{KeptFields, StepRecord};
 use fret_core::model::ContactState;
-use fret_core::simulation::{Iteration, Observer};
+use fret_core::run::{Iteration, Observer};
 
 use crate::failure::INTERRUPTED;
 use crate::terminal;

@@ -3,8 +3,8 @@
 use std::path::Path;
 use std::sync::Arc;
 
+use fret_core::history::Start;
 use fret_core::model::LoadStep;
-use fret_core::start::Start;
 
 use crate::failure::Failure;
 use crate::output::kept_run::KeptRun;

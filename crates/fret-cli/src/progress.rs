@@ -4,9 +4,8 @@
 use std::time::{Duration, Instant};
 
 use fret_core::case::printable;
-use fret_core::cycle::CycleRecord;
-use fret_core::history::StepRecord;
-use fret_core::simulation::Iteration;
+use fret_core::history::{CycleRecord, StepRecord};
+use fret_core::run::Iteration;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 use crate::figures::{duration, figure, shortened};

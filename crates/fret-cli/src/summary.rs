@@ -3,10 +3,8 @@
 use std::fmt::Write;
 use std::path::Path;
 
-use fret_core::cycle::CycleRecord;
-use fret_core::history::StepRecord;
+use fret_core::history::{CycleRecord, StepRecord, Warning};
 use fret_core::plan::{Coupling, Plan};
-use fret_core::warning::Warning;
 use serde_json::{Value, json};
 
 use crate::estimate::Estimate;

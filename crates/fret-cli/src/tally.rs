@@ -1,11 +1,9 @@
 //! What a run has come to, kept while it goes, so that an interrupted or failed run can tell as much as a solved one.
 
-use fret_core::cycle::CycleRecord;
-use fret_core::history::{StepRecord, Work};
+use fret_core::history::{CycleRecord, StepRecord, Work, WornThrough};
 use fret_core::plan::{Advance, Plan};
-use fret_core::plausibility::Gauge;
+use fret_core::run::plausibility::Gauge;
 use fret_core::study::StageQuantities;
-use fret_core::wear::WornThrough;
 use serde::{Deserialize, Serialize};
 
 /// A stage of the history, as increments of the whole.

@@ -130,7 +130,7 @@ fn solve(scene: &Scene, grid: &SurfaceGrid, extension: usize) -> Answer<Incremen
     } else {
         sampled_coefficients(&scene.pair, cells, spacing, Components::NORMAL, extension)
     };
-    let friction = CoulombFriction::Uniform(0.0);
+    let friction = CoulombFriction::NONE;
     let mut solver = ContactSolver::new(
         *grid,
         gap,

@@ -262,7 +262,7 @@ fn solve(scene: &Scene, gap: Array2<f64>, tolerance: f64, mirrors: bool) -> Answ
     } else {
         SurfaceResponse::FreeSpace(influence_coefficients(&scene.pair, [n, n], [side; 2], Components::NORMAL))
     };
-    let friction = CoulombFriction::Uniform(0.0);
+    let friction = CoulombFriction::NONE;
     let settings = SolverSettings::new(tolerance);
     let odd = |axis: usize| {
         let mut odd_shear = [None; 2];

@@ -13,7 +13,7 @@ use fret_core::case::Case;
 use fret_core::history::{KeptFields, StepRecord};
 use fret_core::model::ContactState;
 use fret_core::plan::Plan;
-use fret_core::simulation::{Observer, Simulation};
+use fret_core::run::{Observer, Simulation};
 
 const CASE: &str = r#"
 grid = { cells = [32, 32], size = "auto" }

@@ -12,7 +12,7 @@ use fret_core::analytic::{EffectiveModuli, Hertz};
 use fret_core::case::Case;
 use fret_core::model::ElasticMaterial;
 use fret_core::plan::Plan;
-use fret_core::simulation::{Silent, Simulation};
+use fret_core::run::{Silent, Simulation};
 
 const CASE: &str = r#"
 grid = { cells = [48, 48], size = "auto" }

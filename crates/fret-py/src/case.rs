@@ -6,7 +6,7 @@ use std::sync::Arc;
 use fret_cli::embedded::{CaseText, Earlier};
 use fret_core::case::{self, Attachments, CaseError};
 use fret_core::plan::{LeaveOut, Plan};
-use fret_core::start;
+use fret_core::history;
 use ndarray::Array2;
 use numpy::{PyArray2, PyReadonlyArray2, ToPyArray};
 use pyo3::IntoPyObject;
@@ -78,7 +78,7 @@ impl Case {
     }
 
     /// The state its history starts from.
-    pub fn start(&self) -> Option<Arc<start::Start>> {
+    pub fn start(&self) -> Option<Arc<history::Start>> {
         self.1.start.as_ref().map(|start| start.get().0.clone())
     }
 

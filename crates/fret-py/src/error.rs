@@ -2,7 +2,7 @@
 
 use fret_core::case;
 use fret_cli::embedded::Stopped;
-use fret_core::simulation;
+use fret_core::run;
 use pyo3::PyErr;
 use pyo3::exceptions::{PyKeyboardInterrupt, PyRuntimeError, PyValueError};
 
@@ -25,8 +25,8 @@ pub fn refused(error: &case::CaseError) -> PyErr {
 }
 
 /// A run that ended without its answer: the message and the number of the increment.
-pub fn failed(error: &simulation::RunError) -> PyErr {
-    if let simulation::RunError::OutOfMemory { increment, .. } = error {
+pub fn failed(error: &run::RunError) -> PyErr {
+    if let run::RunError::OutOfMemory { increment, .. } = error {
         return OutOfMemoryError::new_err((error.to_string(), *increment));
     }
     RunError::new_err((error.to_string(), error.increment()))

@@ -1,12 +1,11 @@
 //! The answer of a run, as arrays.
 
-use fret_cli::embedded::{self, CaseText, Solved};
-use fret_core::cycle::running_condition;
-use fret_core::history::{self, KeptFields, Regime, StepRecord};
-use fret_core::plan::Plan;
-use fret_core::study::StageQuantities;
 use std::path::PathBuf;
 
+use fret_cli::embedded::{self, CaseText, Solved};
+use fret_core::history::{self, KeptFields, Regime, StepRecord, running_condition};
+use fret_core::plan::Plan;
+use fret_core::study::StageQuantities;
 use ndarray::Array2;
 use numpy::{IntoPyArray, PyArray1, ToPyArray};
 use pyo3::exceptions::{PyKeyError, PyValueError};

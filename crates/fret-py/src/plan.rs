@@ -1,7 +1,7 @@
 //! The plan of a case, as text that Python reads.
 
 use fret_core::machine::memory;
-use fret_core::plausibility;
+use fret_core::run::plausibility;
 use fret_core::study::expectation;
 use pyo3::prelude::{PyResult, Python, pyfunction};
 

@@ -11,12 +11,10 @@ use std::thread;
 use std::time::Duration;
 
 use fret_cli::embedded;
-use fret_core::checkpoint::Checkpoint;
-use fret_core::cycle::CycleRecord;
-use fret_core::history::{KeptFields, StepRecord};
+use fret_core::history::{CycleRecord, KeptFields, StepRecord};
 use fret_core::model::{ContactState, SurfaceGrid};
 use fret_core::plan::{Advance, Plan};
-use fret_core::simulation::{Iteration, Observer, Simulation};
+use fret_core::run::{Checkpoint, Iteration, Observer, Simulation};
 use fret_core::study::StageQuantities;
 use pyo3::prelude::{Py, PyAny, PyErr, PyResult, Python, pyfunction};
 

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use fret_core::start;
+use fret_core::history;
 use pyo3::IntoPyObjectExt;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::{Bound, PyAny, PyAnyMethods, PyResult, Python, pyclass, pymethods};
@@ -14,7 +14,7 @@ use crate::history::History;
 
 /// A solved state with its grid, bodies and profile.
 #[pyclass(frozen, module = "fretting._core")]
-pub struct Start(pub Arc<start::Start>);
+pub struct Start(pub Arc<history::Start>);
 
 #[pymethods]
 impl Start {
@@ -29,8 +29,8 @@ impl Start {
     /// The state at the end of an increment of a history.
     #[staticmethod]
     fn from_history(history: &History, increment: usize) -> PyResult<Self> {
-        let state = start::Start::of(&history.history, increment).ok_or_else(|| {
-            let all: Vec<_> = start::Start::all_of(&history.history).iter().map(usize::to_string).collect();
+        let state = history::Start::of(&history.history, increment).ok_or_else(|| {
+            let all: Vec<_> = history::Start::all_of(&history.history).iter().map(usize::to_string).collect();
             PyValueError::new_err(format!(
                 "start: the history has no state at the end of increment {increment}; it has those of {}: increments whose \
                  pressure, shear and slip are kept ([output]), and the last of every stage",
@@ -43,7 +43,7 @@ impl Start {
     /// The state of bytes that were pickled.
     #[staticmethod]
     fn from_bytes(content: &[u8]) -> PyResult<Self> {
-        let state = start::Start::from_bytes(content);
+        let state = history::Start::from_bytes(content);
         state.map(|state| Self(Arc::new(state))).ok_or_else(|| PyValueError::new_err("bytes of no state"))
     }
 

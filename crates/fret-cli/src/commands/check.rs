@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use fret_core::plausibility;
+use fret_core::run::plausibility;
 use serde_json::json;
 
 use crate::case_file::CaseFile;

@@ -1,13 +1,16 @@
-//! The verbs of `fret`, one room each.
+//! The verbs of `fret`, one file each, with what they need beside.
 
 pub mod check;
 pub mod export;
 pub mod extremes;
 pub mod fatigue;
+mod loaded_surfaces;
 pub mod plan;
 pub mod report;
 pub mod run;
+mod run_observer;
 pub mod schema;
 pub mod stress;
+mod stress_tables;
 pub mod study;
 pub mod sweep;

@@ -5,7 +5,7 @@ use std::path::Path;
 use fret_core::machine::memory::{self, MemoryError, amount};
 use fret_core::model::Body;
 use fret_core::plan::{Coupling, Plan};
-use fret_core::plausibility;
+use fret_core::run::plausibility;
 use fret_core::study::{Expectation, expectation};
 use serde_json::json;
 

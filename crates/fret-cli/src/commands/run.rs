@@ -1,24 +1,19 @@
 //! `fret run`: from a case file to a folder of results, with a face for the time between.
 
 use std::cell::Cell;
-use std::ops::ControlFlow;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-use fret_core::checkpoint::{Checkpoint, Waypoint};
-use fret_core::cycle::CycleRecord;
-use fret_core::history::{KeptFields, StepRecord};
+use fret_core::history::WornThrough;
 use fret_core::machine::memory::{self, Claim};
-use fret_core::model::{ContactState, SurfaceGrid};
 use fret_core::plan::{LeaveOut, Plan};
-use fret_core::plausibility;
-use fret_core::simulation::{Iteration, Observer, RunError, Simulation};
+use fret_core::run::{Checkpoint, Observer, RunError, Simulation, plausibility};
 use fret_core::study::{StageQuantities, companion};
-use fret_core::warning::Warning;
-use fret_core::wear::WornThrough;
+use fret_core::history::Warning;
 use serde_json::{Value, json};
 
+use super::run_observer::{Clock, RunObserver};
 use crate::arguments::{LeavingOut, RunArguments};
 use crate::case_file::CaseFile;
 use crate::commands::plan::left_out_in_short;
@@ -278,7 +273,7 @@ impl Preparation {
     /// Solves what is to be solved, and writes everything down.
     fn followed(&self, departure: Departure, quiet: bool, guest: &mut Guest<'_>) -> Ended {
         let Departure { folder, tally, from, wall_s } = departure;
-        let mut witness = Witness {
+        let mut observer = RunObserver {
             folder,
             progress: Progress::new(quiet, &self.title(), &tally),
             tally,
@@ -287,8 +282,8 @@ impl Preparation {
             failure: None,
             guest,
         };
-        let outcome = self.followed_by(from, &mut witness);
-        let Witness { folder, progress, mut tally, clock, failure, guest, .. } = witness;
+        let outcome = self.followed_by(from, &mut observer);
+        let RunObserver { folder, progress, mut tally, clock, failure, guest, .. } = observer;
         let outcome = outcome.map(|worn_through| tally.worn_through = worn_through);
         progress.end();
         let wall_s = clock.read();
@@ -386,14 +381,18 @@ impl Preparation {
         }
     }
 
-    fn followed_by(&self, from: Checkpoint, witness: &mut Witness<'_>) -> Result<Option<WornThrough>, Failure> {
+    fn followed_by(
+        &self,
+        from: Checkpoint,
+        observer: &mut RunObserver<'_>,
+    ) -> Result<Option<WornThrough>, Failure> {
         let _memory = self.claim.take();
         let simulation = Simulation::new(&self.plan).in_claimed_memory();
-        let journey = || simulation.resume(from, witness).map(|history| history.worn_through);
+        let journey = || simulation.resume(from, observer).map(|history| history.worn_through);
         match catch_unwind(AssertUnwindSafe(|| self.pool.install(journey))) {
             Ok(Ok(worn_through)) => Ok(worn_through),
             Ok(Err(RunError::Interrupted { .. })) => {
-                let kept = self.kept(&witness.tally);
+                let kept = self.kept(&observer.tally);
                 Err(Failure::Interrupted(format!("{kept}; --resume continues from there")))
             }
             Ok(Err(error)) => Err(Failure::Unsolved(error)),
@@ -410,18 +409,6 @@ impl Preparation {
     }
 }
 
-/// Time of the whole run, that before it was broken off included.
-struct Clock {
-    started: Instant,
-    before_s: f64,
-}
-
-impl Clock {
-    fn read(&self) -> f64 {
-        self.before_s + self.started.elapsed().as_secs_f64()
-    }
-}
-
 /// Somebody else who hears about a run, and may stop it.
 pub type Guest<'a> = dyn Observer + Send + 'a;
 
@@ -434,71 +421,4 @@ struct Ended {
     estimate: Option<Estimate>,
     /// Why early, if it did.
     failure: Option<Failure>,
-}
-
-/// Hears about the run: counts it, shows it, writes it down, and stops it when asked to or when it cannot be written down.
-struct Witness<'a> {
-    folder: ResultFolder,
-    progress: Progress,
-    tally: Tally,
-    clock: Clock,
-    /// Where quantities of interest are read.
-    grid: SurfaceGrid,
-    failure: Option<Failure>,
-    guest: &'a mut Guest<'a>,
-}
-
-impl Witness<'_> {
-    /// Goes on after a good writing; remembers why after a bad one.
-    fn after<E: Into<Failure>>(&mut self, writing: Result<(), E>) -> ControlFlow<()> {
-        match writing {
-            Ok(()) => ControlFlow::Continue(()),
-            Err(error) => {
-                self.failure = Some(error.into());
-                ControlFlow::Break(())
-            }
-        }
-    }
-}
-
-impl Observer for Witness<'_> {
-    fn iterated(&mut self, iteration: &Iteration) -> ControlFlow<()> {
-        self.progress.iterated(iteration, &self.tally);
-        self.guest.iterated(iteration)
-    }
-
-    fn solved(
-        &mut self,
-        record: &StepRecord,
-        state: &ContactState,
-        kept: Option<&KeptFields>,
-    ) -> ControlFlow<()> {
-        let writing = self.folder.keep(record, kept);
-        self.after(writing)?;
-        self.tally.add(record);
-        self.tally.read(StageQuantities::new(&self.grid, record, state));
-        self.progress.solved(record, &self.tally);
-        self.guest.solved(record, state, kept)
-    }
-
-    fn leaves_fields(&self) -> bool {
-        false // they are written down
-    }
-
-    fn cycled(&mut self, record: &CycleRecord) {
-        if self.failure.is_none() {
-            self.failure = self.folder.keep_cycle(record).err().map(Failure::from);
-            self.tally.add_cycle(record);
-            self.progress.cycled(record, &self.tally);
-            self.guest.cycled(record);
-        }
-    }
-
-    fn reached(&mut self, waypoint: &Waypoint<'_>) -> ControlFlow<()> {
-        if self.failure.is_some() {
-            return ControlFlow::Break(());
-        }
-        let writing = self.folder.reached(waypoint, &self.tally, self.clock.read());
-        self.after(writing)
-    }
 }

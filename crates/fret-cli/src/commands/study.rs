@@ -5,7 +5,7 @@ use std::path::Path;
 
 use fret_core::machine::memory;
 use fret_core::plan::Plan;
-use fret_core::simulation::{Observer, RunError};
+use fret_core::run::{Observer, RunError};
 use fret_core::study::{Advice, RefinementStudy, ClosedForm, Kind, Resolutions, Line, Place, Level, Reference, solved_level};
 use serde_json::{Value, json};
 

@@ -9,7 +9,7 @@ use std::time::Instant;
 use fret_core::case::CaseError;
 use fret_core::machine::memory::{self, Claim, MemoryError};
 use fret_core::plan::{LeaveOut, Plan};
-use fret_core::simulation::{RunError, Simulation};
+use fret_core::run::{RunError, Simulation};
 use serde_json::json;
 
 use crate::arguments::SweepArguments;

@@ -14,7 +14,7 @@ use fret_core::history::{KeptFields, StepRecord};
 use fret_core::kernel::{Components, influence_coefficients, periodic_symbols};
 use fret_core::model::{ContactState, TangentialField};
 use fret_core::plan::Plan;
-use fret_core::simulation::{Iteration, Observer};
+use fret_core::run::{Iteration, Observer};
 use fret_fft::ConvolutionError;
 
 use crate::interrupt;

@@ -6,7 +6,7 @@ use fret_core::case::Case;
 use fret_core::history::{History, StepRecord};
 use fret_core::kernel::PairResponse;
 use fret_core::plan::{LeaveOut, Plan, Simplification};
-use fret_core::simulation::{RunError, Simulation};
+use fret_core::run::{RunError, Simulation};
 
 use super::balance::Accounts;
 use super::bodies::Stack;

@@ -9,9 +9,9 @@ use std::io::{Seek, Write};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
-use fret_core::checkpoint::{Checkpoint, Waypoint};
+use fret_core::history::Start;
 use fret_core::plan::Plan;
-use fret_core::start::Start;
+use fret_core::run::{Checkpoint, Waypoint};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 

@@ -4,8 +4,7 @@ use std::fs::File;
 use std::io::{Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
-use fret_core::cycle::CycleRecord;
-use fret_core::history::{Regime, StepRecord};
+use fret_core::history::{CycleRecord, Regime, StepRecord};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
@@ -268,7 +267,7 @@ mod tests {
 
     #[test]
     fn a_cycle_reads_back_as_it_was() {
-        use fret_core::cycle::{CycleRegime, Drive};
+        use fret_core::history::{CycleRegime, Drive};
         let one = CycleRecord {
             stage: 1,
             cycle: 12,

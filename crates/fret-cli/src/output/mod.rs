@@ -18,11 +18,9 @@ mod whole_file;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use fret_core::checkpoint::Waypoint;
-use fret_core::cycle::CycleRecord;
-use fret_core::history::{KeptFields, StepRecord};
+use fret_core::history::{CycleRecord, KeptFields, StepRecord, Warning};
 use fret_core::plan::Plan;
-use fret_core::warning::Warning;
+use fret_core::run::Waypoint;
 use serde_json::Value;
 
 use crate::case_file::CaseFile;

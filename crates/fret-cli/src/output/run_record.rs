@@ -3,9 +3,9 @@
 use std::path::Path;
 use std::time::{SystemTime, UNIX_EPOCH};
 
+use fret_core::history::Warning;
 use fret_core::plan::{LeaveOut, Plan};
-use fret_core::plausibility;
-use fret_core::warning::Warning;
+use fret_core::run::plausibility;
 use serde_json::{Value, json};
 
 use crate::case_file::CaseFile;

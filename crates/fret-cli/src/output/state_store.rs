@@ -4,8 +4,8 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use fret_core::history::Start;
 use fret_core::model::SolvedState;
-use fret_core::start::Start;
 
 use super::packed_file::{read_packed, write_packed};
 use crate::failure::{Failure, Unwritten};

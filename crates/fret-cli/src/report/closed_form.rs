@@ -119,7 +119,10 @@ impl TangentialForm {
     /// The closed form of a run whose tangential force acts along `direction`, where it has one.
     pub fn of(results: &Results, normal: &NormalForm, direction: [f64; 2]) -> Option<Self> {
         let Shape::Sphere(radius) = normal.shape else { return None };
-        let friction: f64 = results.planned("/case/friction/uniform")?;
+        let friction: f64 = results.planned("/case/friction/coefficient/uniform")?;
+        if results.planned::<Value>("/case/friction/max_shear").is_some() {
+            return None;
+        }
         let stages: Vec<Value> = results.planned("/case/stages")?;
         let other_friction = stages.iter().any(|stage| !stage["friction"].is_null());
         if other_friction || results.planned::<String>("/coupling")? == "coupled" {

@@ -7,7 +7,7 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
-use fret_core::cycle::CycleRecord;
+use fret_core::history::CycleRecord;
 use fret_core::machine::memory;
 use serde_json::Value;
 

@@ -17,7 +17,7 @@ use super::shape::profile;
 use super::stages::{sliding, stages};
 use super::stress::stress;
 use super::wearing::wear;
-use crate::model::{CoulombFriction, Scheme};
+use crate::model::{CoulombFriction, Integration, Scheme};
 
 /// Cells along one side of the grid, at the least.
 pub const FEWEST_CELLS: usize = 4;
@@ -48,6 +48,7 @@ pub(super) fn case(
     let profile = profile(&mut judge, &file, cells);
     let friction = friction(&mut judge, file.friction.as_ref(), cells);
     let changes = of_stages(&mut judge, file.load.get_ref(), cells);
+    let changes = friction.as_ref().zip(changes).map(|(first, changes)| of_one_interface(first, changes));
     let laws = friction.as_ref().zip(changes.as_ref()).map(|(first, changes)| in_force(first, changes));
     let history_tolerance = file.solver.as_ref().and_then(|solver| solver.history_tolerance.as_ref());
     let stages = stages(&mut judge, &file.load, laws.as_deref(), history_tolerance);
@@ -113,6 +114,11 @@ pub(super) fn case(
                 .as_ref()
                 .and_then(|solver| solver.scheme.as_ref())
                 .map_or(Scheme::default(), |scheme| *scheme.get_ref()),
+            integration: file
+                .solver
+                .as_ref()
+                .and_then(|solver| solver.integration.as_ref())
+                .map_or(Integration::default(), |integration| *integration.get_ref()),
             output,
             stress,
             origin: Origin { name: name.to_owned(), text: text.to_owned(), size: file.grid.size.span() },
@@ -218,6 +224,14 @@ fn in_force<'a>(
             now
         })
         .collect()
+}
+
+/// Stages change the coefficient; the shear strength of the interface stays.
+fn of_one_interface(
+    first: &CoulombFriction,
+    changes: Vec<Option<CoulombFriction>>,
+) -> Vec<Option<CoulombFriction>> {
+    changes.into_iter().map(|change| change.map(|law| law.with_max_shear_of(first))).collect()
 }
 
 fn with_friction(stages: Vec<Stage>, changes: &[Option<CoulombFriction>]) -> Vec<Stage> {

@@ -6,7 +6,7 @@ use super::course::Stage;
 use super::output::Output;
 use super::refusal::{CaseError, Difference, Mistake};
 use super::stress::StressRequest;
-use crate::model::{ContactPair, CoulombFriction, LoadStep, Profile, Scheme, WearRule};
+use crate::model::{ContactPair, CoulombFriction, Integration, LoadStep, Profile, Scheme, WearRule};
 
 /// A case that has passed every check.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -39,6 +39,8 @@ pub struct Case {
     pub tolerance: f64,
     /// How coupled pressure and shear are solved.
     pub scheme: Scheme,
+    /// How slip is integrated over an increment.
+    pub integration: Integration,
     /// What is kept.
     pub output: Output,
     /// What is asked about stresses under the surface.

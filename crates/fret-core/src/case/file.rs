@@ -8,7 +8,7 @@ use toml::Spanned;
 use super::pair::Pair;
 use super::stage_file::{AutoWord, StageFile, WearFile};
 use super::surface_file::{FrictionFile, ProfileFile};
-use crate::model::Scheme;
+use crate::model::{Integration, Scheme};
 
 /// A fretting contact: bodies, first gap, friction, and a loading history. Any consistent system of units.
 #[derive(Deserialize, JsonSchema)]
@@ -264,6 +264,10 @@ pub(super) struct SolverFile {
     /// scheme), for comparison. Default: "monolithic".
     #[schemars(with = "Option<Scheme>")]
     pub scheme: Option<Spanned<Scheme>>,
+    /// "second_order": the friction law at the end of an increment takes the direction that slip has there; "end_point": the direction
+    /// of the whole slip increment (backward Euler, of first order), for comparison. Default: "second_order".
+    #[schemars(with = "Option<Integration>")]
+    pub integration: Option<Spanned<Integration>>,
 }
 
 /// What is written to the results.

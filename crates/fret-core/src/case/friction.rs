@@ -8,7 +8,7 @@ use super::arrays;
 use super::judge::Judge;
 use super::stage_file::StageFile;
 use super::surface_file::{CoefficientFile, FrictionFile, MapFile};
-use crate::model::CoulombFriction;
+use crate::model::{CellValues, CoulombFriction, FrictionError};
 
 /// The law the history starts with; `None` when something about it was refused.
 pub(super) fn friction(
@@ -16,16 +16,40 @@ pub(super) fn friction(
     given: Option<&FrictionFile>,
     cells: Option<[usize; 2]>,
 ) -> Option<CoulombFriction> {
-    let Some(given) = given else { return Some(CoulombFriction::Uniform(0.0)) };
-    match (&given.coefficient, &given.map) {
+    let Some(given) = given else { return Some(CoulombFriction::NONE) };
+    let law = match (&given.coefficient, &given.map) {
         (Some(_), Some(map)) => judge.refuse(
             map.span(),
             "friction: coefficient and map, both at once",
             "a map has a coefficient for every cell: leave out one of the two",
         ),
-        (None, Some(given)) => map(judge, "friction.map", given.span(), given.get_ref(), cells),
-        (Some(given), None) => uniform(judge, "friction.coefficient", given.span(), *given.get_ref()),
-        (None, None) => Some(CoulombFriction::Uniform(0.0)),
+        (None, Some(given)) => {
+            let place = "friction.map";
+            map(judge, place, given.span(), given.get_ref(), cells)
+                .and_then(|values| accepted(judge, place, given.span(), CoulombFriction::new(values)))
+        }
+        (Some(given), None) => {
+            accepted(judge, "friction.coefficient", given.span(), CoulombFriction::uniform(*given.get_ref()))
+        }
+        (None, None) => match &given.max_shear {
+            Some(max_shear) => judge.refuse(
+                max_shear.span(),
+                "friction.max_shear without a coefficient: the shear strength bounds what friction carries",
+                "[friction] coefficient = ...",
+            ),
+            None => Some(CoulombFriction::NONE),
+        },
+    };
+    let max_shear = given.max_shear.as_ref().map(|given| {
+        let place = "friction.max_shear";
+        values(judge, place, given.span(), given.get_ref(), cells).map(|values| (place, given.span(), values))
+    });
+    match max_shear {
+        None => law,
+        Some(max_shear) => {
+            let (law, (place, span, values)) = law.zip(max_shear)?;
+            accepted(judge, place, span, law.with_max_shear(values))
+        }
     }
 }
 
@@ -40,20 +64,25 @@ pub(super) fn of_stages(
         let place = format!("load[{index}].friction");
         all.push(match &stage.get_ref().friction {
             None => Some(None),
-            Some(given) => match given.get_ref() {
-                CoefficientFile::Uniform(value) => uniform(judge, &place, given.span(), *value),
-                CoefficientFile::Map(file) => map(judge, &place, given.span(), file, cells),
-            }
-            .map(Some),
+            Some(given) => values(judge, &place, given.span(), given.get_ref(), cells)
+                .and_then(|values| accepted(judge, &place, given.span(), CoulombFriction::new(values)))
+                .map(Some),
         });
     }
     all.into_iter().collect()
 }
 
-fn uniform(judge: &mut Judge, place: &str, span: Range<usize>, value: f64) -> Option<CoulombFriction> {
-    match CoulombFriction::uniform(value) {
-        Ok(friction) => Some(friction),
-        Err(error) => judge.refuse(span, format!("{place}: {error}"), ""),
+/// One number, or one for every cell.
+fn values(
+    judge: &mut Judge,
+    place: &str,
+    span: Range<usize>,
+    given: &CoefficientFile,
+    cells: Option<[usize; 2]>,
+) -> Option<CellValues> {
+    match given {
+        CoefficientFile::Uniform(value) => Some(CellValues::Uniform(*value)),
+        CoefficientFile::Map(file) => map(judge, place, span, file, cells),
     }
 }
 
@@ -63,15 +92,26 @@ fn map(
     span: Range<usize>,
     given: &MapFile,
     cells: Option<[usize; 2]>,
-) -> Option<CoulombFriction> {
+) -> Option<CellValues> {
     cells?;
     let array = match given {
         MapFile::File(name) => arrays::of_file(judge, place, span.clone(), name),
         MapFile::Array(array) => arrays::given(judge, place, span.clone(), array),
     }?;
-    let array = arrays::fitting(judge, cells, place, span.clone(), array)?;
-    match CoulombFriction::map(array) {
-        Ok(friction) => Some(friction),
-        Err(error) => judge.refuse(span, format!("{place}: {error}"), "0 where a patch has no friction"),
+    arrays::fitting(judge, cells, place, span, array).map(CellValues::Map)
+}
+
+fn accepted(
+    judge: &mut Judge,
+    place: &str,
+    span: Range<usize>,
+    law: Result<CoulombFriction, FrictionError>,
+) -> Option<CoulombFriction> {
+    match law {
+        Ok(law) => Some(law),
+        Err(error @ FrictionError::Entry { .. }) => {
+            judge.refuse(span, format!("{place}: {error}"), "0 where a patch has no friction")
+        }
+        Err(error) => judge.refuse(span, format!("{place} = {error}"), ""),
     }
 }

@@ -172,7 +172,7 @@ pub(super) enum DetrendFile {
     Plane,
 }
 
-/// Coulomb's law of friction.
+/// Coulomb's law of friction, with a shear strength of the interface where it has one.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(super) struct FrictionFile {
@@ -182,6 +182,10 @@ pub(super) struct FrictionFile {
     /// One coefficient per cell: a .npy or text file, rows of numbers, or from Python an array; index [i, j] = [x, y].
     #[schemars(with = "Option<MapFile>")]
     pub map: Option<Spanned<MapFile>>,
+    /// Shear strength of the interface [pressure], zero or positive, a number or one for every cell: shear is at most the smaller of it
+    /// and the coefficient times the pressure. Default: none.
+    #[schemars(with = "Option<CoefficientFile>")]
+    pub max_shear: Option<Spanned<CoefficientFile>>,
 }
 
 /// An array: rows of numbers, or the number of an array handed over beside the case.

@@ -8,7 +8,7 @@ use rayon::prelude::*;
 use super::bessel::{bessel_j, hankel};
 use super::complex::{Complex, Wavenumber};
 use super::depth_response::{DepthResponse, DepthTransfer};
-use super::radial::{ANGLE, LEAST_LOG, STEPS_PER_E_FOLD};
+use super::hankel_lattice::{ANGLE, LEAST_LOG, STEPS_PER_E_FOLD};
 
 /// Radii that are transformed side by side.
 pub(super) const RADII: usize = 16;

@@ -5,7 +5,9 @@
 //! carries `exp(-k h)`, so every wave decays from where it starts and nothing grows; `I + Z C` is never near singular.
 
 use super::complex::Wavenumber;
-use super::layer::{Carry, Compliance, Descent, LayerConstants, LayerMatrices, OPAQUE};
+use super::compliance_below::{Compliance, Descent};
+use super::layer::{Carry, LayerMatrices, OPAQUE};
+use super::layer_constants::LayerConstants;
 use crate::model::{Base, HalfSpace};
 
 /// Relative distance from an interface that is rounding of a sum of thicknesses.

@@ -2,7 +2,9 @@
 //! Cells, grids and the second body live elsewhere.
 
 use super::complex::Wavenumber;
-use super::layer::{Carry, Compliance, LayerConstants, LayerMatrices, OPAQUE};
+use super::compliance_below::Compliance;
+use super::layer::{Carry, LayerMatrices, OPAQUE};
+use super::layer_constants::LayerConstants;
 use crate::model::{Base, HalfSpace};
 
 /// Surface displacement per traction at one wavenumber.

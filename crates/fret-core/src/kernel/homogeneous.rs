@@ -6,7 +6,7 @@ use rayon::prelude::*;
 use std::f64::consts::TAU;
 
 use super::quadrature::GaussRule;
-use crate::model::each_cell::{CellRule, Reals, each_cell};
+use crate::fields::{CellRule, Reals, each_cell};
 
 /// Cells nearer than this many longer sides are integrated in closed form, whose corner differences lose the square of
 /// distance over side.

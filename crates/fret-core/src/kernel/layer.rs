@@ -14,123 +14,12 @@
 //! `nu = 1/2`; and in the ordering of symmetric matrices errors made below a layer are never amplified on the way up.
 
 use super::complex::Wavenumber;
+use super::compliance_below::{Compliance, Descent};
+use super::layer_constants::LayerConstants;
 use super::matrix::{Matrix, Symmetric};
-use crate::model::ElasticMaterial;
 
 /// Beyond this real part of `k h` a layer is a half-space to the last bit: `exp(-2 k h)` underflows.
 pub(crate) const OPAQUE: f64 = 375.0;
-
-/// Elastic constants of one material, as the layer formulas use them.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct LayerConstants {
-    /// Poisson's ratio.
-    nu: f64,
-    /// Shear modulus \[pressure\].
-    mu: f64,
-    /// `1 / (2 (1 - nu))`
-    b: f64,
-    /// `(1 - 2 nu) / (2 (1 - nu))`
-    g: f64,
-    /// `(1 - nu) / mu`, compliance of the half-space [1/pressure].
-    c0: f64,
-    /// `b (1 - 4 nu)`
-    b_one_minus_4nu: f64,
-    /// `(1 - g) (1 + g)`
-    one_minus_g2: f64,
-}
-
-impl LayerConstants {
-    pub(crate) fn new(material: &ElasticMaterial) -> Self {
-        let nu = material.poisson();
-        let mu = material.shear_modulus();
-        let b = 0.5 / (1.0 - nu);
-        let g = (1.0 - 2.0 * nu) * b;
-        Self {
-            nu,
-            mu,
-            b,
-            g,
-            c0: (1.0 - nu) / mu,
-            b_one_minus_4nu: b * (1.0 - 4.0 * nu),
-            one_minus_g2: (1.0 - g) * (1.0 + g),
-        }
-    }
-
-    /// Poisson's ratio.
-    pub(crate) fn poisson(&self) -> f64 {
-        self.nu
-    }
-
-    /// Shear modulus \[pressure\].
-    pub(crate) fn shear_modulus(&self) -> f64 {
-        self.mu
-    }
-
-    /// `k C` of the half-space of this material.
-    pub(crate) fn half_space<T: Wavenumber>(&self) -> Compliance<T> {
-        let c0 = T::real(self.c0);
-        Compliance {
-            in_plane: Symmetric { rr: c0, zz: c0, rz: T::real(self.c0 * self.g) },
-            determinant: T::real(self.c0 * self.c0 * self.one_minus_g2),
-            tt: T::real(1.0 / self.mu),
-        }
-    }
-}
-
-/// Compliance of everything below a cut, times k [1/pressure]: `w = (k C) t`.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Compliance<T> {
-    /// In the plane of wavevector and depth.
-    pub in_plane: Symmetric<T>,
-    /// Determinant of `in_plane`, carried along because `rr zz - rz^2` would cancel.
-    pub determinant: T,
-    /// Across that plane.
-    pub tt: T,
-}
-
-impl<T: Wavenumber> Compliance<T> {
-    /// Compliance of a rigid base.
-    pub(crate) fn rigid() -> Self {
-        Self { in_plane: Symmetric::zero(), determinant: T::zero(), tt: T::zero() }
-    }
-}
-
-/// Traction at one depth per traction at a lesser one.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Descent<T> {
-    /// In the plane of wavevector and depth.
-    pub in_plane: Matrix<T>,
-    /// Across that plane.
-    pub across: T,
-}
-
-impl<T: Wavenumber> Descent<T> {
-    /// No way down.
-    pub(crate) fn none() -> Self {
-        let (one, zero) = (T::one(), T::zero());
-        Self { in_plane: Matrix { rr: one, rz: zero, zr: zero, zz: one }, across: one }
-    }
-
-    /// Nothing arrives.
-    pub(crate) fn opaque() -> Self {
-        let zero = T::zero();
-        Self { in_plane: Matrix { rr: zero, rz: zero, zr: zero, zz: zero }, across: zero }
-    }
-
-    /// First `first`, then this one.
-    pub(crate) fn after(self, first: Self) -> Self {
-        let (a, b) = (self.in_plane, first.in_plane);
-        Self {
-            in_plane: Matrix {
-                rr: a.rr * b.rr + a.rz * b.zr,
-                rz: a.rr * b.rz + a.rz * b.zz,
-                zr: a.zr * b.rr + a.zz * b.zr,
-                zz: a.zr * b.rz + a.zz * b.zz,
-            },
-            across: self.across * first.across,
-        }
-    }
-}
 
 /// Rounding errors of a sum of thin layers' increments, kept for the next increment.
 #[derive(Clone, Copy, Debug)]

@@ -20,9 +20,10 @@ use rayon::prelude::*;
 use super::complex::{Complex, Wavenumber};
 use super::datum::Datum;
 use super::frequency_response::{Response, ResponseTimesK};
+use super::hankel_lattice::{ANGLE, LEAST_LOG, STEPS_PER_E_FOLD};
 use super::pair_response::PairResponse;
 use super::panels::Panels;
-use super::radial::{ANGLE, LEAST_LOG, REACH, STEPS_PER_E_FOLD, interpolated};
+use super::radial::{REACH, interpolated};
 
 /// Kernels side by side: zz, xx, yy, zx.
 type Lanes = [f64; 4];

@@ -1,4 +1,4 @@
-//! Coulomb's law of dry friction: the bound on shear from pressure.
+//! Coulomb's law of dry friction, with a shear strength of the interface: the bound on shear from pressure.
 
 use ndarray::Array2;
 use serde::{Serialize, Serializer};
@@ -8,9 +8,9 @@ use super::heights::fingerprint;
 /// Why a friction law was refused.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 pub enum FrictionError {
-    /// A coefficient that is negative or not finite.
-    #[error("friction coefficient {0}: must be zero or positive and finite")]
-    Coefficient(f64),
+    /// A value that is negative or not finite.
+    #[error("{0}: must be zero or positive and finite")]
+    Value(f64),
     /// An entry of a map that is negative or not finite.
     #[error("entry [{}, {}] = {value}: must be zero or positive and finite", at[0], at[1])]
     Entry {
@@ -21,25 +21,86 @@ pub enum FrictionError {
     },
 }
 
-/// Dry friction: `|q| <= mu p`, with equality and direction of the slip where the surfaces slip.
+/// One number everywhere, or one for every cell.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[serde(rename_all = "snake_case")]
-pub enum CoulombFriction {
-    /// One coefficient everywhere [-].
+pub enum CellValues {
+    /// The same everywhere.
     Uniform(f64),
-    /// A coefficient for every cell [-], shape `(nx, ny)`.
+    /// One for every cell, shape `(nx, ny)`.
     #[serde(serialize_with = "summary")]
     Map(Array2<f64>),
 }
 
+impl CellValues {
+    /// The number of cell `[i, j]`.
+    pub fn at(&self, i: usize, j: usize) -> f64 {
+        match self {
+            Self::Uniform(value) => *value,
+            Self::Map(map) => map[[i, j]],
+        }
+    }
+
+    /// The map, where it is one.
+    pub fn map(&self) -> Option<&Array2<f64>> {
+        match self {
+            Self::Uniform(_) => None,
+            Self::Map(map) => Some(map),
+        }
+    }
+
+    fn largest(&self) -> f64 {
+        match self {
+            Self::Uniform(value) => *value,
+            Self::Map(map) => map.iter().copied().fold(0.0, f64::max),
+        }
+    }
+
+    /// What is negative or not finite, with its cell.
+    fn fault(&self) -> Option<FrictionError> {
+        let bad = |value: f64| !(value.is_finite() && value >= 0.0);
+        match self {
+            Self::Uniform(value) => bad(*value).then_some(FrictionError::Value(*value)),
+            Self::Map(map) => map
+                .indexed_iter()
+                .find(|(_, value)| bad(**value))
+                .map(|((i, j), &value)| FrictionError::Entry { at: [i, j], value }),
+        }
+    }
+}
+
+/// Dry friction: `|q| <= b = min(mu p, tau)`, with equality and the direction of the slip where the surfaces slip; tau is the shear
+/// strength of the interface, where it has one.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct CoulombFriction {
+    /// Friction coefficient mu [-].
+    coefficient: CellValues,
+    /// Shear strength of the interface [pressure].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    max_shear: Option<CellValues>,
+}
+
 impl CoulombFriction {
+    /// No friction.
+    pub const NONE: Self = Self { coefficient: CellValues::Uniform(0.0), max_shear: None };
+
+    /// The law of a coefficient.
+    ///
+    /// # Errors
+    /// When it is negative or not finite.
+    pub fn new(coefficient: CellValues) -> Result<Self, FrictionError> {
+        match coefficient.fault() {
+            Some(fault) => Err(fault),
+            None => Ok(Self { coefficient, max_shear: None }),
+        }
+    }
+
     /// One coefficient everywhere.
     ///
     /// # Errors
     /// When it is negative or not finite.
     pub fn uniform(coefficient: f64) -> Result<Self, FrictionError> {
-        check(coefficient)?;
-        Ok(Self::Uniform(coefficient))
+        Self::new(CellValues::Uniform(coefficient))
     }
 
     /// A coefficient for every cell.
@@ -47,39 +108,75 @@ impl CoulombFriction {
     /// # Errors
     /// When an entry is negative or not finite.
     pub fn map(coefficients: Array2<f64>) -> Result<Self, FrictionError> {
-        match coefficients.indexed_iter().find(|(_, coefficient)| check(**coefficient).is_err()) {
-            Some(((i, j), &value)) => Err(FrictionError::Entry { at: [i, j], value }),
-            None => Ok(Self::Map(coefficients)),
+        Self::new(CellValues::Map(coefficients))
+    }
+
+    /// The same with a shear strength of the interface [pressure].
+    ///
+    /// # Errors
+    /// When it is negative or not finite.
+    pub fn with_max_shear(self, max_shear: CellValues) -> Result<Self, FrictionError> {
+        match max_shear.fault() {
+            Some(fault) => Err(fault),
+            None => Ok(Self { max_shear: Some(max_shear), ..self }),
         }
+    }
+
+    /// The same shear strength as another law.
+    #[must_use]
+    pub fn with_max_shear_of(self, other: &Self) -> Self {
+        Self { max_shear: other.max_shear.clone(), ..self }
+    }
+
+    /// The law with every map replaced.
+    #[must_use]
+    pub fn with_maps(&self, replaced: impl Fn(&Array2<f64>) -> Array2<f64>) -> Self {
+        let replace = |values: &CellValues| match values {
+            CellValues::Uniform(value) => CellValues::Uniform(*value),
+            CellValues::Map(map) => CellValues::Map(replaced(map)),
+        };
+        Self { coefficient: replace(&self.coefficient), max_shear: self.max_shear.as_ref().map(replace) }
+    }
+
+    /// Its coefficients.
+    pub fn coefficient(&self) -> &CellValues {
+        &self.coefficient
+    }
+
+    /// Its shear strength [pressure], where it has one.
+    pub fn max_shear(&self) -> Option<&CellValues> {
+        self.max_shear.as_ref()
+    }
+
+    /// Its maps: values that differ from cell to cell.
+    pub fn maps(&self) -> impl Iterator<Item = &Array2<f64>> {
+        std::iter::once(&self.coefficient).chain(&self.max_shear).filter_map(CellValues::map)
     }
 
     /// Whether there is no friction anywhere.
     pub fn is_frictionless(&self) -> bool {
-        match self {
-            Self::Uniform(coefficient) => *coefficient == 0.0,
-            Self::Map(map) => map.iter().all(|&coefficient| coefficient == 0.0),
-        }
+        self.coefficient.largest() == 0.0 || self.max_shear.as_ref().is_some_and(|tau| tau.largest() == 0.0)
     }
 
-    /// Whether it has a coefficient for every cell.
+    /// Whether it has a value for every cell.
     pub fn is_map(&self) -> bool {
-        matches!(self, Self::Map(_))
+        self.maps().next().is_some()
+    }
+
+    /// Bound on the shear of cell `[i, j]` under a pressure that is not negative [pressure].
+    pub fn bound(&self, i: usize, j: usize, pressure: f64) -> f64 {
+        let coulomb = self.coefficient.at(i, j) * pressure;
+        self.max_shear.as_ref().map_or(coulomb, |tau| coulomb.min(tau.at(i, j)))
     }
 
     /// Coefficient in cell `[i, j]` [-].
     pub fn at(&self, i: usize, j: usize) -> f64 {
-        match self {
-            Self::Uniform(coefficient) => *coefficient,
-            Self::Map(map) => map[[i, j]],
-        }
+        self.coefficient.at(i, j)
     }
 
     /// Largest coefficient [-].
     pub fn largest(&self) -> f64 {
-        match self {
-            Self::Uniform(coefficient) => *coefficient,
-            Self::Map(map) => map.iter().copied().fold(0.0, f64::max),
-        }
+        self.coefficient.largest()
     }
 }
 
@@ -96,12 +193,4 @@ fn summary<S: Serializer>(map: &Array2<f64>, serializer: S) -> Result<S::Ok, S::
     let smallest = map.iter().copied().fold(f64::INFINITY, f64::min);
     let largest = map.iter().copied().fold(0.0, f64::max);
     Summary { cells: [nx, ny], smallest, largest, fnv1a64: fingerprint(map) }.serialize(serializer)
-}
-
-fn check(coefficient: f64) -> Result<(), FrictionError> {
-    if coefficient.is_finite() && coefficient >= 0.0 {
-        Ok(())
-    } else {
-        Err(FrictionError::Coefficient(coefficient))
-    }
 }

@@ -1,7 +1,5 @@
 //! The nouns of a contact: grid, bodies, profile, friction, loads, state. No numerics live here.
 
-pub mod each_cell;
-pub mod field;
 pub mod friction;
 pub mod graded;
 pub mod grid;
@@ -12,20 +10,19 @@ pub mod profile;
 pub mod scheme;
 pub mod shape;
 pub mod state;
-pub(crate) mod stored;
 pub mod symmetry;
 pub mod wear;
 
-pub use field::TangentialField;
-pub use friction::{CoulombFriction, FrictionError};
+pub use crate::fields::TangentialField;
+pub use friction::{CellValues, CoulombFriction, FrictionError};
 pub use graded::{GradedCoating, GradientError, Layer, YoungGradient};
 pub use grid::{GridError, SurfaceGrid};
 pub use half_space::{Base, Body, Coating, ContactPair, ElasticMaterial, HalfSpace, MaterialError};
 pub use heights::{Detrend, Heights};
 pub use load::{Control, LoadStep};
 pub use profile::{BEYOND_THE_BODY, Profile};
-pub use scheme::Scheme;
+pub use scheme::{Integration, Scheme};
 pub use shape::{Axis, ProfileError, Shape};
-pub use state::{ContactState, SolvedState, Zone, mean_bound};
+pub use state::{ContactState, SolvedState, Zone};
 pub use symmetry::Symmetry;
 pub use wear::{WearLaw, WearRule};

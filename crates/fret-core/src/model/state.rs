@@ -6,7 +6,7 @@ use ndarray::Array2;
 use serde::{Deserialize, Serialize};
 
 use super::load::LoadStep;
-use super::stored::{self, Number};
+use crate::fields::stored::{self, Number};
 
 /// What a cell of the surface does.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
@@ -58,15 +58,6 @@ pub struct ContactState {
     pub twist: f64,
     /// Work of friction since the start [force x length]; with wear that of all cycles that computed ones stand for.
     pub dissipated_energy: f64,
-}
-
-/// Mean of a slipping cell's friction bound over an increment in which its pressure goes evenly from `before` to `after`, relative
-/// to the bound at its end [-]. One rule for the dissipated energy and for wear. With it the energy of a pressure that changes is
-/// of second order in the increments; with the bound of the end alone it is of first order, and too large where pressure grows.
-/// Exactly 1 where the pressure stays, a half for a cell that was open before.
-pub fn mean_bound(before: f64, after: f64) -> f64 {
-    // Bounded, so that what is multiplied with a pressure next to nothing stays a number.
-    0.5 * (1.0 + (before / after).min(1e300))
 }
 
 impl ContactState {

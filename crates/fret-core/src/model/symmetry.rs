@@ -98,10 +98,7 @@ impl Symmetry {
 
     /// The part of a friction law.
     pub fn part_of_friction(&self, friction: &CoulombFriction) -> CoulombFriction {
-        match friction {
-            CoulombFriction::Uniform(coefficient) => CoulombFriction::Uniform(*coefficient),
-            CoulombFriction::Map(map) => CoulombFriction::Map(self.part(map)),
-        }
+        friction.with_maps(|map| self.part(map))
     }
 
     /// The share of a load that the part carries; along an axis that the symmetry forbids nothing moves from `state`.

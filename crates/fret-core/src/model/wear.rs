@@ -3,7 +3,8 @@
 use ndarray::{Array2, Zip};
 use serde::{Deserialize, Serialize};
 
-use super::state::{ContactState, mean_bound};
+use super::friction::CoulombFriction;
+use super::state::ContactState;
 
 /// What the worn depth follows.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
@@ -31,25 +32,31 @@ pub struct WearRule {
 }
 
 impl WearRule {
-    /// Adds the depth [length] worn between two states that follow each other. Only slipping cells have slip.
-    pub fn add(&self, before: &ContactState, after: &ContactState, depth: &mut Array2<f64>) {
+    /// Adds the depth [length] worn between two states that follow each other under a friction law. Only slipping cells have slip.
+    pub fn add(
+        &self,
+        before: &ContactState,
+        after: &ContactState,
+        friction: &CoulombFriction,
+        depth: &mut Array2<f64>,
+    ) {
         for axis in 0..2 {
             debug_assert_eq!(before.slip[axis].dim(), depth.dim());
         }
         let k = self.coefficient;
         match self.law {
             WearLaw::Energy => {
-                let ratio = Zip::from(&before.pressure)
-                    .and(&after.pressure)
-                    .map_collect(|then, now| if *now > 0.0 { mean_bound(*then, *now) } else { 0.0 });
-                for axis in 0..2 {
-                    Zip::from(&mut *depth)
-                        .and(&ratio)
-                        .and(&after.shear[axis])
-                        .and(&after.slip[axis])
-                        .and(&before.slip[axis])
-                        .for_each(|depth, ratio, q, now, then| *depth += k * ratio * q * (now - then));
-                }
+                let slip_y = &after.slip[1] - &before.slip[1];
+                let mut bound = before.pressure.clone();
+                Zip::indexed(&mut bound).and(&after.pressure).for_each(|(i, j), bound, now| {
+                    *bound = 0.5 * (friction.bound(i, j, *bound) + friction.bound(i, j, *now));
+                });
+                Zip::from(depth)
+                    .and(&bound)
+                    .and(&after.slip[0])
+                    .and(&before.slip[0])
+                    .and(&slip_y)
+                    .for_each(|depth, bound, now, then, y| *depth += k * bound * (now - then).hypot(*y));
             }
             WearLaw::Archard => {
                 let slip_y = &after.slip[1] - &before.slip[1];

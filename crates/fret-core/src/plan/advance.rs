@@ -3,8 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::case::Case;
-use crate::cycle::CycleRecord;
-use crate::history::StepRecord;
+use crate::history::{CycleRecord, StepRecord};
 
 /// Increments of a stage as planned.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]

@@ -139,7 +139,7 @@ fn extent_under(case: &Case, size: [f64; 2], normal: Control) -> Extent {
     let cells = coarse_cells(case);
     let spacing = [size[0] / cells[0] as f64, size[1] / cells[1] as f64];
     let Ok(grid) = SurfaceGrid::new(cells, spacing) else { return Extent::Unknown };
-    let frictionless = CoulombFriction::Uniform(0.0);
+    let frictionless = CoulombFriction::NONE;
     let coefficients = if case.is_line() {
         let datum = case.datum.unwrap_or(size[0]);
         line_coefficients(&case.bodies, cells[0], spacing[0], datum, Components::NORMAL)

@@ -8,7 +8,7 @@ use super::simplification::{LeaveOut, Simplification};
 use super::symmetry::{is_loaded, is_twisted};
 use crate::case::{Case, Stage};
 use crate::kernel::PairResponse;
-use crate::model::{Body, ContactState, CoulombFriction, SurfaceGrid, Symmetry};
+use crate::model::{Body, ContactState, SurfaceGrid, Symmetry};
 use crate::solver::Coupling;
 
 /// An automatic simplification.
@@ -191,7 +191,7 @@ fn is_endless(case: &Case, grid: &SurfaceGrid, axis: usize) -> bool {
     }
     let maps = case.stages.iter().filter_map(|stage| stage.friction.as_ref()).chain([&case.friction]);
     case.periodic
-        && maps.into_iter().all(|friction| matches!(friction, CoulombFriction::Uniform(_)))
+        && maps.into_iter().all(|friction| !friction.is_map())
         && case
             .profile
             .gap(grid)

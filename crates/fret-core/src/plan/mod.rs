@@ -14,11 +14,11 @@ use serde::Serialize;
 use serde_json::Value;
 
 use crate::case::{Case, CaseError, GridSize};
+use crate::history::Start;
 use crate::kernel::{PairResponse, cells_too_coarse_for_incompressible_film};
 use crate::machine::memory::{MemoryError, claim};
 use crate::model::{Body, ContactState, SurfaceGrid, Symmetry};
 pub use crate::solver::Coupling;
-use crate::start::Start;
 pub use advance::Advance;
 pub use extent::ExpectedContact;
 use extent::{automatic_size, expected_contact, reaches_beyond};

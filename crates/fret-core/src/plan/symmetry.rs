@@ -1,7 +1,7 @@
 //! Whether a scene and its loads are their own mirror image, so that a half or a quarter of the grid stands for the whole.
 
 use crate::case::{Case, Path, StageControl};
-use crate::model::{ContactState, Control, CoulombFriction, SurfaceGrid, Symmetry};
+use crate::model::{ContactState, Control, SurfaceGrid, Symmetry};
 use crate::solver::Coupling;
 
 /// Along fewer cells a mirror saves nothing.
@@ -31,13 +31,8 @@ pub fn symmetry(
     };
     let gap = case.profile.gap(grid);
     let frictions = case.stages.iter().filter_map(|stage| stage.friction.as_ref()).chain([&case.friction]);
-    let maps: Vec<_> = frictions
-        .filter_map(|friction| match friction {
-            CoulombFriction::Uniform(_) => None,
-            CoulombFriction::Map(map) => Some(map.view()),
-        })
-        .chain([gap.view()])
-        .collect();
+    let maps: Vec<_> =
+        frictions.flat_map(|friction| friction.maps().map(|map| map.view())).chain([gap.view()]).collect();
     let kept = |axis: usize| {
         let mut odd = [None, None];
         odd[axis] = odd_shear[axis];

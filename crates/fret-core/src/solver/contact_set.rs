@@ -4,8 +4,8 @@ use std::ops::Range;
 
 use pulp::Arch;
 
+use crate::fields::Number;
 use crate::model::TangentialField;
-use crate::model::each_cell::Number;
 
 /// Cells in contact, as runs along the rows of the region.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]

@@ -2,8 +2,7 @@
 //! acts on a whole region.
 
 use super::contact_set::ContactSet;
-use crate::model::each_cell::{Number, convert};
-use crate::model::field::norm;
+use crate::fields::{Number, convert, norm};
 
 /// Both components of shear, after the pressure where that is unknown too; or what goes with them. Packed, one field after the other.
 #[derive(Debug, Clone, Default)]

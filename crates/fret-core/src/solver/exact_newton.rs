@@ -21,8 +21,8 @@ use super::operators::{Method, RegionOperators};
 use super::settings::{IterationCallback, SolveError, SolverSettings};
 use super::tractions::{Displacements, Tractions};
 use crate::compliance::{CellResponse, SurfaceCompliance};
+use crate::fields::norm;
 use crate::model::TangentialField;
-use crate::model::field::norm;
 
 /// Iterations from one start.
 const MOST_ITERATIONS: usize = 40;
@@ -180,6 +180,7 @@ impl<'a> Attempt<'a> {
         let equations = TangentialProblem {
             bound: &bound.bound,
             before: &contact.packed_tangential(problem.before),
+            path: &problem.path.packed(&contact),
             motions: &problem.positions.motions_of(&contact),
             motion: problem.motion,
             resultant: problem.resultant,
@@ -242,7 +243,7 @@ impl<'a> Attempt<'a> {
     fn cell(&self, point: &Point, cell: usize) -> (f64, f64, [f64; 2]) {
         let Self { problem, self_influence: [normal, tangential], .. } = self;
         let gap = problem.undeformed[cell] + point.displacements.normal[cell] - point.approach;
-        let slip = self.slip(point, cell);
+        let slip = problem.path.end_of(cell, self.slip(point, cell));
         let q = point.tractions.shear.at(cell);
         let trial = [0, 1].map(|axis| q[axis] + slip[axis] / tangential);
         (gap, point.tractions.pressure[cell] - gap / normal, trial)

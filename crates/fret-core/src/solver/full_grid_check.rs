@@ -3,12 +3,12 @@
 
 use ndarray::{Array2, ArrayView2};
 
+use super::contact_edge;
 use super::increment::Solved;
 use super::outcome::Work;
 use super::region::Region;
 use super::{ContactSolver, Coupling, SolveError};
 use crate::compliance::{OperatorSet, SpectralCompliance, SurfaceCompliance};
-use crate::edge;
 use crate::model::{BEYOND_THE_BODY, ContactState};
 
 impl ContactSolver<'_> {
@@ -76,7 +76,7 @@ impl ContactSolver<'_> {
         let [dx, dy] = self.grid.spacing();
         let beyond = 0.5 * BEYOND_THE_BODY * (cells_x as f64 * dx).hypot(cells_y as f64 * dy);
         // At a mirror the edge goes on as it does at a side of the region: with the same value in the next cell.
-        let cells = edge::contact_cells(&pressure, &gap, beyond) * self.symmetry.copies() as f64;
+        let cells = contact_edge::contact_cells(&pressure, &gap, beyond) * self.symmetry.copies() as f64;
         cells * self.grid.cell_area()
     }
 

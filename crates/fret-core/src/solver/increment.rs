@@ -1,5 +1,7 @@
 //! One increment in a region: everything the equations need, gathered; and the order in which it is solved.
 
+use std::borrow::Cow;
+
 use ndarray::Array2;
 
 use super::contact_set::ContactSet;
@@ -10,6 +12,7 @@ use super::laws::limit::carried_fraction;
 use super::laws::projection::project_pressure;
 use super::laws::rigid_motions::CellPositions;
 use super::laws::slip::TangentialResidual;
+use super::laws::slip_path::SlipPath;
 use super::newton::{self, ContactProblem, Pressure, Solution};
 use super::normal::{NormalEquations, first_pressure, full_contact_pressure, solve_normal};
 use super::operators::{Method, RegionOperators};
@@ -48,6 +51,8 @@ pub struct IncrementProblem<'a> {
     /// Sums of shear times mode over the cells, for motions by force [pressure].
     resultant: [f64; 3],
     periodic: bool,
+    /// What is known of the paths of slip.
+    pub path: SlipPath,
     /// A pressure to start from, whatever the state before.
     start: Option<Vec<f64>>,
 }
@@ -62,6 +67,10 @@ pub struct Solved {
     pub gap: Vec<f64>,
     /// Slip increment [length].
     pub slip: TangentialField,
+    /// Slip at the end of the increment, up to a factor [length].
+    pub end_slip: TangentialField,
+    /// Change of the tangential displacement of the upper body over the lower, in every cell [length].
+    pub drift: TangentialField,
     pub normal: NormalResidual,
     pub tangential: TangentialResidual,
     /// 1 / K of a cell [pressure/length].
@@ -79,7 +88,7 @@ impl<'a> IncrementProblem<'a> {
         (state, load): (&'a ContactState, &LoadStep),
         region: Region,
         periodic: bool,
-        start: Option<&Array2<f64>>,
+        (start, path): (Option<&Array2<f64>>, SlipPath),
     ) -> Self {
         let centres = |axis: usize| -> Vec<f64> {
             (0..region.shape[axis]).map(|index| grid.centre(axis, region.origin[axis] + index)).collect()
@@ -115,6 +124,7 @@ impl<'a> IncrementProblem<'a> {
             motion,
             resultant,
             periodic,
+            path,
             start: start.map(|pressure| region.gather(pressure)),
         }
     }
@@ -132,6 +142,8 @@ impl<'a> IncrementProblem<'a> {
             displacements: Displacements::zeros(len),
             gap: self.undeformed.iter().map(|gap| gap - approach).collect(),
             slip: TangentialField::zeros(len),
+            end_slip: TangentialField::zeros(len),
+            drift: TangentialField::zeros(len),
             normal: NormalResidual { approach, residual: 0.0 },
             tangential: TangentialResidual { motion: self.motion, residual: 0.0 },
             tangential_stiffness: 1.0,
@@ -181,7 +193,8 @@ impl<'a> IncrementProblem<'a> {
             self.solve_pressure(&mut tractions, &mut displacements, operators, &rough, callback)?;
         }
         self.make_pressure_feasible(&mut tractions);
-        let problem = self.contact_problem(Pressure::Unknown, &before);
+        let counted_from = self.counted_from(&before);
+        let problem = self.contact_problem(Pressure::Unknown, &counted_from);
         newton::make_shear_feasible(&problem, &mut tractions, operators);
         operators.compliance.full(tractions.parts(), displacements.parts_mut());
         let start = tractions.clone();
@@ -204,14 +217,17 @@ impl<'a> IncrementProblem<'a> {
             other => other,
         }?;
         let own = operators.compliance.self_influence();
-        let Solution { normal, tangential, gap, slip, iterations } = solution;
+        let Solution { normal, tangential, gap, slip, end_slip, iterations } = solution;
         let normal = normal.unwrap_or(NormalResidual { approach: self.approach, residual: f64::INFINITY });
         let tangential_stiffness = 1.0 / own.tangential;
+        let drift = self.drift(&before, &displacements.tangential, tangential.motion);
         Ok(Solved {
             tractions,
             displacements,
             gap,
             slip,
+            end_slip,
+            drift,
             normal,
             tangential,
             tangential_stiffness,
@@ -248,13 +264,15 @@ impl<'a> IncrementProblem<'a> {
             (normal, gap, iterations) =
                 self.solve_pressure(&mut tractions, &mut displacements, operators, settings, callback)?;
         }
-        let mut slip = TangentialField::zeros(len);
+        let mut drift = TangentialField::zeros(len);
+        let (mut slip, mut end_slip) = (TangentialField::zeros(len), TangentialField::zeros(len));
         let mut tangential = TangentialResidual { motion: self.motion, residual: 0.0 };
         if method.coupling == Coupling::Frictionless || settings.skip_unloaded_shear && !self.causes_shear() {
             tractions.shear.clear();
         } else {
             let before = self.displacement_before(last, &mut operators.compliance, false);
-            let problem = self.contact_problem(Pressure::Given, &before);
+            let counted_from = self.counted_from(&before);
+            let problem = self.contact_problem(Pressure::Given, &counted_from);
             newton::make_shear_feasible(&problem, &mut tractions, operators);
             operators.compliance.tangential(tractions.shear.parts(), displacements.tangential.parts_mut());
             let solution =
@@ -263,7 +281,8 @@ impl<'a> IncrementProblem<'a> {
                 self.check_limit(&tractions)?;
             }
             let solution = solution?;
-            slip = solution.slip;
+            drift = self.drift(&before, &displacements.tangential, solution.tangential.motion);
+            (slip, end_slip) = (solution.slip, solution.end_slip);
             tangential = solution.tangential;
             iterations += solution.iterations;
         }
@@ -273,6 +292,8 @@ impl<'a> IncrementProblem<'a> {
             displacements,
             gap,
             slip,
+            end_slip,
+            drift,
             normal,
             tangential,
             tangential_stiffness,
@@ -340,6 +361,7 @@ impl<'a> IncrementProblem<'a> {
             total: self.total,
             approach: self.approach,
             before,
+            path: &self.path,
             positions: &self.positions,
             motion: self.motion,
             resultant: self.resultant,
@@ -392,6 +414,28 @@ impl<'a> IncrementProblem<'a> {
         }
         let asked = x.hypot(y) * self.grid.cell_area();
         Err(SolveError::AboveSliding { asked, bound: fraction * asked })
+    }
+
+    /// Displacement from which the law counts slip.
+    fn counted_from<'b>(&self, before: &'b TangentialField) -> Cow<'b, TangentialField> {
+        if !self.path.turns() {
+            return Cow::Borrowed(before);
+        }
+        let mut from = before.clone();
+        from.add_scaled(-1.0, &self.path.ahead);
+        Cow::Owned(from)
+    }
+
+    /// Change of the tangential displacement of the upper body over the lower in every cell of the region.
+    fn drift(&self, before: &TangentialField, after: &TangentialField, motion: [f64; 3]) -> TangentialField {
+        let motions = self.positions.motions_of(&ContactSet::of(self.region.len(), |_| true));
+        let mut drift = before.clone();
+        drift.add_scaled(-1.0, after);
+        for cell in 0..self.region.len() {
+            let (moved, here) = (motions.at(motion, cell), drift.at(cell));
+            drift.set(cell, [here[0] + moved[0], here[1] + moved[1]]);
+        }
+        drift
     }
 
     /// Tangential displacement of the state before, in the region.

@@ -8,7 +8,8 @@ use serde::{Deserialize, Serialize};
 
 use super::region::Region;
 use super::tractions::Displacements;
-use crate::model::{ContactState, LoadStep, stored};
+use crate::fields::{TangentialField, stored};
+use crate::model::{ContactState, LoadStep};
 
 /// All that later increments depend on besides the last state.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
@@ -31,6 +32,46 @@ pub(super) struct Before {
     pub tractions: GridTractions,
     /// Its area of contact [length^2].
     pub contact_area: f64,
+    /// Its gap on the grid [length].
+    #[serde(with = "stored")]
+    pub gap: Option<Array2<f64>>,
+    /// The drift that led to it.
+    pub drift: Option<Drift>,
+}
+
+/// Change of the tangential displacement of the upper body over the lower in an increment: slip, in contact.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+pub(super) struct Drift {
+    /// Where it is known; zero elsewhere.
+    pub region: Option<Region>,
+    /// Of its cells [length].
+    pub field: TangentialField,
+    /// Length of the increment over that of the one before it, in the loads [-]; 1 where it does not go on from that.
+    pub ratio: f64,
+}
+
+impl Drift {
+    /// In the cells of a region of a grid.
+    pub fn on(&self, cells: [usize; 2], region: Region) -> TangentialField {
+        match self.region {
+            None => TangentialField::zeros(region.len()),
+            Some(own) if own == region => self.field.clone(),
+            Some(own) => {
+                let [x, y] = self.field.parts().map(|part| {
+                    let mut field = Array2::zeros(cells);
+                    own.place(part, &mut field);
+                    region.gather(&field)
+                });
+                TangentialField { x, y }
+            }
+        }
+    }
+
+    fn fits(&self, cells: [usize; 2]) -> bool {
+        let len = self.region.map_or(0, |region| region.len());
+        self.region.is_none_or(|region| region.lies_within(cells))
+            && [self.field.x.len(), self.field.y.len()] == [len; 2]
+    }
 }
 
 /// Tractions of a state on the whole grid.
@@ -63,6 +104,7 @@ fn copied(field: &Array2<f64>) -> Array2<f64> {
 pub(super) struct LastIncrement {
     pub region: Region,
     pub displacements: Displacements,
+    pub drift: Drift,
     #[serde(with = "stored")]
     pub gap: Array2<f64>,
     pub contact_area: f64,
@@ -77,10 +119,16 @@ impl SolverMemory {
             let Displacements { normal, tangential } = &last.displacements;
             last.region.lies_within(cells)
                 && [normal.len(), tangential.x.len(), tangential.y.len()] == [len; 3]
+                && last.drift.fits(cells)
                 && last.gap.dim() == cells.into()
+        };
+        let before_fits = |before: &Before| {
+            before.tractions.fits(cells)
+                && before.gap.as_ref().is_none_or(|gap| gap.dim() == cells.into())
+                && before.drift.as_ref().is_none_or(|drift| drift.fits(cells))
         };
         self.region.is_none_or(|region| region.lies_within(cells))
             && self.last.as_ref().is_none_or(last_fits)
-            && self.before.as_ref().is_none_or(|before| before.tractions.fits(cells))
+            && self.before.as_ref().is_none_or(before_fits)
     }
 }

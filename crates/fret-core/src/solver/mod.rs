@@ -5,6 +5,7 @@
 //! its linear problems in `linear`, the frictionless problem in `normal`. Theory: `docs/theory/contact-problem.md` and
 //! `docs/theory/solution-algorithm.md`.
 
+mod contact_edge;
 mod contact_set;
 mod contact_vector;
 mod exact_newton;
@@ -21,6 +22,7 @@ mod outcome;
 mod region;
 mod settings;
 mod settle;
+mod slip_history;
 mod staggered;
 mod start;
 mod tractions;
@@ -31,7 +33,9 @@ use ndarray::Array2;
 
 use crate::compliance::{CellResponse, OperatorSet, SpectralCompliance, SurfaceResponse};
 use crate::kernel::ResponseTable;
-use crate::model::{ContactState, Control, CoulombFriction, LoadStep, Scheme, SurfaceGrid, Symmetry};
+use crate::model::{
+    ContactState, Control, CoulombFriction, Integration, LoadStep, Scheme, SurfaceGrid, Symmetry,
+};
 
 pub use memory::SolverMemory;
 pub(crate) use outcome::worst;
@@ -41,10 +45,11 @@ pub use settings::{Coupling, IterationCallback, SolveError, SolverSettings};
 use increment::{IncrementProblem, Solved};
 use linear::preconditioner::{CellWaves, Preconditioner};
 use linear::solver::LinearSolver;
-use memory::{Before, GridTractions, LastIncrement};
+use memory::{Before, Drift, GridTractions, LastIncrement};
 use normal::coarse_grids::{CoarseGrids, Prescribed};
 use operators::{Method, RegionOperators};
 use region::Region;
+use slip_history::slip_path;
 use tractions::Tractions;
 
 /// A normal load changes much when it changes by more than this fraction: starting on coarse grids is then cheaper than from the
@@ -205,23 +210,24 @@ impl<'a> ContactSolver<'a> {
             Some(pressure) => self.region_around(pressure, state),
             None => self.region_for(state, load),
         };
-        let area_before = self.memory.last.as_ref().map_or(0.0, |last| last.contact_area);
+        let ratio = self.continuation(load).filter(|ratio| *ratio > 0.0);
+        let ratio = ratio.filter(|_| self.settings.integration == Integration::SecondOrder);
         loop {
             let (solved, after, outcome) =
-                self.solve_in(region, start.as_ref(), (state, load), work, callback)?;
+                self.solve_in(region, (start.as_ref(), ratio), (state, load), work, callback)?;
             self.check_equilibrium(load, &outcome)?;
             self.check_across(&after)?;
             if self.touches_edge(&after.pressure) {
                 return Err(SolveError::ContactAtEdge);
             }
-            let kept = self.memory.last.take().filter(|last| {
+            let same_pressure = self.memory.last.as_ref().is_some_and(|last| {
                 self.coupling != Coupling::Coupled
                     && self.settings.reuse_pressure
                     && last.region == region
                     && last.load.normal == load.normal
             });
-            let (gap, contact_area) = if let Some(last) = kept {
-                (last.gap, last.contact_area)
+            let found = if same_pressure {
+                None
             } else {
                 let gap = self.gap_everywhere(region, &solved, &after, work)?;
                 if self.overlaps_outside(region, &gap) {
@@ -229,17 +235,32 @@ impl<'a> ContactSolver<'a> {
                     start = start.map(|_| after.pressure);
                     continue;
                 }
-                (gap, self.contact_area(region, &solved))
+                Some((gap, self.contact_area(region, &solved)))
             };
+            let last = self.memory.last.take();
+            let contact_area_before = last.as_ref().map_or(0.0, |last| last.contact_area);
+            let (gap_before, drift_before) = last.map(|last| (last.gap, last.drift)).unzip();
+            let (gap, contact_area) = found
+                .or_else(|| Some((gap_before.clone()?, contact_area_before)))
+                .unwrap_or_else(|| (Array2::zeros(self.grid.cells()), contact_area_before));
+            let recalls = self.settings.integration == Integration::SecondOrder;
             let previous = self.memory.last_load.replace(*load);
             self.memory.before = previous.map(|load| Before {
                 load,
                 tractions: GridTractions::of(state),
-                contact_area: area_before,
+                contact_area: contact_area_before,
+                gap: gap_before.filter(|_| recalls),
+                drift: drift_before.filter(|_| recalls),
             });
-            let displacements = solved.displacements;
-            self.memory.last =
-                Some(LastIncrement { region, displacements, gap: gap.clone(), contact_area, load: *load });
+            let drift = Drift { region: Some(region), field: solved.drift, ratio: ratio.unwrap_or(1.0) };
+            self.memory.last = Some(LastIncrement {
+                region,
+                displacements: solved.displacements,
+                drift: if recalls { drift } else { Drift::default() },
+                gap: gap.clone(),
+                contact_area,
+                load: *load,
+            });
             let fraction = outcome.stick_cells as f64 / outcome.contact_cells.max(1) as f64;
             let stick_area = contact_area * fraction;
             return Ok(Increment { state: after, outcome, contact_area, stick_area, gap, work: *work });
@@ -250,13 +271,14 @@ impl<'a> ContactSolver<'a> {
     fn solve_in(
         &mut self,
         region: Region,
-        start: Option<&Array2<f64>>,
+        (start, ratio): (Option<&Array2<f64>>, Option<f64>),
         (state, load): (&ContactState, &LoadStep),
         work: &mut Work,
         callback: IterationCallback<'_>,
     ) -> Result<(Solved, ContactState, Outcome), SolveError> {
         let grid = self.grid;
         let periodic = self.response.is_periodic();
+        let path = ratio.and_then(|ratio| slip_path(&self.memory, state, ratio, region));
         let increment = IncrementProblem::new(
             &grid,
             &self.undeformed,
@@ -264,7 +286,7 @@ impl<'a> ContactSolver<'a> {
             (state, load),
             region,
             periodic,
-            start,
+            (start, path.unwrap_or_default()),
         );
         if let Some(solved) = increment.apart() {
             let (after, outcome) = settle::settle(&increment, &solved);

@@ -12,14 +12,14 @@ use super::laws::friction::{FrictionBound, FrictionLaw, is_inside, slips};
 use super::laws::projection::{ShearProjection, project_pressure};
 use super::laws::rigid_motions::{CellPositions, RigidMotions};
 use super::laws::slip::{SlipIncrement, TangentialProblem, TangentialResidual};
+use super::laws::slip_path::SlipPath;
 use super::linear::solver::Linearised;
 use super::operators::RegionOperators;
 use super::settings::{IterationCallback, SolveError, SolverSettings};
 use super::tractions::{Displacements, Tractions};
 use crate::compliance::SurfaceCompliance;
+use crate::fields::{CellRule, Reals, add_scaled, each_cell, largest};
 use crate::model::TangentialField;
-use crate::model::each_cell::{CellRule, Reals, each_cell};
-use crate::model::field::{add_scaled, largest};
 
 /// What the equations of one increment ask for, over the cells of a region.
 #[derive(Debug, Clone, Copy)]
@@ -36,6 +36,8 @@ pub struct ContactProblem<'a> {
     pub approach: f64,
     /// Tangential displacement before the increment [length].
     pub before: &'a TangentialField,
+    /// What is known of the paths of slip.
+    pub path: &'a SlipPath,
     /// Where the cells are.
     pub positions: &'a CellPositions,
     /// Increments of the motions that are prescribed [length].
@@ -64,6 +66,8 @@ pub struct Solution {
     pub gap: Vec<f64>,
     /// Slip increment [length].
     pub slip: TangentialField,
+    /// Slip at the end of the increment, up to a factor [length].
+    pub end_slip: TangentialField,
     /// Newton iterations made.
     pub iterations: usize,
 }
@@ -152,6 +156,7 @@ pub fn make_shear_feasible(
     let equations = TangentialProblem {
         bound: &bound.bound,
         before: &at_rest,
+        path: &SlipPath::default(),
         motions: &problem.positions.motions_of(&contact),
         motion: problem.motion,
         resultant: problem.resultant,
@@ -192,6 +197,7 @@ struct Packed {
     law: FrictionLaw,
     bound: FrictionBound,
     before: TangentialField,
+    path: SlipPath,
     displacement: TangentialField,
     gap: Vec<f64>,
 }
@@ -206,6 +212,7 @@ impl Packed {
         TangentialProblem {
             bound: &self.bound.bound,
             before: &self.before,
+            path: &self.path,
             motions,
             motion: problem.motion,
             resultant: problem.resultant,
@@ -250,6 +257,7 @@ impl<'a> Iterate<'a> {
         self.motions = problem.positions.motions_of(&contact);
         packed.law = problem.friction.packed(&contact);
         contact.pack_tangential(problem.before, &mut packed.before);
+        packed.path = problem.path.packed(&contact);
         self.contact = contact;
     }
 
@@ -288,7 +296,7 @@ impl<'a> Iterate<'a> {
     /// What every cell in contact does.
     fn find_sets(&mut self) {
         let Self { packed, slip, self_influence: [_, own], .. } = self;
-        self.sets.classify(&packed.shear, &slip.slip, &packed.bound, *own);
+        self.sets.classify(&packed.shear, slip.at_end(&packed.path), &packed.bound, *own);
     }
 
     /// The step that solves the linearised problem as far as the sets deserve it.
@@ -299,13 +307,14 @@ impl<'a> Iterate<'a> {
             Pressure::Unknown => (largest(pressure), self_influence[0]),
             Pressure::Given => (largest(&bound.bound), self_influence[1]),
         };
+        let left_over = self.slip.left_over(&packed.path, &self.sets);
         let linearised = Linearised {
             contact: &self.contact,
             sets: &self.sets,
             motions: &self.motions,
             slope: &bound.slope,
             gap,
-            slip: self.slip.slip.parts(),
+            slip: left_over.parts(),
             holds_force: problem.total.is_some(),
             forcing,
             most_steps: settings.max_krylov_steps,
@@ -349,10 +358,11 @@ impl<'a> Iterate<'a> {
     fn puts_slipping_cells_on_their_circles(&mut self) -> bool {
         let [_, own] = self.self_influence;
         let Packed { shear, bound, .. } = &self.packed;
+        let end_slip = self.slip.at_end(&self.packed.path);
         let slipping: Vec<usize> = (0..self.contact.len())
             .filter(|&cell| {
                 let (q, bound) = (shear.at(cell), bound.bound[cell]);
-                is_inside(q, bound) && slips(q, self.slip.slip.at(cell), bound, 1.0 / own)
+                is_inside(q, bound) && slips(q, end_slip.at(cell), bound, 1.0 / own)
             })
             .collect();
         if slipping.is_empty() {
@@ -396,10 +406,15 @@ impl<'a> Iterate<'a> {
     }
 
     fn solution(self, iterations: usize) -> Solution {
-        let mut slip = TangentialField::zeros(self.tractions.pressure.len());
-        self.contact.scatter_tangential(&self.slip.slip, &mut slip);
+        let scattered = |packed: &TangentialField| {
+            let mut field = TangentialField::zeros(self.tractions.pressure.len());
+            self.contact.scatter_tangential(packed, &mut field);
+            field
+        };
+        let slip = scattered(&self.slip.slip);
+        let end_slip = scattered(self.slip.at_end(&self.packed.path));
         let Self { normal, tangential, gap, .. } = self;
-        Solution { normal, tangential, gap, slip, iterations }
+        Solution { normal, tangential, gap, slip, end_slip, iterations }
     }
 }
 

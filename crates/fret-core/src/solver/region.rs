@@ -5,7 +5,7 @@ use std::ops::Range;
 use ndarray::{Array2, ArrayBase, Ix2, RawData, s};
 use serde::{Deserialize, Serialize};
 
-use crate::model::field::TangentialField;
+use crate::fields::TangentialField;
 
 /// A rectangular part of the grid.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
@@ -39,6 +39,12 @@ impl Region {
     pub fn gather(&self, field: &Array2<f64>) -> Vec<f64> {
         let part = inside(field.view(), self.ranges()).as_standard_layout().into_owned();
         part.into_raw_vec_and_offset().0
+    }
+
+    /// Something of every cell of a grid field in the part, as flat rows.
+    pub fn gather_map<T, U>(&self, field: &Array2<T>, of: impl Fn(&T) -> U) -> Vec<U> {
+        let [rows, columns] = self.ranges();
+        field.slice(s![rows, columns]).iter().map(of).collect()
     }
 
     fn ranges(&self) -> [Range<usize>; 2] {

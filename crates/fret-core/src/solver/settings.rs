@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 use fret_fft::ConvolutionError;
 use serde::Serialize;
 
-use crate::model::Scheme;
+use crate::model::{Integration, Scheme};
 
 /// How pressure and shear act on each other.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
@@ -26,6 +26,8 @@ pub struct SolverSettings {
     pub tolerance: f64,
     /// How coupled pressure and shear are solved.
     pub scheme: Scheme,
+    /// How slip is integrated over an increment.
+    pub integration: Integration,
     /// Newton iterations, each with new active sets, before an increment is left to the exact Newton method.
     pub max_newton_iterations: usize,
     /// Krylov steps in each of them.
@@ -48,6 +50,7 @@ impl SolverSettings {
         Self {
             tolerance,
             scheme: Scheme::default(),
+            integration: Integration::default(),
             max_newton_iterations: 60,
             max_krylov_steps: 30,
             max_normal_iterations: 8000,

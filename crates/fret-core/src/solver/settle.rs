@@ -4,7 +4,7 @@ use super::contact_set::ContactSet;
 use super::increment::{IncrementProblem, Solved};
 use super::laws::friction::{dissipation, slips};
 use super::outcome::{Outcome, Regime, Residual, Resultants};
-use crate::model::field::sum;
+use crate::fields::sum;
 use crate::model::{ContactState, Zone};
 
 /// The state after an increment, and what happened.
@@ -17,6 +17,7 @@ pub(super) fn settle(problem: &IncrementProblem<'_>, solved: &Solved) -> (Contac
     let bound_before = law.bound(&contact.packed(&region.gather(&before.pressure))).bound;
     let shear = contact.packed_tangential(&solved.tractions.shear);
     let slip = contact.packed_tangential(&solved.slip);
+    let end_slip = contact.packed_tangential(&solved.end_slip);
     let mut state = state_after(problem, solved);
     let columns = region.shape[1];
     let mut stick_cells = 0;
@@ -24,18 +25,20 @@ pub(super) fn settle(problem: &IncrementProblem<'_>, solved: &Solved) -> (Contac
     let mut dissipated = 0.0;
     for (place, cell) in contact.cells().enumerate() {
         let at = [region.origin[0] + cell / columns, region.origin[1] + cell % columns];
-        let [q, slip] = [shear.at(place), slip.at(place)];
+        let [q, end] = [shear.at(place), end_slip.at(place)];
         moment += grid.centre(0, at[0]) * q[1] - grid.centre(1, at[1]) * q[0];
-        if slips(q, slip, bound[place], solved.tangential_stiffness) {
-            state.zone[at] = Zone::Slip;
-            for axis in 0..2 {
-                state.slip[axis][at] += slip[axis];
-            }
-            dissipated += dissipation([bound_before[place], bound[place]], q, slip);
+        let (zone, slip) = if slips(q, end, bound[place], solved.tangential_stiffness) {
+            (Zone::Slip, slip.at(place))
         } else {
-            state.zone[at] = Zone::Stick;
             stick_cells += 1;
+            (Zone::Stick, [0.0; 2])
+        };
+        let slip = problem.path.counted(cell, slip, before.zone[at] == Zone::Open);
+        state.zone[at] = zone;
+        for axis in 0..2 {
+            state.slip[axis][at] += slip[axis];
         }
+        dissipated += dissipation([bound_before[place], bound[place]], slip);
     }
     let area = grid.cell_area();
     state.dissipated_energy += dissipated * area;

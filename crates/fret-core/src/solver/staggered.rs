@@ -7,7 +7,7 @@ use super::operators::RegionOperators;
 use super::settings::{IterationCallback, SolveError, SolverSettings};
 use super::tractions::{Displacements, Tractions};
 use crate::compliance::SurfaceCompliance;
-use crate::model::field::add_scaled;
+use crate::fields::add_scaled;
 
 /// Fraction of the residual reached so far to which pressure and shear are solved in their turn.
 const INNER: f64 = 0.1;

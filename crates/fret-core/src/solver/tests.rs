@@ -15,7 +15,7 @@ fn shear_across_the_one_axis_is_not_certified() {
         0.5 * (grid.centre(0, i).powi(2) + grid.centre(1, j).powi(2))
     });
     let response = SurfaceResponse::FreeSpace(influence_coefficients(&pair, cells, spacing, Components::ALL));
-    let friction = CoulombFriction::Uniform(0.5);
+    let friction = CoulombFriction::uniform(0.5).unwrap();
     let settings = SolverSettings::new(1e-8);
     let mut solver = ContactSolver::new(grid, gap, &friction, Coupling::Uncoupled, response, settings, true)
         .with_shear_axis(Some(0));

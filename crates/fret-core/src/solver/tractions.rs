@@ -2,8 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::model::each_cell::{CellRule, Reals, each_cell};
-use crate::model::{TangentialField, stored};
+use crate::fields::{CellRule, Reals, each_cell, stored};
+use crate::model::TangentialField;
 
 /// Pressure and shear.
 #[derive(Debug, Clone, Default)]

@@ -12,7 +12,7 @@ use crate::analytic::{
     Cone, EffectiveModuli, FlatPunch, Hertz, HertzEllipse, RoundedPunch, TangentialHistory,
 };
 use crate::case::Stage;
-use crate::model::{Body, Control, CoulombFriction, ElasticMaterial, LoadStep, Shape};
+use crate::model::{Body, CellValues, Control, ElasticMaterial, LoadStep, Shape};
 use crate::plan::{Coupling, Plan};
 
 /// What a closed form says of one stage's end; `None` where it says nothing.
@@ -210,7 +210,10 @@ fn tangential(
     ends: &mut [Said],
 ) -> Option<(TangentialHistory, [f64; 2])> {
     let case = &plan.case;
-    let CoulombFriction::Uniform(friction) = case.friction else { return None };
+    let CellValues::Uniform(friction) = *case.friction.coefficient() else { return None };
+    if case.friction.max_shear().is_some() {
+        return None;
+    }
     let stages = &case.stages;
     let first = stages.iter().position(Stage::is_tangential)?;
     let steady = stages[first..].iter().all(|stage| stage.normal.is_none());

@@ -9,9 +9,9 @@ use super::errors::extrapolated;
 use super::quantities::{StageQuantities, Quantity};
 use super::resolutions::{ResolutionError, only_one_grid};
 use super::variation::{Variation, fewest};
+use crate::history::warning::CELLS_IN_RADIUS;
 use crate::model::Shape;
 use crate::plan::{Coupling, Plan};
-use crate::warning::CELLS_IN_RADIUS;
 
 /// Residual a companion is solved to at the least: far below what is estimated.
 const TOLERANCE: f64 = 1e-6;

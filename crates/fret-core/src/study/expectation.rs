@@ -12,13 +12,12 @@ use serde::Serialize;
 
 use super::variation::Variation;
 use crate::compliance::{OperatorSet, SpectralCompliance, SurfaceCompliance, SurfaceResponse};
-use crate::cycle::CycleRecord;
-use crate::history::{KeptFields, StepRecord, Work};
+use crate::fields::largest;
+use crate::history::{CycleRecord, KeptFields, StepRecord, Work};
 use crate::kernel::{Components, InfluenceCoefficients, influence_coefficients, line_coefficients};
 use crate::model::ContactState;
-use crate::model::field::largest;
 use crate::plan::{Advance, Coupling, Plan};
-use crate::simulation::{Iteration, Observer, Simulation};
+use crate::run::{Iteration, Observer, Simulation};
 
 /// Cells along the longer side of the coarse run.
 const COARSE: usize = 32;

@@ -8,11 +8,11 @@ use serde::{Deserialize, Serialize};
 
 use super::quantities::StageQuantities;
 use super::variation::Variation;
-use crate::cycle::CycleRecord;
-use crate::history::{KeptFields, StepRecord, Work};
-use crate::model::{ContactState, SurfaceGrid, stored};
+use crate::fields::stored;
+use crate::history::{CycleRecord, KeptFields, StepRecord, Work};
+use crate::model::{ContactState, SurfaceGrid};
 use crate::plan::Plan;
-use crate::simulation::{Iteration, Observer, RunError, Simulation};
+use crate::run::{Iteration, Observer, RunError, Simulation};
 
 /// A solved level.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]

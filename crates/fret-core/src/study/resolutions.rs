@@ -4,8 +4,8 @@ use serde::Serialize;
 
 use super::variation::{Variation, fewest, rows};
 use crate::case::check::{FEWEST_CELLS as FEWEST_OF_A_CASE, MOST_CELLS, MOST_CELLS_IN_ALL};
+use crate::history::warning::CELLS_IN_RADIUS;
 use crate::plan::{Coupling, Plan};
-use crate::warning::CELLS_IN_RADIUS;
 
 /// Fewest cells a side of a level that nobody asked for.
 const FEWEST_CELLS: usize = 8;

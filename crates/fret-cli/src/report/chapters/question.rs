@@ -180,10 +180,15 @@ fn described(value: &Value) -> String {
 }
 
 fn friction(friction: &Value) -> String {
-    match friction["uniform"].as_f64() {
-        Some(0.0) => "none".to_owned(),
+    let coefficient = match friction["coefficient"]["uniform"].as_f64() {
+        Some(0.0) => return "none".to_owned(),
         Some(coefficient) => format!("<i>μ</i> {}", given(coefficient)),
         None => "a map of coefficients".to_owned(),
+    };
+    match (&friction["max_shear"], friction["max_shear"]["uniform"].as_f64()) {
+        (Value::Null, _) => coefficient,
+        (_, Some(strength)) => format!("{coefficient}, shear at most {}", given(strength)),
+        (_, None) => format!("{coefficient}, a map of shear strengths"),
     }
 }
 

@@ -1,9 +1,8 @@
 //! Stick and slip: what every cell in contact does, as the linearisation of the friction law needs it.
 
 use super::friction::{CellState, FrictionBound};
+use crate::fields::{CellRule, Reals, each_cell, largest};
 use crate::model::TangentialField;
-use crate::model::each_cell::{CellRule, Reals, each_cell};
-use crate::model::field::largest;
 
 /// Fraction of the largest bound below which slip stiffness grows no more: cells at the edge carry next to nothing.
 const LEAST_BOUND: f64 = 1e-6;

@@ -1,7 +1,6 @@
 //! Complementarity of gap and pressure: `g >= 0`, `p >= 0`, `g p = 0` (Signorini). The one residual of it, for every way of solving.
 
-use crate::model::each_cell::{CellRule, CellSize, Reals, each_cell, largest_of};
-use crate::model::field::lower;
+use crate::fields::{CellRule, CellSize, Reals, each_cell, largest_of, lower};
 
 /// How well pressure and gap satisfy complementarity, and the approach found on the way.
 #[derive(Debug, Clone, Copy, PartialEq)]

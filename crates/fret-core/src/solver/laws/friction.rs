@@ -5,8 +5,8 @@
 //! Coulomb: `|q| <= b(p)`; where `|q| = b` the surfaces may slip, along `q`, the shear on the lower body; elsewhere they stick.
 //! `b = min(mu p, tau)` with the shear strength `tau` of the interface, where it has one.
 
-use crate::model::each_cell::Reals;
-use crate::model::{CoulombFriction, mean_bound};
+use crate::fields::Reals;
+use crate::model::{CellValues, CoulombFriction};
 
 use super::super::contact_set::ContactSet;
 use super::super::region::Region;
@@ -21,6 +21,8 @@ const ROUNDING: f64 = 1e-10;
 pub struct FrictionLaw {
     /// Friction coefficient mu [-].
     coefficient: Vec<f64>,
+    /// Shear strength tau of the interface [pressure]; empty where it has none.
+    max_shear: Vec<f64>,
 }
 
 /// Friction bounds of some cells under their pressures.
@@ -37,19 +39,26 @@ impl FrictionLaw {
     pub fn in_region(friction: &CoulombFriction, region: Region) -> Self {
         let [_, columns] = region.shape;
         let at = |cell: usize| [region.origin[0] + cell / columns, region.origin[1] + cell % columns];
-        let coefficient = (0..region.len()).map(|cell| friction.at(at(cell)[0], at(cell)[1])).collect();
-        Self { coefficient }
+        let values = |values: &CellValues| -> Vec<f64> {
+            (0..region.len()).map(|cell| values.at(at(cell)[0], at(cell)[1])).collect()
+        };
+        let max_shear = friction.max_shear().map(values).unwrap_or_default();
+        Self { coefficient: values(friction.coefficient()), max_shear }
     }
 
     /// The law in the cells of a contact.
     pub fn packed(&self, contact: &ContactSet) -> Self {
-        Self { coefficient: contact.packed(&self.coefficient) }
+        let max_shear = if self.max_shear.is_empty() { Vec::new() } else { contact.packed(&self.max_shear) };
+        Self { coefficient: contact.packed(&self.coefficient), max_shear }
     }
 
     /// Bound [pressure] and its slope [-] of one cell under a pressure that is not negative.
     pub fn at(&self, cell: usize, pressure: f64) -> (f64, f64) {
         let mu = self.coefficient[cell];
-        (mu * pressure, mu)
+        match self.max_shear.get(cell) {
+            Some(&tau) if tau < mu * pressure => (tau, 0.0),
+            _ => (mu * pressure, mu),
+        }
     }
 
     /// The bounds under `pressure` [pressure], which is not negative.
@@ -73,8 +82,8 @@ impl FrictionLaw {
 }
 
 /// Energy that friction takes from a cell that slips, per area: the mean of its bounds before and after the increment, along the slip.
-pub fn dissipation([before, after]: [f64; 2], shear: [f64; 2], slip: [f64; 2]) -> f64 {
-    if after > 0.0 { mean_bound(before, after) * (shear[0] * slip[0] + shear[1] * slip[1]) } else { 0.0 }
+pub fn dissipation([before, after]: [f64; 2], slip: [f64; 2]) -> f64 {
+    0.5 * (before + after) * slip[0].hypot(slip[1])
 }
 
 /// Whether a cell slips, in a solution: the shear that would hold it, `q + slip / K`, lies outside the disc, by more than the shear lies

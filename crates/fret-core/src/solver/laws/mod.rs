@@ -8,3 +8,4 @@ pub mod limit;
 pub mod projection;
 pub mod rigid_motions;
 pub mod slip;
+pub mod slip_path;

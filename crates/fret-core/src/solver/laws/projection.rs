@@ -3,8 +3,7 @@
 use super::active_sets::ActiveSets;
 use super::rigid_motions::RigidMotions;
 use super::slip::TangentialProblem;
-use crate::model::each_cell::{CellRule, Reals, each_cell};
-use crate::model::field::{TangentialField, sum};
+use crate::fields::{CellRule, Reals, TangentialField, each_cell, sum};
 
 /// Cuts tension off and restores the total pressure by scaling, which keeps the shape of the edge.
 /// False when nothing is left to scale.

@@ -4,10 +4,18 @@
 //! Motions that follow from a resultant are those under which the projected shear has it: the minimum of a convex potential,
 //! found by Newton's method with Armijo's rule.
 
+use std::borrow::Cow;
+
+use super::active_sets::ActiveSets;
 use super::friction::{OnDisc, onto_disc};
 use super::rigid_motions::RigidMotions;
-use crate::model::TangentialField;
-use crate::model::each_cell::{CellRule, Reals, each_cell};
+use super::slip_path::{SlipPath, end_of_chord};
+use crate::fields::{CellRule, Reals, TangentialField, each_cell};
+
+/// Rounds in which motions and the turn of slip find each other; each takes two thirds of the difference away or more.
+const MOST_TURNS: usize = 4;
+/// Change of motions that is rounding.
+const SETTLED: f64 = 1e-15;
 
 /// What the tangential equations of one increment ask for; fields are packed over the cells in contact.
 #[derive(Debug, Clone, Copy)]
@@ -16,6 +24,8 @@ pub struct TangentialProblem<'a> {
     pub bound: &'a [f64],
     /// Tangential displacement before the increment [length].
     pub before: &'a TangentialField,
+    /// What is known of the paths of slip.
+    pub path: &'a SlipPath,
     /// Rigid motions.
     pub motions: &'a RigidMotions,
     /// Increments of the motions that are prescribed [length]; 0 for the others.
@@ -40,6 +50,8 @@ pub struct TangentialResidual {
 pub struct SlipIncrement {
     /// Slip of the upper body over the lower in the increment, packed [length].
     pub slip: TangentialField,
+    /// Slip at the end of the increment, up to a factor: what the friction law is about, packed [length].
+    at_end: TangentialField,
     /// Vectors `q + slip / K` before the motions that follow from resultants [pressure].
     trial: TangentialField,
 }
@@ -55,7 +67,7 @@ impl SlipIncrement {
     ) -> TangentialResidual {
         let TangentialProblem { bound, before, motions, .. } = *problem;
         let stiffness = 1.0 / problem.self_influence;
-        let Self { slip, trial } = self;
+        let Self { slip, trial, .. } = self;
         for part in [&mut slip.x, &mut slip.y, &mut trial.x, &mut trial.y] {
             part.resize(bound.len(), 0.0);
         }
@@ -68,16 +80,65 @@ impl SlipIncrement {
         if motions.any_by_force() && bounds > 0.0 {
             let count = bound.len() as f64;
             let scale = Scale { total: bounds, spread: (trial_squares / count).sqrt() + bounds / count };
-            found = self.motion_by_force(problem, scale, guess.map(|motion| stiffness * motion));
-            found = found.map(|motion| motion / stiffness);
+            let mut guess = motions.only_by_force(guess);
+            for _ in 0..MOST_TURNS {
+                self.find_trial_at_end(problem, q, guess);
+                found = self.motion_by_force(problem, scale, guess.map(|motion| stiffness * motion));
+                found = found.map(|motion| motion / stiffness);
+                let change = [0, 1, 2].map(|mode| found[mode] - guess[mode]);
+                if !problem.path.turns() || size(&change) <= SETTLED * size(&found) {
+                    break;
+                }
+                guess = found;
+            }
         }
-        let Self { slip, .. } = self;
-        let read = [&q.x, &q.y, bound, rotation[0], rotation[1]];
-        let [off] = each_cell(&OffLaw { motion: found, stiffness }, read, [&mut slip.x, &mut slip.y]);
+        let [off] = if problem.path.turns() {
+            let Self { slip, at_end, .. } = self;
+            at_end.x.resize(bound.len(), 0.0);
+            at_end.y.resize(bound.len(), 0.0);
+            let turn = problem.path.turn.parts();
+            let read = [&q.x, &q.y, bound, turn[0], turn[1], rotation[0], rotation[1]];
+            let write = [&mut slip.x[..], &mut slip.y, &mut at_end.x, &mut at_end.y];
+            each_cell(&OffLawTurned { motion: found, stiffness }, read, write)
+        } else {
+            let Self { slip, .. } = self;
+            let read = [&q.x, &q.y, bound, rotation[0], rotation[1]];
+            each_cell(&OffLaw { motion: found, stiffness }, read, [&mut slip.x, &mut slip.y])
+        };
         let motion =
             [0, 1, 2].map(|mode| if motions.by_force[mode] { found[mode] } else { problem.motion[mode] });
         let residual = if bound_squares > 0.0 { (off / bound_squares).sqrt() } else { 0.0 };
         TangentialResidual { motion, residual }
+    }
+
+    /// Slip at the end of the increment, up to a factor, packed [length].
+    pub fn at_end<'a>(&'a self, path: &SlipPath) -> &'a TangentialField {
+        if path.turns() { &self.at_end } else { &self.slip }
+    }
+
+    /// What a step is to remove: the slip of cells that stick, the slip at the end of those that slip [length].
+    pub fn left_over(&self, path: &SlipPath, sets: &ActiveSets) -> Cow<'_, TangentialField> {
+        if !path.turns() {
+            return Cow::Borrowed(&self.slip);
+        }
+        let mut left = self.slip.clone();
+        for (left, end) in [(&mut left.x, &self.at_end.x), (&mut left.y, &self.at_end.y)] {
+            each_cell(&WhereStuck, [end, &sets.stick], [left]);
+        }
+        Cow::Owned(left)
+    }
+
+    /// The trial vectors whose slip is turned on as far as it is with motions `guess`: of a path that does not turn as they are.
+    fn find_trial_at_end(&mut self, problem: &TangentialProblem<'_>, q: &TangentialField, guess: [f64; 3]) {
+        if !problem.path.turns() {
+            return;
+        }
+        let Self { slip, trial, .. } = self;
+        let ([turn_x, turn_y], [around_x, around_y]) =
+            (problem.path.turn.parts(), problem.motions.rotation.parts());
+        let read = [&slip.x, &slip.y, &q.x, &q.y, turn_x, turn_y, around_x, around_y];
+        let rule = TrialAtEnd { guess, stiffness: 1.0 / problem.self_influence };
+        each_cell(&rule, read, [&mut trial.x, &mut trial.y]);
     }
 
     /// Root of `sum Proj(trial + motion) . mode = resultant`. Motions are in units of pressure.
@@ -222,6 +283,66 @@ impl CellRule<5, 2, 1> for OffLaw {
     }
 }
 
+/// Another value where a cell does not stick.
+struct WhereStuck;
+
+impl CellRule<2, 1, 0> for WhereStuck {
+    #[inline(always)]
+    fn at<R: Reals>(&self, [other, stick]: [R; 2], [value]: &mut [R; 1]) -> [R; 0] {
+        *value = other + (*value - other) * stick;
+        []
+    }
+}
+
+/// Vectors `q + slip at the end / K` before the motions that follow from resultants, turned on by as much as with motions `guess`.
+struct TrialAtEnd {
+    guess: [f64; 3],
+    stiffness: f64,
+}
+
+impl CellRule<8, 2, 0> for TrialAtEnd {
+    const OPTIONAL: usize = 2;
+
+    #[inline(always)]
+    fn at<R: Reals>(
+        &self,
+        [slip_x, slip_y, qx, qy, turn_x, turn_y, around_x, around_y]: [R; 8],
+        [trial_x, trial_y]: &mut [R; 2],
+    ) -> [R; 0] {
+        let [shift_x, shift_y, twist] = self.guess;
+        let moved = [slip_x + around_x * twist + shift_x, slip_y + around_y * twist + shift_y];
+        let end = end_of_chord(moved, [turn_x, turn_y]);
+        *trial_x = qx + (slip_x + end[0] - moved[0]) * self.stiffness;
+        *trial_y = qy + (slip_y + end[1] - moved[1]) * self.stiffness;
+        []
+    }
+}
+
+/// As [`OffLaw`], by the slip at the end of the increment.
+struct OffLawTurned {
+    motion: [f64; 3],
+    stiffness: f64,
+}
+
+impl CellRule<7, 4, 1> for OffLawTurned {
+    const OPTIONAL: usize = 2;
+
+    #[inline(always)]
+    fn at<R: Reals>(
+        &self,
+        [qx, qy, bound, turn_x, turn_y, around_x, around_y]: [R; 7],
+        [slip_x, slip_y, end_x, end_y]: &mut [R; 4],
+    ) -> [R; 1] {
+        let [shift_x, shift_y, twist] = self.motion;
+        *slip_x = *slip_x + around_x * twist + shift_x;
+        *slip_y = *slip_y + around_y * twist + shift_y;
+        [*end_x, *end_y] = end_of_chord([*slip_x, *slip_y], [turn_x, turn_y]);
+        let image = onto_disc([qx + *end_x * self.stiffness, qy + *end_y * self.stiffness], bound);
+        let off = [qx - image[0], qy - image[1]];
+        [off[0] * off[0] + off[1] * off[1]]
+    }
+}
+
 /// Sums of the potential without rotation.
 struct Straight([f64; 2]);
 
@@ -283,6 +404,7 @@ mod tests {
         let problem = TangentialProblem {
             bound: &[1.0, 3.0],
             before: &TangentialField::zeros(2),
+            path: &SlipPath::default(),
             motions: &motions,
             motion: [0.0; 3],
             resultant: [2.0, 0.0, 0.0],

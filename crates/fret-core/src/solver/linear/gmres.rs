@@ -2,8 +2,7 @@
 //! groups of four directions, modified from group to group; sums in double precision whatever the vectors are.
 
 use super::super::contact_vector::ContactVector;
-use crate::model::each_cell::{CellRule, Number, Reals, each_cell};
-use crate::model::field::{add_scaled, dot};
+use crate::fields::{CellRule, Number, Reals, add_scaled, dot, each_cell};
 
 /// Memory of the method: it is used again.
 #[derive(Debug, Default)]

@@ -1,8 +1,7 @@
 //! One approximate inverse on the cells of a region, by unpadded transforms, in double or single precision.
 
 use super::super::contact_set::ContactSet;
-use crate::model::each_cell::{Number, convert};
-use crate::model::field::{dot, norm};
+use crate::fields::{Number, convert, dot, norm};
 use fret_fft::{PeriodicProduct, SingleProduct, Workspace};
 
 /// A product of one or two fields that approximates the inverse of an operator.

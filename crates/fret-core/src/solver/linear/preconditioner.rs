@@ -7,9 +7,9 @@ use ndarray::{Array2, s};
 use super::super::contact_set::ContactSet;
 use super::inverse::{Inverse, InverseFields};
 use crate::compliance::{SurfaceResponse, mirrors};
+use crate::fields::{CellRule, Number, Reals, each_cell};
 use crate::kernel::ResponseTable;
 use crate::model::Symmetry;
-use crate::model::each_cell::{CellRule, Number, Reals, each_cell};
 use fret_fft::{Block, ConvolutionError, Kernel, Parity, PeriodicProduct, Symbol};
 
 /// A pair is stiff at the surface when the longest waves of a region meet this many times the compliance times wavenumber that

@@ -8,8 +8,7 @@ use super::super::laws::active_sets::ActiveSets;
 use super::super::laws::rigid_motions::RigidMotions;
 use super::preconditioner::{Preconditioner, SlipWeights};
 use super::rigid_projector::{RigidProjector, SetFields, free_part, products, rigid};
-use crate::model::each_cell::{CellRule, Number, Reals, convert, each_cell};
-use crate::model::field::{add_scaled, lower, sum};
+use crate::fields::{CellRule, Number, Reals, add_scaled, convert, each_cell, lower, sum};
 
 /// Active sets and what goes with them, packed, in the precision of a linear problem.
 #[derive(Debug, Default)]

@@ -1,7 +1,7 @@
 //! What cells are free to do on fixed active sets, and the part of it that rigid motions can do: resultants are held by projection
 //! (a bordered system, its border eliminated).
 
-use crate::model::each_cell::{CellRule, Number, Reals, each_cell};
+use crate::fields::{CellRule, Number, Reals, each_cell};
 
 use super::super::laws::rigid_motions::RigidMotions;
 

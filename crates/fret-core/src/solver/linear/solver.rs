@@ -10,8 +10,7 @@ use super::gmres::Gmres;
 use super::preconditioner::Preconditioner;
 use super::problem::{LinearProblem, LinearSets, LinearWorkspace, right_side};
 use crate::compliance::SurfaceCompliance;
-use crate::model::each_cell::Number;
-use crate::model::field::largest;
+use crate::fields::{Number, largest};
 
 /// Relative residual to which a problem is solved in single precision at the most.
 const SINGLE: f64 = 1e-5;

@@ -8,8 +8,7 @@ use super::super::laws::complementarity::NormalResidual;
 use super::super::laws::projection::project_pressure;
 use super::super::settings::SolveError;
 use super::problem::{Ending, NormalIteration};
-use crate::model::each_cell::{CellRule, CellSize, Reals, each_cell, largest_of};
-use crate::model::field::{add_scaled, dot, sum};
+use crate::fields::{CellRule, CellSize, Reals, add_scaled, dot, each_cell, largest_of, sum};
 
 /// The contact changes when the residual on it is this much smaller than its violations.
 const SMALL_BESIDE: f64 = 0.3;

@@ -4,9 +4,9 @@
 
 use ndarray::{Array2, ArrayView2};
 
+use super::super::contact_edge::level_function;
 use super::super::region::Region;
 use crate::compliance::SurfaceResponse;
-use crate::edge::level_function;
 use crate::kernel::{InfluenceCoefficients, PeriodicSymbols};
 
 /// Pressure on a grid twice as fine, of `cells`, from that of a region with its gap; scaled to a `total` where the force is prescribed.

@@ -10,7 +10,7 @@ use super::laws::complementarity::NormalResidual;
 use super::linear::preconditioner::Preconditioner;
 use super::settings::{IterationCallback, SolveError, SolverSettings};
 use crate::compliance::SurfaceCompliance;
-use crate::model::field::sum;
+use crate::fields::sum;
 
 pub use problem::NormalEquations;
 use problem::{Ending, NormalIteration};

@@ -4,7 +4,7 @@ use super::super::laws::complementarity::NormalResidual;
 use super::super::linear::preconditioner::Preconditioner;
 use super::super::settings::{IterationCallback, SolveError};
 use crate::compliance::SurfaceCompliance;
-use crate::model::each_cell::{CellRule, Reals, each_cell};
+use crate::fields::{CellRule, Reals, each_cell};
 
 /// What the normal equations of one increment ask for, over the cells of a region.
 #[derive(Debug)]

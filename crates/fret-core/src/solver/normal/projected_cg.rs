@@ -5,7 +5,7 @@
 use super::super::laws::complementarity::{NormalResidual, violation};
 use super::super::settings::SolveError;
 use super::problem::{Ending, NormalIteration};
-use crate::model::each_cell::{CellRule, CellSize, Reals, each_cell, largest_of};
+use crate::fields::{CellRule, CellSize, Reals, each_cell, largest_of};
 
 /// A loaded cell leaves when its own pressure could close less than this fraction of its gap.
 const LEAVE_BELOW: f64 = 0.15;

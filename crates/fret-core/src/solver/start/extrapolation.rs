@@ -155,7 +155,7 @@ impl ContactSolver<'_> {
     }
 
     /// Ratio of this load increment to the last one when it goes on in the same direction.
-    fn continuation(&self, load: &LoadStep) -> Option<f64> {
+    pub(in super::super) fn continuation(&self, load: &LoadStep) -> Option<f64> {
         let (Some(Before { load: first, .. }), Some(second)) = (&self.memory.before, &self.memory.last_load)
         else {
             return None;

@@ -3,7 +3,7 @@
 
 use ndarray::Array2;
 
-use crate::edge::level_function;
+use super::super::contact_edge::level_function;
 use crate::model::ContactState;
 
 /// How a contact grows.

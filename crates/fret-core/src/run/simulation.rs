@@ -7,12 +7,17 @@ use std::time::Instant;
 
 use ndarray::Array2;
 
+use super::checkpoint::{Checkpoint, Place, Waypoint, solved_state};
+use super::fretting_loop::{CycleEnd, FrettingLoop};
+use super::plausibility::Gauge;
+use super::recording::{copied, kept, record};
+use super::refinement::{DivisionError, Refinement, Span, in_halves};
+use super::run_error::{RunError, run_error};
+use super::stepping::StageSteps;
+use super::wear::{Collected, Wearing, worn};
 use crate::case::{Case, Stage};
-use crate::checkpoint::{Checkpoint, Place, Waypoint, solved_state};
 use crate::compliance::SurfaceResponse;
-use crate::cycle::CycleRecord;
-use crate::fretting_loop::{CycleEnd, FrettingLoop};
-use crate::history::{History, KeptFields, StepRecord};
+use crate::history::{CycleRecord, History, KeptFields, StepRecord, WornThrough};
 use crate::kernel::{
     Components, PairResponse, ResponseTable, coefficients_of, influence_coefficients, line_coefficients_of,
     periodic_symbols, symbols_of,
@@ -20,14 +25,7 @@ use crate::kernel::{
 use crate::machine::memory::{Claim, claim};
 use crate::model::{ContactState, CoulombFriction, LoadStep, SolvedState};
 use crate::plan::{Coupling, Plan, Simplification};
-use crate::plausibility::Gauge;
-use crate::recording::{copied, kept, record};
-use crate::refinement::{DivisionError, Refinement, Span, in_halves};
-pub use crate::run_error::RunError;
-use crate::run_error::run_error;
 use crate::solver::{ContactSolver, Resultants, SolverSettings};
-use crate::stepping::StageSteps;
-use crate::wear::{Collected, Wearing, WornThrough, worn};
 
 /// Where an increment's iteration stands.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -178,7 +176,10 @@ impl<'a> Simulation<'a> {
         if let Some(depth) = &history.state.worn_depth {
             solver.set_gap(&unworn + depth);
         }
-        let wearing = case.wear.zip(wear).map(|(rule, collected)| Wearing::new(rule, own, unworn, collected));
+        let wearing = case
+            .wear
+            .zip(wear)
+            .map(|(rule, collected)| Wearing::new(rule, own, unworn, case.friction.clone(), collected));
         // Last: a new gap makes a solver forget.
         solver.restore_memory(memory);
         let journey =
@@ -240,6 +241,7 @@ impl<'a> Simulation<'a> {
             response,
             SolverSettings {
                 scheme: case.scheme,
+                integration: case.integration,
                 single_precision: plan.single_precision,
                 reuse_pressure: plan.leave_out.takes(Simplification::Pressure),
                 skip_unloaded_shear: plan.leave_out.takes(Simplification::Tangential),
@@ -318,6 +320,10 @@ impl<'a> Journey<'a> {
     /// Solves what is left of the stage at work.
     fn through_stage(&mut self, stage: &'a Stage) -> Result<(), RunError> {
         self.solver.set_friction(self.friction());
+        let friction = self.friction();
+        if let Some(wearing) = &mut self.wearing {
+            wearing.set_friction(friction);
+        }
         let place = &self.place;
         let (number, begins) = (place.stage, place.solved_of_stage == 0);
         let steps = if begins {
@@ -485,10 +491,11 @@ impl<'a> Journey<'a> {
 
     /// Opens the gap by what has worn since the last time; the number of cycles that stands for, out of `left`.
     fn wear(&mut self, stage: &Stage, increment: usize, left: usize) -> Result<usize, RunError> {
-        let friction = self.friction();
         let Some(wearing) = &mut self.wearing else { return Ok(1) };
-        let block = wearing.block(&self.history.state, friction, left).map_err(|too_fast| {
-            RunError::WearTooFast { increment, stage: stage.name.clone(), share: too_fast.share }
+        let block = wearing.block(&self.history.state, left).map_err(|too_fast| RunError::WearTooFast {
+            increment,
+            stage: stage.name.clone(),
+            share: too_fast.share,
         })?;
         if let Some(depth) = &mut self.history.state.worn_depth
             && block.depth.iter().any(|depth| *depth > 0.0)

@@ -3,10 +3,10 @@
 
 use ndarray::Zip;
 
+use super::wear::Wearing;
 use crate::history::Work;
 use crate::model::{ContactState, LoadStep};
 use crate::solver::{ContactSolver, Increment, IterationCallback, SolveError, SolverMemory};
-use crate::wear::Wearing;
 
 /// Halvings of a step that is not solved as a whole, at the most.
 const MOST_HALVINGS: u32 = 5;
@@ -266,7 +266,7 @@ mod tests {
     /// stick zone comes from far, asks for more than a half of the way does.
     #[test]
     fn a_step_that_asks_for_too_many_changes_of_the_zones_is_solved_in_parts() {
-        let friction = CoulombFriction::Uniform(0.3);
+        let friction = CoulombFriction::uniform(0.3).unwrap();
         let go_on: IterationCallback<'_> = &mut |_, _| ControlFlow::Continue(());
         let untouched = ContactState::untouched([CELLS; 2]);
         let pressed = load(1.0, 0.0);

@@ -3,10 +3,9 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::history::StepRecord;
+use crate::history::{Concern, StepRecord, Warning};
 use crate::model::{Base, Body, Control};
 use crate::plan::{Coupling, Plan};
-use crate::warning::{Concern, Warning};
 
 /// What follows from the case alone, with the contact that its plan expects.
 pub fn of_plan(plan: &Plan) -> Vec<Warning> {

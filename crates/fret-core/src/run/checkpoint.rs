@@ -6,16 +6,16 @@ use postcard::ser_flavors::Flavor;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
+use super::fretting_loop::FrettingLoop;
+use super::wear::Collected;
 use crate::case::{Case, Stage};
-use crate::fretting_loop::FrettingLoop;
+use crate::history::{Start, WornThrough};
 use crate::model::{ContactState, LoadStep, SolvedState};
 use crate::plan::Plan;
 use crate::solver::{Resultants, SolverMemory};
-use crate::start::Start;
-use crate::wear::{Collected, WornThrough};
 
 /// Version of the bytes; another layout of what is stored gets another one.
-const FORMAT: u32 = 6;
+const FORMAT: u32 = 7;
 
 /// How far a run has come in its stages.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]

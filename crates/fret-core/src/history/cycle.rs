@@ -5,8 +5,6 @@ use serde::{Deserialize, Serialize};
 /// Energy ratio `W / (4 Q* d*)` above which a sphere slides: Fouvry, Kapsa & Vincent (1995), Wear 185, 35. It is what Mindlin
 /// and Deresiewicz's loop has at `Q* = mu P`.
 pub const SLIDING_ENERGY_RATIO: f64 = 0.2;
-/// Sliding ratio `d0 / d*` of the same transition: `2^(1/3) - 1 = 0.26` of that loop.
-pub const SLIDING_RATIO: f64 = 0.26;
 
 /// What drives a cycle.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]

@@ -3,9 +3,9 @@
 use ndarray::Array2;
 use serde::{Deserialize, Serialize};
 
-use crate::cycle::{CycleRecord, CycleRegime, Drive, SLIDING_ENERGY_RATIO};
-use crate::history::{Regime, StepRecord};
-use crate::model::{ContactState, CoulombFriction, stored};
+use crate::fields::stored;
+use crate::history::{CycleRecord, CycleRegime, Drive, Regime, SLIDING_ENERGY_RATIO, StepRecord};
+use crate::model::{ContactState, CoulombFriction};
 
 /// Force and moment, shift and twist at the end of an increment.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -165,7 +165,7 @@ impl FrettingLoop {
             |a: &Array2<f64>, b: &Array2<f64>| -> f64 { a.iter().zip(b).map(|(a, b)| (a - b).powi(2)).sum() };
         let pressure = state.pressure.iter().map(|p| p * p).sum::<f64>();
         let bound: f64 =
-            state.pressure.indexed_iter().map(|((i, j), p)| (p * friction.at(i, j)).powi(2)).sum();
+            state.pressure.indexed_iter().map(|((i, j), p)| friction.bound(i, j, *p).powi(2)).sum();
         let share = |change: f64, whole: f64| if whole > 0.0 { (change / whole).sqrt() } else { 0.0 };
         let shear =
             distance(&state.shear[0], &self.start.shear[0]) + distance(&state.shear[1], &self.start.shear[1]);

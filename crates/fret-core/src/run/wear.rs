@@ -3,26 +3,12 @@
 use ndarray::{Array2, Zip};
 use serde::{Deserialize, Serialize};
 
-use crate::model::{ContactState, CoulombFriction, SurfaceGrid, WearLaw, WearRule, stored};
+use crate::fields::stored;
+use crate::model::{ContactState, CoulombFriction, SurfaceGrid, WearLaw, WearRule};
 
 /// Share of a cell's pressure that a block may take off at the most, as far as the cell's own compliance tells. Above 0.8
 /// neighbouring cells would take turns in carrying the load.
 const STABLE_SHARE: f64 = 0.4;
-
-/// The first place at which the surfaces are worn to the limit.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct WornThrough {
-    /// Increment after which it happened, from 0.
-    pub increment: usize,
-    /// Stage, from 0.
-    pub stage: usize,
-    /// Cycles of that stage until then, those that a computed one stands for included.
-    pub cycles: usize,
-    /// Cell.
-    pub cell: [usize; 2],
-    /// Its centre [length].
-    pub place: [f64; 2],
-}
 
 /// The wear of one block of cycles is more than the grid can follow.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -67,6 +53,8 @@ pub struct Wearing {
     own: f64,
     /// Gap of the unworn surfaces [length].
     unworn: Array2<f64>,
+    /// Friction law in force.
+    friction: CoulombFriction,
     collected: Collected,
 }
 
@@ -84,8 +72,19 @@ pub struct Block {
 impl Wearing {
     /// Goes on from what was collected; `own`: normal displacement of a cell by unit pressure on itself [length/pressure],
     /// `unworn`: gap of the unworn surfaces [length].
-    pub fn new(rule: WearRule, own: f64, unworn: Array2<f64>, collected: Collected) -> Self {
-        Self { rule, own, unworn, collected }
+    pub fn new(
+        rule: WearRule,
+        own: f64,
+        unworn: Array2<f64>,
+        friction: CoulombFriction,
+        collected: Collected,
+    ) -> Self {
+        Self { rule, own, unworn, friction, collected }
+    }
+
+    /// Another friction law from now on.
+    pub fn set_friction(&mut self, friction: &CoulombFriction) {
+        self.friction.clone_from(friction);
     }
 
     /// What was collected since the gap was opened last.
@@ -100,7 +99,7 @@ impl Wearing {
 
     /// Adds the wear between two states that follow each other.
     pub fn add(&mut self, before: &ContactState, after: &ContactState) {
-        self.rule.add(before, after, &mut self.collected.depth);
+        self.rule.add(before, after, &self.friction, &mut self.collected.depth);
         let slip_y = &after.slip[1] - &before.slip[1];
         Zip::from(&mut self.collected.path)
             .and(&after.slip[0])
@@ -113,19 +112,14 @@ impl Wearing {
     ///
     /// # Errors
     /// When a single cycle takes more off a cell than its own compliance can follow.
-    pub fn block(
-        &mut self,
-        state: &ContactState,
-        friction: &CoulombFriction,
-        most: usize,
-    ) -> Result<Block, TooFast> {
+    pub fn block(&mut self, state: &ContactState, most: usize) -> Result<Block, TooFast> {
         let softening = self
             .collected
             .path
             .indexed_iter()
             .map(|((i, j), path)| match self.rule.law {
                 WearLaw::Archard => *path,
-                WearLaw::Energy => path * friction.at(i, j),
+                WearLaw::Energy => path * self.friction.at(i, j),
             })
             .fold(0.0, f64::max)
             * self.rule.coefficient

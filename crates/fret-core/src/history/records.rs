@@ -4,13 +4,11 @@ use ndarray::Array2;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
-use crate::cycle::CycleRecord;
-use crate::footprint::Footprint;
+use super::cycle::CycleRecord;
+use super::footprint::Footprint;
+use super::warning::Warning;
 use crate::model::{ContactPair, ContactState, SolvedState, SurfaceGrid, Zone};
-use crate::solver::worst;
-pub use crate::solver::{Regime, Residual, Work};
-use crate::warning::Warning;
-use crate::wear::WornThrough;
+use crate::solver::{Regime, Residual, Work, worst};
 
 /// One increment of the history. Units are those of the case.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -150,4 +148,19 @@ impl History {
         let position = self.fields.binary_search_by_key(&increment, |kept| kept.increment).ok()?;
         self.fields.get(position)
     }
+}
+
+/// The first place at which the surfaces are worn to the limit.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct WornThrough {
+    /// Increment after which it happened, from 0.
+    pub increment: usize,
+    /// Stage, from 0.
+    pub stage: usize,
+    /// Cycles of that stage until then, those that a computed one stands for included.
+    pub cycles: usize,
+    /// Cell.
+    pub cell: [usize; 2],
+    /// Its centre [length].
+    pub place: [f64; 2],
 }

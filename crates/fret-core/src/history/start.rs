@@ -8,8 +8,8 @@ use std::sync::OnceLock;
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 
+use super::records::History;
 use crate::case::Difference;
-use crate::history::History;
 use crate::model::SolvedState;
 use crate::solver::SolverMemory;
 

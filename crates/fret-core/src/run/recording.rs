@@ -2,10 +2,9 @@
 
 use ndarray::Array2;
 
-use crate::footprint::Footprint;
-use crate::history::{KeptFields, Residual, StepRecord};
+use crate::fields::largest;
+use crate::history::{Footprint, KeptFields, Residual, StepRecord};
 use crate::machine::memory::MemoryError;
-use crate::model::field::largest;
 use crate::solver::Increment;
 
 /// The record of a solved increment; what it has worn is not yet known.

@@ -1,4 +1,4 @@
-//! Imports point down: modules import modules of lower floors alone, as the table of `ARCHITECTURE.md` says, and no files import
+//! Imports point down: modules import modules of lower layers alone, as the table of `ARCHITECTURE.md` says, and no files import
 //! each other in a circle. The table is read from the page, so that page and code cannot drift apart.
 
 use std::collections::{BTreeMap, BTreeSet};
@@ -12,21 +12,21 @@ fn repository() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR")).parent().expect("tests/ lies in the repository")
 }
 
-/// Floor of every module by the table: lines `floor N   name/   what it is`, and those below that go on with the floor.
-fn floors() -> BTreeMap<String, usize> {
+/// Layer of every module by the table: lines `layer N   name/   what it is`, and those below that go on with the layer.
+fn layers() -> BTreeMap<String, usize> {
     let page = fs::read_to_string(repository().join("ARCHITECTURE.md")).unwrap();
-    let table = page.split("```").find(|block| block.contains("floor 1 ")).expect("a table of floors");
-    let mut floors = BTreeMap::new();
-    let mut floor = 0;
+    let table = page.split("```").find(|block| block.contains("layer 1 ")).expect("a table of layers");
+    let mut layers = BTreeMap::new();
+    let mut layer = 0;
     for line in table.lines().filter(|line| !line.trim().is_empty()) {
         let mut words = line.split_whitespace().peekable();
-        if words.next_if_eq(&"floor").is_some() {
-            floor = words.next().and_then(|word| word.parse().ok()).expect("the number of a floor");
+        if words.next_if_eq(&"layer").is_some() {
+            layer = words.next().and_then(|word| word.parse().ok()).expect("the number of a layer");
         }
         let name = words.next().expect("a module").trim_end_matches('/').to_owned();
-        assert!(floors.insert(name.clone(), floor).is_none(), "{name} stands on two floors");
+        assert!(layers.insert(name.clone(), layer).is_none(), "{name} stands on two layers");
     }
-    floors
+    layers
 }
 
 /// A source file: its module, and all that it names.
@@ -239,16 +239,16 @@ fn circles<'a>(imports: &BTreeMap<&'a Vec<String>, BTreeSet<Vec<String>>>) -> Ve
 }
 
 #[test]
-fn modules_import_lower_floors_alone() {
-    let floors = floors();
+fn modules_import_lower_layers_alone() {
+    let layers = layers();
     let sources = Sources::of(&repository().join("crates/fret-core/src"));
     let modules: BTreeSet<&String> = sources.0.keys().filter_map(|module| module.first()).collect();
-    assert_eq!(modules, floors.keys().collect(), "modules of the library, and those of the table");
+    assert_eq!(modules, layers.keys().collect(), "modules of the library, and those of the table");
     let mut found = BTreeMap::new();
     for (module, imports) in sources.imports() {
         let Some(from) = module.first() else { continue };
         for to in imports.iter().filter_map(|path| path.first()).filter(|to| *to != from) {
-            if floors[to] >= floors[from] {
+            if layers[to] >= layers[from] {
                 let arrow = format!("{from} -> {to}");
                 found.entry(arrow).or_insert_with(Vec::new).push(sources.0[module].file.as_str());
             }

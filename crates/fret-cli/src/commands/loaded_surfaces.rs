@@ -1,0 +1,79 @@
+//! The kept tractions of a run, as loads for the stresses below them.
+
+use std::path::Path;
+
+use fret_core::case::{Side, StressRequest};
+use fret_core::machine::memory;
+use fret_core::plan::memory_of_stress;
+use fret_core::subsurface::LoadedSurface;
+
+use crate::failure::Failure;
+use crate::interrupt;
+use crate::output::kept_run::KeptRun;
+
+/// The tractions on the body in the increments that are looked at.
+pub fn loaded_surfaces(
+    folder: &Path,
+    run: &KeptRun,
+    request: &StressRequest,
+) -> Result<Vec<LoadedSurface>, Failure> {
+    let kept = &run.steps;
+    let last = kept.len().saturating_sub(1);
+    let chosen = kept.iter().enumerate().filter(|(n, _)| (last - n).is_multiple_of(request.every));
+    memory::check(memory_of_stress(run.grid.len(), chosen.clone().count()))?;
+    let sign = if request.body == Side::Lower { 1.0 } else { -1.0 };
+    let mut surfaces = Vec::new();
+    for (_, &increment) in chosen {
+        if interrupt::is_asked() {
+            return Err(stopped(folder));
+        }
+        let pair = |name: [&str; 2]| -> Result<Option<[ndarray::Array2<f64>; 2]>, Failure> {
+            Ok(run.field(name[0], increment)?.zip(run.field(name[1], increment)?).map(<[_; 2]>::from))
+        };
+        let Some(pressure) = run.field("pressure", increment)? else { continue };
+        let shear = if run.frictionless { None } else { pair(["shear_x", "shear_y"])? };
+        let shear = shear.map(|shear| shear.map(|component| component * sign));
+        surfaces.push(LoadedSurface { increment, pressure, shear, slip: pair(["slip_x", "slip_y"])? });
+    }
+    let shown = folder.display();
+    if surfaces.is_empty() {
+        return Err(Failure::Call(
+            format!("{shown}: holds no tractions: the pressure of no increment was kept"),
+            "run the case again with output.fields = [\"pressure\", \"shear\", ...]".to_owned(),
+        ));
+    }
+    if !run.frictionless && surfaces.iter().any(|surface| surface.shear.is_none()) {
+        return Err(Failure::Call(
+            format!("{shown}: holds no shear, but the contact has friction"),
+            "run the case again with output.fields = [\"pressure\", \"shear\", ...]".to_owned(),
+        ));
+    }
+    Ok(surfaces)
+}
+
+/// How deep to look: three times the largest radius, or half-width, of the loaded area, about its centre.
+pub fn reach(run: &KeptRun, surfaces: &[LoadedSurface]) -> f64 {
+    let most = surfaces
+        .iter()
+        .map(|surface| surface.pressure.iter().filter(|pressure| **pressure > 0.0).count())
+        .max()
+        .unwrap_or(0);
+    let [width, length] = run.grid.size();
+    if run.periodic {
+        return 0.5 * width.max(length);
+    }
+    if run.grid.is_line() {
+        let half_width = 0.5 * most as f64 * run.grid.spacing()[0];
+        return if half_width > 0.0 { 3.0 * half_width } else { width };
+    }
+    let radius = (most as f64 * run.grid.cell_area() / std::f64::consts::PI).sqrt();
+    if radius > 0.0 { 3.0 * radius } else { width.min(length) }
+}
+
+/// The call was interrupted.
+pub fn stopped(folder: &Path) -> Failure {
+    let shown = folder.display();
+    Failure::Interrupted(format!(
+        "the stresses are not finished and nothing is written; run `fret stress {shown}` again"
+    ))
+}

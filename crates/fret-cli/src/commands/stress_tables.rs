@@ -1,0 +1,255 @@
+//! Stresses as they are told: `stress.json`, `depths.csv`, sections as pictures, a table.
+
+use std::fmt::Write as _;
+use std::path::Path;
+
+use fret_core::case::StressRequest;
+use fret_core::model::{Base, HalfSpace};
+use fret_core::subsurface::largest::look;
+use fret_core::subsurface::{DepthPoint, Largest, LoadedSurface, Measure, StressField};
+use serde_json::{Value, json};
+
+use super::fatigue::{Fatigue, Picture};
+use crate::failure::Failure;
+use crate::figures::{counted, duration, figure};
+use crate::output::kept_run::KeptRun;
+use crate::output::section::Section;
+use crate::output::write_whole;
+
+/// More sections than this are not drawn.
+const MOST_SECTIONS: usize = 12;
+
+/// What is told of the stresses.
+pub struct Answer {
+    pub record: Value,
+    pub table: String,
+}
+
+/// What is noted on the way, and written at the end.
+pub struct StressTables<'a> {
+    run: &'a KeptRun,
+    request: &'a StressRequest,
+    half_space: &'a HalfSpace,
+    points: &'a [DepthPoint],
+    surfaces: &'a [LoadedSurface],
+    interfaces: Vec<f64>,
+    largest: Vec<Largest>,
+    /// Lines of `depths.csv`.
+    by_depth: String,
+    /// Row of cells nearest to y = 0.
+    row: usize,
+    /// Von Mises along that row, `[surface][point][i]`.
+    sections: Vec<Vec<Vec<f64>>>,
+    fatigue: Option<Fatigue<'a>>,
+}
+
+impl<'a> StressTables<'a> {
+    pub fn new(
+        run: &'a KeptRun,
+        request: &'a StressRequest,
+        half_space: &'a HalfSpace,
+        points: &'a [DepthPoint],
+        surfaces: &'a [LoadedSurface],
+    ) -> Self {
+        let mut depth = 0.0;
+        let interfaces = half_space
+            .coatings()
+            .iter()
+            .map(|coating| {
+                depth += coating.thickness();
+                depth
+            })
+            .collect();
+        let row = run.grid.cells()[1] / 2;
+        let [first, last] = run.last_cycle;
+        let cycle: Vec<usize> = surfaces
+            .iter()
+            .enumerate()
+            .filter(|(_, surface)| (first..=last).contains(&surface.increment))
+            .map(|(index, _)| index)
+            .collect();
+        let fatigue = (run.cyclic && cycle.len() > 2)
+            .then(|| Fatigue::new(request.fatigue, half_space, points, surfaces, cycle, row));
+        Self {
+            run,
+            request,
+            half_space,
+            points,
+            surfaces,
+            interfaces,
+            largest: Vec::new(),
+            by_depth: format!("increment,depth,layer,{}\n", Measure::ALL.map(Measure::name).join(",")),
+            row,
+            sections: vec![Vec::new(); surfaces.len()],
+            fatigue,
+        }
+    }
+
+    pub fn look(&mut self, point: usize, surface: usize, field: &StressField) {
+        let place = self.points[point];
+        let increment = self.surfaces[surface].increment;
+        let is_interface = self.interfaces.contains(&place.depth);
+        let mut here = Vec::new();
+        let pressure = (place.depth == 0.0).then_some(&self.surfaces[surface].pressure);
+        look(&mut here, field, place, is_interface, increment, pressure);
+        let value = |measure: Measure| {
+            here.iter()
+                .find(|found: &&Largest| found.measure == measure)
+                .map_or(String::new(), |found| format!("{:e}", found.value))
+        };
+        let values = Measure::ALL.map(value).join(",");
+        let _ = writeln!(self.by_depth, "{increment},{:e},{},{values}", place.depth, place.layer);
+        for found in here {
+            match self.largest.iter_mut().find(|known| known.measure == found.measure) {
+                Some(known) if found.value > known.value => *known = found,
+                Some(_) => {}
+                None => self.largest.push(found),
+            }
+        }
+        let nx = self.run.grid.cells()[0];
+        self.sections[surface].push((0..nx).map(|i| field.at(i, self.row).von_mises()).collect());
+        if let Some(fatigue) = &mut self.fatigue {
+            fatigue.look(point, surface, field);
+        }
+    }
+
+    /// Where along x or y a largest value was found [length].
+    fn place_of(&self, found: &Largest, axis: usize) -> f64 {
+        let grid = &self.run.grid;
+        grid.centre(axis, found.cell[axis]) + found.off[axis] * grid.spacing()[axis]
+    }
+
+    pub fn written(mut self, place: &Path, wall_s: f64) -> Result<Answer, Failure> {
+        let centres = [self.run.grid.centres(0), self.run.grid.centres(1)];
+        let largest: Vec<Value> = self
+            .largest
+            .iter()
+            .map(|found| {
+                json!({
+                    "measure": found.measure.name(),
+                    "value": found.value,
+                    "increment": found.increment,
+                    "x": self.place_of(found, 0),
+                    "y": self.place_of(found, 1),
+                    "depth": found.point.depth,
+                    "layer": self.layer_name(found.point.layer),
+                })
+            })
+            .collect();
+        let fatigue =
+            self.fatigue.take().map(|fatigue| fatigue.finished(&centres[0].to_vec(), &self.interfaces));
+        let record = json!({
+            "status": "computed",
+            "unfinished": self.run.unfinished,
+            "body": self.request.body.name(),
+            "increments": self.surfaces.iter().map(|surface| surface.increment).collect::<Vec<_>>(),
+            "depths": self.points.iter().map(|point| point.depth).collect::<Vec<_>>(),
+            "layers": self.points.iter().map(|point| point.layer).collect::<Vec<_>>(),
+            "largest": largest,
+            "fatigue": fatigue.as_ref().map(|fatigue| fatigue.record.clone()),
+            "wall_s": wall_s,
+        });
+        write_whole(&place.join("stress.json"), format!("{record:#}\n").as_bytes())?;
+        write_whole(&place.join("depths.csv"), self.by_depth.as_bytes())?;
+        self.draw(place, &centres[0].to_vec(), fatigue.as_ref().map(|fatigue| &fatigue.pictures[..]))?;
+        let table = self.table(place, fatigue.as_ref().map(|fatigue| fatigue.table.as_str()), wall_s);
+        Ok(Answer { record, table })
+    }
+
+    fn layer_name(&self, layer: usize) -> String {
+        let coatings = self.half_space.coatings().len();
+        match (layer < coatings, self.half_space.base()) {
+            (true, _) if coatings == 1 => "coating".to_owned(),
+            (true, _) => format!("coating {}", layer + 1),
+            (false, Base::Elastic(_)) => "substrate".to_owned(),
+            (false, Base::Rigid) => "base".to_owned(),
+        }
+    }
+
+    /// Sections of the increments (of many: of the last and of the one with the largest von Mises stress), and of what fatigue
+    /// shows.
+    fn draw(&self, place: &Path, x: &[f64], fatigue: Option<&[Picture]>) -> Result<(), Failure> {
+        let depths: Vec<f64> = self.points.iter().map(|point| point.depth).collect();
+        if !depths.windows(2).all(|pair| pair[0] <= pair[1]) || depths.first() == depths.last() {
+            return Ok(()); // no section without rising depths
+        }
+        let worst = self.largest.iter().find(|found| found.measure == Measure::VonMises);
+        let last = self.surfaces.len() - 1;
+        let is_shown = |index: usize| {
+            let increment = self.surfaces[index].increment;
+            last < MOST_SECTIONS || index == last || worst.is_some_and(|worst| worst.increment == increment)
+        };
+        let title = if self.run.title.is_empty() { "contact" } else { &self.run.title };
+        let high = self.sections.iter().flatten().flatten().copied().fold(0.0, f64::max);
+        for index in (0..=last).filter(|&index| is_shown(index)) {
+            let increment = self.surfaces[index].increment;
+            let quantity =
+                format!("von Mises stress, increment {increment}, {} body", self.request.body.name());
+            let section = Section {
+                title,
+                quantity: &quantity,
+                x,
+                depths: &depths,
+                values: &self.sections[index],
+                interfaces: &self.interfaces,
+                range: Some([0.0, high]),
+            };
+            let name = format!("von_mises-{increment:05}.svg");
+            write_whole(&place.join(name), section.svg().as_bytes())?;
+        }
+        for (name, values) in fatigue.unwrap_or_default() {
+            let quantity =
+                format!("{}, last cycle, {} body", name.replace('_', " "), self.request.body.name());
+            let section = Section {
+                title,
+                quantity: &quantity,
+                x,
+                depths: &depths,
+                values,
+                interfaces: &self.interfaces,
+                range: None,
+            };
+            write_whole(&place.join(format!("{name}.svg")), section.svg().as_bytes())?;
+        }
+        Ok(())
+    }
+
+    fn table(&self, place: &Path, fatigue: Option<&str>, wall_s: f64) -> String {
+        let unfinished = self.run.unfinished.as_ref().map_or(String::new(), |why| format!("{why}\n"));
+        let mut text = unfinished
+            + &format!(
+                "stress in the {} body: {} at {}, counted from 0\n\n  maximum            value        increment  x            y            depth        in\n",
+                self.request.body.name(),
+                counted(self.points.len(), "depth"),
+                counted(self.surfaces.len(), "increment"),
+            );
+        for found in &self.largest {
+            if found.value <= 0.0 && names_tension(found.measure) {
+                let name = found.measure.name().replace('_', " ");
+                let _ = writeln!(text, "  {name:<18} none: compression everywhere");
+                continue;
+            }
+            let _ = writeln!(
+                text,
+                "  {:<18} {:<12} {:<10} {:<12} {:<12} {:<12} {}",
+                found.measure.name().replace('_', " "),
+                figure(found.value),
+                found.increment,
+                figure(self.place_of(found, 0)),
+                figure(self.place_of(found, 1)),
+                figure(found.point.depth),
+                self.layer_name(found.point.layer)
+            );
+        }
+        if let Some(fatigue) = fatigue {
+            let _ = write!(text, "\n{fatigue}");
+        }
+        let _ = write!(text, "\nwritten to {} in {}", place.display(), duration(wall_s));
+        text
+    }
+}
+
+/// Whether a number that is not above zero is no tension at all.
+fn names_tension(measure: Measure) -> bool {
+    matches!(measure, Measure::Tension | Measure::Hydrostatic | Measure::Peel)
+}

@@ -1,0 +1,12 @@
+//! Fields on the cells of a grid: arithmetic with the vector instructions of the machine, and how fields are stored. No mechanics.
+
+mod arithmetic;
+mod each_cell;
+mod registers;
+pub(crate) mod stored;
+mod tangential;
+
+pub use arithmetic::{add_scaled, dot, largest, lower, norm, sum};
+pub use each_cell::{CellRule, CellSize, convert, each_cell, largest_of};
+pub use registers::{Number, Reals};
+pub use tangential::TangentialField;

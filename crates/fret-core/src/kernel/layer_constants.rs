@@ -1,0 +1,50 @@
+//! Elastic constants of a layer, as the formulas of layers use them.
+
+use crate::model::ElasticMaterial;
+
+/// Elastic constants of one material, as the layer formulas use them.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct LayerConstants {
+    /// Poisson's ratio.
+    pub(super) nu: f64,
+    /// Shear modulus \[pressure\].
+    pub(super) mu: f64,
+    /// `1 / (2 (1 - nu))`
+    pub(super) b: f64,
+    /// `(1 - 2 nu) / (2 (1 - nu))`
+    pub(super) g: f64,
+    /// `(1 - nu) / mu`, compliance of the half-space [1/pressure].
+    pub(super) c0: f64,
+    /// `b (1 - 4 nu)`
+    pub(super) b_one_minus_4nu: f64,
+    /// `(1 - g) (1 + g)`
+    pub(super) one_minus_g2: f64,
+}
+
+impl LayerConstants {
+    pub(crate) fn new(material: &ElasticMaterial) -> Self {
+        let nu = material.poisson();
+        let mu = material.shear_modulus();
+        let b = 0.5 / (1.0 - nu);
+        let g = (1.0 - 2.0 * nu) * b;
+        Self {
+            nu,
+            mu,
+            b,
+            g,
+            c0: (1.0 - nu) / mu,
+            b_one_minus_4nu: b * (1.0 - 4.0 * nu),
+            one_minus_g2: (1.0 - g) * (1.0 + g),
+        }
+    }
+
+    /// Poisson's ratio.
+    pub(crate) fn poisson(&self) -> f64 {
+        self.nu
+    }
+
+    /// Shear modulus \[pressure\].
+    pub(crate) fn shear_modulus(&self) -> f64 {
+        self.mu
+    }
+}

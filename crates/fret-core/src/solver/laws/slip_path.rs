@@ -1,0 +1,139 @@
+//! The path of slip inside an increment: which part of it the increment's equations do not see, to second order in the increments.
+//!
+//! The friction law holds at the end of the increment, by the slip rate there. The end-point rule (backward Euler) takes for it the
+//! change of displacement over the whole increment, and errs to first order in three ways: slip turns on its way; cells that come into
+//! contact count a way that they went before they touched; cells that come to rest have slipped before that. Here the law takes
+//!
+//! ```text
+//! s_end = M (s - a),    M v = v - c max(v . l, 0) l
+//! ```
+//!
+//! with `s` the change of displacement in the increment and `l` the unit direction of the last slip increment, both of the cell.
+//! *Turn:* directions of chords are those of the rates in their middles, to second order; carried on linearly from the middle of the
+//! last increment over the middle of this one to its end, the direction is turned on by `rho / (1 + rho)` of the angle between the
+//! chords, rho the ratio of this increment to the last. `M` does that with `c = rho / (1 + 2 rho)`: the tangent of the angle to l grows
+//! by `1 / (1 - c)`. It is continuous, piecewise linear, and of degree one. *Entry and stop* are offsets `a`: see `slip_history`. An
+//! offset along l turns too, and c is the smaller for it. The rule is new; its derivation and its orders, measured:
+//! `docs/theory/second-order.md`.
+
+use super::super::contact_set::ContactSet;
+use crate::fields::{Reals, TangentialField};
+
+/// What is known of the paths before an increment is solved, over the cells of a region or packed over a contact. With empty fields it is
+/// the end-point rule.
+#[derive(Debug, Clone, Default)]
+pub struct SlipPath {
+    /// `sqrt(c) l` [-].
+    pub turn: TangentialField,
+    /// The offset a [length].
+    pub ahead: TangentialField,
+    /// Of `s - a` of a cell that enters contact, the part that is slip: from the moment of touch on [-].
+    pub touching: Vec<f64>,
+}
+
+impl SlipPath {
+    /// Paths that go straight from the start of the increment to its end, in so many cells.
+    pub fn straight(cells: usize) -> Self {
+        let zeros = || TangentialField::zeros(cells);
+        Self { turn: zeros(), ahead: zeros(), touching: vec![1.0; cells] }
+    }
+
+    /// Whether it is another rule than that of the end point.
+    pub fn turns(&self) -> bool {
+        !self.turn.x.is_empty()
+    }
+
+    /// A cell goes on from its last slip increment [length], in an increment `ratio` times as long, of which a share `stop` lies before the
+    /// moment at which it may come to rest.
+    pub fn go_on(&mut self, cell: usize, last: [f64; 2], (ratio, stop): (f64, f64)) {
+        let length = last[0].hypot(last[1]);
+        if !(length > 0.0) {
+            return;
+        }
+        let along = last.map(|part| part / length);
+        let kept = (1.0 + ratio) / (1.0 + 2.0 * ratio);
+        let root = (1.0 - kept / (1.0 - stop)).max(0.0).sqrt();
+        self.turn.set(cell, along.map(|part| part * root));
+        self.ahead.set(cell, last.map(|part| part * ratio * stop));
+    }
+
+    /// Slip at the end of the increment, up to a factor, of a cell whose slip less the offset is given.
+    pub fn end_of(&self, cell: usize, slip: [f64; 2]) -> [f64; 2] {
+        if !self.turns() {
+            return slip;
+        }
+        let turn = self.turn.at(cell);
+        let along = (slip[0] * turn[0] + slip[1] * turn[1]).max(0.0);
+        [slip[0] - along * turn[0], slip[1] - along * turn[1]]
+    }
+
+    /// Slip increment of a cell, from its slip less the offset: from the moment of touch, where it `was_open`.
+    pub fn counted(&self, cell: usize, slip: [f64; 2], was_open: bool) -> [f64; 2] {
+        match (self.turns(), was_open) {
+            (false, _) => slip,
+            (true, true) => slip.map(|part| part * self.touching[cell]),
+            (true, false) => [0, 1].map(|axis| slip[axis] + self.ahead.at(cell)[axis]),
+        }
+    }
+
+    /// The turn packed over a contact.
+    pub fn packed(&self, contact: &ContactSet) -> Self {
+        if !self.turns() {
+            return Self::default();
+        }
+        Self { turn: contact.packed_tangential(&self.turn), ..Self::default() }
+    }
+}
+
+/// `M v` with `turn = sqrt(c) l`.
+#[inline(always)]
+pub fn end_of_chord<R: Reals>(slip: [R; 2], turn: [R; 2]) -> [R; 2] {
+    let along = (slip[0] * turn[0] + slip[1] * turn[1]).max(slip[0].all(0.0));
+    [slip[0] - along * turn[0], slip[1] - along * turn[1]]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Slip along a circle with even speed: chords of unequal angles. The end of the last one has the direction of the circle there up to
+    /// the third order in the angles (the chord itself: first).
+    #[test]
+    fn chords_of_a_circle_end_along_it() {
+        let point = |angle: f64| [angle.cos(), angle.sin()];
+        for ratio in [0.5, 1.0, 2.0] {
+            for stop in [0.0, 0.15] {
+                let errors = [0.1, 0.05].map(|step: f64| {
+                    let angles = [-step / ratio, 0.0, step].map(point);
+                    let chord = |k: usize| [0, 1].map(|axis| angles[k + 1][axis] - angles[k][axis]);
+                    let (last, this) = (chord(0), chord(1));
+                    let mut path = SlipPath::straight(1);
+                    path.go_on(0, last, (ratio, stop));
+                    let ahead = path.ahead.at(0);
+                    let end = path.end_of(0, [this[0] - ahead[0], this[1] - ahead[1]]);
+                    // Direction of the circle at the end, less that of the found vector.
+                    (step + std::f64::consts::FRAC_PI_2 - end[1].atan2(end[0])).abs()
+                });
+                assert!(
+                    errors[1] < 0.3 * errors[0] + 1e-12 && errors[0] < 2e-3,
+                    "{ratio} {stop}: {errors:?}"
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn what_sticks_stays_and_what_turns_back_is_left_alone() {
+        let mut path = SlipPath::straight(2);
+        path.go_on(0, [3.0, 4.0], (1.0, 0.0));
+        assert_eq!(path.end_of(0, [0.0; 2]), [0.0; 2]);
+        assert_eq!(path.end_of(0, [-1.0, 0.5]), [-1.0, 0.5]); // backwards
+        assert_eq!(path.end_of(1, [1.0, 2.0]), [1.0, 2.0]); // nothing known
+        let along = path.end_of(0, [3.0, 4.0]);
+        assert!((along[0] - 2.0).abs() < 1e-15 && (along[1] - 8.0 / 3.0).abs() < 1e-15);
+        assert_eq!(SlipPath::default().end_of(7, [1.0, 2.0]), [1.0, 2.0]);
+        path.touching[1] = 0.25;
+        assert_eq!(path.counted(1, [1.0, 2.0], true), [0.25, 0.5]);
+        assert_eq!(path.counted(1, [1.0, 2.0], false), [1.0, 2.0]);
+    }
+}
