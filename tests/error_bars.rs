@@ -7,7 +7,7 @@
 use fret_core::case::Case;
 use fret_core::plan::Plan;
 use fret_core::run::Silent;
-use fret_core::study::{Bars, ClosedForm, Quantity, solved_level, companion, error_bars};
+use fret_core::study::{Bars, ClosedForm, Quantity, companion, error_bars, solved_level};
 use fret_validation::Sphere;
 use serde::Deserialize;
 use std::f64::consts::PI;

@@ -4,7 +4,8 @@ use fret_core::case::Case;
 use fret_core::plan::Plan;
 use fret_core::run::Silent;
 use fret_core::study::{
-    RefinementStudy, ClosedForm, Form, Kind, Resolutions, ResolutionError, Line, Quantity, Source, Reference, solved_level,
+    ClosedForm, Form, Kind, Line, Quantity, Reference, RefinementStudy, ResolutionError, Resolutions, Source,
+    solved_level,
 };
 use fret_validation::Sphere;
 
@@ -13,7 +14,8 @@ fn planned(text: &str) -> Plan {
 }
 
 fn solved(plan: &Plan, resolutions: Resolutions) -> RefinementStudy {
-    let level = |place| (place, solved_level(&resolutions.at(place).planned(plan).unwrap(), &mut Silent).unwrap());
+    let level =
+        |place| (place, solved_level(&resolutions.at(place).planned(plan).unwrap(), &mut Silent).unwrap());
     let levels = resolutions.places().into_iter().map(level).collect();
     RefinementStudy::new(resolutions, levels)
 }
@@ -52,8 +54,11 @@ fn cells_show_the_orders_of_a_hertz_contact() {
     assert!((near - exact).abs() < (finest - exact).abs(), "limit {near}, finest {finest}, exact {exact}");
     // The advice is a level of the study where that is good enough, and its errors keep what is promised.
     let advice = study.advice(&reference, 1e-2);
-    let advised =
-        line.levels.iter().find(|level| Some(study.resolutions().cells[level.place[0]][0]) == advice.cells).unwrap();
+    let advised = line
+        .levels
+        .iter()
+        .find(|level| Some(study.resolutions().cells[level.place[0]][0]) == advice.cells)
+        .unwrap();
     assert!(!advice.concluded && advised.errors.worst(Form::Between).unwrap() <= 1e-2);
 }
 
@@ -118,6 +123,9 @@ fn impossible_ladders_are_refused() {
     let sphere = Sphere { friction: 0.3, ..Sphere::default() };
     let plan = planned(&sphere.pulled(&sphere.pressed(1.0, 1, "linear"), 0.5, 8, Some(1)));
     assert_eq!(Resolutions::new(&plan, &[2, 32], &[], &[]), Err(ResolutionError::Cells(2, 2)));
-    assert_eq!(Resolutions::new(&plan, &[], &[3], &[]), Err(ResolutionError::Increments(3, "pull".to_owned(), 4)));
+    assert_eq!(
+        Resolutions::new(&plan, &[], &[3], &[]),
+        Err(ResolutionError::Increments(3, "pull".to_owned(), 4))
+    );
     assert_eq!(Resolutions::new(&plan, &[], &[], &[0.5]), Err(ResolutionError::Tolerance(0.5)));
 }

@@ -6,10 +6,10 @@ use std::sync::Arc;
 
 use fret_core::case::FatigueRequest;
 use fret_core::history::History;
+use fret_core::history::Start;
 use fret_core::model::HalfSpace;
 use fret_core::plan::{LeaveOut, Plan};
 use fret_core::run::RunError;
-use fret_core::history::Start;
 use fret_core::study::{StageQuantities, companion};
 use fret_core::subsurface::{DepthPoint, LoadedSurface, survey};
 use serde_json::Value;
@@ -217,8 +217,8 @@ pub fn save(solved: Solved<'_>, case: CaseText, folder: &Path, earlier: Earlier)
     tally.stage_quantities = quantities.to_vec();
     tally.worn_through.clone_from(&history.worn_through);
     let wall_s = history.steps.iter().map(|step| step.wall_s).sum();
-    let ending = early
-        .map(|(status, message)| Ending { status: status.to_owned(), message: message.to_owned() });
+    let ending =
+        early.map(|(status, message)| Ending { status: status.to_owned(), message: message.to_owned() });
     results.close((&tally, &history.warnings), wall_s, ending.as_ref()).map_err(Failure::from)?;
     if let Some(text) = error_bars {
         write_whole(&folder.join(ERROR_BARS), text.as_bytes()).map_err(Failure::from)?;

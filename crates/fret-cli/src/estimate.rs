@@ -6,7 +6,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use fret_core::plan::{Coupling, Plan};
 use fret_core::run::{Observer, RunError};
-use fret_core::study::{Bar, Bars, StageQuantities, Quantity, solved_level, error_bars, resolved};
+use fret_core::study::{Bar, Bars, Quantity, StageQuantities, error_bars, resolved, solved_level};
 use serde_json::{Value, json};
 
 use crate::defect;

@@ -33,7 +33,10 @@ fn main() -> Result<(), Box<dyn Error>> {
         ("maximum contact pressure", end.max_pressure, hertz.max_pressure),
         ("approach", end.approach, hertz.approach),
     ] {
-        println!("{name:<26} {found:.5e}  Hertz {exact:.5e}  relative difference {:.1e}", found / exact - 1.0);
+        println!(
+            "{name:<26} {found:.5e}  Hertz {exact:.5e}  relative difference {:.1e}",
+            found / exact - 1.0
+        );
         if (found / exact - 1.0).abs() > 2e-3 {
             return Err(format!("{name} is not Hertz's").into());
         }

@@ -5,8 +5,8 @@ use std::sync::Arc;
 
 use fret_cli::embedded::{CaseText, Earlier};
 use fret_core::case::{self, Attachments, CaseError};
-use fret_core::plan::{LeaveOut, Plan};
 use fret_core::history;
+use fret_core::plan::{LeaveOut, Plan};
 use ndarray::Array2;
 use numpy::{PyArray2, PyReadonlyArray2, ToPyArray};
 use pyo3::IntoPyObject;

@@ -1,7 +1,7 @@
 //! From the core's refusals and failures to the exceptions of `fretting.errors`.
 
-use fret_core::case;
 use fret_cli::embedded::Stopped;
+use fret_core::case;
 use fret_core::run;
 use pyo3::PyErr;
 use pyo3::exceptions::{PyKeyboardInterrupt, PyRuntimeError, PyValueError};

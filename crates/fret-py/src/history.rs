@@ -79,7 +79,7 @@ pub fn step_items<'py>(py: Python<'py>, step: &StepRecord) -> PyResult<Bound<'py
 #[pyclass(frozen, module = "fretting._core")]
 pub struct History {
     /// Numbers and fields.
-    pub history: history::History,
+    pub solved: history::History,
     /// What was solved.
     pub plan: Plan,
     /// The case as it was read.
@@ -94,7 +94,7 @@ pub struct History {
 impl History {
     /// The numbers of all steps: one array a name, one entry an increment; `regime` is a list of words.
     fn increments<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        let steps = &self.history.steps;
+        let steps = &self.solved.steps;
         let items = PyDict::new(py);
         for (name, value) in COUNTS {
             let column: Vec<i64> = steps.iter().map(|step| value(step) as i64).collect();
@@ -110,29 +110,29 @@ impl History {
 
     /// The records of the cycles, as JSON text.
     fn cycles(&self) -> PyResult<String> {
-        serde_json::to_string(&self.history.cycles).map_err(bad_value)
+        serde_json::to_string(&self.solved.cycles).map_err(bad_value)
     }
 
     /// Where and when the surfaces were worn to the limit, as JSON text.
     fn worn_through(&self) -> PyResult<String> {
-        serde_json::to_string(&self.history.worn_through).map_err(bad_value)
+        serde_json::to_string(&self.solved.worn_through).map_err(bad_value)
     }
 
     /// What about the numbers may mislead, as JSON text.
     fn warnings(&self) -> PyResult<String> {
-        serde_json::to_string(&self.history.warnings).map_err(bad_value)
+        serde_json::to_string(&self.solved.warnings).map_err(bad_value)
     }
 
     /// Running condition of each stage's cycles, as JSON text.
     fn running_conditions(&self) -> PyResult<String> {
-        let of = |stage| running_condition(self.history.cycles.iter().filter(|cycle| cycle.stage == stage));
-        let conditions: Vec<_> = (0..self.history.stages.len()).map(of).collect();
+        let of = |stage| running_condition(self.solved.cycles.iter().filter(|cycle| cycle.stage == stage));
+        let conditions: Vec<_> = (0..self.solved.stages.len()).map(of).collect();
         serde_json::to_string(&conditions).map_err(bad_value)
     }
 
     /// The plan, as JSON text.
     fn plan(&self) -> String {
-        self.history.plan.to_string()
+        self.solved.plan.to_string()
     }
 
     /// Error bars, as JSON text, where they were asked for.
@@ -150,7 +150,7 @@ impl History {
     ) -> PyResult<()> {
         let solved = Solved {
             plan: &self.plan,
-            history: &self.history,
+            history: &self.solved,
             quantities: &self.quantities,
             early: early.as_ref().map(|(status, why)| (status.as_str(), why.as_str())),
             error_bars: self.error_bars.as_deref(),
@@ -161,22 +161,22 @@ impl History {
 
     /// Names of the stages.
     fn stages(&self) -> Vec<String> {
-        self.history.stages.clone()
+        self.solved.stages.clone()
     }
 
     /// The two bodies as JSON.
     fn bodies(&self) -> PyResult<String> {
-        serde_json::to_string(&self.history.bodies).map_err(crate::error::bad_value)
+        serde_json::to_string(&self.solved.bodies).map_err(crate::error::bad_value)
     }
 
     /// Sides of a cell [length].
     fn spacing(&self) -> [f64; 2] {
-        self.history.grid.spacing()
+        self.solved.grid.spacing()
     }
 
     /// Whether the scene repeats in x and y.
     fn periodic(&self) -> bool {
-        self.history.periodic
+        self.solved.periodic
     }
 
     /// Coordinates of the cell centres along axis 0 or 1 [length].
@@ -184,17 +184,17 @@ impl History {
         if axis > 1 {
             return Err(PyValueError::new_err(format!("axis = {axis}: must be 0 or 1")));
         }
-        Ok(self.history.grid.centres(axis).into_pyarray(py))
+        Ok(self.solved.grid.centres(axis).into_pyarray(py))
     }
 
     /// Increments whose fields are kept.
     fn kept_increments(&self) -> Vec<usize> {
-        self.history.fields.iter().map(|kept| kept.increment).collect()
+        self.solved.fields.iter().map(|kept| kept.increment).collect()
     }
 
     /// Names of the fields kept of an increment; none when nothing of it is kept.
     fn kept_fields(&self, increment: usize) -> Vec<&'static str> {
-        self.history.fields_of(increment).map_or_else(Vec::new, |kept| {
+        self.solved.fields_of(increment).map_or_else(Vec::new, |kept| {
             let groups: [(bool, &[&str]); 6] = [
                 (kept.pressure.is_some(), &["pressure"]),
                 (kept.shear.is_some(), &["shear_x", "shear_y"]),
@@ -209,8 +209,10 @@ impl History {
 
     /// A kept field, shape `(nx, ny)`: a copy, the caller's own.
     fn field<'py>(&self, py: Python<'py>, name: &str, increment: usize) -> PyResult<Bound<'py, PyAny>> {
-        let kept =
-            self.history.fields_of(increment).ok_or_else(|| PyKeyError::new_err((name.to_owned(), increment)))?;
+        let kept = self
+            .history
+            .fields_of(increment)
+            .ok_or_else(|| PyKeyError::new_err((name.to_owned(), increment)))?;
         if let ("zone", Some(zones)) = (name, &kept.zone) {
             return Ok(zones.mapv(|zone| zone as u8).into_pyarray(py).into_any());
         }

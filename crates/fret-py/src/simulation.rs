@@ -127,7 +127,7 @@ pub fn run(
                 (history, result, bars, std::mem::take(&mut reporter.quantities))
             })
         })
-    })?;
+    });
     let (history, result, bars, quantities) = answer;
     let mut ended = interruption.or_else(|| result.err().map(|error| failed(&error)));
     let error_bars = match bars {
@@ -139,7 +139,7 @@ pub fn run(
         }
         None => None,
     };
-    Ok((History { history, plan, case: text, quantities, error_bars }, ended))
+    Ok((History { solved: history, plan, case: text, quantities, error_bars }, ended))
 }
 
 /// As [`run`], into a folder, which then holds the history. `how`: resume, replace, estimate the error.
@@ -158,7 +158,7 @@ pub fn run_into(
     let how = (earlier(resume, replace), estimate_error, threads.number());
     let (result, interruption) = py.detach(|| {
         listen(&plan, on_step.as_ref(), |reporter| embedded::run_into(text, start, &folder, how, reporter))
-    })?;
+    });
     Ok(interruption.or_else(|| result.err().map(stopped)))
 }
 
@@ -168,7 +168,7 @@ pub fn listen<T: Send>(
     plan: &Plan,
     on_step: Option<&Py<PyAny>>,
     work: impl FnOnce(&mut Reporter<'_>) -> T + Send,
-) -> PyResult<(T, Option<PyErr>)> {
+) -> (T, Option<PyErr>) {
     let stop = AtomicBool::new(false);
     let (news, inbox) = sync_channel(0);
     let (hear, heard) = sync_channel(1);
@@ -205,7 +205,7 @@ pub fn listen<T: Send>(
         }
     });
     let answer = answer.unwrap_or_else(|panic| resume_unwind(panic));
-    Ok((answer, interruption))
+    (answer, interruption)
 }
 
 /// Tells Python about a step, and asks it whether Ctrl-C was pressed.

@@ -29,8 +29,8 @@ impl Start {
     /// The state at the end of an increment of a history.
     #[staticmethod]
     fn from_history(history: &History, increment: usize) -> PyResult<Self> {
-        let state = history::Start::of(&history.history, increment).ok_or_else(|| {
-            let all: Vec<_> = history::Start::all_of(&history.history).iter().map(usize::to_string).collect();
+        let state = history::Start::of(&history.solved, increment).ok_or_else(|| {
+            let all: Vec<_> = history::Start::all_of(&history.solved).iter().map(usize::to_string).collect();
             PyValueError::new_err(format!(
                 "start: the history has no state at the end of increment {increment}; it has those of {}: increments whose \
                  pressure, shear and slip are kept ([output]), and the last of every stage",

@@ -29,7 +29,7 @@ pub fn study(
             let mut guest = reporter.silently();
             pool.install(|| embedded::study(&plan, request, progress, &mut guest))
         })
-    })?;
+    });
     match interruption {
         Some(error) => Err(error),
         None => answer.map(|answer| answer.to_string()).map_err(stopped),

@@ -124,7 +124,9 @@ pub fn fatigue<'py>(
     if surfaces.iter().any(|surface| {
         is_odd(&surface.pressure) || surface.shear.iter().chain(&surface.slip).flatten().any(is_odd)
     }) {
-        return Err(PyValueError::new_err(format!("fields of other shapes than the first pressure, {shape:?}")));
+        return Err(PyValueError::new_err(format!(
+            "fields of other shapes than the first pressure, {shape:?}"
+        )));
     }
     let grid = SurfaceGrid::new([shape.0, shape.1], spacing).map_err(bad_value)?;
     let section = on_pool(py, threads, || {

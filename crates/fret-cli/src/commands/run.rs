@@ -5,12 +5,12 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
+use fret_core::history::Warning;
 use fret_core::history::WornThrough;
 use fret_core::machine::memory::{self, Claim};
 use fret_core::plan::{LeaveOut, Plan};
 use fret_core::run::{Checkpoint, Observer, RunError, Simulation, plausibility};
 use fret_core::study::{StageQuantities, companion};
-use fret_core::history::Warning;
 use serde_json::{Value, json};
 
 use super::run_observer::{Clock, RunObserver};

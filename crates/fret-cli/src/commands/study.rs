@@ -6,7 +6,9 @@ use std::path::Path;
 use fret_core::machine::memory;
 use fret_core::plan::Plan;
 use fret_core::run::{Observer, RunError};
-use fret_core::study::{Advice, RefinementStudy, ClosedForm, Kind, Resolutions, Line, Place, Level, Reference, solved_level};
+use fret_core::study::{
+    Advice, ClosedForm, Kind, Level, Line, Place, Reference, RefinementStudy, Resolutions, solved_level,
+};
 use serde_json::{Value, json};
 
 use crate::arguments::StudyArguments;
@@ -117,8 +119,11 @@ pub fn studied(
         study.resolutions().increments.len() > 1,
         plan.case.cells[1] as f64 / plan.case.cells[0] as f64,
     );
-    let measured =
-        if table::shows_errors(&lines) { words::measured_by(&reference) } else { words::NO_ERRORS.to_owned() };
+    let measured = if table::shows_errors(&lines) {
+        words::measured_by(&reference)
+    } else {
+        words::NO_ERRORS.to_owned()
+    };
     let record = answer(title, &reference, (&study, &lines), (&advice, &choice), &unsolved);
     Ok(Studied { record, study, lines, measured, choice })
 }

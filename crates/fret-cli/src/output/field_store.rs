@@ -9,6 +9,7 @@ use std::borrow::Cow;
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use fret_core::case::Units;
 use fret_core::history::KeptFields;
 use fret_core::model::{SurfaceGrid, Zone};
 use fret_core::plan::Plan;
@@ -23,6 +24,8 @@ use crate::failure::Unwritten;
 pub struct FieldStore {
     path: PathBuf,
     title: String,
+    /// Units that the case declares.
+    units: Option<Units>,
     grid: SurfaceGrid,
     arrays: Vec<&'static FieldArray>,
     /// Numbers of the increments along `increment`.
@@ -43,10 +46,10 @@ struct FieldArray {
     units: &'static str,
 }
 
-const PRESSURE: &str = "case units: pressure";
+const PRESSURE: &str = "pressure";
 /// The one chunk of the axis `increment`.
 const STEPS: &str = "increment/c/0";
-const LENGTH: &str = "case units: length";
+const LENGTH: &str = "length";
 
 const FIELD_ARRAYS: [FieldArray; 8] = [
     FieldArray {
@@ -155,6 +158,7 @@ impl FieldStore {
         Self {
             path: path.to_owned(),
             title: plan.case.title.clone(),
+            units: plan.case.units.clone(),
             grid: plan.grid,
             arrays: FIELD_ARRAYS.iter().filter(asked).collect(),
             steps: if grows { grown } else { plan.case.kept_increments() },
@@ -206,7 +210,9 @@ impl FieldStore {
         let axes = [("x", centre(nx)), ("y", centre(ny)), ("increment", number)];
         let is_line = self.grid.is_line();
         let axes = axes.into_iter().filter(|(name, _)| !(is_line && *name == "y"));
-        let axes = axes.map(|(name, axis)| (name, axis_metadata(name, axis)));
+        let axes = axes.map(|(name, (kind, unit, long_name, length))| {
+            (name, axis_metadata(name, (kind, &self.unit(unit), long_name, length)))
+        });
         let arrays = self.arrays.iter().map(|array| (array.name, self.field_metadata(array)));
         let mut all = serde_json::Map::new();
         for (name, metadata) in axes.chain(arrays) {
@@ -222,10 +228,19 @@ impl FieldStore {
         self.write_text("zarr.json", &group)
     }
 
+    /// The unit of a kind of quantity: what the case declares, or that there is none declared.
+    fn unit(&self, kind: &str) -> String {
+        match &self.units {
+            _ if kind == "1" => kind.to_owned(),
+            Some(units) => units.of(kind),
+            None => format!("case units: {kind}"),
+        }
+    }
+
     fn field_metadata(&self, array: &FieldArray) -> Value {
         let [nx, ny] = self.grid.cells();
         let zone = array.name == "zone";
-        let mut attributes = json!({ "units": array.units, "long_name": array.long_name });
+        let mut attributes = json!({ "units": self.unit(array.units), "long_name": array.long_name });
         if zone {
             attributes["flag_values"] = json!([0, 1, 2]);
             attributes["flag_meanings"] = json!("open stick slip");

@@ -3,7 +3,7 @@
 
 use std::fmt::Write;
 
-use fret_core::study::{RefinementStudy, Form, Kind, Line, Quantity};
+use fret_core::study::{Form, Kind, Line, Quantity, RefinementStudy};
 
 use crate::report::html::escaped;
 use crate::report::scale::Axis;

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use fret_core::study::{RefinementStudy, Errors, Form, Judged, Kind, Line, Quantity, Variation};
+use fret_core::study::{Errors, Form, Judged, Kind, Line, Quantity, RefinementStudy, Variation};
 use serde_json::{Value, json};
 
 use crate::study::words::name;

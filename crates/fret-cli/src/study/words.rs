@@ -1,6 +1,6 @@
 //! What a study says in words: what it was compared with, and what to choose.
 
-use fret_core::study::{Advice, Quantity, Source, Reference};
+use fret_core::study::{Advice, Quantity, Reference, Source};
 
 /// Why a study shows no errors.
 pub const NO_ERRORS: &str = "no errors: no closed form is available for this case, and a single level cannot be compared \

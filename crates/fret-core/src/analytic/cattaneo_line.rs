@@ -68,14 +68,7 @@ impl CattaneoLine {
             });
         }
         let stick_offset = per_strain * strain * if tangential_force < 0.0 { -1.0 } else { 1.0 };
-        Ok(Self {
-            tangential_force,
-            sliding_force,
-            half_width: a,
-            max_shear,
-            stick_half_width,
-            stick_offset,
-        })
+        Ok(Self { tangential_force, sliding_force, half_width: a, max_shear, stick_half_width, stick_offset })
     }
 
     /// Shear at `x` from the middle [pressure], with the sign of the force; zero outside the contact.

@@ -69,14 +69,7 @@ impl StretchedSphere {
             });
         }
         let stick_offset = per_strain * strain * if tangential_force < 0.0 { -1.0 } else { 1.0 };
-        Ok(Self {
-            tangential_force,
-            sliding_force,
-            contact_radius: a,
-            max_shear,
-            stick_radius,
-            stick_offset,
-        })
+        Ok(Self { tangential_force, sliding_force, contact_radius: a, max_shear, stick_radius, stick_offset })
     }
 
     /// Shear along x at a point [pressure], with the sign of the force; zero outside the contact.

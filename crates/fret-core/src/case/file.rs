@@ -17,6 +17,8 @@ use crate::model::{Integration, Scheme};
 pub(super) struct CaseFile {
     /// A title for tables and figures.
     pub title: Option<String>,
+    /// Units of the numbers in the case, which then stand on axes and in attributes. Default: none, any consistent system of units.
+    pub units: Option<UnitsFile>,
     /// The mesh of the potential contact area.
     pub grid: GridFile,
     /// The body that moves.
@@ -42,6 +44,18 @@ pub(super) struct CaseFile {
     /// Subsurface stresses, evaluated from the kept tractions after the run.
     #[schemars(with = "Option<StressFile>")]
     pub stress: Option<Spanned<StressFile>>,
+}
+
+/// Units of the numbers in the case. Nothing is converted: results are in the same units.
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(super) struct UnitsFile {
+    /// Unit of every length, such as "mm".
+    #[schemars(with = "String")]
+    pub length: Spanned<String>,
+    /// Unit of every force, such as "N". That of pressures and moduli follows: `MPa` for mm and N.
+    #[schemars(with = "String")]
+    pub force: Spanned<String>,
 }
 
 /// The mesh of the potential contact area, centred on the first point of touch.
@@ -264,8 +278,8 @@ pub(super) struct SolverFile {
     /// scheme), for comparison. Default: "monolithic".
     #[schemars(with = "Option<Scheme>")]
     pub scheme: Option<Spanned<Scheme>>,
-    /// "second_order": the friction law at the end of an increment takes the direction that slip has there; "end_point": the direction
-    /// of the whole slip increment (backward Euler, of first order), for comparison. Default: "second_order".
+    /// "`second_order`": the friction law at the end of an increment takes the direction that slip has there; "`end_point`": the direction
+    /// of the whole slip increment (backward Euler, of first order), for comparison. Default: "`second_order`".
     #[schemars(with = "Option<Integration>")]
     pub integration: Option<Spanned<Integration>>,
 }

@@ -24,6 +24,7 @@ mod stages;
 mod stress;
 mod surface_file;
 mod table;
+mod units;
 mod wearing;
 mod wording;
 
@@ -38,4 +39,5 @@ pub use read::toml_of;
 pub use refusal::{CaseError, Difference, Mistake};
 pub(crate) use stages::apart;
 pub use stress::{FatigueRequest, Side, StressRequest};
+pub use units::Units;
 pub use wording::{in_words, printable};

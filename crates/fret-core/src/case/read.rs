@@ -328,8 +328,8 @@ impl Case {
 /// # Errors
 /// With a reason, when the value is no table.
 pub fn toml_of(value: &serde_json::Value) -> Result<String, String> {
-    let table = toml::Table::try_from(without_null(value.clone()))
-        .map_err(|error| format!("not a case: {error}"))?;
+    let table =
+        toml::Table::try_from(without_null(value.clone())).map_err(|error| format!("not a case: {error}"))?;
     toml::to_string(&table).map_err(|error| format!("not a case: {error}"))
 }
 

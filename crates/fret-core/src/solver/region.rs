@@ -9,6 +9,7 @@ use crate::fields::TangentialField;
 
 /// A rectangular part of the grid.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[expect(clippy::unsafe_derive_deserialize, reason = "the unsafe part is inside ndarray's slicing macro")]
 pub struct Region {
     /// First cell.
     pub origin: [usize; 2],

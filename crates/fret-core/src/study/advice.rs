@@ -3,10 +3,10 @@
 use serde::Serialize;
 
 use super::errors::{Errors, Form};
-use super::quantities::Quantity;
-use super::resolutions::{Kind, Resolutions, Place};
 use super::level::Level;
+use super::quantities::Quantity;
 use super::reference::Reference;
+use super::resolutions::{Kind, Place, Resolutions};
 
 /// Cells and increments for an accuracy of every quantity of interest.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -58,7 +58,10 @@ fn largest(counts: &[usize]) -> usize {
 }
 
 /// The limit along the increments alone, at the most cells.
-fn limit_of_increments<'a>(resolutions: &Resolutions, level: &impl Fn(Place) -> Option<&'a Level>) -> Option<Reference> {
+fn limit_of_increments<'a>(
+    resolutions: &Resolutions,
+    level: &impl Fn(Place) -> Option<&'a Level>,
+) -> Option<Reference> {
     let [i, _, k] = resolutions.finest();
     let alone = Resolutions {
         cells: vec![resolutions.cells[i]],

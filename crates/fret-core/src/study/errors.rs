@@ -2,8 +2,8 @@
 
 use serde::Serialize;
 
-use super::quantities::{StageQuantities, Quantity};
 use super::level::Level;
+use super::quantities::{Quantity, StageQuantities};
 use super::reference::Reference;
 
 /// Share below which a motion or an energy is none.
@@ -101,7 +101,8 @@ fn error(
     reading: &dyn Fn(usize, Quantity) -> [f64; 2],
 ) -> Option<f64> {
     let exact = reference.of(quantity);
-    let scale_from = if quantity == Quantity::StickArea { reference.of(Quantity::ContactArea) } else { exact };
+    let scale_from =
+        if quantity == Quantity::StickArea { reference.of(Quantity::ContactArea) } else { exact };
     let largest =
         |values: &[Option<[f64; 2]>]| values.iter().flatten().map(|[x, y]| x.hypot(*y)).reduce(f64::max);
     let scale = largest(scale_from)?;

@@ -6,7 +6,7 @@
 use serde::Serialize;
 
 use super::errors::extrapolated;
-use super::quantities::{StageQuantities, Quantity};
+use super::quantities::{Quantity, StageQuantities};
 use super::resolutions::{ResolutionError, only_one_grid};
 use super::variation::{Variation, fewest};
 use crate::history::warning::CELLS_IN_RADIUS;

@@ -5,29 +5,29 @@
 //! between the cells (`Between`), and extrapolated with the next coarser grid (`Extrapolated`).
 
 mod advice;
-mod refinement_study;
 mod closed_form;
 mod errors;
 mod estimate;
 mod expectation;
-mod quantities;
-mod resolutions;
+mod level;
 mod limit;
 mod means;
 mod peak;
-mod level;
+mod quantities;
 mod reference;
+mod refinement_study;
+mod resolutions;
 mod variation;
 
 pub use advice::{Advice, advice, frontier};
-pub use refinement_study::{RefinementStudy, Judged, Line};
 pub use closed_form::ClosedForm;
 pub use errors::{Errors, Form, errors, orders};
 pub use estimate::{Bar, Bars, companion, error_bars, resolved};
 pub use expectation::{Expectation, expectation};
-pub use quantities::{StageQuantities, Quantity};
-pub use resolutions::{Kind, Resolutions, ResolutionError, Place};
-pub use peak::peak_pressure;
 pub use level::{Level, solved_level};
-pub use reference::{Source, Reference};
+pub use peak::peak_pressure;
+pub use quantities::{Quantity, StageQuantities};
+pub use reference::{Reference, Source};
+pub use refinement_study::{Judged, Line, RefinementStudy};
+pub use resolutions::{Kind, Place, ResolutionError, Resolutions};
 pub use variation::{Variation, VariationError};

@@ -5,11 +5,11 @@ use ndarray::Array2;
 use serde::Serialize;
 
 use super::closed_form::ClosedForm;
-use super::quantities::{StageQuantities, Quantity};
-use super::resolutions::{Kind, Resolutions, Place};
+use super::level::Level;
 use super::limit::still_missing;
 use super::means;
-use super::level::Level;
+use super::quantities::{Quantity, StageQuantities};
+use super::resolutions::{Kind, Place, Resolutions};
 use crate::model::SurfaceGrid;
 
 /// Where a reference comes from.

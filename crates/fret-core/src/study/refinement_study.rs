@@ -4,9 +4,9 @@ use serde::Serialize;
 
 use super::advice::{Advice, advice, frontier};
 use super::errors::{Errors, Form, errors, orders};
-use super::resolutions::{Kind, Resolutions, Place};
 use super::level::Level;
 use super::reference::Reference;
+use super::resolutions::{Kind, Place, Resolutions};
 
 /// A solved study. Levels that could not be solved are missing; without the finest one there is nothing to judge by.
 #[derive(Debug, Clone)]
@@ -122,7 +122,12 @@ impl RefinementStudy {
 
     /// What to choose for an accuracy of every quantity of interest.
     pub fn advice(&self, reference: &Reference, accuracy: f64) -> Advice {
-        advice(&self.resolutions, &|place| self.level(place), &|place| self.errors(reference, place), accuracy)
+        advice(
+            &self.resolutions,
+            &|place| self.level(place),
+            &|place| self.errors(reference, place),
+            accuracy,
+        )
     }
 
     /// What an order is counted in: cells along x, increments of all stages, the inverse of the tolerance.
