@@ -1,5 +1,6 @@
 """Histories written, opened and continued from Python; error bars and studies; increments found by what happens there."""
 
+import json
 from pathlib import Path
 from typing import Any
 
@@ -199,3 +200,29 @@ def test_closed_forms_of_layers_and_of_no_slip() -> None:
         with pytest.raises(ValueError, match="must have"):
             call()
 
+
+
+def test_declared_units_stand_on_axes_and_in_attributes(sphere_case: dict[str, Any], tmp_path: Path) -> None:
+    pytest.importorskip("xarray")
+    in_mm = {
+        "units": {"length": "mm", "force": "N"},
+        "grid": {"cells": [24, 24], "size": [0.24, 0.24]},
+        "upper": {"rigid": True},
+        "lower": {"substrate": {"young": 210e3, "poisson": 0.3}},
+        "profile": {"sphere": {"radius": 10.0}},
+        "load": [{"normal_force": 12.0, "increments": 1}],
+    }
+    history = fretting.run(in_mm, folder=tmp_path / "run")
+    assert history.units == {"length": "mm", "force": "N", "pressure": "MPa"}
+    data = history.to_xarray()
+    units = {name: data[name].attrs.get("units") for name in ("pressure", "approach", "dissipated_energy", "contact_area", "x")}
+    assert units == {"pressure": "MPa", "approach": "mm", "dissipated_energy": "N mm", "contact_area": "mm^2", "x": "mm"}
+    stored = json.loads((tmp_path / "run" / "fields.zarr" / "pressure" / "zarr.json").read_text())
+    assert stored["attributes"]["units"] == "MPa"
+    # Numbers are never converted: the same contact in metres has the same pressure in Pa.
+    in_m = fretting.run({**sphere_case, "grid": {"cells": [24, 24], "size": [240e-6, 240e-6]}})
+    ratio = in_m.increments["max_pressure"][-1] / history.increments["max_pressure"][-1]
+    assert ratio == pytest.approx(1e6, rel=1e-7)  # both within the solver's tolerance of 1e-8
+    assert "units" not in in_m.to_xarray()["pressure"].attrs
+    with pytest.raises(fretting.CaseError, match="symbol of a unit"):
+        fretting.run({**in_mm, "units": {"length": "milli metre", "force": "N"}})
