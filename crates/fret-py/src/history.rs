@@ -210,7 +210,7 @@ impl History {
     /// A kept field, shape `(nx, ny)`: a copy, the caller's own.
     fn field<'py>(&self, py: Python<'py>, name: &str, increment: usize) -> PyResult<Bound<'py, PyAny>> {
         let kept = self
-            .history
+            .solved
             .fields_of(increment)
             .ok_or_else(|| PyKeyError::new_err((name.to_owned(), increment)))?;
         if let ("zone", Some(zones)) = (name, &kept.zone) {
