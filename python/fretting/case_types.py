@@ -107,6 +107,12 @@ Held: TypeAlias = Literal["held"]
 Increments: TypeAlias = int | Auto
 
 
+Integration: TypeAlias = Literal["second_order", "end_point"]
+"""
+How slip is integrated over an increment.
+"""
+
+
 Law: TypeAlias = Literal["exponential", "linear"]
 """
 How Young's modulus runs over the depth.
@@ -229,6 +235,11 @@ class Solver(TypedDict):
     With `increments = "auto"`: tolerance of the adaptive sub-stepping, relative to the change of the tractions over the
     increment. Default: 0.03.
     """
+    integration: NotRequired[Integration]
+    """
+    "`second_order`": the friction law at the end of an increment takes the direction that slip has there; "`end_point`": the direction
+    of the whole slip increment (backward Euler, of first order), for comparison. Default: "`second_order`".
+    """
     scheme: NotRequired[Scheme]
     """
     "monolithic": pressure and shear together; "staggered": in alternation (Panagiotopoulos process, the published three-level
@@ -310,6 +321,21 @@ class Stress(TypedDict):
     """
 
 
+class Units(TypedDict):
+    """
+    Units of the numbers in the case. Nothing is converted: results are in the same units.
+    """
+
+    force: str
+    """
+    Unit of every force, such as "N". That of pressures and moduli follows: `MPa` for mm and N.
+    """
+    length: str
+    """
+    Unit of every length, such as "mm".
+    """
+
+
 class Wave(TypedDict):
     """
     A sinusoidal surface.
@@ -352,7 +378,7 @@ Component: TypeAlias = float | Held
 
 class Friction(TypedDict):
     """
-    Coulomb's law of friction.
+    Coulomb's law of friction, with a shear strength of the interface where it has one.
     """
 
     coefficient: NotRequired[float]
@@ -362,6 +388,11 @@ class Friction(TypedDict):
     map: NotRequired[Map]
     """
     One coefficient per cell: a .npy or text file, rows of numbers, or from Python an array; index [i, j] = [x, y].
+    """
+    max_shear: NotRequired[Coefficient]
+    """
+    Shear strength of the interface [pressure], zero or positive, a number or one for every cell: shear is at most the smaller of it
+    and the coefficient times the pressure. Default: none.
     """
 
 
@@ -683,6 +714,10 @@ class Case(TypedDict):
     title: NotRequired[str]
     """
     A title for tables and figures.
+    """
+    units: NotRequired[Units]
+    """
+    Units of the numbers in the case, which then stand on axes and in attributes. Default: none, any consistent system of units.
     """
     upper: Body
     """
