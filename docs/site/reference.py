@@ -48,7 +48,7 @@ FILES = [
     ("cycles.csv", "one row per cycle, of stages with cycles"),
     (
         "fields.zarr",
-        "fields of the kept increments (Zarr 3): one array per field, dimensions step, y, x; coordinates step, x, y",
+        "fields of the kept increments (Zarr 3): one array per field, dimensions increment, y, x; coordinates increment, x, y",
     ),
     ("run.json", "the run: program, version, plan, totals, status, warnings, origin"),
     ("error_bars.json", "with `--estimate-error`: value and bar of each quantity at the end of each stage"),
