@@ -4,7 +4,7 @@ use fret_core::analytic::{CattaneoLine, EffectiveModuli, HertzLine, SlidingCylin
 use fret_core::case::Case;
 use fret_core::history::{History, KeptFields};
 use fret_core::model::{ElasticMaterial, HalfSpace};
-use fret_core::subsurface::{LoadedSurface, depth_points, survey};
+use fret_core::subsurface::{EvenStress, LoadedSurface, depth_points, survey};
 use fret_validation::run;
 
 /// A cylinder of radius 1 on a half-space of modulus 1.
@@ -315,6 +315,7 @@ fn stress_under_a_sliding_cylinder_follows_muskhelishvili() {
     let points = depth_points(&half_space, &depths).unwrap();
     let [x, y] = kept.shear.clone().unwrap();
     let surface = LoadedSurface {
+        even: EvenStress::default(),
         increment: 0,
         pressure: kept.pressure.clone().unwrap(),
         shear: Some([x, y]),
@@ -357,4 +358,19 @@ fn stress_under_a_sliding_cylinder_follows_muskhelishvili() {
     })
     .unwrap();
     assert!(worst[0] < 5e-3 && worst[1..].iter().all(|error| *error < 1e-4), "{worst:?}");
+}
+
+/// The size of the grid is the depth that an approach is relative to: one of the two has to be said.
+#[test]
+fn an_approach_without_a_depth_it_is_relative_to_is_refused() {
+    let text = |grid: &str| {
+        format!(
+            "[grid]\ncells = 64\n{grid}\n[upper]\nrigid = true\n[lower]\nsubstrate = {{ young = 1.0, poisson = 0.3 }}\n\
+             [profile.cylinder]\nradius = 1.0\naxis = \"y\"\n[[load]]\napproach = 1e-4\nincrements = 1\n"
+        )
+    };
+    let error = Case::from_toml(&text("size = \"auto\""), "case.toml").unwrap_err();
+    assert!(error.to_string().contains("no datum"), "{error}");
+    assert!(Case::from_toml(&text("size = \"auto\"\ndatum = 0.1"), "case.toml").is_ok());
+    assert!(Case::from_toml(&text("size = 0.1"), "case.toml").is_ok());
 }

@@ -126,6 +126,7 @@ fn normal_and_tangential_force_that_rise_together_below_friction_stick() {
 }
 
 #[test]
+#[ignore = "long: 3 s"]
 fn changing_normal_force_all_the_cases_of_mindlin_and_deresiewicz() {
     let mu = FRICTION;
     // P up or down, with T up or down, from a loading or an unloading branch, faster or slower than mu: their table.
@@ -148,6 +149,7 @@ fn changing_normal_force_all_the_cases_of_mindlin_and_deresiewicz() {
 }
 
 #[test]
+#[ignore = "long: 17 s"]
 fn normal_and_tangential_cycles_in_and_out_of_phase() {
     for phase in [0.0, 90.0, 180.0] {
         let sphere = similar(48);

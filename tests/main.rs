@@ -8,6 +8,7 @@
 )]
 
 mod analytic_limits;
+mod bulk_stress;
 mod certified;
 mod coated_limits;
 mod coefficient_regimes;
@@ -22,6 +23,7 @@ mod layers;
 mod leaving_out;
 mod line_coefficients;
 mod line_contact;
+mod line_extremes;
 mod loadings;
 mod misleading;
 mod mutilated_cases;
@@ -36,5 +38,6 @@ mod sliding;
 mod subsurface;
 mod surfaces;
 mod taken_up;
+mod tilt;
 mod two_bodies;
 mod wear;

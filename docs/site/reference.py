@@ -2,7 +2,7 @@
 
     python docs/site/reference.py
 
-from the help texts of the command, the meanings of the columns and the docstrings of the package. A test compares the pages with what
+from the help texts of the command, the vocabulary of the results and the docstrings of the package. A test compares the pages with what
 this would write now.
 """
 
@@ -78,7 +78,7 @@ def output_files() -> str:
     """Return the page of the output files."""
     parts = [
         "# Output files\n",
-        "<!-- Written by docs/site/reference.py from the meanings in python/fretting: edit them there. -->\n",
+        "<!-- Written by docs/site/reference.py from the vocabulary in crates/fret-core/src/history (columns.rs, field_names.rs): edit it there. -->\n",
         "What `fret run CASE` writes into its results folder. Units are those of the case. How to read it: [Read the results](../do/read-results.md).\n",
         _table("file", FILES),
         "## history.csv\n\nAlso `history.increments` in Python. Increments count from 0.\n",

@@ -48,6 +48,7 @@ __all__ = [
     "tilted_line_punch",
     "tilted_punch",
     "torsion",
+    "vocabulary",
     "westergaard",
 ]
 
@@ -63,6 +64,7 @@ class Case:
     ) -> Case: ...
     def __reduce__(self) -> tuple[Callable[..., Case], tuple[Any, ...]]: ...
 
+def vocabulary() -> str: ...
 @final
 class History:
     def increments(self) -> dict[str, npt.NDArray[Any] | list[str]]: ...
@@ -71,6 +73,7 @@ class History:
     def warnings(self) -> str: ...
     def running_conditions(self) -> str: ...
     def stages(self) -> list[str]: ...
+    def residual_stress(self) -> str: ...
     def plan(self) -> str: ...
     def error_bars(self) -> str | None: ...
     def save(self, folder: Path, replace: bool, early: tuple[str, str] | None) -> None: ...
@@ -137,6 +140,7 @@ def subsurface_stress(
     periodic: bool,
     tractions: tuple[npt.NDArray[np.float64], tuple[npt.NDArray[np.float64], npt.NDArray[np.float64]] | None],
     depths: list[float],
+    even: tuple[tuple[float, float], str],
     threads: int | None,
 ) -> dict[str, npt.NDArray[Any]]: ...
 
@@ -194,8 +198,10 @@ def fatigue(
             npt.NDArray[np.float64],
             tuple[npt.NDArray[np.float64], npt.NDArray[np.float64]] | None,
             tuple[npt.NDArray[np.float64], npt.NDArray[np.float64]] | None,
+            tuple[float, float],
         ]
     ],
+    residual_stress: str,
     depths: list[float],
     request: str,
     threads: int | None,

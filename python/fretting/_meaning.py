@@ -1,8 +1,11 @@
-"""What every number and field of a history means; the one place that says so."""
+"""What every number and field of a history means: the vocabulary of the compiled module, with its units."""
 
+import json
 import re
 from collections.abc import Mapping
-from typing import Literal, get_args
+from typing import Any, Literal, get_args
+
+from fretting import _core
 
 FieldName = Literal["pressure", "shear_x", "shear_y", "slip_x", "slip_y", "gap", "zone", "worn_depth"]
 FIELD_NAMES: tuple[str, ...] = get_args(FieldName)
@@ -10,45 +13,33 @@ VectorName = Literal["shear", "slip"]
 VECTORS: tuple[str, ...] = get_args(VectorName)
 """Fields of two components, as ``[output] fields`` of a case names them."""
 
-MEANING = {
-    "pressure": "contact pressure, compression positive [pressure]",
-    "shear_x": "shear traction on the lower body along x [pressure]",
-    "shear_y": "shear traction on the lower body along y [pressure]",
-    "slip_x": "relative slip along x since the start, upper body relative to lower, signed [length]",
-    "slip_y": "relative slip along y since the start, upper body relative to lower, signed [length]",
-    "gap": "gap between the surfaces [length]",
-    "zone": "zone: 0 open, 1 stick, 2 slip",
-    "worn_depth": "wear depth of both bodies together [length]",
-    "normal_force": "normal force, compression positive [force]",
-    "approach": "rigid normal approach [length]",
-    "tangential_force_x": "tangential force on the lower body along x [force]",
-    "tangential_force_y": "tangential force on the lower body along y [force]",
-    "shift_x": "rigid tangential displacement of the upper body along x [length]",
-    "shift_y": "rigid tangential displacement of the upper body along y [length]",
-    "twist_moment": "moment about z on the lower body [force x length]",
-    "twist": "rotation of the upper body about z [rad]",
-    "max_pressure": "maximum contact pressure of a cell [pressure]",
-    "max_shear": "maximum shear traction of a cell [pressure]",
-    "contact_area": "contact area [length^2]",
-    "stick_area": "stick area [length^2]",
-    "dissipated_energy": "dissipated energy since the start, including the cycles represented by cycle jumps [force x length]",
-    "worn_volume": "wear volume since the start, including the cycles represented by cycle jumps [length^3]",
-    "max_worn_depth": "maximum wear depth [length]",
-    "residual": "largest of the complementarity, Coulomb and equilibrium residuals, relative [-]",
-    "wall_s": "time spent on the increment [s]",
-    "increment": "number of the increment in the whole history, from 0",
-    "stage": "number of the stage, from 0",
-    "parts": 'number of sub-steps: more than 1 with increments = "auto", or where the whole increment did not converge',
-    "contact_cells": "cells in contact",
-    "stick_cells": "stick cells",
-    "convolutions": "operator applications, each one fused pass whatever its components",
-    "full_grid_convolutions": "the same, each weighted by its fraction of the cells of the whole grid",
-    "preconditioner_passes": "preconditioner applications",
-    "outer_iterations": "changes of the contact, stick and slip zones",
-    "regime": "sliding condition: apart, full_stick, partial_slip, gross_slip or frictionless",
-}
+_VOCABULARY: dict[str, Any] = json.loads(_core.vocabulary())
+_KINDS: dict[str, type] = {"int": int, "float": float, "bool": bool, "str": str}
 
-ZONE_NAMES = ("open", "stick", "slip")
+
+def _meanings(entries: list[dict[str, str]]) -> dict[str, str]:
+    return {
+        entry["name"]: entry["meaning"] + (f" [{entry['unit']}]" if entry["unit"] else "") for entry in entries
+    }
+
+
+def _kinds(entries: list[dict[str, str]]) -> dict[str, type]:
+    return {entry["name"]: _KINDS[entry["kind"]] for entry in entries}
+
+
+STEP_KINDS = _kinds(_VOCABULARY["steps"])
+"""Type of every number of an increment, in the order of ``history.csv``."""
+
+CYCLE_KINDS = _kinds(_VOCABULARY["cycles"])
+"""Type of every number of a cycle, in the order of ``cycles.csv``."""
+
+MEANING = _meanings(_VOCABULARY["fields"]) | _meanings(_VOCABULARY["steps"])
+"""Meaning of every field and of every number of an increment."""
+
+CYCLE_MEANING = _meanings(_VOCABULARY["cycles"])
+"""Meaning of every number of a cycle."""
+
+ZONE_NAMES: tuple[str, ...] = tuple(_VOCABULARY["zones"])
 """Names of the zones 0, 1, 2."""
 
 

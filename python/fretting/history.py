@@ -68,7 +68,8 @@ class History:
         ``shift_x``, ``shift_y``, ``twist_moment``, ``twist``, ``max_pressure``, ``max_shear``, ``contact_area``,
         ``stick_area``, ``dissipated_energy``, ``worn_volume`` (both since the start, over all cycles that computed ones
         stand for), ``max_worn_depth``, ``residual``, ``wall_s`` (float); ``increment``, ``stage``, ``contact_cells``, ``stick_cells``, ``convolutions``, ``preconditioner_passes``, ``outer_iterations``, ``parts``
-        (int); ``full_grid_convolutions`` (float); ``regime`` (str).
+        (int); ``full_grid_convolutions``, ``tilt_x``, ``tilt_y``, ``tilt_moment_x``, ``tilt_moment_y``, ``bulk_stress_x``, ``bulk_stress_y`` (of the lower body),
+        ``upper_bulk_stress_x``, ``upper_bulk_stress_y``, ``bulk_work`` (float); ``regime`` (str).
     x, y : ndarray
         Coordinates of the cell centres [length], shapes (nx,) and (ny,); of a line contact `y` is one zero.
     stages : list of str
@@ -124,6 +125,7 @@ class History:
     _folder: Path | None
     _kept: _Kept
     _bodies: str
+    _residual_stress: str
     _spacing: tuple[float, float]
     _periodic: bool
 
@@ -139,6 +141,7 @@ class History:
         self.y = answer.centres(1)
         self.stages = answer.stages()
         self._bodies = answer.bodies()
+        self._residual_stress = answer.residual_stress()
         dx, dy = answer.spacing()
         self._spacing = (dx, dy)
         self._periodic = answer.periodic()
@@ -368,8 +371,8 @@ class History:
     ) -> "xarray.Dataset":
         """Return the subsurface stress of one body, from the kept tractions of an increment.
 
-        Axes x and y of the contact, z into the body in question, from its own surface; tension is positive. Under the
-        centres of the cells, exact for tractions that are uniform over each cell.
+        Bulk stress and residual stress are included, layer by layer. Axes x and y of the contact, z into the body in
+        question, from its own surface; tension is positive. Under the centres of the cells, exact for tractions that are uniform over each cell.
 
         Parameters
         ----------
@@ -426,6 +429,8 @@ class History:
         threads: int | None = None,
     ) -> "xarray.Dataset":
         """Return fatigue parameters over a cycle, on the section along x nearest to y = 0.
+
+        Bulk stress and residual stress are included, layer by layer.
 
         Parameters
         ----------

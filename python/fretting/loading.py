@@ -11,16 +11,11 @@ from typing import Any, NoReturn
 import numpy as np
 import numpy.typing as npt
 
-from fretting._meaning import FIELD_NAMES, MEANING
+from fretting._meaning import FIELD_NAMES, STEP_KINDS
 from fretting.cycles import MEANING as CYCLE_COLUMNS
 from fretting.cycles import columns
 from fretting.errors import MissingFileError, UnreadableError
 from fretting.history import History, Table
-
-COUNTS = {
-    "increment", "stage", "parts", "contact_cells", "stick_cells", "convolutions", "preconditioner_passes",
-    "outer_iterations",
-}  # fmt: skip
 
 
 def open_results(folder: str | os.PathLike[str]) -> History:
@@ -84,6 +79,7 @@ def open_results(folder: str | os.PathLike[str]) -> History:
     history.worn_through = record.get("worn_through")
     history.warnings = record.get("warnings", [])
     history._bodies = json.dumps(plan["case"]["bodies"])
+    history._residual_stress = json.dumps(plan["case"].get("residual_stress", [{"layers": []}, {"layers": []}]))
     dx, dy = plan["grid"]["spacing"]
     history._spacing = (dx, dy)
     history._periodic = bool(plan["case"]["periodic"])
@@ -181,9 +177,8 @@ def _steps(path: Path, whole: bool) -> Table:
     """Return the columns of ``history.csv``."""
     rows = list(csv.reader(_lines(path, whole)))
     head, body = rows[0], rows[1:]
-    known = [name for name in MEANING if name not in FIELD_NAMES]
-    wanted = [name for name in head if name in known]
-    if lost := [name for name in known if name not in head]:
+    wanted = [name for name in head if name in STEP_KINDS]
+    if lost := [name for name in STEP_KINDS if name not in head]:
         _refuse(path, f"has no column {lost[0]}; it may be of an earlier version: run the case again")
     try:
         return Table((name, _column(name, [row[head.index(name)] for row in body])) for name in wanted)
@@ -192,9 +187,7 @@ def _steps(path: Path, whole: bool) -> Table:
 
 
 def _column(name: str, cells: list[str]) -> npt.NDArray[Any]:
-    if name == "regime":
-        return np.array(cells, dtype=np.str_)
-    return np.array(cells, dtype=np.int64 if name in COUNTS else np.float64)
+    return np.array(cells, dtype={int: np.int64, float: np.float64, str: np.str_}[STEP_KINDS[name]])
 
 
 def _cycles(path: Path, whole: bool) -> list[dict[str, Any]]:

@@ -37,7 +37,8 @@ def subsurface(
         x, y = (_on_grid(history, part) for part in history.field("shear", increment))
         shear = (x, y)
     setting = (history._bodies, _is_upper(body)), history._spacing, history._periodic
-    answer = _core.subsurface_stress(*setting, (pressure, shear), _points(depths), threads)
+    even = _bulk_stress(history, increment, body), history._residual_stress
+    answer = _core.subsurface_stress(*setting, (pressure, shear), _points(depths), even, threads)
     across = ("x",) if history.is_line else ("y", "x")
     order = (0, 1) if history.is_line else (0, 2, 1)
 
@@ -96,9 +97,10 @@ def fatigue(
         raise ValueError(
             f"fields of {len(chosen)} increments of the cycle are kept: three are needed ([output] every = ... keeps more)"
         )
-    increments = [_fields(history, number) for number in chosen]
+    increments = [(*_fields(history, number), _bulk_stress(history, number, body)) for number in chosen]
     setting = (history._bodies, _is_upper(body)), (history._spacing, history._periodic)
-    answer = _core.fatigue(*setting, increments, _points(depths), json.dumps(request), threads)
+    residual = history._residual_stress
+    answer = _core.fatigue(*setting, increments, residual, _points(depths), json.dumps(request), threads)
     variables = {
         name: (
             ("depth", "x") if values.ndim == 2 else ("x",),
@@ -131,6 +133,13 @@ def _fields(history: "History", number: int) -> tuple[npt.NDArray[np.float64], _
     if shear is None and not _frictionless(history):
         history.field("shear_x", number)  # refuses
     return _on_grid(history, history.field("pressure", number)), shear, vector("slip")
+
+
+def _bulk_stress(history: "History", number: int, body: str) -> tuple[float, float]:
+    """Return the bulk stress of a body along x and y."""
+    name = "bulk_stress" if body == "lower" else "upper_bulk_stress"
+    x, y = (float(history.increments[f"{name}_{axis}"][number]) for axis in "xy")
+    return x, y
 
 
 def _request(constants: Constants) -> dict[str, Any]:

@@ -76,7 +76,17 @@ def check_toml(text: str, folder: Path) -> None:
     fretting.plan(whole_case(text))
 
 
-@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.relative_to(ROOT).as_posix())
+LONG = {"subsurface-stresses.md"}
+"""Pages whose snippets take long."""
+
+
+@pytest.mark.parametrize(
+    "page",
+    [
+        pytest.param(page, marks=[pytest.mark.long] * (page.name in LONG), id=page.relative_to(ROOT).as_posix())
+        for page in PAGES
+    ],
+)
 def test_snippets_run_in_their_order(page: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     found = [(language, text) for language, text in blocks(page) if language in ("python", "toml", "sh", "bash")]
     if not found:
@@ -161,6 +171,7 @@ def test_every_picture_has_its_script_and_every_script_its_page() -> None:
     assert [name for name in drawn if f"<!-- figure {name} -->" not in shown] == []
 
 
+@pytest.mark.long
 def test_the_site_builds_without_a_warning(tmp_path: Path) -> None:
     for name in ("material", "mkdocstrings", "latex2mathml"):
         pytest.importorskip(name)

@@ -55,6 +55,7 @@ def test_too_little_memory_is_an_error_and_the_interpreter_lives_on() -> None:
     assert answer.stdout.split("\n")[:-1] == ["refused"] * 5 + ["lacking", "(64, 64)"], answer.stdout
 
 
+@pytest.mark.long
 def test_a_case_that_no_machine_holds_is_refused_before_it_starts(sphere_case: dict[str, Any]) -> None:
     sphere_case["grid"] = {"cells": [8192, 8192], "size": [1e-3, 1e-3]}
     sphere_case["output"] = {"fields": ["pressure", "shear", "slip"], "every": 1}

@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 
 
+@pytest.mark.long
 def test_stubs_match_the_compiled_module(tmp_path: Path) -> None:
     pytest.importorskip("mypy")
     done = subprocess.run(

@@ -45,7 +45,7 @@ def test_a_relative_file_starts_at_the_case_file(tmp_path: Path) -> None:
         '[friction]\nmap = "mu.npy"\n[[load]]\nnormal_force = 0.008\nincrements = 1\n'
     )
     (tmp_path / "case.toml").write_text(text)
-    friction = fretting.plan(tmp_path / "case.toml")["case"]["friction"]["map"]
+    friction = fretting.plan(tmp_path / "case.toml")["case"]["friction"]["coefficient"]["map"]
     assert friction["cells"] == [CELLS, CELLS]
     assert friction["largest"] == np.float32(0.3)
 
@@ -77,6 +77,7 @@ def test_bad_heights_are_refused_in_one_message(profile: dict[str, Any], said: s
     assert said in str(caught.value)
 
 
+@pytest.mark.long
 def test_a_topography_of_surface_topography_is_read_through_its_heights() -> None:
     topographies = pytest.importorskip("SurfaceTopography")
     topography = topographies.Topography(-GAP, (SIZE, SIZE))

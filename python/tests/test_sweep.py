@@ -93,6 +93,7 @@ print("done")
 """
 
 
+@pytest.mark.long
 @pytest.mark.skipif(not hasattr(os, "fork"), reason="no fork on this system")
 def test_a_sweep_in_forked_processes_after_a_solve_of_the_parent() -> None:
     """Worker threads do not survive a fork: a child that waited for them would hang."""
@@ -125,6 +126,7 @@ if __name__ == "__main__":
 """
 
 
+@pytest.mark.long
 def test_a_sweep_on_mpi(case: dict[str, Any], alone: np.ndarray[Any, Any], tmp_path: Path) -> None:
     pytest.importorskip("mpi4py")
     launcher = Path(sys.executable).parent / "mpiexec"

@@ -51,6 +51,9 @@ pub struct Certificate {
     pub turns: bool,
     /// Dissipated energy of the increment against [`dissipated`], over `sum mu p |v| dA` and the energy so far.
     pub energy: f64,
+    /// The first law: work of all loads and bulk stresses against elastic energy and the work of the shear on the kept slip, over the
+    /// largest of these; no law of its own, but what follows from all of them.
+    pub balance: f64,
 }
 
 impl Certificate {

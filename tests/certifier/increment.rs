@@ -6,12 +6,13 @@ use ndarray::Array2;
 
 use super::influence::Influence;
 use super::measure::{Raise, dot, hypot, largest, over, size};
+use super::slip_path::{CellPath, Past};
 use super::{Before, Certificate};
 
-/// The rule by which friction dissipates in a cell, per area: the mean of the friction bounds before and after the increment times the
-/// slip along the shear. The bounds go as the pressures `[before, after]`.
-pub fn dissipated([before, after]: [f64; 2], shear: [f64; 2], slip: [f64; 2]) -> f64 {
-    if after > 0.0 { 0.5 * (before + after) / after * dot(shear, slip) } else { 0.0 }
+/// The rule by which friction dissipates in a cell, per area: the mean of the friction bounds `[before, after]` the increment times the
+/// slip.
+pub fn dissipated([before, after]: [f64; 2], slip: [f64; 2]) -> f64 {
+    0.5 * (before + after) * hypot(slip)
 }
 
 #[derive(Clone, Copy)]
@@ -38,6 +39,12 @@ pub(super) struct Increment<'a> {
     pub(super) load: LoadStep,
     pub(super) fields: Fields<'a>,
     pub(super) displacements: &'a [Array2<f64>; 3],
+    /// What went before, and the length of this increment over the last, where slip is integrated to second order.
+    pub(super) past: Option<(&'a Past, f64)>,
+    /// What went before is known.
+    pub(super) is_known: bool,
+    /// Strain of the lower surface less that of the upper one.
+    pub(super) strain: [f64; 2],
 }
 
 impl Increment<'_> {
@@ -45,7 +52,7 @@ impl Increment<'_> {
     pub(super) fn certificate(&self) -> Certificate {
         let mut certificate = Certificate {
             increment: self.record.increment,
-            whole: self.record.parts == 1,
+            whole: self.record.parts == 1 && self.is_known,
             equilibrium: self.equilibrium(),
             motion: self.motion(),
             columns: self.columns(),
@@ -55,6 +62,7 @@ impl Increment<'_> {
         };
         self.judge_normal(&mut certificate);
         self.judge_friction(&mut certificate);
+        certificate.balance = self.balance();
         certificate
     }
 
@@ -67,8 +75,10 @@ impl Increment<'_> {
         for ((i, j), &p) in p.indexed_iter() {
             let at = [i, j];
             let worn = self.before.worn.as_ref().map_or(0.0, |worn| worn[at]);
-            let found = self.undeformed[at] + worn + u[at] - self.record.approach;
-            let terms = [self.undeformed[at], worn, u[at], self.record.approach, mean];
+            let [x, y] = self.place(at);
+            let tilted = self.record.tilt[0] * x + self.record.tilt[1] * y;
+            let found = self.undeformed[at] - tilted + worn + u[at] - self.record.approach;
+            let terms = [self.undeformed[at], tilted, worn, u[at], self.record.approach, mean];
             if found != gap[at] {
                 certificate.gap.raise(over(found - gap[at], size(&terms)));
             }
@@ -97,18 +107,23 @@ impl Increment<'_> {
             let length = hypot(q);
             certificate.excess.raise(over((length - bound).max(0.0), most));
             let kept = [0, 1].map(|axis| slip[axis][at] - self.before.slip[axis][at]);
-            work += dissipated([self.law.bound(i, j, self.before.pressure[at]), bound], q, kept);
+            work += dissipated([self.law.bound(i, j, self.before.pressure[at]), bound], kept);
             limit += bound * hypot(kept);
             if zone == Zone::Slip {
                 certificate.on_circle.raise(over((bound - length).max(0.0), most));
-            } else if certificate.whole {
+            }
+            let path = self.past.map_or(CellPath::STRAIGHT, |(past, ratio)| past.path(at, ratio));
+            if zone != Zone::Slip && certificate.whole && path.counted([0.0; 2], zone) == [0.0; 2] {
                 // Exactly: nothing is added to the slip of a cell that does not slip.
                 certificate.slip.raise(if kept == [0.0; 2] { 0.0 } else { 1.0 });
             }
             if !certificate.whole || !self.slides || zone == Zone::Open || p[at] <= 0.0 {
                 continue;
             }
-            let v = self.slip_increment(at);
+            let change = self.slip_increment(at);
+            let counted = path.counted(change, zone);
+            certificate.slip.raise(over(hypot([kept[0] - counted[0], kept[1] - counted[1]]), scale));
+            let v = path.end(change);
             let w = v.map(|v| v / kt);
             let image = project([q[0] + w[0], q[1] + w[1]], bound);
             off += (q[0] - image[0]).powi(2) + (q[1] - image[1]).powi(2);
@@ -116,7 +131,6 @@ impl Increment<'_> {
                 certificate.stick.raise(over(hypot(w), norm));
                 continue;
             }
-            certificate.slip.raise(over(hypot([kept[0] - v[0], kept[1] - v[1]]), scale));
             if bound > 0.0 {
                 let across = (q[0] * w[1] - q[1] * w[0]).abs() / bound;
                 certificate.direction.raise(over(across, norm * (1.0 + hypot(w) / bound)));
@@ -136,6 +150,65 @@ impl Increment<'_> {
         certificate.energy = over(wrong, unit);
     }
 
+    /// Middle of a cell.
+    fn place(&self, at: [usize; 2]) -> [f64; 2] {
+        [0, 1].map(|axis| self.grid.centre(axis, at[axis]))
+    }
+
+    /// The first law of thermodynamics, of the numbers that are kept: the work of all loads, bulk stresses included, less the change of
+    /// the elastic energy, the work of the mean shear on the kept slip and what cells that open or close leave, over the sizes of these.
+    /// Means of both ends are exact for a linear response. Of increments solved as a whole, without wear.
+    fn balance(&self) -> f64 {
+        if self.record.parts > 1 || self.before.worn.is_some() {
+            return 0.0;
+        }
+        let Fields { p, q, slip, gap, .. } = self.fields;
+        let (now, then) = (self.record, self.before);
+        let [u, v, w] = self.displacements;
+        let (mut stored, mut slipped, mut opened, mut friction) = (0.0, 0.0, 0.0, 0.0);
+        let (mut force, mut moment, mut tilting) = ([0.0; 3], 0.0, [0.0; 2]);
+        for ((i, j), &p1) in p.indexed_iter() {
+            let at = [i, j];
+            let (p0, before) = (then.pressure[at], [0, 1].map(|axis| then.shear[axis][at]));
+            let after = [0, 1].map(|axis| q[axis][at]);
+            let mean = [0, 1].map(|axis| 0.5 * (before[axis] + after[axis]));
+            stored += 0.5 * (p1 * u[at] + after[0] * v[at] + after[1] * w[at]);
+            stored -= 0.5
+                * (p0 * then.normal[at]
+                    + before[0] * then.tangential[0][at]
+                    + before[1] * then.tangential[1][at]);
+            // Cells that have opened move as they like, and nothing is kept of it.
+            let moved = if p1 > 0.0 {
+                [0, 1].map(|axis| slip[axis][at] - then.slip[axis][at])
+            } else {
+                self.slip_increment(at)
+            };
+            slipped += dot(mean, moved);
+            friction += hypot(mean) * hypot(self.slip_increment(at));
+            if p0 > 0.0 || p1 > 0.0 {
+                opened += 0.5 * (p1 * then.gap[at] - p0 * gap[at]);
+            }
+            let [x, y] = self.place(at);
+            let pressure = 0.5 * (p0 + p1);
+            for (sum, value) in force.iter_mut().zip([pressure, mean[0], mean[1]]) {
+                *sum += value;
+            }
+            moment += x * mean[1] - y * mean[0];
+            tilting = [tilting[0] + x * pressure, tilting[1] + y * pressure];
+        }
+        let by_tilt = (0..2).map(|axis| tilting[axis] * (now.tilt[axis] - then.tilt[axis])).sum::<f64>();
+        let works = [
+            force[0] * (now.approach - then.approach),
+            force[1] * (now.shift[0] - then.shift[0]),
+            force[2] * (now.shift[1] - then.shift[1]),
+            moment * (now.twist - then.twist),
+            by_tilt,
+            (now.bulk_work - then.bulk_work) / self.grid.cell_area(),
+        ];
+        let off = works.iter().sum::<f64>() - stored - slipped - opened;
+        over(off, size(&works).max(size(&[stored, opened, friction])))
+    }
+
     /// Friction bound of every cell.
     fn bound(&self) -> Array2<f64> {
         let mut bound = self.fields.p.clone();
@@ -143,12 +216,20 @@ impl Increment<'_> {
         bound
     }
 
+    /// That of every cell.
+    pub(super) fn drift(&self) -> [Array2<f64>; 2] {
+        [0, 1].map(|axis| {
+            Array2::from_shape_fn(self.fields.p.dim(), |(i, j)| self.slip_increment([i, j])[axis])
+        })
+    }
+
     /// Motion of the upper point less that of the lower one in the increment [length].
     fn slip_increment(&self, at: [usize; 2]) -> [f64; 2] {
         let turned = self.record.twist - self.before.twist;
         let turn = [-turned * self.grid.centre(1, at[1]), turned * self.grid.centre(0, at[0])];
         [0, 1].map(|axis| {
-            let moved = self.record.shift[axis] - self.before.shift[axis] + turn[axis];
+            let stretched = (self.strain[axis] - self.before.strain[axis]) * self.place(at)[axis];
+            let moved = self.record.shift[axis] - self.before.shift[axis] + turn[axis] - stretched;
             moved - (self.displacements[1 + axis][at] - self.before.tangential[axis][at])
         })
     }
@@ -161,7 +242,9 @@ impl Increment<'_> {
         let slips = [&self.fields.slip[0], &self.fields.slip[1]].map(largest);
         let turn = self.record.twist.abs().max(self.before.twist.abs()) * half_x.hypot(half_y);
         let shifts = [self.record.shift, self.before.shift].map(hypot);
-        size(&[size(&fields), size(&slips), size(&shifts), turn])
+        let strains =
+            [self.strain, self.before.strain].map(|[x, y]| (x * half_x).abs().max((y * half_y).abs()));
+        size(&[size(&fields), size(&slips), size(&shifts), size(&strains), turn])
     }
 
     /// Sums of the tractions: normal force, tangential forces, moment about z.
@@ -188,7 +271,7 @@ impl Increment<'_> {
     }
 
     fn controls(&self) -> [Control; 4] {
-        let LoadStep { normal, tangential: [x, y], twist } = self.load;
+        let LoadStep { normal, tangential: [x, y], twist, .. } = self.load;
         [normal, x, y, twist]
     }
 
@@ -205,7 +288,30 @@ impl Increment<'_> {
                 Control::Motion(_) => {}
             }
         }
+        let tilted = self.tilt_moments();
+        for (axis, control) in self.load.tilt.into_iter().enumerate() {
+            if let Control::Force(asked) = control {
+                let (found, arm) = tilted[axis];
+                worst.raise(over(found - asked, arm));
+            }
+        }
         worst
+    }
+
+    /// First moments of the pressure, and the normal force times the radius of gyration of the pressure.
+    fn tilt_moments(&self) -> [(f64, f64); 2] {
+        [0, 1].map(|axis| {
+            let (mut force, mut first, mut second) = (0.0, 0.0, 0.0);
+            for ((i, j), p) in self.fields.p.indexed_iter() {
+                let place = self.place([i, j])[axis];
+                force += p;
+                first += p * place;
+                second += p * place * place;
+            }
+            let radius = if force > 0.0 { (second / force).sqrt() } else { 0.0 };
+            let area = self.grid.cell_area();
+            (first * area, radius.max(0.5 * self.grid.spacing()[axis]) * force * area)
+        })
     }
 
     fn motion(&self) -> f64 {
@@ -217,7 +323,9 @@ impl Increment<'_> {
             (now.twist, then.twist),
         ];
         let mut worst = 0.0;
-        for (control, (found, from)) in self.controls().into_iter().zip(pairs) {
+        let tilts = [0, 1].map(|axis| (now.tilt[axis], then.tilt[axis]));
+        let controls = self.controls().into_iter().chain(self.load.tilt);
+        for (control, (found, from)) in controls.zip(pairs.into_iter().chain(tilts)) {
             if let Control::Motion(asked) = control {
                 worst.raise(over(found - asked, size(&[asked, from])));
             }
@@ -234,6 +342,10 @@ impl Increment<'_> {
         for (mode, said) in [record.normal_force, x, y].into_iter().enumerate() {
             worst.raise(over(said - found[mode], units[mode]));
         }
+        for (axis, (found, arm)) in self.tilt_moments().into_iter().enumerate() {
+            worst.raise(over(record.tilt_moment[axis] - found, arm));
+        }
+        worst.raise(if record.bulk_stress == self.load.bulk_stress { 0.0 } else { 1.0 });
         let peak = largest(p);
         worst.raise(over(record.max_pressure - peak, peak));
         let shear = q[0].iter().zip(&q[1]).fold(0.0_f64, |most, (x, y)| most.max(x.hypot(*y)));

@@ -1,6 +1,8 @@
 //! The operator as plain double sums: displacements of a grid's cells from influence coefficients, cell by cell.
 
-use fret_core::kernel::{Components, InfluenceCoefficients, influence_coefficients, periodic_symbols};
+use fret_core::kernel::{
+    Components, InfluenceCoefficients, influence_coefficients, line_coefficients, periodic_symbols,
+};
 use fret_core::model::{ContactPair, SurfaceGrid};
 use ndarray::{Array2, s};
 
@@ -33,7 +35,7 @@ const TERMS: [(usize, usize, usize, f64); 9] = [
 
 impl Influence {
     /// Table of a pair on a grid; of a periodic problem with all images.
-    pub fn new(bodies: &ContactPair, grid: &SurfaceGrid, periodic: bool) -> Self {
+    pub fn new(bodies: &ContactPair, grid: &SurfaceGrid, periodic: bool, datum: Option<f64>) -> Self {
         let (cells, spacing) = (grid.cells(), grid.spacing());
         let quarters = if periodic {
             let symbols = periodic_symbols(bodies, cells, spacing, Components::ALL, 0);
@@ -43,9 +45,13 @@ impl Influence {
                 in_space(&symbol.unwrap_or_default(), cells, ODD[component.next().unwrap_or_default()])
             })
         } else {
-            let InfluenceCoefficients { zz, xx, yy, xy, zx, zy } =
-                influence_coefficients(bodies, cells, spacing, Components::ALL);
-            [zz, xx, yy, xy, zx, zy].map(Option::unwrap_or_default)
+            let InfluenceCoefficients { zz, xx, yy, xy, zx, zy } = if grid.is_line() {
+                let datum = datum.unwrap_or(grid.size()[0]);
+                line_coefficients(bodies, cells[0], spacing[0], datum, Components::ALL)
+            } else {
+                influence_coefficients(bodies, cells, spacing, Components::ALL)
+            };
+            [zz, xx, yy, xy, zx, zy].map(|table| table.unwrap_or_else(|| Array2::zeros(cells)))
         };
         let own_normal = quarters[0][[0, 0]];
         let own_tangential = quarters[1][[0, 0]].min(quarters[2][[0, 0]]);

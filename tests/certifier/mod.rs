@@ -9,14 +9,16 @@ mod increment;
 mod influence;
 mod measure;
 mod run;
+mod slip_path;
 
 use fret_core::case::Stage;
 use fret_core::history::{KeptFields, StepRecord};
-use fret_core::model::{Control, LoadStep};
+use fret_core::model::{Base, Body, ContactPair, Control, Integration, LoadStep, Zone};
 use fret_core::plan::Plan;
 use increment::{Fields, Increment};
 use influence::Influence;
 use ndarray::Array2;
+use slip_path::Past;
 
 pub use certificate::{Certificate, ON_CIRCLE, SAME};
 pub use increment::dissipated;
@@ -37,17 +39,45 @@ pub struct Certifier<'a> {
     influence: Influence,
     undeformed: Array2<f64>,
     before: Before,
+    past: Past,
+    /// Increments since one whose parts are not known.
+    whole: usize,
+}
+
+/// Strain of the lower surface less that of the upper one under the bulk stresses of their substrates: Hooke's law.
+fn relative_strain(bodies: &ContactPair, plane_strain: bool, stress: [[f64; 2]; 2]) -> [f64; 2] {
+    let of = |body: &Body, [x, y]: [f64; 2]| {
+        let Body::Elastic(half_space) = body else { return [0.0; 2] };
+        let Base::Elastic(material) = half_space.base() else { return [0.0; 2] };
+        let (young, nu) = (material.young(), material.poisson());
+        if plane_strain {
+            // Held along y: s_y = nu s_x.
+            return [(x - nu * nu * x) / young, 0.0];
+        }
+        [(x - nu * y) / young, (y - nu * x) / young]
+    };
+    let (lower, upper) = (of(bodies.lower(), stress[0]), of(bodies.upper(), stress[1]));
+    [lower[0] - upper[0], lower[1] - upper[1]]
 }
 
 /// What an increment leaves to the next one.
 struct Before {
     pressure: Array2<f64>,
     slip: [Array2<f64>; 2],
+    shear: [Array2<f64>; 2],
     worn: Option<Array2<f64>>,
     tangential: [Array2<f64>; 2],
     approach: f64,
     shift: [f64; 2],
     twist: f64,
+    tilt: [f64; 2],
+    tilt_moment: [f64; 2],
+    /// Strain of the lower surface less that of the upper one.
+    strain: [f64; 2],
+    bulk_work: f64,
+    /// Gap and normal displacement.
+    gap: Array2<f64>,
+    normal: Array2<f64>,
     energy: f64,
     /// Stage, number of the increment in it, what it found prescribed, what is prescribed now.
     stage: usize,
@@ -63,23 +93,29 @@ impl<'a> Certifier<'a> {
     pub fn new(plan: &'a Plan) -> Self {
         let case = &plan.case;
         let zero = || Array2::zeros(case.cells);
-        let free = LoadStep {
-            normal: Control::Force(0.0),
-            tangential: [Control::Force(0.0); 2],
-            twist: Control::Motion(0.0),
-        };
+        let free =
+            LoadStep { normal: Control::Force(0.0), tangential: [Control::Force(0.0); 2], ..LoadStep::FREE };
         Self {
             plan,
-            influence: Influence::new(&case.bodies, &plan.grid, case.periodic),
+            influence: Influence::new(&case.bodies, &plan.grid, case.periodic, plan.datum),
             undeformed: case.profile.gap(&plan.grid),
+            past: Past::default(),
+            whole: 2,
             before: Before {
                 slip: [zero(), zero()],
+                shear: [zero(), zero()],
                 worn: None,
                 pressure: zero(),
                 tangential: [zero(), zero()],
                 approach: 0.0,
                 shift: [0.0; 2],
                 twist: 0.0,
+                tilt: [0.0; 2],
+                tilt_moment: [0.0; 2],
+                strain: [0.0; 2],
+                bulk_work: 0.0,
+                gap: case.profile.gap(&plan.grid),
+                normal: zero(),
                 energy: 0.0,
                 stage: usize::MAX,
                 k: 0,
@@ -112,6 +148,8 @@ impl<'a> Certifier<'a> {
         let law = case.stages[..=record.stage].iter().rev().find_map(|stage| stage.friction.as_ref());
         let law = law.unwrap_or(&case.friction);
         let displacements = self.influence.displacements(p, q);
+        let ratio = self.past.ratio_to(&load).filter(|_| case.integration == Integration::SecondOrder);
+        let strain = relative_strain(&case.bodies, case.is_line(), record.bulk_stress);
         let increment = Increment {
             grid: &self.plan.grid,
             influence: &self.influence,
@@ -124,15 +162,42 @@ impl<'a> Certifier<'a> {
             load,
             fields: Fields { p, q, slip, gap, zone },
             displacements: &displacements,
+            past: ratio.map(|ratio| (&self.past, ratio)),
+            is_known: self.whole >= 2 || case.integration == Integration::EndPoint,
+            strain,
         };
         let certificate = increment.certificate();
-        let [_, x, y] = displacements;
+        let drift = increment.drift();
+        let slipping = zone.indexed_iter().filter(|(_, zone)| **zone == Zone::Slip);
+        let largest_slip = slipping.map(|(at, _)| drift[0][at].hypot(drift[1][at])).fold(0.0, f64::max);
+        let [normal, x, y] = displacements;
+        self.whole = if record.parts == 1 { self.whole + 1 } else { 0 };
         let before = &mut self.before;
+        let past = &mut self.past;
+        past.loads.push(load);
+        past.is_cut = before.worn != fields.worn_depth;
+        if past.is_cut {
+            *past = Past { loads: std::mem::take(&mut past.loads), is_cut: true, ..Past::default() };
+        } else {
+            let (drift_before, gap_before) = (past.drift[0].take(), past.gap[0].take());
+            past.drift = [Some(drift), drift_before];
+            past.gap = [Some(gap.clone()), gap_before];
+        }
+        past.largest_slip = largest_slip;
+        past.pressure = Some(before.pressure.clone());
+        past.zone = Some(zone.clone());
+        past.ratio = ratio.unwrap_or(1.0);
         before.tangential = [x, y];
         before.pressure.clone_from(p);
         before.slip.clone_from(slip);
+        before.shear.clone_from(q);
         before.worn.clone_from(&fields.worn_depth);
         (before.approach, before.shift, before.twist) = (record.approach, record.shift, record.twist);
+        (before.tilt, before.tilt_moment) = (record.tilt, record.tilt_moment);
+        before.strain = strain;
+        before.bulk_work = record.bulk_work;
+        before.gap.clone_from(gap);
+        before.normal = normal;
         before.energy = record.dissipated_energy;
         before.held = load;
         let [x, y] = record.tangential_force;
@@ -158,7 +223,18 @@ impl<'a> Certifier<'a> {
                 (_, held) => held,
             });
             let [normal, x, y, twist] = found;
-            before.found = LoadStep { normal, tangential: [x, y], twist };
+            let held = &before.held;
+            let tilt = [0, 1].map(|axis| match (&stage.tilt[axis], held.tilt[axis]) {
+                (Some(control), Control::Force(_)) if control.is_motion() => {
+                    Control::Motion(before.tilt[axis])
+                }
+                (Some(control), Control::Motion(_)) if !control.is_motion() => {
+                    Control::Force(before.tilt_moment[axis])
+                }
+                (_, held) => held,
+            });
+            let bulk_stress = held.bulk_stress;
+            before.found = LoadStep { normal, tangential: [x, y], twist, tilt, bulk_stress };
             (before.stage, before.k) = (record.stage, 0);
         }
         before.k += 1;

@@ -3,6 +3,7 @@
 use std::fmt::Write;
 use std::path::Path;
 
+use fret_core::case::Stage;
 use fret_core::history::{CycleRecord, StepRecord, Warning};
 use fret_core::plan::{Coupling, Plan};
 use serde_json::{Value, json};
@@ -135,9 +136,23 @@ impl Summary<'_> {
             readings.push(("worn volume so far", |record| figure(record.worn_volume)));
             readings.push(("max wear depth", |record| figure(record.max_worn_depth)));
         }
-        if self.plan.case.stages.iter().any(|stage| stage.twist.is_some()) {
+        let stages = &self.plan.case.stages;
+        if stages.iter().any(|stage| stage.twist.is_some()) {
             readings.push(("torsional moment", |record| figure(record.twist_moment)));
             readings.push(("twist", |record| figure(record.twist)));
+        }
+        if stages.iter().any(Stage::tilts) {
+            readings
+                .push(("tilt moment x", |record| figure_beside(record.tilt_moment[0], record.normal_force)));
+            readings
+                .push(("tilt moment y", |record| figure_beside(record.tilt_moment[1], record.normal_force)));
+            readings.push(("tilt x", |record| figure(record.tilt[0])));
+            readings.push(("tilt y", |record| figure(record.tilt[1])));
+        }
+        if stages.iter().any(Stage::stretches) {
+            readings.push(("bulk stress x, lower", |record| figure(record.bulk_stress[0][0])));
+            readings.push(("bulk stress x, upper", |record| figure(record.bulk_stress[1][0])));
+            readings.push(("work of the bulk stress so far", |record| figure(record.bulk_work)));
         }
         readings
     }

@@ -143,8 +143,7 @@ fn solve(scene: &Scene, grid: &SurfaceGrid, extension: usize) -> Answer<Incremen
     // A sphere pressed alone is its own image in both directions.
     .with_symmetry(Symmetry { odd_shear: [Some(0), Some(1)] });
     let none = Control::Force(0.0);
-    let load =
-        LoadStep { normal: Control::Force(force()), tangential: [none; 2], twist: Control::Motion(0.0) };
+    let load = LoadStep { normal: Control::Force(force()), tangential: [none; 2], ..LoadStep::FREE };
     let mut solved = solver
         .step(&ContactState::untouched(cells), &load, &mut |_, _| ControlFlow::Continue(()))
         .map_err(|error| format!("{} cells, {extension}: {error:?}", cells[0]))?;

@@ -277,8 +277,7 @@ fn solve(scene: &Scene, gap: Array2<f64>, tolerance: f64, mirrors: bool) -> Answ
         solver =
             solver.with_response_table(ResponseTable::new(&scene.pair, TAU / scene.side, 5.0 * PI / side));
     }
-    let load =
-        LoadStep { normal: scene.load, tangential: [Control::Force(0.0); 2], twist: Control::Motion(0.0) };
+    let load = LoadStep { normal: scene.load, tangential: [Control::Force(0.0); 2], ..LoadStep::FREE };
     let state = ContactState::untouched([n, n]);
     let solved =
         solver.step(&state, &load, &mut |_, _| ControlFlow::Continue(())).map_err(|error| match error {

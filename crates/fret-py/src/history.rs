@@ -3,75 +3,33 @@
 use std::path::PathBuf;
 
 use fret_cli::embedded::{self, CaseText, Solved};
-use fret_core::history::{self, KeptFields, Regime, StepRecord, running_condition};
+use fret_core::history::{
+    self, CYCLE_COLUMNS, Column, FIELDS, Field, FieldValues, STEP_COLUMNS, StepRecord, Value, ZONE_WORDS,
+    running_condition,
+};
 use fret_core::plan::Plan;
 use fret_core::study::StageQuantities;
-use ndarray::Array2;
 use numpy::{IntoPyArray, PyArray1, ToPyArray};
 use pyo3::exceptions::{PyKeyError, PyValueError};
-use pyo3::prelude::{Bound, PyAny, PyDictMethods, PyResult, Python, pyclass, pymethods};
+use pyo3::prelude::{Bound, PyAny, PyDictMethods, PyResult, Python, pyclass, pyfunction, pymethods};
 use pyo3::types::PyDict;
+use serde_json::{Value as Json, json};
 
 use crate::case::earlier;
 use crate::error::{bad_value, stopped};
 
-/// A public name and the entry of a step it stands for.
-type Entry<T> = (&'static str, fn(&StepRecord) -> T);
-
-/// The real numbers of a step.
-const REALS: [Entry<f64>; 18] = [
-    ("normal_force", |step| step.normal_force),
-    ("approach", |step| step.approach),
-    ("tangential_force_x", |step| step.tangential_force[0]),
-    ("tangential_force_y", |step| step.tangential_force[1]),
-    ("shift_x", |step| step.shift[0]),
-    ("shift_y", |step| step.shift[1]),
-    ("twist_moment", |step| step.twist_moment),
-    ("twist", |step| step.twist),
-    ("max_pressure", |step| step.max_pressure),
-    ("max_shear", |step| step.max_shear),
-    ("contact_area", |step| step.contact_area),
-    ("stick_area", |step| step.stick_area),
-    ("dissipated_energy", |step| step.dissipated_energy),
-    ("worn_volume", |step| step.worn_volume),
-    ("max_worn_depth", |step| step.max_worn_depth),
-    ("residual", |step| step.residual.largest()),
-    ("wall_s", |step| step.wall_s),
-    ("full_grid_convolutions", |step| step.work.full_grid_convolutions),
-];
-
-/// The counts of a step.
-const COUNTS: [Entry<usize>; 8] = [
-    ("increment", |step| step.increment),
-    ("stage", |step| step.stage),
-    ("parts", |step| step.parts),
-    ("contact_cells", |step| step.contact_cells),
-    ("stick_cells", |step| step.stick_cells),
-    ("convolutions", |step| step.work.convolutions),
-    ("preconditioner_passes", |step| step.work.preconditioner_passes),
-    ("outer_iterations", |step| step.work.outer_iterations),
-];
-
-fn regime_name(regime: Regime) -> &'static str {
-    match regime {
-        Regime::Apart => "apart",
-        Regime::FullStick => "full_stick",
-        Regime::PartialSlip => "partial_slip",
-        Regime::GrossSlip => "gross_slip",
-        Regime::Frictionless => "frictionless",
-    }
-}
-
 /// One step as a dict of numbers.
 pub fn step_items<'py>(py: Python<'py>, step: &StepRecord) -> PyResult<Bound<'py, PyDict>> {
     let items = PyDict::new(py);
-    for (name, value) in COUNTS {
-        items.set_item(name, value(step))?;
+    for Column { name, value, .. } in STEP_COLUMNS {
+        match value {
+            Value::Count(of) => items.set_item(name, of(step)),
+            Value::Real(of) => items.set_item(name, of(step)),
+            Value::RealOrNone(of) => items.set_item(name, of(step)),
+            Value::Truth(of) => items.set_item(name, of(step)),
+            Value::Word(of) => items.set_item(name, of(step)),
+        }?;
     }
-    for (name, value) in REALS {
-        items.set_item(name, value(step))?;
-    }
-    items.set_item("regime", regime_name(step.regime))?;
     Ok(items)
 }
 
@@ -96,15 +54,21 @@ impl History {
     fn increments<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let steps = &self.solved.steps;
         let items = PyDict::new(py);
-        for (name, value) in COUNTS {
-            let column: Vec<i64> = steps.iter().map(|step| value(step) as i64).collect();
-            items.set_item(name, column.into_pyarray(py))?;
+        for Column { name, value, .. } in STEP_COLUMNS {
+            match value {
+                Value::Count(of) => {
+                    let column: Vec<i64> = steps.iter().map(|step| of(step) as i64).collect();
+                    items.set_item(name, column.into_pyarray(py))
+                }
+                Value::Real(of) => items.set_item(name, PyArray1::from_iter(py, steps.iter().map(of))),
+                Value::RealOrNone(of) => {
+                    let column = steps.iter().map(|step| of(step).unwrap_or(f64::NAN));
+                    items.set_item(name, PyArray1::from_iter(py, column))
+                }
+                Value::Truth(of) => items.set_item(name, PyArray1::from_iter(py, steps.iter().map(of))),
+                Value::Word(of) => items.set_item(name, steps.iter().map(of).collect::<Vec<_>>()),
+            }?;
         }
-        for (name, value) in REALS {
-            items.set_item(name, PyArray1::from_iter(py, steps.iter().map(value)))?;
-        }
-        let regimes: Vec<_> = steps.iter().map(|step| regime_name(step.regime)).collect();
-        items.set_item("regime", regimes)?;
         Ok(items)
     }
 
@@ -169,6 +133,12 @@ impl History {
         serde_json::to_string(&self.solved.bodies).map_err(crate::error::bad_value)
     }
 
+    /// Residual stresses of the lower and the upper body as JSON.
+    fn residual_stress(&self) -> String {
+        let residual = &self.solved.plan["case"]["residual_stress"];
+        if residual.is_null() { "[{\"layers\":[]},{\"layers\":[]}]".to_owned() } else { residual.to_string() }
+    }
+
     /// Sides of a cell [length].
     fn spacing(&self) -> [f64; 2] {
         self.solved.grid.spacing()
@@ -195,42 +165,41 @@ impl History {
     /// Names of the fields kept of an increment; none when nothing of it is kept.
     fn kept_fields(&self, increment: usize) -> Vec<&'static str> {
         self.solved.fields_of(increment).map_or_else(Vec::new, |kept| {
-            let groups: [(bool, &[&str]); 6] = [
-                (kept.pressure.is_some(), &["pressure"]),
-                (kept.shear.is_some(), &["shear_x", "shear_y"]),
-                (kept.slip.is_some(), &["slip_x", "slip_y"]),
-                (kept.gap.is_some(), &["gap"]),
-                (kept.zone.is_some(), &["zone"]),
-                (kept.worn_depth.is_some(), &["worn_depth"]),
-            ];
-            groups.iter().filter(|(kept, _)| *kept).flat_map(|(_, names)| names.iter().copied()).collect()
+            FIELDS.iter().filter(|field| (field.values)(kept).is_some()).map(|field| field.name).collect()
         })
     }
 
     /// A kept field, shape `(nx, ny)`: a copy, the caller's own.
     fn field<'py>(&self, py: Python<'py>, name: &str, increment: usize) -> PyResult<Bound<'py, PyAny>> {
-        let kept = self
-            .solved
-            .fields_of(increment)
-            .ok_or_else(|| PyKeyError::new_err((name.to_owned(), increment)))?;
-        if let ("zone", Some(zones)) = (name, &kept.zone) {
-            return Ok(zones.mapv(|zone| zone as u8).into_pyarray(py).into_any());
+        let missing = || PyKeyError::new_err((name.to_owned(), increment));
+        let kept = self.solved.fields_of(increment).ok_or_else(missing)?;
+        let field = FIELDS.iter().find(|field| field.name == name).and_then(|field| (field.values)(kept));
+        match field {
+            Some(FieldValues::Reals(values)) => Ok(values.to_pyarray(py).into_any()),
+            Some(FieldValues::Zones(zones)) => Ok(zones.mapv(|zone| zone as u8).into_pyarray(py).into_any()),
+            None => Err(missing()),
         }
-        let field =
-            real_field(kept, name).ok_or_else(|| PyKeyError::new_err((name.to_owned(), increment)))?;
-        Ok(field.to_pyarray(py).into_any())
     }
 }
 
-fn real_field<'a>(kept: &'a KeptFields, name: &str) -> Option<&'a Array2<f64>> {
-    match name {
-        "pressure" => kept.pressure.as_ref(),
-        "shear_x" => kept.shear.as_ref().map(|shear| &shear[0]),
-        "shear_y" => kept.shear.as_ref().map(|shear| &shear[1]),
-        "slip_x" => kept.slip.as_ref().map(|slip| &slip[0]),
-        "slip_y" => kept.slip.as_ref().map(|slip| &slip[1]),
-        "gap" => kept.gap.as_ref(),
-        "worn_depth" => kept.worn_depth.as_ref(),
-        _ => None,
+/// Every column and field by its kind, name, meaning and unit, as JSON text: what the Python package says of them is made from it.
+#[pyfunction]
+pub fn vocabulary() -> String {
+    fn told<R>(columns: &[Column<R>]) -> Vec<Json> {
+        let kind = |value: &Value<R>| match value {
+            Value::Count(_) => "int",
+            Value::Real(_) | Value::RealOrNone(_) => "float",
+            Value::Truth(_) => "bool",
+            Value::Word(_) => "str",
+        };
+        let entry = |column: &Column<R>| {
+            let Column { name, meaning, unit, value } = column;
+            json!({ "name": name, "meaning": meaning, "unit": unit, "kind": kind(value) })
+        };
+        columns.iter().map(entry).collect()
     }
+    let field = |field: &Field| json!({ "name": field.name, "meaning": field.meaning, "unit": field.unit });
+    let fields: Vec<Json> = FIELDS.iter().map(field).collect();
+    json!({ "steps": told(STEP_COLUMNS), "cycles": told(CYCLE_COLUMNS), "fields": fields, "zones": ZONE_WORDS })
+        .to_string()
 }

@@ -34,7 +34,7 @@ mod _core {
     #[pymodule_export]
     use crate::command::command_line;
     #[pymodule_export]
-    use crate::history::History;
+    use crate::history::{History, vocabulary};
     #[pymodule_export]
     use crate::kernels::{Convolution, frequency_response, influence_coefficients};
     #[pymodule_export]

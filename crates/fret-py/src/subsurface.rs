@@ -2,9 +2,9 @@
 
 use fret_cli::embedded;
 use fret_core::case::{FatigueRequest, Side};
-use fret_core::model::{Body, ContactPair, HalfSpace, SurfaceGrid};
+use fret_core::model::{Body, ContactPair, HalfSpace, ResidualStress, SurfaceGrid};
 use fret_core::plan::memory_of_stress;
-use fret_core::subsurface::{LoadedSurface, StressTensor, depth_points, survey};
+use fret_core::subsurface::{EvenStress, LoadedSurface, StressTensor, depth_points, survey};
 use ndarray::{Array2, Array3, Axis};
 use numpy::{IntoPyArray, PyReadonlyArray2};
 use pyo3::exceptions::PyValueError;
@@ -27,6 +27,12 @@ fn half_space_of((text, upper): (&str, bool)) -> PyResult<(HalfSpace, f64)> {
     }
 }
 
+/// The residual stress of one body of those of the lower and the upper, given as JSON text.
+fn residual_of(text: &str, upper: bool) -> PyResult<ResidualStress> {
+    let [of_lower, of_upper]: [ResidualStress; 2] = serde_json::from_str(text).map_err(bad_value)?;
+    Ok(if upper { of_upper } else { of_lower })
+}
+
 const COMPONENTS: [&str; 6] = ["xx", "yy", "zz", "xy", "xz", "yz"];
 
 /// Tractions: pressure, and shear on the lower body along x and y.
@@ -42,8 +48,11 @@ pub fn subsurface_stress<'py>(
     periodic: bool,
     tractions: TractionArrays<'py>,
     depths: Vec<f64>,
+    even: ([f64; 2], &str),
     threads: Threads,
 ) -> PyResult<Bound<'py, PyDict>> {
+    let residual = residual_of(even.1, bodies.1)?;
+    let even = EvenStress { bulk: even.0, residual };
     let (half_space, sign) = half_space_of(bodies)?;
     let half_space = &half_space;
     let points = depth_points(half_space, &depths).map_err(bad_value)?;
@@ -58,7 +67,7 @@ pub fn subsurface_stress<'py>(
         return Err(PyValueError::new_err(format!("shear of another shape than the pressure, {shape:?}")));
     }
     let grid = SurfaceGrid::new([shape.0, shape.1], spacing).map_err(bad_value)?;
-    let surface = LoadedSurface { increment: 0, pressure, shear, slip: None };
+    let surface = LoadedSurface { increment: 0, pressure, shear, slip: None, even };
     let mut stress: [Array3<f64>; 7] =
         std::array::from_fn(|_| Array3::zeros((points.len(), shape.0, shape.1)));
     on_pool(py, threads, || {
@@ -85,19 +94,25 @@ pub fn subsurface_stress<'py>(
 /// Two fields of a vector.
 type VectorArrays<'py> = (PyReadonlyArray2<'py, f64>, PyReadonlyArray2<'py, f64>);
 
-/// Fatigue parameters over increments `(pressure, shear, slip)` on the section along x nearest to y = 0: arrays of shape (nz, nx), `ruiz_f1`
+/// Fields of an increment: pressure, shear, slip and the bulk stress of the body.
+type IncrementArrays<'py> =
+    (PyReadonlyArray2<'py, f64>, Option<VectorArrays<'py>>, Option<VectorArrays<'py>>, [f64; 2]);
+
+/// Fatigue parameters over increments `(pressure, shear, slip, bulk stress)` on the section along x nearest to y = 0: arrays of shape (nz, nx), `ruiz_f1`
 /// and `ruiz_f2` of shape (nx,); depth and layer of shape (nz,).
 #[pyfunction]
 pub fn fatigue<'py>(
     py: Python<'py>,
     bodies: (&str, bool),
     setting: ([f64; 2], bool),
-    increments: Vec<(PyReadonlyArray2<'py, f64>, Option<VectorArrays<'py>>, Option<VectorArrays<'py>>)>,
+    increments: Vec<IncrementArrays<'py>>,
+    residual_stress: &str,
     depths: Vec<f64>,
     request: &str,
     threads: Threads,
 ) -> PyResult<Bound<'py, PyDict>> {
     let (spacing, periodic) = setting;
+    let residual = residual_of(residual_stress, bodies.1)?;
     let (half_space, sign) = half_space_of(bodies)?;
     let request: FatigueRequest = serde_json::from_str(request).map_err(bad_value)?;
     let points = depth_points(&half_space, &depths).map_err(bad_value)?;
@@ -113,11 +128,12 @@ pub fn fatigue<'py>(
     let surfaces: Vec<LoadedSurface> = increments
         .iter()
         .enumerate()
-        .map(|(increment, (pressure, shear, slip))| LoadedSurface {
+        .map(|(increment, (pressure, shear, slip, bulk))| LoadedSurface {
             increment,
             pressure: pressure.as_array().to_owned(),
             shear: shear.as_ref().map(|shear| vector(shear, sign)),
             slip: slip.as_ref().map(|slip| vector(slip, 1.0)),
+            even: EvenStress { bulk: *bulk, residual: residual.clone() },
         })
         .collect();
     let is_odd = |field: &Array2<f64>| field.dim() != shape;

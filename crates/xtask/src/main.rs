@@ -8,7 +8,8 @@ use std::process::{Command, ExitCode, Stdio};
 const USAGE: &str = "\
 usage: cargo xtask CHORE
 
-  test      all tests: Rust in release mode, then the Python package, built and installed into target/venv
+  test      the tests: Rust in release mode, then the Python package, built and installed into target/venv;
+            with --long all of them, also those that take long
   check     format, clippy, documentation: warnings are errors
   bench     the benchmarks
   extremes  five thousand random cases, each certified, and their page docs/trust/random-cases.md; half an hour at the most
@@ -24,7 +25,8 @@ const NOT_CHECKED: u8 = 3;
 fn main() -> ExitCode {
     let words: Vec<String> = env::args().skip(1).collect();
     let (chore, steps) = match words.iter().map(String::as_str).collect::<Vec<_>>()[..] {
-        ["test"] => ("test", test()),
+        ["test"] => ("test", test(Tests::Short)),
+        ["test", "--long"] => ("test --long", test(Tests::All)),
         ["check"] => ("check", check()),
         ["bench"] => ("bench", vec![cargo(&["bench", "--workspace", "--locked"])]),
         ["extremes"] => ("extremes", vec![extremes()]),
@@ -125,11 +127,27 @@ impl Step {
     }
 }
 
-fn test() -> Vec<Step> {
-    let mut steps = vec![cargo(&["test", "--release", "--workspace", "--locked"]).called("Rust tests")];
+/// Which tests are run.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Tests {
+    /// Those that are not marked as long.
+    Short,
+    /// All.
+    All,
+}
+
+/// Long tests carry `#[ignore]` in Rust and the mark `long` in Python.
+fn test(which: Tests) -> Vec<Step> {
+    let mut rust = vec!["test", "--release", "--workspace", "--locked"];
+    let mut pytest = vec!["-m", "pytest", "python/tests"];
+    if which == Tests::All {
+        rust.extend(["--", "--include-ignored"]);
+        pytest.push("--long");
+    }
+    let mut steps = vec![cargo(&rust).called("Rust tests")];
     steps.extend(venv());
     steps.push(python("Python build", &["-m", "pip", "install", "--quiet", ".[test]"]));
-    steps.push(python("Python tests", &["-m", "pytest", "python/tests"]));
+    steps.push(python("Python tests", &pytest));
     steps
 }
 

@@ -33,7 +33,9 @@ pub fn loaded_surfaces(
         let Some(pressure) = run.field("pressure", increment)? else { continue };
         let shear = if run.frictionless { None } else { pair(["shear_x", "shear_y"])? };
         let shear = shear.map(|shear| shear.map(|component| component * sign));
-        surfaces.push(LoadedSurface { increment, pressure, shear, slip: pair(["slip_x", "slip_y"])? });
+        let slip = pair(["slip_x", "slip_y"])?;
+        let even = run.even_stress(request.body, increment);
+        surfaces.push(LoadedSurface { increment, pressure, shear, slip, even });
     }
     let shown = folder.display();
     if surfaces.is_empty() {

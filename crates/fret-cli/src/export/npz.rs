@@ -5,6 +5,7 @@
 use std::io::{self, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
+use fret_core::history::{STEP_COLUMNS, Value};
 use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, ZipWriter};
 
@@ -15,17 +16,10 @@ use crate::results::Results;
 /// Archives of more bytes need the wider form of the format.
 const WIDE: usize = 1 << 31;
 
-/// Columns of the history that count.
-const COUNTS: [&str; 8] = [
-    "increment",
-    "stage",
-    "convolutions",
-    "preconditioner_passes",
-    "outer_iterations",
-    "contact_cells",
-    "stick_cells",
-    "parts",
-];
+/// Whether a column of the history holds whole numbers.
+fn counts(name: &str) -> bool {
+    STEP_COLUMNS.iter().any(|column| column.name == name && matches!(column.value, Value::Count(_)))
+}
 
 /// Writes the results as a `.npz` file.
 pub fn write(results: &Results, path: &Path) -> Result<Vec<PathBuf>, Failure> {
@@ -55,7 +49,7 @@ pub fn write(results: &Results, path: &Path) -> Result<Vec<PathBuf>, Failure> {
             }
         }
         for (name, values) in results.table.columns() {
-            if COUNTS.contains(&name) {
+            if counts(name) {
                 let counts: Vec<u8> = values.iter().flat_map(|&count| (count as i64).to_le_bytes()).collect();
                 archive.array(name, "<i8", &[values.len()], &counts)?;
             } else {

@@ -10,7 +10,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use fret_core::case::Units;
-use fret_core::history::KeptFields;
+use fret_core::history::{FIELDS, Field, FieldValues, KeptFields, ZONE_WORDS};
 use fret_core::model::{SurfaceGrid, Zone};
 use fret_core::plan::Plan;
 use ndarray::Array2;
@@ -27,7 +27,7 @@ pub struct FieldStore {
     /// Units that the case declares.
     units: Option<Units>,
     grid: SurfaceGrid,
-    arrays: Vec<&'static FieldArray>,
+    arrays: Vec<&'static Field>,
     /// Numbers of the increments along `increment`.
     steps: Vec<usize>,
     /// How many of them are there.
@@ -36,61 +36,8 @@ pub struct FieldStore {
     grows: bool,
 }
 
-/// One array of the store over increment, x and y.
-#[derive(Debug)]
-struct FieldArray {
-    name: &'static str,
-    /// The name in the case file that asks for it.
-    asked_as: &'static str,
-    long_name: &'static str,
-    units: &'static str,
-}
-
-const PRESSURE: &str = "pressure";
 /// The one chunk of the axis `increment`.
 const STEPS: &str = "increment/c/0";
-const LENGTH: &str = "length";
-
-const FIELD_ARRAYS: [FieldArray; 8] = [
-    FieldArray {
-        name: "pressure",
-        asked_as: "pressure",
-        long_name: "contact pressure, compression positive",
-        units: PRESSURE,
-    },
-    FieldArray {
-        name: "shear_x",
-        asked_as: "shear",
-        long_name: "shear traction on the lower body along x",
-        units: PRESSURE,
-    },
-    FieldArray {
-        name: "shear_y",
-        asked_as: "shear",
-        long_name: "shear traction on the lower body along y",
-        units: PRESSURE,
-    },
-    FieldArray {
-        name: "slip_x",
-        asked_as: "slip",
-        long_name: "accumulated slip of the upper body against the lower along x",
-        units: LENGTH,
-    },
-    FieldArray {
-        name: "slip_y",
-        asked_as: "slip",
-        long_name: "accumulated slip of the upper body against the lower along y",
-        units: LENGTH,
-    },
-    FieldArray { name: "gap", asked_as: "gap", long_name: "gap between the surfaces", units: LENGTH },
-    FieldArray { name: "zone", asked_as: "zone", long_name: "what the cell does", units: "1" },
-    FieldArray {
-        name: "worn_depth",
-        asked_as: "worn_depth",
-        long_name: "depth worn off both bodies together",
-        units: LENGTH,
-    },
-];
 
 impl FieldStore {
     /// A store of the plan's final shape, without any field yet.
@@ -153,14 +100,14 @@ impl FieldStore {
 
     /// A store without fields; `grown`: its increments so far, should they not be known beforehand.
     fn of(path: &Path, plan: &Plan, grown: Vec<usize>) -> Self {
-        let asked = |array: &&FieldArray| plan.case.output.fields.iter().any(|name| name == array.asked_as);
+        let asked = |array: &&Field| plan.case.output.fields.iter().any(|name| name == array.asked_as);
         let grows = plan.case.is_open_ended();
         Self {
             path: path.to_owned(),
             title: plan.case.title.clone(),
             units: plan.case.units.clone(),
             grid: plan.grid,
-            arrays: FIELD_ARRAYS.iter().filter(asked).collect(),
+            arrays: FIELDS.iter().filter(asked).collect(),
             steps: if grows { grown } else { plan.case.kept_increments() },
             kept: 0,
             grows,
@@ -170,18 +117,11 @@ impl FieldStore {
     /// Writes the fields of one increment.
     pub fn keep(&mut self, kept: &KeptFields) -> Result<(), Unwritten> {
         let step = self.position(kept.increment)?;
-        let [shear, slip] = [&kept.shear, &kept.slip];
         for array in &self.arrays {
-            let bytes = match array.name {
-                "pressure" => kept.pressure.as_ref().map(numbers),
-                "shear_x" => shear.as_ref().map(|[x, _]| numbers(x)),
-                "shear_y" => shear.as_ref().map(|[_, y]| numbers(y)),
-                "slip_x" => slip.as_ref().map(|[x, _]| numbers(x)),
-                "slip_y" => slip.as_ref().map(|[_, y]| numbers(y)),
-                "gap" => kept.gap.as_ref().map(numbers),
-                "worn_depth" => kept.worn_depth.as_ref().map(numbers),
-                _ => kept.zone.as_ref().map(zones),
-            };
+            let bytes = (array.values)(kept).map(|values| match values {
+                FieldValues::Reals(values) => numbers(values),
+                FieldValues::Zones(values) => zones(values),
+            });
             if let Some(bytes) = bytes {
                 self.write(&chunk(&self.grid, array.name, step), &bytes)?;
             }
@@ -205,8 +145,8 @@ impl FieldStore {
         let numbers: Vec<u8> = self.steps.iter().flat_map(|&step| (step as i64).to_le_bytes()).collect();
         self.write(STEPS, &numbers)?;
         let [nx, ny] = self.grid.cells();
-        let centre = |length: usize| ("float64", LENGTH, "cell centre", length);
-        let number = ("int64", "1", "number of the increment, from 0", self.steps.len());
+        let centre = |length: usize| ("float64", "length", "cell centre", length);
+        let number = ("int64", "", "number of the increment, from 0", self.steps.len());
         let axes = [("x", centre(nx)), ("y", centre(ny)), ("increment", number)];
         let is_line = self.grid.is_line();
         let axes = axes.into_iter().filter(|(name, _)| !(is_line && *name == "y"));
@@ -231,19 +171,19 @@ impl FieldStore {
     /// The unit of a kind of quantity: what the case declares, or that there is none declared.
     fn unit(&self, kind: &str) -> String {
         match &self.units {
-            _ if kind == "1" => kind.to_owned(),
+            _ if kind.is_empty() => "1".to_owned(),
             Some(units) => units.of(kind),
             None => format!("case units: {kind}"),
         }
     }
 
-    fn field_metadata(&self, array: &FieldArray) -> Value {
+    fn field_metadata(&self, array: &Field) -> Value {
         let [nx, ny] = self.grid.cells();
         let zone = array.name == "zone";
-        let mut attributes = json!({ "units": self.unit(array.units), "long_name": array.long_name });
+        let mut attributes = json!({ "units": self.unit(array.unit), "long_name": array.meaning });
         if zone {
             attributes["flag_values"] = json!([0, 1, 2]);
-            attributes["flag_meanings"] = json!("open stick slip");
+            attributes["flag_meanings"] = json!(ZONE_WORDS.join(" "));
         }
         // Seen with y before x, stored with x before y; of a line contact there is no y.
         let transposed = json!({ "name": "transpose", "configuration": { "order": [0, 2, 1] } });
@@ -294,7 +234,7 @@ fn steps_at(path: &Path) -> Vec<usize> {
 }
 
 /// An axis in one chunk: its type, unit, meaning and length.
-fn axis_metadata(name: &str, (data_type, units, long_name, length): (&str, &str, &str, usize)) -> Value {
+fn axis_metadata(name: &str, (data_type, unit, long_name, length): (&str, &str, &str, usize)) -> Value {
     json!({
         "zarr_format": 3,
         "node_type": "array",
@@ -304,7 +244,7 @@ fn axis_metadata(name: &str, (data_type, units, long_name, length): (&str, &str,
         "chunk_key_encoding": { "name": "default", "configuration": { "separator": "/" } },
         "fill_value": 0,
         "codecs": [little_endian_bytes()],
-        "attributes": { "units": units, "long_name": long_name },
+        "attributes": { "units": unit, "long_name": long_name },
         "dimension_names": [name],
     })
 }

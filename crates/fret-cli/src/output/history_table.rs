@@ -4,67 +4,11 @@ use std::fs::File;
 use std::io::{Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
-use fret_core::history::{CycleRecord, Regime, StepRecord};
+use fret_core::history::{CYCLE_COLUMNS, Column, CycleRecord, STEP_COLUMNS, StepRecord, Value};
 use serde::{Deserialize, Serialize};
-use serde_json::Value;
+use serde_json::Value as Json;
 
 use crate::failure::Unwritten;
-
-/// The columns, in order; the names are those of `history.steps` in Python.
-const COLUMNS: [&str; 27] = [
-    "increment",
-    "stage",
-    "normal_force",
-    "approach",
-    "tangential_force_x",
-    "tangential_force_y",
-    "shift_x",
-    "shift_y",
-    "twist_moment",
-    "twist",
-    "max_pressure",
-    "max_shear",
-    "contact_area",
-    "stick_area",
-    "dissipated_energy",
-    "residual",
-    "convolutions",
-    "preconditioner_passes",
-    "outer_iterations",
-    "wall_s",
-    "contact_cells",
-    "stick_cells",
-    "regime",
-    "full_grid_convolutions",
-    "parts",
-    "worn_volume",
-    "max_worn_depth",
-];
-
-/// The columns of the cycles, in order; the names are those of `history.cycles` in Python.
-const CYCLE_COLUMNS: [&str; 21] = [
-    "stage",
-    "cycle",
-    "first_increment",
-    "last_increment",
-    "stands_for",
-    "dissipated_energy",
-    "drive",
-    "direction",
-    "force_amplitude",
-    "displacement_amplitude",
-    "opening",
-    "energy_ratio",
-    "sliding_ratio",
-    "stiffness",
-    "regime",
-    "closure",
-    "steady",
-    "worn_volume",
-    "max_worn_depth",
-    "last_cycle",
-    "total_dissipated_energy",
-];
 
 /// What a table holds a line of.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -77,11 +21,14 @@ pub enum Lines {
 
 impl Lines {
     fn head(self) -> String {
-        let columns = match self {
-            Self::Increments => &COLUMNS[..],
-            Self::Cycles => &CYCLE_COLUMNS[..],
-        };
-        columns.join(",") + "\n"
+        fn names<R>(columns: &[Column<R>]) -> String {
+            let names: Vec<&str> = columns.iter().map(|column| column.name).collect();
+            names.join(",") + "\n"
+        }
+        match self {
+            Self::Increments => names(STEP_COLUMNS),
+            Self::Cycles => names(CYCLE_COLUMNS),
+        }
     }
 }
 
@@ -150,12 +97,12 @@ impl HistoryTable {
 
     /// Adds an increment: one write a line, so that a killed process leaves whole lines.
     pub fn add(&mut self, record: &StepRecord) -> Result<(), Unwritten> {
-        self.append(&line(record))
+        self.append(&line(STEP_COLUMNS, record))
     }
 
     /// Adds a cycle.
     pub fn add_cycle(&mut self, record: &CycleRecord) -> Result<(), Unwritten> {
-        self.append(&cycle_line(record))
+        self.append(&line(CYCLE_COLUMNS, record))
     }
 
     /// Waits until the table is on the disk.
@@ -171,67 +118,33 @@ impl HistoryTable {
     }
 }
 
-fn line(record: &StepRecord) -> String {
-    let cells: [String; COLUMNS.len()] = [
-        record.increment.to_string(),
-        record.stage.to_string(),
-        exact(record.normal_force),
-        exact(record.approach),
-        exact(record.tangential_force[0]),
-        exact(record.tangential_force[1]),
-        exact(record.shift[0]),
-        exact(record.shift[1]),
-        exact(record.twist_moment),
-        exact(record.twist),
-        exact(record.max_pressure),
-        exact(record.max_shear),
-        exact(record.contact_area),
-        exact(record.stick_area),
-        exact(record.dissipated_energy),
-        exact(record.residual.largest()),
-        record.work.convolutions.to_string(),
-        record.work.preconditioner_passes.to_string(),
-        record.work.outer_iterations.to_string(),
-        exact(record.wall_s),
-        record.contact_cells.to_string(),
-        record.stick_cells.to_string(),
-        word(record.regime).to_owned(),
-        exact(record.work.full_grid_convolutions),
-        record.parts.to_string(),
-        exact(record.worn_volume),
-        exact(record.max_worn_depth),
-    ];
+/// A line of a table.
+fn line<R>(columns: &[Column<R>], record: &R) -> String {
+    let cell = |column: &Column<R>| match column.value {
+        Value::Count(of) => of(record).to_string(),
+        Value::Real(of) => exact(of(record)),
+        Value::RealOrNone(of) => of(record).map_or_else(String::new, exact),
+        Value::Truth(of) => of(record).to_string(),
+        Value::Word(of) => of(record).to_owned(),
+    };
+    let cells: Vec<String> = columns.iter().map(cell).collect();
     cells.join(",") + "\n"
 }
 
-fn cycle_line(record: &CycleRecord) -> String {
-    // A record holds only numbers, words and truth values, each by the name of its column.
-    let values = serde_json::to_value(record).unwrap_or_default();
-    let cells = CYCLE_COLUMNS.map(|name| match &values[name] {
-        Value::Null => String::new(),
-        Value::String(word) => word.clone(),
-        Value::Number(number) => {
-            number.as_f64().filter(|_| number.is_f64()).map_or_else(|| number.to_string(), exact)
-        }
-        other => other.to_string(),
-    });
-    cells.join(",") + "\n"
-}
-
-/// What a line of [`cycle_line`] holds.
+/// The cycle of a line.
 fn cycle(line: &str) -> Option<CycleRecord> {
     let value = |cell: &str| match cell {
-        "" => Value::Null,
-        "true" => Value::Bool(true),
-        "false" => Value::Bool(false),
+        "" => Json::Null,
+        "true" => Json::Bool(true),
+        "false" => Json::Bool(false),
         _ => match (cell.parse::<u64>(), cell.parse::<f64>()) {
-            (Ok(count), _) => Value::from(count),
-            (_, Ok(number)) => Value::from(number),
-            _ => Value::from(cell),
+            (Ok(count), _) => Json::from(count),
+            (_, Ok(number)) => Json::from(number),
+            _ => Json::from(cell),
         },
     };
     let cells: Vec<&str> = line.split(',').collect();
-    let named = CYCLE_COLUMNS.iter().zip(&cells).map(|(name, cell)| ((*name).to_owned(), value(cell)));
+    let named = CYCLE_COLUMNS.iter().zip(&cells).map(|(column, cell)| (column.name.to_owned(), value(cell)));
     (cells.len() == CYCLE_COLUMNS.len()).then(|| serde_json::from_value(named.collect()).ok())?
 }
 
@@ -249,16 +162,6 @@ fn whole_lines(path: &Path, written: Written, lines: Lines) -> Option<String> {
 /// The shortest digits that read back as the same number.
 fn exact(value: f64) -> String {
     format!("{value:?}")
-}
-
-fn word(regime: Regime) -> &'static str {
-    match regime {
-        Regime::Apart => "apart",
-        Regime::FullStick => "full_stick",
-        Regime::PartialSlip => "partial_slip",
-        Regime::GrossSlip => "gross_slip",
-        Regime::Frictionless => "frictionless",
-    }
 }
 
 #[cfg(test)]
@@ -293,7 +196,7 @@ mod tests {
         };
         let other = CycleRecord { regime: None, steady: false, ..one.clone() };
         for record in [one, other] {
-            assert_eq!(cycle(cycle_line(&record).trim_end()), Some(record));
+            assert_eq!(cycle(line(CYCLE_COLUMNS, &record).trim_end()), Some(record));
         }
         assert_eq!(cycle("1,2,3"), None);
     }

@@ -4,8 +4,9 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use fret_core::case::StressRequest;
-use fret_core::model::{ContactPair, SurfaceGrid};
+use fret_core::case::{Side, StressRequest};
+use fret_core::model::{ContactPair, ResidualStress, SurfaceGrid};
+use fret_core::subsurface::EvenStress;
 use ndarray::Array2;
 use serde::de::DeserializeOwned;
 use serde_json::Value;
@@ -42,6 +43,10 @@ pub struct KeptRun {
     pub steps: Vec<usize>,
     /// Increments that are solved.
     pub solved: usize,
+    /// Bulk stresses of the lower and of the upper body along x and y at the end of every increment.
+    bulk_stress: [[Vec<f64>; 2]; 2],
+    /// Residual stress of the lower and of the upper body.
+    residual_stress: [ResidualStress; 2],
     /// Why the run is not finished, in a sentence, when it is not.
     pub unfinished: Option<String>,
 }
@@ -84,9 +89,20 @@ impl KeptRun {
             cyclic,
             steps,
             solved,
+            residual_stress: part(&plan["case"]["residual_stress"]).unwrap_or_default(),
+            bulk_stress: ["bulk_stress", "upper_bulk_stress"]
+                .map(|name| ["x", "y"].map(|axis| table.column(&format!("{name}_{axis}")).to_vec())),
             unfinished: unfinished(&record, solved),
             record,
         })
+    }
+
+    /// What adds to the stress of the tractions in a body, in an increment.
+    pub fn even_stress(&self, body: Side, increment: usize) -> EvenStress {
+        let place = usize::from(body == Side::Upper);
+        let at = |column: &Vec<f64>| column.get(increment).copied().unwrap_or(0.0);
+        let [x, y] = &self.bulk_stress[place];
+        EvenStress { bulk: [at(x), at(y)], residual: self.residual_stress[place].clone() }
     }
 
     /// A kept field of an increment; `None` when it was not kept.

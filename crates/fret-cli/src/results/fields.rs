@@ -3,13 +3,11 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use fret_core::history::FIELDS;
 use serde_json::{Value, json};
 
 use super::unusable;
 use crate::failure::Failure;
-
-/// The names a run gives its arrays.
-const NAMES: [&str; 8] = ["pressure", "shear_x", "shear_y", "slip_x", "slip_y", "gap", "zone", "worn_depth"];
 
 /// Fields of the kept increments that the run has reached.
 #[derive(Debug)]
@@ -52,8 +50,11 @@ impl Fields {
         let y = if is_line { vec![0.0] } else { floats(&coordinate(path, "y")?) };
         let numbers = coordinate(path, "increment")?;
         let numbers = numbers.chunks_exact(8).map(|eight| i64::from_le_bytes(whole(eight)));
-        let names: Vec<&'static str> =
-            NAMES.into_iter().filter(|name| path.join(name).join("zarr.json").exists()).collect();
+        let names: Vec<&'static str> = FIELDS
+            .iter()
+            .map(|field| field.name)
+            .filter(|name| path.join(name).join("zarr.json").exists())
+            .collect();
         if x.is_empty() || y.is_empty() {
             return Err(unusable(path, "holds no grid"));
         }

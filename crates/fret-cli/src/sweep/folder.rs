@@ -180,3 +180,20 @@ fn quoted(text: &str) -> String {
         text.to_owned()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use fret_core::history::{CYCLE_COLUMNS, STEP_COLUMNS};
+
+    use super::*;
+
+    #[test]
+    fn the_summary_has_columns_of_the_tables() {
+        for name in END {
+            assert!(STEP_COLUMNS.iter().any(|column| column.name == name), "{name}");
+        }
+        for name in CYCLE {
+            assert!(CYCLE_COLUMNS.iter().any(|column| column.name == name), "{name}");
+        }
+    }
+}

@@ -232,6 +232,7 @@ fn a_run_until_it_is_steady_killed_eight_times_ends_as_if_nothing_had_been() {
 /// A run that goes on from a checkpoint older than its tables and fields, as after a power failure.
 #[cfg(unix)]
 #[test]
+#[ignore = "long: 4 s"]
 fn cycles_and_fields_beyond_the_checkpoint_are_cut_off() {
     let bench = Bench::new("beyond");
     solve_whole(&bench, &worn().replace("cycles = 20", "cycles = 90"));
@@ -285,6 +286,7 @@ fn an_interrupted_run_says_how_to_go_on_and_does() {
 
 #[cfg(unix)]
 #[test]
+#[ignore = "long: 5 s"]
 fn torn_and_damaged_checkpoints_are_told_from_whole_ones() {
     let bench = long_bench("damaged");
     break_off(&bench, 40, "-KILL");

@@ -24,6 +24,7 @@ fn the_quick_extremes_hold_and_are_told_family_by_family() {
 }
 
 #[test]
+#[ignore = "long: 14 s"]
 fn a_page_that_cannot_be_written_is_told_and_the_table_is_not_lost() {
     let bench = Bench::new("extremes-unwritten");
     let answer = bench.fret(&["extremes", "--quick", "--page", "no/such/folder/page.md"]);

@@ -34,6 +34,7 @@ fn planned(bench: &Bench, case: &str, entry: &str) -> u64 {
 
 #[cfg(target_os = "linux")]
 #[test]
+#[ignore = "long: 4 s"]
 fn under_any_limit_on_memory_a_run_is_refused_or_solved_and_never_aborted() {
     let bench = Bench::new("memory-limits");
     bench.file("case.toml", &sphere(512));
@@ -91,6 +92,7 @@ fn points_of_a_sweep_wait_for_memory_and_all_are_solved() {
 
 #[cfg(target_os = "linux")]
 #[test]
+#[ignore = "long: 6 s"]
 fn kept_fields_that_are_on_disk_are_not_held_in_memory_as_well() {
     let bench = Bench::new("memory-kept");
     let kept = sphere(256)

@@ -300,6 +300,7 @@ fn worn_surfaces_stay_worn() {
 
 #[cfg(unix)]
 #[test]
+#[ignore = "long: 7 s"]
 fn a_run_from_a_state_that_is_killed_goes_on_to_the_bit_without_its_source() {
     let bench = Bench::new("from-killed");
     let rub = RUB.replace("cycles = 2", "cycles = 20");

@@ -9,13 +9,15 @@ use super::definition::{Case, GridSize, Origin};
 use super::file::{CaseFile, CellsFile, OutputFile, SizeFile};
 use super::friction::{friction, of_stages};
 use super::judge::Judge;
-use super::line::{datum, line};
+use super::line::{datum, line, motion_without_datum};
 use super::output::{FIELD_NAMES, Output};
 use super::refusal::Mistake;
 use super::repeating::repeats;
+use super::residual::residual;
 use super::shape::profile;
 use super::stages::{sliding, stages};
 use super::stress::stress;
+use super::substrates::bulk_and_tilt;
 use super::wearing::wear;
 use crate::model::{CoulombFriction, Integration, Scheme};
 
@@ -45,6 +47,8 @@ pub(super) fn case(
     let cells = cells(&mut judge, &file.grid.cells);
     let size = size(&mut judge, &file.grid.size, cells);
     let bodies = bodies(&mut judge, &file.upper, &file.lower);
+    let residual_stress = [("lower", &file.lower), ("upper", &file.upper)]
+        .map(|(which, body)| residual(&mut judge, which, body.get_ref()));
     let profile = profile(&mut judge, &file, cells);
     let friction = friction(&mut judge, file.friction.as_ref(), cells);
     let changes = of_stages(&mut judge, file.load.get_ref(), cells);
@@ -58,9 +62,11 @@ pub(super) fn case(
     let datum = datum(&mut judge, &file.grid, (is_line, size), bodies.as_ref());
     if is_line {
         line(&mut judge, &file.grid, loading, profile.as_ref());
+        motion_without_datum(&mut judge, &file.grid, size, stages.as_deref(), bodies.as_ref());
     }
     let periodic =
         !is_line && repeats(&mut judge, &file.grid, size, loading, profile.as_ref(), bodies.as_ref());
+    bulk_and_tilt(&mut judge, &file.grid, loading, bodies.as_ref(), (is_line, size));
     let mapped = friction.iter().chain(changes.iter().flatten().flatten()).any(CoulombFriction::is_map);
     let has_arrays = mapped || profile.as_ref().is_some_and(|profile| !profile.heights.is_empty());
     if let (true, Some(GridSize::Auto), false) = (has_arrays, size, periodic) {
@@ -105,6 +111,7 @@ pub(super) fn case(
             datum,
             periodic,
             bodies,
+            residual_stress,
             profile,
             friction,
             start: judge.attachments.start,

@@ -17,6 +17,12 @@ pub struct Stage {
     pub tangential: [Option<StageControl>; 2],
     /// What changes about z, if anything.
     pub twist: Option<StageControl>,
+    /// What changes of the tilt along x and y, if anything.
+    #[serde(skip_serializing_if = "are_none")]
+    pub tilt: [Option<StageControl>; 2],
+    /// What changes of the bulk stresses of the lower and of the upper body along x and y, if anything; forces all.
+    #[serde(skip_serializing_if = "are_all_none")]
+    pub bulk_stress: [[Option<StageControl>; 2]; 2],
     /// Increments of the stage, or of one cycle, all rows of a table included.
     pub increments: usize,
     /// Each increment is solved in as many parts as this bound on the error of its history asks for (in shares of the way that the
@@ -28,6 +34,14 @@ pub struct Stage {
     /// Friction from this stage on. Default: as before.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub friction: Option<CoulombFriction>,
+}
+
+fn are_none(controls: &[Option<StageControl>; 2]) -> bool {
+    controls.iter().all(Option::is_none)
+}
+
+fn are_all_none(controls: &[[Option<StageControl>; 2]; 2]) -> bool {
+    controls.iter().all(are_none)
 }
 
 /// What a stage prescribes in one direction, and how it runs.
@@ -95,6 +109,16 @@ pub enum Path {
     },
     /// Through values in turn, one after so many increments.
     Through(Vec<f64>),
+}
+
+impl Path {
+    /// Whether it is zero all along, when it starts there.
+    pub fn is_zero(&self) -> bool {
+        match self {
+            Self::To(value) | Self::Wave { amplitude: value, .. } => *value == 0.0,
+            Self::Through(values) => values.iter().all(|value| *value == 0.0),
+        }
+    }
 }
 
 impl Waveform {
@@ -226,11 +250,42 @@ impl Stage {
             normal: one(&self.normal, start.normal),
             tangential: [0, 1].map(|axis| one(&self.tangential[axis], start.tangential[axis])),
             twist: one(&self.twist, start.twist),
+            tilt: [0, 1].map(|axis| one(&self.tilt[axis], start.tilt[axis])),
+            bulk_stress: [0, 1].map(|body| {
+                [0, 1].map(|axis| {
+                    let from = start.bulk_stress[body][axis];
+                    let control = self.bulk_stress[body][axis].as_ref();
+                    control.map_or(from, |control| self.value(control, from, k))
+                })
+            }),
         }
+    }
+
+    /// All that the stage prescribes.
+    pub fn controls(&self) -> impl Iterator<Item = &StageControl> {
+        let rigid = [&self.normal, &self.tangential[0], &self.tangential[1], &self.twist];
+        let bulk = self.bulk_stress.iter().flatten();
+        rigid.into_iter().chain(&self.tilt).chain(bulk).flatten()
+    }
+
+    /// Whether the stage prescribes a bulk stress.
+    pub fn stretches(&self) -> bool {
+        self.bulk_stress.iter().flatten().any(Option::is_some)
+    }
+
+    /// Whether the stage prescribes a tilt or its moment.
+    pub fn tilts(&self) -> bool {
+        self.tilt.iter().any(Option::is_some)
     }
 }
 
 impl StageControl {
+    /// What it runs through.
+    pub fn path(&self) -> &Path {
+        let (Self::Force(path) | Self::Motion(path)) = self;
+        path
+    }
+
     /// A value of this control's kind.
     pub fn prescribing(&self, value: f64) -> Control {
         match self {
@@ -251,7 +306,7 @@ pub type KnownLoads = [Option<Control>; 4];
 /// Visits the loads of a history that starts from `start`, or from free bodies, as far as the case fixes them: number of the stage, and the loads at the end of an increment.
 /// Of a stage with cycles the first and the last are visited: its envelope is linear.
 pub fn walk(start: Option<&LoadStep>, stages: &[Stage], mut visit: impl FnMut(usize, &KnownLoads)) {
-    let LoadStep { normal, tangential: [x, y], twist } = start.unwrap_or(&LoadStep::FREE);
+    let LoadStep { normal, tangential: [x, y], twist, .. } = start.unwrap_or(&LoadStep::FREE);
     let mut held: KnownLoads = [normal, x, y, twist].map(|control| Some(*control));
     for (number, stage) in stages.iter().enumerate() {
         let controls = [&stage.normal, &stage.tangential[0], &stage.tangential[1], &stage.twist];

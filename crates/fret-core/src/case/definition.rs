@@ -7,7 +7,9 @@ use super::output::Output;
 use super::refusal::{CaseError, Difference, Mistake};
 use super::stress::StressRequest;
 use super::units::Units;
-use crate::model::{ContactPair, CoulombFriction, Integration, LoadStep, Profile, Scheme, WearRule};
+use crate::model::{
+    ContactPair, CoulombFriction, Integration, LoadStep, Profile, ResidualStress, Scheme, WearRule,
+};
 
 /// A case that has passed every check.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -28,6 +30,9 @@ pub struct Case {
     pub periodic: bool,
     /// The two bodies.
     pub bodies: ContactPair,
+    /// Residual stress of the lower and of the upper body.
+    #[serde(skip_serializing_if = "are_none")]
+    pub residual_stress: [ResidualStress; 2],
     /// Undeformed gap.
     pub profile: Profile,
     /// Friction law at the start; stages may change it.
@@ -54,6 +59,10 @@ pub struct Case {
     pub(crate) origin: Origin,
 }
 
+fn are_none(residual: &[ResidualStress; 2]) -> bool {
+    residual.iter().all(ResidualStress::is_none)
+}
+
 /// The text a case was read from, and where in it things stand.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(crate) struct Origin {
@@ -76,6 +85,12 @@ impl Case {
     /// Whether it is a line contact: plane strain across a line along y, all loads per unit length.
     pub fn is_line(&self) -> bool {
         self.cells[1] == 1
+    }
+
+    /// Whether the upper body is tilted along an axis (0: x, 1: y) by any stage, or where the history starts.
+    pub fn tilts(&self, axis: usize) -> bool {
+        let starts = self.start.is_some_and(|loads| loads.tilt[axis] != LoadStep::FREE.tilt[axis]);
+        starts || self.stages.iter().any(|stage| stage.tilt[axis].is_some())
     }
 
     /// Whether there is no friction anywhere in the whole history.

@@ -6,6 +6,7 @@ use serde::de::{self, SeqAccess, Visitor};
 use toml::Spanned;
 
 use super::pair::Pair;
+use super::residual_file::{ResidualFile, ResidualSchema};
 use super::stage_file::{AutoWord, StageFile, WearFile};
 use super::surface_file::{FrictionFile, ProfileFile};
 use crate::model::{Integration, Scheme};
@@ -221,6 +222,10 @@ pub(super) struct CoatingFile {
     /// Poisson's ratio, above -1, at most 0.5; the same at every depth.
     #[schemars(with = "f64")]
     pub poisson: Spanned<f64>,
+    /// Residual stress [pressure], tension positive: the same along x and y, or one along each; or rows of depth below the upper
+    /// face [length] and stress (one, or along x and y), linear between them. It adds to the stresses below, and to nothing else.
+    #[schemars(with = "Option<ResidualSchema>")]
+    pub residual_stress: Option<Spanned<ResidualFile>>,
 }
 
 /// Young's modulus over the depth of a coating: `young` at both faces and the `law` between them, or a `table`.
@@ -261,6 +266,9 @@ pub(super) struct MaterialFile {
     /// Poisson's ratio, above -1, at most 0.5.
     #[schemars(with = "f64")]
     pub poisson: Spanned<f64>,
+    /// Residual stress, as of a coating; below the last row of a table it stays as it is there.
+    #[schemars(with = "Option<ResidualSchema>")]
+    pub residual_stress: Option<Spanned<ResidualFile>>,
 }
 
 /// Accuracy of the solution.

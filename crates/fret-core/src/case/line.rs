@@ -2,6 +2,7 @@
 
 use toml::Spanned;
 
+use super::course::StageControl;
 use super::file::GridFile;
 use super::judge::Judge;
 use super::stage_file::StageFile;
@@ -70,6 +71,27 @@ fn of_a_surface(shape: &Shape) -> Option<(&'static str, &'static str)> {
             Some(("wave", "a wave is periodic: cells = [n, 4], size = [x, y], periodic = true"))
         }
         _ => None,
+    }
+}
+
+/// Refuses an approach, that is relative to a depth which follows from a size that follows from them.
+pub(super) fn motion_without_datum(
+    judge: &mut Judge,
+    grid: &GridFile,
+    size: Option<GridSize>,
+    checked: Option<&[Stage]>,
+    bodies: Option<&ContactPair>,
+) {
+    let moves = |stage: &Stage| stage.normal.as_ref().is_some_and(StageControl::is_motion);
+    let is_open = grid.datum.is_none() && size == Some(GridSize::Auto);
+    let has_base = bodies.is_some_and(ContactPair::has_elastic_base);
+    if is_open && has_base && checked.is_some_and(|stages| stages.iter().any(moves)) {
+        judge.refuse::<()>(
+            grid.size.span(),
+            "grid.size = \"auto\" in a line contact with a prescribed approach and no datum: the approach is relative to a depth, which \
+             would be the size",
+            "datum = ..., or the size of the grid",
+        );
     }
 }
 

@@ -1,7 +1,9 @@
 //! The written question: a case, checked. Read from TOML text (`read`), judged all at once (`check`), refused with places (`refusal`).
 
+mod along;
 mod arrays;
 mod attachments;
+mod axis;
 mod bodies;
 pub(crate) mod check;
 mod coating;
@@ -15,13 +17,17 @@ mod line;
 mod numbers;
 mod output;
 mod pair;
+mod phases;
 mod read;
 mod refusal;
 mod repeating;
+mod residual;
+mod residual_file;
 mod shape;
 mod stage_file;
 mod stages;
 mod stress;
+mod substrates;
 mod surface_file;
 mod table;
 mod units;

@@ -7,6 +7,8 @@ use serde::Deserialize;
 use serde::de::{self, Visitor};
 use toml::Spanned;
 
+use super::along::{AlongFile, AlongPhaseSchema, AlongSchema};
+use super::axis::{AxisFile, AxisSchema};
 use super::pair::Pair;
 use super::surface_file::CoefficientFile;
 
@@ -34,6 +36,21 @@ pub(super) struct StageFile {
     /// Rotation of the upper body about z [rad]: at the end, or the amplitude.
     #[schemars(with = "Option<f64>")]
     pub twist: Option<Spanned<f64>>,
+    /// First moment of the pressure along x and y, `sum p x dA` [force x length]: at the end, or the amplitude; or "held". A number
+    /// in a line contact.
+    #[schemars(with = "Option<AlongSchema>")]
+    pub tilt_moment: Option<Spanned<AlongFile<AxisFile>>>,
+    /// Slope of the upper body along x and y [-], deeper towards positive x and y: at the end, or the amplitude; or "held". A
+    /// number in a line contact. Default: 0, fixed.
+    #[schemars(with = "Option<AlongSchema>")]
+    pub tilt: Option<Spanned<AlongFile<AxisFile>>>,
+    /// Bulk stress of the lower body along x and y [pressure], remote stress of its substrate, tension positive: at the end, or the
+    /// amplitude; or "held". A number in a line contact.
+    #[schemars(with = "Option<AlongSchema>")]
+    pub bulk_stress: Option<Spanned<AlongFile<AxisFile>>>,
+    /// The same of the upper body.
+    #[schemars(with = "Option<AlongSchema>")]
+    pub upper_bulk_stress: Option<Spanned<AlongFile<AxisFile>>>,
     /// A CSV file with the values of the controls, instead of naming them here; its columns are named like the controls.
     #[schemars(with = "Option<String>")]
     pub table: Option<Spanned<String>>,
@@ -122,66 +139,6 @@ impl<'de> Deserialize<'de> for IncrementsFile {
     }
 }
 
-/// A number for one axis, or the word "held".
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum AxisFile {
-    Value(f64),
-    Held,
-}
-
-impl AxisFile {
-    pub fn value(self) -> Option<f64> {
-        match self {
-            Self::Value(value) => Some(value),
-            Self::Held => None,
-        }
-    }
-}
-
-#[derive(JsonSchema)]
-#[serde(untagged)]
-#[expect(dead_code, reason = "stands for AxisFile in the schema")]
-enum AxisSchema {
-    Value(f64),
-    Held(HeldWord),
-}
-
-#[derive(JsonSchema)]
-#[serde(rename_all = "lowercase")]
-#[expect(dead_code, reason = "stands for a word in the schema")]
-enum HeldWord {
-    Held,
-}
-
-impl<'de> Deserialize<'de> for AxisFile {
-    fn deserialize<D: de::Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        struct AxisVisitor;
-        impl Visitor<'_> for AxisVisitor {
-            type Value = AxisFile;
-            fn expecting(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-                formatter.write_str("a number or \"held\"")
-            }
-            fn visit_f64<E: de::Error>(self, value: f64) -> Result<AxisFile, E> {
-                Ok(AxisFile::Value(value))
-            }
-            fn visit_i64<E: de::Error>(self, value: i64) -> Result<AxisFile, E> {
-                Ok(AxisFile::Value(value as f64))
-            }
-            fn visit_u64<E: de::Error>(self, value: u64) -> Result<AxisFile, E> {
-                Ok(AxisFile::Value(value as f64))
-            }
-            fn visit_str<E: de::Error>(self, word: &str) -> Result<AxisFile, E> {
-                if word == "held" {
-                    Ok(AxisFile::Held)
-                } else {
-                    Err(E::invalid_value(de::Unexpected::Str(word), &self))
-                }
-            }
-        }
-        deserializer.deserialize_any(AxisVisitor)
-    }
-}
-
 /// How a ramp runs.
 #[derive(Debug, Clone, Copy, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
@@ -226,6 +183,18 @@ pub(super) struct PhaseFile {
     /// Of the rotation about z.
     #[schemars(with = "Option<f64>")]
     pub twist: Option<Spanned<f64>>,
+    /// Of the moments of the pressure.
+    #[schemars(with = "Option<AlongPhaseSchema>")]
+    pub tilt_moment: Option<Spanned<AlongFile<f64>>>,
+    /// Of the slopes.
+    #[schemars(with = "Option<AlongPhaseSchema>")]
+    pub tilt: Option<Spanned<AlongFile<f64>>>,
+    /// Of the bulk stress of the lower body.
+    #[schemars(with = "Option<AlongPhaseSchema>")]
+    pub bulk_stress: Option<Spanned<AlongFile<f64>>>,
+    /// Of that of the upper body.
+    #[schemars(with = "Option<AlongPhaseSchema>")]
+    pub upper_bulk_stress: Option<Spanned<AlongFile<f64>>>,
 }
 
 /// When the cycle counts as steady.

@@ -2,7 +2,7 @@
 
 use toml::Spanned;
 
-use super::controls::controls;
+use super::controls::{Controls, controls};
 use super::course::{Course, Cycles, Stage, StageControl, Waveform, walk};
 use super::judge::Judge;
 use super::stage_file::{IncrementsFile, RampFile, StageFile, WaveformFile};
@@ -104,7 +104,7 @@ fn stage(
         increments = increments.saturating_mul(rows);
     }
     let controls = controls(judge, &place, file, columns.as_ref());
-    let [normal, x, y, twist] = controls;
+    let Controls { rigid: [normal, x, y, twist], tilt, bulk_stress } = controls;
     let starts_free = index == 0 && judge.attachments.start.is_none();
     if starts_free && normal.is_none() && judge.mistakes.len() == before {
         judge.refuse::<()>(
@@ -119,6 +119,8 @@ fn stage(
         normal,
         tangential: [x, y],
         twist,
+        tilt,
+        bulk_stress,
         increments,
         history_tolerance: auto.then_some(tolerance),
         course: course.unwrap_or(Course::Linear),
@@ -138,12 +140,12 @@ fn stage(
             "[friction] coefficient = ..., or leave the tangential load out",
         );
     }
-    let says_nothing = stage.normal.is_none() && !stage.is_tangential() && file.friction.is_none();
+    let says_nothing = stage.controls().next().is_none() && file.friction.is_none();
     if says_nothing && judge.mistakes.len() == before {
         judge.refuse::<()>(
             given.span(),
             format!("{place}: nothing is prescribed"),
-            "normal_force, approach, tangential_force, shift, twist_moment, twist or friction",
+            "normal_force, approach, tangential_force, shift, twist_moment, twist, tilt_moment, tilt, bulk_stress, upper_bulk_stress or friction",
         );
     }
     (judge.mistakes.len() == before).then_some(stage)
@@ -362,18 +364,16 @@ pub fn apart(one: f64, other: f64) -> [String; 2] {
 }
 
 impl Stage {
-    /// Whether the stage prescribes any tangential force or motion.
+    /// Whether the stage prescribes any tangential force or motion, or a bulk stress, which moves the surfaces tangentially.
     pub fn is_tangential(&self) -> bool {
-        self.tangential.iter().any(Option::is_some) || self.twist.is_some()
+        self.tangential.iter().any(Option::is_some) || self.twist.is_some() || self.stretches()
     }
 
-    /// Whether it prescribes more than forces that stay zero.
+    /// Whether it prescribes more than forces that stay zero. A bulk stress of a contact without friction only adds to the stresses below.
     fn is_tangential_beyond_rest(&self) -> bool {
-        use super::Path;
         let rests = |control: &StageControl| match control {
             StageControl::Motion(_) => false,
-            StageControl::Force(Path::To(value) | Path::Wave { amplitude: value, .. }) => *value == 0.0,
-            StageControl::Force(Path::Through(values)) => values.iter().all(|value| *value == 0.0),
+            StageControl::Force(path) => path.is_zero(),
         };
         self.tangential.iter().flatten().any(|control| !rests(control)) || self.twist.is_some()
     }

@@ -9,7 +9,7 @@ use super::judge::Judge;
 use super::stage_file::StageFile;
 
 /// Controls a column can hold, by the names of `history.csv`.
-pub(super) const COLUMNS: [&str; 8] = [
+pub(super) const COLUMNS: [&str; 16] = [
     "normal_force",
     "approach",
     "tangential_force_x",
@@ -18,7 +18,19 @@ pub(super) const COLUMNS: [&str; 8] = [
     "shift_y",
     "twist_moment",
     "twist",
+    "tilt_moment_x",
+    "tilt_moment_y",
+    "tilt_x",
+    "tilt_y",
+    "bulk_stress_x",
+    "bulk_stress_y",
+    "upper_bulk_stress_x",
+    "upper_bulk_stress_y",
 ];
+
+/// Columns that prescribe one thing, of which a table may have one.
+const RIVALS: [[usize; 2]; 10] =
+    [[0, 1], [2, 4], [3, 5], [6, 7], [8, 10], [9, 11], [12, 12], [13, 13], [14, 14], [15, 15]];
 
 /// Rows of a table, at the most.
 const MOST_ROWS: usize = 1_000_000;
@@ -134,13 +146,13 @@ fn chosen(
             chosen.push((known, index));
         }
     }
-    for pair in [[0, 1], [2, 4], [3, 5], [6, 7]] {
+    for pair in RIVALS {
         let [force, motion] = pair.map(|index| COLUMNS[index]);
         let has = |control: &str| chosen.iter().filter(|(known, _)| *known == control).count();
         if let Some(twice) = [force, motion].into_iter().find(|control| has(control) > 1) {
             return at.refuse(judge, &format!("column {twice:?} stands there twice"), "");
         }
-        if has(force) + has(motion) > 1 {
+        if force != motion && has(force) + has(motion) > 1 {
             let message = format!("{force} and {motion} prescribe one thing, and one column may do so");
             return at.refuse(judge, &message, "");
         }

@@ -1,14 +1,18 @@
 //! What a run leaves behind: records of increments and cycles, kept fields, warnings, and the state that another history may start
 //! from.
 
+mod columns;
 mod cycle;
+mod field_names;
 mod footprint;
 mod records;
 mod start;
 pub mod warning;
 
 pub use crate::solver::{Regime, Residual, Work};
+pub use columns::{CYCLE_COLUMNS, Column, STEP_COLUMNS, Value};
 pub use cycle::{CycleRecord, CycleRegime, Drive, RunningCondition, SLIDING_ENERGY_RATIO, running_condition};
+pub use field_names::{FIELDS, Field, FieldValues, ZONE_WORDS};
 pub use footprint::Footprint;
 pub use records::{History, KeptFields, StepRecord, WornThrough};
 pub use start::Start;

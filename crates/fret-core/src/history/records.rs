@@ -31,6 +31,14 @@ pub struct StepRecord {
     pub twist_moment: f64,
     /// Rotation of the upper body about z [rad].
     pub twist: f64,
+    /// Slope of the upper body along x and y [-], deeper towards positive x and y.
+    pub tilt: [f64; 2],
+    /// First moments of the pressure along x and y [force x length].
+    pub tilt_moment: [f64; 2],
+    /// Bulk stress of the lower and of the upper substrate, each along x and y [pressure].
+    pub bulk_stress: [[f64; 2]; 2],
+    /// Work of the bulk stresses on the contact since the start [force x length], of the computed increments.
+    pub bulk_work: f64,
     /// Largest pressure of a cell [pressure].
     pub max_pressure: f64,
     /// Largest shear traction of a cell [pressure].
@@ -82,21 +90,6 @@ pub struct KeptFields {
     /// What another history needs besides these fields to start here; of every last increment of a stage, and where the fields
     /// are enough.
     pub rest: Option<Box<SolvedState>>,
-}
-
-impl KeptFields {
-    /// Pressure, shear or slip by its name, where it is kept.
-    pub fn field(&self, name: &str) -> Option<&Array2<f64>> {
-        let [shear, slip] = [&self.shear, &self.slip].map(Option::as_ref);
-        match name {
-            "pressure" => self.pressure.as_ref(),
-            "shear_x" => shear.map(|[x, _]| x),
-            "shear_y" => shear.map(|[_, y]| y),
-            "slip_x" => slip.map(|[x, _]| x),
-            "slip_y" => slip.map(|[_, y]| y),
-            _ => None,
-        }
-    }
 }
 
 /// All of a run.

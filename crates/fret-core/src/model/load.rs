@@ -5,9 +5,9 @@ use serde::{Deserialize, Serialize};
 /// What is prescribed for one rigid degree of freedom.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub enum Control {
-    /// The resultant [force], or [force x length] for twist; the motion follows.
+    /// The resultant [force], or [force x length] for twist and tilt; the motion follows.
     Force(f64),
-    /// The rigid motion [length], or [rad] for twist; the resultant follows.
+    /// The rigid motion [length], or [rad] for twist, slope for tilt; the resultant follows.
     Motion(f64),
 }
 
@@ -20,6 +20,10 @@ pub struct LoadStep {
     pub tangential: [Control; 2],
     /// Moment about z on the lower body, or rotation of the upper body.
     pub twist: Control,
+    /// First moment of the pressure along x and y, or slope of the upper body: it goes deeper towards positive x and y.
+    pub tilt: [Control; 2],
+    /// Bulk stress of the substrates of the lower and the upper body, each along x and y [pressure], tension positive.
+    pub bulk_stress: [[f64; 2]; 2],
 }
 
 impl LoadStep {
@@ -28,6 +32,8 @@ impl LoadStep {
         normal: Control::Force(0.0),
         tangential: [Control::Force(0.0); 2],
         twist: Control::Motion(0.0),
+        tilt: [Control::Motion(0.0); 2],
+        bulk_stress: [[0.0; 2]; 2],
     };
 
     /// What is prescribed at a share of the straight way from one step to another that prescribes the same kinds.
@@ -41,6 +47,13 @@ impl LoadStep {
             normal: one(from.normal, to.normal),
             tangential: [0, 1].map(|axis| one(from.tangential[axis], to.tangential[axis])),
             twist: one(from.twist, to.twist),
+            tilt: [0, 1].map(|axis| one(from.tilt[axis], to.tilt[axis])),
+            bulk_stress: [0, 1].map(|body| {
+                [0, 1].map(|axis| {
+                    let (a, b) = (from.bulk_stress[body][axis], to.bulk_stress[body][axis]);
+                    if share < 1.0 { a + (b - a) * share } else { b }
+                })
+            }),
         }
     }
 }

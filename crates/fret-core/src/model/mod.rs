@@ -1,5 +1,6 @@
 //! The nouns of a contact: grid, bodies, profile, friction, loads, state. No numerics live here.
 
+pub mod bulk;
 pub mod friction;
 pub mod graded;
 pub mod grid;
@@ -7,6 +8,7 @@ pub mod half_space;
 pub mod heights;
 pub mod load;
 pub mod profile;
+pub mod residual;
 pub mod scheme;
 pub mod shape;
 pub mod state;
@@ -14,6 +16,7 @@ pub mod symmetry;
 pub mod wear;
 
 pub use crate::fields::TangentialField;
+pub use bulk::{BulkCompliance, bulk_stress_in_layer};
 pub use friction::{CellValues, CoulombFriction, FrictionError};
 pub use graded::{GradedCoating, GradientError, Layer, YoungGradient};
 pub use grid::{GridError, SurfaceGrid};
@@ -21,6 +24,7 @@ pub use half_space::{Base, Body, Coating, ContactPair, ElasticMaterial, HalfSpac
 pub use heights::{Detrend, Heights};
 pub use load::{Control, LoadStep};
 pub use profile::{BEYOND_THE_BODY, Profile};
+pub use residual::{ResidualLayer, ResidualStress};
 pub use scheme::{Integration, Scheme};
 pub use shape::{Axis, ProfileError, Shape};
 pub use state::{ContactState, SolvedState, Zone};

@@ -56,8 +56,15 @@ pub struct ContactState {
     pub shift: [f64; 2],
     /// Rotation of the upper body about z [rad].
     pub twist: f64,
+    /// Slope of the upper body along x and y [-]: deeper towards positive x and y.
+    pub tilt: [f64; 2],
+    /// Bulk stress of the lower and of the upper substrate along x and y [pressure].
+    pub bulk_stress: [[f64; 2]; 2],
     /// Work of friction since the start [force x length]; with wear that of all cycles that computed ones stand for.
     pub dissipated_energy: f64,
+    /// Work that the bulk stresses have done on the contact since the start [force x length]: minus the mean shear times the change of
+    /// the relative displacement by the strains; of computed increments alone.
+    pub bulk_work: f64,
 }
 
 impl ContactState {
@@ -74,7 +81,10 @@ impl ContactState {
             approach: 0.0,
             shift: [0.0; 2],
             twist: 0.0,
+            tilt: [0.0; 2],
+            bulk_stress: [[0.0; 2]; 2],
             dissipated_energy: 0.0,
+            bulk_work: 0.0,
         }
     }
 
@@ -94,11 +104,14 @@ impl ContactState {
     pub fn is_sound(&self, cells: [usize; 2]) -> bool {
         let [qx, qy] = &self.shear;
         let [sx, sy] = &self.slip;
-        let motions = [self.approach, self.shift[0], self.shift[1], self.twist, self.dissipated_energy];
+        let [tilt_x, tilt_y] = self.tilt;
+        let motions = [self.approach, self.shift[0], self.shift[1], self.twist, tilt_x, tilt_y];
+        let numbers = motions.into_iter().chain(self.bulk_stress.into_iter().flatten());
+        let mut numbers = numbers.chain([self.dissipated_energy, self.bulk_work]);
         let field = |field: &Array2<f64>| field.dim() == cells.into() && field.iter().all(|v| v.is_finite());
         [&self.pressure, qx, qy, sx, sy].into_iter().chain(&self.worn_depth).all(field)
             && self.zone.dim() == cells.into()
-            && motions.iter().all(|motion| motion.is_finite())
+            && numbers.all(f64::is_finite)
     }
 }
 
@@ -113,6 +126,8 @@ pub struct SolvedState {
     pub tangential_force: [f64; 2],
     /// Moment about z on the lower body [force x length].
     pub twist_moment: f64,
+    /// First moment of the pressure along x and y [force x length].
+    pub tilt_moment: [f64; 2],
     /// Tractions, motions, slip and wear. What an unfinished cycle has worn so far is taken off once.
     pub state: ContactState,
 }

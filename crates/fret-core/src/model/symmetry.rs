@@ -118,6 +118,10 @@ impl Symmetry {
                 }
             }),
             twist: Control::Motion(state.twist),
+            tilt: [0, 1].map(|axis| {
+                if self.axes()[axis] { Control::Motion(state.tilt[axis]) } else { part(load.tilt[axis]) }
+            }),
+            bulk_stress: load.bulk_stress,
         }
     }
 
@@ -130,6 +134,7 @@ impl Symmetry {
             zone: self.part(&state.zone),
             worn_depth: state.worn_depth.as_ref().map(|depth| self.part(depth)),
             dissipated_energy: state.dissipated_energy / self.copies() as f64,
+            bulk_work: state.bulk_work / self.copies() as f64,
             ..*state
         }
     }
@@ -148,6 +153,7 @@ impl Symmetry {
             },
             worn_depth: part.worn_depth.as_ref().map(|depth| self.whole(depth, [false; 2])),
             dissipated_energy: part.dissipated_energy * self.copies() as f64,
+            bulk_work: part.bulk_work * self.copies() as f64,
             ..*part
         }
     }
@@ -224,7 +230,7 @@ mod tests {
         let load = LoadStep {
             normal: Control::Force(12.0),
             tangential: [Control::Motion(0.5), Control::Force(0.0)],
-            twist: Control::Motion(0.0),
+            ..LoadStep::FREE
         };
         let part = HALF.part_of_load(&load, &state);
         assert_eq!(part.normal, Control::Force(6.0));

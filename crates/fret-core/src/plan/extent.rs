@@ -157,7 +157,7 @@ fn extent_under(case: &Case, size: [f64; 2], normal: Control) -> Extent {
         settings,
         false,
     );
-    let load = LoadStep { normal, tangential: [Control::Force(0.0); 2], twist: Control::Motion(0.0) };
+    let load = LoadStep { normal, tangential: [Control::Force(0.0); 2], ..LoadStep::FREE };
     let untouched = ContactState::untouched(cells);
     let solved = match solver.step(&untouched, &load, &mut |_, _| ControlFlow::Continue(())) {
         Ok(solved) => solved,

@@ -5,7 +5,7 @@ use ndarray::Axis;
 use serde::Serialize;
 
 use super::simplification::{LeaveOut, Simplification};
-use super::symmetry::{is_loaded, is_twisted};
+use super::symmetry::{is_loaded, is_stretched, is_twisted};
 use crate::case::{Case, Stage};
 use crate::kernel::PairResponse;
 use crate::model::{Body, ContactState, SurfaceGrid, Symmetry};
@@ -72,7 +72,7 @@ pub fn left_out(
     {
         leave(
             "tangential equations before the first tangential load",
-            "no tangential force, shift or twist is prescribed before",
+            "no tangential force, shift, twist or bulk stress is prescribed before",
             &format!("every tangential iteration of the first {increments} increments"),
         );
     }
@@ -142,16 +142,13 @@ fn unasked_fields(case: &Case, grid: &SurfaceGrid) -> Option<(String, String)> {
 
 /// Increments of the stages before the first that names a tangential control; none when the first one does.
 fn increments_before_a_cause(case: &Case) -> Option<usize> {
-    let quiet = case
-        .stages
-        .iter()
-        .take_while(|stage| stage.tangential.iter().all(Option::is_none) && stage.twist.is_none());
+    let quiet = case.stages.iter().take_while(|stage| !stage.is_tangential());
     Some(quiet.map(Stage::increments_in_all).sum()).filter(|sum| *sum > 0)
 }
 
 /// Increments in which no stage changes the normal load.
 fn increments_at_one_load(case: &Case) -> usize {
-    let held = case.stages.iter().filter(|stage| stage.normal.is_none());
+    let held = case.stages.iter().filter(|stage| stage.normal.is_none() && !stage.tilts());
     held.map(Stage::increments_in_all).sum()
 }
 
@@ -167,7 +164,8 @@ pub fn one_way(
     if coupling == Coupling::Frictionless || is_twisted(case, start) {
         return None;
     }
-    let axis = match [is_loaded(case, 0, start), is_loaded(case, 1, start)] {
+    let moves = |axis: usize| is_loaded(case, axis, start) || is_stretched(case, axis, start);
+    let axis = match [moves(0), moves(1)] {
         [_, false] if grid.is_line() => 0,
         [true, false] => 0,
         [false, true] => 1,

@@ -1,7 +1,7 @@
 //! Whether a scene and its loads are their own mirror image, so that a half or a quarter of the grid stands for the whole.
 
-use crate::case::{Case, Path, StageControl};
-use crate::model::{ContactState, Control, SurfaceGrid, Symmetry};
+use crate::case::Case;
+use crate::model::{BulkCompliance, ContactState, Control, SurfaceGrid, Symmetry};
 use crate::solver::Coupling;
 
 /// Along fewer cells a mirror saves nothing.
@@ -11,7 +11,8 @@ const FEWEST_CELLS: usize = 16;
 ///
 /// Under a load along x the pressure and the shear along x are even across y, the shear across is odd. Across x the same holds
 /// where pressure and shear do not act on each other: the mirror image is pulled the other way, and all shears changed in sign
-/// answer that. Without a tangential load shear points away from the middle or towards it.
+/// answer that. Without a tangential load shear points away from the middle or towards it, also under bulk stresses; these, with a
+/// tangential load, leave no mirror across it. A tilt leaves none along its own axis.
 pub fn symmetry(
     case: &Case,
     grid: &SurfaceGrid,
@@ -22,7 +23,8 @@ pub fn symmetry(
     if grid.is_line() || is_twisted(case, start) {
         return Symmetry::NONE;
     }
-    let coupled = coupling == Coupling::Coupled;
+    let stretched = (0..2).any(|axis| is_stretched(case, axis, start));
+    let coupled = coupling == Coupling::Coupled || stretched;
     let odd_shear = match (coupling, [is_loaded(case, 0, start), is_loaded(case, 1, start)]) {
         (Coupling::Frictionless, _) | (_, [false, false]) => [Some(0), Some(1)],
         (_, [true, false]) => [(!coupled).then_some(1), Some(1)],
@@ -38,6 +40,7 @@ pub fn symmetry(
         odd[axis] = odd_shear[axis];
         let mirror = Symmetry { odd_shear: odd };
         let keeps = grid.cells()[axis] >= FEWEST_CELLS
+            && !case.tilts(axis)
             && maps.iter().all(|field| mirror.is_kept_by(field))
             && start.is_none_or(|state| mirror.is_kept_by_state(state));
         odd[axis].filter(|_| keeps)
@@ -51,12 +54,17 @@ pub fn is_loaded(case: &Case, axis: usize, start: Option<&ContactState>) -> bool
     if held.is_some_and(asks_for_something) || start.is_some_and(|state| state.shift[axis] != 0.0) {
         return true;
     }
-    case.stages.iter().filter_map(|stage| stage.tangential[axis].as_ref()).any(|control| {
-        let (StageControl::Force(path) | StageControl::Motion(path)) = control;
-        match path {
-            Path::To(value) | Path::Wave { amplitude: value, .. } => *value != 0.0,
-            Path::Through(values) => values.iter().any(|value| *value != 0.0),
-        }
+    let mut controls = case.stages.iter().filter_map(|stage| stage.tangential[axis].as_ref());
+    controls.any(|control| !control.path().is_zero())
+}
+
+/// Whether bulk stresses move the surfaces along an axis (0: x, 1: y) against each other.
+pub fn is_stretched(case: &Case, axis: usize, start: Option<&ContactState>) -> bool {
+    let strains = BulkCompliance::of(&case.bodies, case.is_line());
+    (0..2).flat_map(|body| (0..2).map(move |along| (body, along))).any(|(body, along)| {
+        let starts = start.is_some_and(|state| state.bulk_stress[body][along] != 0.0);
+        let mut controls = case.stages.iter().filter_map(|stage| stage.bulk_stress[body][along].as_ref());
+        strains.strains(body, along, axis) && controls.any(|control| starts || !control.path().is_zero())
     })
 }
 

@@ -123,11 +123,12 @@ impl Checkpoint {
         let start = plan.start.as_deref();
         let (loads, resultants, mut state) = match start.map(|start| &start.solved) {
             None => (LoadStep::FREE, Resultants::default(), ContactState::untouched(cells)),
-            Some(SolvedState { loads, normal_force, tangential_force, twist_moment, state }) => {
+            Some(SolvedState { loads, normal_force, tangential_force, twist_moment, tilt_moment, state }) => {
                 let resultants = Resultants {
                     normal: *normal_force,
                     tangential: *tangential_force,
                     moment: *twist_moment,
+                    tilt_moment: *tilt_moment,
                 };
                 (*loads, resultants, state.clone())
             }
@@ -224,7 +225,7 @@ impl Checkpoint {
 
 /// What another history needs to start where a run stands: what an unfinished cycle has worn so far is taken off once.
 pub(crate) fn solved_state(place: &Place, state: &ContactState, wear: Option<&Collected>) -> SolvedState {
-    let Resultants { normal, tangential, moment } = place.resultants;
+    let Resultants { normal, tangential, moment, tilt_moment } = place.resultants;
     let mut state = state.clone();
     if let (Some(depth), Some(wear)) = (&mut state.worn_depth, wear) {
         *depth += wear.depth();
@@ -234,6 +235,7 @@ pub(crate) fn solved_state(place: &Place, state: &ContactState, wear: Option<&Co
         normal_force: normal,
         tangential_force: tangential,
         twist_moment: moment,
+        tilt_moment,
         state,
     }
 }

@@ -63,6 +63,22 @@ pub enum RunError {
         /// Fraction of them that friction carries, at the most.
         fraction: f64,
     },
+    /// No tilt gives the prescribed moment of the pressure.
+    #[error(
+        "increment {increment} ({stage}): no tilt was found for the prescribed tilt_moment {}, {} was reached: the normal force may not be \
+         able to act so far from the middle; prescribe the tilt, or a smaller moment",
+        apart(*asked, *reached)[0], apart(*asked, *reached)[1]
+    )]
+    NoTilt {
+        /// Number of the increment, from 0.
+        increment: usize,
+        /// Name of its stage.
+        stage: String,
+        /// Moment asked for [force x length].
+        asked: f64,
+        /// Moment reached [force x length].
+        reached: f64,
+    },
     /// Even small parts of an increment leave too large an error in its history.
     #[error(
         "increment {increment} ({stage}): {parts} parts leave an error of {reached:.1e} of the way the tractions go, asked for \
@@ -116,6 +132,7 @@ impl RunError {
             | Self::ContactAtEdge { increment, .. }
             | Self::AboveSliding { increment, .. }
             | Self::AboveFullSlip { increment, .. }
+            | Self::NoTilt { increment, .. }
             | Self::HistoryUnresolved { increment, .. }
             | Self::WearTooFast { increment, .. }
             | Self::OutOfMemory { increment, .. }
@@ -140,6 +157,7 @@ pub fn run_error(error: &SolveError, increment: usize, stage: &Stage, tolerance:
             RunError::AboveSliding { increment, stage, asked, bound }
         }
         SolveError::AboveFullSlip { fraction } => RunError::AboveFullSlip { increment, stage, fraction },
+        SolveError::NoTilt { asked, reached } => RunError::NoTilt { increment, stage, asked, reached },
         SolveError::ContactAtEdge => RunError::ContactAtEdge { increment, stage },
         SolveError::OperatorsMissing(error) => RunError::NotConverged {
             increment,

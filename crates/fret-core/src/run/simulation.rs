@@ -23,7 +23,7 @@ use crate::kernel::{
     periodic_symbols, symbols_of,
 };
 use crate::machine::memory::{Claim, claim};
-use crate::model::{ContactState, CoulombFriction, LoadStep, SolvedState};
+use crate::model::{BulkCompliance, ContactState, CoulombFriction, LoadStep, SolvedState};
 use crate::plan::{Coupling, Plan, Simplification};
 use crate::solver::{ContactSolver, Resultants, SolverSettings};
 
@@ -180,6 +180,7 @@ impl<'a> Simulation<'a> {
             .wear
             .zip(wear)
             .map(|(rule, collected)| Wearing::new(rule, own, unworn, case.friction.clone(), collected));
+        solver.set_tilt(history.state.tilt);
         // Last: a new gap makes a solver forget.
         solver.restore_memory(memory);
         let journey =
@@ -250,6 +251,7 @@ impl<'a> Simulation<'a> {
             plan.leave_out.takes(Simplification::Region),
         )
         .with_shear_axis(plan.along)
+        .with_bulk(BulkCompliance::of(&case.bodies, case.is_line()))
         .with_symmetry(plan.symmetry);
         if case.periodic {
             return solver;

@@ -28,6 +28,11 @@ impl<'a> StageSteps<'a> {
                 begin(control, held.tangential[axis], resultants.tangential[axis], state.shift[axis])
             }),
             twist: begin(&stage.twist, held.twist, resultants.moment, state.twist),
+            tilt: [0, 1].map(|axis| {
+                let control = &stage.tilt[axis];
+                begin(control, held.tilt[axis], resultants.tilt_moment[axis], state.tilt[axis])
+            }),
+            bulk_stress: held.bulk_stress,
         };
         Self::from_start(stage, start)
     }

@@ -13,6 +13,7 @@ use super::laws::projection::project_pressure;
 use super::laws::rigid_motions::CellPositions;
 use super::laws::slip::TangentialResidual;
 use super::laws::slip_path::SlipPath;
+use super::memory::{Before, Drift};
 use super::newton::{self, ContactProblem, Pressure, Solution};
 use super::normal::{NormalEquations, first_pressure, full_contact_pressure, solve_normal};
 use super::operators::{Method, RegionOperators};
@@ -22,6 +23,7 @@ use super::settings::{Coupling, IterationCallback, SolveError, SolverSettings};
 use super::staggered;
 use super::tractions::{Displacements, Tractions};
 use crate::compliance::{SpectralCompliance, SurfaceCompliance};
+use crate::fields::add_scaled;
 use crate::model::{ContactState, Control, CoulombFriction, LoadStep, Scheme, SurfaceGrid, TangentialField};
 
 /// Residual to which the frictionless start of a coupled contact is solved.
@@ -55,6 +57,31 @@ pub struct IncrementProblem<'a> {
     pub path: SlipPath,
     /// A pressure to start from, whatever the state before.
     start: Option<Vec<f64>>,
+    /// What the bulk stresses do in the increment.
+    pub stretch: Stretch,
+}
+
+/// How much more the lower surface is strained than the upper one in an increment.
+#[derive(Debug, Clone, Copy)]
+pub struct Stretch {
+    /// Increment of the strain along x and y [-].
+    pub strain: [f64; 2],
+    /// Where the middle of the grid is [length].
+    pub middle: [f64; 2],
+    /// What is prescribed at the end.
+    pub load: LoadStep,
+}
+
+impl Stretch {
+    /// Whether there is none.
+    pub fn is_none(&self) -> bool {
+        self.strain == [0.0; 2]
+    }
+
+    /// Relative displacement of a cell, lower surface less upper [length].
+    pub fn at(&self, grid: &SurfaceGrid, cell: [usize; 2]) -> [f64; 2] {
+        [0, 1].map(|axis| self.strain[axis] * (self.middle[axis] + grid.centre(axis, cell[axis])))
+    }
 }
 
 /// A solved region.
@@ -88,7 +115,7 @@ impl<'a> IncrementProblem<'a> {
         (state, load): (&'a ContactState, &LoadStep),
         region: Region,
         periodic: bool,
-        (start, path): (Option<&Array2<f64>>, SlipPath),
+        (start, stretch): (Option<&Array2<f64>>, Stretch),
     ) -> Self {
         let centres = |axis: usize| -> Vec<f64> {
             (0..region.shape[axis]).map(|index| grid.centre(axis, region.origin[axis] + index)).collect()
@@ -124,8 +151,9 @@ impl<'a> IncrementProblem<'a> {
             motion,
             resultant,
             periodic,
-            path,
+            path: SlipPath::default(),
             start: start.map(|pressure| region.gather(pressure)),
+            stretch,
         }
     }
 
@@ -192,6 +220,7 @@ impl<'a> IncrementProblem<'a> {
             let rough = SolverSettings { tolerance: ROUGH, ..*settings };
             self.solve_pressure(&mut tractions, &mut displacements, operators, &rough, callback)?;
         }
+        self.stretch_before(&mut before);
         self.make_pressure_feasible(&mut tractions);
         let counted_from = self.counted_from(&before);
         let problem = self.contact_problem(Pressure::Unknown, &counted_from);
@@ -270,7 +299,8 @@ impl<'a> IncrementProblem<'a> {
         if method.coupling == Coupling::Frictionless || settings.skip_unloaded_shear && !self.causes_shear() {
             tractions.shear.clear();
         } else {
-            let before = self.displacement_before(last, &mut operators.compliance, false);
+            let mut before = self.displacement_before(last, &mut operators.compliance, false);
+            self.stretch_before(&mut before);
             let counted_from = self.counted_from(&before);
             let problem = self.contact_problem(Pressure::Given, &counted_from);
             newton::make_shear_feasible(&problem, &mut tractions, operators);
@@ -349,6 +379,7 @@ impl<'a> IncrementProblem<'a> {
     /// Whether anything asks for shear, or has left some.
     fn causes_shear(&self) -> bool {
         self.motion != [0.0; 3]
+            || !self.stretch.is_none()
             || self.resultant != [0.0; 3]
             || self.state.shear.iter().any(|shear| shear.iter().any(|q| *q != 0.0))
     }
@@ -438,6 +469,41 @@ impl<'a> IncrementProblem<'a> {
         drift
     }
 
+    /// The drift of the last increment in every cell of the region.
+    pub fn drift_to_here(
+        &self,
+        before: &Before,
+        drift: &Drift,
+        operators: &mut RegionOperators,
+        coupling: Coupling,
+    ) -> TangentialField {
+        let Self { region, grid, state, .. } = self;
+        let change = |now: &Array2<f64>, then: &Array2<f64>| {
+            let mut change = region.gather(now);
+            add_scaled(&mut change, -1.0, &region.gather(then));
+            change
+        };
+        let pressure = change(&state.pressure, &before.tractions.pressure);
+        let [x, y] = [0, 1].map(|axis| change(&state.shear[axis], &before.tractions.shear[axis]));
+        let mut moved = Displacements::zeros(region.len());
+        if coupling == Coupling::Coupled {
+            operators.compliance.full([&pressure, &x, &y], moved.parts_mut());
+        } else {
+            operators.compliance.tangential([&x, &y], moved.tangential.parts_mut());
+        }
+        let [shift_x, shift_y, twist] = drift.motion;
+        let mut found = moved.tangential;
+        for cell in 0..region.len() {
+            let [i, j] =
+                [region.origin[0] + cell / region.shape[1], region.origin[1] + cell % region.shape[1]];
+            let u = found.at(cell);
+            let turned = [-twist * grid.centre(1, j), twist * grid.centre(0, i)];
+            let [x, y] = Stretch { strain: drift.strain, ..self.stretch }.at(grid, [i, j]);
+            found.set(cell, [shift_x + turned[0] - u[0] - x, shift_y + turned[1] - u[1] - y]);
+        }
+        found
+    }
+
     /// Tangential displacement of the state before, in the region.
     fn displacement_before(
         &self,
@@ -459,6 +525,20 @@ impl<'a> IncrementProblem<'a> {
             compliance.tangential(shear.parts(), before.parts_mut());
         }
         before
+    }
+
+    /// Takes the relative displacement by the bulk stresses off the displacement before: slip counts its increment alone.
+    fn stretch_before(&self, before: &mut TangentialField) {
+        if self.stretch.is_none() {
+            return;
+        }
+        let columns = self.region.shape[1];
+        for cell in 0..self.region.len() {
+            let at = [self.region.origin[0] + cell / columns, self.region.origin[1] + cell % columns];
+            let [x, y] = self.stretch.at(self.grid, at);
+            before.x[cell] -= x;
+            before.y[cell] -= y;
+        }
     }
 
     /// How far resultants are from the prescribed ones, relative to the normal force; the tangential ones to the `limit` of friction.

@@ -22,6 +22,8 @@ pub struct SolverMemory {
     pub(super) before: Option<Before>,
     /// The load that led to the last state.
     pub(super) last_load: Option<LoadStep>,
+    /// Moment by tilt along x and y [force x length], where a moment was prescribed; zero where nothing is known of it.
+    pub(super) tilt_stiffness: [[f64; 2]; 2],
 }
 
 /// The state before the last one.
@@ -46,6 +48,10 @@ pub(super) struct Drift {
     pub region: Option<Region>,
     /// Of its cells [length].
     pub field: TangentialField,
+    /// Shift along x and y [length] and twist [rad] of the increment.
+    pub motion: [f64; 3],
+    /// Strain of the lower surface less that of the upper one, of the increment [-].
+    pub strain: [f64; 2],
     /// Length of the increment over that of the one before it, in the loads [-]; 1 where it does not go on from that.
     pub ratio: f64,
 }

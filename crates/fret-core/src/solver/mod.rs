@@ -25,6 +25,7 @@ mod settle;
 mod slip_history;
 mod staggered;
 mod start;
+mod tilt;
 mod tractions;
 
 use std::borrow::Cow;
@@ -34,7 +35,8 @@ use ndarray::Array2;
 use crate::compliance::{CellResponse, OperatorSet, SpectralCompliance, SurfaceResponse};
 use crate::kernel::ResponseTable;
 use crate::model::{
-    ContactState, Control, CoulombFriction, Integration, LoadStep, Scheme, SurfaceGrid, Symmetry,
+    BulkCompliance, ContactState, Control, CoulombFriction, Integration, LoadStep, Scheme, SurfaceGrid,
+    Symmetry,
 };
 
 pub use memory::SolverMemory;
@@ -42,7 +44,7 @@ pub(crate) use outcome::worst;
 pub use outcome::{Increment, Outcome, Regime, Residual, Resultants, Work};
 pub use settings::{Coupling, IterationCallback, SolveError, SolverSettings};
 
-use increment::{IncrementProblem, Solved};
+use increment::{IncrementProblem, Solved, Stretch};
 use linear::preconditioner::{CellWaves, Preconditioner};
 use linear::solver::LinearSolver;
 use memory::{Before, Drift, GridTractions, LastIncrement};
@@ -78,6 +80,13 @@ pub struct ContactSolver<'a> {
     /// The one axis along which shear acts.
     shear_axis: Option<usize>,
     symmetry: Symmetry,
+    /// Where the middle of its grid is, which is that of the part in front of the mirrors [length].
+    middle: [f64; 2],
+    /// Strains of the bodies under their bulk stresses.
+    bulk: BulkCompliance,
+    /// Slope of the upper body that is in the gap, and the gap without it.
+    tilt: [f64; 2],
+    level: Option<Array2<f64>>,
 }
 
 impl<'a> ContactSolver<'a> {
@@ -107,7 +116,17 @@ impl<'a> ContactSolver<'a> {
             in_region,
             shear_axis: None,
             symmetry: Symmetry::NONE,
+            middle: [0.0; 2],
+            bulk: BulkCompliance::NONE,
+            tilt: [0.0; 2],
+            level: None,
         }
+    }
+
+    /// The same solver of bodies that strain under their bulk stresses.
+    #[must_use]
+    pub fn with_bulk(self, bulk: BulkCompliance) -> Self {
+        Self { bulk, ..self }
     }
 
     /// The same solver, which also knows the frequency response of the pair: for non-periodic problems, where coefficients on a region
@@ -129,7 +148,9 @@ impl<'a> ContactSolver<'a> {
     #[must_use]
     pub fn with_symmetry(self, symmetry: Symmetry) -> Self {
         let cells = symmetry.part_of(self.grid.cells());
+        let (mirrored, size) = (symmetry.axes(), self.grid.size());
         Self {
+            middle: [0, 1].map(|axis| if mirrored[axis] { 0.25 * size[axis] } else { 0.0 }),
             grid: SurfaceGrid::new(cells, self.grid.spacing()).unwrap_or(self.grid),
             undeformed: symmetry.part(&self.undeformed),
             friction: Cow::Owned(symmetry.part_of_friction(&self.friction)),
@@ -164,6 +185,9 @@ impl<'a> ContactSolver<'a> {
         self.coarse = None;
         self.memory.last = None;
         self.memory.before = None;
+        let tilt = std::mem::take(&mut self.tilt);
+        self.level = None;
+        self.set_tilt(tilt);
     }
 
     /// Solves one increment: from `state`, which the increment before returned, to the loads and motions of `load`.
@@ -180,11 +204,11 @@ impl<'a> ContactSolver<'a> {
         let symmetry = self.symmetry;
         let solved = if symmetry.any() {
             let part = symmetry.part_of_state(state);
-            self.solve(&part, &symmetry.part_of_load(load, state), &mut work, callback)
+            self.solve_tilted(&part, &symmetry.part_of_load(load, state), &mut work, callback)
                 .map(|increment| increment.of_whole(symmetry))
                 .map_err(|error| error.of_whole(symmetry.copies()))
         } else {
-            self.solve(state, load, &mut work, callback)
+            self.solve_tilted(state, load, &mut work, callback)
         };
         match solved {
             Ok(increment) => Ok(Increment { work, ..increment }),
@@ -210,8 +234,10 @@ impl<'a> ContactSolver<'a> {
             Some(pressure) => self.region_around(pressure, state),
             None => self.region_for(state, load),
         };
-        let ratio = self.continuation(load).filter(|ratio| *ratio > 0.0);
-        let ratio = ratio.filter(|_| self.settings.integration == Integration::SecondOrder);
+        let ratio = self.ratio_to_last(load);
+        let follows =
+            self.coupling != Coupling::Frictionless && self.settings.integration == Integration::SecondOrder;
+        let ratio = ratio.filter(|_| follows);
         loop {
             let (solved, after, outcome) =
                 self.solve_in(region, (start.as_ref(), ratio), (state, load), work, callback)?;
@@ -225,6 +251,7 @@ impl<'a> ContactSolver<'a> {
                     && self.settings.reuse_pressure
                     && last.region == region
                     && last.load.normal == load.normal
+                    && last.load.tilt == load.tilt
             });
             let found = if same_pressure {
                 None
@@ -243,20 +270,27 @@ impl<'a> ContactSolver<'a> {
             let (gap, contact_area) = found
                 .or_else(|| Some((gap_before.clone()?, contact_area_before)))
                 .unwrap_or_else(|| (Array2::zeros(self.grid.cells()), contact_area_before));
-            let recalls = self.settings.integration == Integration::SecondOrder;
             let previous = self.memory.last_load.replace(*load);
             self.memory.before = previous.map(|load| Before {
                 load,
                 tractions: GridTractions::of(state),
                 contact_area: contact_area_before,
-                gap: gap_before.filter(|_| recalls),
-                drift: drift_before.filter(|_| recalls),
+                gap: gap_before.filter(|_| follows),
+                drift: drift_before.filter(|_| follows),
             });
-            let drift = Drift { region: Some(region), field: solved.drift, ratio: ratio.unwrap_or(1.0) };
+            let motion =
+                [after.shift[0] - state.shift[0], after.shift[1] - state.shift[1], after.twist - state.twist];
+            let drift = Drift {
+                region: Some(region),
+                field: solved.drift,
+                motion,
+                strain: self.stretch(state, load).strain,
+                ratio: ratio.unwrap_or(1.0),
+            };
             self.memory.last = Some(LastIncrement {
                 region,
                 displacements: solved.displacements,
-                drift: if recalls { drift } else { Drift::default() },
+                drift: if follows { drift } else { Drift::default() },
                 gap: gap.clone(),
                 contact_area,
                 load: *load,
@@ -278,15 +312,14 @@ impl<'a> ContactSolver<'a> {
     ) -> Result<(Solved, ContactState, Outcome), SolveError> {
         let grid = self.grid;
         let periodic = self.response.is_periodic();
-        let path = ratio.and_then(|ratio| slip_path(&self.memory, state, ratio, region));
-        let increment = IncrementProblem::new(
+        let mut increment = IncrementProblem::new(
             &grid,
             &self.undeformed,
             &self.friction,
             (state, load),
             region,
             periodic,
-            (start, path.unwrap_or_default()),
+            (start, self.stretch(state, load)),
         );
         if let Some(solved) = increment.apart() {
             let (after, outcome) = settle::settle(&increment, &solved);
@@ -302,8 +335,15 @@ impl<'a> ContactSolver<'a> {
         let mut operators = self.operators_for(region)?;
         let counted =
             (operators.compliance.applications, operators.preconditioner.passes, operators.direct_solves);
+        let beyond = |before: &Before, drift: &Drift| {
+            increment.drift_to_here(before, drift, &mut operators, self.coupling)
+        };
+        if let Some(path) = ratio.and_then(|ratio| slip_path(&self.memory, state, (ratio, region), beyond)) {
+            increment.path = path;
+        }
         let last = self.memory.last.as_ref().filter(|last| last.region == region);
-        let unchanged = last.is_some_and(|last| last.load.normal == load.normal);
+        let unchanged =
+            last.is_some_and(|last| last.load.normal == load.normal && last.load.tilt == load.tilt);
         let last = last.map(|last| &last.displacements);
         let cells = || Ok(CellResponse::new(&self.response, self.grid.cells(), self.symmetry)?);
         let method = Method { coupling: self.coupling, settings: &self.settings, cells: &cells };
@@ -393,6 +433,13 @@ impl<'a> ContactSolver<'a> {
             CoarseGrids::below(&self.response, &self.undeformed, spacing, self.symmetry)
         });
         grids.pressure_above(prescribed, self.table.as_ref(), &self.settings, work, callback)
+    }
+
+    /// By how much more the lower surface is strained than the upper one, in the increment.
+    fn stretch(&self, state: &ContactState, load: &LoadStep) -> Stretch {
+        let [before, after] =
+            [state.bulk_stress, load.bulk_stress].map(|stress| self.bulk.relative_strain(stress));
+        Stretch { strain: [after[0] - before[0], after[1] - before[1]], middle: self.middle, load: *load }
     }
 
     /// Whether the forces asked for are those of the solution: with a prescribed approach they may be more than friction carries.

@@ -93,6 +93,8 @@ pub struct Resultants {
     pub tangential: [f64; 2],
     /// Moment about the z axis of the grid on the lower body [force x length].
     pub moment: f64,
+    /// First moments of the pressure along x and y [force x length].
+    pub tilt_moment: [f64; 2],
 }
 
 /// What an increment did, apart from the fields.
@@ -131,11 +133,14 @@ impl Increment {
     /// The increment of the whole grid from that of the part before its mirrors.
     pub(super) fn of_whole(self, symmetry: Symmetry) -> Self {
         let copies = symmetry.copies();
-        let Outcome { resultants: Resultants { normal, tangential, .. }, .. } = self.outcome;
+        let Outcome { resultants: Resultants { normal, tangential, tilt_moment, .. }, .. } = self.outcome;
+        let mirrored = symmetry.axes();
         let resultants = Resultants {
             normal: normal * copies as f64,
             tangential: symmetry.whole_force(tangential),
             moment: 0.0, // one side turns against the other
+            tilt_moment: [0, 1]
+                .map(|axis| if mirrored[axis] { 0.0 } else { tilt_moment[axis] * copies as f64 }),
         };
         Self {
             state: symmetry.whole_state(&self.state),

@@ -9,7 +9,6 @@ use crate::fields::TangentialField;
 
 /// A rectangular part of the grid.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[expect(clippy::unsafe_derive_deserialize, reason = "the unsafe part is inside ndarray's slicing macro")]
 pub struct Region {
     /// First cell.
     pub origin: [usize; 2],
@@ -44,8 +43,7 @@ impl Region {
 
     /// Something of every cell of a grid field in the part, as flat rows.
     pub fn gather_map<T, U>(&self, field: &Array2<T>, of: impl Fn(&T) -> U) -> Vec<U> {
-        let [rows, columns] = self.ranges();
-        field.slice(s![rows, columns]).iter().map(of).collect()
+        inside(field.view(), self.ranges()).iter().map(of).collect()
     }
 
     fn ranges(&self) -> [Range<usize>; 2] {
@@ -141,9 +139,98 @@ impl Region {
 }
 
 /// The part of a view in these rows and columns.
-fn inside<S: RawData<Elem = f64>>(
-    field: ArrayBase<S, Ix2>,
-    [rows, columns]: [Range<usize>; 2],
-) -> ArrayBase<S, Ix2> {
+fn inside<S: RawData>(field: ArrayBase<S, Ix2>, [rows, columns]: [Range<usize>; 2]) -> ArrayBase<S, Ix2> {
     field.slice_move(s![rows, columns])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A 5 x 7 field whose numbers say where they stand, and the 2 x 3 region at (1, 2).
+    fn field() -> (Array2<f64>, Region) {
+        (
+            Array2::from_shape_fn((5, 7), |(i, j)| (10 * i + j) as f64),
+            Region { origin: [1, 2], shape: [2, 3] },
+        )
+    }
+
+    #[test]
+    fn a_part_is_taken_out_row_by_row_and_put_back_where_it_was() {
+        let (grid, region) = field();
+        assert_eq!(region.len(), 6);
+        let part = region.gather(&grid);
+        assert_eq!(part, [12.0, 13.0, 14.0, 22.0, 23.0, 24.0]);
+        // In either order of memory.
+        let turned = grid.t().as_standard_layout().into_owned().reversed_axes();
+        assert_eq!(region.gather(&turned), part);
+        assert_eq!(region.gather_map(&grid, |value| *value as i32 % 10), [2, 3, 4, 2, 3, 4]);
+        let both = region.gather_tangential(&[grid.clone(), -&grid]);
+        assert_eq!((&both.x, both.y[5]), (&part, -24.0));
+        let mut back = Array2::from_elem((5, 7), 9.0);
+        region.scatter(&part, &mut back);
+        for ((i, j), value) in back.indexed_iter() {
+            assert_eq!(*value, if region.contains(i, j) { grid[[i, j]] } else { 0.0 });
+        }
+        assert_eq!(back.iter().filter(|value| **value > 0.0).count(), 6);
+        // A row of zeros is left as it is: it is one already.
+        let mut kept = Array2::from_elem((5, 7), 9.0);
+        region.place(&[0.0, 0.0, 0.0, 1.0, 0.0, 2.0], &mut kept);
+        assert_eq!(
+            (kept[[1, 3]], kept[[2, 2]], kept[[2, 3]], kept[[2, 4]], kept[[2, 5]]),
+            (9.0, 1.0, 0.0, 2.0, 9.0)
+        );
+    }
+
+    #[test]
+    fn regions_know_what_lies_inside_them() {
+        let (_, region) = field();
+        assert!(region.lies_within([3, 5]) && !region.lies_within([2, 5]) && !region.lies_within([3, 4]));
+        assert!(!Region { shape: [0, 3], ..region }.lies_within([5, 7]));
+        assert!(!Region { origin: [usize::MAX, 0], ..region }.lies_within([5, 7]));
+        assert!(region.contains(1, 2) && region.contains(2, 4));
+        assert!(
+            !region.contains(0, 2)
+                && !region.contains(3, 2)
+                && !region.contains(1, 1)
+                && !region.contains(1, 5)
+        );
+        assert!(Region::whole([5, 7]).contains_all(&region) && region.contains_all(&region));
+        for other in [
+            Region { origin: [0, 2], ..region },
+            Region { origin: [1, 1], ..region },
+            Region { shape: [3, 3], ..region },
+            Region { shape: [2, 4], ..region },
+        ] {
+            assert!(!region.contains_all(&other), "{other:?}");
+        }
+    }
+
+    #[test]
+    fn the_extent_is_that_of_the_wanted_cells_alone() {
+        let wanted = |i: usize, j: usize| [(2, 5), (3, 1), (3, 3)].contains(&(i, j));
+        assert_eq!(Region::extent([6, 8], [false; 2], wanted), Some([2..4, 1..6]));
+        assert_eq!(Region::extent([6, 8], [true, false], wanted), Some([0..4, 1..6]));
+        assert_eq!(Region::extent([6, 8], [false; 2], |_, _| false), None);
+    }
+
+    /// A disc of radius 6 at (30, 20) on 100 x 100 cells: 13 wide, 4 more on each side, rounded up to 24.
+    #[test]
+    fn a_region_lies_around_the_contact_with_its_margin_and_inside_the_grid() {
+        let disc = |at: [f64; 2]| move |i: usize, j: usize| (i as f64 - at[0]).hypot(j as f64 - at[1]) < 6.5;
+        let good = |length: usize| length.next_multiple_of(8);
+        let around = |mirrored: [bool; 2], at| Region::around([100, 100], mirrored, 4, good, disc(at));
+        assert_eq!(around([false; 2], [30.0, 20.0]), Region { origin: [18, 8], shape: [24, 24] });
+        // At the sides of the grid it is moved inside; what is wanted stays in it.
+        assert_eq!(around([false; 2], [7.0, 92.0]), Region { origin: [0, 76], shape: [24, 24] });
+        // From a mirror on there is one side: 7 cells, 4 more.
+        assert_eq!(around([true, false], [0.0, 20.0]), Region { origin: [0, 8], shape: [16, 24] });
+        // Hardly smaller than the grid, or nothing wanted: the whole.
+        assert_eq!(
+            Region::around([25, 25], [false; 2], 4, good, disc([12.0, 12.0])),
+            Region::whole([25, 25])
+        );
+        assert_eq!(Region::around([25, 25], [false; 2], 4, good, |_, _| false), Region::whole([25, 25]));
+        assert_eq!(Region::around([27, 27], [false; 2], 4, good, disc([12.0, 12.0])).shape, [24, 24]);
+    }
 }

@@ -84,6 +84,13 @@ pub enum SolveError {
         /// The fraction of them that it carries at the most [-].
         fraction: f64,
     },
+    /// No tilt gives the prescribed moment of the pressure.
+    NoTilt {
+        /// Moment asked for [force x length].
+        asked: f64,
+        /// Moment reached [force x length].
+        reached: f64,
+    },
     /// The contact reaches the edge of the grid.
     ContactAtEdge,
     /// The influence coefficients do not cover the grid.
@@ -105,6 +112,10 @@ impl SolveError {
             Self::AboveSliding { asked, bound } => {
                 let copies = copies as f64;
                 Self::AboveSliding { asked: asked * copies, bound: bound * copies }
+            }
+            Self::NoTilt { asked, reached } => {
+                let copies = copies as f64;
+                Self::NoTilt { asked: asked * copies, reached: reached * copies }
             }
             other => other,
         }

@@ -1,11 +1,11 @@
 //! From a solved region to the state after the increment: what every cell did, what friction dissipated, resultants and residuals.
 
 use super::contact_set::ContactSet;
-use super::increment::{IncrementProblem, Solved};
+use super::increment::{IncrementProblem, Solved, Stretch};
 use super::laws::friction::{dissipation, slips};
 use super::outcome::{Outcome, Regime, Residual, Resultants};
 use crate::fields::sum;
-use crate::model::{ContactState, Zone};
+use crate::model::{ContactState, Control, Zone};
 
 /// The state after an increment, and what happened.
 pub(super) fn settle(problem: &IncrementProblem<'_>, solved: &Solved) -> (ContactState, Outcome) {
@@ -22,11 +22,16 @@ pub(super) fn settle(problem: &IncrementProblem<'_>, solved: &Solved) -> (Contac
     let columns = region.shape[1];
     let mut stick_cells = 0;
     let mut moment = 0.0;
+    let mut tilt_moment = [0.0; 2];
     let mut dissipated = 0.0;
     for (place, cell) in contact.cells().enumerate() {
         let at = [region.origin[0] + cell / columns, region.origin[1] + cell % columns];
         let [q, end] = [shear.at(place), end_slip.at(place)];
         moment += grid.centre(0, at[0]) * q[1] - grid.centre(1, at[1]) * q[0];
+        for axis in 0..2 {
+            tilt_moment[axis] +=
+                (problem.stretch.middle[axis] + grid.centre(axis, at[axis])) * pressure[cell];
+        }
         let (zone, slip) = if slips(q, end, bound[place], solved.tangential_stiffness) {
             (Zone::Slip, slip.at(place))
         } else {
@@ -42,11 +47,13 @@ pub(super) fn settle(problem: &IncrementProblem<'_>, solved: &Solved) -> (Contac
     }
     let area = grid.cell_area();
     state.dissipated_energy += dissipated * area;
+    state.bulk_work += bulk_work(problem, &state) * area;
     let limit = sum(&bound);
     let resultants = Resultants {
         normal: sum(pressure) * area,
         tangential: [sum(&shear.x) * area, sum(&shear.y) * area],
         moment: moment * area,
+        tilt_moment: tilt_moment.map(|moment| moment * area),
     };
     let regime = match (contact.len(), stick_cells) {
         (0, _) => Regime::Apart,
@@ -81,6 +88,26 @@ fn state_after(problem: &IncrementProblem<'_>, solved: &Solved) -> ContactState 
     state.approach = solved.normal.approach;
     state.shift = [before.shift[0] + shift_x, before.shift[1] + shift_y];
     state.twist = before.twist + turned / problem.positions.length;
+    let Stretch { load, .. } = &problem.stretch;
+    state.tilt = load.tilt.map(|tilt| match tilt {
+        Control::Motion(slope) => slope,
+        Control::Force(_) => 0.0, // the tilt is found outside, and prescribed here
+    });
+    state.bulk_stress = load.bulk_stress;
     state.dissipated_energy = before.dissipated_energy;
+    state.bulk_work = before.bulk_work;
     state
+}
+
+/// Work of the bulk stresses per area of a cell: minus the mean shear times the relative displacement by the strains.
+fn bulk_work(problem: &IncrementProblem<'_>, after: &ContactState) -> f64 {
+    let IncrementProblem { grid, state: before, stretch, .. } = problem;
+    if stretch.is_none() {
+        return 0.0;
+    }
+    let [x, y] = [0, 1].map(|axis| (&before.shear[axis], &after.shear[axis]));
+    x.1.indexed_iter().fold(0.0, |work, (at, after)| {
+        let [along, across] = stretch.at(grid, [at.0, at.1]);
+        work - 0.5 * ((x.0[at] + after) * along + (y.0[at] + y.1[at]) * across)
+    })
 }

@@ -22,7 +22,7 @@ fn shear_across_the_one_axis_is_not_certified() {
     let load = |pull| LoadStep {
         normal: Control::Force(0.5),
         tangential: [Control::Force(pull), Control::Force(0.0)],
-        twist: Control::Motion(0.0),
+        ..LoadStep::FREE
     };
     let go_on: IterationCallback<'_> = &mut |_, _| ControlFlow::Continue(());
     let mut state = solver.step(&ContactState::untouched(cells), &load(0.0), go_on).unwrap().state;

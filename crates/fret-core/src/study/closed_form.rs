@@ -54,7 +54,8 @@ impl ClosedForm {
     /// The closed form of a plan, where it has one.
     pub fn of(plan: &Plan) -> Option<Self> {
         let case = &plan.case;
-        let changes = case.wear.is_some() || case.is_open_ended();
+        let tilts = case.tilts(0) || case.tilts(1);
+        let changes = case.wear.is_some() || case.is_open_ended() || tilts;
         if case.periodic || case.is_line() || changes || plan.coupling == Coupling::Coupled {
             return None;
         }
@@ -217,7 +218,8 @@ fn tangential(
     let stages = &case.stages;
     let first = stages.iter().position(Stage::is_tangential)?;
     let steady = stages[first..].iter().all(|stage| stage.normal.is_none());
-    let changes = stages.iter().any(|stage| stage.friction.is_some() || stage.twist.is_some());
+    let changes =
+        stages.iter().any(|stage| stage.friction.is_some() || stage.twist.is_some() || stage.stretches());
     if !steady || changes || !without_poisson(plan) {
         return None;
     }
@@ -259,7 +261,7 @@ fn tangential(
 /// Visits the loads at the end of every increment. Where a control changes its kind only the end of its stage is right.
 fn for_every_load(stages: &[Stage], mut visit: impl FnMut(usize, &LoadStep)) {
     let force = Control::Force(0.0);
-    let mut held = LoadStep { normal: force, tangential: [force; 2], twist: Control::Motion(0.0) };
+    let mut held = LoadStep { normal: force, tangential: [force; 2], ..LoadStep::FREE };
     for (number, stage) in stages.iter().enumerate() {
         let start = held;
         for k in 1..=stage.increments_in_all() {

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::case::{GridSize, Path, Stage, StageControl};
+use crate::case::{GridSize, Path, Stage};
 use crate::machine::memory::MemoryError;
 use crate::model::{GridError, SurfaceGrid};
 use crate::plan::Plan;
@@ -85,11 +85,8 @@ pub(super) fn fewest(stage: &Stage) -> usize {
 
 /// Rows of a stage's table, each of which takes the same number of increments; 1 without a table.
 pub(super) fn rows(stage: &Stage) -> usize {
-    let controls = [&stage.normal, &stage.tangential[0], &stage.tangential[1], &stage.twist];
-    let rows = controls.into_iter().flatten().map(|control| match control {
-        StageControl::Force(Path::Through(values)) | StageControl::Motion(Path::Through(values)) => {
-            values.len()
-        }
+    let rows = stage.controls().map(|control| match control.path() {
+        Path::Through(values) => values.len(),
         _ => 1,
     });
     rows.fold(1, usize::max)

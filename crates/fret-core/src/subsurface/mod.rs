@@ -5,6 +5,7 @@
 //! what acts on the body: on the lower body the contact's shear, on the upper one minus it.
 
 pub mod depths;
+pub mod even;
 pub mod fatigue;
 pub mod largest;
 pub mod operator;
@@ -13,6 +14,7 @@ pub mod survey;
 pub mod tensor;
 
 pub use depths::{DepthError, DepthPoint, automatic_depths, depth_points};
+pub use even::EvenStress;
 pub use largest::{Largest, Measure};
 pub use operator::{DepthOperator, Tractions};
 pub use survey::{LoadedSurface, survey};

@@ -4,6 +4,7 @@
 use ndarray::Array2;
 
 use super::depths::DepthPoint;
+use super::even::EvenStress;
 use super::operator::{DepthOperator, Tractions};
 use super::tensor::StressField;
 use crate::model::{HalfSpace, SurfaceGrid};
@@ -20,9 +21,11 @@ pub struct LoadedSurface {
     pub shear: Option<[Array2<f64>; 2]>,
     /// Accumulated slip, x and y [length].
     pub slip: Option<[Array2<f64>; 2]>,
+    /// What adds to the stress of the tractions: bulk stress and residual stress.
+    pub even: EvenStress,
 }
 
-/// Stress at all points under all surfaces: `visit(point, surface, field)` with their indices, points outermost. `visit`
+/// Stress at all points under all surfaces, that of the bulk and residual stress included: `visit(point, surface, field)` with their indices, points outermost. `visit`
 /// returns whether to go on.
 ///
 /// # Errors
@@ -50,6 +53,7 @@ pub fn survey(
                 None => [none.view(), none.view()],
             });
             operator.stress_into(&Tractions { pressure: surface.pressure.view(), shear }, &mut field);
+            field.add(surface.even.at(half_space, point, grid.is_line()));
             if !visit(number, index, &field) {
                 return Ok(());
             }

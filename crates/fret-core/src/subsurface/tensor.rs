@@ -107,6 +107,15 @@ impl StressField {
         Self { components: std::array::from_fn(|_| Array2::zeros((shape[0], shape[1]))) }
     }
 
+    /// Adds an even stress along x and y [pressure].
+    pub fn add(&mut self, stress: [f64; 2]) {
+        for (component, stress) in self.components.iter_mut().zip(stress) {
+            if stress != 0.0 {
+                *component += stress;
+            }
+        }
+    }
+
     /// Stress at a cell.
     pub fn at(&self, i: usize, j: usize) -> StressTensor {
         StressTensor(std::array::from_fn(|component| self.components[component][[i, j]]))

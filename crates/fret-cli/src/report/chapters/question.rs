@@ -205,6 +205,13 @@ fn stage(stage: &Value) -> String {
         parts.extend(to(control, &force, &format!("shift {name}")));
     }
     parts.extend(to(&stage["twist"], "torsional moment", "rotation"));
+    for (axis, name) in ["x", "y"].into_iter().enumerate() {
+        parts.extend(to(&stage["tilt"][axis], &format!("tilt moment {name}"), &format!("tilt {name}")));
+        for (body, which) in ["lower", "upper"].into_iter().enumerate() {
+            let stress = format!("bulk stress {name} of the {which} body");
+            parts.extend(to(&stage["bulk_stress"][body][axis], &stress, &stress));
+        }
+    }
     let increments = stage["increments"].as_u64().unwrap_or(0) as usize;
     let cycles = &stage["course"]["cycles"];
     let course = match cycles["most"].as_u64() {

@@ -177,3 +177,97 @@ impl<R: Reals> CellState<R> {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use ndarray::Array2;
+
+    use super::*;
+    use crate::fields::{CellRule, each_cell};
+
+    /// A map whose numbers say where they stand, and a uniform shear strength: in a region they are those of its cells, row by row, and
+    /// packed those of the contact.
+    #[test]
+    fn a_region_has_the_numbers_of_its_own_cells() {
+        let map = Array2::from_shape_fn((5, 7), |(i, j)| (10 * i + j) as f64);
+        let friction = CoulombFriction::map(map).unwrap().with_max_shear(CellValues::Uniform(30.0)).unwrap();
+        let law = FrictionLaw::in_region(&friction, Region { origin: [1, 2], shape: [2, 3] });
+        assert_eq!(law.coefficient, [12.0, 13.0, 14.0, 22.0, 23.0, 24.0]);
+        assert_eq!(law.max_shear, [30.0; 6]);
+        let packed = law.packed(&ContactSet::of(6, |cell| cell % 2 == 1));
+        assert_eq!((packed.coefficient, packed.max_shear.len()), (vec![13.0, 22.0, 24.0], 3));
+    }
+
+    /// `min(mu p, tau)`, its slope mu below the strength and 0 above it; without a strength `mu p` throughout.
+    #[test]
+    fn the_bound_follows_the_pressure_up_to_the_shear_strength() {
+        let coulomb = FrictionLaw { coefficient: vec![0.5; 3], max_shear: Vec::new() };
+        let FrictionBound { bound, slope } = coulomb.bound(&[0.0, 2.0, 100.0]);
+        assert_eq!((bound, slope), (vec![0.0, 1.0, 50.0], vec![0.5; 3]));
+        let capped = FrictionLaw { max_shear: vec![3.0, 3.0, 0.0], ..coulomb };
+        let mut found = FrictionBound { bound: vec![9.0; 5], slope: vec![9.0] };
+        capped.find_bound(&[4.0, 8.0, 8.0], &mut found);
+        assert_eq!((found.bound, found.slope), (vec![2.0, 3.0, 0.0], vec![0.5, 0.0, 0.0]));
+    }
+
+    /// With shear q = (3, 0) under a bound of 3 and a stiffness of 2: slip outward slips, slip inward and no slip stick; inside the
+    /// disc only what pulls out of it by more than the shear lies inside.
+    #[test]
+    fn a_cell_slips_where_the_shear_that_would_hold_it_lies_outside() {
+        assert!(slips([3.0, 0.0], [0.1, 0.0], 3.0, 2.0));
+        assert!(!slips([3.0, 0.0], [-0.1, 0.0], 3.0, 2.0));
+        assert!(!slips([3.0, 0.0], [0.0, 0.0], 3.0, 2.0));
+        assert!(!slips([2.0, 0.0], [0.9, 0.0], 3.0, 2.0) && slips([2.0, 0.0], [1.1, 0.0], 3.0, 2.0));
+        assert!(slips([0.0; 2], [0.0; 2], 0.0, 2.0), "nothing holds a cell without a bound");
+        assert!(is_inside([2.9, 0.0], 3.0) && !is_inside([0.0, 3.0], 3.0) && !is_inside([3.0, 3.0], 3.0));
+    }
+
+    /// Work of the mean of two bounds along the way.
+    #[test]
+    fn what_slip_dissipates_is_the_mean_bound_times_its_length() {
+        assert_eq!(dissipation([1.0, 3.0], [0.3, -0.4]), 1.0);
+        assert_eq!(dissipation([1.0, 3.0], [0.0; 2]), 0.0);
+    }
+
+    struct Images;
+
+    impl CellRule<3, 6, 0> for Images {
+        fn at<R: Reals>(&self, [x, y, bound]: [R; 3], write: &mut [R; 6]) -> [R; 0] {
+            let on = OnDisc::new([x, y], bound);
+            let image = onto_disc([x, y], bound);
+            *write = [
+                image[0] - on.image[0],
+                image[1] - on.image[1],
+                on.image[0],
+                on.image[1],
+                on.fraction,
+                on.potential,
+            ];
+            []
+        }
+    }
+
+    /// Inside the disc a vector stays; outside it is shortened to the bound. The potential is `|v|^2 / 2` inside and goes on with
+    /// the slope of the bound: its difference quotient is the image.
+    #[test]
+    fn vectors_go_to_the_nearest_point_of_their_disc_the_gradient_of_a_potential() {
+        let at = |x: f64, y: f64| -> [f64; 6] {
+            let mut out = [[9.0]; 6];
+            each_cell(&Images, [&[x], &[y], &[2.0]], out.each_mut().map(|field| &mut field[..]));
+            out.map(|[value]| value)
+        };
+        assert_eq!(at(0.6, 0.8), [0.0, 0.0, 0.6, 0.8, 1.0, 0.5 * (0.6 * 0.6 + 0.8 * 0.8)]);
+        let outside = at(3.0, 4.0);
+        for (found, expected) in outside.iter().zip([0.0, 0.0, 1.2, 1.6, 0.4, 2.0 * (5.0 - 1.0)]) {
+            assert!((found - expected).abs() < 1e-15, "{outside:?}");
+        }
+        for [x, y] in [[0.5, -0.2], [3.0, 4.0], [-1.9, 0.9]] {
+            let step = 1e-6;
+            let along_x = (at(x + step, y)[5] - at(x - step, y)[5]) / (2.0 * step);
+            let along_y = (at(x, y + step)[5] - at(x, y - step)[5]) / (2.0 * step);
+            let [.., image_x, image_y, _, _] = at(x, y);
+            // Rounding over the step.
+            assert!((along_x - image_x).abs() < 1e-9 && (along_y - image_y).abs() < 1e-9, "{x} {y}");
+        }
+    }
+}

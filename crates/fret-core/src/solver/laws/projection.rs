@@ -210,3 +210,167 @@ fn balance_terms<R: Reals>([x, y]: [R; 2], on: R, bound: R, [around_x, around_y]
         bound * (around_y - along[1] * turned),
     ]
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::super::contact_set::ContactSet;
+    use super::super::friction::FrictionBound;
+    use super::super::rigid_motions::CellPositions;
+    use super::super::slip_path::SlipPath;
+    use super::*;
+
+    #[test]
+    fn tension_is_cut_off_and_the_load_stays() {
+        let mut pressure = [3.0, -2.0, 1.0];
+        assert!(project_pressure(&mut pressure, Some(8.0)));
+        assert_eq!(pressure, [6.0, 0.0, 2.0]);
+        let mut free = [3.0, -2.0, 1.0];
+        assert!(project_pressure(&mut free, None));
+        assert_eq!(free, [3.0, 0.0, 1.0]);
+        // Nothing is left that could carry a load; no load is carried by nothing.
+        assert!(!project_pressure(&mut [-1.0, 0.0], Some(1.0)));
+        assert!(project_pressure(&mut [-1.0, 0.0], Some(0.0)));
+    }
+
+    /// A contact of 5 x 5 cells about the origin under the bounds `bound(cell)`, and its shear projected.
+    struct Scene {
+        bound: Vec<f64>,
+        motions: RigidMotions,
+        resultant: [f64; 3],
+    }
+
+    const CELLS: usize = 25;
+
+    impl Scene {
+        fn new(by_force: [bool; 3], resultant: [f64; 3]) -> Self {
+            let centres: Vec<f64> = (-2..=2).map(f64::from).collect();
+            let positions = CellPositions::new(centres.clone(), centres, true, by_force);
+            let motions = positions.motions_of(&ContactSet::of(CELLS, |_| true));
+            let bound =
+                (0..CELLS).map(|cell| 1.0 + 0.5 * f64::from(u8::try_from(cell % 3).unwrap())).collect();
+            Self { bound, motions, resultant }
+        }
+
+        /// Sums of shear times the three motions.
+        fn found(&self, shear: &TangentialField) -> [f64; 3] {
+            let mut sums = [0.0; 3];
+            for cell in 0..CELLS {
+                let ([x, y], [a, b]) = (shear.at(cell), self.motions.rotation.at(cell));
+                sums = [sums[0] + x, sums[1] + y, sums[2] + x * a + y * b];
+            }
+            sums
+        }
+
+        /// Projects: `slipping` cells slip along x.
+        fn project(&self, shear: &TangentialField, slipping: impl Fn(usize) -> bool) -> TangentialField {
+            let mut sets = ActiveSets::of(
+                shear,
+                &TangentialField::zeros(CELLS),
+                &FrictionBound { bound: self.bound.clone(), slope: vec![0.0; CELLS] },
+                1.0,
+            );
+            for cell in 0..CELLS {
+                let slips = f64::from(u8::from(slipping(cell)));
+                (sets.slip[cell], sets.stick[cell], sets.direction.x[cell]) = (slips, 1.0 - slips, slips);
+                sets.direction.y[cell] = 0.0;
+            }
+            let (before, path) = (TangentialField::zeros(CELLS), SlipPath::default());
+            let problem = TangentialProblem {
+                bound: &self.bound,
+                before: &before,
+                path: &path,
+                motions: &self.motions,
+                motion: [0.0; 3],
+                resultant: self.resultant,
+                self_influence: 1.0,
+            };
+            let mut projected = shear.clone();
+            ShearProjection::default().project(&mut projected, &sets, &problem);
+            projected
+        }
+
+        fn size(&self, shear: &TangentialField, cell: usize) -> f64 {
+            let [x, y] = shear.at(cell);
+            x.hypot(y) / self.bound[cell]
+        }
+    }
+
+    fn shear(at: impl Fn(usize) -> [f64; 2]) -> TangentialField {
+        let mut field = TangentialField::zeros(CELLS);
+        (0..CELLS).for_each(|cell| field.set(cell, at(cell)));
+        field
+    }
+
+    /// Where motions are prescribed no resultant is to be held: the projection is the nearest point of every disc by itself.
+    #[test]
+    fn every_cell_goes_to_the_nearest_point_of_its_disc() {
+        let scene = Scene::new([false; 3], [0.0; 3]);
+        let given = shear(|cell| if cell < 5 { [3.0, 4.0] } else { [0.3, -0.4] });
+        let found = scene.project(&given, |_| false);
+        for cell in 0..CELLS {
+            let expected =
+                if cell < 5 { [0.6 * scene.bound[cell], 0.8 * scene.bound[cell]] } else { [0.3, -0.4] };
+            for (found, expected) in found.at(cell).iter().zip(expected) {
+                assert!((found - expected).abs() < 1e-15, "{cell}");
+            }
+        }
+        // Slipping cells go onto their circles, from inside too; without shear along their slip.
+        let slipping =
+            scene.project(&shear(|cell| if cell == 7 { [0.0; 2] } else { [0.3, -0.4] }), |cell| cell < 10);
+        assert_eq!(slipping.at(7), [scene.bound[7], 0.0]);
+        for cell in 0..CELLS {
+            let expected = if cell < 10 { 1.0 } else { 0.5 / scene.bound[cell] };
+            assert!((scene.size(&slipping, cell) - expected).abs() < 1e-15, "{cell}");
+        }
+    }
+
+    /// Resultants are made exactly by cells inside their discs and by turning those on their circles, which stay there; no cell leaves
+    /// its disc.
+    #[test]
+    fn resultants_are_held_and_circles_kept() {
+        for by_force in [[true, true, true], [true, false, false], [true, true, false]] {
+            let scene = Scene::new(by_force, [9.0, -3.0, 2.5]);
+            let given = shear(|cell| [0.7 - 0.1 * (cell % 7) as f64, 0.05 * (cell % 5) as f64 - 0.1]);
+            let found = scene.project(&given, |cell| cell % 4 == 0);
+            let total: f64 = scene.bound.iter().sum();
+            for mode in (0..3).filter(|&mode| by_force[mode]) {
+                let off = scene.found(&found)[mode] - scene.resultant[mode];
+                // Rounding of a sum of the bounds' size.
+                assert!(off.abs() < 1e-14 * total, "{by_force:?} {mode}: {off:e}");
+            }
+            for cell in 0..CELLS {
+                let size = scene.size(&found, cell);
+                assert!(size < 1.0 + 1e-14, "{cell}: {size}");
+                if cell % 4 == 0 {
+                    assert!((size - 1.0).abs() < 1e-14, "{cell}: {size}");
+                }
+            }
+        }
+    }
+
+    /// All cells slip, along x, and little force is asked for: turning alone would need them to face each other; they come off their
+    /// circles instead.
+    #[test]
+    fn cells_come_off_their_circles_where_turning_is_not_enough() {
+        let scene = Scene::new([true, true, true], [1.0, 0.5, 0.25]);
+        let found = scene.project(&shear(|_| [2.0, 0.0]), |_| true);
+        let total: f64 = scene.bound.iter().sum();
+        for (found, asked) in scene.found(&found).iter().zip(scene.resultant) {
+            assert!((found - asked).abs() < 1e-12 * total, "{found} {asked}");
+        }
+        assert!((0..CELLS).all(|cell| scene.size(&found, cell) < 1.0 + 1e-14));
+    }
+
+    /// What moves no force is left alone: shear that already is feasible and has its resultants.
+    #[test]
+    fn feasible_shear_stays_as_it_is() {
+        let given = shear(|cell| [0.02 * cell as f64, 0.3 - 0.01 * cell as f64]);
+        let mut scene = Scene::new([true; 3], [0.0; 3]);
+        scene.resultant = scene.found(&given);
+        let found = scene.project(&given, |_| false);
+        for cell in 0..CELLS {
+            let ([x, y], [u, v]) = (given.at(cell), found.at(cell));
+            assert!((x - u).abs() < 1e-15 && (y - v).abs() < 1e-15);
+        }
+    }
+}

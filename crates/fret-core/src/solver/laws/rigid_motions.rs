@@ -87,7 +87,7 @@ impl RigidMotions {
                 b[m] = 0.0;
             }
         }
-        // Cholesky: the matrix is a Gram matrix.
+        // Elimination without exchanges: the matrix is a Gram matrix.
         for m in 0..3 {
             for n in m + 1..3 {
                 let factor = a[n][m] / a[m][m];
@@ -103,5 +103,73 @@ impl RigidMotions {
             x[m] = if a[m][m].abs() > 0.0 { (b[m] - rest) / a[m][m] } else { 0.0 };
         }
         x
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Four cells at the corners of a rectangle of 6 by 2.
+    fn rectangle(rotates: bool, by_force: [bool; 3]) -> RigidMotions {
+        let positions = CellPositions::new(vec![-3.0, 3.0], vec![-1.0, 1.0], rotates, by_force);
+        assert_eq!(positions.length, 3.0);
+        positions.motions_of(&ContactSet::of(4, |_| true))
+    }
+
+    /// The rotation field is `(-y, x)` over the length, of the cells in contact alone.
+    #[test]
+    fn a_motion_is_shift_and_rotation_about_the_origin() {
+        let motions = rectangle(true, [true; 3]);
+        // Cells in the order of rows along y: (-3, -1), (-3, 1), (3, -1), (3, 1).
+        assert_eq!(motions.at([0.0, 0.0, 3.0], 1), [-1.0, -3.0]);
+        assert_eq!(motions.at([10.0, 20.0, 3.0], 2), [11.0, 23.0]);
+        let positions = CellPositions::new(vec![-3.0, 3.0], vec![-1.0, 1.0], true, [true; 3]);
+        let one = positions.motions_of(&ContactSet::of(4, |cell| cell == 2));
+        assert_eq!((one.rotation.x.as_slice(), one.rotation.y.as_slice()), (&[1.0 / 3.0][..], &[1.0][..]));
+        // Without rotation its amount does not matter, and there is no field.
+        let straight = rectangle(false, [true; 3]);
+        assert_eq!(straight.at([1.0, 2.0, 5.0], 3), [1.0, 2.0]);
+        assert!(straight.rotation.x.is_empty());
+        // A single cell at the origin has no length: one is as good as any.
+        assert_eq!(CellPositions::new(vec![0.0], vec![0.0], true, [true; 3]).length, 1.0);
+    }
+
+    #[test]
+    fn motions_that_are_prescribed_follow_from_no_force() {
+        let motions = rectangle(true, [false, true, false]);
+        assert!(motions.any_by_force());
+        assert!(!rectangle(true, [false; 3]).any_by_force());
+        assert_eq!(motions.only_by_force([1.0, 2.0, 3.0]), [0.0, 2.0, 0.0]);
+    }
+
+    /// A Gram matrix times known amounts: the amounts come back, those of prescribed motions as zero.
+    #[test]
+    fn amounts_that_make_known_resultants_are_found() {
+        // A^T A of A = [[2, 1, 0], [0, 3, 1], [1, 0, 4]].
+        let gram = [[5.0, 2.0, 4.0], [2.0, 10.0, 3.0], [4.0, 3.0, 17.0]];
+        let packed = [5.0, 10.0, 17.0, 2.0, 4.0, 3.0];
+        let amounts = [0.5, -2.0, 3.0];
+        let right = gram.map(|row| (0..3).map(|n| row[n] * amounts[n]).sum::<f64>());
+        let found = rectangle(true, [true; 3]).solve(packed, right);
+        for (found, known) in found.iter().zip(amounts) {
+            // The diagonal has a relative 1e-13 more; the inverse's norm is below one.
+            assert!((found - known).abs() < 1e-11, "{found} {known}");
+        }
+        // With x prescribed: [[10, 3], [3, 17]] (y, r) = (1, 2) has y = 11 / 161, r = 17 / 161.
+        let found = rectangle(true, [false, true, true]).solve(packed, [7.0, 1.0, 2.0]);
+        assert_eq!(found[0], 0.0);
+        assert!((found[1] - 11.0 / 161.0).abs() < 1e-12 && (found[2] - 17.0 / 161.0).abs() < 1e-12);
+        // Nothing to hold the contact: nothing moves.
+        assert_eq!(rectangle(true, [true; 3]).solve([0.0; 6], [1.0, 2.0, 3.0]), [0.0; 3]);
+    }
+
+    /// A singular matrix (two cells beside each other on the axis of rotation's radius) still has finite amounts that make the force.
+    #[test]
+    fn a_singular_matrix_has_finite_amounts() {
+        let found =
+            rectangle(true, [true, true, false]).solve([1.0, 1.0, 0.0, 1.0, 0.0, 0.0], [2.0, 2.0, 0.0]);
+        // x + y = 2 to the part in 1e-13 that makes it solvable.
+        assert!((found[0] + found[1] - 2.0).abs() < 1e-9 && found[0].abs() < 10.0, "{found:?}");
     }
 }

@@ -19,6 +19,9 @@
 use super::super::contact_set::ContactSet;
 use crate::fields::{Reals, TangentialField};
 
+/// Cosine of the angle between chords from which on they say nothing of each other.
+const FADED: f64 = 0.766;
+
 /// What is known of the paths before an increment is solved, over the cells of a region or packed over a contact. With empty fields it is
 /// the end-point rule.
 #[derive(Debug, Clone, Default)]
@@ -27,15 +30,13 @@ pub struct SlipPath {
     pub turn: TangentialField,
     /// The offset a [length].
     pub ahead: TangentialField,
-    /// Of `s - a` of a cell that enters contact, the part that is slip: from the moment of touch on [-].
-    pub touching: Vec<f64>,
 }
 
 impl SlipPath {
     /// Paths that go straight from the start of the increment to its end, in so many cells.
     pub fn straight(cells: usize) -> Self {
         let zeros = || TangentialField::zeros(cells);
-        Self { turn: zeros(), ahead: zeros(), touching: vec![1.0; cells] }
+        Self { turn: zeros(), ahead: zeros() }
     }
 
     /// Whether it is another rule than that of the end point.
@@ -44,16 +45,15 @@ impl SlipPath {
     }
 
     /// A cell goes on from its last slip increment [length], in an increment `ratio` times as long, of which a share `stop` lies before the
-    /// moment at which it may come to rest.
-    pub fn go_on(&mut self, cell: usize, last: [f64; 2], (ratio, stop): (f64, f64)) {
+    /// moment at which it may come to rest. `weight`: how far its direction is known, 0 to 1.
+    pub fn go_on(&mut self, cell: usize, last: [f64; 2], (ratio, stop, weight): (f64, f64, f64)) {
         let length = last[0].hypot(last[1]);
         if !(length > 0.0) {
             return;
         }
-        let along = last.map(|part| part / length);
         let kept = (1.0 + ratio) / (1.0 + 2.0 * ratio);
-        let root = (1.0 - kept / (1.0 - stop)).max(0.0).sqrt();
-        self.turn.set(cell, along.map(|part| part * root));
+        let root = (weight / (1.0 - FADED) * (1.0 - kept / (1.0 - stop)).max(0.0)).sqrt();
+        self.turn.set(cell, last.map(|part| part / length * root));
         self.ahead.set(cell, last.map(|part| part * ratio * stop));
     }
 
@@ -63,17 +63,18 @@ impl SlipPath {
             return slip;
         }
         let turn = self.turn.at(cell);
-        let along = (slip[0] * turn[0] + slip[1] * turn[1]).max(0.0);
+        let straight = slip[0].hypot(slip[1]) * turn[0].hypot(turn[1]);
+        let along = (slip[0] * turn[0] + slip[1] * turn[1] - FADED * straight).max(0.0);
         [slip[0] - along * turn[0], slip[1] - along * turn[1]]
     }
 
-    /// Slip increment of a cell, from its slip less the offset: from the moment of touch, where it `was_open`.
+    /// Slip increment of a cell, from its slip less the offset: from the moment of touch on, where it `was_open`.
     pub fn counted(&self, cell: usize, slip: [f64; 2], was_open: bool) -> [f64; 2] {
-        match (self.turns(), was_open) {
-            (false, _) => slip,
-            (true, true) => slip.map(|part| part * self.touching[cell]),
-            (true, false) => [0, 1].map(|axis| slip[axis] + self.ahead.at(cell)[axis]),
+        if was_open || !self.turns() {
+            return slip;
         }
+        let ahead = self.ahead.at(cell);
+        [slip[0] + ahead[0], slip[1] + ahead[1]]
     }
 
     /// The turn packed over a contact.
@@ -88,7 +89,8 @@ impl SlipPath {
 /// `M v` with `turn = sqrt(c) l`.
 #[inline(always)]
 pub fn end_of_chord<R: Reals>(slip: [R; 2], turn: [R; 2]) -> [R; 2] {
-    let along = (slip[0] * turn[0] + slip[1] * turn[1]).max(slip[0].all(0.0));
+    let lengths = (slip[0] * slip[0] + slip[1] * slip[1]) * (turn[0] * turn[0] + turn[1] * turn[1]);
+    let along = (slip[0] * turn[0] + slip[1] * turn[1] - lengths.sqrt() * FADED).max(slip[0].all(0.0));
     [slip[0] - along * turn[0], slip[1] - along * turn[1]]
 }
 
@@ -108,7 +110,7 @@ mod tests {
                     let chord = |k: usize| [0, 1].map(|axis| angles[k + 1][axis] - angles[k][axis]);
                     let (last, this) = (chord(0), chord(1));
                     let mut path = SlipPath::straight(1);
-                    path.go_on(0, last, (ratio, stop));
+                    path.go_on(0, last, (ratio, stop, 1.0));
                     let ahead = path.ahead.at(0);
                     let end = path.end_of(0, [this[0] - ahead[0], this[1] - ahead[1]]);
                     // Direction of the circle at the end, less that of the found vector.
@@ -125,15 +127,16 @@ mod tests {
     #[test]
     fn what_sticks_stays_and_what_turns_back_is_left_alone() {
         let mut path = SlipPath::straight(2);
-        path.go_on(0, [3.0, 4.0], (1.0, 0.0));
+        path.go_on(0, [3.0, 4.0], (1.0, 0.0, 1.0));
         assert_eq!(path.end_of(0, [0.0; 2]), [0.0; 2]);
         assert_eq!(path.end_of(0, [-1.0, 0.5]), [-1.0, 0.5]); // backwards
         assert_eq!(path.end_of(1, [1.0, 2.0]), [1.0, 2.0]); // nothing known
         let along = path.end_of(0, [3.0, 4.0]);
         assert!((along[0] - 2.0).abs() < 1e-15 && (along[1] - 8.0 / 3.0).abs() < 1e-15);
         assert_eq!(SlipPath::default().end_of(7, [1.0, 2.0]), [1.0, 2.0]);
-        path.touching[1] = 0.25;
-        assert_eq!(path.counted(1, [1.0, 2.0], true), [0.25, 0.5]);
-        assert_eq!(path.counted(1, [1.0, 2.0], false), [1.0, 2.0]);
+        path.go_on(1, [2.0, 0.0], (0.5, 0.1, 0.0));
+        let counted = path.counted(1, [1.0, 2.0], false);
+        assert!((counted[0] - 1.1).abs() < 1e-15 && counted[1] == 2.0);
+        assert_eq!(path.counted(1, [1.0, 2.0], true), [1.0, 2.0]);
     }
 }

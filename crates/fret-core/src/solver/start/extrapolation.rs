@@ -155,37 +155,66 @@ impl ContactSolver<'_> {
     }
 
     /// Ratio of this load increment to the last one when it goes on in the same direction.
-    pub(in super::super) fn continuation(&self, load: &LoadStep) -> Option<f64> {
-        let (Some(Before { load: first, .. }), Some(second)) = (&self.memory.before, &self.memory.last_load)
-        else {
-            return None;
-        };
-        let (older, newer) = (change(first, second)?, change(second, load)?);
-        let mut product = 0.0;
-        let (mut old_square, mut new_square) = (0.0, 0.0);
-        for (a, b) in older.iter().zip(&newer) {
-            let scale = a.abs().max(b.abs());
-            if scale > 0.0 {
-                product += (a / scale) * (b / scale);
-                old_square += (a / scale).powi(2);
-                new_square += (b / scale).powi(2);
-            }
-        }
-        let cosine = product / (old_square * new_square).sqrt();
-        (cosine > 0.5).then(|| (product / old_square).min(3.0))
+    fn continuation(&self, load: &LoadStep) -> Option<f64> {
+        let [old, both, new] = self.increments_to(load)?;
+        (both > 0.5 * (old * new).sqrt()).then(|| (both / old).min(3.0))
+    }
+
+    /// Length of this load increment over that of the last one, 3 at the most, when it goes on in about the same direction: less than 60
+    /// degrees off.
+    pub(in super::super) fn ratio_to_last(&self, load: &LoadStep) -> Option<f64> {
+        let [old, both, new] = self.increments_to(load)?;
+        (both > 0.5 * (old * new).sqrt()).then(|| (new / old).sqrt().min(3.0))
+    }
+
+    /// The last load increment and the one to `load`, see [`products`].
+    fn increments_to(&self, load: &LoadStep) -> Option<[f64; 3]> {
+        let (before, last) = (&self.memory.before.as_ref()?.load, self.memory.last_load.as_ref()?);
+        let are_alike = matches!(
+            load.tangential,
+            [Control::Force(_), Control::Force(_)] | [Control::Motion(_), Control::Motion(_)]
+        );
+        Some(products(change(before, last)?, change(last, load)?, are_alike))
     }
 }
 
+/// Squares of the lengths of two increments and their product, each of the normal load, the tangential loads, the twist, the tilt and the
+/// bulk stresses by itself in units of the longer one. Loads along x and y go together where `are_alike`.
+fn products(older: Loads, newer: Loads, are_alike: bool) -> [f64; 3] {
+    let tangential: &[&[usize]] = if are_alike { &[&[1, 2]] } else { &[&[1], &[2]] };
+    let others: &[&[usize]] = &[&[0], &[3], &[4, 5], &[6, 7], &[8, 9]];
+    let mut found = [0.0; 3];
+    for group in tangential.iter().chain(others) {
+        let product = |a: &Loads, b: &Loads| group.iter().map(|&k| a[k] * b[k]).sum::<f64>();
+        let [old, both, new] = [product(&older, &older), product(&older, &newer), product(&newer, &newer)];
+        let unit = old.max(new);
+        if unit > 0.0 {
+            found = [found[0] + old / unit, found[1] + both / unit, found[2] + new / unit];
+        }
+    }
+    found
+}
+
+/// Normal load, tangential loads, twist, tilts, bulk stresses of the lower and the upper body.
+type Loads = [f64; 10];
+
 /// Loads as numbers, when both name the same controls.
-fn change(from: &LoadStep, to: &LoadStep) -> Option<[f64; 4]> {
+fn change(from: &LoadStep, to: &LoadStep) -> Option<Loads> {
     let difference = |a: Control, b: Control| match (a, b) {
         (Control::Force(a), Control::Force(b)) | (Control::Motion(a), Control::Motion(b)) => Some(b - a),
         _ => None,
     };
+    let bulk = |body: usize, axis: usize| to.bulk_stress[body][axis] - from.bulk_stress[body][axis];
     Some([
         difference(from.normal, to.normal)?,
         difference(from.tangential[0], to.tangential[0])?,
         difference(from.tangential[1], to.tangential[1])?,
         difference(from.twist, to.twist)?,
+        difference(from.tilt[0], to.tilt[0])?,
+        difference(from.tilt[1], to.tilt[1])?,
+        bulk(0, 0),
+        bulk(0, 1),
+        bulk(1, 0),
+        bulk(1, 1),
     ])
 }

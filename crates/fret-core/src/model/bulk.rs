@@ -1,0 +1,113 @@
+//! Bulk stress: a remote stress of a body's substrate, and the strain that all of its layers share under it.
+
+use super::half_space::{Base, Body, ContactPair, ElasticMaterial, HalfSpace};
+
+/// Strains of the surfaces of a pair under the bulk stresses of its substrates.
+///
+/// A half-space under a remote stress strains evenly, and its layers with it: `e_x = (s_x - nu s_y) / E`; in plane strain
+/// `e_x = s_x (1 - nu^2) / E`, `e_y = 0`, with the constants of the substrate.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct BulkCompliance {
+    /// Of the lower body and of the upper one: strain along a stress and across it, per stress [1/pressure]; zero of a rigid body.
+    bodies: [[f64; 2]; 2],
+}
+
+impl BulkCompliance {
+    /// Bodies that do not strain.
+    pub const NONE: Self = Self { bodies: [[0.0; 2]; 2] };
+
+    /// That of a pair; in a line contact in plane strain.
+    pub fn of(pair: &ContactPair, plane_strain: bool) -> Self {
+        let of = |body: &Body| {
+            let Some(material) = substrate(body) else { return [0.0; 2] };
+            let (young, poisson) = (material.young(), material.poisson());
+            if plane_strain {
+                [(1.0 - poisson * poisson) / young, 0.0]
+            } else {
+                [1.0 / young, -poisson / young]
+            }
+        };
+        Self { bodies: [of(pair.lower()), of(pair.upper())] }
+    }
+
+    /// Strain of the lower surface less that of the upper one along x and y [-], under the bulk stresses `[lower, upper]`, each along
+    /// x and y [pressure].
+    pub fn relative_strain(&self, stress: [[f64; 2]; 2]) -> [f64; 2] {
+        let [lower, upper] = [0, 1].map(|body| {
+            let [along, across] = self.bodies[body];
+            let [x, y] = stress[body];
+            [along * x + across * y, along * y + across * x]
+        });
+        [lower[0] - upper[0], lower[1] - upper[1]]
+    }
+
+    /// Whether a stress of a body (0: lower, 1: upper) along an axis strains it along another.
+    pub fn strains(&self, body: usize, stress_axis: usize, axis: usize) -> bool {
+        self.bodies[body][usize::from(stress_axis != axis)] != 0.0
+    }
+}
+
+/// The material of a body's substrate; none of a rigid body, or of layers on a rigid base.
+pub fn substrate(body: &Body) -> Option<&ElasticMaterial> {
+    match body {
+        Body::Rigid => None,
+        Body::Elastic(half_space) => match half_space.base() {
+            Base::Elastic(material) => Some(material),
+            Base::Rigid => None,
+        },
+    }
+}
+
+/// Stress along x and y [pressure] in a layer of a half-space whose substrate is under a bulk stress along x and y [pressure]:
+/// `E_i / (1 - nu_i^2) (e_x + nu_i e_y)` under the strain that all layers share. Nothing on a rigid base.
+pub fn bulk_stress_in_layer(
+    half_space: &HalfSpace,
+    layer: usize,
+    bulk_stress: [f64; 2],
+    plane_strain: bool,
+) -> [f64; 2] {
+    let Base::Elastic(base) = half_space.base() else { return [0.0; 2] };
+    let material = half_space.coatings().get(layer).map_or(base, |coating| coating.material());
+    let [x, y] = bulk_stress;
+    if material == base && !plane_strain {
+        return bulk_stress;
+    }
+    let (young, poisson) = (base.young(), base.poisson());
+    let [along_x, along_y] = if plane_strain {
+        [x * (1.0 - poisson * poisson) / young, 0.0]
+    } else {
+        [(x - poisson * y) / young, (y - poisson * x) / young]
+    };
+    let nu = material.poisson();
+    let stiffness = material.young() / (1.0 - nu * nu);
+    [stiffness * (along_x + nu * along_y), stiffness * (along_y + nu * along_x)]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::model::Coating;
+
+    /// By hand: E = 2, nu = 0.25 under s = (1, 0): e = (0.5, -0.125); plane strain: e = (15/32, 0).
+    #[test]
+    fn all_layers_share_the_strain_of_the_substrate() {
+        let base = ElasticMaterial::new(2.0, 0.25).unwrap();
+        let coat = ElasticMaterial::new(3.0, 0.5).unwrap();
+        let body = HalfSpace::new(vec![Coating::new(coat, 1.0).unwrap()], Base::Elastic(base)).unwrap();
+        let pair = ContactPair::new(Body::Rigid, Body::Elastic(body.clone())).unwrap();
+        let loads = [[1.0, 0.0], [7.0, 7.0]];
+        assert_eq!(BulkCompliance::of(&pair, false).relative_strain(loads), [0.5, -0.125]);
+        assert_eq!(BulkCompliance::of(&pair, true).relative_strain(loads), [15.0 / 32.0, 0.0]);
+        assert_eq!(bulk_stress_in_layer(&body, 1, [1.0, 0.0], false), [1.0, 0.0]);
+        assert_eq!(bulk_stress_in_layer(&body, 0, [1.0, 0.0], false), [4.0 * 0.4375, 4.0 * 0.125]);
+        assert_eq!(bulk_stress_in_layer(&body, 1, [1.0, 0.0], true), [1.0, 0.25]);
+    }
+
+    #[test]
+    fn two_bodies_stretched_alike_do_not_slip() {
+        let base = ElasticMaterial::new(2.0, 0.25).unwrap();
+        let body = || Body::Elastic(HalfSpace::homogeneous(base));
+        let pair = ContactPair::new(body(), body()).unwrap();
+        assert_eq!(BulkCompliance::of(&pair, false).relative_strain([[1.0, 3.0]; 2]), [0.0; 2]);
+    }
+}

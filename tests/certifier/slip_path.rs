@@ -1,0 +1,157 @@
+//! The rule of second order as `docs/theory/second-order.md` states it, cell by cell: which slip the friction law of an increment is about,
+//! and which of it counts.
+
+use fret_core::model::{Control, LoadStep, Zone};
+use ndarray::Array2;
+
+use super::measure::{dot, hypot};
+
+/// What went before an increment: fields of the last two states, where they are known.
+#[derive(Default)]
+pub(super) struct Past {
+    /// Loads of the last increments, the newest last.
+    pub(super) loads: Vec<LoadStep>,
+    /// Change of the displacement of the upper surface over the lower in the last increment, and in that before.
+    pub(super) drift: [Option<[Array2<f64>; 2]>; 2],
+    /// Gap after the last increment, and before it.
+    pub(super) gap: [Option<Array2<f64>>; 2],
+    /// Pressure before the last increment.
+    pub(super) pressure: Option<Array2<f64>>,
+    pub(super) zone: Option<Array2<Zone>>,
+    /// The largest change of displacement of cells that slipped in the last increment.
+    pub(super) largest_slip: f64,
+    /// Length of the last increment over that before.
+    pub(super) ratio: f64,
+    /// The gap has been changed since by wear: no increment goes on from there.
+    pub(super) is_cut: bool,
+}
+
+/// The rule in one cell.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct CellPath {
+    /// Offset of the slip.
+    pub(super) ahead: [f64; 2],
+    /// `sqrt(c) l`.
+    turn: [f64; 2],
+    /// The cell was open: its offset is no slip.
+    is_open: bool,
+}
+
+impl CellPath {
+    pub(super) const STRAIGHT: Self = Self { ahead: [0.0; 2], turn: [0.0; 2], is_open: false };
+
+    /// The slip at the end of the increment, of a change of displacement.
+    pub(super) fn end(&self, change: [f64; 2]) -> [f64; 2] {
+        let rest = [change[0] - self.ahead[0], change[1] - self.ahead[1]];
+        let along = dot(rest, self.turn).max(0.0);
+        [rest[0] - along * self.turn[0], rest[1] - along * self.turn[1]]
+    }
+
+    /// The slip that counts, of a cell that slips or sticks at the end.
+    pub(super) fn counted(&self, change: [f64; 2], zone: Zone) -> [f64; 2] {
+        match (zone, self.is_open) {
+            (Zone::Slip, true) => [0, 1].map(|axis| change[axis] - self.ahead[axis]),
+            (Zone::Slip, false) => change,
+            (_, true) => [0.0; 2],
+            (_, false) => self.ahead,
+        }
+    }
+}
+
+impl Past {
+    /// Length of an increment to `load` over that of the last, where it goes on in the direction of the last: increments of the four
+    /// loads, with an angle below 60 degrees between them; 3 at the most.
+    pub(super) fn ratio_to(&self, load: &LoadStep) -> Option<f64> {
+        let [.., first, second] = self.loads[..] else { return None };
+        if self.is_cut {
+            return None;
+        }
+        let numbers = |step: &LoadStep| {
+            let LoadStep { normal, tangential: [x, y], twist, tilt: [tilt_x, tilt_y], .. } = *step;
+            [normal, x, y, twist, tilt_x, tilt_y]
+        };
+        let change = |from: &LoadStep, to: &LoadStep| {
+            let mut found = [0.0; 10];
+            for (found, pair) in found.iter_mut().zip(numbers(from).into_iter().zip(numbers(to))) {
+                *found = match pair {
+                    (Control::Force(a), Control::Force(b)) | (Control::Motion(a), Control::Motion(b)) => {
+                        b - a
+                    }
+                    _ => return None,
+                };
+            }
+            for (k, found) in found[6..].iter_mut().enumerate() {
+                *found = to.bulk_stress[k / 2][k % 2] - from.bulk_stress[k / 2][k % 2];
+            }
+            Some(found)
+        };
+        let (old, new) = (change(&first, &second)?, change(&second, load)?);
+        // Of the normal load, the tangential ones and the twist each by itself.
+        let alike = matches!(
+            load.tangential,
+            [Control::Force(_), Control::Force(_)] | [Control::Motion(_), Control::Motion(_)]
+        );
+        let tangential: &[&[usize]] = if alike { &[&[1, 2]] } else { &[&[1], &[2]] };
+        let (mut both, mut old_square, mut new_square) = (0.0, 0.0, 0.0);
+        for group in tangential.iter().chain(&[&[0][..], &[3], &[4, 5], &[6, 7], &[8, 9]]) {
+            let sum = |a: &[f64; 10], b: &[f64; 10]| group.iter().map(|&k| a[k] * b[k]).sum::<f64>();
+            let unit = f64::max(sum(&old, &old), sum(&new, &new));
+            if unit > 0.0 {
+                both += sum(&old, &new) / unit;
+                old_square += sum(&old, &old) / unit;
+                new_square += sum(&new, &new) / unit;
+            }
+        }
+        (both > 0.5 * f64::sqrt(old_square * new_square))
+            .then(|| f64::min(f64::sqrt(new_square / old_square), 3.0))
+    }
+
+    /// The rule of a cell in an increment `ratio` times as long as the last.
+    pub(super) fn path(&self, at: [usize; 2], ratio: f64) -> CellPath {
+        let (Some(drift), Some(zone)) = (&self.drift[0], &self.zone) else { return CellPath::STRAIGHT };
+        let last = [drift[0][at], drift[1][at]];
+        match zone[at] {
+            Zone::Stick => CellPath::STRAIGHT,
+            Zone::Slip => {
+                let length = hypot(last);
+                if length == 0.0 {
+                    return CellPath::STRAIGHT;
+                }
+                let entered = self.pressure.as_ref().is_some_and(|pressure| pressure[at] == 0.0);
+                let fall = match &self.drift[1] {
+                    _ if entered => 1.0,
+                    None => 0.0,
+                    Some(then) => {
+                        let rates = dot([then[0][at], then[1][at]], last) / length * self.ratio / length;
+                        (rates - 1.0).clamp(0.0, 1.0)
+                    }
+                };
+                let stop = 0.15 * fall;
+                let known = f64::min(1.0, length / (0.01 * self.largest_slip));
+                let c = 1.0 - (1.0 + ratio) / (1.0 + 2.0 * ratio) / (1.0 - stop);
+                CellPath {
+                    ahead: last.map(|part| part * ratio * stop),
+                    turn: last.map(|part| part / length * (known * c.max(0.0)).sqrt()),
+                    is_open: false,
+                }
+            }
+            Zone::Open => {
+                let open = CellPath { is_open: true, ..CellPath::STRAIGHT };
+                let [Some(gap), Some(gap_before)] = &self.gap else { return open };
+                let distance = |gap: f64| gap.max(0.0).powf(2.0 / 3.0);
+                let (now, way) = (distance(gap[at]), (distance(gap_before[at]) - distance(gap[at])) * ratio);
+                if gap_before[at] <= gap[at] {
+                    return open;
+                }
+                let mut steepest = 0.0_f64;
+                for (axis, step) in [(0, 1), (0, usize::MAX), (1, 1), (1, usize::MAX)] {
+                    let mut next = at;
+                    next[axis] = at[axis].wrapping_add(step);
+                    steepest = steepest.max(gap.get(next).map_or(0.0, |gap| (distance(*gap) - now).abs()));
+                }
+                let touch = (2.0 * way / steepest - 1.0).clamp(0.0, 1.0) * f64::min(1.0, now / way);
+                CellPath { ahead: last.map(|part| part * 0.85 * touch * ratio), ..open }
+            }
+        }
+    }
+}

@@ -1,0 +1,90 @@
+//! Line contacts with stiffness, thickness, friction and loads far beyond use, stretched and tilted: every increment holds every law, or
+//! the run says why not.
+
+use std::fmt::Write as _;
+
+use fret_validation::certifier::run_certified;
+use fret_validation::random::Random;
+
+/// Cases, of which so many may end without a solution.
+const CASES: u64 = 500;
+const MOST_UNSOLVED: usize = 10;
+
+#[test]
+fn extreme_line_contacts_are_certified_or_refused() {
+    let (mut certified, mut refused, mut unsolved) = (0, 0, 0);
+    for seed in 0..CASES {
+        let text = case(&mut Random::seeded(seed));
+        let Ok(ended) = run_certified(&text, &[]) else {
+            refused += 1;
+            continue;
+        };
+        if let Some(wrong) = ended.wrong() {
+            panic!("seed {seed}: {wrong}\n{text}");
+        }
+        match &ended.error {
+            None => certified += 1,
+            Some(error) => {
+                println!("seed {seed}: {error}");
+                unsolved += 1;
+            }
+        }
+    }
+    println!("{certified} certified, {refused} refused, {unsolved} ended with an error");
+    assert!(certified > 400 && unsolved <= MOST_UNSOLVED, "{certified} {refused} {unsolved}");
+}
+
+fn case(random: &mut Random) -> String {
+    let length = random.log_uniform(1e-9, 1e3);
+    let modulus = random.log_uniform(1e-3, 1e12);
+    let cells = random.whole(16, 72);
+    let radius = 20.0 * length;
+    let body = |random: &mut Random| {
+        let poisson = if random.chance(0.1) { 0.5 } else { random.between(-0.3, 0.49) };
+        let mut text = String::new();
+        if random.chance(0.5) {
+            let layers: Vec<String> = (0..random.whole(1, 2))
+                .map(|_| {
+                    let thickness = length * random.log_uniform(1e-3, 1e2);
+                    let young = modulus * random.log_uniform(1e-3, 1e3);
+                    format!(
+                        "{{ thickness = {thickness:e}, young = {young:e}, poisson = {:e} }}",
+                        random.between(0.0, 0.45)
+                    )
+                })
+                .collect();
+            let _ = writeln!(text, "coatings = [{}]", layers.join(", "));
+        }
+        text + &format!("substrate = {{ young = {modulus:e}, poisson = {poisson:e} }}\n")
+    };
+    let rigid = random.chance(0.3);
+    let upper = if rigid { "rigid = true\n".to_owned() } else { body(random) };
+    let lower = body(random);
+    let friction = random.log_uniform(1e-3, 1.5);
+    // About the force of a half-width of `length` without coatings.
+    let force = 0.4 * modulus * length * length / radius * random.between(0.2, 1.0);
+    let stress = friction * force / length;
+    let mut text = format!(
+        "[grid]\ncells = {cells}\nsize = {:e}\n[upper]\n{upper}[lower]\n{lower}[profile.cylinder]\nradius = {radius:e}\naxis = \"y\"\n\
+         [friction]\ncoefficient = {friction:e}\n[solver]\nintegration = \"end_point\"\n[[load]]\nnormal_force = {force:e}\nincrements = 2\n",
+        length * random.between(6.0, 20.0)
+    );
+    for _ in 0..random.whole(1, 2) {
+        let mut stage = "[[load]]\nincrements = 3\n".to_owned();
+        let _ = writeln!(stage, "bulk_stress = {:e}", stress * random.between(-3.0, 3.0));
+        if !rigid && random.chance(0.3) {
+            let _ = writeln!(stage, "upper_bulk_stress = {:e}", stress * random.between(-3.0, 3.0));
+        }
+        if random.chance(0.6) {
+            let pull = friction * force * random.between(-0.9, 0.9);
+            let _ = writeln!(stage, "tangential_force = [{pull:e}, {:e}]", 0.3 * pull * random.uniform());
+        }
+        if random.chance(0.3) {
+            let _ = writeln!(stage, "tilt = {:e}", length / radius * random.between(-0.5, 0.5));
+        } else if random.chance(0.2) {
+            let _ = writeln!(stage, "tilt_moment = {:e}", force * length * random.between(-0.5, 0.5));
+        }
+        text += &stage;
+    }
+    text
+}
