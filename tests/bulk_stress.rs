@@ -251,7 +251,7 @@ fn a_stretched_sphere_sticks_on_an_offset_circle() {
 fn offset_circle(scene: &Scene, fraction: f64, offset: f64) -> f64 {
     let [a, p0] = scene.contact();
     let cell = scene.size() / scene.cells as f64;
-    let history = scene.run(&pulled(&scene, fraction, offset));
+    let history = scene.run(&pulled(scene, fraction, offset));
     let kept = last(&history);
     let force = fraction * scene.friction * scene.force;
     let strain = std::f64::consts::PI * scene.friction * p0 * offset;
@@ -364,11 +364,11 @@ fn random_stretched_contacts_hold_every_law_and_the_balance_of_energy() {
 }
 
 fn random_case(random: &mut Random, number: usize) -> String {
-    let line = number % 2 == 0;
+    let line = number.is_multiple_of(2);
     let mut between = |low: f64, high: f64| low + (high - low) * random.uniform();
     let poisson = between(0.0, 0.49);
-    let upper_poisson = if number % 3 == 0 { poisson } else { between(0.0, 0.49) };
-    let upper_young = if number % 3 == 0 { 1.0 } else { between(0.5, 3.0) };
+    let upper_poisson = if number.is_multiple_of(3) { poisson } else { between(0.0, 0.49) };
+    let upper_young = if number.is_multiple_of(3) { 1.0 } else { between(0.5, 3.0) };
     let friction = between(0.1, 0.8);
     let coating = if number % 4 == 1 {
         format!(
@@ -404,7 +404,7 @@ fn random_case(random: &mut Random, number: usize) -> String {
     };
     let (lower, upper) = (stress("bulk_stress"), stress("upper_bulk_stress"));
     let pull = friction * force * between(0.05, 0.25);
-    let motion = if number % 5 == 0 {
+    let motion = if number.is_multiple_of(5) {
         format!("shift = [{:e}, 0.0]\n", 1e-4 * between(0.1, 1.0))
     } else {
         format!("tangential_force = [{pull:e}, {:e}]\n", 0.3 * pull)

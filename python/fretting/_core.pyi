@@ -136,8 +136,7 @@ def influence_coefficients(
 
 def subsurface_stress(
     bodies: tuple[str, bool],
-    spacing: tuple[float, float],
-    periodic: bool,
+    setting: tuple[tuple[float, float], bool],
     tractions: tuple[npt.NDArray[np.float64], tuple[npt.NDArray[np.float64], npt.NDArray[np.float64]] | None],
     depths: list[float],
     even: tuple[tuple[float, float], str],
@@ -193,15 +192,17 @@ def torsion(sphere: tuple[float, float, float], friction: float, shear_modulus: 
 def fatigue(
     bodies: tuple[str, bool],
     setting: tuple[tuple[float, float], bool],
-    increments: list[
-        tuple[
-            npt.NDArray[np.float64],
-            tuple[npt.NDArray[np.float64], npt.NDArray[np.float64]] | None,
-            tuple[npt.NDArray[np.float64], npt.NDArray[np.float64]] | None,
-            tuple[float, float],
-        ]
+    loading: tuple[
+        list[
+            tuple[
+                npt.NDArray[np.float64],
+                tuple[npt.NDArray[np.float64], npt.NDArray[np.float64]] | None,
+                tuple[npt.NDArray[np.float64], npt.NDArray[np.float64]] | None,
+                tuple[float, float],
+            ]
+        ],
+        str,
     ],
-    residual_stress: str,
     depths: list[float],
     request: str,
     threads: int | None,

@@ -36,7 +36,7 @@ def subsurface(
     if not _frictionless(history):
         x, y = (_on_grid(history, part) for part in history.field("shear", increment))
         shear = (x, y)
-    setting = (history._bodies, _is_upper(body)), history._spacing, history._periodic
+    setting = (history._bodies, _is_upper(body)), (history._spacing, history._periodic)
     even = _bulk_stress(history, increment, body), history._residual_stress
     answer = _core.subsurface_stress(*setting, (pressure, shear), _points(depths), even, threads)
     across = ("x",) if history.is_line else ("y", "x")
@@ -99,8 +99,8 @@ def fatigue(
         )
     increments = [(*_fields(history, number), _bulk_stress(history, number, body)) for number in chosen]
     setting = (history._bodies, _is_upper(body)), (history._spacing, history._periodic)
-    residual = history._residual_stress
-    answer = _core.fatigue(*setting, increments, residual, _points(depths), json.dumps(request), threads)
+    loading = increments, history._residual_stress
+    answer = _core.fatigue(*setting, loading, _points(depths), json.dumps(request), threads)
     variables = {
         name: (
             ("depth", "x") if values.ndim == 2 else ("x",),

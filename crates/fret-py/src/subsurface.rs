@@ -44,13 +44,13 @@ type TractionArrays<'py> =
 pub fn subsurface_stress<'py>(
     py: Python<'py>,
     bodies: (&str, bool),
-    spacing: [f64; 2],
-    periodic: bool,
+    setting: ([f64; 2], bool),
     tractions: TractionArrays<'py>,
     depths: Vec<f64>,
     even: ([f64; 2], &str),
     threads: Threads,
 ) -> PyResult<Bound<'py, PyDict>> {
+    let (spacing, periodic) = setting;
     let residual = residual_of(even.1, bodies.1)?;
     let even = EvenStress { bulk: even.0, residual };
     let (half_space, sign) = half_space_of(bodies)?;
@@ -105,13 +105,13 @@ pub fn fatigue<'py>(
     py: Python<'py>,
     bodies: (&str, bool),
     setting: ([f64; 2], bool),
-    increments: Vec<IncrementArrays<'py>>,
-    residual_stress: &str,
+    loading: (Vec<IncrementArrays<'py>>, &str),
     depths: Vec<f64>,
     request: &str,
     threads: Threads,
 ) -> PyResult<Bound<'py, PyDict>> {
     let (spacing, periodic) = setting;
+    let (increments, residual_stress) = loading;
     let residual = residual_of(residual_stress, bodies.1)?;
     let (half_space, sign) = half_space_of(bodies)?;
     let request: FatigueRequest = serde_json::from_str(request).map_err(bad_value)?;
