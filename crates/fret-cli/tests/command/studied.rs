@@ -167,7 +167,7 @@ fn error_bars_of_a_fretting_loop_and_where_there_are_none() {
     let said: Value = serde_json::from_str(&answer.out).unwrap();
     let stages = said["error_bars"]["stages"].as_array().unwrap();
     assert_eq!(stages.len(), 2);
-    assert_eq!(said["error_bars"]["companion"]["increments"], Value::from(2 + 2 * 4));
+    assert_eq!(said["error_bars"]["auxiliary"]["increments"], Value::from(2 + 2 * 4));
     let energy = &stages[1]["dissipated_energy"];
     assert!(energy["error_bar"].as_f64().unwrap() > 0.0 && energy["value"].as_f64().unwrap() > 0.0);
     let table = bench.fret(&["run", "case.toml", "--estimate-error"]).out;
