@@ -152,7 +152,7 @@ def main() -> None:
             history = fretting.run(case, threads=1)
             best = min(best, time.process_time() - start)
             one = np.minimum(one, [*unit(n, repeats), unit_alone(n, repeats)])
-        steps = history.steps
+        steps = history.increments
         applications = int(steps["convolutions"].sum())
         seconds[name, n] = best / len(history)
         quickest, mean, alone = 1e3 * one

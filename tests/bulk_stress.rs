@@ -42,9 +42,9 @@ impl Scene {
     /// Half-width or radius, and largest pressure.
     fn contact(&self) -> [f64; 2] {
         if self.line {
-            [self.hertz_line().half_width, self.hertz_line().peak_pressure]
+            [self.hertz_line().half_width, self.hertz_line().max_pressure]
         } else {
-            [self.hertz().contact_radius, self.hertz().peak_pressure]
+            [self.hertz().contact_radius, self.hertz().max_pressure]
         }
     }
 

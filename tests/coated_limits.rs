@@ -39,7 +39,7 @@ fn errors(row: &Row, cells: usize) -> [f64; 3] {
     let step = solved(&sphere.pressed(1.0, 1, "linear")).steps[0].clone();
     let radius = (step.contact_area / std::f64::consts::PI).sqrt();
     [
-        step.max_pressure / sphere.peak_pressure() / row.p0 - 1.0,
+        step.max_pressure / sphere.max_pressure() / row.p0 - 1.0,
         step.approach / sphere.approach() / row.approach - 1.0,
         radius / row.a - 1.0,
     ]

@@ -25,7 +25,7 @@ struct Spence {
     friction: f64,
     punch_force: f64,
     radius: f64,
-    peak_pressure: f64,
+    max_pressure: f64,
     approach: f64,
     error: f64,
 }
@@ -47,7 +47,7 @@ fn the_library_s_table_of_spence_s_solutions_is_that_of_another_program() {
         assert!(off < bound, "nu = {}, c/a = {}: {off:e}", row.poisson, row.stick);
         for (known, found) in [
             (known.radius_ratio, row.radius),
-            (known.peak_pressure_ratio, row.peak_pressure),
+            (known.peak_pressure_ratio, row.max_pressure),
             (known.approach_ratio, row.approach),
             (known.punch_force_ratio, row.punch_force),
         ] {
@@ -67,7 +67,7 @@ fn stick_ratio(history: &History) -> f64 {
 #[test]
 fn spence_stick_radius_peak_and_approach() {
     let wanted = [(0.0, 0.5), (0.3, 0.2), (0.3, 0.9)];
-    for Spence { poisson, stick, friction, radius, peak_pressure: peak, approach, .. } in
+    for Spence { poisson, stick, friction, radius, max_pressure: peak, approach, .. } in
         spence().into_iter().filter(|row| wanted.contains(&(row.poisson, row.stick)))
     {
         let sphere = Sphere { cells: 96, size: 2.2, poisson, friction, ..Sphere::default() };
@@ -81,7 +81,7 @@ fn spence_stick_radius_peak_and_approach() {
         assert!((found / radius - 1.0).abs() < 3e-3, "radius {found} against {radius}");
         let found = last.approach / sphere.approach();
         assert!((found / approach - 1.0).abs() < 1.5e-3, "approach {found} against {approach}");
-        let found = last.max_pressure / sphere.peak_pressure();
+        let found = last.max_pressure / sphere.max_pressure();
         println!("   peak {found:.4} ({peak})");
         // The cusp at the centre is cut by half a cell.
         assert!((found / peak - 1.0).abs() < 1.5e-2, "peak {found} against {peak}");
@@ -207,7 +207,7 @@ fn coated_sphere_pressed_with_friction() {
             }
             let expected = [*expected, shear[index]];
             for (part, scale) in [pressure[0], 0.1 * pressure[0]].into_iter().enumerate() {
-                let found = along_x(&history.grid, fields[part], r) / sphere.peak_pressure();
+                let found = along_x(&history.grid, fields[part], r) / sphere.max_pressure();
                 worst[part] = worst[part].max((found - expected[part]).abs() / scale);
             }
         }

@@ -1,4 +1,4 @@
-//! Error bars of headline numbers against true errors: closed forms, and the table of coated spheres.
+//! Error bars of quantities of interest against true errors: closed forms, and the table of coated spheres.
 //!
 //! What a bar promises: the true value lies within it in at least 95 of 100 scenes, and it is not more than ten times as wide as
 //! such errors are. Where a number happens to be right to many digits the ratio of one bar to one error says nothing, so width
@@ -7,7 +7,7 @@
 use fret_core::case::Case;
 use fret_core::plan::Plan;
 use fret_core::run::Silent;
-use fret_core::study::{Bars, ClosedForm, Quantity, climbed, companion, error_bars};
+use fret_core::study::{Bars, ClosedForm, Quantity, companion, error_bars, solved_level};
 use fret_validation::Sphere;
 use serde::Deserialize;
 use std::f64::consts::PI;
@@ -26,8 +26,8 @@ fn planned(text: &str) -> Plan {
 
 /// Error bars at the ends of all stages.
 fn bars(plan: &Plan) -> Vec<Bars> {
-    let fine = climbed(plan, &mut Silent).unwrap();
-    let coarse = climbed(&companion(plan).unwrap(), &mut Silent).unwrap();
+    let fine = solved_level(plan, &mut Silent).unwrap();
+    let coarse = solved_level(&companion(plan).unwrap(), &mut Silent).unwrap();
     error_bars(plan, &fine.ends, &coarse.ends)
 }
 
@@ -79,7 +79,7 @@ fn coated(all: &mut Vec<Judged>) {
         let scene = format!("coated, E1/E2 = {}, h = {}, {cells} cells", row.young_ratio, row.h);
         // For a thin coating 4 and more times stiffer the largest pressure lies off the axis, where the table has none.
         if !(row.h <= 0.25 && row.young_ratio >= 4.0) {
-            judge(&scene, bars, Quantity::MaxPressure, [row.p0 * sphere.peak_pressure(), 0.0], all);
+            judge(&scene, bars, Quantity::MaxPressure, [row.p0 * sphere.max_pressure(), 0.0], all);
         }
         judge(&scene, bars, Quantity::Approach, [row.approach * sphere.approach(), 0.0], all);
         judge(&scene, bars, Quantity::ContactArea, [PI * row.a * row.a, 0.0], all);
@@ -190,7 +190,7 @@ fn of_cells_in_radius(cells: f64) -> Plan {
 fn bars_hold_from_six_cells_in_the_radius_on_and_are_refused_below() {
     let sphere = Sphere::default();
     let exact = [
-        (Quantity::MaxPressure, sphere.peak_pressure()),
+        (Quantity::MaxPressure, sphere.max_pressure()),
         (Quantity::Approach, sphere.approach()),
         (Quantity::ContactArea, PI),
     ];
@@ -221,7 +221,7 @@ fn bars_hold_from_six_cells_in_the_radius_on_and_are_refused_below() {
 fn a_contact_of_few_cells_gets_no_bars_after_the_run_either() {
     let plan = of_cells_in_radius(4.0);
     let blind = Plan { expected: None, ..plan };
-    let fine = climbed(&blind, &mut Silent).unwrap();
-    let coarse = climbed(&companion(&blind).unwrap(), &mut Silent).unwrap();
+    let fine = solved_level(&blind, &mut Silent).unwrap();
+    let coarse = solved_level(&companion(&blind).unwrap(), &mut Silent).unwrap();
     assert!(error_bars(&blind, &fine.ends, &coarse.ends).is_empty());
 }

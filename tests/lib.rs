@@ -75,7 +75,7 @@ impl Sphere {
     }
 
     /// Hertz's largest pressure under that force, substrate alone.
-    pub fn peak_pressure(&self) -> f64 {
+    pub fn max_pressure(&self) -> f64 {
         1.5 * self.force() / (std::f64::consts::PI * self.length * self.length)
     }
 

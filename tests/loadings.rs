@@ -68,7 +68,7 @@ fn against_springs(points: &[(f64, f64)], increments: usize, cells: usize) -> (f
             }
         }
         worst_shear =
-            worst_shear.max((square / f64::max(inside, 1.0)).sqrt() / (FRICTION * sphere.peak_pressure()));
+            worst_shear.max((square / f64::max(inside, 1.0)).sqrt() / (FRICTION * sphere.max_pressure()));
     }
     (worst / range, worst_shear)
 }
@@ -87,7 +87,7 @@ fn the_springs_are_mindlin_and_deresiewicz() {
         springs.pull(pull);
         // Midpoint sums over 4000 springs.
         assert!((springs.shift / exact.shift() - 1.0).abs() < 1e-5, "{} {}", springs.shift, exact.shift());
-        assert!((springs.shear(0.3) - exact.shear(0.3)).abs() < 1e-4 * FRICTION * sphere.peak_pressure());
+        assert!((springs.shear(0.3) - exact.shear(0.3)).abs() < 1e-4 * FRICTION * sphere.max_pressure());
     }
     assert!((springs.dissipated / exact.dissipated_energy() - 1.0).abs() < 1e-3);
 }
@@ -281,7 +281,7 @@ fn torsion_of_lubkin_and_its_reversal() {
                 inside += 1.0;
             }
         }
-        let rms = f64::sqrt(square / inside) / (FRICTION * hertz.peak_pressure);
+        let rms = f64::sqrt(square / inside) / (FRICTION * hertz.max_pressure);
         println!("torsion {share}: twist {off:.1e}, stick radius {stick:.1e}, shear rms {rms:.1e}");
         // Contact radius of 40 cells: h^2 is 6e-4. A stick radius is known to a part of a cell (0.025); the shear is smeared over
         // a cell at the border of stick and at the rim.
@@ -341,7 +341,7 @@ fn shift_and_twist_far_together_follow_the_sliding_velocity() {
             let (x, y) = (r * cos, r * sin);
             let (vx, vy) = (1.0 - y, x);
             let size = vx.hypot(vy);
-            let q = FRICTION * sphere.peak_pressure() * (1.0 - r * r).sqrt() / size * r * 2.0 * PI
+            let q = FRICTION * sphere.max_pressure() * (1.0 - r * r).sqrt() / size * r * 2.0 * PI
                 / f64::from(n).powi(2);
             force += q * vx;
             moment += q * (x * vy - y * vx);
@@ -393,7 +393,7 @@ fn assert_turns(per_turn: usize, integration: &str, [most, most_spread]: [f64; 2
             worst = worst.max((b[0][to] + a[1][[i, j]]).abs()).max((b[1][to] - a[0][[i, j]]).abs());
         }
     }
-    let worst = worst / (FRICTION * sphere.peak_pressure());
+    let worst = worst / (FRICTION * sphere.max_pressure());
     let sizes: Vec<f64> =
         steps.iter().skip(5 + 2 * per_turn - 4).map(|step| step.shift[0].hypot(step.shift[1])).collect();
     let spread =

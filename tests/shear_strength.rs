@@ -12,7 +12,7 @@ fn equal(cells: usize) -> Sphere {
 
 /// The case with a shear strength in units of mu times Hertz's largest pressure.
 fn with_strength(sphere: &Sphere, strength: f64, loads: &str) -> String {
-    let tau = strength * sphere.friction * sphere.peak_pressure();
+    let tau = strength * sphere.friction * sphere.max_pressure();
     let text = format!("{}{loads}", sphere.pressed(1.0, 1, "linear"));
     text.replacen("[friction]\n", &format!("[friction]\nmax_shear = {tau:e}\n"), 1)
 }

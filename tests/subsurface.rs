@@ -415,7 +415,7 @@ fn the_tension_behind_a_slider_is_found_at_the_rim() {
         let slide = "[[load]]\nshift = [0.05, 0.0]\nincrements = 1\n";
         let history = solved(&(sphere.pressed(1.0, 1, "linear") + slide + &keeping(1)));
         assert_eq!(history.steps[1].stick_cells, 0);
-        let (grid, peak) = (history.grid, sphere.peak_pressure());
+        let (grid, peak) = (history.grid, sphere.max_pressure());
         let kept = &history.fields[1];
         let pressure = kept.pressure.as_ref().unwrap().mapv(|p| p / peak);
         let shear = kept.shear.as_ref().unwrap()[0].mapv(|q| q / peak);

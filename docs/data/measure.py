@@ -71,7 +71,7 @@ def studied(case: Path, *words: str) -> dict[str, float | None]:
     """Return the errors of the finest level of a refinement study."""
     with tempfile.TemporaryDirectory() as folder:
         answer = fret("study", str(case), "--out", folder, "--threads", "1", *words)
-    finest = answer["lines"][0]["rungs"][-1]
+    finest = answer["lines"][0]["levels"][-1]
     return {**finest["errors"], "pressure_l2": finest["error_of_pressure"], "shear_l2": finest["error_of_shear"]}
 
 
@@ -92,7 +92,7 @@ def verification() -> dict[str, Any]:
 def _coated_spheres() -> dict[str, float]:
     """Return the largest errors over five coatings, 128 x 128 cells."""
     errors: dict[str, list[float]] = {"max_pressure": [], "approach": [], "contact_area": []}
-    modulus = analytic.effective_moduli(lower=(210e9, 0.3)).normal
+    modulus = analytic.effective_moduli(lower={"young": 210e9, "poisson": 0.3}).normal
     force = 12.0
     hertz = analytic.hertz(radius=10e-3, force=force, modulus=modulus)
     for row in golden("coated_sphere"):
@@ -110,7 +110,7 @@ def _coated_spheres() -> dict[str, float]:
             "load": [{"normal_force": force, "increments": 1}],
         }
         exact = {
-            "max_pressure": row["p0"] * hertz.peak_pressure,
+            "max_pressure": row["p0"] * hertz.max_pressure,
             "approach": row["approach"] * hertz.approach,
             "contact_area": np.pi * radius**2,
         }
@@ -164,18 +164,20 @@ def _loop() -> dict[str, float]:
     stage = {"tangential_force": [amplitude, 0.0], "increments": 40, "cycles": 2}
     history = _similar(128, [stage])
     sphere = analytic.hertz(radius=RADIUS, force=FORCE, modulus=MODULUS)
-    exact = analytic.mindlin_deresiewicz(sphere, friction=MU, shear_modulus=SHEAR, amplitude=amplitude)
+    exact = analytic.mindlin_deresiewicz(sphere, friction_coefficient=MU, shear_modulus=SHEAR, amplitude=amplitude)
     worst = 0.0
     for step in range(1, len(history)):
         place = (step - 1) % 40 + 1
         first = step <= 10
         branch = "loading" if first else ("unloading" if 10 < place <= 30 else "reloading")
-        force = float(np.clip(history.steps["tangential_force_x"][step], -amplitude, amplitude))
+        force = float(np.clip(history.increments["tangential_force_x"][step], -amplitude, amplitude))
         if first:
-            shift = analytic.cattaneo_mindlin(sphere, MU, SHEAR, force).shift
+            shift = analytic.cattaneo_mindlin(
+                sphere, friction_coefficient=MU, shear_modulus=SHEAR, tangential_force=force
+            ).shift
         else:
             shift = exact.at(branch, force).shift
-        worst = max(worst, abs(history.steps["shift_x"][step] - shift) / exact.peak.shift)
+        worst = max(worst, abs(history.increments["shift_x"][step] - shift) / exact.peak.shift)
     energy = history.cycles["dissipated_energy"][1] / exact.dissipated_energy_per_cycle - 1
     return {"displacement": worst, "dissipated_energy": abs(float(energy))}
 
@@ -185,8 +187,8 @@ def _torsion() -> dict[str, float]:
     full = 3 * np.pi * MU * FORCE / 16
     history = _similar(96, [{"twist_moment": 0.9 * full, "increments": 9}])
     sphere = analytic.hertz(radius=RADIUS, force=FORCE, modulus=MODULUS)
-    exact = [analytic.torsion(sphere, MU, 0.25, moment).twist for moment in history.steps["twist_moment"][1:]]
-    found = history.steps["twist"][1:]
+    exact = [analytic.torsion(sphere, friction_coefficient=MU, shear_modulus=0.25, moment=moment).twist for moment in history.increments["twist_moment"][1:]]
+    found = history.increments["twist"][1:]
     return {"twist": float(np.max(np.abs(found - exact)) / max(exact))}
 
 
@@ -213,7 +215,7 @@ def _row(poisson: float, stick: float) -> dict[str, Any]:
 
 
 def _stick_radius(history: fretting.History) -> float:
-    stick, contact = (float(history.steps[name][-1]) for name in ("stick_cells", "contact_cells"))
+    stick, contact = (float(history.increments[name][-1]) for name in ("stick_cells", "contact_cells"))
     return float(np.sqrt(stick / contact))
 
 
@@ -234,7 +236,7 @@ def spence() -> dict[str, Any]:
         for ramp, counts in [("linear", (10, 20, 40, 80, "auto")), ("cubic", (10, 20, 40, 80))]:
             for count in counts:
                 history = _indented(row, cells, count, ramp)
-                steps = history.steps
+                steps = history.increments
                 rows.append(
                     {
                         "friction": round(row["friction"], 3),
@@ -244,7 +246,7 @@ def spence() -> dict[str, Any]:
                         "stick_radius": _stick_radius(history),
                         "shear_error": float(np.linalg.norm(history.field("shear_x") - shear) / np.linalg.norm(shear)),
                         "energy_error": float(
-                            steps["dissipated_energy"][-1] / exact.steps["dissipated_energy"][-1] - 1
+                            steps["dissipated_energy"][-1] / exact.increments["dissipated_energy"][-1] - 1
                         ),
                         "convolutions": int(steps["convolutions"].sum()),
                     }
@@ -255,7 +257,7 @@ def spence() -> dict[str, Any]:
 
 def _sliding() -> dict[str, float]:
     """Find the tangential force at which the last stick cell of a coated contact vanishes, over mu P."""
-    hertz = analytic.hertz(radius=10e-3, force=12.0, modulus=analytic.effective_moduli(lower=(210e9, 0.3)).normal)
+    hertz = analytic.hertz(radius=10e-3, force=12.0, modulus=analytic.effective_moduli(lower={"young": 210e9, "poisson": 0.3}).normal)
     answers = {}
     for ratio in (0.5, 2.0):
         coating = {"thickness": hertz.contact_radius, "young": ratio * 210e9, "poisson": 0.3}
@@ -274,8 +276,8 @@ def _sliding() -> dict[str, float]:
                 "output": {"fields": []},
             }
         )
-        ratio_of = history.steps["tangential_force_x"] / (0.1 * 12.0)
-        sticks = np.flatnonzero(history.steps["stick_cells"][10:] > 0) + 10
+        ratio_of = history.increments["tangential_force_x"] / (0.1 * 12.0)
+        sticks = np.flatnonzero(history.increments["stick_cells"][10:] > 0) + 10
         answers[f"last_stick_{ratio:g}"] = float(ratio_of[sticks[-1]])
         answers[f"far_{ratio:g}"] = float(ratio_of[-1])
     return answers

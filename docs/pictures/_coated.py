@@ -7,7 +7,7 @@ import numpy as np
 from fretting import analytic
 
 MU, FORCE, RADIUS, YOUNG, POISSON = 0.3, 12.0, 10e-3, 210e9, 0.3
-MODULI = analytic.effective_moduli(lower=(YOUNG, POISSON))
+MODULI = analytic.effective_moduli(lower={"young": YOUNG, "poisson": POISSON})
 HERTZ = analytic.hertz(radius=RADIUS, force=FORCE, modulus=MODULI.normal)
 ONSET = 3 * MU * FORCE / (16 * MODULI.shear * HERTZ.contact_radius)
 """Displacement at which the uncoated contact begins to slide (Cattaneo, Mindlin) [m]."""
@@ -39,4 +39,4 @@ def cycle(amplitude: float, increments: int = 48, cycles: int = 2) -> dict[str, 
 
 def along(history: Any) -> tuple[np.ndarray, np.ndarray]:
     """Return relative displacement over that of the onset, and tangential force over mu P."""
-    return history.steps["shift_x"] / ONSET, history.steps["tangential_force_x"] / (MU * FORCE)
+    return history.increments["shift_x"] / ONSET, history.increments["tangential_force_x"] / (MU * FORCE)

@@ -73,7 +73,7 @@ class Springs:
 def along(history: Any) -> tuple[np.ndarray, float]:
     """Return displacement and dissipated energy of the springs along the forces of a history."""
     springs = Springs()
-    steps = history.steps
+    steps = history.increments
     shifts = [springs.follow(p, t) for p, t in zip(steps["normal_force"], steps["tangential_force_x"], strict=True)]
     return np.array(shifts), springs.loss
 

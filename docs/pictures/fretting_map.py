@@ -40,7 +40,7 @@ CONDITIONS = {"full_stick": STICK_COLOUR, "partial_slip": SKY, "mixed": PINK, "g
 
 def onset(force: float) -> float:
     """Displacement at which uncoated bodies begin to slide (Cattaneo 1938, Mindlin 1949)."""
-    moduli = fretting.analytic.effective_moduli(lower=(STEEL["young"], STEEL["poisson"]))
+    moduli = fretting.analytic.effective_moduli(lower=STEEL)
     sphere = fretting.analytic.hertz(radius=10e-3, force=force, modulus=moduli.normal)
     return 3.0 * FRICTION * force / (16.0 * moduli.shear * sphere.contact_radius)
 
@@ -55,7 +55,7 @@ def edges(values: np.ndarray) -> np.ndarray:
 def main() -> None:
     """Solve all points and draw the maps."""
     with concurrent.futures.ProcessPoolExecutor(2, mp_context=multiprocessing.get_context("spawn")) as executor:
-        answer = fretting.sweep(CASE, AXES, executor)
+        answer = fretting.sweep(CASE, AXES, executor=executor)
     drawn, panels = figure(3, height=64, sharey=True)
     names = list(CONDITIONS)
     forces = np.geomspace(2, 40, 50)

@@ -24,10 +24,10 @@ for (label, points), mark in zip(cases.items(), "osv^D", strict=True):
     ]
     history = fretting.run(problem(48, stages))
     exact, _ = along(history)
-    force = history.steps["tangential_force_x"] / (MU * FORCE)
+    force = history.increments["tangential_force_x"] / (MU * FORCE)
     (line,) = left.plot(exact / ONSET, force, lw=0.9)
-    left.plot(history.steps["shift_x"] / ONSET, force, mark, color=line.get_color(), ms=2.5, label=label)
-    error = abs(history.steps["shift_x"] - exact) / abs(exact).max()
+    left.plot(history.increments["shift_x"] / ONSET, force, mark, color=line.get_color(), ms=2.5, label=label)
+    error = abs(history.increments["shift_x"] - exact) / abs(exact).max()
     right.plot(range(8, 24), error[8:], mark + "-", color=line.get_color(), ms=2.5, lw=0.7)
 left.set(xlabel="$\\delta$ / onset of gross slip", ylabel="$Q / \\mu P_{max}$")
 left.legend(fontsize=6)

@@ -22,17 +22,17 @@ for phase, mark in ((0, "o"), (90, "s"), (180, "v")):
     history = fretting.run(problem(48, [indentation(0.7, increments=6), cycles]))
     exact, _ = along(history)
     rows = slice(29, None)
-    force = history.steps["tangential_force_x"][rows] / (MU * FORCE)
+    force = history.increments["tangential_force_x"][rows] / (MU * FORCE)
     (line,) = left.plot(exact[rows] / ONSET, force, lw=0.9)
     left.plot(
-        history.steps["shift_x"][rows] / ONSET,
+        history.increments["shift_x"][rows] / ONSET,
         force,
         mark,
         color=line.get_color(),
         ms=2.5,
         label=f"normal force {phase} degrees ahead",
     )
-    error = abs(history.steps["shift_x"] - exact)[6:] / abs(exact).max()
+    error = abs(history.increments["shift_x"] - exact)[6:] / abs(exact).max()
     right.semilogy(error, mark + "-", color=line.get_color(), ms=2, lw=0.7)
 left.set(xlabel="$\\delta$ / onset of gross slip", ylabel="$Q / \\mu P_{max}$")
 left.legend(fontsize=6)

@@ -39,7 +39,7 @@ for cells in counts:
 
     def at(pressure: float) -> np.ndarray:
         """Pressure of Westergaard's contact at a mean pressure."""
-        return analytic.westergaard(amplitude, 1.0, pressure, modulus).pressure(history.x)
+        return analytic.westergaard(amplitude=amplitude, wavelength=1.0, mean_pressure=pressure, modulus=modulus).pressure(history.x)
 
     whole = at(mean)
     exact = MU * (whole - at(mean - load / MU)) - 2 * MU * (whole - at(mean - 1.2 * load / (2 * MU)))

@@ -28,7 +28,7 @@ for amplitude in amplitudes:
     history = fretting.run({**problem(48, stages), "output": {"fields": []}})
     found.append(history.cycles["energy_ratio"][1])
     if amplitude in (0.6, 1.1, 2.0):
-        x, y = history.steps["shift_x"][60:] / ONSET, history.steps["tangential_force_x"][60:] / (MU * FORCE)
+        x, y = history.increments["shift_x"][60:] / ONSET, history.increments["tangential_force_x"][60:] / (MU * FORCE)
         left.plot(x, y, lw=1, label=f"{amplitude:g}")
 left.set(xlabel="$\\delta$ / onset of gross slip", ylabel="$Q / \\mu P$")
 left.legend(title="amplitude / onset", title_fontsize=6, fontsize=6)

@@ -33,8 +33,8 @@ for label, coating, colour in (
     )
     if coating:
         x, y = (
-            history.steps["shift_x"][6 : 6 + 120] / ONSET,
-            history.steps["tangential_force_x"][6 : 6 + 120] / (MU * FORCE),
+            history.increments["shift_x"][6 : 6 + 120] / ONSET,
+            history.increments["tangential_force_x"][6 : 6 + 120] / (MU * FORCE),
         )
         left.plot(x, y, lw=0.8, color=colour, label=name)
 left.set(xlabel="$\\delta$ / onset of the uncoated contact", ylabel="$Q / \\mu P$")

@@ -17,7 +17,7 @@ full = 3 * np.pi * MU * FORCE / 16
 
 def first(moments: np.ndarray) -> np.ndarray:
     """Rotation of a first loading."""
-    return np.array([analytic.torsion(sphere_contact(), MU, 0.25, m).twist if m > 0 else 0.0 for m in moments])
+    return np.array([analytic.torsion(sphere_contact(), friction_coefficient=MU, shear_modulus=0.25, moment=m).twist if m > 0 else 0.0 for m in moments])
 
 
 drawn, (left, right) = figure(2, height=62)
@@ -34,7 +34,7 @@ left.plot(
 )
 for cells, mark in ((24, "v"), (48, "s"), (96, "o")):
     history = fretting.run(problem(cells, [indentation(), {"twist_moment": top, "increments": 16, "cycles": 1}]))
-    moment, twist = history.steps["twist_moment"], history.steps["twist"]
+    moment, twist = history.increments["twist_moment"], history.increments["twist"]
     exact = first(moment[1:5])
     back = exact[-1] - 2 * first((moment[4] - moment[5:13]) / 2)
     again = back[-1] + 2 * first((moment[13:] - moment[12]) / 2)

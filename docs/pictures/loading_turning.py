@@ -22,12 +22,12 @@ spiral = [indentation(), {**wave, "increments": 24, "cycles": 3, "envelope": [0,
 drawn, (left, right) = figure(2, height=66)
 for label, stages in {"constant |Q|": circle, "growing |Q|": spiral}.items():
     history = fretting.run(problem(32, stages))
-    left.plot(history.steps["shift_x"] / ONSET, history.steps["shift_y"] / ONSET, ".-", ms=3, lw=0.8, label=label)
+    left.plot(history.increments["shift_x"] / ONSET, history.increments["shift_y"] / ONSET, ".-", ms=3, lw=0.8, label=label)
     if label == "constant |Q|":
         turned = []
         for step in range(5, len(history) - 6):
-            a = [history.field(f"shear_{axis}", step=step) for axis in "xy"]
-            b = [history.field(f"shear_{axis}", step=step + 6) for axis in "xy"]
+            a = [history.field(f"shear_{axis}", increment=step) for axis in "xy"]
+            b = [history.field(f"shear_{axis}", increment=step + 6) for axis in "xy"]
             quarter = [-np.rot90(a[1]), np.rot90(a[0])]
             turned.append(max(abs(b[0] - quarter[0]).max(), abs(b[1] - quarter[1]).max()) / (MU * PEAK))
         right.semilogy(np.arange(len(turned)) / 24, turned, ".-", ms=3, lw=0.8)

@@ -47,9 +47,11 @@ for period, mark in ((4.0, "o"), (16.0, "s")):
     (line,) = left.plot(x, row(x, period), lw=0.9)
     left.plot(history.x[::8], p[::8], mark, color=line.get_color(), ms=2.5, label=f"period {period:g} a")
     right.loglog(counts, errors, mark + "-", lw=0.8, label=f"period {period:g} a")
-hertz = fretting.analytic.hertz_line(RADIUS, np.pi * A**2 * MODULUS / (4 * RADIUS), MODULUS)
+hertz = fretting.analytic.hertz_line(
+    radius=RADIUS, line_force=np.pi * A**2 * MODULUS / (4 * RADIUS), modulus=MODULUS
+)
 x = np.linspace(-A, A, 300)
-left.plot(x, hertz.peak_pressure * np.sqrt(1 - x**2), "k--", lw=0.8, label="single cylinder")
+left.plot(x, hertz.max_pressure * np.sqrt(1 - x**2), "k--", lw=0.8, label="single cylinder")
 left.set(xlabel="$x / a$", ylabel="$p / E$", xlim=(-1.3, 1.3), ylim=(0, None))
 left.legend(loc="lower center")
 right.set(xlabel="cells per period", ylabel="RMS error / RMS pressure", xticks=counts, xticklabels=counts)

@@ -13,7 +13,7 @@ import fretting
 amplitude = 0.85 * MU * FORCE
 stage = {"tangential_force": [amplitude, 0.0], "increments": 96, "cycles": 2}
 history = fretting.run(problem(48, [indentation(), stage]))
-x, y = history.steps["shift_x"] / ONSET, history.steps["tangential_force_x"] / (MU * FORCE)
+x, y = history.increments["shift_x"] / ONSET, history.increments["tangential_force_x"] / (MU * FORCE)
 drawn, axes = figure(height=70, wide=False)
 axes.fill(x[97:], y[97:], color=BLUE, alpha=0.15, lw=0)
 axes.plot(x[96:], y[96:], color=BLUE)

@@ -29,7 +29,7 @@ def cap(c: float) -> np.ndarray:
 
 def exact(step: int) -> np.ndarray:
     """Closed form on the way down (steps 20 to 60) and up again."""
-    tangential = history.steps["tangential_force_x"][step]
+    tangential = history.increments["tangential_force_x"][step]
     sign = 1 if step <= 60 else -1
     c0 = radius * (1 - amplitude / (friction * force)) ** (1 / 3)
     c1 = radius * (1 - (amplitude - sign * tangential) / (2 * friction * force)) ** (1 / 3)
@@ -39,7 +39,7 @@ def exact(step: int) -> np.ndarray:
 drawn, axes = figure(height=75, wide=False)
 names = {40: "unloading", 50: "unloading", 60: "minimum", 70: "reloading", 80: "reloading"}
 for step, branch in names.items():
-    ratio = history.steps["tangential_force_x"][step] / (friction * force)
+    ratio = history.increments["tangential_force_x"][step] / (friction * force)
     ratio = 0.0 if abs(ratio) < 0.005 else ratio
     axes.plot(x / radius, exact(step) / peak, color="0.8", lw=3.5, zorder=1)
     axes.plot(

@@ -24,7 +24,7 @@ for axes, ratio, words, size in [(panels[0], 0.5, "1/2", 2.9e-4), (panels[1], 2,
     history = fretting.run(this)
     x = history.x / radius
     for step, name in names.items():
-        force = history.steps["tangential_force_x"][step] / limit
+        force = history.increments["tangential_force_x"][step] / limit
         force = 0.0 if abs(force) < 0.005 else force
         axes.plot(x, middle(history, "shear_x", step) / peak, lw=1, label=f"$Q/\\mu P$ = {force:.2f}, {name}")
     for sign in (1, -1):

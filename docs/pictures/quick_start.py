@@ -23,7 +23,7 @@ history = fretting.run(
     }
 )
 drawn, (left, right) = figure(2, height=60)
-left.plot(history.steps["shift_x"][29:] * 1e9, history.steps["tangential_force_x"][29:], ".-")
+left.plot(history.increments["shift_x"][29:] * 1e9, history.increments["tangential_force_x"][29:], ".-")
 left.set(xlabel="relative displacement [nm]", ylabel="tangential force [N]")
 zones(right, history, 35, 1e-6)
 right.set(xlabel="x [um]", ylabel="y [um]")

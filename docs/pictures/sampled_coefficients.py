@@ -14,7 +14,11 @@ from _figures import BLACK, ROOT, figure, save
 import fretting
 
 golden = json.loads((ROOT / "tests/golden" / "normal_coefficients.json").read_text(encoding="utf-8"))
-COATING, SUBSTRATE, CELLS = (2.0, 0.3, 10.0), (1.0, 0.3), 256
+CELLS = 256
+BODY = {
+    "coatings": [{"thickness": 10.0, "young": 2.0, "poisson": 0.3}],
+    "substrate": {"young": 1.0, "poisson": 0.3},
+}
 offsets = [(0, 0), (3, 2), (64, 0), (255, 0)]
 
 
@@ -31,7 +35,7 @@ def sampled(extension: int) -> list[float]:
     kx, ky = np.meshgrid(k, 2 * np.pi * np.fft.rfftfreq(n), indexing="ij")
     size = np.hypot(kx, ky)
     lattice = np.geomspace(size[size > 0].min(), size.max(), 4000)
-    response = lattice * fretting.frequency_response(lattice, [COATING], SUBSTRATE)["zz"]
+    response = lattice * fretting.frequency_response(lattice, BODY)["zz"]
     symbol = np.zeros_like(size)
     symbol[size > 0] = np.interp(np.log(size[size > 0]), np.log(lattice), response) / size[size > 0]
     symbol[0, 0] = 4 * np.log(1 + np.sqrt(2)) / (2 * np.pi / n) * response[0]
@@ -45,8 +49,8 @@ extensions = [1, 2, 4, 8]
 found = np.array([sampled(e) for e in extensions])
 for number, (offset, mark) in enumerate(zip(offsets, "osv^", strict=True)):
     axes.loglog(extensions, abs(found[:, number] / exact[number] - 1), mark + "-", lw=0.9, label=f"offset {offset}")
-ours = fretting.influence_coefficients([COATING], SUBSTRATE, (CELLS, 1), (1.0, 1.0))["zz"]
-near = fretting.influence_coefficients([COATING], SUBSTRATE, (4, 3), (1.0, 1.0))["zz"]
+ours = fretting.influence_coefficients(BODY, cells=(CELLS, 1), spacing=(1.0, 1.0))["zz"]
+near = fretting.influence_coefficients(BODY, cells=(4, 3), spacing=(1.0, 1.0))["zz"]
 worst = max(abs(v / e - 1) for v, e in zip((near[0, 0], near[3, 2], ours[64, 0], ours[255, 0]), exact, strict=True))
 axes.axhline(max(worst, 1e-16), color=BLACK, ls="--", lw=0.9, label="this program, largest")
 axes.set(

@@ -18,13 +18,13 @@ a = HERTZ.contact_radius
 depths = np.unique(np.concatenate([np.linspace(0.02, 1, 26), np.linspace(1.02, 1.8, 16)])) * a
 steps = {19: "after indentation", 31: "first peak", 43: "Q = 0, unloading", 55: "minimum"}
 drawn, panels = figure(2, 2, height=82, sharex=True, sharey=True)
-stresses = {step: fretting.subsurface_stress(history, depths, step=step) for step in steps}
-top = max(s["von_mises"].max() for s in stresses.values()) / HERTZ.peak_pressure
+stresses = {step: history.subsurface(depths, increment=step) for step in steps}
+top = max(float(s["von_mises"].max()) for s in stresses.values()) / HERTZ.max_pressure
 levels = np.linspace(0, np.ceil(top * 10) / 10, 24)
 for axes, (step, words) in zip(panels.ravel(), steps.items(), strict=True):
     stress = stresses[step]
-    section = stress["von_mises"][:, :, len(history.y) // 2] / HERTZ.peak_pressure
-    image = axes.contourf(history.x / a, stress["depth"] / a, section, levels, cmap="viridis")
+    section = stress["von_mises"].isel(y=len(history.y) // 2).values / HERTZ.max_pressure
+    image = axes.contourf(history.x / a, stress["depth"].values / a, section, levels, cmap="viridis")
     axes.axhline(1.0, color="w", ls="--", lw=0.8)
     row = history.field("zone", step)[:, len(history.y) // 2]
     for value, colour, place in ((row > 0, "k", -0.05), (row == 1, BLUE, -0.12)):

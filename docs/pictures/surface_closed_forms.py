@@ -38,9 +38,9 @@ def rounded(r: float) -> float:
     return MODULUS / np.pi * gauss(lambda s: rate(np.hypot(r, s)) / np.hypot(r, s), low, high)
 
 
-punch = analytic.flat_punch(1.0, 0.01, MODULUS)
-cone = analytic.cone(0.01, np.pi * MODULUS * 0.005, MODULUS)
-ellipse = analytic.hertz_ellipse(220.0, 70.0, 0.0147, MODULUS)
+punch = analytic.flat_punch(radius=1.0, force=0.01, modulus=MODULUS)
+cone = analytic.cone(slope=0.01, force=np.pi * MODULUS * 0.005, modulus=MODULUS)
+ellipse = analytic.hertz_ellipse(radius_x=220.0, radius_y=70.0, force=0.0147, modulus=MODULUS)
 SHAPES = {
     "rounded punch": (
         {"rounded_punch": {"flat_radius": B, "edge_radius": EDGE}},
@@ -72,7 +72,7 @@ for (name, (profile, force, approach, pressure, size)), mark in zip(SHAPES.items
                 "load": [{"normal_force": force, "increments": 1}],
             }
         )
-        errors.append(abs(history.steps["approach"][0] / approach - 1))
+        errors.append(abs(history.increments["approach"][0] / approach - 1))
         if cells == 48 and pressure is not None:
             p = history.field("pressure")[:, 24]
             x = np.linspace(-1.15, 1.15, 600)

@@ -20,8 +20,8 @@ slip = np.hypot(history.field("slip_x", step), history.field("slip_y", step))
 stick = history.field("zone", step) == 1
 drawn, panels = figure(3, height=58)
 shown = [
-    (np.where(p > 0, p, np.nan) / HERTZ.peak_pressure, "$p / p_H$", "viridis"),
-    (np.where(p > 0, np.hypot(qx, qy), np.nan) / (MU * HERTZ.peak_pressure), "$|q| / \\mu p_H$", "cividis"),
+    (np.where(p > 0, p, np.nan) / HERTZ.max_pressure, "$p / p_H$", "viridis"),
+    (np.where(p > 0, np.hypot(qx, qy), np.nan) / (MU * HERTZ.max_pressure), "$|q| / \\mu p_H$", "cividis"),
     (np.where(p > 0, slip, np.nan) * 1e9, "relative slip [nm]", "magma"),
 ]
 for axes, (values, label, colours) in zip(panels, shown, strict=True):

@@ -32,14 +32,16 @@ for ratio, mark, name in ((1.0, "o", "Hertz"), (0.25, "s", "$E_c/E_s$ = 1/4"), (
                 "load": [{"normal_force": FORCE, "increments": 1}],
             }
         )
-        errors.append(abs(history.steps["approach"][0] / (row["approach"] * hertz.approach) - 1))
+        errors.append(abs(history.increments["approach"][0] / (row["approach"] * hertz.approach) - 1))
     left.loglog(GRIDS, errors, mark + "-", lw=0.8, label=name)
-exact = analytic.cattaneo_mindlin(sphere_contact(), MU, SHEAR, 0.75 * MU * FORCE)
+exact = analytic.cattaneo_mindlin(
+    sphere_contact(), friction_coefficient=MU, shear_modulus=SHEAR, tangential_force=0.75 * MU * FORCE
+)
 values: dict[str, list[float]] = {"relative displacement": [], "dissipated energy": [], "stick area": []}
 for cells in GRIDS:
     steps = fretting.run(
         problem(cells, [indentation(), {"tangential_force": [0.75 * MU * FORCE, 0.0], "increments": 1}])
-    ).steps
+    ).increments
     values["relative displacement"].append(abs(steps["shift_x"][-1] / exact.shift - 1))
     values["dissipated energy"].append(abs(steps["dissipated_energy"][-1] / exact.dissipated_energy - 1))
     values["stick area"].append(abs(steps["stick_area"][-1] - np.pi * exact.stick_radius**2) / np.pi)

@@ -36,7 +36,7 @@ panels[0].plot(np.concatenate([-r[::-1], r]), np.concatenate([limit[::-1], limit
 panels[0].set(xlabel="$x / a$", ylabel="$p / p_0$", ylim=(0, 2.5))
 panels[0].legend(title="cycles", fontsize=6, title_fontsize=6)
 panels[1].set(xlabel="$x / a$", ylabel="wear depth / approach")
-force = history.steps["normal_force"][history.cycles["last_increment"]]
+force = history.increments["normal_force"][history.cycles["last_increment"]]
 final = 2 * MODULUS * (approach * c - c**3 / (3 * RADIUS))
 panels[2].loglog(history.cycles["cycle"], (force - final) / (FORCE - final))
 panels[2].set(xlabel="cycle", ylabel="$(P - P_\\infty) / (P_0 - P_\\infty)$")

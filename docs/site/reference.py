@@ -48,7 +48,7 @@ FILES = [
     ("cycles.csv", "one row per cycle, of stages with cycles"),
     (
         "fields.zarr",
-        "fields of the kept increments (Zarr 3): one array per field, dimensions step, y, x; coordinates step, x, y",
+        "fields of the kept increments (Zarr 3): one array per field, dimensions increment, y, x; coordinates increment, x, y",
     ),
     ("run.json", "the run: program, version, plan, totals, status, warnings, origin"),
     ("error_bars.json", "with `--estimate-error`: value and bar of each quantity at the end of each stage"),
@@ -81,7 +81,7 @@ def output_files() -> str:
         "<!-- Written by docs/site/reference.py from the vocabulary in crates/fret-core/src/history (columns.rs, field_names.rs): edit it there. -->\n",
         "What `fret run CASE` writes into its results folder. Units are those of the case. How to read it: [Read the results](../do/read-results.md).\n",
         _table("file", FILES),
-        "## history.csv\n\nAlso `history.steps` in Python. Increments count from 0.\n",
+        "## history.csv\n\nAlso `history.increments` in Python. Increments count from 0.\n",
         _table("column", [(name, text) for name, text in MEANING.items() if name not in FIELD_NAMES]),
         "## cycles.csv\n\nAlso `history.cycles` in Python. Definitions: [Fretting quantities](../theory/fretting-quantities.md).\n",
         _table("column", list(cycles.MEANING.items())),

@@ -20,7 +20,8 @@ lower body, compression is positive.
 
 from fretting import analytic, plot
 from fretting._core import __version__
-from fretting._points import Axis
+from fretting._points import Parameter
+from fretting.case_types import Case
 from fretting.errors import (
     CaseError,
     FrettingError,
@@ -34,14 +35,14 @@ from fretting.errors import (
 )
 from fretting.history import History
 from fretting.kernels import Convolution, frequency_response, influence_coefficients
-from fretting.loading import load
+from fretting.loading import open_results
 from fretting.planning import Plan, plan
 from fretting.simulation import run
-from fretting.stress import subsurface_stress
+from fretting.studying import study
 from fretting.sweeping import sweep
 
 __all__ = [
-    "Axis",
+    "Case",
     "CaseError",
     "Convolution",
     "FrettingError",
@@ -50,6 +51,7 @@ __all__ = [
     "MissingFileError",
     "Mistake",
     "OutOfMemoryError",
+    "Parameter",
     "Plan",
     "RunError",
     "RunInterrupted",
@@ -58,10 +60,10 @@ __all__ = [
     "analytic",
     "frequency_response",
     "influence_coefficients",
-    "load",
+    "open_results",
     "plan",
     "plot",
     "run",
-    "subsurface_stress",
+    "study",
     "sweep",
 ]

@@ -1,8 +1,10 @@
 """Reading a case from whatever it is given as."""
 
+import copy
 import json
 import math
 import os
+import tomllib
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any, TypeAlias
@@ -15,7 +17,8 @@ from fretting._arrays import Reals
 from fretting.errors import CaseError, MissingFileError, UnreadableError
 
 CaseLike: TypeAlias = str | os.PathLike[str] | Mapping[str, object]
-"""A case: path of a TOML file, TOML text, or a mapping of the same structure.
+"""A case: path of a TOML file, TOML text, or a mapping of the same structure. A ``str`` with a line break is TOML text, any other a
+path.
 
 In a mapping, NumPy arrays stand where heights or coefficients of friction are wanted for every cell:
 ``{"heights": {"values": array}}``, ``{"friction": {"map": array}}``, and ``friction`` of a stage. Relative names of files
@@ -31,7 +34,7 @@ def read(case: CaseLike, start: _core.Start | None = None) -> _core.Case:
     Parameters
     ----------
     case : path, str or mapping
-        A ``str`` is a path when it ends with ``.toml`` or names an existing file, otherwise TOML text.
+        A ``str`` with a line break is TOML text, any other a path.
 
     Raises
     ------
@@ -47,11 +50,16 @@ def read(case: CaseLike, start: _core.Start | None = None) -> _core.Case:
     return _core.Case.from_toml(*text_of(case), start)
 
 
+def table_of(case: CaseLike) -> dict[str, Any]:
+    """Return a case that was read as a dict of its own: what a history keeps."""
+    if isinstance(case, Mapping):
+        return copy.deepcopy({**case})
+    return tomllib.loads(text_of(case)[0])
+
+
 def text_of(case: str | os.PathLike[str]) -> tuple[str, str, Path]:
     """Return the TOML text of a case that is no mapping, the name that stands in messages, and the folder of its files."""
-    if isinstance(case, str) and not _is_path(case):
-        if _is_folder(case):
-            raise _unreadable(Path(case), OSError())
+    if isinstance(case, str) and "\n" in case:
         return case, "case", Path()
     if isinstance(case, str | os.PathLike):
         path = Path(case)
@@ -61,41 +69,9 @@ def text_of(case: str | os.PathLike[str]) -> tuple[str, str, Path]:
             raise _unreadable(path, error) from None
         except UnicodeDecodeError as error:
             raise _refusal(str(path), f"not readable as UTF-8 text: {error.reason} at byte {error.start}") from None
+        except ValueError as error:  # a null character: no name of a file
+            raise UnreadableError(f"error: {str(path)!r}: {error}", str(path)) from None
     raise TypeError(f"case: expected a path, TOML text or a dict, found {type(case).__name__}")
-
-
-class _Beside:
-    """Reads the files a case names: relative to the case file, or to the working folder when there is none."""
-
-    def __init__(self, folder: Path) -> None:
-        self._folder = folder
-
-    def __call__(self, name: str) -> bytes:
-        """Return the content of a file; an error's words become part of the refusal."""
-        try:
-            return (self._folder / name).read_bytes()
-        except OSError as error:
-            raise OSError(error.strerror or str(error)) from None
-
-
-def _is_path(text: str) -> bool:
-    if "\n" in text:
-        return False
-    if text.endswith(".toml"):
-        return True
-    try:
-        return Path(text).is_file()
-    except (OSError, ValueError):  # too long, or with a null character: no name of a file
-        return False
-
-
-def _is_folder(text: str) -> bool:
-    if "\n" in text:
-        return False
-    try:
-        return Path(text).is_dir()
-    except (OSError, ValueError):
-        return False
 
 
 _DEEPEST = 16
@@ -153,11 +129,11 @@ def _field(values: npt.NDArray[Any], place: str) -> Reals:
 
 
 def _unreadable(path: Path, error: OSError) -> UnreadableError:
-    if not path.exists():
+    if isinstance(error, FileNotFoundError) or not path.exists():
         way = f"relative names start at the current folder, {Path.cwd()}; a case may also be TOML text or a dict"
         return MissingFileError(f"error: {path}: no such file\n  = help: {way}", str(path))
     if path.is_dir():
-        way = "give the TOML file of a case; fretting.load(folder) opens the results of a run"
+        way = "give the TOML file of a case; fretting.open_results(folder) opens the results of a run"
         return UnreadableError(f"error: {path}: a folder, not a file\n  = help: {way}", str(path))
     return UnreadableError(f"error: {path}: cannot be read: {error.strerror or error}", str(path))
 

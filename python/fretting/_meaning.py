@@ -1,12 +1,17 @@
 """What every number and field of a history means: the vocabulary of the compiled module, with its units."""
 
 import json
+import re
+from collections.abc import Mapping
 from typing import Any, Literal, get_args
 
 from fretting import _core
 
 FieldName = Literal["pressure", "shear_x", "shear_y", "slip_x", "slip_y", "gap", "zone", "worn_depth"]
 FIELD_NAMES: tuple[str, ...] = get_args(FieldName)
+VectorName = Literal["shear", "slip"]
+VECTORS: tuple[str, ...] = get_args(VectorName)
+"""Fields of two components, as ``[output] fields`` of a case names them."""
 
 _VOCABULARY: dict[str, Any] = json.loads(_core.vocabulary())
 _KINDS: dict[str, type] = {"int": int, "float": float, "bool": bool, "str": str}
@@ -38,13 +43,39 @@ ZONE_NAMES: tuple[str, ...] = tuple(_VOCABULARY["zones"])
 """Names of the zones 0, 1, 2."""
 
 
-def label(name: str) -> str:
+Units = Mapping[str, str]
+"""Units of ``length``, ``force`` and ``pressure``, as a case declares them; empty without."""
+
+
+def in_units(kind: str, units: Units) -> str:
+    """Return the unit of a kind of quantity, such as ``"force x length"``; the kind itself where the case declares no units."""
+    if not units:
+        return kind
+    return re.sub(r"length|force|pressure", lambda word: units[word[0]], kind).replace(" x ", " ")
+
+
+def label(name: str, units: Units | None = None) -> str:
     """Return the meaning of a number or field in few words, with its unit in brackets: for axes and bars of colour."""
-    words, _, rest = MEANING[name].partition(" [")
-    unit = f" [{rest}" if rest else ""
-    return words.partition(":")[0].partition(",")[0] + unit
+    words, _, _ = MEANING[name].partition(" [")
+    kind = unit(name)
+    bracket = f" [{in_units(kind, units or {})}]" if kind else ""
+    return words.partition(":")[0].partition(",")[0] + bracket
 
 
 def unit(name: str) -> str:
     """Return the unit of a number or field, without brackets; empty for one that has none."""
     return MEANING[name].partition("[")[2].rstrip("]")
+
+
+def described(meaning: str, units: Units) -> dict[str, str]:
+    """Return the attributes of a variable from its meaning, which has the kind of quantity in brackets at its end.
+
+    ``units`` is an attribute of its own where the case declares units, or the kind has one: 1, s, rad.
+    """
+    words, bracket, rest = meaning.rpartition(" [")
+    kind = rest.rstrip("]")
+    if bracket and kind in ("-", "s", "rad"):
+        return {"long_name": words, "units": "1" if kind == "-" else kind}
+    if bracket and units:
+        return {"long_name": words, "units": in_units(kind, units)}
+    return {"long_name": meaning}

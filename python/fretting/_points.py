@@ -19,8 +19,8 @@ Key: TypeAlias = str | tuple[str, ...]
 
 
 @dataclass(frozen=True)
-class Axis:
-    """An axis of a sweep that changes a case by a function of yours.
+class Parameter:
+    """A parameter of a sweep under a name of its own: a key of the case, or a function of yours that changes the case.
 
     Examples
     --------
@@ -28,17 +28,20 @@ class Axis:
     >>> def amplitude(case, fraction):
     ...     limit = case["friction"]["coefficient"] * case["load"][0]["normal_force"]
     ...     case["load"][1]["tangential_force"] = [fraction * limit, 0.0]
-    >>> axes = {"amplitude": fretting.Axis([0.2, 0.5, 0.9], amplitude)}
+    >>> parameters = {
+    ...     "amplitude": fretting.Parameter([0.2, 0.5, 0.9], amplitude),
+    ...     "nu": fretting.Parameter([0.2, 0.3], "lower.substrate.poisson"),
+    ... }
     """
 
     values: Sequence[Any]
     """The values, one per point of the axis."""
-    apply: Callable[[Table, Any], object]
-    """Called with a copy of the case (a dict, the caller's to change) and a value."""
+    apply: str | Callable[[Table, Any], object]
+    """A dotted key of the case; or a function, called with a copy of the case (a dict, the caller's to change) and a value."""
 
 
-Values: TypeAlias = Sequence[Any] | npt.NDArray[Any] | Axis
-Axes: TypeAlias = Mapping[Any, Values] | Sequence[Mapping[str, Any]]
+Values: TypeAlias = Sequence[Any] | npt.NDArray[Any] | Parameter
+Parameters: TypeAlias = Mapping[Any, Values] | Sequence[Mapping[str, Any]]
 """Values of each axis by the key of the case that takes them, or a list of points."""
 
 
@@ -60,29 +63,29 @@ class Point:
     case: Table
 
 
-def dimensions(axes: Axes) -> list[Dimension]:
-    """Understand the axes of a sweep."""
-    if isinstance(axes, Mapping):
-        found = [_dimension(key, values) for key, values in axes.items()]
-    elif isinstance(axes, Sequence) and not isinstance(axes, str):
-        found = [_list_of_points(axes)]
+def dimensions(parameters: Parameters) -> list[Dimension]:
+    """Understand the parameters of a sweep."""
+    if isinstance(parameters, Mapping):
+        found = [_dimension(key, values) for key, values in parameters.items()]
+    elif isinstance(parameters, Sequence) and not isinstance(parameters, str):
+        found = [_list_of_points(parameters)]
     else:
-        raise TypeError(f"axes: expected a mapping or a list of mappings, found {type(axes).__name__}")
+        raise TypeError(f"parameters: expected a mapping or a list of mappings, found {type(parameters).__name__}")
     if not found:
-        raise ValueError("axes: a sweep needs at least one axis")
+        raise ValueError("parameters: a sweep needs at least one")
     names = [name for dimension in found for name in (dimension.name, *dimension.coordinates)]
     for dimension in found:
         if not dimension.changes:
-            raise ValueError(f"axis {dimension.name!r} has no values")
+            raise ValueError(f"parameter {dimension.name!r} has no values")
         for name in {dimension.name, *dimension.coordinates}:
             if name in RESERVED or name.startswith("cycle_"):
-                raise ValueError(f"axis {name!r}: a variable of the result has this name; choose another name")
+                raise ValueError(f"parameter {name!r}: a variable of the result has this name; choose another name")
         if sum(name == dimension.name for name in names) > 2:
-            raise ValueError(f"axis {dimension.name!r} is there twice")
+            raise ValueError(f"parameter {dimension.name!r} is there twice")
     return found
 
 
-RESERVED = {"step", "status", "error", *MEANING}
+RESERVED = {"status", "error", *MEANING}
 """Names that the result of a sweep uses itself."""
 
 
@@ -101,33 +104,36 @@ def points(base: Table, found: Sequence[Dimension]) -> Iterable[Point]:
 
 
 def _dimension(key: Key, given: object) -> Dimension:
-    if isinstance(given, Axis):
+    if isinstance(given, Parameter):
         if not isinstance(key, str):
-            raise TypeError(f"axis {key!r}: an Axis has one name")
+            raise TypeError(f"parameter {key!r}: a Parameter has one name")
         values = _values(key, given.values)
-        return Dimension(key, {key: values}, [_by_function(given.apply, value) for value in values])
+        apply = given.apply
+        if isinstance(apply, str):
+            return Dimension(key, {key: values}, [_by_keys([apply], [value]) for value in values])
+        return Dimension(key, {key: values}, [_by_function(apply, value) for value in values])
     if isinstance(key, str):
         values = _values(key, given)
         return Dimension(key, {key: values}, [_by_keys([key], [value]) for value in values])
     if not (isinstance(key, tuple) and len(key) > 1 and all(isinstance(part, str) for part in key)):
-        raise TypeError(f"axis {key!r}: expected a dotted key of the case, or a tuple of at least two")
+        raise TypeError(f"parameter {key!r}: expected a dotted key of the case, or a tuple of at least two")
     rows = _values(", ".join(key), given)
     for index, row in enumerate(rows):
         if not isinstance(row, Sequence) or isinstance(row, str) or len(row) != len(key):
-            raise ValueError(f"axis {', '.join(key)}: value {index} must hold {len(key)} values, found {row!r}")
+            raise ValueError(f"parameter {', '.join(key)}: value {index} must hold {len(key)} values, found {row!r}")
     columns = {part: [row[number] for row in rows] for number, part in enumerate(key)}
     return Dimension(", ".join(key), columns, [_by_keys(key, row) for row in rows])
 
 
 def _list_of_points(rows: Sequence[Mapping[str, Any]]) -> Dimension:
     if not all(isinstance(row, Mapping) for row in rows):
-        raise TypeError("axes: in a list of points every point is a mapping from keys of the case to values")
+        raise TypeError("parameters: in a list of points every point is a mapping from keys of the case to values")
     if not rows:
-        raise ValueError("axes: the list of points is empty")
+        raise ValueError("parameters: the list of points is empty")
     keys = list(rows[0])
     for index, row in enumerate(rows):
         if set(row) != set(keys) or not keys:
-            raise ValueError(f"axes: point {index} has the keys {sorted(row)}: must have those of point 0, {keys}")
+            raise ValueError(f"parameters: point {index} has the keys {sorted(row)}: must have those of point 0, {keys}")
     plain = [[_plain(key, row[key]) for key in keys] for row in rows]
     columns = {key: [row[number] for row in plain] for number, key in enumerate(keys)}
     return Dimension("point", columns, [_by_keys(keys, row) for row in plain])
@@ -137,7 +143,7 @@ def _values(name: str, given: object) -> list[Any]:
     if isinstance(given, np.ndarray):
         given = given.tolist()
     if isinstance(given, str | bytes | Mapping) or not isinstance(given, Iterable):
-        raise TypeError(f"axis {name!r}: expected a list of values, found {type(given).__name__}")
+        raise TypeError(f"parameter {name!r}: expected a list of values, found {type(given).__name__}")
     return [_plain(f"{name}[{index}]", value) for index, value in enumerate(given)]
 
 
@@ -180,7 +186,7 @@ def put(case: Table, key: str, value: object) -> None:
             else:
                 here = here[index]
         else:
-            raise refusal(f"axis {key!r}: {place} is {here!r}, which has no entry {part!r}")
+            raise refusal(f"parameter {key!r}: {place} is {here!r}, which has no entry {part!r}")
 
 
 def _entry(items: list[Any], part: str, key: str, place: str) -> int:
@@ -192,10 +198,10 @@ def _entry(items: list[Any], part: str, key: str, place: str) -> int:
     except ValueError:
         known = ", ".join(repr(name) for name in names if name) or "none has a name"
         raise refusal(
-            f"axis {key!r}: no entry of {place} is called {part!r} ({known}); a number from 0 serves as well"
+            f"parameter {key!r}: no entry of {place} is called {part!r} ({known}); a number from 0 serves as well"
         ) from None
     if not -len(items) <= index < len(items):
-        raise refusal(f"axis {key!r}: {place} has {len(items)} entries, from 0; there is no {index}")
+        raise refusal(f"parameter {key!r}: {place} has {len(items)} entries, from 0; there is no {index}")
     return index
 
 

@@ -48,7 +48,7 @@ def read(start: StartLike | _core.Start | None) -> _core.Start | None:
 
 
 def _of_history(history: "History", increment: int | None) -> _core.Start:
-    if not hasattr(history, "steps"):
+    if not hasattr(history, "increments"):
         raise TypeError(f"start: expected a folder or a History, found {type(history).__name__}")
     count = len(history)
     if not count:

@@ -5,13 +5,14 @@ on the lower. Any consistent system of units. Everything here holds for homogene
 :func:`effective_moduli` says how compliant two of them are together.
 
 >>> from fretting import analytic
->>> moduli = analytic.effective_moduli(lower=(210e9, 0.3))
+>>> moduli = analytic.effective_moduli(lower={"young": 210e9, "poisson": 0.3})
 >>> sphere = analytic.hertz(radius=10e-3, force=12.0, modulus=moduli.normal)
->>> f"{sphere.contact_radius:.3e} {sphere.peak_pressure:.3e}"
+>>> f"{sphere.contact_radius:.3e} {sphere.max_pressure:.3e}"
 '7.306e-05 1.073e+09'
 """
 
 import json
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any, Literal, TypeAlias
 
@@ -33,9 +34,15 @@ __all__ = [
     "HertzLine",
     "LoopPoint",
     "MindlinDeresiewicz",
+    "NoSlipPunch",
+    "NoSlipSphere",
+    "RoundedPunch",
     "SlidingCylinder",
+    "SpencePoint",
     "StretchedLine",
     "StretchedSphere",
+    "ThickLayer",
+    "ThinLayer",
     "TiltedLinePunch",
     "TiltedPunch",
     "Torsion",
@@ -50,17 +57,25 @@ __all__ = [
     "hertz_ellipse",
     "hertz_line",
     "mindlin_deresiewicz",
+    "no_slip_punch",
+    "no_slip_sphere",
+    "rounded_punch",
     "sliding_cylinder",
+    "spence_table",
     "stretched_line",
     "stretched_sphere",
+    "thick_layer",
+    "thin_layer",
     "tilted_line_punch",
     "tilted_punch",
     "torsion",
     "westergaard",
 ]
 
-Material: TypeAlias = tuple[float, float]
-"""Young's modulus [pressure] and Poisson's ratio [-]."""
+Material: TypeAlias = Mapping[str, float]
+"""``young`` [pressure] and ``poisson`` [-], as in a case."""
+Layer: TypeAlias = Mapping[str, float]
+"""``thickness`` [length], ``young`` [pressure] and ``poisson`` [-], as in a case."""
 Branch: TypeAlias = Literal["loading", "unloading", "reloading"]
 
 
@@ -90,7 +105,7 @@ class Hertz:
     """Normal force P [force]."""
     contact_radius: float
     """Radius a of the contact [length]."""
-    peak_pressure: float
+    max_pressure: float
     """Maximum contact pressure p0 [pressure]."""
     approach: float
     """Approach of distant points [length]."""
@@ -109,7 +124,7 @@ class HertzEllipse:
     """Normal force P [force]."""
     semi_axes: tuple[float, float]
     """Semi-axes of the contact along x and y [length]."""
-    peak_pressure: float
+    max_pressure: float
     """Maximum contact pressure p0 [pressure]."""
     approach: float
     """Approach of distant points [length]."""
@@ -118,7 +133,7 @@ class HertzEllipse:
         """Pressure at points [pressure], of the broadcast shape of `x` and `y`; zero outside the contact."""
         a, b = self.semi_axes
         depth = 1.0 - (real_array("x", x) / a) ** 2 - (real_array("y", y) / b) ** 2
-        pressure: Reals = self.peak_pressure * np.sqrt(np.maximum(depth, 0.0))
+        pressure: Reals = self.max_pressure * np.sqrt(np.maximum(depth, 0.0))
         return pressure
 
 
@@ -134,7 +149,7 @@ class HertzLine:
     """Force per length [force/length]."""
     half_width: float
     """Half-width of the contact [length]."""
-    peak_pressure: float
+    max_pressure: float
     """Maximum contact pressure p0 [pressure]."""
     _solution: _core.Solution = field(repr=False, compare=False)
 
@@ -204,11 +219,11 @@ class CattaneoMindlin:
 
     tangential_force: float
     """Tangential force Q [force], signed."""
-    friction_force: float
+    sliding_force: float
     """Largest tangential force that friction holds, mu P [force]."""
     contact_radius: float
     """Radius a of the contact [length]."""
-    peak_friction: float
+    max_shear: float
     """Largest shear that friction holds anywhere, mu p0 [pressure]."""
     initial_stiffness: float
     """Tangential stiffness before any slip [force/length]."""
@@ -254,7 +269,7 @@ class MindlinDeresiewicz:
 
     sphere: Hertz
     """The normal contact."""
-    friction: float
+    friction_coefficient: float
     """Friction coefficient [-]."""
     shear_modulus: float
     """Effective shear modulus G* [pressure]."""
@@ -276,7 +291,7 @@ class MindlinDeresiewicz:
             When the loop does not reach the force.
         """
         solution = _core.mindlin_deresiewicz_at(
-            _hertz_numbers(self.sphere), self.friction, self.shear_modulus, self.amplitude, branch, tangential_force
+            _hertz_numbers(self.sphere), self.friction_coefficient, self.shear_modulus, self.amplitude, branch, tangential_force
         )
         return LoopPoint(**_numbers(solution), _solution=solution)
 
@@ -293,7 +308,7 @@ class Torsion:
     """Stick radius [length]."""
     contact_radius: float
     """Radius of the contact [length]."""
-    peak_friction: float
+    max_shear: float
     """Largest shear that friction holds anywhere, mu p0 [pressure]."""
     _solution: _core.Solution = field(repr=False, compare=False)
 
@@ -308,11 +323,11 @@ class CattaneoLine:
 
     tangential_force: float
     """Tangential force per length [force/length], signed."""
-    friction_force: float
+    sliding_force: float
     """Largest tangential force per length that friction holds [force/length]."""
     half_width: float
     """Half-width a of the contact [length]."""
-    peak_friction: float
+    max_shear: float
     """Largest shear that friction holds anywhere, mu p0 [pressure]."""
     stick_half_width: float
     """Half-width c of what sticks [length]."""
@@ -341,11 +356,11 @@ class StretchedSphere:
 
     tangential_force: float
     """Tangential force along x [force], signed."""
-    friction_force: float
+    sliding_force: float
     """Largest tangential force that friction holds [force]."""
     contact_radius: float
     """Radius a of the contact [length]."""
-    peak_friction: float
+    max_shear: float
     """Largest shear that friction holds anywhere, mu p0 [pressure]."""
     stick_radius: float
     """Radius c of the disc that sticks [length]."""
@@ -380,7 +395,7 @@ class SlidingCylinder:
     """Exponent gamma [-], ``tan(pi gamma) = beta mu``."""
     offset: float
     """Middle of the contact from the cylinder's axis [length], with the shear on the lower body along +x."""
-    peak_pressure: float
+    max_pressure: float
     """Maximum contact pressure [pressure]."""
     _solution: _core.Solution = field(repr=False, compare=False)
 
@@ -431,12 +446,13 @@ class TiltedLinePunch:
         return _curve(self._solution, "pressure", x)
 
 
-def effective_moduli(lower: Material, upper: Material | None = None) -> EffectiveModuli:
-    """Effective moduli of two bodies, each (young, poisson); default: a rigid upper body."""
-    return EffectiveModuli(**_numbers(_core.effective_moduli(lower, upper)))
+def effective_moduli(*, lower: Material, upper: Material | None = None) -> EffectiveModuli:
+    """Effective moduli of two bodies, each ``{"young": ..., "poisson": ...}``; default: a rigid upper body."""
+    first, second = _material("lower", lower), None if upper is None else _material("upper", upper)
+    return EffectiveModuli(**_numbers(_core.effective_moduli(first, second)))
 
 
-def hertz(radius: float, force: float, modulus: float) -> Hertz:
+def hertz(*, radius: float, force: float, modulus: float) -> Hertz:
     """Press a sphere on a half-space without friction.
 
     ``a^3 = 3 P R / (4 E*)``, ``p0 = 3 P / (2 pi a^2)``, ``approach = a^2 / R``. Exact with friction too when the bodies
@@ -465,7 +481,7 @@ def hertz(radius: float, force: float, modulus: float) -> Hertz:
     )
 
 
-def hertz_ellipse(radius_x: float, radius_y: float, force: float, modulus: float) -> HertzEllipse:
+def hertz_ellipse(*, radius_x: float, radius_y: float, force: float, modulus: float) -> HertzEllipse:
     """Press an ellipsoid on a half-space without friction; relative radii of curvature [length].
 
     References
@@ -477,7 +493,7 @@ def hertz_ellipse(radius_x: float, radius_y: float, force: float, modulus: float
     return HertzEllipse(semi_axes=(a, b), **numbers)
 
 
-def hertz_line(radius: float, line_force: float, modulus: float) -> HertzLine:
+def hertz_line(*, radius: float, line_force: float, modulus: float) -> HertzLine:
     """Press a cylinder on a half-space without friction, under a force per length [force/length].
 
     References
@@ -488,7 +504,7 @@ def hertz_line(radius: float, line_force: float, modulus: float) -> HertzLine:
     return HertzLine(radius=float(radius), modulus=float(modulus), **_numbers(solution), _solution=solution)
 
 
-def flat_punch(radius: float, force: float, modulus: float) -> FlatPunch:
+def flat_punch(*, radius: float, force: float, modulus: float) -> FlatPunch:
     """Press a flat circular punch on a half-space without friction.
 
     References
@@ -499,7 +515,7 @@ def flat_punch(radius: float, force: float, modulus: float) -> FlatPunch:
     return FlatPunch(**_numbers(solution), _solution=solution)
 
 
-def cone(slope: float, force: float, modulus: float) -> Cone:
+def cone(*, slope: float, force: float, modulus: float) -> Cone:
     """Press a blunt cone, of the `slope` [-] of its side against the surface, on a half-space without friction.
 
     References
@@ -510,7 +526,7 @@ def cone(slope: float, force: float, modulus: float) -> Cone:
     return Cone(**_numbers(solution), _solution=solution)
 
 
-def westergaard(amplitude: float, wavelength: float, mean_pressure: float, modulus: float) -> Westergaard:
+def westergaard(*, amplitude: float, wavelength: float, mean_pressure: float, modulus: float) -> Westergaard:
     """Press a sinusoidal surface on a flat half-space without friction.
 
     References
@@ -521,7 +537,7 @@ def westergaard(amplitude: float, wavelength: float, mean_pressure: float, modul
     return Westergaard(**_numbers(solution), _solution=solution)
 
 
-def cattaneo_mindlin(sphere: Hertz, friction: float, shear_modulus: float, tangential_force: float) -> CattaneoMindlin:
+def cattaneo_mindlin(sphere: Hertz, *, friction_coefficient: float, shear_modulus: float, tangential_force: float) -> CattaneoMindlin:
     """Partial slip of a Hertz contact under a first tangential load.
 
     Exact for uncoupled bodies with Poisson's ratio 0; otherwise it neglects the slip across the force.
@@ -530,7 +546,7 @@ def cattaneo_mindlin(sphere: Hertz, friction: float, shear_modulus: float, tange
     ----------
     sphere : Hertz
         The normal contact.
-    friction : float
+    friction_coefficient : float
         Friction coefficient [-].
     shear_modulus : float
         Effective shear modulus G* [pressure].
@@ -541,11 +557,11 @@ def cattaneo_mindlin(sphere: Hertz, friction: float, shear_modulus: float, tange
     ----------
     Cattaneo (1938); Mindlin (1949); Johnson (1985), *Contact Mechanics*, section 7.2.
     """
-    solution = _core.cattaneo_mindlin(_hertz_numbers(sphere), friction, shear_modulus, tangential_force)
+    solution = _core.cattaneo_mindlin(_hertz_numbers(sphere), friction_coefficient, shear_modulus, tangential_force)
     return CattaneoMindlin(**_numbers(solution), _solution=solution)
 
 
-def mindlin_deresiewicz(sphere: Hertz, friction: float, shear_modulus: float, amplitude: float) -> MindlinDeresiewicz:
+def mindlin_deresiewicz(sphere: Hertz, *, friction_coefficient: float, shear_modulus: float, amplitude: float) -> MindlinDeresiewicz:
     """Fretting loop of a Hertz contact between two equal and opposite tangential forces.
 
     Limits as for :func:`cattaneo_mindlin`.
@@ -554,7 +570,7 @@ def mindlin_deresiewicz(sphere: Hertz, friction: float, shear_modulus: float, am
     ----------
     sphere : Hertz
         The normal contact.
-    friction : float
+    friction_coefficient : float
         Friction coefficient [-].
     shear_modulus : float
         Effective shear modulus G* [pressure].
@@ -565,10 +581,10 @@ def mindlin_deresiewicz(sphere: Hertz, friction: float, shear_modulus: float, am
     ----------
     Mindlin & Deresiewicz (1953); Johnson (1985), *Contact Mechanics*, section 7.4.
     """
-    fretting_loop, peak = _core.mindlin_deresiewicz(_hertz_numbers(sphere), friction, shear_modulus, amplitude)
+    fretting_loop, peak = _core.mindlin_deresiewicz(_hertz_numbers(sphere), friction_coefficient, shear_modulus, amplitude)
     return MindlinDeresiewicz(
         sphere=sphere,
-        friction=friction,
+        friction_coefficient=friction_coefficient,
         shear_modulus=shear_modulus,
         amplitude=amplitude,
         peak=CattaneoMindlin(**_numbers(peak), _solution=peak),
@@ -576,14 +592,14 @@ def mindlin_deresiewicz(sphere: Hertz, friction: float, shear_modulus: float, am
     )
 
 
-def torsion(sphere: Hertz, friction: float, shear_modulus: float, moment: float) -> Torsion:
+def torsion(sphere: Hertz, *, friction_coefficient: float, shear_modulus: float, moment: float) -> Torsion:
     """Twist a Hertz contact about its normal for the first time; exact for any pair of homogeneous bodies.
 
     Parameters
     ----------
     sphere : Hertz
         The normal contact.
-    friction : float
+    friction_coefficient : float
         Friction coefficient [-].
     shear_modulus : float
         Torsional shear modulus [pressure].
@@ -594,11 +610,11 @@ def torsion(sphere: Hertz, friction: float, shear_modulus: float, moment: float)
     ----------
     Lubkin (1951), J. Appl. Mech. 18, 183.
     """
-    solution = _core.torsion(_hertz_numbers(sphere), friction, shear_modulus, moment)
+    solution = _core.torsion(_hertz_numbers(sphere), friction_coefficient, shear_modulus, moment)
     return Torsion(**_numbers(solution), _solution=solution)
 
 
-def cattaneo_line(cylinder: HertzLine, friction: float, tangential_force: float, strain: float = 0.0) -> CattaneoLine:
+def cattaneo_line(cylinder: HertzLine, *, friction_coefficient: float, tangential_force: float, strain: float = 0.0) -> CattaneoLine:
     """Push a Hertz line contact across its axis, while a strain grows in proportion.
 
     ``c = a sqrt(1 - |Q|/(mu P))``, ``e = a E* strain/(2 mu p0)``; for bodies that do not couple, as long as all that slips
@@ -608,7 +624,7 @@ def cattaneo_line(cylinder: HertzLine, friction: float, tangential_force: float,
     ----------
     cylinder : HertzLine
         The normal contact.
-    friction : float
+    friction_coefficient : float
         Friction coefficient [-].
     tangential_force : float
         Tangential force per length [force/length], at most friction times normal force.
@@ -619,36 +635,36 @@ def cattaneo_line(cylinder: HertzLine, friction: float, tangential_force: float,
     ----------
     Cattaneo (1938); Mindlin (1949); Nowell & Hills (1987), Int. J. Mech. Sci. 29, 355.
     """
-    solution = _core.cattaneo_line(_line_numbers(cylinder), friction, tangential_force, strain)
+    solution = _core.cattaneo_line(_line_numbers(cylinder), friction_coefficient, tangential_force, strain)
     return CattaneoLine(**_numbers(solution), _solution=solution)
 
 
-def stretched_line(cylinder: HertzLine, friction: float, strain: float) -> StretchedLine:
+def stretched_line(cylinder: HertzLine, *, friction_coefficient: float, strain: float) -> StretchedLine:
     """Stretch a Hertz line contact without a tangential force: both edges slip, in opposite senses.
 
     ``E* strain/(2 mu p0) = (2/pi) [K(k) - E(k)]``, ``k^2 = 1 - c^2/a^2``, for bodies that do not couple.
     """
-    return StretchedLine(**_numbers(_core.stretched_line(_line_numbers(cylinder), friction, strain)))
+    return StretchedLine(**_numbers(_core.stretched_line(_line_numbers(cylinder), friction_coefficient, strain)))
 
 
 def stretched_sphere(
-    sphere: Hertz, friction: float, shear_modulus: float, tangential_force: float, strain: float
+    sphere: Hertz, *, friction_coefficient: float, shear_modulus: float, tangential_force: float, strain: float
 ) -> StretchedSphere:
     """Push a Hertz contact along x while a strain along x grows in proportion; Poisson's ratio 0.
 
     ``c = a (1 - |T|/(mu P))^(1/3)``, ``e = 8 a G* strain/(pi mu p0)``, as long as ``|e| + c <= a``.
     """
-    solution = _core.stretched_sphere(_hertz_numbers(sphere), friction, shear_modulus, tangential_force, strain)
+    solution = _core.stretched_sphere(_hertz_numbers(sphere), friction_coefficient, shear_modulus, tangential_force, strain)
     return StretchedSphere(**_numbers(solution), _solution=solution)
 
 
-def equibiaxial_sphere(sphere: Hertz, friction: float, strain: float) -> EquibiaxialSphere:
+def equibiaxial_sphere(sphere: Hertz, *, friction_coefficient: float, strain: float) -> EquibiaxialSphere:
     """Stretch a Hertz contact alike in all directions: ``E* strain/(mu p0) = K(k) - E(k)``, ``k^2 = 1 - c^2/a^2``."""
-    return EquibiaxialSphere(**_numbers(_core.equibiaxial_sphere(_hertz_numbers(sphere), friction, strain)))
+    return EquibiaxialSphere(**_numbers(_core.equibiaxial_sphere(_hertz_numbers(sphere), friction_coefficient, strain)))
 
 
 def sliding_cylinder(
-    radius: float, line_force: float, modulus: float, coupling: float, friction: float
+    *, radius: float, line_force: float, modulus: float, coupling: float, friction_coefficient: float
 ) -> SlidingCylinder:
     """Slide a cylinder across its axis on a half-space, with Dundurs' coupling beta [-].
 
@@ -659,11 +675,11 @@ def sliding_cylinder(
     ----------
     Bufler (1959); Johnson (1985), *Contact Mechanics*, section 8.2.
     """
-    solution = _core.sliding_cylinder(radius, line_force, modulus, coupling, friction)
+    solution = _core.sliding_cylinder(radius, line_force, modulus, coupling, friction_coefficient)
     return SlidingCylinder(**_numbers(solution), _solution=solution)
 
 
-def tilted_punch(radius: float, force: float, modulus: float, tilt: float) -> TiltedPunch:
+def tilted_punch(*, radius: float, force: float, modulus: float, tilt: float) -> TiltedPunch:
     """Press a flat circular punch that is tilted by a slope, all of it in contact.
 
     References
@@ -674,7 +690,7 @@ def tilted_punch(radius: float, force: float, modulus: float, tilt: float) -> Ti
     return TiltedPunch(**_numbers(solution), _solution=solution)
 
 
-def tilted_line_punch(half_width: float, line_force: float, modulus: float, tilt: float) -> TiltedLinePunch:
+def tilted_line_punch(*, half_width: float, line_force: float, modulus: float, tilt: float) -> TiltedLinePunch:
     """Press a flat punch of infinite length that is tilted by a slope, all of it in contact.
 
     References
@@ -683,6 +699,195 @@ def tilted_line_punch(half_width: float, line_force: float, modulus: float, tilt
     """
     solution = _core.tilted_line_punch(half_width, line_force, modulus, tilt)
     return TiltedLinePunch(**_numbers(solution), _solution=solution)
+
+
+@dataclass(frozen=True)
+class RoundedPunch:
+    """Frictionless contact of a punch that is flat within a radius b, gap ``(r - b)^2 / (2 R)`` beyond."""
+
+    force: float
+    """Normal force P [force]."""
+    contact_radius: float
+    """Radius a of the contact [length]."""
+    approach: float
+    """Approach [length]."""
+    _solution: _core.Solution = field(repr=False, compare=False)
+
+    def pressure(self, r: npt.ArrayLike) -> Reals:
+        """Pressure at distances `r` from the middle [pressure], of the shape of `r`; zero outside the contact."""
+        return _curve(self._solution, "pressure", r)
+
+
+def rounded_punch(*, flat_radius: float, edge_radius: float, force: float, modulus: float) -> RoundedPunch:
+    """Press a flat punch with a rounded edge on a half-space without friction.
+
+    References
+    ----------
+    Sneddon (1965), Int. J. Engng Sci. 3, 47; Ciavarella (1999), Int. J. Solids Struct. 36, 4149.
+    """
+    solution = _core.rounded_punch(flat_radius, edge_radius, force, modulus)
+    numbers = _numbers(solution)
+    return RoundedPunch(
+        **{name: numbers[name] for name in ("force", "contact_radius", "approach")}, _solution=solution
+    )
+
+
+@dataclass(frozen=True)
+class NoSlipPunch:
+    """Flat circular punch without slip, under a growing normal force."""
+
+    force: float
+    """Normal force P [force]."""
+    contact_radius: float
+    """Radius a of the punch and of the contact [length]."""
+    approach: float
+    """Approach [length]."""
+    force_ratio: float
+    """Force over that of the frictionless punch at the same approach [-]."""
+
+
+def no_slip_punch(*, radius: float, force: float, modulus: float, coupling: float) -> NoSlipPunch:
+    """Press a flat circular punch that sticks; `coupling` is Dundurs' beta [-].
+
+    ``P = 2 E* a delta ln((1 + beta)/(1 - beta)) / (2 beta)``.
+
+    References
+    ----------
+    Mossakovskii (1954), PMM 18, 187; Spence (1968), Proc. R. Soc. A 305, 55.
+    """
+    return NoSlipPunch(**_numbers(_core.no_slip_punch(radius, force, modulus, coupling)))
+
+
+@dataclass(frozen=True)
+class NoSlipSphere:
+    """Sphere without slip, under a growing normal force."""
+
+    force: float
+    """Normal force P [force]."""
+    contact_radius: float
+    """Radius a of the contact [length]."""
+    approach: float
+    """Approach delta [length]."""
+    approach_factor: float
+    """``delta R / a^2`` [-]; 1 for the Hertz contact."""
+    force_ratio: float
+    """Force over that of the frictionless sphere at the same contact radius [-]."""
+
+
+def no_slip_sphere(*, radius: float, force: float, modulus: float, coupling: float) -> NoSlipSphere:
+    """Press a sphere that sticks as it touches; `coupling` is Dundurs' beta [-], 0 gives the Hertz contact.
+
+    References
+    ----------
+    Mossakovskii (1963); Spence (1968), Proc. R. Soc. A 305, 55.
+    """
+    return NoSlipSphere(**_numbers(_core.no_slip_sphere(radius, force, modulus, coupling)))
+
+
+@dataclass(frozen=True)
+class ThinLayer:
+    """Rigid frictionless sphere on a thin bonded layer over a rigid base: leading order for ``a >> h``."""
+
+    force: float
+    """Normal force P [force]."""
+    contact_radius: float
+    """Radius a of the contact [length]."""
+    max_pressure: float
+    """Maximum contact pressure [pressure]."""
+    approach: float
+    """Approach [length]."""
+    incompressible: bool
+    """Whether Poisson's ratio is 0.5."""
+    _solution: _core.Solution = field(repr=False, compare=False)
+
+    def pressure(self, r: npt.ArrayLike) -> Reals:
+        """Pressure at distances `r` from the middle [pressure], of the shape of `r`; zero outside the contact."""
+        return _curve(self._solution, "pressure", r)
+
+
+def thin_layer(*, radius: float, force: float, layer: Layer) -> ThinLayer:
+    """Press a rigid sphere on a thin bonded layer.
+
+    The force is 2.5 % low at ``a = 20 h`` and 10 % at ``a = 5 h`` for Poisson's ratio 0.3; by factors for 0.5.
+
+    References
+    ----------
+    Johnson (1985), *Contact Mechanics*, section 5.8; Jaffar (1989); Barber (1990).
+    """
+    solution = _core.thin_layer(radius, force, _layer(layer))
+    return ThinLayer(**_numbers(solution), _solution=solution)
+
+
+@dataclass(frozen=True)
+class ThickLayer:
+    """Rigid frictionless sphere on a thick bonded layer over a rigid base: an expansion in a/h."""
+
+    force: float
+    """Normal force P [force]."""
+    contact_radius: float
+    """Radius a of the contact [length]."""
+    approach: float
+    """Approach [length]."""
+
+
+def thick_layer(*, radius: float, contact_radius: float, layer: Layer) -> ThickLayer:
+    """Press a rigid sphere on a thick bonded layer until it touches over a disc of `contact_radius`, at most 0.4 h.
+
+    References
+    ----------
+    Vorovich, Aleksandrov & Babeshko (1974); Argatov (2001); Li et al. (2020), Proc. IMechE J 234, 73.
+    """
+    return ThickLayer(**_numbers(_core.thick_layer(radius, contact_radius, _layer(layer))))
+
+
+@dataclass(frozen=True)
+class SpencePoint:
+    """One computed solution of normal contact with friction and normal-tangential coupling (Spence's problem)."""
+
+    poisson: float
+    """Poisson's ratio [-]."""
+    stick_ratio: float
+    """Stick radius over contact radius, c/a [-]."""
+    friction: float
+    """Friction coefficient [-]."""
+    radius_ratio: float | None
+    """Contact radius over Hertz's [-]; None where it was not computed, as below."""
+    peak_pressure_ratio: float | None
+    """Pressure in the middle over Hertz's [-]."""
+    approach_ratio: float | None
+    """Approach over Hertz's [-]."""
+    punch_force_ratio: float | None
+    """Flat punch: force over the frictionless one at the same approach [-]."""
+
+
+def spence_table() -> list[SpencePoint]:
+    """Return the computed points of Spence's problem, by Poisson's ratio and stick ratio; uncertainty 1e-4.
+
+    References
+    ----------
+    Spence (1968), Proc. R. Soc. A 305, 55; (1975), J. Elasticity 5, 297, for the problem.
+    """
+    return [SpencePoint(**point) for point in json.loads(_core.spence_table())]
+
+
+def _entries(name: str, given: Mapping[str, float], keys: tuple[str, ...]) -> tuple[float, ...]:
+    """Return the entries of a material in order."""
+    if not isinstance(given, Mapping):
+        wanted = ", ".join(f"'{key}': ..." for key in keys)
+        raise TypeError(f"{name}: expected a mapping as in a case, {{{wanted}}}, found {type(given).__name__}")
+    if set(given) != set(keys):
+        raise ValueError(f"{name}: has the keys {', '.join(map(str, given))}; must have {', '.join(keys)}")
+    return tuple(float(given[key]) for key in keys)
+
+
+def _material(name: str, material: Material) -> tuple[float, float]:
+    young, poisson = _entries(name, material, ("young", "poisson"))
+    return young, poisson
+
+
+def _layer(layer: Layer) -> tuple[float, float, float]:
+    thickness, young, poisson = _entries("layer", layer, ("thickness", "young", "poisson"))
+    return young, poisson, thickness
 
 
 def _hertz_numbers(sphere: Hertz) -> tuple[float, float, float]:

@@ -2,15 +2,17 @@
 
 import json
 import operator
+import os
+import shutil
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal, Protocol, Self
 
 import numpy as np
 import numpy.typing as npt
 
-from fretting import _core, _dataset, plot
+from fretting import _core, _dataset, plot, stress
 from fretting._arrays import Reals
-from fretting._meaning import FIELD_NAMES, FieldName
+from fretting._meaning import FIELD_NAMES, VECTORS, FieldName, VectorName
 from fretting.cycles import Columns, columns
 from fretting.errors import Fact
 
@@ -19,22 +21,20 @@ if TYPE_CHECKING:
     from matplotlib.animation import FuncAnimation
     from matplotlib.axes import Axes
 
-class Steps(dict[str, npt.NDArray[Any]]):
-    """The numbers of every increment by name; an unknown name raises a KeyError that lists the known ones."""
+class Table(dict[str, npt.NDArray[Any]]):
+    """Columns by name; an unknown name raises a KeyError that lists the known ones."""
 
     def __missing__(self, name: object) -> npt.NDArray[Any]:
         """Refuse a name."""
         if name in FIELD_NAMES:
-            raise KeyError(f"{name!r} is a field, a number a cell: history.field({name!r}, step) has it")
-        raise KeyError(
-            f"steps has no {name!r}; it has: {', '.join(self)}; fields (history.field): {', '.join(FIELD_NAMES)}"
-        )
+            raise KeyError(f"{name!r} is a field, a number per cell: history.field({name!r}, increment) has it")
+        raise KeyError(f"no column {name!r}; columns are: {', '.join(self)}; fields (history.field): {', '.join(FIELD_NAMES)}")
 
 
 class _Kept(Protocol):
     """Where the fields come from: the compiled module, or a copy that went through another process."""
 
-    def kept_steps(self) -> list[int]: ...
+    def kept_increments(self) -> list[int]: ...
     def kept_fields(self, increment: int) -> list[str]: ...
     def field(self, name: str, increment: int) -> npt.NDArray[Any]: ...
 
@@ -45,7 +45,7 @@ class _Copied:
     def __init__(self, fields: dict[int, dict[str, npt.NDArray[Any]]]) -> None:
         self.fields = fields
 
-    def kept_steps(self) -> list[int]:
+    def kept_increments(self) -> list[int]:
         return list(self.fields)
 
     def kept_fields(self, increment: int) -> list[str]:
@@ -63,12 +63,13 @@ class History:
 
     Attributes
     ----------
-    steps : dict of str to ndarray
+    increments : dict of str to ndarray
         One entry per increment: ``normal_force``, ``approach``, ``tangential_force_x``, ``tangential_force_y``,
         ``shift_x``, ``shift_y``, ``twist_moment``, ``twist``, ``max_pressure``, ``max_shear``, ``contact_area``,
         ``stick_area``, ``dissipated_energy``, ``worn_volume`` (both since the start, over all cycles that computed ones
         stand for), ``max_worn_depth``, ``residual``, ``wall_s`` (float); ``increment``, ``stage``, ``contact_cells``, ``stick_cells``, ``convolutions``, ``preconditioner_passes``, ``outer_iterations``, ``parts``
-        (int); ``full_grid_convolutions`` (float); ``regime`` (str).
+        (int); ``full_grid_convolutions``, ``tilt_x``, ``tilt_y``, ``tilt_moment_x``, ``tilt_moment_y``, ``bulk_stress_x``, ``bulk_stress_y`` (of the lower body),
+        ``upper_bulk_stress_x``, ``upper_bulk_stress_y``, ``bulk_work`` (float); ``regime`` (str).
     x, y : ndarray
         Coordinates of the cell centres [length], shapes (nx,) and (ny,); of a line contact `y` is one zero.
     stages : list of str
@@ -89,6 +90,14 @@ class History:
         to the edge of its grid, or slides away), or ``"running"`` (still, or killed).
     message : str or None
         Why it ends early.
+    case : dict
+        The case as it was given, to be run again or varied: ``fretting.run({**history.case, "solver": {...}})``.
+    plan : dict
+        The case as it was understood, every default filled in, with the grid and the automatic simplifications.
+    version : str
+        Version of the program that solved it.
+    error_bars : dict or None
+        Value and error bar of every quantity of interest at the end of each stage, where ``estimate_error`` asked for them.
     warnings : list of dict
         What about these numbers may mislead: ``name`` (stable, such as ``"few_cells"``), ``value``, ``bound``, ``stage``,
         ``message``, ``help``. Empty where nothing does. :func:`run` also passes them to Python's ``warnings``.
@@ -98,7 +107,7 @@ class History:
     Can be pickled, and so be sent between processes.
     """
 
-    steps: dict[str, npt.NDArray[Any]]
+    increments: dict[str, npt.NDArray[Any]]
     x: Reals
     y: Reals
     stages: list[str]
@@ -108,6 +117,10 @@ class History:
     status: str
     message: str | None
     warnings: list[Fact]
+    case: dict[str, Any]
+    plan: dict[str, Any]
+    version: str
+    error_bars: dict[str, Any] | None
 
     _folder: Path | None
     _kept: _Kept
@@ -116,9 +129,14 @@ class History:
     _spacing: tuple[float, float]
     _periodic: bool
 
-    def __init__(self, answer: _core.History) -> None:
+    def __init__(self, answer: _core.History, case: dict[str, Any]) -> None:
         self._kept = answer
-        self.steps = Steps((name, np.asarray(column)) for name, column in answer.steps().items())
+        self.case = case
+        self.plan = json.loads(answer.plan())
+        self.version = _core.__version__
+        bars = json.loads(answer.error_bars() or "null")
+        self.error_bars = None if bars is None or "missing" in bars else bars
+        self.increments = Table((name, np.asarray(column)) for name, column in answer.increments().items())
         self.x = answer.centres(0)
         self.y = answer.centres(1)
         self.stages = answer.stages()
@@ -127,7 +145,7 @@ class History:
         dx, dy = answer.spacing()
         self._spacing = (dx, dy)
         self._periodic = answer.periodic()
-        self.cycles = columns(json.loads(answer.cycles()))
+        self.cycles = Table(columns(json.loads(answer.cycles())))
         self.running_conditions = json.loads(answer.running_conditions())
         self.worn_through = json.loads(answer.worn_through())
         self.status = "solved"
@@ -139,7 +157,7 @@ class History:
         """Everything as plain arrays."""
         kept = {
             increment: {name: self._kept.field(name, increment) for name in self._kept.kept_fields(increment)}
-            for increment in self.kept_steps
+            for increment in self.kept_increments
         }
         return {**self.__dict__, "_kept": _Copied(kept), "_folder": None}
 
@@ -151,12 +169,17 @@ class History:
 
     def __len__(self) -> int:
         """Return the number of increments."""
-        return len(self.steps["increment"])
+        return len(self.increments["increment"])
 
     @property
     def finished(self) -> bool:
         """Whether this is the whole history of its case."""
         return self.status == "solved"
+
+    @property
+    def units(self) -> dict[str, str]:
+        """Units of ``length``, ``force`` and ``pressure`` that ``[units]`` of the case declares; empty without."""
+        return dict(self.plan["case"].get("units") or {})
 
     @property
     def is_line(self) -> bool:
@@ -169,25 +192,26 @@ class History:
         return (len(self.x),) if self.is_line else (len(self.x), len(self.y))
 
     @property
-    def kept_steps(self) -> list[int]:
+    def kept_increments(self) -> list[int]:
         """Increments whose fields are kept, ascending."""
-        return self._kept.kept_steps()
+        return self._kept.kept_increments()
 
-    def field(self, name: FieldName, step: int = -1) -> npt.NDArray[Any]:
+    def field(self, name: FieldName | VectorName, increment: int = -1) -> npt.NDArray[Any]:
         """Return a field of an increment.
 
         Parameters
         ----------
-        name : {"pressure", "shear_x", "shear_y", "slip_x", "slip_y", "gap", "zone", "worn_depth"}
+        name : {"pressure", "shear_x", "shear_y", "slip_x", "slip_y", "gap", "zone", "worn_depth", "shear", "slip"}
             ``slip_x``, ``slip_y``: relative slip since the start of the history, signed (the sum of the slip increments, not the
-            slip distance); ``zone``: 0 open, 1 stick, 2 slip.
-        step : int
+            slip distance); ``zone``: 0 open, 1 stick, 2 slip; ``shear``, ``slip``: both components, along the first axis.
+        increment : int
             Number of the increment in the whole history, from 0; negative from the end.
 
         Returns
         -------
         ndarray
-            Shape (nx, ny), of a line contact (nx,); float64 [pressure or length], ``zone`` uint8. The caller's own copy.
+            Shape (nx, ny), of a line contact (nx,), of ``shear`` and ``slip`` with a 2 before; float64 [pressure or length],
+            ``zone`` uint8. The caller's own copy.
 
         Raises
         ------
@@ -196,42 +220,98 @@ class History:
         IndexError
             When there is no such increment.
         TypeError
-            When `step` is no whole number.
+            When `increment` is no whole number.
         """
+        if name in VECTORS:
+            return np.stack([self.field(part, increment) for part in (f"{name}_x", f"{name}_y")])  # type: ignore[arg-type]
         if name not in FIELD_NAMES:
-            raise KeyError(f"no field is called {name!r}; fields are: {', '.join(FIELD_NAMES)}")
-        step = _whole("step", step)
-        count = len(self)
-        if not -count <= step < count:
-            raise IndexError(f"step {step}: the history has {count} increments")
-        increment = step % count
-        kept = self._kept.kept_fields(increment)
+            raise KeyError(f"no field is called {name!r}; fields are: {', '.join((*FIELD_NAMES, *VECTORS))}")
+        number = self._number(increment)
+        kept = self._kept.kept_fields(number)
         if not kept:
+            nearest = min(self.kept_increments, key=lambda other: abs(other - number), default=None)
+            near = "" if nearest is None else f"; the nearest is {nearest}"
             raise KeyError(
-                f"no fields of increment {increment} are kept; kept are those of {_listed(self.kept_steps)} "
+                f"no fields of increment {number} are kept; kept are those of {_listed(self.kept_increments)}{near} "
                 "([output] every = ... keeps more)"
             )
         if name not in kept:
             raise KeyError(f"{name} is not kept; kept are: {', '.join(kept)} ([output] fields = [...] keeps more)")
-        return self._kept.field(name, increment).reshape(self.shape)
+        return self._kept.field(name, number).reshape(self.shape)
 
-    def to_xarray(self, steps: Literal["all", "kept"] = "all") -> "xarray.Dataset":
-        """Return everything as a Dataset: numbers of the increments and cycles, fields of the kept increments.
+    def _number(self, increment: int) -> int:
+        """Return the number of an increment from 0."""
+        increment = _whole("increment", increment)
+        count = len(self)
+        if not -count <= increment < count:
+            raise IndexError(f"increment {increment}: the history has {count} increments")
+        return increment % count
 
-        Fields have the dimensions ``(..., y, x)``, so that ``dataset.pressure.isel(kept_step=-1).plot()`` draws x to the
-        right; :meth:`field` has the shape (nx, ny). ``zone`` has the attributes ``flag_values`` and ``flag_meanings`` of
-        the CF conventions.
+    def at(
+        self,
+        point: Literal["start", "end", "maximum", "minimum"] = "end",
+        *,
+        stage: int | str | None = None,
+        cycle: int | None = None,
+    ) -> int:
+        """Return the number of an increment by what happens there.
 
         Parameters
         ----------
-        steps : {"all", "kept"}
-            ``"all"``: numbers of all increments along ``step``, fields along ``kept_step``; both are numbers of
-            increments. ``"kept"``: numbers and fields of the kept increments alone, all along ``step``.
+        point : {"start", "end", "maximum", "minimum"}
+            First or last increment of the stage or cycle, or where the tangential force (the torsional moment, of a torsional
+            cycle) along its main axis is largest or smallest.
+        stage : int or str, optional
+            Number or name of a stage. Default: the whole history; with `cycle`, the last stage that has cycles.
+        cycle : int, optional
+            Computed cycle of the stage, from 0; negative from the end.
+
+        Examples
+        --------
+        >>> history.plot_zones(history.at("maximum", stage="fretting", cycle=-1))  # doctest: +SKIP
+        """
+        number = None if stage is None else plot.stage_number(self, stage)
+        column = self.increments["stage"]
+        rows = np.arange(len(self)) if number is None else np.flatnonzero(column == number)
+        if cycle is not None:
+            in_cycles = self.cycles["stage"]
+            if not len(in_cycles):
+                raise ValueError("cycle: the history has no cycles")
+            chosen = np.flatnonzero(in_cycles == (in_cycles[-1] if number is None else number))
+            if not -len(chosen) <= _whole("cycle", cycle) < len(chosen):
+                raise IndexError(f"cycle {cycle}: the stage has {len(chosen)} computed cycles, counted from 0")
+            one = chosen[cycle]
+            rows = np.arange(self.cycles["first_increment"][one], self.cycles["last_increment"][one] + 1)
+        if not len(rows):
+            raise ValueError("no increment of that stage is solved")
+        if point in ("start", "end"):
+            return int(rows[0 if point == "start" else -1])
+        if point not in ("maximum", "minimum"):
+            raise ValueError(f"point = {point!r}: must be 'start', 'end', 'maximum' or 'minimum'")
+        forces = np.stack([self.increments[f"tangential_force_{axis}"][rows] for axis in "xy"])
+        along = forces[np.ptp(forces, axis=1).argmax()]
+        if not np.ptp(along) > 0.0:
+            along = self.increments["twist_moment"][rows]
+        return int(rows[along.argmax() if point == "maximum" else along.argmin()])
+
+    def to_xarray(self, *, increments: Literal["all", "kept"] = "all") -> "xarray.Dataset":
+        """Return everything as a Dataset: numbers of the increments and cycles, fields of the kept increments.
+
+        Fields have the dimensions ``(..., y, x)``, so that ``dataset.pressure.isel(kept_increment=-1).plot()`` draws x to the
+        right; :meth:`field` has the shape (nx, ny). ``zone`` has the attributes ``flag_values`` and ``flag_meanings`` of
+        the CF conventions. Variables have ``long_name`` and ``units``: those that ``[units]`` of the case declares, else the
+        kind of quantity in brackets.
+
+        Parameters
+        ----------
+        increments : {"all", "kept"}
+            ``"all"``: numbers of all increments along ``increment``, fields along ``kept_increment``; both are numbers of
+            increments. ``"kept"``: numbers and fields of the kept increments alone, all along ``increment``.
 
         Returns
         -------
         xarray.Dataset
-            Stages stand beside ``step`` as ``stage`` and ``stage_name``. Cycles lie along ``cycle`` (from 0 over the whole
+            Stages stand beside ``increment`` as ``stage`` and ``stage_name``. Cycles lie along ``cycle`` (from 0 over the whole
             history) as ``cycle_energy_ratio`` and so on, beside ``cycle_number`` (in its stage, from 1), ``cycle_stage``
             and ``cycle_stage_name``.
 
@@ -240,40 +320,201 @@ class History:
         ImportError
             When xarray is not installed (``pip install fretting[xarray]``).
         """
-        if steps not in ("all", "kept"):
-            raise ValueError(f"steps = {steps!r}: must be 'all' or 'kept'")
-        return _dataset.of_history(self, every=steps == "all")
+        if increments not in ("all", "kept"):
+            raise ValueError(f"increments = {increments!r}: must be 'all' or 'kept'")
+        return _dataset.of_history(self, every=increments == "all")
+
+    def save(self, folder: str | os.PathLike[str], *, replace: bool = False) -> Path:
+        """Write the history into a folder, as ``fret run --out FOLDER`` would have done; :func:`open_results` opens it again.
+
+        Parameters
+        ----------
+        folder : path
+            Empty, or not there yet; or the folder of earlier results of the same case, which are replaced.
+        replace : bool
+            Replace the results of another case too. Files that are none of the program's are left alone.
+
+        Returns
+        -------
+        Path
+            The folder.
+
+        Raises
+        ------
+        ValueError
+            When the folder holds something else, or the history was pickled: it then has no solved states.
+        UnreadableError
+            When a file cannot be written.
+        """
+        path = Path(folder)
+        if isinstance(self._kept, _core.History):
+            early = None if self.finished else (self.status, self.message or "")
+            self._kept.save(path, replace, early)
+            return path
+        if self._folder is None:
+            raise ValueError(
+                "save: a history that went through another process or a file holds no states; save it where it was solved"
+            )
+        if path.exists() and (not path.is_dir() or any(path.iterdir())) and not replace:
+            raise ValueError(f"{path}: holds something already\n  = help: choose another folder, or replace=True")
+        if not (path.exists() and path.samefile(self._folder)):
+            shutil.copytree(self._folder, path, dirs_exist_ok=True)
+        return path
+
+    def subsurface(
+        self,
+        depths: npt.ArrayLike,
+        *,
+        increment: int = -1,
+        body: Literal["lower", "upper"] = "lower",
+        threads: int | None = None,
+    ) -> "xarray.Dataset":
+        """Return the subsurface stress of one body, from the kept tractions of an increment.
+
+        Bulk stress and residual stress are included, layer by layer. Axes x and y of the contact, z into the body in
+        question, from its own surface; tension is positive. Under the centres of the cells, exact for tractions that are uniform over each cell.
+
+        Parameters
+        ----------
+        depths : array_like
+            Depths under the surface [length], not negative, in or at the faces of the coatings where the base is rigid.
+        increment : int
+            Number of the increment, from 0; negative from the end. Its ``pressure`` must be kept, and ``shear`` if there is
+            friction.
+        body : {"lower", "upper"}
+            The body.
+        threads : int, optional
+            Worker threads. Default: all cores. The result is the same for any number.
+
+        Returns
+        -------
+        xarray.Dataset
+            ``xx``, ``yy``, ``zz``, ``xy``, ``xz``, ``yz``, ``von_mises`` [pressure] with the dimensions (depth, y, x), of a line
+            contact (depth, x); ``principal`` with (order, depth, y, x), the largest first. Beside ``depth`` stands ``layer``: 0 in
+            the outermost coating, the number of coatings in the substrate. A depth at an interface appears twice, first as
+            seen from above, then from below.
+
+        Raises
+        ------
+        ValueError
+            When a depth is above the surface or in a rigid base, or the body is rigid.
+        KeyError
+            When the tractions of the increment were not kept.
+
+        Examples
+        --------
+        >>> import fretting
+        >>> history = fretting.run({
+        ...     "grid": {"cells": [32, 32], "size": "auto"},
+        ...     "upper": {"rigid": True},
+        ...     "lower": {"substrate": {"young": 210e9, "poisson": 0.3}},
+        ...     "profile": {"sphere": {"radius": 10e-3}},
+        ...     "load": [{"normal_force": 10.0, "increments": 1}],
+        ... })
+        >>> dict(history.subsurface([0.0, 20e-6]).von_mises.sizes)
+        {'depth': 2, 'y': 32, 'x': 32}
+        """
+        return stress.subsurface(self, depths, increment, body, threads)
+
+    def fatigue(
+        self,
+        depths: npt.ArrayLike,
+        *,
+        cycle: int = -1,
+        body: Literal["lower", "upper"] = "lower",
+        yield_strength: float | None = None,
+        torsion_limit: float | None = None,
+        tension_limit: float | None = None,
+        normal_stress_sensitivity: float = 1.0,
+        threads: int | None = None,
+    ) -> "xarray.Dataset":
+        """Return fatigue parameters over a cycle, on the section along x nearest to y = 0.
+
+        Bulk stress and residual stress are included, layer by layer.
+
+        Parameters
+        ----------
+        depths : array_like
+            Depths under the surface of the body [length].
+        cycle : int
+            Computed cycle of the history, from 0; negative from the end. At least three of its increments, with the one it starts from,
+            need their ``pressure``, ``shear`` and ``slip`` kept (``[output] every``).
+        body : {"lower", "upper"}
+            The body.
+        yield_strength : float, optional
+            Yield strength [pressure], for Fatemi and Socie.
+        torsion_limit, tension_limit : float, optional
+            Fatigue limits in fully reversed torsion and tension, amplitudes [pressure], for Crossland and Dang Van.
+        normal_stress_sensitivity : float
+            Weight of the normal stress in Fatemi and Socie's parameter [-].
+        threads : int, optional
+            Worker threads. Default: all cores.
+
+        Returns
+        -------
+        xarray.Dataset
+            ``smith_watson_topper``, and where their constants are given ``fatemi_socie``, ``crossland``, ``dang_van``, with the
+            dimensions (depth, x); ``ruiz_f1``, ``ruiz_f2`` along x, where 0 is among the depths. Formulas and sources: *Subsurface
+            stress and fatigue* of the site.
+
+        Raises
+        ------
+        ValueError
+            When a depth or a constant is out of its range, the body is rigid, or too few increments of the cycle are kept.
+        """
+        constants = stress.Constants(yield_strength, torsion_limit, tension_limit, normal_stress_sensitivity)
+        return stress.fatigue(self, depths, _whole("cycle", cycle), body, constants, threads)
 
     def plot_loop(
-        self, along: plot.Motion | None = None, stage: int | str | None = None, axes: "Axes | None" = None
+        self,
+        *,
+        along: plot.Motion | None = None,
+        stage: int | str | None = None,
+        ax: "Axes | None" = None,
+        **line: Any,  # noqa: ANN401 - what matplotlib takes
     ) -> "Axes":
         """Draw tangential force over shift, or moment over twist: see :func:`fretting.plot.loop`."""
-        return plot.loop(self, along, stage, axes)
+        return plot.loop(self, along=along, stage=stage, ax=ax, **line)
 
     def plot_section(
         self,
-        fields: FieldName | tuple[FieldName, ...] = ("pressure", "shear_x"),
-        step: int = -1,
+        fields: FieldName | VectorName | tuple[FieldName | VectorName, ...] = ("pressure", "shear_x"),
+        increment: int = -1,
+        *,
         along: Literal["x", "y"] = "x",
         at: float = 0.0,
-        axes: "Axes | None" = None,
+        ax: "Axes | None" = None,
+        **line: Any,  # noqa: ANN401 - what matplotlib takes
     ) -> "Axes":
         """Draw fields along a line through the grid: see :func:`fretting.plot.section`."""
-        return plot.section(self, fields, step, along, at, axes)
+        return plot.section(self, fields, increment, along=along, at=at, ax=ax, **line)
 
-    def plot_field(self, name: FieldName = "pressure", step: int = -1, axes: "Axes | None" = None) -> "Axes":
+    def plot_field(
+        self,
+        name: FieldName = "pressure",
+        increment: int = -1,
+        *,
+        ax: "Axes | None" = None,
+        **image: Any,  # noqa: ANN401 - what matplotlib takes
+    ) -> "Axes":
         """Draw a field as a map: see :func:`fretting.plot.field`."""
-        return plot.field(self, name, step, axes)
+        return plot.field(self, name, increment, ax=ax, **image)
 
-    def plot_zones(self, step: int = -1, axes: "Axes | None" = None) -> "Axes":
+    def plot_zones(
+        self,
+        increment: int = -1,
+        *,
+        ax: "Axes | None" = None,
+        **image: Any,  # noqa: ANN401 - what matplotlib takes
+    ) -> "Axes":
         """Draw where the contact sticks and slips: see :func:`fretting.plot.zones`."""
-        return plot.zones(self, step, axes)
+        return plot.zones(self, increment, ax=ax, **image)
 
     def animate_loop(
-        self, field: FieldName = "zone", along: plot.Motion | None = None, stage: int | str | None = None
+        self, field: FieldName = "zone", *, along: plot.Motion | None = None, stage: int | str | None = None
     ) -> "FuncAnimation":
         """Animate the loop beside a field: see :func:`fretting.plot.animation`."""
-        return plot.animation(self, field, along, stage)
+        return plot.animation(self, field, along=along, stage=stage)
 
     def _facts(self) -> list[tuple[str, str]]:
         """Return what a person wants to know first."""
@@ -283,7 +524,7 @@ class History:
             facts.append(("not the whole history", ": ".join(filter(None, (self.status, self.message)))))
         if not len(self):
             return facts
-        last = {name: column[-1] for name, column in self.steps.items()}
+        last = {name: column[-1] for name, column in self.increments.items()}
         facts += [
             ("sliding condition at the end", last["regime"].replace("_", " ")),
             ("normal force", f"{last['normal_force']:.6g}"),
@@ -295,19 +536,19 @@ class History:
                 if last["worn_volume"] > 0.0
                 else []
             ),
-            ("worst residual", f"{self.steps['residual'].max():.1e}"),
+            ("worst residual", f"{self.increments['residual'].max():.1e}"),
         ]
         done = self.cycles
         if len(done["cycle"]):
             ratio, regime = done["energy_ratio"][-1], done["regime"][-1]
             facts.append((f"last of {done['last_cycle'][-1]} cycles", f"{regime.replace('_', ' ')}, ratio {ratio:.3g}"))
         facts += [("warning", f"{fact['message']}; {fact['help']}") for fact in self.warnings]
-        kept = self.kept_steps
+        kept = self.kept_increments
         fields = ", ".join(self._kept.kept_fields(kept[-1])) if kept else "none"
         return [*facts, (f"fields of {len(kept)} increments", fields)]
 
     def __repr__(self) -> str:
-        """Sizes, the last step, and what is kept."""
+        """Sizes, the last increment, and what is kept."""
         cells = " x ".join(map(str, self.shape)) + " cells" + " of a line contact" * self.is_line
         head = f"History: {len(self)} increments, {cells}, stages: {', '.join(self.stages)}"
         return "\n".join([head, *(f"  {name}: {value}" for name, value in self._facts()[3:])])
@@ -327,9 +568,9 @@ def _whole(name: str, number: object) -> int:
         raise TypeError(f"{name} = {number!r}: must be a whole number") from None
 
 
-def _listed(steps: list[int]) -> str:
-    if not steps:
+def _listed(numbers: list[int]) -> str:
+    if not numbers:
         return "no increment"
-    if len(steps) <= 12:
-        return ", ".join(map(str, steps))
-    return f"{', '.join(map(str, steps[:6]))}, ..., {', '.join(map(str, steps[-3:]))} ({len(steps)} in all)"
+    if len(numbers) <= 12:
+        return ", ".join(map(str, numbers))
+    return f"{', '.join(map(str, numbers[:6]))}, ..., {', '.join(map(str, numbers[-3:]))} ({len(numbers)} in all)"

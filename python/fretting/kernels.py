@@ -1,21 +1,22 @@
 """Surface response of layered half-spaces, and convolutions of fields with it."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping
 from typing import Literal, TypeAlias
 
 import numpy as np
 import numpy.typing as npt
 
-from fretting import _core
+from fretting import _case, _core
 from fretting._arrays import Reals, real_array, room_for
 
+Body: TypeAlias = Mapping[str, object]
+"""A body as a case describes it."""
 Parity: TypeAlias = Literal["even-even", "odd-even", "even-odd", "odd-odd"]
 
 
 def frequency_response(
     k: npt.ArrayLike,
-    coatings: Sequence[tuple[float, float, float]],
-    substrate: tuple[float, float] | None,
+    body: Body,
 ) -> dict[str, Reals]:
     """Surface displacement per traction of a layered half-space, at wavenumbers.
 
@@ -26,10 +27,9 @@ def frequency_response(
     ----------
     k : array_like
         Wavenumbers [rad/length], positive, any shape.
-    coatings : sequence of (young, poisson, thickness)
-        Bonded coatings, outermost first [pressure, -, length]; may be empty.
-    substrate : (young, poisson) or None
-        The half-space below [pressure, -]; ``None`` for a rigid foundation.
+    body : mapping
+        The body as in a case: ``{"coatings": [{"thickness": ..., "young": ..., "poisson": ...}], "substrate": {"young": ...,
+        "poisson": ...}}``, ``"base": "rigid"`` in place of a substrate, graded coatings too.
 
     Returns
     -------
@@ -39,25 +39,28 @@ def frequency_response(
     Raises
     ------
     ValueError
-        When a wavenumber, modulus, ratio or thickness is out of its range.
+        When a wavenumber is not positive. A body is refused as in a case, with a ``CaseError`` (a ``ValueError``).
 
     Examples
     --------
     >>> import fretting
-    >>> response = fretting.frequency_response([1.0, 10.0], [(2.0, 0.3, 0.1)], (1.0, 0.3))
+    >>> response = fretting.frequency_response([1.0, 10.0], {
+    ...     "coatings": [{"thickness": 0.1, "young": 2.0, "poisson": 0.3}],
+    ...     "substrate": {"young": 1.0, "poisson": 0.3},
+    ... })
     >>> response["zz"].shape
     (2,)
     """
     wavenumbers = real_array("k", k)
     if not (wavenumbers > 0.0).all():
         raise ValueError(f"k = {wavenumbers.min()}: wavenumbers must be positive")
-    answer = _core.frequency_response(wavenumbers.ravel(), _coatings(coatings), _substrate(substrate))
+    answer = _core.frequency_response(wavenumbers.ravel(), _case_of(body))
     return {name: values.reshape(wavenumbers.shape) for name, values in answer.items()}
 
 
 def influence_coefficients(
-    coatings: Sequence[tuple[float, float, float]],
-    substrate: tuple[float, float] | None,
+    body: Body,
+    *,
     cells: tuple[int, int],
     spacing: tuple[float, float],
 ) -> dict[str, Reals]:
@@ -69,10 +72,9 @@ def influence_coefficients(
 
     Parameters
     ----------
-    coatings : sequence of (young, poisson, thickness)
-        Bonded coatings, outermost first [pressure, -, length]; may be empty.
-    substrate : (young, poisson) or None
-        The half-space below [pressure, -]; ``None`` for a rigid foundation.
+    body : mapping
+        The body as in a case: ``{"coatings": [{"thickness": ..., "young": ..., "poisson": ...}], "substrate": {"young": ...,
+        "poisson": ...}}``, ``"base": "rigid"`` in place of a substrate, graded coatings too.
     cells : (int, int)
         Number of offsets along x and y.
     spacing : (float, float)
@@ -87,7 +89,7 @@ def influence_coefficients(
     Raises
     ------
     ValueError
-        When a value is out of its range.
+        When a number of cells or a side is not positive. A body is refused as in a case, with a ``CaseError``.
     """
     nx, ny = (int(count) for count in cells)
     dx, dy = (float(side) for side in spacing)
@@ -96,7 +98,7 @@ def influence_coefficients(
     if not (np.isfinite([dx, dy]).all() and dx > 0.0 and dy > 0.0):
         raise ValueError(f"spacing = {(dx, dy)}: must be positive finite lengths")
     room_for(f"cells = {(nx, ny)}", 18 * nx * ny)  # six tables, and the work on them
-    return _core.influence_coefficients(_coatings(coatings), _substrate(substrate), (nx, ny), (dx, dy))
+    return _core.influence_coefficients(_case_of(body), (nx, ny), (dx, dy))
 
 
 class Convolution:
@@ -120,7 +122,7 @@ class Convolution:
            [2. , 4. ]])
     """
 
-    def __init__(self, values: npt.ArrayLike, parity: Parity = "even-even") -> None:
+    def __init__(self, values: npt.ArrayLike, *, parity: Parity = "even-even") -> None:
         kernel = real_array("values", values, dimensions=2)
         room_for(f"values of shape {kernel.shape}", 8 * kernel.size)  # the transformed kernel, and the work on a field
         self._product = _core.Convolution(kernel, parity)
@@ -145,20 +147,18 @@ class Convolution:
         return f"Convolution(shape={self.shape}, parity={self.parity!r})"
 
 
-def _coatings(coatings: Sequence[tuple[float, float, float]]) -> list[tuple[float, float, float]]:
-    checked = []
-    for index, coating in enumerate(coatings):
-        numbers = [float(number) for number in coating]
-        if len(numbers) != 3:
-            raise ValueError(f"coatings[{index}] has {len(numbers)} numbers: must be (young, poisson, thickness)")
-        checked.append((numbers[0], numbers[1], numbers[2]))
-    return checked
-
-
-def _substrate(substrate: tuple[float, float] | None) -> tuple[float, float] | None:
-    if substrate is None:
-        return None
-    numbers = [float(number) for number in substrate]
-    if len(numbers) != 2:
-        raise ValueError(f"substrate has {len(numbers)} numbers: must be (young, poisson)")
-    return numbers[0], numbers[1]
+def _case_of(body: Body) -> _core.Case:
+    """Return a case whose lower body is this one: it is read and checked as in a case."""
+    if not isinstance(body, Mapping):
+        raise TypeError(
+            f"body: expected a mapping as in a case, {{'coatings': [...], 'substrate': {{...}}}}, found {type(body).__name__}"
+        )
+    return _case.read(
+        {
+            "grid": {"cells": [4, 4], "size": "auto"},
+            "upper": {"rigid": True},
+            "lower": body,
+            "profile": {"sphere": {"radius": 1.0}},
+            "load": [{"normal_force": 1.0, "increments": 1}],
+        }
+    )

@@ -1,8 +1,9 @@
-"""Opening what ``fret run`` has written."""
+"""Opening what ``fret run`` or ``History.save`` has written."""
 
 import csv
 import json
 import os
+import tomllib
 from collections import Counter
 from pathlib import Path
 from typing import Any, NoReturn
@@ -14,16 +15,17 @@ from fretting._meaning import FIELD_NAMES, STEP_KINDS
 from fretting.cycles import MEANING as CYCLE_COLUMNS
 from fretting.cycles import columns
 from fretting.errors import MissingFileError, UnreadableError
-from fretting.history import History, Steps
+from fretting.history import History, Table
 
 
-def load(folder: str | os.PathLike[str]) -> History:
+def open_results(folder: str | os.PathLike[str]) -> History:
     """Open the folder of a run as a history; of one that is not finished what there is.
 
     Parameters
     ----------
     folder : path
-        What ``fret run CASE --out FOLDER`` has written, or ``results/CASE`` where no ``--out`` was given.
+        What ``fret run CASE --out FOLDER`` has written (``results/CASE`` where no ``--out`` was given), :func:`run` with
+        ``folder=``, or :meth:`History.save`.
 
     Returns
     -------
@@ -43,7 +45,7 @@ def load(folder: str | os.PathLike[str]) -> History:
     Examples
     --------
     >>> import fretting
-    >>> history = fretting.load("results/coated_sphere")  # doctest: +SKIP
+    >>> history = fretting.open_results("results/coated_sphere")  # doctest: +SKIP
     >>> history.plot_loop()  # doctest: +SKIP
     """
     path = Path(folder)
@@ -59,7 +61,7 @@ def load(folder: str | os.PathLike[str]) -> History:
     if len(steps["increment"]) != done or not np.array_equal(steps["increment"], np.arange(done)):
         _refuse(path / "history.csv", f"does not hold the {done} increments of the run")
     history = History.__new__(History)
-    history.steps = steps
+    history.increments = steps
     store = _Stored(path / "fields.zarr", plan["grid"]["cells"], done, whole=finished)
     history._folder = path.resolve()
     history.status, history.message = record["status"], record.get("message")
@@ -69,7 +71,10 @@ def load(folder: str | os.PathLike[str]) -> History:
     courses = [stage["course"] for stage in plan["case"]["stages"]]
     is_cyclic = any(isinstance(course, dict) and course["cycles"] is not None for course in courses)
     records = _cycles(path / "cycles.csv", whole=finished) if is_cyclic else []
-    history.cycles = columns([cycle for cycle in records if cycle["last_increment"] < done])
+    history.case = _case(path)
+    history.plan, history.version = plan, record["version"]
+    history.error_bars = _error_bars(path)
+    history.cycles = Table(columns([cycle for cycle in records if cycle["last_increment"] < done]))
     history.running_conditions = [_running_condition(history.cycles, stage) for stage in range(len(stages))]
     history.worn_through = record.get("worn_through")
     history.warnings = record.get("warnings", [])
@@ -81,17 +86,35 @@ def load(folder: str | os.PathLike[str]) -> History:
     return history
 
 
+def _case(path: Path) -> dict[str, Any]:
+    place = path / "case.toml"
+    try:
+        return tomllib.loads(_read(place).decode("utf-8"))
+    except ValueError as error:
+        _refuse(place, f"not the text of a case: {error}")
+
+
+def _error_bars(path: Path) -> dict[str, Any] | None:
+    place = path / "error_bars.json"
+    if not place.is_file():
+        return None
+    try:
+        return dict(json.loads(_read(place)))
+    except (ValueError, TypeError) as error:
+        _refuse(place, f"not what a run writes: {error}")
+
+
 class _Stored:
     """Fields in a run's store: little-endian numbers, one file per increment."""
 
     def __init__(self, path: Path, cells: list[int], increments: int, whole: bool) -> None:
         self._path = path
         self._cells = (cells[0], cells[1])
-        self._steps = [int(step) for step in self._numbers(path / "step" / "c" / "0", "<i8")]
+        self._steps = [int(step) for step in self._numbers(path / "increment" / "c" / "0", "<i8")]
         if not whole:  # those that the run will keep stand there from its start
             self._steps = [step for step in self._steps if step < increments]
         if self._steps != sorted(set(self._steps)) or not set(self._steps) <= set(range(increments)):
-            _refuse(path / "step", "does not hold numbers of increments")
+            _refuse(path / "increment", "does not hold numbers of increments")
         self._names = [name for name in FIELD_NAMES if (path / name / "zarr.json").is_file()]
 
     def coordinate(self, name: str) -> npt.NDArray[np.float64]:
@@ -102,7 +125,7 @@ class _Stored:
             _refuse(self._path / name, "does not hold the centres of the grid's cells")
         return centres
 
-    def kept_steps(self) -> list[int]:
+    def kept_increments(self) -> list[int]:
         return list(self._steps) if self._names else []
 
     def kept_fields(self, increment: int) -> list[str]:
@@ -139,7 +162,7 @@ def _record(path: Path) -> dict[str, Any]:
         if record["program"] != "fretting" or record["format"] != 1:
             _refuse(path, "results of another program, or of another version of the format", way)
         case, grid = record["plan"]["case"], record["plan"]["grid"]
-        _ = case["bodies"], case["periodic"]
+        _ = case["bodies"], case["periodic"], record["version"]
         if record["status"] == "solved":
             _ = record["totals"]["increments"]
         _ = [(stage["name"], stage["course"]) for stage in case["stages"]]
@@ -150,7 +173,7 @@ def _record(path: Path) -> dict[str, Any]:
     return dict(record)
 
 
-def _steps(path: Path, whole: bool) -> Steps:
+def _steps(path: Path, whole: bool) -> Table:
     """Return the columns of ``history.csv``."""
     rows = list(csv.reader(_lines(path, whole)))
     head, body = rows[0], rows[1:]
@@ -158,7 +181,7 @@ def _steps(path: Path, whole: bool) -> Steps:
     if lost := [name for name in STEP_KINDS if name not in head]:
         _refuse(path, f"has no column {lost[0]}; it may be of an earlier version: run the case again")
     try:
-        return Steps((name, _column(name, [row[head.index(name)] for row in body])) for name in wanted)
+        return Table((name, _column(name, [row[head.index(name)] for row in body])) for name in wanted)
     except (ValueError, IndexError) as error:
         _refuse(path, f"not the table of a run: {error}")
 

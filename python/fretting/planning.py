@@ -20,7 +20,7 @@ class LeftOut(TypedDict):
 
 
 class Plan(Mapping[str, Any]):
-    """A case made numerical: a read-only mapping.
+    """A case made numerical: a read-only mapping, whose entries are attributes too (``plan.grid["cells"]``).
 
     Keys are ``case``, ``grid`` (``cells``, ``spacing``), ``coupling`` (``"frictionless"``, ``"uncoupled"`` or
     ``"coupled"``), ``increments``, ``memory_bytes`` (without the kept fields), ``kept_bytes`` (those), ``left_out``, ``expected``
@@ -49,6 +49,13 @@ class Plan(Mapping[str, Any]):
     def warnings(self) -> list[Fact]:
         """What about the case may mislead, as far as the case alone tells: see ``History.warnings``."""
         return list(self._entries["warnings"])
+
+    def __getattr__(self, key: str) -> Any:  # noqa: ANN401 - entries are of many kinds
+        """Entry of that name: ``plan.increments`` is ``plan["increments"]``."""
+        entries = self.__dict__.get("_entries", {})
+        if key not in entries:
+            raise AttributeError(f"a plan has no {key!r}; it has: {', '.join(entries)}")
+        return entries[key]
 
     def __getitem__(self, key: str) -> Any:  # noqa: ANN401 - entries are of many kinds
         """Entry of that name."""

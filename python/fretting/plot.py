@@ -1,7 +1,8 @@
 """Figures of histories and sweeps; needs matplotlib (``pip install fretting[plot]``).
 
-Every function draws into `axes`, or into a figure of its own when none are given, and returns the axes. Units are those
-of the case, whatever they are: labels say length, force, pressure.
+Every function draws into `ax`, or into a figure of its own when none is given, and returns the axes; further keywords go to the
+artist (``color=``, ``label=``, ``cmap=``). Units are those
+of the case: labels say what ``[units]`` of the case declares, else length, force, pressure.
 """
 
 import html
@@ -12,7 +13,7 @@ import numpy as np
 import numpy.typing as npt
 
 from fretting._arrays import Reals
-from fretting._meaning import ZONE_NAMES, label, unit
+from fretting._meaning import VECTORS, ZONE_NAMES, in_units, label, unit
 
 if TYPE_CHECKING:
     import xarray
@@ -36,7 +37,12 @@ REGIMES = (
 """Names and colours of the sliding conditions, from less to more slip."""
 
 def loop(
-    history: "History", along: Motion | None = None, stage: int | str | None = None, axes: "Axes | None" = None
+    history: "History",
+    *,
+    along: Motion | None = None,
+    stage: int | str | None = None,
+    ax: "Axes | None" = None,
+    **line: Any,  # noqa: ANN401 - what matplotlib takes
 ) -> "Axes":
     """Draw tangential force over relative displacement, or moment over twist.
 
@@ -48,7 +54,7 @@ def loop(
         Which motion. Default: the one whose loop is the largest, range of force times range of motion.
     stage : int or str, optional
         Number or name of a stage. Without: from the first stage in cycles on, or everything when there is none.
-    axes : matplotlib Axes, optional
+    ax : matplotlib Axes, optional
         Where to draw.
 
     Returns
@@ -57,21 +63,23 @@ def loop(
     """
     motion, force = _loop_columns(history, along, stage)
     rows = _loop_rows(history, stage)
-    axes = _own_axes(axes)
-    axes.plot(history.steps[motion][rows], history.steps[force][rows], lw=1.4)
+    axes = _own_axes(ax)
+    axes.plot(history.increments[motion][rows], history.increments[force][rows], **{"lw": 1.4, **_long_names(line)})
     axes.axhline(0.0, color="0.8", lw=0.8, zorder=0)
     axes.axvline(0.0, color="0.8", lw=0.8, zorder=0)
-    axes.set(xlabel=_LOOP_LABELS[motion], ylabel=_LOOP_LABELS[force])
+    axes.set(xlabel=_loop_label(history, motion), ylabel=_loop_label(history, force))
     return axes
 
 
 def section(
     history: "History",
     fields: str | Sequence[str] = ("pressure", "shear_x"),
-    step: int = -1,
+    increment: int = -1,
+    *,
     along: Direction = "x",
     at: float = 0.0,
-    axes: "Axes | None" = None,
+    ax: "Axes | None" = None,
+    **line: Any,  # noqa: ANN401 - what matplotlib takes
 ) -> "Axes":
     """Draw fields along a line through the grid.
 
@@ -81,14 +89,14 @@ def section(
         A history.
     fields : str or sequence of str
         Names of kept fields, of one kind per figure: tractions, or lengths.
-    step : int
+    increment : int
         Number of the increment, from 0; negative from the end.
     along : {"x", "y"}
         Direction of the line.
     at : float
         Where the line crosses the other axis [length]. Between two rows of cells the values are interpolated. In a line
         contact it does not matter.
-    axes : matplotlib Axes, optional
+    ax : matplotlib Axes, optional
         Where to draw.
 
     Returns
@@ -105,18 +113,26 @@ def section(
     half = 0.5 * (across[1] - across[0]) if len(across) > 1 else np.inf
     if not across[0] - half <= at <= across[-1] + half:
         raise ValueError(f"at = {at}: outside the grid, which reaches from {across[0] - half} to {across[-1] + half}")
-    values = {name: _along(history.field(name, step), along, across, at) for name in names}  # type: ignore[arg-type]
-    axes = _own_axes(axes)
-    for name, line in values.items():
-        axes.plot(here, line, lw=1.4, label=label(name))
-    units = {unit(name) for name in names}
-    axes.set(xlabel=f"{along} [length]", ylabel=f"[{units.pop()}]" if len(units) == 1 else "")
+    names = [part for name in names for part in ((f"{name}_x", f"{name}_y") if name in VECTORS else (name,))]
+    values = {name: _along(history.field(name, increment), along, across, at) for name in names}  # type: ignore[arg-type]
+    axes = _own_axes(ax)
+    for name, course in values.items():
+        axes.plot(here, course, **{"lw": 1.4, "label": label(name, history.units), **_long_names(line)})
+    units = {in_units(unit(name), history.units) for name in names}
+    axes.set(xlabel=f"{along} [{in_units('length', history.units)}]", ylabel=f"[{units.pop()}]" if len(units) == 1 else "")
     axes.ticklabel_format(scilimits=(-2, 3))
     axes.legend(frameon=False)
     return axes
 
 
-def field(history: "History", name: str = "pressure", step: int = -1, axes: "Axes | None" = None) -> "Axes":
+def field(
+    history: "History",
+    name: str = "pressure",
+    increment: int = -1,
+    *,
+    ax: "Axes | None" = None,
+    **image: Any,  # noqa: ANN401 - what matplotlib takes
+) -> "Axes":
     """Draw a kept field as a map, with a colour bar; of a line contact, as a line.
 
     Parameters
@@ -125,9 +141,9 @@ def field(history: "History", name: str = "pressure", step: int = -1, axes: "Axe
         A history.
     name : str
         Name of the field; ``"zone"`` is drawn as by :func:`zones`.
-    step : int
+    increment : int
         Number of the increment, from 0; negative from the end.
-    axes : matplotlib Axes, optional
+    ax : matplotlib Axes, optional
         Where to draw.
 
     Returns
@@ -135,35 +151,41 @@ def field(history: "History", name: str = "pressure", step: int = -1, axes: "Axe
     matplotlib Axes
     """
     if name == "zone":
-        return zones(history, step, axes)
+        return zones(history, increment, ax=ax, **image)
     if history.is_line:
-        return section(history, name, step, axes=axes)
-    values = history.field(name, step)  # type: ignore[arg-type]
-    axes = _own_axes(axes)
-    image = _image(history, values, axes)
-    axes.figure.colorbar(image, ax=axes, label=label(name))
+        return section(history, name, increment, ax=ax, **image)
+    values = history.field(name, increment)  # type: ignore[arg-type]
+    axes = _own_axes(ax)
+    drawn = _image(history, values, axes, image)
+    axes.figure.colorbar(drawn, ax=axes, label=label(name, history.units))
     return axes
 
 
-def zones(history: "History", step: int = -1, axes: "Axes | None" = None) -> "Axes":
+def zones(
+    history: "History",
+    increment: int = -1,
+    *,
+    ax: "Axes | None" = None,
+    **image: Any,  # noqa: ANN401 - what matplotlib takes
+) -> "Axes":
     """Draw the zones: open, stick and slip.
 
     Parameters
     ----------
     history : History
         A history whose ``zone`` is kept.
-    step : int
+    increment : int
         Number of the increment, from 0; negative from the end.
-    axes : matplotlib Axes, optional
+    ax : matplotlib Axes, optional
         Where to draw.
 
     Returns
     -------
     matplotlib Axes
     """
-    values = history.field("zone", step)
-    axes = _own_axes(axes)
-    _image(history, values, axes, ZONES)
+    values = history.field("zone", increment)
+    axes = _own_axes(ax)
+    _image(history, values, axes, image, ZONES)
     _colour_legend(axes, [entry for number, entry in enumerate(ZONES) if (values == number).any()])
     return axes
 
@@ -171,6 +193,7 @@ def zones(history: "History", step: int = -1, axes: "Axes | None" = None) -> "Ax
 def animation(
     history: "History",
     name: str = "zone",
+    *,
     along: Motion | None = None,
     stage: int | str | None = None,
     interval: int = 80,
@@ -199,33 +222,39 @@ def animation(
     from matplotlib.animation import FuncAnimation
 
     chosen = set(_loop_rows(history, stage).tolist())
-    steps = [step for step in history.kept_steps if step in chosen]
-    if not steps:
+    kept = [increment for increment in history.kept_increments if increment in chosen]
+    if not kept:
         raise ValueError("no fields of these increments are kept ([output] every = ... keeps more)")
     figure, (left, right) = plt.subplots(1, 2, figsize=(8.4, 3.8), layout="constrained")
     motion, force = _loop_columns(history, along, stage)
-    loop(history, along, stage, left)
+    loop(history, along=along, stage=stage, ax=left)
     (dot,) = left.plot([], [], "o", color="#c1121f")
-    frames = [history.field(name, step) for step in steps]  # type: ignore[arg-type]
+    frames = [history.field(name, increment) for increment in kept]  # type: ignore[arg-type]
     if name == "zone":
-        image = _image(history, frames[0], right, ZONES)
+        image = _image(history, frames[0], right, {}, ZONES)
         _colour_legend(right, ZONES)
     else:
-        image = _image(history, frames[0], right, limits=_limits(np.stack(frames)))
-        figure.colorbar(image, ax=right, label=label(name))
+        image = _image(history, frames[0], right, {}, limits=_limits(np.stack(frames)))
+        figure.colorbar(image, ax=right, label=label(name, history.units))
 
     def draw(number: int) -> list[Any]:
-        step = steps[number]
-        dot.set_data([history.steps[motion][step]], [history.steps[force][step]])
+        increment = kept[number]
+        dot.set_data([history.increments[motion][increment]], [history.increments[force][increment]])
         image.set_data(frames[number].T)
-        right.set_title(f"increment {step}", fontsize="medium")
+        right.set_title(f"increment {increment}", fontsize="medium")
         return [dot, image]
 
-    return FuncAnimation(figure, draw, frames=len(steps), interval=interval)
+    return FuncAnimation(figure, draw, frames=len(kept), interval=interval)
 
 
 def regime_map(
-    dataset: "xarray.Dataset", x: str, y: str, variable: str = "cycle_regime", axes: "Axes | None" = None
+    dataset: "xarray.Dataset",
+    x: str,
+    y: str,
+    *,
+    variable: str = "cycle_regime",
+    ax: "Axes | None" = None,
+    **mesh: Any,  # noqa: ANN401 - what matplotlib takes
 ) -> "Axes":
     """Draw a fretting map: the sliding condition over two axes of a sweep.
 
@@ -237,7 +266,7 @@ def regime_map(
         Names of the axes; their values are numbers, in ascending or descending order.
     variable : str
         A variable of sliding conditions: ``"cycle_regime"`` or ``"regime"``.
-    axes : matplotlib Axes, optional
+    ax : matplotlib Axes, optional
         Where to draw. Points that were not solved stay white.
 
     Returns
@@ -247,12 +276,13 @@ def regime_map(
     data = dataset[variable].transpose(y, x)
     words = [name for name, _ in REGIMES]
     codes = np.asarray([[words.index(w) if w in words else np.nan for w in row] for row in data.values.tolist()])
-    axes = _own_axes(axes)
+    axes = _own_axes(ax)
     from matplotlib.colors import ListedColormap
 
     colours = ListedColormap([colour for _, colour in REGIMES])
     edges = [_edges(np.asarray(dataset[name].values, dtype=np.float64), name) for name in (x, y)]
-    axes.pcolormesh(*edges, codes, cmap=colours, vmin=-0.5, vmax=len(REGIMES) - 0.5, edgecolors="white", lw=0.4)
+    fixed = {"cmap": colours, "vmin": -0.5, "vmax": len(REGIMES) - 0.5}
+    axes.pcolormesh(*edges, codes, **{"edgecolors": "white", "lw": 0.4, **mesh, **fixed})
     axes.set(xlabel=x, ylabel=y)
     _colour_legend(axes, [entry for number, entry in enumerate(REGIMES) if (codes == number).any()], "upper left")
     return axes
@@ -276,6 +306,12 @@ def _pyplot() -> Any:  # noqa: ANN401 - a module
     return plt
 
 
+def _long_names(line: dict[str, Any]) -> dict[str, Any]:
+    """Return keywords of a line under the names that the defaults have."""
+    short = {"linewidth": "lw"}
+    return {short.get(name, name): value for name, value in line.items()}
+
+
 def _own_axes(axes: "Axes | None") -> Any:  # noqa: ANN401 - matplotlib's own stubs change with its version
     if axes is not None:
         return axes
@@ -295,13 +331,18 @@ _LOOPS = {
 """Motions and what drives them."""
 
 _LOOP_LABELS = {
-    "shift_x": "relative displacement x [length]",
-    "shift_y": "relative displacement y [length]",
-    "twist": "twist [rad]",
-    "tangential_force_x": "tangential force along x [force]",
-    "tangential_force_y": "tangential force along y [force]",
-    "twist_moment": "torsional moment [force x length]",
+    "shift_x": ("relative displacement x", "length"),
+    "shift_y": ("relative displacement y", "length"),
+    "twist": ("twist", "rad"),
+    "tangential_force_x": ("tangential force along x", "force"),
+    "tangential_force_y": ("tangential force along y", "force"),
+    "twist_moment": ("torsional moment", "force x length"),
 }
+
+
+def _loop_label(history: "History", column: str) -> str:
+    words, kind = _LOOP_LABELS[column]
+    return f"{words} [{in_units(kind, history.units)}]"
 
 
 def _loop_columns(history: "History", along: str | None, stage: int | str | None) -> tuple[str, str]:
@@ -313,7 +354,7 @@ def _loop_columns(history: "History", along: str | None, stage: int | str | None
     rows = _loop_rows(history, stage)
 
     def work(columns: tuple[str, str]) -> float:
-        motion, force = (history.steps[name][rows] for name in columns)
+        motion, force = (history.increments[name][rows] for name in columns)
         return float(np.ptp(motion) * np.ptp(force)) if len(rows) else 0.0
 
     return max(_LOOPS.values(), key=work)
@@ -321,16 +362,17 @@ def _loop_columns(history: "History", along: str | None, stage: int | str | None
 
 def _loop_rows(history: "History", stage: int | str | None) -> npt.NDArray[np.int64]:
     """Rows of a loop, with the state it starts from."""
-    column = history.steps["stage"]
+    column = history.increments["stage"]
     if stage is None:
         in_cycles = history.cycles["stage"]
         rows = np.flatnonzero(column >= in_cycles[0]) if len(in_cycles) else np.arange(len(history))
     else:
-        rows = np.flatnonzero(column == _stage_number(history, stage))
+        rows = np.flatnonzero(column == stage_number(history, stage))
     return np.concatenate([rows[:1] - 1, rows]) if rows[0] > 0 else rows
 
 
-def _stage_number(history: "History", stage: int | str) -> int:
+def stage_number(history: "History", stage: int | str) -> int:
+    """Return the number of a stage that is named or numbered."""
     count = len(history.stages)
     if isinstance(stage, str):
         if stage not in history.stages:
@@ -359,6 +401,7 @@ def _image(
     history: "History",
     values: npt.NDArray[Any],
     axes: Any,  # noqa: ANN401
+    keywords: dict[str, Any],
     words: Sequence[tuple[str, str]] | None = None,
     limits: tuple[float, float] | None = None,
 ) -> "AxesImage":
@@ -368,10 +411,12 @@ def _image(
     values = values.reshape(len(history.x), len(history.y))
     low, high = (-0.5, len(words) - 0.5) if words else limits or _limits(values)
     colours = ListedColormap([c for _, c in words]) if words else "RdBu_r" if low < 0.0 else "viridis"
-    image: AxesImage = axes.imshow(
-        values.T, origin="lower", extent=edges, cmap=colours, vmin=low, vmax=high, interpolation="nearest"
-    )
-    axes.set(xlabel="x [length]", ylabel="" if history.is_line else "y [length]")
+    look = {"cmap": colours, "vmin": low, "vmax": high, "interpolation": "nearest", **keywords}
+    if "norm" in keywords:
+        del look["vmin"], look["vmax"]
+    image: AxesImage = axes.imshow(values.T, origin="lower", extent=edges, **look)
+    length = in_units("length", history.units)
+    axes.set(xlabel=f"x [{length}]", ylabel="" if history.is_line else f"y [{length}]")
     if history.is_line:
         axes.set(aspect="auto", yticks=[])
     axes.ticklabel_format(scilimits=(-2, 3), axis="x" if history.is_line else "both")

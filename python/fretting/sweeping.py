@@ -13,7 +13,7 @@ import numpy.typing as npt
 
 from fretting import _case, _core, _start, cycles
 from fretting._meaning import MEANING
-from fretting._points import RESERVED, Axes, Dimension, Point, Table, dimensions, points
+from fretting._points import RESERVED, Dimension, Parameters, Point, Table, dimensions, points
 from fretting._progress import PointLine
 from fretting._sweep_folder import SweepFolder, with_files_in
 from fretting.errors import CaseError, OutOfMemoryError, RunError
@@ -27,15 +27,15 @@ Keep: TypeAlias = Literal["last", "stages", "all"]
 Measure: TypeAlias = Callable[[History], Mapping[str, Any]]
 Told: TypeAlias = Callable[[dict[str, Any]], object]
 
-_LENGTH = {"last": None, "stages": "stage", "all": "step"}
+_LENGTH = {"last": None, "stages": "stage", "all": "increment"}
 """Dimension, beside the axes, that the numbers of a history have."""
 
 
 def sweep(
     base_case: _case.CaseLike,
-    axes: Axes,
-    executor: Executor | None = None,
+    parameters: Parameters,
     *,
+    executor: Executor | None = None,
     keep: Keep = "last",
     measure: Measure | None = None,
     folder: str | os.PathLike[str] | None = None,
@@ -49,18 +49,19 @@ def sweep(
     ----------
     base_case : path, str or mapping
         As for :func:`fretting.run`.
-    axes : mapping or list of mappings
+    parameters : mapping or list of mappings
         A mapping from keys of the case to values gives their Cartesian product. A key is dotted
         (``"friction.coefficient"``); entries of lists go by number or, stages, by name (``"load.1.shift"``,
         ``"load.indent.normal_force"``, ``"load.1.tangential_force.0"``). A tuple of keys with tuples of values makes
-        several keys change together; a name with an :class:`Axis` changes the case by a function. A list of mappings
+        several keys change together; a name with a :class:`Parameter` stands for a key of the
+        case, or changes the case by a function. A list of mappings
         from keys to values is a list of points, along one dimension ``point``.
     executor : concurrent.futures.Executor, optional
         Where the points are solved: threads, processes, a dask client's ``get_executor()``, ``MPIPoolExecutor``. In
         default: the calling thread, one after the other.
     keep : {"last", "stages", "all"}
         Which increments the result has: the last of the history, the last of every stage (dimension ``stage``), or all
-        (dimension ``step``).
+        (dimension ``increment``).
     measure : callable, optional
         Called with the :class:`History` of every solved point, where it was solved; the numbers and arrays of the
         mapping it returns become variables. An executor of processes needs a function that can be pickled.
@@ -78,8 +79,8 @@ def sweep(
     Returns
     -------
     xarray.Dataset
-        One dimension an axis, named by its key; axes whose values are no plain numbers or words count from 0, their
-        values stand as text in ``NAME_values``. Variables: the names of ``History.steps``; those of the last cycle
+        One dimension per parameter, named by its key or name; parameters whose values are no plain numbers or words count from 0, their
+        values stand as text in ``NAME_values``. Variables: the names of ``History.increments``; those of the last cycle
         as ``cycle_dissipated_energy``, ``cycle_energy_ratio``, ``cycle_regime`` and so on (see :class:`History`); ``status``
         (``"solved"``, ``"refused"``, ``"failed"``) and ``error``, the message of a point that was not solved. Numbers
         of such points are NaN, counts -1, words empty. The attribute ``solved_before`` counts the solved
@@ -88,7 +89,7 @@ def sweep(
     Raises
     ------
     CaseError
-        When an axis does not exist in the case, or every point is refused.
+        When a parameter does not exist in the case, or every point is refused.
     ImportError
         When xarray is not installed (``pip install fretting[xarray]``).
     MemoryError
@@ -115,7 +116,7 @@ def sweep(
         raise ValueError(f"keep = {keep!r}: must be one of {', '.join(_LENGTH)}")
     _core.check_threads(threads)
     base = _as_table(base_case)
-    found = dimensions(axes)
+    found = dimensions(parameters)
     asked = list(points(base, found))
     settings = {"keep": keep, "measure": None if measure is None else _name_of(measure)}
     origin = _start.read(start)
@@ -209,7 +210,7 @@ def _solve(task: _Task) -> Table:
     nothing: Table = {"steps": {}, "cycle": {}, "measured": {}, "mistakes": []}
     try:
         case = _core.Case.from_json(task.text, task.name, Path(), [], task.asked.origin)
-        history = ended(*_core.run(case, task.asked.threads, None))
+        history = ended(*_core.run(case, task.asked.threads, None, False), json.loads(task.text))
     except CaseError as error:
         return {**nothing, "status": "refused", "error": str(error), "mistakes": [list(m) for m in error.mistakes]}
     except OutOfMemoryError:
@@ -222,7 +223,7 @@ def _solve(task: _Task) -> Table:
         **nothing,
         "status": "solved",
         "error": "",
-        "steps": {name: column[rows].tolist() for name, column in history.steps.items()},
+        "steps": {name: column[rows].tolist() for name, column in history.increments.items()},
         "cycle": {name: column[-1].item() for name, column in history.cycles.items() if len(column)},
         "measured": {name: _measured(name, value) for name, value in measured.items()},
     }
@@ -233,7 +234,7 @@ def _rows(history: History, keep: Keep) -> npt.NDArray[np.int64]:
         return np.arange(len(history))
     if keep == "last":
         return np.asarray([len(history) - 1])
-    stage = history.steps["stage"]
+    stage = history.increments["stage"]
     return np.flatnonzero(np.append(stage[1:] != stage[:-1], True))
 
 
@@ -378,7 +379,7 @@ def _measured_variable(
     name: str, names: tuple[str, ...], shape: tuple[int, ...], answers: dict[tuple[int, ...], Table]
 ) -> Any:  # noqa: ANN401
     if name in names:
-        raise ValueError(f"measure: the name {name!r} is taken by an axis")
+        raise ValueError(f"measure: the name {name!r} is taken by a parameter")
     values = {place: np.asarray(a["measured"][name]) for place, a in answers.items() if name in a["measured"]}
     shapes = {value.shape for value in values.values()}
     if len(shapes) > 1:

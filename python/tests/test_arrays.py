@@ -31,19 +31,19 @@ def history(fretting_case: dict[str, Any]) -> fretting.History:
 
 
 def test_steps_are_columns_of_one_entry_an_increment(history: fretting.History) -> None:
-    assert set(history.steps) >= REALS | COUNTS | {"regime"}
+    assert set(history.increments) >= REALS | COUNTS | {"regime"}
     assert len(history) == 17
-    for name, column in history.steps.items():
+    for name, column in history.increments.items():
         assert column.shape == (17,), name
     for name in REALS:
-        assert history.steps[name].dtype == np.float64, name
-        assert np.isfinite(history.steps[name]).all(), name
+        assert history.increments[name].dtype == np.float64, name
+        assert np.isfinite(history.increments[name]).all(), name
     for name in COUNTS:
-        assert history.steps[name].dtype == np.int64, name
-    np.testing.assert_array_equal(history.steps["increment"], np.arange(17))
-    np.testing.assert_array_equal(history.steps["stage"], [0] + [1] * 16)
+        assert history.increments[name].dtype == np.int64, name
+    np.testing.assert_array_equal(history.increments["increment"], np.arange(17))
+    np.testing.assert_array_equal(history.increments["stage"], [0] + [1] * 16)
     assert history.stages == ["indent", "fretting"]
-    assert set(history.steps["regime"]) <= {"full_stick", "partial_slip", "gross_slip"}
+    assert set(history.increments["regime"]) <= {"full_stick", "partial_slip", "gross_slip"}
 
 
 def test_fields_are_nx_by_ny_and_the_callers_own(history: fretting.History) -> None:
@@ -64,8 +64,8 @@ def test_cell_centres_lie_about_the_first_point_of_touch(history: fretting.Histo
 
 def test_steps_count_from_either_end(history: fretting.History) -> None:
     np.testing.assert_array_equal(history.field("pressure", -1), history.field("pressure", 16))
-    assert 0 in history.kept_steps  # the last of a stage
-    assert 16 in history.kept_steps
+    assert 0 in history.kept_increments  # the last of a stage
+    assert 16 in history.kept_increments
     with pytest.raises(IndexError, match="17 increments"):
         history.field("pressure", 17)
     with pytest.raises(IndexError, match="17 increments"):
@@ -76,7 +76,7 @@ def test_what_was_not_kept_says_what_was(fretting_case: dict[str, Any]) -> None:
     fretting_case["grid"]["cells"] = [24, 24]
     fretting_case["output"] = {"fields": ["pressure"]}
     history = fretting.run(fretting_case)
-    assert history.kept_steps == [0, 16]
+    assert history.kept_increments == [0, 16]
     with pytest.raises(KeyError, match="kept are those of 0, 16"):
         history.field("pressure", 3)
     with pytest.raises(KeyError, match="zone is not kept; kept are: pressure"):
@@ -94,28 +94,28 @@ def test_repr_tells_sizes_and_what_is_kept(history: fretting.History) -> None:
 def test_dataset_has_all_increments_the_kept_fields_and_the_cycles(history: fretting.History) -> None:
     pytest.importorskip("xarray")
     data = history.to_xarray()
-    assert dict(data.sizes) == {"step": 17, "kept_step": len(history.kept_steps), "x": 32, "y": 24, "cycle": 1}
-    np.testing.assert_array_equal(data["normal_force"].values, history.steps["normal_force"])
-    assert list(data["kept_step"].values) == history.kept_steps
-    np.testing.assert_array_equal(data["pressure"].sel(kept_step=16).transpose("x", "y").values, history.field("pressure"))
+    assert dict(data.sizes) == {"increment": 17, "kept_increment": len(history.kept_increments), "x": 32, "y": 24, "cycle": 1}
+    np.testing.assert_array_equal(data["normal_force"].values, history.increments["normal_force"])
+    assert list(data["kept_increment"].values) == history.kept_increments
+    np.testing.assert_array_equal(data["pressure"].sel(kept_increment=16).transpose("x", "y").values, history.field("pressure"))
     assert data["stage_name"].values.tolist() == ["indent"] + 16 * ["fretting"]
-    assert data["stage"].values.tolist() == history.steps["stage"].tolist()
+    assert data["stage"].values.tolist() == history.increments["stage"].tolist()
     assert data["cycle_energy_ratio"].values.tolist() == history.cycles["energy_ratio"].tolist()
     assert (data["cycle_number"].item(), data["cycle_stage_name"].item()) == (1, "fretting")
     zone = data["zone"]
     assert zone.dtype == zone.attrs["flag_values"].dtype == np.dtype(np.uint8)
     assert (zone.attrs["flag_values"].tolist(), zone.attrs["flag_meanings"]) == ([0, 1, 2], "open stick slip")
-    kept = history.to_xarray(steps="kept")
-    assert list(kept["step"].values) == history.kept_steps
-    assert kept["pressure"].dims == ("step", "y", "x")
-    np.testing.assert_array_equal(kept["approach"].values, history.steps["approach"][history.kept_steps])
+    kept = history.to_xarray(increments="kept")
+    assert list(kept["increment"].values) == history.kept_increments
+    assert kept["pressure"].dims == ("increment", "y", "x")
+    np.testing.assert_array_equal(kept["approach"].values, history.increments["approach"][history.kept_increments])
 
 
 def test_a_map_of_a_dataset_has_x_to_the_right(history: fretting.History) -> None:
     pytest.importorskip("xarray")
     matplotlib = pytest.importorskip("matplotlib")
     matplotlib.use("Agg")
-    mesh = history.to_xarray()["shear_x"].isel(kept_step=-1).plot.pcolormesh()
+    mesh = history.to_xarray()["shear_x"].isel(kept_increment=-1).plot.pcolormesh()
     assert mesh.axes is not None
     assert mesh.axes.get_xlabel().startswith("cell centres along x")
     np.testing.assert_array_equal(np.asarray(mesh.get_array()).reshape(24, 32), history.field("shear_x").T)
@@ -150,11 +150,11 @@ def test_a_long_history_with_few_kept_fields_makes_a_small_dataset(tmp_path: Pat
 def test_history_survives_pickling(history: fretting.History) -> None:
     again = pickle.loads(pickle.dumps(history))
     assert repr(again) == repr(history)
-    assert again.kept_steps == history.kept_steps
+    assert again.kept_increments == history.kept_increments
     for name in sorted({*get_args(FieldName)} - {"worn_depth"}):  # nothing wears here
         np.testing.assert_array_equal(again.field(name, 4), history.field(name, 4))
-    for name, column in history.steps.items():
-        np.testing.assert_array_equal(again.steps[name], column)
+    for name, column in history.increments.items():
+        np.testing.assert_array_equal(again.increments[name], column)
 
 
 def test_progress_is_told_after_every_increment(
@@ -166,7 +166,7 @@ def test_progress_is_told_after_every_increment(
     history = fretting.run(sphere_case, progress=heard.append)
     assert [step["increment"] for step in heard] == [0, 1, 2]
     assert all(step["increments"] == 3 for step in heard)
-    assert [step["normal_force"] for step in heard] == list(history.steps["normal_force"])
+    assert [step["normal_force"] for step in heard] == list(history.increments["normal_force"])
     fretting.run(sphere_case, progress=True)
     assert "increment 2  " in capsys.readouterr().err
 
@@ -192,10 +192,10 @@ def test_a_run_may_be_started_while_another_tells_its_progress(sphere_case: dict
     inner = []
 
     def run_another(step: dict[str, Any]) -> None:
-        inner.append(fretting.run(sphere_case, threads=1).steps["approach"][-1] + 0.0 * product(np.ones((4, 4))).sum())
+        inner.append(fretting.run(sphere_case, threads=1).increments["approach"][-1] + 0.0 * product(np.ones((4, 4))).sum())
 
     outer = fretting.run(sphere_case, threads=1, progress=run_another)
-    assert inner == [outer.steps["approach"][-1]]
+    assert inner == [outer.increments["approach"][-1]]
 
 
 def test_bad_thread_counts_are_refused(sphere_case: dict[str, Any]) -> None:

@@ -79,8 +79,8 @@ def test_all_mistakes_are_told_at_once_in_the_order_of_the_text() -> None:
 
 
 def test_text_that_is_not_toml_is_a_case_error_too() -> None:
-    assert refusal("grid = [").mistakes[0].line == 1
-    assert refusal("no such thing").mistakes
+    assert refusal("grid = [\n").mistakes[0].line == 1
+    assert refusal("no such\nthing").mistakes
 
 
 @pytest.fixture

@@ -53,11 +53,11 @@ def results(tmp_path_factory):
 def test_numpy_opens_the_npz(results):
     arrays = np.load(results / "export.npz")
     assert arrays["pressure"].shape == (4, 16, 20)
-    assert arrays["step"].tolist() == [1, 2, 4, 6]
+    assert arrays["kept_increment"].tolist() == [1, 2, 4, 6]
     assert arrays["regime"].tolist()[-1] == "partial_slip"
     # The pressure carries the force: to the tolerance of the solver.
     force = arrays["pressure"].sum(axis=(1, 2)) * 15e-6**2
-    np.testing.assert_allclose(force, arrays["normal_force"][arrays["step"]], rtol=1e-7)
+    np.testing.assert_allclose(force, arrays["normal_force"][arrays["kept_increment"]], rtol=1e-7)
 
 
 def test_xarray_opens_the_store_itself(results):
@@ -69,8 +69,8 @@ def test_xarray_opens_the_store_itself(results):
         data = xarray.open_zarr(results / "fields.zarr")
     assert set(data.data_vars) == {"pressure", "shear_x", "shear_y", "slip_x", "slip_y", "zone"}
     for name in data.data_vars:
-        assert data[name].dims == ("step", "y", "x")  # drawn with x to the right
-        np.testing.assert_array_equal(data[name].transpose("step", "x", "y").values, arrays[name])
+        assert data[name].dims == ("increment", "y", "x")  # drawn with x to the right
+        np.testing.assert_array_equal(data[name].transpose("increment", "x", "y").values, arrays[name])
     assert (data["zone"].dtype, data["zone"].attrs["flag_meanings"]) == (np.uint8, "open stick slip")
 
 
@@ -81,7 +81,7 @@ def test_zarr_opens_the_store_of_a_history_whose_length_was_not_known(tmp_path):
     subprocess.run([command(), "run", "case.toml", "--out", "run", "--quiet"], cwd=tmp_path, check=True)
     group = zarr.open_group(tmp_path / "run" / "fields.zarr", mode="r", use_consolidated=True)
     alone = zarr.open_array(tmp_path / "run" / "fields.zarr" / "pressure", mode="r")
-    assert group["pressure"].shape == alone.shape == (len(group["step"][:]), 20, 16)
+    assert group["pressure"].shape == alone.shape == (len(group["increment"][:]), 20, 16)
     assert np.isfinite(group["pressure"][:]).all()
 
 
@@ -89,7 +89,7 @@ def test_pyvista_opens_the_images(results):
     pyvista = pytest.importorskip("pyvista")
     arrays = np.load(results / "export.npz")
     reader = pyvista.get_reader(str(results / "vtk" / "history.pvd"))
-    assert reader.time_values == arrays["step"].tolist()
+    assert reader.time_values == arrays["kept_increment"].tolist()
     for place, time in enumerate(reader.time_values):
         reader.set_active_time_value(time)
         image = reader.read()[0]

@@ -18,8 +18,8 @@ CASE = {
 }
 
 def peak(_):
-    fretting.influence_coefficients([], (1.0, 0.3), (8, 8), (1.0, 1.0))
-    return float(fretting.run(CASE).steps["max_pressure"][-1])
+    fretting.influence_coefficients({"substrate": {"young": 1.0, "poisson": 0.3}}, cells=(8, 8), spacing=(1.0, 1.0))
+    return float(fretting.run(CASE).increments["max_pressure"][-1])
 
 if __name__ == "__main__":
     here = peak(0)

@@ -14,7 +14,7 @@ def test_pressure_radius_and_approach_are_hertz(sphere_case: dict[str, Any]) -> 
     peak = 1.5 * force / (np.pi * a**2)
     sphere_case["output"] = {"fields": ["pressure", "gap", "zone"]}
     history = fretting.run(sphere_case)
-    steps = history.steps
+    steps = history.increments
     dx = history.x[1] - history.x[0]
 
     assert steps["normal_force"][-1] == pytest.approx(force, rel=1e-8)
@@ -43,8 +43,8 @@ def test_prescribed_approach_gives_hertz_force(sphere_case: dict[str, Any]) -> N
     sphere_case["load"] = [{"approach": approach, "increments": 1}]
     history = fretting.run(sphere_case, threads=1)
     a = np.sqrt(approach * radius)
-    assert history.steps["approach"][-1] == approach
-    assert history.steps["normal_force"][-1] == pytest.approx(4.0 * modulus * a**3 / (3.0 * radius), rel=1e-3)
+    assert history.increments["approach"][-1] == approach
+    assert history.increments["normal_force"][-1] == pytest.approx(4.0 * modulus * a**3 / (3.0 * radius), rel=1e-3)
 
 
 def test_any_number_of_threads_gives_the_same_bits(sphere_case: dict[str, Any]) -> None:
@@ -53,15 +53,15 @@ def test_any_number_of_threads_gives_the_same_bits(sphere_case: dict[str, Any]) 
 
 
 def test_closed_forms_of_the_library_are_hertz() -> None:
-    moduli = fretting.analytic.effective_moduli((210e9, 0.3))
+    moduli = fretting.analytic.effective_moduli(lower={"young": 210e9, "poisson": 0.3})
     assert moduli.normal == pytest.approx(210e9 / 0.91, rel=1e-14)
-    sphere = fretting.analytic.hertz(10e-3, 12.0, moduli.normal)
+    sphere = fretting.analytic.hertz(radius=10e-3, force=12.0, modulus=moduli.normal)
     a = (0.75 * 12.0 * 10e-3 / moduli.normal) ** (1.0 / 3.0)
     assert sphere.contact_radius == pytest.approx(a, rel=1e-14)
     assert sphere.approach == pytest.approx(a**2 / 10e-3, rel=1e-14)
     r = np.array([[0.0, 0.5 * a], [a, 2.0 * a]])
-    np.testing.assert_allclose(sphere.pressure(r), sphere.peak_pressure * np.array([[1.0, 0.75**0.5], [0, 0]]))
-    ellipse = fretting.analytic.hertz_ellipse(10e-3, 10e-3, 12.0, moduli.normal)
+    np.testing.assert_allclose(sphere.pressure(r), sphere.max_pressure * np.array([[1.0, 0.75**0.5], [0, 0]]))
+    ellipse = fretting.analytic.hertz_ellipse(radius_x=10e-3, radius_y=10e-3, force=12.0, modulus=moduli.normal)
     assert ellipse.semi_axes == pytest.approx((a, a), rel=1e-12)
     with pytest.raises(ValueError, match="force = -1"):
-        fretting.analytic.hertz(10e-3, -1.0, moduli.normal)
+        fretting.analytic.hertz(radius=10e-3, force=-1.0, modulus=moduli.normal)

@@ -12,20 +12,29 @@ import pytest
 import fretting
 from fretting import analytic
 
+
+def body(coatings: Any, substrate: Any) -> dict[str, Any]:
+    """Return a body as in a case: coatings (young, poisson, thickness), substrate (young, poisson) or None for a rigid base."""
+    layers = [dict(zip(("young", "poisson", "thickness"), coating, strict=True)) for coating in coatings]
+    base = {"base": "rigid"} if substrate is None else {"substrate": dict(zip(("young", "poisson"), substrate, strict=True))}
+    return {"coatings": layers, **base}
+
 K = np.linspace(1.0, 4.0, 12)
 FIELD = np.random.default_rng(7).normal(size=(6, 8))
 KERNEL = 1.0 / (1.0 + np.add.outer(np.arange(6.0), np.arange(8.0)))
-MODULI = analytic.effective_moduli(lower=(1.0, 0.3))
+MODULI = analytic.effective_moduli(lower={"young": 1.0, "poisson": 0.3})
 SPHERE = analytic.hertz(radius=1.0, force=1e-3, modulus=MODULI.normal)
 
 CALLS: dict[str, tuple[Callable[[Any], Any], np.ndarray[Any, Any]]] = {
-    "frequency_response": (lambda k: fretting.frequency_response(k, [(2.0, 0.3, 0.1)], (1.0, 0.3))["rz"], K),
+    "frequency_response": (lambda k: fretting.frequency_response(k, body([(2.0, 0.3, 0.1)], (1.0, 0.3)))["rz"], K),
     "Convolution values": (lambda values: fretting.Convolution(values)(FIELD), KERNEL),
     "Convolution field": (lambda field: fretting.Convolution(KERNEL)(field), FIELD),
     "Hertz.pressure": (lambda r: SPHERE.pressure(r), K * SPHERE.contact_radius / 5),
-    "ellipse": (lambda x: analytic.hertz_ellipse(1.0, 2.0, 1e-3, 1.0).pressure(x, 0.01), K / 100),
-    "westergaard": (lambda x: analytic.westergaard(0.01, 1.0, 1e-3, 1.0).pressure(x), K),
-    "cattaneo": (lambda r: analytic.cattaneo_mindlin(SPHERE, 0.1, MODULI.shear, 5e-5).shear(r), K * 0.02),
+    "ellipse": (lambda x: analytic.hertz_ellipse(radius_x=1.0, radius_y=2.0, force=1e-3, modulus=1.0).pressure(x, 0.01), K / 100),
+    "westergaard": (lambda x: analytic.westergaard(amplitude=0.01, wavelength=1.0, mean_pressure=1e-3, modulus=1.0).pressure(x), K),
+    "cattaneo": (lambda r: analytic.cattaneo_mindlin(
+            SPHERE, friction_coefficient=0.1, shear_modulus=MODULI.shear, tangential_force=5e-5
+        ).shear(r), K * 0.02),
 }
 LAYOUTS: dict[str, Callable[[np.ndarray[Any, Any]], Any]] = {
     "fortran": lambda a: np.asfortranarray(a),
@@ -74,13 +83,13 @@ def test_what_is_no_real_number_is_refused(name: str, dtype: str | type) -> None
 def test_masked_values_are_refused() -> None:
     """What is under a mask is nobody's number."""
     with pytest.raises(ValueError, match="masked"):
-        fretting.frequency_response(np.ma.masked_greater(K, 3.0), [], (1.0, 0.3))
+        fretting.frequency_response(np.ma.masked_greater(K, 3.0), body([], (1.0, 0.3)))
 
 
 @pytest.mark.parametrize("shape", [(), (0,), (2, 0, 3), (2, 3, 2)])
 def test_any_shape_of_points_is_kept(shape: tuple[int, ...]) -> None:
     points = np.full(shape, 1.5)
-    response = fretting.frequency_response(points, [], (1.0, 0.3))
+    response = fretting.frequency_response(points, body([], (1.0, 0.3)))
     assert response["zz"].shape == shape
     # A half-space: k zz = 2 (1 - nu^2) / E.
     np.testing.assert_allclose(response["zz"], 2 * 0.91 / 1.5, rtol=1e-14)
@@ -100,9 +109,9 @@ def test_arrays_far_larger_than_memory_are_refused_before_memory_is_asked_for() 
     for call in (
         lambda: fretting.Convolution(huge),
         lambda: fretting.Convolution(KERNEL)(huge),
-        lambda: fretting.frequency_response(huge, [], (1.0, 0.3)),
-        lambda: fretting.influence_coefficients([], (1.0, 0.3), (1 << 20, 1 << 20), (1.0, 1.0)),
-        lambda: fretting.influence_coefficients([], (1.0, 0.3), (1 << 62, 1 << 62), (1.0, 1.0)),
+        lambda: fretting.frequency_response(huge, body([], (1.0, 0.3))),
+        lambda: fretting.influence_coefficients(body([], (1.0, 0.3)), cells=(1 << 20, 1 << 20), spacing=(1.0, 1.0)),
+        lambda: fretting.influence_coefficients(body([], (1.0, 0.3)), cells=(1 << 62, 1 << 62), spacing=(1.0, 1.0)),
     ):
         with pytest.raises((ValueError, MemoryError)):
             call()
@@ -111,16 +120,16 @@ def test_arrays_far_larger_than_memory_are_refused_before_memory_is_asked_for() 
 @pytest.mark.parametrize(
     "call",
     [
-        lambda: fretting.influence_coefficients([], (1.0, 0.3), (4, 4), (0.0, 1.0)),
-        lambda: fretting.influence_coefficients([], (1.0, 0.3), (4, 4), (np.nan, 1.0)),
-        lambda: fretting.influence_coefficients([], (1.0, 0.3), (-1, 4), (1.0, 1.0)),
-        lambda: fretting.influence_coefficients([(1.0, 0.3, np.inf)], (1.0, 0.3), (4, 4), (1.0, 1.0)),
-        lambda: fretting.influence_coefficients([(np.nan, 0.3, 1.0)], (1.0, 0.3), (4, 4), (1.0, 1.0)),
-        lambda: fretting.influence_coefficients([], None, (4, 4), (1.0, 1.0)),
-        lambda: fretting.frequency_response([1.0], [(1.0, 0.3)], (1.0, 0.3)),  # type: ignore[list-item]
-        lambda: fretting.frequency_response([1.0], [], (1.0, 0.6)),
-        lambda: fretting.frequency_response([-1.0], [], (1.0, 0.3)),
-        lambda: fretting.Convolution(KERNEL, "even"),  # type: ignore[arg-type]
+        lambda: fretting.influence_coefficients(body([], (1.0, 0.3)), cells=(4, 4), spacing=(0.0, 1.0)),
+        lambda: fretting.influence_coefficients(body([], (1.0, 0.3)), cells=(4, 4), spacing=(np.nan, 1.0)),
+        lambda: fretting.influence_coefficients(body([], (1.0, 0.3)), cells=(-1, 4), spacing=(1.0, 1.0)),
+        lambda: fretting.influence_coefficients(body([(1.0, 0.3, np.inf)], (1.0, 0.3)), cells=(4, 4), spacing=(1.0, 1.0)),
+        lambda: fretting.influence_coefficients(body([(np.nan, 0.3, 1.0)], (1.0, 0.3)), cells=(4, 4), spacing=(1.0, 1.0)),
+        lambda: fretting.influence_coefficients(body([], None), cells=(4, 4), spacing=(1.0, 1.0)),
+        lambda: fretting.frequency_response([1.0], {**body([], (1.0, 0.3)), "coatings": [{"young": 1.0, "poisson": 0.3}]}),
+        lambda: fretting.frequency_response([1.0], body([], (1.0, 0.6))),
+        lambda: fretting.frequency_response([-1.0], body([], (1.0, 0.3))),
+        lambda: fretting.Convolution(KERNEL, parity="even"),  # type: ignore[arg-type]
         lambda: analytic.hertz(radius=np.nan, force=1.0, modulus=1.0),
     ],
 )
@@ -174,13 +183,13 @@ def test_cases_plans_and_histories_can_be_copied_and_pickled(fretting_case: dict
     assert "<script>" not in fretting.plan({**fretting_case, "title": "<script>"})._repr_html_()
 
 
-@pytest.mark.parametrize("step", [14.7, 14.0, "14", None, True, np.float64(1.0)])
-def test_a_step_is_a_whole_number(sphere_case: dict[str, Any], step: Any) -> None:
+@pytest.mark.parametrize("increment", [14.7, 14.0, "14", None, True, np.float64(1.0)])
+def test_a_step_is_a_whole_number(sphere_case: dict[str, Any], increment: Any) -> None:
     history = fretting.run(sphere_case)
-    with pytest.raises(TypeError, match="step = .*must be a whole number"):
-        history.field("pressure", step=step)
+    with pytest.raises(TypeError, match="increment = .*must be a whole number"):
+        history.field("pressure", increment=increment)
     last: Any = np.int32(-1)
-    assert (history.field("pressure", step=last) == history.field("pressure")).all()
+    assert (history.field("pressure", increment=last) == history.field("pressure")).all()
 
 
 def test_a_folder_is_no_case(tmp_path: Path) -> None:

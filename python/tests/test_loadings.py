@@ -16,7 +16,7 @@ def test_cycles_are_columns_of_numbers_and_words(fretting_case: dict[str, Any]) 
     cycles = history.cycles
     assert set(cycles["drive"]) == {"tangential"}
     assert set(cycles["regime"]) <= {"full_stick", "partial_slip", "mixed", "gross_slip"}
-    total = history.steps["dissipated_energy"]
+    total = history.increments["dissipated_energy"]
     before = total[cycles["first_increment"] - 1]
     # The energy of a cycle is what the record of its increments says, to rounding.
     np.testing.assert_allclose(cycles["dissipated_energy"], total[cycles["last_increment"]] - before, rtol=1e-12)
@@ -32,7 +32,7 @@ def test_a_table_is_looked_for_beside_the_case(tmp_path: Path, fretting_case: di
     table.write_text("tangential_force_x\n0.5\n-0.5\n")
     case["load"][1:] = [{"table": str(table), "increments": 2}]
     history = fretting.run(case)
-    np.testing.assert_allclose(history.steps["tangential_force_x"][-4:], [0.25, 0.5, 0.0, -0.5], atol=1e-6)
+    np.testing.assert_allclose(history.increments["tangential_force_x"][-4:], [0.25, 0.5, 0.0, -0.5], atol=1e-6)
     case["load"][1]["columns"] = {"shift_x": "u"}
     with pytest.raises(fretting.CaseError, match='no column "u"; it has: tangential_force_x'):
         fretting.run(case)
@@ -48,5 +48,5 @@ def test_worn_depth_is_a_field(fretting_case: dict[str, Any]) -> None:
     history = fretting.run(case)
     area = (history.x[1] - history.x[0]) * (history.y[1] - history.y[0])
     volume = history.field("worn_depth").sum() * area
-    np.testing.assert_allclose(volume, 1e-13 * history.steps["dissipated_energy"][-1], rtol=1e-10)
+    np.testing.assert_allclose(volume, 1e-13 * history.increments["dissipated_energy"][-1], rtol=1e-10)
     np.testing.assert_allclose(volume, history.cycles["worn_volume"][-1], rtol=1e-12)

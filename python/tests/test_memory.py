@@ -32,9 +32,9 @@ except MemoryError as error:
     assert "ulimit -v" in str(error), error
     print("refused")
 for ask in (
-    lambda: fretting.influence_coefficients([], (210e9, 0.3), (8192, 4096), (1e-6, 1e-6)),
+    lambda: fretting.influence_coefficients(case["lower"], cells=(8192, 4096), spacing=(1e-6, 1e-6)),
     lambda: fretting.Convolution(__import__("numpy").ones((6000, 6000))),
-    lambda: fretting.subsurface_stress(fretting.run(small), [k * 1e-7 for k in range(20000)]),
+    lambda: fretting.run(small).subsurface([k * 1e-7 for k in range(20000)]),
     lambda: fretting.plan({**case, "grid": {"cells": [8192, 8192], "size": "auto"}}),
 ):
     try:
@@ -74,7 +74,7 @@ def test_points_beside_each_other_are_counted_together(sphere_case: dict[str, An
 
     sphere_case["grid"] = {"cells": [4096, 4096], "size": [1e-3, 1e-3]}
     with ThreadPoolExecutor(60) as executor, pytest.raises(MemoryError, match="60 points of .* beside each other"):
-        fretting.sweep(sphere_case, {"load.0.normal_force": np.linspace(1.0, 2.0, 60).tolist()}, executor)
+        fretting.sweep(sphere_case, {"load.0.normal_force": np.linspace(1.0, 2.0, 60).tolist()}, executor=executor)
 
 
 @pytest.mark.parametrize("threads", [0, -3, 1025, 10**6, 10**30])

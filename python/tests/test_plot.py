@@ -27,8 +27,8 @@ def history(fretting_case: dict[str, Any]) -> Iterator[fretting.History]:
 
 def test_a_loop_shows_force_over_shift_with_the_state_it_starts_from(history: fretting.History) -> None:
     shift, force = history.plot_loop().lines[0].get_data()
-    np.testing.assert_array_equal(shift, history.steps["shift_x"])
-    np.testing.assert_array_equal(force, history.steps["tangential_force_x"])
+    np.testing.assert_array_equal(shift, history.increments["shift_x"])
+    np.testing.assert_array_equal(force, history.increments["tangential_force_x"])
     assert np.size(history.plot_loop(stage="indent").lines[0].get_xdata()) == 1
     with pytest.raises(ValueError, match="no stage is called 'rub'; stages are: indent, fretting"):
         history.plot_loop(stage="rub")
@@ -53,7 +53,7 @@ def test_maps_have_x_to_the_right_and_y_upwards(history: fretting.History) -> No
     np.testing.assert_array_equal(image.get_array(), history.field("shear_x").T)
     assert image.origin == "lower"
     np.testing.assert_allclose(image.get_extent(), [-150e-6, 150e-6, -150e-6, 150e-6], rtol=1e-12)
-    zones = history.plot_zones(step=2)
+    zones = history.plot_zones(increment=2)
     np.testing.assert_array_equal(zones.images[0].get_array(), history.field("zone", 2).T)
     legend = zones.get_legend()
     assert legend is not None
@@ -101,7 +101,7 @@ def test_an_animation_has_a_picture_of_every_kept_increment(history: fretting.Hi
     from PIL import Image
 
     with Image.open(tmp_path / "loop.gif") as animation:
-        assert getattr(animation, "n_frames", 1) == len([step for step in history.kept_steps if step >= 0])
+        assert getattr(animation, "n_frames", 1) == len([step for step in history.kept_increments if step >= 0])
 
 
 def test_a_fretting_map_colours_each_point_by_its_regime(fretting_case: dict[str, Any]) -> None:
@@ -136,8 +136,8 @@ def test_a_loop_of_torsion_is_moment_over_twist(fretting_case: dict[str, Any]) -
     history = fretting.run(fretting_case)
     axes = history.plot_loop()
     twist, moment = axes.lines[0].get_data()
-    np.testing.assert_array_equal(twist, history.steps["twist"])
-    np.testing.assert_array_equal(moment, history.steps["twist_moment"])
+    np.testing.assert_array_equal(twist, history.increments["twist"])
+    np.testing.assert_array_equal(moment, history.increments["twist_moment"])
     assert axes.get_xlabel() == "twist [rad]"
-    np.testing.assert_array_equal(history.plot_loop(along="x").lines[0].get_xdata(), history.steps["shift_x"])
+    np.testing.assert_array_equal(history.plot_loop(along="x").lines[0].get_xdata(), history.increments["shift_x"])
     matplotlib.pyplot.close("all")

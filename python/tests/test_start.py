@@ -44,8 +44,8 @@ PRESS = {"name": "press", "normal_force": 1.0, "increments": 4}
 
 def assert_goes_on(whole: fretting.History, part: fretting.History) -> None:
     for name in ("normal_force", "approach", "shift_x", "shift_y", "max_pressure", "max_shear", "dissipated_energy"):
-        expected = whole.steps[name][-len(part) :]
-        np.testing.assert_allclose(part.steps[name], expected, rtol=0, atol=SAME * np.abs(whole.steps[name]).max())
+        expected = whole.increments[name][-len(part) :]
+        np.testing.assert_allclose(part.increments[name], expected, rtol=0, atol=SAME * np.abs(whole.increments[name]).max())
     for field in ("pressure", "shear_x", "slip_y"):
         expected = whole.field(field)
         np.testing.assert_allclose(part.field(field), expected, rtol=0, atol=SAME * np.abs(expected).max())
@@ -61,10 +61,10 @@ def test_press_once_branch_into_many(case: dict[str, Any], tmp_path: Path) -> No
     answer = fretting.sweep(rub, {"load.0.tangential_force.0": [0.01, 0.05]}, start=pressed)
     energy = answer["dissipated_energy"].values
     assert energy[0] < energy[1]
-    np.testing.assert_allclose(energy[1], whole.steps["dissipated_energy"][-1], rtol=SAME)
+    np.testing.assert_allclose(energy[1], whole.increments["dissipated_energy"][-1], rtol=SAME)
     with ProcessPoolExecutor(1) as pool:
         again = fretting.sweep(
-            rub, {"load.0.tangential_force.0": [0.01, 0.05]}, pool, start=pressed, folder=tmp_path / "s"
+            rub, {"load.0.tangential_force.0": [0.01, 0.05]}, executor=pool, start=pressed, folder=tmp_path / "s"
         )
     np.testing.assert_array_equal(again["dissipated_energy"].values, energy)
     # Another state to start from makes other points.
@@ -91,7 +91,7 @@ load = [{ name = "press", normal_force = 1.0, increments = 4 }]
     folder = tmp_path / "pressed"
     assert main(["run", str(tmp_path / "press.toml"), "--out", str(folder), "--quiet"]) == 0
     rub = with_load(case, RUB)
-    for start in (folder, f"{folder}:3", (folder, 3), fretting.load(folder)):
+    for start in (folder, f"{folder}:3", (folder, 3), fretting.open_results(folder)):
         assert_goes_on(whole, fretting.run(rub, start=start))
     with pytest.raises(fretting.UnreadableError, match=r"no state at the end of increment 1(.|\n)*from 0\): 3;"):
         fretting.run(rub, start=(folder, 1))
@@ -136,11 +136,11 @@ def test_what_was_solved_before_a_failure_is_in_the_exception(case: dict[str, An
     assert history.message is not None
     assert "above mu P" in history.message
     assert "not the whole history: failed" in repr(history)
-    np.testing.assert_array_equal(history.steps["approach"], whole.steps["approach"][:4])
-    assert history.kept_steps == [3]
+    np.testing.assert_array_equal(history.increments["approach"], whole.increments["approach"][:4])
+    assert history.kept_increments == [3]
     assert_goes_on(whole, fretting.run(with_load(case, RUB), start=history))
     again = pickle.loads(pickle.dumps(error))
-    np.testing.assert_array_equal(again.history.steps["approach"], history.steps["approach"])
+    np.testing.assert_array_equal(again.history.increments["approach"], history.increments["approach"])
 
 
 def test_what_progress_raises_carries_the_history(case: dict[str, Any]) -> None:
@@ -170,10 +170,10 @@ except KeyboardInterrupt as stop:
     history = stop.history
     assert isinstance(stop, fretting.RunInterrupted) and stop.increment == len(history) > 30
     assert history.status == "interrupted" and not history.finished
-    assert len(history.kept_steps) >= 3
+    assert len(history.kept_increments) >= 3
     case = {**CASE, "load": [{"normal_force": 1.0, "increments": 1}]}
     on = fretting.run(case, start=history)
-    print(abs(on.steps["normal_force"][-1] - 1.0) < 1e-6, flush=True)
+    print(abs(on.increments["normal_force"][-1] - 1.0) < 1e-6, flush=True)
 """
 
 

@@ -1,5 +1,6 @@
 """Stresses under the surface, against Hertz."""
 
+import json
 import pickle
 from typing import Any
 
@@ -8,6 +9,8 @@ import pytest
 
 import fretting
 
+pytest.importorskip("xarray")
+
 
 def test_axis_under_a_sphere_follows_hertz(sphere_case: dict[str, Any]) -> None:
     history = fretting.run(sphere_case)
@@ -15,11 +18,11 @@ def test_axis_under_a_sphere_follows_hertz(sphere_case: dict[str, Any]) -> None:
     radius = (3 * 12.0 * 10e-3 / (4 * modulus)) ** (1 / 3)
     peak = 1.5 * 12.0 / (np.pi * radius**2)
     depths = radius * np.array([0.25, 0.48, 1.0, 2.0])
-    stress = fretting.subsurface_stress(history, depths)
+    stress = history.subsurface(depths)
     s = depths / radius
     zz = -1 / (1 + s**2)
     middle = history.shape[0] // 2  # the axis passes between four cells
-    found = stress["zz"][:, middle - 1 : middle + 1, middle - 1 : middle + 1].mean(axis=(1, 2)) / peak
+    found = stress["zz"].values[:, middle - 1 : middle + 1, middle - 1 : middle + 1].mean(axis=(1, 2)) / peak
     # 48 cells over 3.3 radii: pressure good to 1e-3, and the four cells lie 0.05 radii off the axis
     assert np.abs(found - zz).max() < 6e-3
     assert stress["von_mises"].shape == (4, 48, 48)
@@ -29,25 +32,59 @@ def test_axis_under_a_sphere_follows_hertz(sphere_case: dict[str, Any]) -> None:
 def test_interfaces_stand_twice_and_pickled_histories_answer_alike(fretting_case: dict[str, Any]) -> None:
     fretting_case["lower"]["coatings"] = [{"thickness": 50e-6, "young": 400e9, "poisson": 0.2}]
     history = fretting.run(fretting_case)
-    stress = fretting.subsurface_stress(history, [0.0, 50e-6, 100e-6], step=4)
-    assert stress["layer"].tolist() == [0, 0, 1, 1]
-    size = np.abs(stress["zz"]).max()
+    stress = history.subsurface([0.0, 50e-6, 100e-6], increment=4)
+    assert stress["layer"].values.tolist() == [0, 0, 1, 1]
+    size = float(np.abs(stress["zz"]).max())
     for name in ("zz", "xz", "yz"):
-        assert np.abs(stress[name][1] - stress[name][2]).max() < 1e-12 * size
-    assert np.abs(stress["xx"][1] - stress["xx"][2]).max() > 1e-2 * size
-    assert np.allclose(stress["zz"][0], -history.field("pressure", 4), atol=1e-12 * size)
-    assert np.allclose(stress["xz"][0], -history.field("shear_x", 4), atol=1e-12 * size)
-    again = fretting.subsurface_stress(pickle.loads(pickle.dumps(history)), [0.0, 50e-6, 100e-6], step=4)
-    assert all(np.array_equal(again[name], values) for name, values in stress.items())
-    upper = fretting.subsurface_stress(history, 0.0, step=4, body="upper")
-    assert np.allclose(upper["xz"][0], history.field("shear_x", 4), atol=1e-12 * size)
+        assert np.abs(stress[name].values[1] - stress[name].values[2]).max() < 1e-12 * size
+    assert np.abs(stress["xx"].values[1] - stress["xx"].values[2]).max() > 1e-2 * size
+    assert np.allclose(stress["zz"][0], -history.field("pressure", 4).T, atol=1e-12 * size)
+    assert np.allclose(stress["xz"][0], -history.field("shear_x", 4).T, atol=1e-12 * size)
+    again = pickle.loads(pickle.dumps(history)).subsurface([0.0, 50e-6, 100e-6], increment=4)
+    assert again.identical(stress)
+    upper = history.subsurface(0.0, increment=4, body="upper")
+    assert np.allclose(upper["xz"][0], history.field("shear_x", 4).T, atol=1e-12 * size)
 
 
 def test_impossible_depths_and_bodies_are_refused(sphere_case: dict[str, Any]) -> None:
     history = fretting.run(sphere_case)
     with pytest.raises(ValueError, match="above the surface"):
-        fretting.subsurface_stress(history, [-1e-6])
+        history.subsurface([-1e-6])
     with pytest.raises(ValueError, match="upper body is rigid"):
-        fretting.subsurface_stress(history, [0.0], body="upper")
+        history.subsurface([0.0], body="upper")
     with pytest.raises(ValueError, match="not finite"):
-        fretting.subsurface_stress(history, [np.nan])
+        history.subsurface([np.nan])
+
+
+def test_principal_stresses_have_the_invariants_of_the_tensor(sphere_case: dict[str, Any]) -> None:
+    stress = fretting.run(sphere_case).subsurface([0.0, 40e-6])
+    first, second, third = stress["principal"].values
+    assert (first >= second).all()
+    assert (second >= third).all()
+    size = float(np.abs(stress["zz"]).max())
+    # Trace and von Mises stress, both from the components: to rounding of the eigenvalues.
+    assert np.abs(first + second + third - (stress["xx"] + stress["yy"] + stress["zz"]).values).max() < 1e-13 * 30 * size
+    mises = np.sqrt(0.5 * ((first - second) ** 2 + (second - third) ** 2 + (third - first) ** 2))
+    assert np.abs(mises - stress["von_mises"].values).max() < 1e-13 * 30 * size
+
+
+def test_fatigue_parameters_are_those_of_the_command(fretting_case: dict[str, Any], tmp_path: Any) -> None:
+    """Two ways to the same numbers; Ruiz's F1 is also the largest product of shear stress and slip range by hand."""
+    fretting_case["output"] = {"fields": ["pressure", "shear", "slip"], "every": 2}
+    fretting_case["stress"] = {"depths": [0.0, 20e-6], "yield_strength": 1e9, "torsion_limit": 3e8, "tension_limit": 4e8}
+    history = fretting.run(fretting_case, folder=tmp_path / "run")
+    fatigue = history.fatigue([0.0, 20e-6], yield_strength=1e9, torsion_limit=3e8, tension_limit=4e8)
+    told = json.loads((tmp_path / "run" / "stress" / "stress.json").read_text())["fatigue"]
+    assert told["increments"] == fatigue.attrs["increments"]
+    for name, entry in told["parameters"].items():
+        if "ruiz" in name:  # the others are also read at the edge of contact, between the cells
+            assert float(fatigue[name].max()) == pytest.approx(entry["largest"], rel=1e-12), name
+        else:
+            assert float(fatigue[name].max()) <= entry["largest"] * (1 + 1e-12)
+    assert fatigue["smith_watson_topper"].dims == ("depth", "x")
+    with pytest.raises(ValueError, match="needs? both"):
+        history.fatigue([0.0], torsion_limit=3e8)
+    with pytest.raises(ValueError, match="must be positive"):
+        history.fatigue([0.0], yield_strength=-1.0)
+    with pytest.raises(IndexError, match="1 computed cycles"):
+        history.fatigue([0.0], cycle=1)

@@ -45,7 +45,7 @@ def test_a_relative_file_starts_at_the_case_file(tmp_path: Path) -> None:
         '[friction]\nmap = "mu.npy"\n[[load]]\nnormal_force = 0.008\nincrements = 1\n'
     )
     (tmp_path / "case.toml").write_text(text)
-    friction = fretting.plan(tmp_path / "case.toml")["case"]["friction"]["map"]
+    friction = fretting.plan(tmp_path / "case.toml")["case"]["friction"]["coefficient"]["map"]
     assert friction["cells"] == [CELLS, CELLS]
     assert friction["largest"] == np.float32(0.3)
 

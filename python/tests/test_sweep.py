@@ -39,13 +39,13 @@ def changed(case: dict[str, Any], friction: float, force: float) -> dict[str, An
 
 def energy_outside(history: fretting.History) -> dict[str, Any]:
     """Measured on fields, so that it must have been done where the history was."""
-    return {"row": history.field("pressure").sum(axis=0), "half": 0.5 * history.steps["dissipated_energy"][-1]}
+    return {"row": history.field("pressure").sum(axis=0), "half": 0.5 * history.increments["dissipated_energy"][-1]}
 
 
 @pytest.fixture
 def alone(case: dict[str, Any]) -> np.ndarray[Any, Any]:
     """Dissipated energy of every point, each run by itself."""
-    energies = [[fretting.run(changed(case, mu, q)).steps["dissipated_energy"][-1] for q in AXES[FORCE]]
+    energies = [[fretting.run(changed(case, mu, q)).increments["dissipated_energy"][-1] for q in AXES[FORCE]]
                 for mu in AXES[FRICTION]]  # fmt: skip
     return np.asarray(energies)
 
@@ -61,7 +61,7 @@ EXECUTORS: dict[str, Callable[[], concurrent.futures.Executor | None]] = {
 def test_every_point_is_what_a_run_alone_gives(case: dict[str, Any], alone: np.ndarray[Any, Any], kind: str) -> None:
     """To the last bit: results do not depend on threads or on the process."""
     executor = EXECUTORS[kind]()
-    answer = fretting.sweep(case, AXES, executor)
+    answer = fretting.sweep(case, AXES, executor=executor)
     if executor:
         executor.shutdown()
     assert answer["dissipated_energy"].dims == (FRICTION, FORCE)
@@ -87,7 +87,7 @@ CASE = {
 AXES = {"load.0.normal_force": [4.0, 8.0, 12.0]}
 here = fretting.sweep(CASE, AXES)["approach"].values.tolist()
 with concurrent.futures.ProcessPoolExecutor(2, multiprocessing.get_context("fork")) as executor:
-    there = fretting.sweep(CASE, AXES, executor)["approach"].values.tolist()
+    there = fretting.sweep(CASE, AXES, executor=executor)["approach"].values.tolist()
 assert there == here, (there, here)
 print("done")
 """
@@ -110,7 +110,7 @@ def test_a_sweep_on_a_dask_cluster(case: dict[str, Any], alone: np.ndarray[Any, 
         distributed.LocalCluster(n_workers=1, threads_per_worker=2, processes=False, dashboard_address=None) as cluster,
         distributed.Client(cluster) as client,
     ):
-        answer = fretting.sweep(case, AXES, client.get_executor())
+        answer = fretting.sweep(case, AXES, executor=client.get_executor())
     np.testing.assert_array_equal(answer["dissipated_energy"].values, alone)
 
 
@@ -121,7 +121,7 @@ CASE, AXES = {case!r}, {axes!r}
 if __name__ == "__main__":
     with MPIPoolExecutor() as executor:
         assert executor.num_workers == 2
-        answer = fretting.sweep(CASE, AXES, executor)
+        answer = fretting.sweep(CASE, AXES, executor=executor)
     print(answer["dissipated_energy"].values.tolist())
 """
 
@@ -147,7 +147,7 @@ def test_points_that_fail_are_recorded_and_the_others_solved(case: dict[str, Any
         case["load"][0] = {"approach": approach, "increments": 1 if approach > 0.0 else 0}
 
     # What force an approach makes is not known before: at 10 nm it cannot carry the tangential one.
-    answer = fretting.sweep(case, {"depth": fretting.Axis([-1e-6, 1e-8, 1e-6], press)})
+    answer = fretting.sweep(case, {"depth": fretting.Parameter([-1e-6, 1e-8, 1e-6], press)})
     assert answer["status"].values.tolist() == ["refused", "failed", "solved"]
     assert np.isnan(answer["normal_force"].values[:2]).all()
     assert answer["increment"].values.tolist() == [-1, -1, 8]
@@ -174,10 +174,10 @@ def test_a_sweep_of_refused_points_only_is_refused(case: dict[str, Any]) -> None
         ({FRICTION: 0.1}, "expected a list of values, found float"),
         ({FRICTION: [0.1, float("nan")]}, "must be finite"),
         ({(FRICTION, FORCE): [(0.1,)]}, "value 0 must hold 2 values"),
-        ({}, "at least one axis"),
+        ({}, "at least one"),
         ([], "the list of points is empty"),
         ([{FRICTION: 0.1}, {FORCE: 0.1}], "point 1 has the keys"),
-        ({"approach": fretting.Axis([1e-6], lambda case, value: None)}, "a variable of the result has this name"),
+        ({"approach": fretting.Parameter([1e-6], lambda case, value: None)}, "a variable of the result has this name"),
         ("friction", "expected a mapping or a list of mappings, found str"),
     ],
 )
@@ -197,7 +197,7 @@ def test_axes_may_be_keys_that_change_together_functions_or_points(case: dict[st
         case["friction"]["coefficient"] = 0.2 * scale
         case["load"][1]["tangential_force"] = [0.5 * scale, 0.0]
 
-    by_function = fretting.sweep(case, {"scale": fretting.Axis([1.0, 2.0], both)})
+    by_function = fretting.sweep(case, {"scale": fretting.Parameter([1.0, 2.0], both)})
     by_points = fretting.sweep(case, [{FRICTION: 0.2, FORCE: 0.5}, {FRICTION: 0.4, FORCE: 1.0}])
     assert dict(by_points.sizes) == {"point": 2}
     for other in (by_function, by_points):
@@ -209,7 +209,7 @@ def test_axes_may_be_keys_that_change_together_functions_or_points(case: dict[st
 def test_histories_are_kept_as_asked(case: dict[str, Any]) -> None:
     history = fretting.run(case)
     every = fretting.sweep(case, {FRICTION: [0.2]}, keep="all")
-    np.testing.assert_array_equal(every["shift_x"].values[0], history.steps["shift_x"])
+    np.testing.assert_array_equal(every["shift_x"].values[0], history.increments["shift_x"])
     stages = fretting.sweep(case, {FRICTION: [0.2]}, keep="stages")
     np.testing.assert_array_equal(stages["increment"].values[0], [0, 8])
     with pytest.raises(ValueError, match="keep = 'lots'"):
@@ -287,3 +287,10 @@ def test_a_folder_of_other_things_is_left_alone(case: dict[str, Any], tmp_path: 
 def test_progress_is_told(case: dict[str, Any], capsys: pytest.CaptureFixture[str]) -> None:
     fretting.sweep(case, {FRICTION: [-1.0, 0.4]}, progress=True)
     assert "point 2/2  1 failed" in capsys.readouterr().err
+
+
+def test_a_parameter_has_a_short_name(case: dict[str, Any]) -> None:
+    answer = fretting.sweep(case, {"mu": fretting.Parameter([0.2, 0.4], FRICTION)})
+    assert answer["approach"].dims == ("mu",)
+    by_key = fretting.sweep(case, {FRICTION: [0.2, 0.4]})
+    np.testing.assert_array_equal(answer["dissipated_energy"].values, by_key["dissipated_energy"].values)

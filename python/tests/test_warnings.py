@@ -53,14 +53,14 @@ def test_a_folder_has_the_warnings_of_its_run(sphere_case: dict[str, Any], tmp_p
     (tmp_path / "case.toml").write_text(text)
     command = [sys.executable, "-m", "fretting", "run", "case.toml", "--out", "out", "--quiet"]
     subprocess.run(command, cwd=tmp_path, check=True, capture_output=True)
-    assert fretting.load(tmp_path / "out").warnings == history.warnings
+    assert fretting.open_results(tmp_path / "out").warnings == history.warnings
 
 
 def test_totals_of_wear_count_every_cycle(fretting_case: dict[str, Any]) -> None:
     fretting_case["wear"] = {"coefficient": 1e-13, "every": 5}
     fretting_case["load"][1] |= {"cycles": 20, "increments": 8}
     history = fretting.run(fretting_case)
-    cycles, steps = history.cycles, history.steps
+    cycles, steps = history.cycles, history.increments
     assert cycles["last_cycle"][-1] == cycles["stands_for"].sum() == 20
     assert len(cycles["cycle"]) < 20
     total = float((cycles["dissipated_energy"] * cycles["stands_for"]).sum())

@@ -173,7 +173,7 @@ def main():
                 found.append(np.array([friction, *punch.sphere(p)]))
             a, b, c = found
             limit = c - (c - b) ** 2 / (c - 2 * b + a)
-            names = ("friction", "punch_force", "radius", "peak_pressure", "approach")
+            names = ("friction", "punch_force", "radius", "max_pressure", "approach")
             row = dict(poisson=poisson, stick=stick, **{n: round(float(v), 6) for n, v in zip(names, limit)}, error=float(f"{np.max(np.abs(limit - c)):.1e}"))
             rows.append(row)
             print(row, flush=True)

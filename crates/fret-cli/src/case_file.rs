@@ -20,6 +20,17 @@ pub struct CaseFile {
     pub path: PathBuf,
     /// Its text, verbatim.
     pub text: String,
+    /// Of a text that came from no file: where what it names is found.
+    pub beside: Option<Beside>,
+}
+
+/// What a text names that came from no file.
+#[derive(Debug)]
+pub struct Beside {
+    /// Folder where relative names start.
+    pub folder: PathBuf,
+    /// Contents of files that are in memory alone, by name; the folder of results gets them.
+    pub contents: Vec<(String, Vec<u8>)>,
 }
 
 impl CaseFile {
@@ -34,13 +45,21 @@ impl CaseFile {
             let place = error.utf8_error().valid_up_to();
             refuse(format!("not a text in UTF-8 (byte {place} is not part of a letter)"))
         })?;
-        Ok(Self { path: path.to_owned(), text })
+        Ok(Self { path: path.to_owned(), text, beside: None })
     }
 
     /// A file the case names, looked for beside the case file.
     fn attachment(&self, name: &str) -> Result<Vec<u8>, String> {
-        let folder = self.path.parent().unwrap_or_else(|| Path::new(""));
-        content(&folder.join(name))
+        let Some(beside) = &self.beside else {
+            return content(&self.path.parent().unwrap_or_else(|| Path::new("")).join(name));
+        };
+        let in_memory = beside.contents.iter().find(|(known, _)| known == name);
+        in_memory.map_or_else(|| content(&beside.folder.join(name)), |(_, content)| Ok(content.clone()))
+    }
+
+    /// A text that came from no file; `name` stands for it in messages.
+    pub fn of_text(name: &str, text: String, beside: Beside) -> Self {
+        Self { path: PathBuf::from(name), text, beside: Some(beside) }
     }
 
     /// Its name as it stands in messages.

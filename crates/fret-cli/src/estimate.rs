@@ -5,13 +5,12 @@ use std::fmt::Write;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use fret_core::plan::{Coupling, Plan};
-use fret_core::run::RunError;
-use fret_core::study::{Bar, Bars, Headline, Quantity, climbed, error_bars, resolved};
+use fret_core::run::{Observer, RunError};
+use fret_core::study::{Bar, Bars, Quantity, StageQuantities, error_bars, resolved, solved_level};
 use serde_json::{Value, json};
 
 use crate::defect;
 use crate::figures::{counted, duration, figure, shortened};
-use crate::interrupt::Listener;
 use crate::study::words::name;
 
 /// Stages that stand side by side in the table.
@@ -29,7 +28,7 @@ pub enum NoBars {
     Because(String),
 }
 
-/// Error bars of the headline numbers of a run.
+/// Error bars of the quantities of interest of a run.
 #[derive(Debug)]
 pub struct Estimate {
     /// At the ends of the stages that were read, in order.
@@ -47,30 +46,35 @@ pub struct Estimate {
 }
 
 impl Estimate {
-    /// Solves the companion of a solved plan, whose own headline numbers are `headlines`, and compares. The reason where that
+    /// Solves the companion of a solved plan, whose own quantities of interest are `stage_quantities`, and compares. The reason where that
     /// is not possible: the run itself is none the worse for it.
-    pub fn new(plan: &Plan, companion: &Plan, headlines: &[Headline]) -> Result<Self, NoBars> {
+    pub fn new(
+        plan: &Plan,
+        companion: &Plan,
+        stage_quantities: &[StageQuantities],
+        observer: &mut dyn Observer,
+    ) -> Result<Self, NoBars> {
         let because = |why: String| NoBars::Because(format!("the auxiliary coarse solution: {why}"));
-        let rung = match catch_unwind(AssertUnwindSafe(|| climbed(companion, &mut Listener))) {
-            Ok(Ok(rung)) => rung,
+        let level = match catch_unwind(AssertUnwindSafe(|| solved_level(companion, observer))) {
+            Ok(Ok(level)) => level,
             Ok(Err(RunError::Interrupted { .. })) => return Err(NoBars::Interrupted),
             Ok(Err(error)) => return Err(because(error.to_string())),
             Err(panic) => return Err(because(defect::words_of(panic.as_ref()))),
         };
-        let unresolved: Vec<(usize, String)> = headlines
+        let unresolved: Vec<(usize, String)> = stage_quantities
             .iter()
             .filter_map(|end| resolved(end).err().map(|error| (end.stage, error.to_string())))
             .collect();
-        let bars = error_bars(plan, headlines, &rung.ends);
+        let bars = error_bars(plan, stage_quantities, &level.ends);
         if let (true, Some((_, why))) = (bars.is_empty(), unresolved.first()) {
             return Err(NoBars::Because(why.clone()));
         }
         Ok(Self {
             bars,
             unresolved,
-            cells: rung.variation.cells,
+            cells: level.variation.cells,
             increments: companion.increments,
-            wall_s: rung.wall_s,
+            wall_s: level.wall_s,
             rubs: plan.coupling != Coupling::Frictionless,
         })
     }
@@ -136,7 +140,7 @@ impl Estimate {
             value
         };
         json!({
-            "companion": { "cells": self.cells, "increments": self.increments, "wall_s": self.wall_s },
+            "auxiliary": { "cells": self.cells, "increments": self.increments, "wall_s": self.wall_s },
             "stages": self.bars.iter().map(stage).collect::<Vec<_>>(),
         })
     }

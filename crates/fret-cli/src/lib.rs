@@ -6,6 +6,7 @@ mod arguments;
 mod case_file;
 mod commands;
 mod defect;
+pub mod embedded;
 mod estimate;
 mod export;
 mod extremes;
@@ -29,11 +30,9 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use clap::Parser;
 use clap::error::ErrorKind;
-use fret_core::history::Start;
 
 use arguments::{Arguments, Verb};
 use failure::{Failure, Told};
-use origin::Origin;
 
 /// Does what the words of a command line ask for, the first being the program's name; answers go to the process's own
 /// streams. Gives the exit code: 0 solved, 1 refused, 2 failed, 130 interrupted.
@@ -73,18 +72,6 @@ fn dispatch(arguments: &Arguments) -> Result<(), Told> {
         Verb::Stress(arguments) => commands::stress::stress(arguments, as_json),
     }?;
     Ok(())
-}
-
-/// The state at the end of an increment (of the last one when none is given) of the results that `fret run` wrote into a folder,
-/// for another history to start from.
-///
-/// # Errors
-/// With the words of a refusal, where there is no such state.
-pub fn start_from(
-    results: &std::path::Path,
-    increment: Option<usize>,
-) -> Result<std::sync::Arc<Start>, String> {
-    Origin::of(results, increment).map(|origin| origin.start).map_err(|failure| failure.render(false))
 }
 
 /// Help and version are answers; anything else clap objects to is a refusal, for which clap's own exit code 2 is taken.

@@ -3,7 +3,7 @@
 use fret_core::history::{CycleRecord, StepRecord, Work, WornThrough};
 use fret_core::plan::{Advance, Plan};
 use fret_core::run::plausibility::Gauge;
-use fret_core::study::Headline;
+use fret_core::study::StageQuantities;
 use serde::{Deserialize, Serialize};
 
 /// A stage of the history, as increments of the whole.
@@ -50,8 +50,8 @@ pub struct Tally {
     pub largest_residual: f64,
     /// What warnings are made of.
     pub gauge: Gauge,
-    /// Headline numbers of the same increments as `stage_ends`, where they were asked for.
-    pub headlines: Vec<Headline>,
+    /// Quantities of interest of the same increments as `stage_ends`, where they were asked for.
+    pub stage_quantities: Vec<StageQuantities>,
 }
 
 impl Tally {
@@ -67,7 +67,7 @@ impl Tally {
             work: Work::default(),
             largest_residual: 0.0,
             gauge: Gauge::default(),
-            headlines: Vec::new(),
+            stage_quantities: Vec::new(),
         }
     }
 
@@ -90,11 +90,11 @@ impl Tally {
         }
     }
 
-    /// Remembers the headline numbers of an increment that was counted in.
-    pub fn read(&mut self, headline: Headline) {
-        match self.headlines.last_mut() {
-            Some(last) if last.stage == headline.stage => *last = headline,
-            _ => self.headlines.push(headline),
+    /// Remembers the quantities of interest of an increment that was counted in.
+    pub fn read(&mut self, quantities: StageQuantities) {
+        match self.stage_quantities.last_mut() {
+            Some(last) if last.stage == quantities.stage => *last = quantities,
+            _ => self.stage_quantities.push(quantities),
         }
     }
 

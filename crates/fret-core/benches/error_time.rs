@@ -78,13 +78,13 @@ fn scenes() -> Answer<[Scene; 2]> {
     let coated = ContactPair::new(Body::Rigid, Body::Elastic(half_space(vec![coating])?))?;
     let hertz = Hertz::sphere(1.0, force(), modulus())?;
     // E1/E2 = 4, h = a: the row of tests/golden/coated_sphere.json, in units of Hertz on the substrate.
-    let of_row = [COATED_PEAK * hertz.peak_pressure, COATED_APPROACH * hertz.approach];
+    let of_row = [COATED_PEAK * hertz.max_pressure, COATED_APPROACH * hertz.approach];
     Ok([
         Scene {
             name: "Hertz",
             pair: bare,
             side: 4.0,
-            exact: [hertz.peak_pressure, hertz.approach],
+            exact: [hertz.max_pressure, hertz.approach],
             hertz: Some(hertz),
         },
         Scene { name: "coated, E1/E2 = 4, h = a", pair: coated, side: 4.0, exact: of_row, hertz: None },

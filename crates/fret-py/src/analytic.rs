@@ -2,10 +2,11 @@
 
 use fret_core::analytic::{
     AnalyticError, Branch, CattaneoLine, CattaneoMindlin, Cone, EffectiveModuli, EquibiaxialSphere,
-    FlatPunch, Hertz, HertzEllipse, HertzLine, MindlinDeresiewicz, SlidingCylinder, StretchedLine,
-    StretchedSphere, TiltedLinePunch, TiltedPunch, Torsion, Westergaard,
+    FlatPunch, Hertz, HertzEllipse, HertzLine, MindlinDeresiewicz, NoSlipPunch, NoSlipSphere, RoundedPunch,
+    SPENCE_TABLE, SlidingCylinder, StretchedLine, StretchedSphere, ThickLayer, ThinLayer, TiltedLinePunch,
+    TiltedPunch, Torsion, Westergaard,
 };
-use fret_core::model::ElasticMaterial;
+use fret_core::model::{Coating, ElasticMaterial};
 use numpy::{IntoPyArray, PyArray1, PyReadonlyArray1};
 use pyo3::exceptions::{PyKeyError, PyValueError};
 use pyo3::prelude::{Bound, PyErr, PyResult, Python, pyclass, pyfunction, pymethods};
@@ -290,4 +291,51 @@ pub fn tilted_punch(radius: f64, force: f64, modulus: f64, tilt: f64) -> PyResul
 pub fn tilted_line_punch(half_width: f64, line_force: f64, modulus: f64, tilt: f64) -> PyResult<Solution> {
     let punch = TiltedLinePunch::new(half_width, line_force, modulus, tilt).map_err(refused)?;
     Ok(solution(numbers(punch)?, vec![("pressure", Box::new(move |x| punch.pressure(x)))]))
+}
+
+/// Flat punch with a rounded edge, without friction.
+#[pyfunction]
+pub fn rounded_punch(flat_radius: f64, edge_radius: f64, force: f64, modulus: f64) -> PyResult<Solution> {
+    let punch = RoundedPunch::new(flat_radius, edge_radius, force, modulus).map_err(refused)?;
+    Ok(solution(numbers(punch)?, vec![("pressure", Box::new(move |r| punch.pressure(r)))]))
+}
+
+/// Flat circular punch that sticks completely.
+#[pyfunction]
+pub fn no_slip_punch(radius: f64, force: f64, modulus: f64, coupling: f64) -> PyResult<Solution> {
+    let punch = NoSlipPunch::new(radius, force, modulus, coupling).map_err(refused)?;
+    Ok(solution(numbers(punch)?, vec![]))
+}
+
+/// Sphere that sticks as it touches.
+#[pyfunction]
+pub fn no_slip_sphere(radius: f64, force: f64, modulus: f64, coupling: f64) -> PyResult<Solution> {
+    let sphere = NoSlipSphere::new(radius, force, modulus, coupling).map_err(refused)?;
+    Ok(solution(numbers(sphere)?, vec![]))
+}
+
+/// A layer `(young, poisson, thickness)` on a rigid base.
+fn layer_of((young, poisson, thickness): (f64, f64, f64)) -> PyResult<Coating> {
+    let material = ElasticMaterial::new(young, poisson).map_err(bad_value)?;
+    Coating::new(material, thickness).map_err(bad_value)
+}
+
+/// Rigid sphere on a thin bonded layer.
+#[pyfunction]
+pub fn thin_layer(radius: f64, force: f64, layer: (f64, f64, f64)) -> PyResult<Solution> {
+    let contact = ThinLayer::sphere(radius, force, &layer_of(layer)?).map_err(refused)?;
+    Ok(solution(numbers(contact)?, vec![("pressure", Box::new(move |r| contact.pressure(r)))]))
+}
+
+/// Rigid sphere on a thick bonded layer, touching over a disc of a radius.
+#[pyfunction]
+pub fn thick_layer(radius: f64, contact_radius: f64, layer: (f64, f64, f64)) -> PyResult<Solution> {
+    let contact = ThickLayer::sphere(radius, contact_radius, &layer_of(layer)?).map_err(refused)?;
+    Ok(solution(numbers(contact)?, vec![]))
+}
+
+/// The table of Spence's problem, JSON text.
+#[pyfunction]
+pub fn spence_table() -> PyResult<String> {
+    serde_json::to_string(SPENCE_TABLE).map_err(bad_value)
 }

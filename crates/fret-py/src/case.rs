@@ -1,15 +1,21 @@
 //! The question as Python hands it over: text, read and judged by the core.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
+use fret_cli::embedded::{CaseText, Earlier};
 use fret_core::case::{self, Attachments, CaseError};
+use fret_core::history;
 use fret_core::plan::{LeaveOut, Plan};
 use ndarray::Array2;
 use numpy::{PyArray2, PyReadonlyArray2, ToPyArray};
 use pyo3::IntoPyObject;
+use pyo3::exceptions::PyValueError;
 use pyo3::prelude::{Bound, Py, PyAny, PyAnyMethods, PyResult, Python, pyclass, pymethods};
 
-use crate::error::refused;
+use serde_json::Value;
+
+use crate::error::{bad_value, refused};
 use crate::start::Start;
 
 /// A case that has passed every check.
@@ -40,12 +46,98 @@ impl Source {
     }
 }
 
+/// What to do with results that are in a folder already.
+pub fn earlier(resume: bool, replace: bool) -> Earlier {
+    match (resume, replace) {
+        (true, _) => Earlier::Resume,
+        (false, true) => Earlier::Replace,
+        (false, false) => Earlier::Keep,
+    }
+}
+
 impl Case {
+    /// The case as text, with the arrays it names by number put into files.
+    pub fn text(&self) -> PyResult<CaseText> {
+        let Source { text, name, folder, arrays, .. } = &self.1;
+        let path = Path::new(name);
+        let Some(arrays) = arrays else {
+            let is_file = path.is_file();
+            return Ok(CaseText {
+                text: text.clone(),
+                name: name.clone(),
+                is_file,
+                folder: folder.clone(),
+                contents: Vec::new(),
+            });
+        };
+        let mut value: Value = serde_json::from_str(text).map_err(bad_value)?;
+        let mut contents = Vec::new();
+        in_files(&mut value, arrays, &mut contents);
+        let text = case::toml_of(&value).map_err(PyValueError::new_err)?;
+        Ok(CaseText { text, name: name.clone(), is_file: false, folder: folder.clone(), contents })
+    }
+
+    /// The state its history starts from.
+    pub fn start(&self) -> Option<Arc<history::Start>> {
+        self.1.start.as_ref().map(|start| start.get().0.clone())
+    }
+
     /// The case planned, to start from the state that it was read with.
     pub fn planned(&self) -> Result<Plan, CaseError> {
         let start = self.1.start.as_ref().map(|start| start.get().0.clone());
         Plan::starting_from(start, self.0.clone(), LeaveOut::ALL)
     }
+}
+
+/// Puts the names of files in the place of `{ "array": n }`, and their contents beside; heights have a key of their own for a file.
+fn in_files(value: &mut Value, arrays: &[Array2<f64>], contents: &mut Vec<(String, Vec<u8>)>) {
+    match value {
+        Value::Object(table) => {
+            if let Some(number) = table.get("values").and_then(handed) {
+                table.remove("values");
+                table.insert("file".to_owned(), Value::String(in_file(number, arrays, contents)));
+            }
+            for entry in table.values_mut() {
+                match handed(entry) {
+                    Some(number) => *entry = Value::String(in_file(number, arrays, contents)),
+                    None => in_files(entry, arrays, contents),
+                }
+            }
+        }
+        Value::Array(entries) => entries.iter_mut().for_each(|entry| in_files(entry, arrays, contents)),
+        _ => {}
+    }
+}
+
+/// The number of an array, where a value names one.
+fn handed(value: &Value) -> Option<usize> {
+    let table = value.as_object().filter(|table| table.len() == 1)?;
+    Some(table.get("array")?.as_u64()? as usize)
+}
+
+/// The name of the file of an array, whose content goes beside; a number without an array keeps a name without a file.
+fn in_file(number: usize, arrays: &[Array2<f64>], contents: &mut Vec<(String, Vec<u8>)>) -> String {
+    let name = format!("array-{number}.npy");
+    if let Some(array) = arrays.get(number)
+        && contents.iter().all(|(known, _)| *known != name)
+    {
+        contents.push((name.clone(), npy(array)));
+    }
+    name
+}
+
+/// An array as a file of NumPy's format 1.0.
+fn npy(array: &Array2<f64>) -> Vec<u8> {
+    let (rows, columns) = array.dim();
+    let mut head = format!("{{'descr': '<f8', 'fortran_order': False, 'shape': ({rows}, {columns}), }}");
+    let padding = 63 - (10 + head.len()) % 64;
+    head.push_str(&" ".repeat(padding));
+    head.push('\n');
+    let mut bytes = b"\x93NUMPY\x01\x00".to_vec();
+    bytes.extend((head.len() as u16).to_le_bytes());
+    bytes.extend(head.as_bytes());
+    bytes.extend(array.iter().flat_map(|value| value.to_le_bytes()));
+    bytes
 }
 
 #[pymethods]

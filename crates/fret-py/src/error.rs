@@ -1,9 +1,10 @@
 //! From the core's refusals and failures to the exceptions of `fretting.errors`.
 
+use fret_cli::embedded::Stopped;
 use fret_core::case;
 use fret_core::run;
 use pyo3::PyErr;
-use pyo3::exceptions::PyValueError;
+use pyo3::exceptions::{PyKeyboardInterrupt, PyRuntimeError, PyValueError};
 
 pyo3::import_exception!(fretting.errors, CaseError);
 pyo3::import_exception!(fretting.errors, OutOfMemoryError);
@@ -39,4 +40,38 @@ pub fn unreadable(message: String, path: &str) -> PyErr {
 /// A bad argument of a function.
 pub fn bad_value(error: impl std::error::Error) -> PyErr {
     PyValueError::new_err(error.to_string())
+}
+
+/// A call that ended without its answer, in the words of Python's arguments.
+pub fn stopped(stopped: Stopped) -> PyErr {
+    match stopped {
+        Stopped::Case(error) => refused(&error),
+        Stopped::Call(what, help) => {
+            PyValueError::new_err(format!("{}\n  = help: {}", in_arguments(&what), in_arguments(&help)))
+        }
+        Stopped::Memory(what) => OutOfMemoryError::new_err((what, 0)),
+        Stopped::Unsolved(error) => failed(&error),
+        Stopped::Interrupted(what) => PyKeyboardInterrupt::new_err(in_arguments(&what)),
+        Stopped::Unwritten(path, what) => {
+            UnreadableError::new_err((what, path.to_string_lossy().into_owned()))
+        }
+        Stopped::Defect(what) => PyRuntimeError::new_err(what),
+    }
+}
+
+/// What the command's options are called as arguments.
+fn in_arguments(words: &str) -> String {
+    let pairs = [
+        ("choose another folder with --out DIR", "choose another folder"),
+        ("--resume --estimate-error", "resume=True and estimate_error=True"),
+        ("--resume", "resume=True"),
+        ("--force", "replace=True"),
+        ("--estimate-error", "estimate_error=True"),
+        ("the same command without it", "the same call without it"),
+        ("--cells with smaller numbers", "smaller numbers of cells"),
+        ("--cells", "cells ="),
+        ("--from", "start ="),
+        ("fret study --help", "help(fretting.study)"),
+    ];
+    pairs.into_iter().fold(words.to_owned(), |words, (option, argument)| words.replace(option, argument))
 }

@@ -1,16 +1,22 @@
 //! The answer of a run, as arrays.
 
+use std::path::PathBuf;
+
+use fret_cli::embedded::{self, CaseText, Solved};
 use fret_core::history::{
     self, CYCLE_COLUMNS, Column, FIELDS, Field, FieldValues, STEP_COLUMNS, StepRecord, Value, ZONE_WORDS,
     running_condition,
 };
+use fret_core::plan::Plan;
+use fret_core::study::StageQuantities;
 use numpy::{IntoPyArray, PyArray1, ToPyArray};
 use pyo3::exceptions::{PyKeyError, PyValueError};
 use pyo3::prelude::{Bound, PyAny, PyDictMethods, PyResult, Python, pyclass, pyfunction, pymethods};
 use pyo3::types::PyDict;
 use serde_json::{Value as Json, json};
 
-use crate::error::bad_value;
+use crate::case::earlier;
+use crate::error::{bad_value, stopped};
 
 /// One step as a dict of numbers.
 pub fn step_items<'py>(py: Python<'py>, step: &StepRecord) -> PyResult<Bound<'py, PyDict>> {
@@ -29,13 +35,24 @@ pub fn step_items<'py>(py: Python<'py>, step: &StepRecord) -> PyResult<Bound<'py
 
 /// All of a run.
 #[pyclass(frozen, module = "fretting._core")]
-pub struct History(pub history::History);
+pub struct History {
+    /// Numbers and fields.
+    pub solved: history::History,
+    /// What was solved.
+    pub plan: Plan,
+    /// The case as it was read.
+    pub case: CaseText,
+    /// Quantities of interest at the ends of the stages.
+    pub quantities: Vec<StageQuantities>,
+    /// JSON text of its error bars, where they were asked for.
+    pub error_bars: Option<String>,
+}
 
 #[pymethods]
 impl History {
     /// The numbers of all steps: one array a name, one entry an increment; `regime` is a list of words.
-    fn steps<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        let steps = &self.0.steps;
+    fn increments<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let steps = &self.solved.steps;
         let items = PyDict::new(py);
         for Column { name, value, .. } in STEP_COLUMNS {
             match value {
@@ -57,50 +74,79 @@ impl History {
 
     /// The records of the cycles, as JSON text.
     fn cycles(&self) -> PyResult<String> {
-        serde_json::to_string(&self.0.cycles).map_err(bad_value)
+        serde_json::to_string(&self.solved.cycles).map_err(bad_value)
     }
 
     /// Where and when the surfaces were worn to the limit, as JSON text.
     fn worn_through(&self) -> PyResult<String> {
-        serde_json::to_string(&self.0.worn_through).map_err(bad_value)
+        serde_json::to_string(&self.solved.worn_through).map_err(bad_value)
     }
 
     /// What about the numbers may mislead, as JSON text.
     fn warnings(&self) -> PyResult<String> {
-        serde_json::to_string(&self.0.warnings).map_err(bad_value)
+        serde_json::to_string(&self.solved.warnings).map_err(bad_value)
     }
 
     /// Running condition of each stage's cycles, as JSON text.
     fn running_conditions(&self) -> PyResult<String> {
-        let of = |stage| running_condition(self.0.cycles.iter().filter(|cycle| cycle.stage == stage));
-        let conditions: Vec<_> = (0..self.0.stages.len()).map(of).collect();
+        let of = |stage| running_condition(self.solved.cycles.iter().filter(|cycle| cycle.stage == stage));
+        let conditions: Vec<_> = (0..self.solved.stages.len()).map(of).collect();
         serde_json::to_string(&conditions).map_err(bad_value)
+    }
+
+    /// The plan, as JSON text.
+    fn plan(&self) -> String {
+        self.solved.plan.to_string()
+    }
+
+    /// Error bars, as JSON text, where they were asked for.
+    fn error_bars(&self) -> Option<&str> {
+        self.error_bars.as_deref()
+    }
+
+    /// Writes all of it into a folder, as the run itself would have done; `early` is the status and reason of one that ended early.
+    fn save(
+        &self,
+        py: Python<'_>,
+        folder: PathBuf,
+        replace: bool,
+        early: Option<(String, String)>,
+    ) -> PyResult<()> {
+        let solved = Solved {
+            plan: &self.plan,
+            history: &self.solved,
+            quantities: &self.quantities,
+            early: early.as_ref().map(|(status, why)| (status.as_str(), why.as_str())),
+            error_bars: self.error_bars.as_deref(),
+        };
+        let case = self.case.clone();
+        py.detach(|| embedded::save(solved, case, &folder, earlier(false, replace))).map_err(stopped)
     }
 
     /// Names of the stages.
     fn stages(&self) -> Vec<String> {
-        self.0.stages.clone()
+        self.solved.stages.clone()
     }
 
     /// The two bodies as JSON.
     fn bodies(&self) -> PyResult<String> {
-        serde_json::to_string(&self.0.bodies).map_err(crate::error::bad_value)
+        serde_json::to_string(&self.solved.bodies).map_err(crate::error::bad_value)
     }
 
     /// Residual stresses of the lower and the upper body as JSON.
     fn residual_stress(&self) -> String {
-        let residual = &self.0.plan["case"]["residual_stress"];
+        let residual = &self.solved.plan["case"]["residual_stress"];
         if residual.is_null() { "[{\"layers\":[]},{\"layers\":[]}]".to_owned() } else { residual.to_string() }
     }
 
     /// Sides of a cell [length].
     fn spacing(&self) -> [f64; 2] {
-        self.0.grid.spacing()
+        self.solved.grid.spacing()
     }
 
     /// Whether the scene repeats in x and y.
     fn periodic(&self) -> bool {
-        self.0.periodic
+        self.solved.periodic
     }
 
     /// Coordinates of the cell centres along axis 0 or 1 [length].
@@ -108,30 +154,30 @@ impl History {
         if axis > 1 {
             return Err(PyValueError::new_err(format!("axis = {axis}: must be 0 or 1")));
         }
-        Ok(self.0.grid.centres(axis).into_pyarray(py))
+        Ok(self.solved.grid.centres(axis).into_pyarray(py))
     }
 
     /// Increments whose fields are kept.
-    fn kept_steps(&self) -> Vec<usize> {
-        self.0.fields.iter().map(|kept| kept.increment).collect()
+    fn kept_increments(&self) -> Vec<usize> {
+        self.solved.fields.iter().map(|kept| kept.increment).collect()
     }
 
     /// Names of the fields kept of an increment; none when nothing of it is kept.
     fn kept_fields(&self, increment: usize) -> Vec<&'static str> {
-        self.0.fields_of(increment).map_or_else(Vec::new, |kept| {
+        self.solved.fields_of(increment).map_or_else(Vec::new, |kept| {
             FIELDS.iter().filter(|field| (field.values)(kept).is_some()).map(|field| field.name).collect()
         })
     }
 
     /// A kept field, shape `(nx, ny)`: a copy, the caller's own.
     fn field<'py>(&self, py: Python<'py>, name: &str, increment: usize) -> PyResult<Bound<'py, PyAny>> {
-        let kept =
-            self.0.fields_of(increment).ok_or_else(|| PyKeyError::new_err((name.to_owned(), increment)))?;
+        let missing = || PyKeyError::new_err((name.to_owned(), increment));
+        let kept = self.solved.fields_of(increment).ok_or_else(missing)?;
         let field = FIELDS.iter().find(|field| field.name == name).and_then(|field| (field.values)(kept));
         match field {
             Some(FieldValues::Reals(values)) => Ok(values.to_pyarray(py).into_any()),
             Some(FieldValues::Zones(zones)) => Ok(zones.mapv(|zone| zone as u8).into_pyarray(py).into_any()),
-            None => Err(PyKeyError::new_err((name.to_owned(), increment))),
+            None => Err(missing()),
         }
     }
 }

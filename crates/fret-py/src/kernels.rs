@@ -3,7 +3,7 @@
 use std::sync::{Mutex, TryLockError};
 
 use fret_core::kernel::{self, Components, FrequencyResponse};
-use fret_core::model::{Base, Body, Coating, ContactPair, ElasticMaterial, HalfSpace, MaterialError};
+use fret_core::model::{Body, ContactPair, HalfSpace};
 use fret_fft::{Block, Kernel, Parity, Workspace};
 use ndarray::Array2;
 use numpy::{IntoPyArray, PyArray2, PyReadonlyArray1, PyReadonlyArray2, PyUntypedArrayMethods};
@@ -11,43 +11,32 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::{Bound, PyDictMethods, PyResult, Python, pyclass, pyfunction, pymethods};
 use pyo3::types::PyDict;
 
+use crate::case::Case;
 use crate::error::bad_value;
 use crate::threads::{ALL, on_pool};
 
-/// `(young, poisson, thickness)`.
-type CoatingNumbers = (f64, f64, f64);
 /// A public name and the component of a response it stands for.
 type Component = (&'static str, fn(&kernel::Response) -> f64);
-/// `(young, poisson)`.
-type MaterialNumbers = (f64, f64);
 
-fn half_space(
-    coatings: &[CoatingNumbers],
-    substrate: Option<MaterialNumbers>,
-) -> Result<HalfSpace, MaterialError> {
-    let coatings = coatings
-        .iter()
-        .map(|&(young, poisson, thickness)| Coating::new(ElasticMaterial::new(young, poisson)?, thickness))
-        .collect::<Result<_, _>>()?;
-    let base = match substrate {
-        Some((young, poisson)) => Base::Elastic(ElasticMaterial::new(young, poisson)?),
-        None => Base::Rigid,
-    };
-    HalfSpace::new(coatings, base)
+/// The lower body of a case, which is elastic.
+fn half_space(case: &Case) -> PyResult<&HalfSpace> {
+    match case.0.bodies.lower() {
+        Body::Elastic(half_space) => Ok(half_space),
+        Body::Rigid => Err(PyValueError::new_err("body: rigid, it does not respond to tractions")),
+    }
 }
 
-/// Surface compliance at every wavenumber `k > 0` of a contiguous array; arrays zz, rr, rz, tt.
+/// Surface compliance of the lower body of a case at every wavenumber `k > 0` of a contiguous array; arrays zz, rr, rz, tt.
 #[pyfunction]
 pub fn frequency_response<'py>(
     py: Python<'py>,
     k: PyReadonlyArray1<'py, f64>,
-    coatings: Vec<CoatingNumbers>,
-    substrate: Option<MaterialNumbers>,
+    case: &Case,
 ) -> PyResult<Bound<'py, PyDict>> {
-    let half_space = half_space(&coatings, substrate).map_err(bad_value)?;
+    let half_space = half_space(case)?;
     let k = k.as_slice()?;
     let responses: Vec<kernel::Response> = py.detach(|| {
-        let response = FrequencyResponse::new(&half_space);
+        let response = FrequencyResponse::new(half_space);
         k.iter().map(|&k| response.at(k)).collect()
     });
     let components: [Component; 4] = [("zz", |c| c.zz), ("rr", |c| c.rr), ("rz", |c| c.rz), ("tt", |c| c.tt)];
@@ -58,16 +47,15 @@ pub fn frequency_response<'py>(
     Ok(items)
 }
 
-/// Influence coefficients of a half-space under a rigid body; arrays zz, xx, yy, xy, zx, zy of shape `cells`.
+/// Influence coefficients of the lower body of a case under a rigid body; arrays zz, xx, yy, xy, zx, zy of shape `cells`.
 #[pyfunction]
-pub fn influence_coefficients(
-    py: Python<'_>,
-    coatings: Vec<CoatingNumbers>,
-    substrate: Option<MaterialNumbers>,
+pub fn influence_coefficients<'py>(
+    py: Python<'py>,
+    case: &Case,
     cells: [usize; 2],
     spacing: [f64; 2],
-) -> PyResult<Bound<'_, PyDict>> {
-    let half_space = half_space(&coatings, substrate).map_err(bad_value)?;
+) -> PyResult<Bound<'py, PyDict>> {
+    let half_space = half_space(case)?.clone();
     let pair = ContactPair::new(Body::Rigid, Body::Elastic(half_space)).map_err(bad_value)?;
     let coefficients =
         on_pool(py, ALL, || kernel::influence_coefficients(&pair, cells, spacing, Components::ALL))?;

@@ -13,6 +13,7 @@ mod kernels;
 mod plan;
 mod simulation;
 mod start;
+mod study;
 mod subsurface;
 mod threads;
 
@@ -24,8 +25,9 @@ mod _core {
     #[pymodule_export]
     use crate::analytic::{
         Solution, cattaneo_line, cattaneo_mindlin, cone, effective_moduli, equibiaxial_sphere, flat_punch,
-        hertz, hertz_ellipse, hertz_line, mindlin_deresiewicz, mindlin_deresiewicz_at, sliding_cylinder,
-        stretched_line, stretched_sphere, tilted_line_punch, tilted_punch, torsion, westergaard,
+        hertz, hertz_ellipse, hertz_line, mindlin_deresiewicz, mindlin_deresiewicz_at, no_slip_punch,
+        no_slip_sphere, rounded_punch, sliding_cylinder, spence_table, stretched_line, stretched_sphere,
+        thick_layer, thin_layer, tilted_line_punch, tilted_punch, torsion, westergaard,
     };
     #[pymodule_export]
     use crate::case::Case;
@@ -38,11 +40,13 @@ mod _core {
     #[pymodule_export]
     use crate::plan::{expected, memory_needed, plan};
     #[pymodule_export]
-    use crate::simulation::run;
+    use crate::simulation::{run, run_into};
     #[pymodule_export]
     use crate::start::Start;
     #[pymodule_export]
-    use crate::subsurface::subsurface_stress;
+    use crate::study::study;
+    #[pymodule_export]
+    use crate::subsurface::{fatigue, subsurface_stress};
     #[pymodule_export]
     use crate::threads::{check_memory, check_threads};
 

@@ -3,20 +3,23 @@
 //! Signals reach the main thread alone, and the core works on others: so the calling thread waits, and looks up often.
 
 use std::ops::ControlFlow;
+use std::panic::resume_unwind;
+use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, SyncSender, sync_channel};
+use std::thread;
 use std::time::Duration;
 
-use fret_core::history::{self, CycleRecord, KeptFields, StepRecord};
-use fret_core::model::ContactState;
+use fret_cli::embedded;
+use fret_core::history::{CycleRecord, KeptFields, StepRecord};
+use fret_core::model::{ContactState, SurfaceGrid};
 use fret_core::plan::{Advance, Plan};
-use fret_core::run::{Checkpoint, Iteration, Observer, RunError, Simulation};
-use pyo3::exceptions::PyRuntimeError;
+use fret_core::run::{Checkpoint, Iteration, Observer, Simulation};
+use fret_core::study::StageQuantities;
 use pyo3::prelude::{Py, PyAny, PyErr, PyResult, Python, pyfunction};
-use rayon::ThreadPool;
 
-use crate::case::Case;
-use crate::error::{failed, refused};
+use crate::case::{Case, earlier};
+use crate::error::{failed, refused, stopped};
 use crate::history::{History, step_items};
 use crate::threads::{self, Threads};
 
@@ -26,23 +29,36 @@ const PATIENCE: Duration = Duration::from_millis(50);
 /// Time between two looks for other work, while Python hears about a step.
 const SHORT_WHILE: Duration = Duration::from_millis(1);
 
-/// What the working thread tells the calling thread.
-enum News {
-    /// An increment, and the planned increments that are behind the run.
-    Solved(Box<StepRecord>, usize),
-    Ended(Box<(history::History, Result<(), RunError>)>),
-}
+/// What the working thread tells the calling thread: an increment, and the planned increments that are behind the run.
+struct Solved(Box<StepRecord>, usize);
 
 /// The observer on the working thread: stops when asked to, and waits while Python hears about a step.
-struct Reporter<'a> {
+pub struct Reporter<'a> {
     stop: &'a AtomicBool,
-    news: SyncSender<News>,
+    news: SyncSender<Solved>,
     heard: Receiver<()>,
     tells_steps: bool,
     advance: Advance,
+    grid: SurfaceGrid,
+    /// Quantities of interest at the ends of the stages so far.
+    quantities: Vec<StageQuantities>,
 }
 
-impl Reporter<'_> {
+/// Stops when asked to, and tells nothing.
+pub struct Silently<'a>(&'a AtomicBool);
+
+impl Observer for Silently<'_> {
+    fn iterated(&mut self, _: &Iteration) -> ControlFlow<()> {
+        if self.0.load(Ordering::Relaxed) { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    }
+}
+
+impl<'a> Reporter<'a> {
+    /// For work beside the run, whose increments are nobody's news.
+    pub fn silently(&self) -> Silently<'a> {
+        Silently(self.stop)
+    }
+
     fn verdict(&self) -> ControlFlow<()> {
         if self.stop.load(Ordering::Relaxed) { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     }
@@ -61,10 +77,19 @@ impl Observer for Reporter<'_> {
         self.verdict()
     }
 
-    fn solved(&mut self, record: &StepRecord, _: &ContactState, _: Option<&KeptFields>) -> ControlFlow<()> {
+    fn solved(
+        &mut self,
+        record: &StepRecord,
+        state: &ContactState,
+        _: Option<&KeptFields>,
+    ) -> ControlFlow<()> {
         self.advance.solved(record);
+        if self.quantities.last().is_some_and(|end| end.stage == record.stage) {
+            self.quantities.pop();
+        }
+        self.quantities.push(StageQuantities::new(&self.grid, record, state));
         let passed = self.advance.passed();
-        if self.tells_steps && self.news.send(News::Solved(Box::new(record.clone()), passed)).is_ok() {
+        if self.tells_steps && self.news.send(Solved(Box::new(record.clone()), passed)).is_ok() {
             self.wait_until_heard();
         }
         self.verdict()
@@ -84,19 +109,66 @@ pub fn run(
     case: &Case,
     threads: Threads,
     on_step: Option<Py<PyAny>>,
+    estimate_error: bool,
 ) -> PyResult<(History, Option<PyErr>)> {
     let pool = threads::pool(threads)?;
+    let text = case.text()?;
     let plan = py.detach(|| pool.install(|| case.planned())).map_err(|error| refused(&error))?;
-    let (history, ended) = py.detach(|| listen(&pool, &plan, on_step.as_ref()))?;
-    Ok((History(history), ended))
+    let (answer, interruption) = py.detach(|| {
+        listen(&plan, on_step.as_ref(), |reporter| {
+            pool.install(|| {
+                let (history, result) = Simulation::new(&plan).follow(Checkpoint::start(&plan), reporter);
+                let bars = (result.is_ok() && estimate_error).then(|| {
+                    let quantities = std::mem::take(&mut reporter.quantities);
+                    let bars = embedded::error_bars(&plan, &quantities, &mut reporter.silently());
+                    reporter.quantities = quantities;
+                    bars
+                });
+                (history, result, bars, std::mem::take(&mut reporter.quantities))
+            })
+        })
+    });
+    let (history, result, bars, quantities) = answer;
+    let mut ended = interruption.or_else(|| result.err().map(|error| failed(&error)));
+    let error_bars = match bars {
+        Some(Ok(Ok(bars))) => Some(format!("{bars:#}\n")),
+        Some(Ok(Err(why))) => Some(serde_json::json!({ "missing": why }).to_string()),
+        Some(Err(error)) => {
+            ended = ended.or_else(|| Some(stopped(error)));
+            None
+        }
+        None => None,
+    };
+    Ok((History { solved: history, plan, case: text, quantities, error_bars }, ended))
 }
 
-/// Runs the plan on the pool and listens to it; an error of Python's (Ctrl-C, or raised by `on_step`) stops the run.
-fn listen(
-    pool: &ThreadPool,
+/// As [`run`], into a folder, which then holds the history. `how`: resume, replace, estimate the error.
+#[pyfunction]
+pub fn run_into(
+    py: Python<'_>,
+    case: &Case,
+    folder: PathBuf,
+    how: (bool, bool, bool),
+    threads: Threads,
+    on_step: Option<Py<PyAny>>,
+) -> PyResult<Option<PyErr>> {
+    let (resume, replace, estimate_error) = how;
+    let (text, start) = (case.text()?, case.start());
+    let plan = py.detach(|| case.planned()).map_err(|error| refused(&error))?;
+    let how = (earlier(resume, replace), estimate_error, threads.number());
+    let (result, interruption) = py.detach(|| {
+        listen(&plan, on_step.as_ref(), |reporter| embedded::run_into(text, start, &folder, how, reporter))
+    });
+    Ok(interruption.or_else(|| result.err().map(stopped)))
+}
+
+/// Does some work on another thread and listens to it; an error of Python's (Ctrl-C, or raised by `on_step`) stops the work and comes
+/// back beside its answer.
+pub fn listen<T: Send>(
     plan: &Plan,
     on_step: Option<&Py<PyAny>>,
-) -> PyResult<(history::History, Option<PyErr>)> {
+    work: impl FnOnce(&mut Reporter<'_>) -> T + Send,
+) -> (T, Option<PyErr>) {
     let stop = AtomicBool::new(false);
     let (news, inbox) = sync_channel(0);
     let (hear, heard) = sync_channel(1);
@@ -106,6 +178,8 @@ fn listen(
         heard,
         tells_steps: on_step.is_some(),
         advance: Advance::new(&plan.case),
+        grid: plan.grid,
+        quantities: Vec::new(),
     };
     let mut interruption: Option<PyErr> = None;
     let mut interrupt = |reaction: PyResult<()>| {
@@ -114,29 +188,24 @@ fn listen(
             interruption.get_or_insert(error);
         }
     };
-    let outcome = pool.in_place_scope(|scope| {
-        scope.spawn(move |_| {
-            let ended = Simulation::new(plan).follow(Checkpoint::start(plan), &mut reporter);
-            let _ = reporter.news.send(News::Ended(Box::new(ended))); // the listener stays until this arrives
-        });
+    let answer = thread::scope(|scope| {
+        let worker = scope.spawn(move || work(&mut reporter));
         loop {
             match inbox.recv_timeout(PATIENCE) {
-                Ok(News::Solved(record, passed)) => {
+                Ok(Solved(record, passed)) => {
                     if !stop.load(Ordering::Relaxed) {
                         let counts = [plan.increments, passed];
                         interrupt(consult(on_step.map(|on_step| (on_step, &*record, counts))));
                     }
-                    let _ = hear.send(()); // an error means that the working thread panicked: see below
+                    let _ = hear.send(()); // an error means that the working thread has ended: see below
                 }
-                Ok(News::Ended(result)) => return Some(*result),
                 Err(RecvTimeoutError::Timeout) => interrupt(consult(None)),
-                Err(RecvTimeoutError::Disconnected) => return None, // a panic: the scope carries it on
+                Err(RecvTimeoutError::Disconnected) => return worker.join(), // the work is over
             }
         }
     });
-    let (history, result) =
-        outcome.ok_or_else(|| PyRuntimeError::new_err("the solver's thread ended without a result"))?;
-    Ok((history, interruption.or_else(|| result.err().map(|error| failed(&error)))))
+    let answer = answer.unwrap_or_else(|panic| resume_unwind(panic));
+    (answer, interruption)
 }
 
 /// Tells Python about a step, and asks it whether Ctrl-C was pressed.

@@ -21,7 +21,7 @@ impl Start {
     /// The state at the end of an increment (the last one when none is given) of the results in a folder.
     #[staticmethod]
     fn from_folder(folder: PathBuf, increment: Option<usize>) -> PyResult<Self> {
-        fret_cli::start_from(&folder, increment)
+        fret_cli::embedded::start_from(&folder, increment)
             .map(Self)
             .map_err(|message| unreadable(message, &folder.to_string_lossy()))
     }
@@ -29,8 +29,8 @@ impl Start {
     /// The state at the end of an increment of a history.
     #[staticmethod]
     fn from_history(history: &History, increment: usize) -> PyResult<Self> {
-        let state = history::Start::of(&history.0, increment).ok_or_else(|| {
-            let all: Vec<_> = history::Start::all_of(&history.0).iter().map(usize::to_string).collect();
+        let state = history::Start::of(&history.solved, increment).ok_or_else(|| {
+            let all: Vec<_> = history::Start::all_of(&history.solved).iter().map(usize::to_string).collect();
             PyValueError::new_err(format!(
                 "start: the history has no state at the end of increment {increment}; it has those of {}: increments whose \
                  pressure, shear and slip are kept ([output]), and the last of every stage",

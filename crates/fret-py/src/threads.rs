@@ -21,6 +21,13 @@ static ALL_CORES: Mutex<Option<Remembered>> = Mutex::new(None);
 #[derive(Clone, Copy)]
 pub struct Threads(Option<usize>);
 
+impl Threads {
+    /// The number, where one was given.
+    pub fn number(self) -> Option<u16> {
+        self.0.and_then(|number| u16::try_from(number).ok())
+    }
+}
+
 /// All cores of the machine.
 pub const ALL: Threads = Threads(None);
 

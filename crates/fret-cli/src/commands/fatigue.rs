@@ -33,6 +33,15 @@ pub struct Fatigue<'a> {
     ruiz: Option<Vec<[f64; 2]>>,
 }
 
+/// Fatigue parameters on a section along x.
+#[derive(Debug, Clone)]
+pub struct Section {
+    /// Names and values `[point][i]`; a depth in a rigid base has none.
+    pub fields: Vec<(&'static str, Vec<Vec<f64>>)>,
+    /// Ruiz's F1 and F2 along the surface, where it was among the depths and its slip is known.
+    pub ruiz: Option<Vec<[f64; 2]>>,
+}
+
 /// A name and its values `[point][i]`.
 pub type Picture = (String, Vec<Vec<f64>>);
 
@@ -161,6 +170,11 @@ impl<'a> Fatigue<'a> {
                 Some([found.f1, found.f2])
             })
             .collect()
+    }
+
+    /// All values.
+    pub fn section(self) -> Section {
+        Section { fields: self.fields, ruiz: self.ruiz }
     }
 
     /// The largest values, and the means over the critical distance.

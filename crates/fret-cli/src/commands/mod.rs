@@ -3,7 +3,7 @@
 pub mod check;
 pub mod export;
 pub mod extremes;
-mod fatigue;
+pub mod fatigue;
 mod loaded_surfaces;
 pub mod plan;
 pub mod report;

@@ -5,11 +5,12 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
+use fret_core::history::Warning;
 use fret_core::history::WornThrough;
 use fret_core::machine::memory::{self, Claim};
 use fret_core::plan::{LeaveOut, Plan};
-use fret_core::run::{Checkpoint, RunError, Simulation, plausibility};
-use fret_core::study::{Headline, companion};
+use fret_core::run::{Checkpoint, Observer, RunError, Simulation, plausibility};
+use fret_core::study::{StageQuantities, companion};
 use serde_json::{Value, json};
 
 use super::run_observer::{Clock, RunObserver};
@@ -20,9 +21,9 @@ use crate::commands::stress::after_run;
 use crate::defect;
 use crate::estimate::{Estimate, NoBars};
 use crate::failure::{Failure, Told};
-use crate::interrupt;
+use crate::interrupt::{self, Listener};
 use crate::origin::Origin;
-use crate::output::{ERROR_BARS, ResultFolder, RunRecord, Standing, Stored, Wish, write_whole};
+use crate::output::{ERROR_BARS, Ending, ResultFolder, RunRecord, Standing, Stored, Wish, write_whole};
 use crate::progress::Progress;
 use crate::summary::{Summary, warning_line};
 use crate::tally::Tally;
@@ -31,7 +32,7 @@ use crate::threads;
 
 /// Solves a case.
 pub fn run(arguments: &RunArguments, as_json: bool) -> Result<(), Told> {
-    let begun = prepared(arguments).and_then(|preparation| {
+    let begun = Wanted::by(arguments).and_then(Wanted::prepared).and_then(|preparation| {
         interrupt::listen();
         let beginning = preparation.begun(arguments.quiet)?;
         Ok((preparation, beginning))
@@ -80,52 +81,107 @@ struct Departure {
     wall_s: f64,
 }
 
-fn prepared(arguments: &RunArguments) -> Result<Preparation, Failure> {
-    let case_file = CaseFile::read(&arguments.case)?;
-    let leave_out = match arguments.leave_out {
-        LeavingOut::All => LeaveOut::ALL,
-        LeavingOut::None => LeaveOut::NONE,
-    };
-    let folder = arguments.out.clone().unwrap_or_else(|| Path::new("results").join(case_file.stem()));
-    let origin = match &arguments.from {
-        Some(named) => Some(Origin::read(named)?),
-        None if arguments.resume => Origin::below(&folder)?,
-        None => None,
-    };
-    let plan = case_file.planned_leaving_out(leave_out, origin.as_ref())?;
-    let origin = origin.filter(|_| arguments.from.is_some());
-    if let Some(Origin { results, .. }) = &origin
-        && is_same_folder(&folder, Path::new(results))
-    {
-        return Err(Failure::Call(
-            format!("{}: the run would replace the results it starts from", folder.display()),
-            "choose another folder with --out DIR".to_owned(),
-        ));
+/// What is to be run, and where to.
+pub struct Wanted {
+    /// The case.
+    pub case_file: CaseFile,
+    /// Folder of the results.
+    pub folder: PathBuf,
+    /// Where it starts, when the call names a state.
+    pub origin: Option<Origin>,
+    /// What to do with what is in the folder.
+    pub wish: Wish,
+    /// Which automatic simplifications to use.
+    pub leave_out: LeaveOut,
+    /// Whether error bars are asked for.
+    pub estimate_error: bool,
+    /// Number of threads; all cores without.
+    pub threads: Option<u16>,
+    /// Whether nothing but errors is told.
+    pub quiet: bool,
+}
+
+impl Wanted {
+    fn by(arguments: &RunArguments) -> Result<Self, Failure> {
+        let case_file = CaseFile::read(&arguments.case)?;
+        let folder = arguments.out.clone().unwrap_or_else(|| Path::new("results").join(case_file.stem()));
+        Ok(Self {
+            folder,
+            case_file,
+            origin: arguments.from.as_deref().map(Origin::read).transpose()?,
+            wish: match (arguments.resume, arguments.force) {
+                (true, _) => Wish::Resume,
+                (false, true) => Wish::Force,
+                (false, false) => Wish::Start,
+            },
+            leave_out: match arguments.leave_out {
+                LeavingOut::All => LeaveOut::ALL,
+                LeavingOut::None => LeaveOut::NONE,
+            },
+            estimate_error: arguments.estimate_error,
+            threads: arguments.threads,
+            quiet: arguments.quiet,
+        })
     }
-    let wish = match (arguments.resume, arguments.force) {
-        (true, _) => Wish::Resume,
-        (false, true) => Wish::Force,
-        (false, false) => Wish::Start,
-    };
-    let companion = arguments.estimate_error.then(|| companion(&plan)).transpose().map_err(|error| {
-        Failure::Call(format!("--estimate-error: {error}"), "the same command without it".to_owned())
-    })?;
-    let standing = ResultFolder::standing(&folder, &case_file, &plan, wish)?;
-    let threads = threads::asked(arguments.threads);
-    let pool = threads::pool(threads)?;
-    // Once for all: what the run maps on its way would make a second look find less.
-    let needed = plan.memory_bytes.max(companion.as_ref().map_or(0, |plan| plan.memory_bytes));
-    let claim = Cell::new(match standing {
-        Standing::Solved(_) => None,
-        _ => Some(pool.install(|| memory::claim(needed))?),
-    });
-    if !arguments.quiet && !matches!(standing, Standing::Solved(_)) {
-        announce(&plan, &folder, &standing);
-        if let Some(Origin { results, increment, .. }) = &origin {
-            terminal::say(&format!("starts from {results}, end of increment {increment} (counted from 0)"));
+
+    /// Judges everything; writes nothing.
+    fn prepared(self) -> Result<Preparation, Failure> {
+        let Self { case_file, folder, origin, wish, quiet, .. } = self;
+        let earlier = if origin.is_none() && wish == Wish::Resume { Origin::below(&folder)? } else { None };
+        let plan = case_file.planned_leaving_out(self.leave_out, origin.as_ref().or(earlier.as_ref()))?;
+        if let Some(Origin { results, .. }) = &origin
+            && is_same_folder(&folder, Path::new(results))
+        {
+            return Err(Failure::Call(
+                format!("{}: the run would replace the results it starts from", folder.display()),
+                "choose another folder with --out DIR".to_owned(),
+            ));
+        }
+        let companion = self.estimate_error.then(|| companion(&plan)).transpose().map_err(|error| {
+            Failure::Call(format!("--estimate-error: {error}"), "the same command without it".to_owned())
+        })?;
+        let standing = ResultFolder::standing(&folder, &case_file, &plan, wish)?;
+        let threads = threads::asked(self.threads);
+        let pool = threads::pool(threads)?;
+        // Once for all: what the run maps on its way would make a second look find less.
+        let needed = plan.memory_bytes.max(companion.as_ref().map_or(0, |plan| plan.memory_bytes));
+        let claim = Cell::new(match standing {
+            Standing::Solved(_) => None,
+            _ => Some(pool.install(|| memory::claim(needed))?),
+        });
+        if !quiet && !matches!(standing, Standing::Solved(_)) {
+            announce(&plan, &folder, &standing);
+            if let Some(Origin { results, increment, .. }) = &origin {
+                terminal::say(&format!(
+                    "starts from {results}, end of increment {increment} (counted from 0)"
+                ));
+            }
+        }
+        Ok(Preparation { case_file, plan, origin, folder, standing, companion, threads, pool, claim })
+    }
+}
+
+/// Runs a case into a folder and tells nothing; `guest` hears of every increment and may stop the run.
+///
+/// # Errors
+/// What ended the run early; what was solved is in the folder.
+pub fn run_into(wanted: Wanted, guest: &mut Guest<'_>) -> Result<(), Failure> {
+    let preparation = Wanted { quiet: true, ..wanted }.prepared()?;
+    match preparation.begun(true)? {
+        Beginning::Nothing(record) => {
+            let quantities = quantities_of(&record);
+            preparation.estimated(&quantities, true, guest).map(|_| ())
+        }
+        Beginning::At(departure) => {
+            let failure = preparation.followed(*departure, true, guest).failure;
+            failure.or_else(|| preparation.stresses(true).err()).map_or(Ok(()), Err)
         }
     }
-    Ok(Preparation { case_file, plan, origin, folder, standing, companion, threads, pool, claim })
+}
+
+/// Quantities of interest as a record holds them.
+fn quantities_of(record: &Value) -> Vec<StageQuantities> {
+    serde_json::from_value(record["quantities_of_interest"].clone()).unwrap_or_default()
 }
 
 fn is_same_folder(one: &Path, other: &Path) -> bool {
@@ -193,9 +249,7 @@ impl Preparation {
     /// Tells that the run was solved before. Only what error bars need besides is computed, when they are asked for.
     fn solved_before(&self, record: &Value, quiet: bool, as_json: bool) -> Result<(), Failure> {
         let shown = self.folder.display().to_string();
-        let headlines: Vec<Headline> =
-            serde_json::from_value(record["headlines"].clone()).unwrap_or_default();
-        let estimate = self.estimated(&headlines, quiet)?;
+        let estimate = self.estimated(&quantities_of(record), quiet, &mut Listener)?;
         let done =
             if estimate.is_some() { "its error bars are computed now" } else { "nothing is left to do" };
         let message = format!("{shown}: solved already, {done}");
@@ -216,37 +270,57 @@ impl Preparation {
         Ok(())
     }
 
-    fn solved(&self, departure: Departure, quiet: bool, as_json: bool) -> Result<(), Told> {
-        let title = if self.plan.case.title.is_empty() {
-            self.case_file.stem().display().to_string()
-        } else {
-            self.plan.case.title.clone()
-        };
+    /// Solves what is to be solved, and writes everything down.
+    fn followed(&self, departure: Departure, quiet: bool, guest: &mut Guest<'_>) -> Ended {
         let Departure { folder, tally, from, wall_s } = departure;
         let mut observer = RunObserver {
             folder,
-            progress: Progress::new(quiet, &title, &tally),
+            progress: Progress::new(quiet, &self.title(), &tally),
             tally,
             clock: Clock { started: Instant::now(), before_s: wall_s },
             grid: self.plan.grid,
             failure: None,
+            guest,
         };
         let outcome = self.followed_by(from, &mut observer);
-        let RunObserver { folder, progress, mut tally, clock, failure, .. } = observer;
+        let RunObserver { folder, progress, mut tally, clock, failure, guest, .. } = observer;
         let outcome = outcome.map(|worn_through| tally.worn_through = worn_through);
         progress.end();
         let wall_s = clock.read();
         let failure = failure.or_else(|| outcome.err());
         let warnings = tally.gauge.warnings(&self.plan);
-        let closed = folder.close((&tally, &warnings), wall_s, failure.as_ref());
+        let closed = folder.close((&tally, &warnings), wall_s, failure.as_ref().map(Ending::of).as_ref());
         let failure = failure.or_else(|| closed.err().map(Failure::from));
         let (estimate, failure) = match failure {
-            None => match self.estimated(&tally.headlines, quiet) {
+            None => match self.estimated(&tally.stage_quantities, quiet, guest) {
                 Ok(estimate) => (estimate, None),
                 Err(failure) => (None, Some(failure)),
             },
             failure => (None, failure),
         };
+        Ended { tally, warnings, wall_s, estimate, failure }
+    }
+
+    fn title(&self) -> String {
+        if self.plan.case.title.is_empty() {
+            self.case_file.stem().display().to_string()
+        } else {
+            self.plan.case.title.clone()
+        }
+    }
+
+    /// Stresses, where the case asks for them.
+    fn stresses(&self, quiet: bool) -> Result<(), Failure> {
+        if self.plan.case.stress.is_none() {
+            return Ok(());
+        }
+        let folder = &self.folder;
+        self.pool.install(|| after_run(folder, quiet))
+    }
+
+    fn solved(&self, departure: Departure, quiet: bool, as_json: bool) -> Result<(), Told> {
+        let Ended { tally, warnings, wall_s, estimate, failure } =
+            self.followed(departure, quiet, &mut Listener);
         let summary = Summary {
             plan: &self.plan,
             tally: &tally,
@@ -275,19 +349,20 @@ impl Preparation {
             }
             _ => {}
         }
-        let failure = failure.or_else(|| {
-            self.plan.case.stress.as_ref()?;
-            let folder = &self.folder;
-            self.pool.install(|| after_run(folder, quiet || as_json)).err()
-        });
+        let failure = failure.or_else(|| self.stresses(quiet || as_json).err());
         failure.map_or(Ok(()), |failure| Err(Told { failure, in_json: as_json }))
     }
 
     /// Error bars, when they are asked for and can be had; also as a file beside the results.
-    fn estimated(&self, headlines: &[Headline], quiet: bool) -> Result<Option<Estimate>, Failure> {
+    fn estimated(
+        &self,
+        stage_quantities: &[StageQuantities],
+        quiet: bool,
+        guest: &mut Guest<'_>,
+    ) -> Result<Option<Estimate>, Failure> {
         let Some(companion) = &self.companion else { return Ok(None) };
         let plan = &self.plan;
-        match self.pool.install(|| Estimate::new(plan, companion, headlines)) {
+        match self.pool.install(|| Estimate::new(plan, companion, stage_quantities, guest)) {
             Ok(estimate) => {
                 let text = format!("{:#}\n", estimate.to_json(|stage| self.stage_name(stage)));
                 write_whole(&self.folder.join(ERROR_BARS), text.as_bytes())?;
@@ -309,7 +384,7 @@ impl Preparation {
     fn followed_by(
         &self,
         from: Checkpoint,
-        observer: &mut RunObserver,
+        observer: &mut RunObserver<'_>,
     ) -> Result<Option<WornThrough>, Failure> {
         let _memory = self.claim.take();
         let simulation = Simulation::new(&self.plan).in_claimed_memory();
@@ -332,4 +407,18 @@ impl Preparation {
     fn kept(&self, tally: &Tally) -> String {
         format!("{} and kept in {}", tally.standing(), self.folder.display())
     }
+}
+
+/// Somebody else who hears about a run, and may stop it.
+pub type Guest<'a> = dyn Observer + Send + 'a;
+
+/// How a run ended.
+struct Ended {
+    tally: Tally,
+    warnings: Vec<Warning>,
+    /// Time of the whole run [s].
+    wall_s: f64,
+    estimate: Option<Estimate>,
+    /// Why early, if it did.
+    failure: Option<Failure>,
 }

@@ -6,10 +6,10 @@ use std::time::Instant;
 use fret_core::history::{CycleRecord, KeptFields, StepRecord};
 use fret_core::model::{ContactState, SurfaceGrid};
 use fret_core::run::{Iteration, Observer, Waypoint};
-use fret_core::study::Headline;
+use fret_core::study::StageQuantities;
 
+use crate::commands::run::Guest;
 use crate::failure::Failure;
-use crate::interrupt;
 use crate::output::ResultFolder;
 use crate::progress::Progress;
 use crate::tally::Tally;
@@ -27,17 +27,19 @@ impl Clock {
 }
 
 /// Hears about the run: counts it, shows it, writes it down, and stops it when asked to or when it cannot be written down.
-pub struct RunObserver {
+pub struct RunObserver<'a> {
     pub folder: ResultFolder,
     pub progress: Progress,
     pub tally: Tally,
     pub clock: Clock,
-    /// Where headline numbers are read.
+    /// Where quantities of interest are read.
     pub grid: SurfaceGrid,
     pub failure: Option<Failure>,
+    /// Who else hears about it.
+    pub guest: &'a mut Guest<'a>,
 }
 
-impl RunObserver {
+impl RunObserver<'_> {
     /// Goes on after a good writing; remembers why after a bad one.
     fn after<E: Into<Failure>>(&mut self, writing: Result<(), E>) -> ControlFlow<()> {
         match writing {
@@ -50,10 +52,10 @@ impl RunObserver {
     }
 }
 
-impl Observer for RunObserver {
+impl Observer for RunObserver<'_> {
     fn iterated(&mut self, iteration: &Iteration) -> ControlFlow<()> {
         self.progress.iterated(iteration, &self.tally);
-        go_on()
+        self.guest.iterated(iteration)
     }
 
     fn solved(
@@ -65,9 +67,9 @@ impl Observer for RunObserver {
         let writing = self.folder.keep(record, kept);
         self.after(writing)?;
         self.tally.add(record);
-        self.tally.read(Headline::new(&self.grid, record, state));
+        self.tally.read(StageQuantities::new(&self.grid, record, state));
         self.progress.solved(record, &self.tally);
-        go_on()
+        self.guest.solved(record, state, kept)
     }
 
     fn leaves_fields(&self) -> bool {
@@ -79,6 +81,7 @@ impl Observer for RunObserver {
             self.failure = self.folder.keep_cycle(record).err().map(Failure::from);
             self.tally.add_cycle(record);
             self.progress.cycled(record, &self.tally);
+            self.guest.cycled(record);
         }
     }
 
@@ -89,8 +92,4 @@ impl Observer for RunObserver {
         let writing = self.folder.reached(waypoint, &self.tally, self.clock.read());
         self.after(writing)
     }
-}
-
-fn go_on() -> ControlFlow<()> {
-    if interrupt::is_asked() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
 }

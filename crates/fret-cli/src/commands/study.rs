@@ -1,12 +1,14 @@
-//! `fret study`: one case at many resolutions, how far each is from the truth and what it costs.
+//! `fret study`: one case at many resolutions, how far each is from the reference and what it costs.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
 
 use fret_core::machine::memory;
 use fret_core::plan::Plan;
-use fret_core::run::RunError;
-use fret_core::study::{Advice, Climb, ClosedForm, Kind, Ladder, Line, Place, Rung, Truth, climbed};
+use fret_core::run::{Observer, RunError};
+use fret_core::study::{
+    Advice, ClosedForm, Kind, Level, Line, Place, Reference, RefinementStudy, Resolutions, solved_level,
+};
 use serde_json::{Value, json};
 
 use crate::arguments::StudyArguments;
@@ -23,19 +25,17 @@ use crate::threads;
 
 /// Accuracies a choice is told for.
 const ACCURACIES: [f64; 3] = [1e-2, 1e-3, 1e-4];
-/// Rungs quicker than this are timed again [s], the least of a few times counts.
+/// Levels quicker than this are timed again [s], the least of a few times counts.
 const QUICK: f64 = 0.3;
-/// Times a quick rung is timed at the most.
+/// Times a quick level is timed at the most.
 const TIMES: usize = 3;
 
 /// Studies a case.
 pub fn study(arguments: &StudyArguments, as_json: bool) -> Result<(), Failure> {
     let case_file = CaseFile::read(&arguments.case)?;
     let plan = case_file.planned()?;
-    let ladder = ladder(arguments, &plan)?;
-    let against = Against::new(arguments.against.as_deref(), &plan)?;
+    let question = Question::new(arguments, &plan)?;
     let pool = threads::pool(threads::asked(arguments.threads))?;
-    fits_memory(&ladder, &plan)?;
     let folder = arguments.out.clone().unwrap_or_else(|| {
         let mut name = case_file.stem().into_os_string();
         name.push("-study");
@@ -43,54 +43,103 @@ pub fn study(arguments: &StudyArguments, as_json: bool) -> Result<(), Failure> {
     });
     std::fs::create_dir_all(&folder).map_err(Unwritten::at(&folder))?;
     interrupt::listen();
-    let levels = Levels::below(&folder)?;
-    let (climb, unsolved) = pool.install(|| climb(&plan, ladder, &levels, arguments.quiet))?;
-    let truth = against.truth(&climb).ok_or_else(|| {
-        Failure::Defect("a solved study has no finest level".to_owned()) // `climb` fails without it
-    })?;
-    let lines = climb.judged(&truth);
-    let advice = ACCURACIES.map(|accuracy| climb.advice(&truth, accuracy));
-    let choice = words::choice(
-        &advice,
-        climb.ladder().cells.len() > 1,
-        climb.ladder().increments.len() > 1,
-        plan.case.cells[1] as f64 / plan.case.cells[0] as f64,
-    );
+    let kept = Levels::below(&folder)?;
+    let say = |text: &str| {
+        if !arguments.quiet {
+            terminal::say(text);
+        }
+    };
     let title = if plan.case.title.is_empty() {
         case_file.stem().display().to_string()
     } else {
         plan.case.title.clone()
     };
-    let measured =
-        if table::shows_errors(&lines) { words::measured_by(&truth) } else { words::NO_ERRORS.to_owned() };
-    let answer = answer(&title, &truth, (&climb, &lines), (&advice, &choice), &unsolved);
-    let text = format!("{answer:#}");
-    write_whole(&folder.join("study.csv"), table::csv(&climb, &lines).as_bytes())?;
-    write_whole(&folder.join("study.svg"), picture::picture(&title, &climb, &lines).as_bytes())?;
+    let studied = pool.install(|| studied((&title, &plan), question, Some(&kept), &say, &mut Listener))?;
+    let text = format!("{:#}", studied.record);
+    let Studied { study, lines, .. } = &studied;
+    write_whole(&folder.join("study.csv"), table::csv(study, lines).as_bytes())?;
+    write_whole(&folder.join("study.svg"), picture::picture(&title, study, lines).as_bytes())?;
     write_whole(&folder.join("study.json"), format!("{text}\n").as_bytes())?;
-    levels.remove();
+    kept.remove();
     if as_json {
         return terminal::answer(&text);
     }
+    let Studied { measured, choice, .. } = &studied;
     terminal::answer(&format!(
         "{title}\n{measured}\n\n{}\n\n{choice}\n\nresults    {}",
-        table::table(&climb, &lines),
+        table::table(study, lines),
         folder.display()
     ))
 }
 
-fn ladder(arguments: &StudyArguments, plan: &Plan) -> Result<Ladder, Failure> {
+/// What is to be studied: resolutions that fit into memory, and what they are compared with.
+pub struct Question {
+    resolutions: Resolutions,
+    against: Against,
+}
+
+impl Question {
+    /// What the words of a call ask about a plan.
+    pub fn new(arguments: &StudyArguments, plan: &Plan) -> Result<Self, Failure> {
+        let resolutions = resolutions(arguments, plan)?;
+        let against = Against::new(arguments.against.as_deref(), plan)?;
+        fits_memory(&resolutions, plan)?;
+        Ok(Self { resolutions, against })
+    }
+}
+
+/// A study with its answer.
+pub struct Studied {
+    /// All of it, for programs.
+    pub record: Value,
+    study: RefinementStudy,
+    lines: Vec<Line>,
+    measured: String,
+    choice: String,
+}
+
+/// Solves the levels of a study and compares them; finished levels are taken from `kept` and left there.
+pub fn studied(
+    (title, plan): (&str, &Plan),
+    question: Question,
+    kept: Option<&Levels>,
+    say: &(dyn Fn(&str) + Sync),
+    observer: &mut dyn Observer,
+) -> Result<Studied, Failure> {
+    let Question { resolutions, against } = question;
+    let (study, unsolved) = all_levels(plan, resolutions, kept, say, observer)?;
+    let reference = against.reference(&study).ok_or_else(|| {
+        Failure::Defect("a solved study has no finest level".to_owned()) // `all_levels` fails without it
+    })?;
+    let lines = study.judged(&reference);
+    let advice = ACCURACIES.map(|accuracy| study.advice(&reference, accuracy));
+    let choice = words::choice(
+        &advice,
+        study.resolutions().cells.len() > 1,
+        study.resolutions().increments.len() > 1,
+        plan.case.cells[1] as f64 / plan.case.cells[0] as f64,
+    );
+    let measured = if table::shows_errors(&lines) {
+        words::measured_by(&reference)
+    } else {
+        words::NO_ERRORS.to_owned()
+    };
+    let record = answer(title, &reference, (&study, &lines), (&advice, &choice), &unsolved);
+    Ok(Studied { record, study, lines, measured, choice })
+}
+
+fn resolutions(arguments: &StudyArguments, plan: &Plan) -> Result<Resolutions, Failure> {
     let StudyArguments { cells, increments, tolerances, .. } = arguments;
     if cells.is_empty() && increments.is_empty() && tolerances.is_empty() {
-        return Ok(Ladder::halving(plan));
+        return Ok(Resolutions::halving(plan));
     }
-    Ladder::new(plan, cells, increments, tolerances)
+    Resolutions::new(plan, cells, increments, tolerances)
         .map_err(|error| Failure::Call(error.to_string(), "fret study --help".to_owned()))
 }
 
-/// Refuses a ladder whose finest rung the machine has not the memory for.
-fn fits_memory(ladder: &Ladder, plan: &Plan) -> Result<(), Failure> {
-    let finest = ladder.at(ladder.finest());
+/// Refuses a study whose finest level the machine has not the memory for.
+fn fits_memory(resolutions: &Resolutions, plan: &Plan) -> Result<(), Failure> {
+    let finest = resolutions.at(resolutions.finest());
     let [nx, ny] = finest.cells;
     let too_many = |error: &dyn std::fmt::Display| {
         let message = format!("--cells {nx}: a grid of {nx} x {ny} cells {error}");
@@ -102,14 +151,14 @@ fn fits_memory(ladder: &Ladder, plan: &Plan) -> Result<(), Failure> {
 
 /// What the study is compared with.
 enum Against {
-    /// A closed form where there is one, the limit of the ladder elsewhere.
+    /// A closed form where there is one, the limit of the study elsewhere.
     Best(Option<ClosedForm>),
     /// A closed form alone.
     Analytic(ClosedForm),
-    /// The finest rung.
+    /// The finest level.
     Finest,
     /// Numbers from a file.
-    Given(Box<Truth>),
+    Given(Box<Reference>),
 }
 
 impl Against {
@@ -125,43 +174,44 @@ impl Against {
                 )
             }),
             Some(file) => {
-                let truth = reference::reference(Path::new(file), plan.case.stages.len())?;
-                Ok(Self::Given(Box::new(truth)))
+                let reference = reference::reference(Path::new(file), plan.case.stages.len())?;
+                Ok(Self::Given(Box::new(reference)))
             }
         }
     }
 
-    fn truth(self, climb: &Climb) -> Option<Truth> {
+    fn reference(self, study: &RefinementStudy) -> Option<Reference> {
         match self {
             Self::Best(form) => {
-                let limit = climb.limit()?;
+                let limit = study.limit()?;
                 Some(match form {
-                    Some(form) => Truth::closed(form).or(limit),
+                    Some(form) => Reference::closed(form).or(limit),
                     None => limit,
                 })
             }
-            Self::Analytic(form) => Some(Truth::closed(form)),
-            Self::Finest => climb.finest().map(Truth::finest),
-            Self::Given(truth) => Some(*truth),
+            Self::Analytic(form) => Some(Reference::closed(form)),
+            Self::Finest => study.finest().map(Reference::finest),
+            Self::Given(reference) => Some(*reference),
         }
     }
 }
 
-/// Why a rung has no answer, by its place.
+/// Why a level has no answer, by its place.
 type Unsolved = Vec<(Place, String)>;
 
-/// Solves all rungs; those that cannot be solved are told and left out, but for the finest.
-fn climb(plan: &Plan, ladder: Ladder, levels: &Levels, quiet: bool) -> Result<(Climb, Unsolved), Failure> {
-    let places = ladder.places();
-    let say = |text: &str| {
-        if !quiet {
-            terminal::say(text);
-        }
-    };
-    let mut rungs = Vec::new();
+/// Solves all levels; those that cannot be solved are told and left out, but for the finest.
+fn all_levels(
+    plan: &Plan,
+    resolutions: Resolutions,
+    kept: Option<&Levels>,
+    say: &dyn Fn(&str),
+    observer: &mut dyn Observer,
+) -> Result<(RefinementStudy, Unsolved), Failure> {
+    let places = resolutions.places();
+    let mut levels = Vec::new();
     let mut unsolved = Vec::new();
     for (number, place) in places.iter().enumerate() {
-        let variation = ladder.at(*place);
+        let variation = resolutions.at(*place);
         let [nx, ny] = variation.cells;
         let head = format!(
             "level {}/{}  {nx} x {ny} cells, {}, tolerance {:.0e}",
@@ -173,38 +223,40 @@ fn climb(plan: &Plan, ladder: Ladder, levels: &Levels, quiet: bool) -> Result<(C
         let varied = variation.planned(plan).map_err(|error| {
             Failure::Call(format!("{nx} x {ny} cells: {error}"), "fret study --help".to_owned())
         })?;
-        if let Some(rung) = levels.finished(&varied) {
-            say(&format!("{head}: {}, solved before", duration(rung.wall_s)));
-            rungs.push((*place, rung));
+        if let Some(level) = kept.and_then(|kept| kept.finished(&varied)) {
+            say(&format!("{head}: {}, solved before", duration(level.wall_s)));
+            levels.push((*place, level));
             continue;
         }
-        match timed(&varied) {
-            Ok(rung) => {
-                levels.keep(&varied, &rung)?;
-                say(&format!("{head}: {}", duration(rung.wall_s)));
-                rungs.push((*place, rung));
+        match timed(&varied, observer) {
+            Ok(level) => {
+                if let Some(kept) = kept {
+                    kept.keep(&varied, &level)?;
+                }
+                say(&format!("{head}: {}", duration(level.wall_s)));
+                levels.push((*place, level));
             }
-            Err(failure @ Failure::Unsolved(_)) if *place != ladder.finest() => {
+            Err(failure @ Failure::Unsolved(_)) if *place != resolutions.finest() => {
                 say(&format!("{head}: skipped, {}", failure.message()));
                 unsolved.push((*place, failure.message()));
             }
             Err(Failure::Interrupted(_)) => {
                 return Err(Failure::Interrupted(format!(
                     "{} of {} levels of the study are solved and kept; the same command continues with the others",
-                    rungs.len(),
+                    levels.len(),
                     places.len()
                 )));
             }
             Err(failure) => return Err(failure),
         }
     }
-    Ok((Climb::new(ladder, rungs), unsolved))
+    Ok((RefinementStudy::new(resolutions, levels), unsolved))
 }
 
-/// A rung, solved a few times where that is quick, with the least of its times.
-fn timed(plan: &Plan) -> Result<Rung, Failure> {
-    let once = || match catch_unwind(AssertUnwindSafe(|| climbed(plan, &mut Listener))) {
-        Ok(Ok(rung)) => Ok(rung),
+/// A level, solved a few times where that is quick, with the least of its times.
+fn timed(plan: &Plan, observer: &mut dyn Observer) -> Result<Level, Failure> {
+    let mut once = || match catch_unwind(AssertUnwindSafe(|| solved_level(plan, &mut *observer))) {
+        Ok(Ok(level)) => Ok(level),
         Ok(Err(RunError::Interrupted { .. })) => Err(Failure::Interrupted(String::new())),
         Ok(Err(error)) => Err(Failure::Unsolved(error)),
         Err(panic) => Err(Failure::Defect(defect::words_of(panic.as_ref()))),
@@ -221,27 +273,27 @@ fn timed(plan: &Plan) -> Result<Rung, Failure> {
 /// The whole answer for programs.
 fn answer(
     title: &str,
-    truth: &Truth,
-    (climb, lines): (&Climb, &[Line]),
+    reference: &Reference,
+    (study, lines): (&RefinementStudy, &[Line]),
     (advice, choice): (&[Advice], &str),
     unsolved: &Unsolved,
 ) -> Value {
     let sources = fret_core::study::Quantity::ALL
         .into_iter()
-        .map(|quantity| (quantity.name().to_owned(), json!(truth.source(quantity))));
+        .map(|quantity| (quantity.name().to_owned(), json!(reference.source(quantity))));
     let references = fret_core::study::Quantity::ALL
         .into_iter()
-        .map(|quantity| (quantity.name().to_owned(), json!(truth.of(quantity))));
+        .map(|quantity| (quantity.name().to_owned(), json!(reference.of(quantity))));
     json!({
         "status": "studied",
         "title": title,
-        "closed_form": truth.form().map(ClosedForm::name),
+        "closed_form": reference.form().map(ClosedForm::name),
         "measured_by": Value::Object(sources.collect()),
         "references": Value::Object(references.collect()),
         "kinds": Kind::ALL,
-        "lines": table::to_json(climb, lines),
+        "lines": table::to_json(study, lines),
         "unsolved": unsolved.iter().map(|(place, why)| {
-            let variation = climb.ladder().at(*place);
+            let variation = study.resolutions().at(*place);
             json!({ "cells": variation.cells, "increments": variation.increments, "message": why })
         }).collect::<Vec<_>>(),
         "advice": advice,

@@ -1,4 +1,4 @@
-//! `--npz`: one file for `numpy.load`: `x`, `y`, `step`, every kept field with shape `(step, x, y)`, every column of the history.
+//! `--npz`: one file for `numpy.load`: `x`, `y`, `kept_increment`, every kept field with shape `(kept_increment, x, y)`, every column of the history.
 //!
 //! Formats: <https://numpy.org/doc/stable/reference/generated/numpy.lib.format.html>, in a zip archive without compression.
 
@@ -32,7 +32,7 @@ pub fn write(results: &Results, path: &Path) -> Result<Vec<PathBuf>, Failure> {
         if !fields.is_line() {
             archive.array("y", "<f8", &[ny], &bytes(&fields.y))?;
         }
-        archive.array("step", "<i8", &[fields.steps.len()], &steps)?;
+        archive.array("kept_increment", "<i8", &[fields.steps.len()], &steps)?;
         for name in &fields.names {
             let (kind, width) = if *name == "zone" { ("|u1", 1) } else { ("<f8", 8) };
             let shape = [fields.steps.len(), nx, ny];

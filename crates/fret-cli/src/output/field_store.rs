@@ -1,7 +1,7 @@
-//! `fields.zarr`: kept fields as a Zarr v3 folder (dims step, y, x), one chunk file a step and field, raw little-endian numbers
+//! `fields.zarr`: kept fields as a Zarr v3 folder (dims increment, y, x), one chunk file per increment and field, raw little-endian numbers
 //! with y fastest, as in memory.
 //!
-//! Shape and step numbers stand from the start, or grow with a history that may end early; a step that is not reached reads as NaN
+//! Shape and numbers of increments stand from the start, or grow with a history that may end early; an increment that is not reached reads as NaN
 //! (zone: 255). The group repeats the metadata of its arrays, as zarr-python consolidates them: `xr.open_zarr(path)` opens it, and
 //! draws x to the right. Format: <https://zarr-specs.readthedocs.io/en/latest/v3/core/index.html>.
 
@@ -9,6 +9,7 @@ use std::borrow::Cow;
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use fret_core::case::Units;
 use fret_core::history::{FIELDS, Field, FieldValues, KeptFields, ZONE_WORDS};
 use fret_core::model::{SurfaceGrid, Zone};
 use fret_core::plan::Plan;
@@ -23,9 +24,11 @@ use crate::failure::Unwritten;
 pub struct FieldStore {
     path: PathBuf,
     title: String,
+    /// Units that the case declares.
+    units: Option<Units>,
     grid: SurfaceGrid,
     arrays: Vec<&'static Field>,
-    /// Numbers of the increments along `step`.
+    /// Numbers of the increments along `increment`.
     steps: Vec<usize>,
     /// How many of them are there.
     kept: usize,
@@ -33,13 +36,9 @@ pub struct FieldStore {
     grows: bool,
 }
 
-/// How units are written: in those of the case.
-fn units(unit: &str) -> String {
-    if unit.is_empty() { "1".to_owned() } else { format!("case units: {unit}") }
-}
+/// The one chunk of the axis `increment`.
+const STEPS: &str = "increment/c/0";
 
-/// The one chunk of the axis `step`.
-const STEPS: &str = "step/c/0";
 impl FieldStore {
     /// A store of the plan's final shape, without any field yet.
     pub fn create(path: &Path, plan: &Plan) -> Result<Self, Unwritten> {
@@ -53,7 +52,7 @@ impl FieldStore {
         Ok(store)
     }
 
-    /// The store of a broken-off run, cut back to its first `kept` steps.
+    /// The store of a broken-off run, cut back to its first `kept` increments.
     pub fn reopen(path: &Path, plan: &Plan, kept: usize) -> Result<Self, Unwritten> {
         let mut store = Self::of(path, plan, steps_at(path));
         for step in kept..store.steps.len() {
@@ -75,7 +74,7 @@ impl FieldStore {
         Ok(store)
     }
 
-    /// The first file that should be in the store at `path` after `kept` steps and is not, or not of its size.
+    /// The first file that should be in the store at `path` after `kept` increments and is not, or not of its size.
     pub fn missing(path: &Path, plan: &Plan, kept: usize) -> Option<PathBuf> {
         let store = Self::of(path, plan, steps_at(path));
         let cells = store.grid.len();
@@ -99,13 +98,14 @@ impl FieldStore {
         self.kept
     }
 
-    /// A store without fields; `grown`: its steps so far, should they not be known beforehand.
+    /// A store without fields; `grown`: its increments so far, should they not be known beforehand.
     fn of(path: &Path, plan: &Plan, grown: Vec<usize>) -> Self {
         let asked = |array: &&Field| plan.case.output.fields.iter().any(|name| name == array.asked_as);
         let grows = plan.case.is_open_ended();
         Self {
             path: path.to_owned(),
             title: plan.case.title.clone(),
+            units: plan.case.units.clone(),
             grid: plan.grid,
             arrays: FIELDS.iter().filter(asked).collect(),
             steps: if grows { grown } else { plan.case.kept_increments() },
@@ -130,7 +130,7 @@ impl FieldStore {
         Ok(())
     }
 
-    /// Place of an increment along `step`. One that was not foreseen is added.
+    /// Place of an increment along `increment`. One that was not foreseen is added.
     fn position(&mut self, increment: usize) -> Result<usize, Unwritten> {
         if let Ok(position) = self.steps.binary_search(&increment) {
             return Ok(position);
@@ -140,17 +140,19 @@ impl FieldStore {
         Ok(self.steps.len() - 1)
     }
 
-    /// The step numbers, the metadata of every array, and all of these again in the group's.
+    /// The numbers of the increments, the metadata of every array, and all of these again in the group's.
     fn write_metadata(&self) -> Result<(), Unwritten> {
         let numbers: Vec<u8> = self.steps.iter().flat_map(|&step| (step as i64).to_le_bytes()).collect();
         self.write(STEPS, &numbers)?;
         let [nx, ny] = self.grid.cells();
         let centre = |length: usize| ("float64", "length", "cell centre", length);
         let number = ("int64", "", "number of the increment, from 0", self.steps.len());
-        let axes = [("x", centre(nx)), ("y", centre(ny)), ("step", number)];
+        let axes = [("x", centre(nx)), ("y", centre(ny)), ("increment", number)];
         let is_line = self.grid.is_line();
         let axes = axes.into_iter().filter(|(name, _)| !(is_line && *name == "y"));
-        let axes = axes.map(|(name, axis)| (name, axis_metadata(name, axis)));
+        let axes = axes.map(|(name, (kind, unit, long_name, length))| {
+            (name, axis_metadata(name, (kind, &self.unit(unit), long_name, length)))
+        });
         let arrays = self.arrays.iter().map(|array| (array.name, self.field_metadata(array)));
         let mut all = serde_json::Map::new();
         for (name, metadata) in axes.chain(arrays) {
@@ -166,10 +168,19 @@ impl FieldStore {
         self.write_text("zarr.json", &group)
     }
 
+    /// The unit of a kind of quantity: what the case declares, or that there is none declared.
+    fn unit(&self, kind: &str) -> String {
+        match &self.units {
+            _ if kind.is_empty() => "1".to_owned(),
+            Some(units) => units.of(kind),
+            None => format!("case units: {kind}"),
+        }
+    }
+
     fn field_metadata(&self, array: &Field) -> Value {
         let [nx, ny] = self.grid.cells();
         let zone = array.name == "zone";
-        let mut attributes = json!({ "units": units(array.unit), "long_name": array.meaning });
+        let mut attributes = json!({ "units": self.unit(array.unit), "long_name": array.meaning });
         if zone {
             attributes["flag_values"] = json!([0, 1, 2]);
             attributes["flag_meanings"] = json!(ZONE_WORDS.join(" "));
@@ -178,10 +189,10 @@ impl FieldStore {
         let transposed = json!({ "name": "transpose", "configuration": { "order": [0, 2, 1] } });
         let steps = self.steps.len();
         let (shape, chunk, codecs, names) = if self.grid.is_line() {
-            (json!([steps, nx]), json!([1, nx]), json!([little_endian_bytes()]), json!(["step", "x"]))
+            (json!([steps, nx]), json!([1, nx]), json!([little_endian_bytes()]), json!(["increment", "x"]))
         } else {
             let codecs = json!([transposed, little_endian_bytes()]);
-            (json!([steps, ny, nx]), json!([1, ny, nx]), codecs, json!(["step", "y", "x"]))
+            (json!([steps, ny, nx]), json!([1, ny, nx]), codecs, json!(["increment", "y", "x"]))
         };
         json!({
             "zarr_format": 3,
@@ -210,7 +221,7 @@ impl FieldStore {
     }
 }
 
-/// Where a field of the increment at a place along `step` lies in the store.
+/// Where a field of the increment at a place along `increment` lies in the store.
 pub fn chunk(grid: &SurfaceGrid, name: &str, place: usize) -> String {
     format!("{name}/c/{place}/0{}", if grid.is_line() { "" } else { "/0" })
 }
@@ -233,7 +244,7 @@ fn axis_metadata(name: &str, (data_type, unit, long_name, length): (&str, &str, 
         "chunk_key_encoding": { "name": "default", "configuration": { "separator": "/" } },
         "fill_value": 0,
         "codecs": [little_endian_bytes()],
-        "attributes": { "units": units(unit), "long_name": long_name },
+        "attributes": { "units": unit, "long_name": long_name },
         "dimension_names": [name],
     })
 }

@@ -72,7 +72,7 @@ impl KeptRun {
         let plan = &record["plan"];
         let broken = |what: &str| refuse(format!("{RECORD} does not tell {what}"), "run the case again");
         let fields = folder.join(FIELDS);
-        let mut steps = coordinate(&fields.join("step/c/0"))
+        let mut steps = coordinate(&fields.join("increment/c/0"))
             .ok_or_else(|| refuse(format!("holds no {FIELDS}: no fields were kept"), no_results))?;
         steps.retain(|step| *step < solved); // those that a run will keep stand there from its start
         let (last_cycle, cyclic) = last_cycle(&plan["case"]["stages"], table.column("stage"))

@@ -32,7 +32,7 @@ use field_store::FieldStore;
 pub use history_table::HistoryTable;
 use history_table::Lines;
 pub use packed_file::{read_packed, write_packed};
-pub use run_record::{RunRecord, fnv1a64, question, resolved};
+pub use run_record::{Ending, RunRecord, fnv1a64, question, resolved};
 use state_store::StateStore;
 pub use state_store::{start_below, state_below, states_below};
 pub use whole_file::write_whole;
@@ -42,7 +42,7 @@ const RECORD: &str = "run.json";
 const HISTORY: &str = "history.csv";
 const CYCLES: &str = "cycles.csv";
 const FIELDS: &str = "fields.zarr";
-/// Error bars of the headline numbers, where they were asked for.
+/// Error bars of the quantities of interest, where they were asked for.
 pub const ERROR_BARS: &str = "error_bars.json";
 
 /// What lies where the results shall go.
@@ -154,6 +154,9 @@ impl ResultFolder {
         remove_earlier_fields(&path.join(FIELDS))?;
         remove_earlier_bars(&path.join(ERROR_BARS))?;
         write_whole(&path.join(CASE), case_file.text.as_bytes())?;
+        for (name, content) in case_file.beside.iter().flat_map(|beside| &beside.contents) {
+            write_whole(&path.join(name), content)?;
+        }
         Ok(Self {
             history: HistoryTable::create(&path.join(HISTORY), Lines::Increments)?,
             cycles: HistoryTable::create(&path.join(CYCLES), Lines::Cycles)?,
@@ -259,12 +262,12 @@ impl ResultFolder {
         self,
         (tally, warnings): (&Tally, &[Warning]),
         wall_s: f64,
-        failure: Option<&Failure>,
+        early: Option<&Ending>,
     ) -> Result<(), Unwritten> {
         self.history.settle()?;
         self.cycles.settle()?;
-        write_whole(&self.path.join(RECORD), &self.record.ended((tally, warnings), wall_s, failure))?;
-        if failure.is_none() {
+        write_whole(&self.path.join(RECORD), &self.record.ended((tally, warnings), wall_s, early))?;
+        if early.is_none() {
             self.checkpoints.remove();
         }
         Ok(())

@@ -16,6 +16,22 @@ use crate::tally::Tally;
 /// Version of the folder's format.
 const FORMAT: u32 = 1;
 
+/// How a run ended that did not come to the end of its history.
+#[derive(Debug)]
+pub struct Ending {
+    /// One word: interrupted, failed, refused.
+    pub status: String,
+    /// Why.
+    pub message: String,
+}
+
+impl Ending {
+    /// The end by a failure.
+    pub fn of(failure: &Failure) -> Self {
+        Self { status: failure.status().to_owned(), message: failure.message() }
+    }
+}
+
 /// The record of a run, without its end.
 #[derive(Debug)]
 pub struct RunRecord(Value);
@@ -35,7 +51,7 @@ impl RunRecord {
             "case_file": {
                 "name": case_file.path.file_name().map(|name| name.to_string_lossy()),
                 "fnv1a64": fnv1a64(case_file.text.as_bytes()),
-                "path_fnv1a64": path_hash(&case_file.path),
+                "path_fnv1a64": place_hash(case_file),
             },
             "question_fnv1a64": question(plan),
             "start": origin.map(|origin| json!({
@@ -70,13 +86,13 @@ impl RunRecord {
         &self,
         (tally, warnings): (&Tally, &[Warning]),
         wall_s: f64,
-        failure: Option<&Failure>,
+        early: Option<&Ending>,
     ) -> Vec<u8> {
         self.with(json!({
-            "status": failure.map_or("solved", Failure::status),
-            "message": failure.map(Failure::message),
+            "status": early.map_or("solved", |early| early.status.as_str()),
+            "message": early.map(|early| early.message.as_str()),
             "worn_through": tally.worn_through,
-            "headlines": tally.headlines,
+            "quantities_of_interest": tally.stage_quantities,
             "warnings": warnings,
             "totals": {
                 "increments": tally.solved,
@@ -120,10 +136,15 @@ pub fn question(plan: &Plan) -> String {
 
 /// Whether a record was made from the file that `case_file` was read from.
 pub fn is_of_case(record: &Value, case_file: &CaseFile) -> bool {
-    record["case_file"]["path_fnv1a64"] == path_hash(&case_file.path)
+    record["case_file"]["path_fnv1a64"] == place_hash(case_file)
 }
 
-/// A case file's place, told apart from others without telling a reader of the results where the user's files lie.
+/// A case file's place, told apart from others without telling a reader of the results where the user's files lie. A text that
+/// came from no file is its own place.
+fn place_hash(case_file: &CaseFile) -> String {
+    if case_file.beside.is_some() { fnv1a64(case_file.text.as_bytes()) } else { path_hash(&case_file.path) }
+}
+
 fn path_hash(path: &Path) -> String {
     let path = path.canonicalize().unwrap_or_else(|_| path.to_owned());
     fnv1a64(path.as_os_str().as_encoded_bytes())

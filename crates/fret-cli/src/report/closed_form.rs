@@ -85,8 +85,8 @@ impl Pressed {
     /// Pressure in the middle.
     pub fn peak(&self) -> f64 {
         match self {
-            Self::Sphere(hertz) => hertz.peak_pressure,
-            Self::Ellipsoid(hertz) => hertz.peak_pressure,
+            Self::Sphere(hertz) => hertz.max_pressure,
+            Self::Ellipsoid(hertz) => hertz.max_pressure,
         }
     }
 

@@ -1,5 +1,7 @@
 //! A run seen as a whole: which way it was pushed, which increments are worth showing, what theory has to say about it.
 
+use fret_core::case::Units;
+
 use super::closed_form::{NormalForm, TangentialForm, components};
 use crate::results::Results;
 
@@ -57,6 +59,12 @@ impl<'a> Scene<'a> {
             twists: twists(results),
             spans: spans(table.column("stage"), results.stages().len()),
         }
+    }
+
+    /// The name of an axis with its unit, where the case declares units; `kind` as `force x length`.
+    pub fn axis(&self, name: &str, kind: &str) -> String {
+        let units: Option<Units> = self.results.planned("/case/units");
+        units.map_or_else(|| name.to_owned(), |units| format!("{name} [{}]", units.of(kind)))
     }
 
     /// Name of a stage.

@@ -48,7 +48,7 @@ impl Fields {
         // a line contact is the same all along y
         let is_line = !path.join("y").exists();
         let y = if is_line { vec![0.0] } else { floats(&coordinate(path, "y")?) };
-        let numbers = coordinate(path, "step")?;
+        let numbers = coordinate(path, "increment")?;
         let numbers = numbers.chunks_exact(8).map(|eight| i64::from_le_bytes(whole(eight)));
         let names: Vec<&'static str> = FIELDS
             .iter()

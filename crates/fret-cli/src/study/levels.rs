@@ -5,7 +5,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use fret_core::plan::Plan;
-use fret_core::study::Rung;
+use fret_core::study::Level;
 
 use crate::failure::{Failure, Unwritten};
 use crate::output::{question, read_packed, write_packed};
@@ -28,13 +28,13 @@ impl Levels {
     }
 
     /// The level that a plan solves, when it is finished; a file that cannot be read is none.
-    pub fn finished(&self, plan: &Plan) -> Option<Rung> {
+    pub fn finished(&self, plan: &Plan) -> Option<Level> {
         postcard::from_bytes(&read_packed(&self.place(plan), FIRST_LINE).ok()?).ok()
     }
 
     /// Writes a finished level down.
-    pub fn keep(&self, plan: &Plan, rung: &Rung) -> Result<(), Failure> {
-        write_packed(&self.place(plan), FIRST_LINE, postcard::to_stdvec(rung).ok())
+    pub fn keep(&self, plan: &Plan, level: &Level) -> Result<(), Failure> {
+        write_packed(&self.place(plan), FIRST_LINE, postcard::to_stdvec(level).ok())
     }
 
     /// The study is finished: its answer stands in its own files.

@@ -1,9 +1,9 @@
 //! The picture of a study: error over time, both logarithmic, as SVG that stands alone. On the left each kind of refinement with
-//! its worst headline number; on the right what reading the numbers between the cells, and extrapolating them, is worth.
+//! its worst quantity of interest; on the right what reading the numbers between the cells, and extrapolating them, is worth.
 
 use std::fmt::Write;
 
-use fret_core::study::{Climb, Form, Kind, Line, Quantity};
+use fret_core::study::{Form, Kind, Line, Quantity, RefinementStudy};
 
 use crate::report::html::escaped;
 use crate::report::scale::Axis;
@@ -33,9 +33,9 @@ struct Panel {
 }
 
 /// The picture of judged lines.
-pub fn picture(title: &str, climb: &Climb, lines: &[Line]) -> String {
+pub fn picture(title: &str, study: &RefinementStudy, lines: &[Line]) -> String {
     let panels: Vec<Panel> =
-        [Some(kinds(climb, lines)), readings(climb, lines)].into_iter().flatten().collect();
+        [Some(kinds(study, lines)), readings(study, lines)].into_iter().flatten().collect();
     let width = PANEL * panels.len() as f64;
     let mut svg = format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width} {HEIGHT}\" width=\"{width}\" height=\"{HEIGHT}\" \
@@ -51,11 +51,11 @@ pub fn picture(title: &str, climb: &Climb, lines: &[Line]) -> String {
     svg + "</svg>\n"
 }
 
-fn kinds(climb: &Climb, lines: &[Line]) -> Panel {
+fn kinds(study: &RefinementStudy, lines: &[Line]) -> Panel {
     let curve = |line: &Line| {
-        let points = line.rungs.iter().filter_map(|judged| {
+        let points = line.levels.iter().filter_map(|judged| {
             let error = judged.errors.worst(Form::Between)?;
-            let seconds = climb.seconds(judged.place, Form::Between)?;
+            let seconds = study.seconds(judged.place, Form::Between)?;
             Some(([seconds, error], judged.is_efficient[Form::Between as usize]))
         });
         Curve {
@@ -70,7 +70,7 @@ fn kinds(climb: &Climb, lines: &[Line]) -> Panel {
     }
 }
 
-fn readings(climb: &Climb, lines: &[Line]) -> Option<Panel> {
+fn readings(study: &RefinementStudy, lines: &[Line]) -> Option<Panel> {
     let line = lines.iter().find(|line| line.kind == Kind::Cells)?;
     let smooth: &[Quantity] = &[Quantity::MaxPressure, Quantity::Approach];
     let areas: &[Quantity] = &[Quantity::ContactArea, Quantity::StickArea];
@@ -85,10 +85,10 @@ fn readings(climb: &Climb, lines: &[Line]) -> Option<Panel> {
         .into_iter()
         .zip(COLOURS)
         .map(|((quantities, form, name), colour)| {
-            let points = line.rungs.iter().filter_map(|judged| {
+            let points = line.levels.iter().filter_map(|judged| {
                 let errors = judged.errors.of(form);
                 let known = quantities.iter().filter_map(|quantity| errors[*quantity as usize]);
-                Some(([climb.seconds(judged.place, form)?, known.reduce(f64::max)?], false))
+                Some(([study.seconds(judged.place, form)?, known.reduce(f64::max)?], false))
             });
             Curve { name: name.to_owned(), colour, points: points.collect() }
         })

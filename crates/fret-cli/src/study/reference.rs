@@ -1,9 +1,9 @@
-//! Reference numbers from a file: headline numbers at the end of the history, in the units of the case.
+//! Reference numbers from a file: quantities of interest at the end of the history, in the units of the case.
 
 use std::path::Path;
 
 use fret_core::case::{CaseError, Mistake, in_words};
-use fret_core::study::{Quantity, Truth};
+use fret_core::study::{Quantity, Reference};
 use serde::Deserialize;
 use toml::Spanned;
 
@@ -25,7 +25,7 @@ struct ReferenceFile {
 ///
 /// # Errors
 /// With every mistake found, each with its place.
-pub fn reference(path: &Path, stages: usize) -> Result<Truth, CaseError> {
+pub fn reference(path: &Path, stages: usize) -> Result<Reference, CaseError> {
     let file = CaseFile::read(path)?;
     let refused = |mistakes| CaseError::new(&file.name(), &file.text, mistakes);
     let given: ReferenceFile = toml::from_str(&file.text).map_err(|error| {
@@ -41,14 +41,14 @@ pub fn reference(path: &Path, stages: usize) -> Result<Truth, CaseError> {
         (Quantity::Shift, vector),
         (Quantity::DissipatedEnergy, scalar(given.dissipated_energy)),
     ];
-    let mut truth = Truth::nothing(stages);
+    let mut reference = Reference::nothing(stages);
     let mut mistakes = Vec::new();
     let mut count = 0;
     for (quantity, value) in values {
         let Some((span, value)) = value else { continue };
         count += 1;
         if value.iter().all(|part| part.is_finite()) {
-            truth = truth.with(quantity, value);
+            reference = reference.with(quantity, value);
         } else {
             let message = format!("{}: must be a finite number", quantity.name());
             mistakes.push(Mistake { span: Some(span), message, help: None });
@@ -59,5 +59,5 @@ pub fn reference(path: &Path, stages: usize) -> Result<Truth, CaseError> {
         let help = Some(format!("at least one of {}", names.join(", ")));
         mistakes.push(Mistake { span: None, message: "no reference number".to_owned(), help });
     }
-    if mistakes.is_empty() { Ok(truth) } else { Err(refused(mistakes)) }
+    if mistakes.is_empty() { Ok(reference) } else { Err(refused(mistakes)) }
 }

@@ -1,15 +1,15 @@
-//! A judged ladder as a table for a person, as CSV and as JSON for programs.
+//! A judged study as a table for a person, as CSV and as JSON for programs.
 
 use std::fmt::Write;
 
-use fret_core::study::{Climb, Errors, Form, Judged, Kind, Line, Quantity, Variation};
+use fret_core::study::{Errors, Form, Judged, Kind, Line, Quantity, RefinementStudy, Variation};
 use serde_json::{Value, json};
 
 use crate::study::words::name;
 
 /// Width of a column of errors.
 const COLUMN: usize = 19;
-/// Errors below this are rounding: a rung that is its own measure, or a refinement that changes nothing.
+/// Errors below this are rounding: a level that is its own measure, or a refinement that changes nothing.
 const ROUNDING: f64 = 1e-12;
 
 /// What a line refines, in words.
@@ -45,17 +45,17 @@ fn columns(judged: &Judged) -> Vec<(Option<f64>, Option<f64>)> {
 
 /// Whether any error is known.
 pub fn shows_errors(lines: &[Line]) -> bool {
-    let judged = lines.iter().flat_map(|line| &line.rungs);
+    let judged = lines.iter().flat_map(|line| &line.levels);
     judged.flat_map(columns).any(|(error, _)| error.is_some())
 }
 
 /// The table: one block per refined quantity. `*` marks levels that no other level beats in time and in its largest error.
-pub fn table(climb: &Climb, lines: &[Line]) -> String {
+pub fn table(study: &RefinementStudy, lines: &[Line]) -> String {
     let mut names: Vec<&str> = Quantity::ALL.into_iter().map(name).collect();
     names.extend(["pressure L2", "shear L2"]);
     let known: Vec<usize> = (0..names.len())
         .filter(|column| {
-            lines.iter().flat_map(|line| &line.rungs).any(|rung| columns(rung)[*column].0.is_some())
+            lines.iter().flat_map(|line| &line.levels).any(|level| columns(level)[*column].0.is_some())
         })
         .collect();
     let mut table = String::new();
@@ -70,18 +70,18 @@ pub fn table(climb: &Climb, lines: &[Line]) -> String {
             let _ = write!(table, "{:>COLUMN$}", names[*column]);
         }
         table.push('\n');
-        for judged in &line.rungs {
-            let Some(rung) = climb.rung(judged.place) else { continue };
-            let [nx, ny] = rung.variation.cells;
+        for judged in &line.levels {
+            let Some(level) = study.level(judged.place) else { continue };
+            let [nx, ny] = level.variation.cells;
             let _ = write!(
                 table,
                 "{} {:<10}{:>11}{:>10.0e}{:>10.3}{:>13}",
                 if judged.is_efficient[Form::Between as usize] { '*' } else { ' ' },
                 format!("{nx} x {ny}"),
-                increments(&rung.variation),
-                rung.variation.tolerance,
-                rung.wall_s,
-                rung.work.convolutions
+                increments(&level.variation),
+                level.variation.tolerance,
+                level.wall_s,
+                level.work.convolutions
             );
             let columns = columns(judged);
             for column in &known {
@@ -105,9 +105,9 @@ pub fn table(climb: &Climb, lines: &[Line]) -> String {
     table
 }
 
-/// A row a rung of every line. Errors are relative and empty where nothing is known; `_plain` as the cells have the number,
+/// A row a level of every line. Errors are relative and empty where nothing is known; `_plain` as the cells have the number,
 /// `_extrapolated` with the next coarser grid; `order_` against the row before in the same line.
-pub fn csv(climb: &Climb, lines: &[Line]) -> String {
+pub fn csv(study: &RefinementStudy, lines: &[Line]) -> String {
     let mut text = String::from(
         "refined,nx,ny,increments,tolerance,wall_s,convolutions,full_grid_convolutions,efficient,efficient_plain,efficient_extrapolated",
     );
@@ -118,19 +118,19 @@ pub fn csv(climb: &Climb, lines: &[Line]) -> String {
     text.push_str(",pressure_l2,order_pressure_l2,shear_l2,order_shear_l2\n");
     let shown = |value: Option<f64>| value.map_or(String::new(), |value| format!("{value:e}"));
     for line in lines {
-        for judged in &line.rungs {
-            let Some(rung) = climb.rung(judged.place) else { continue };
-            let [nx, ny] = rung.variation.cells;
+        for judged in &line.levels {
+            let Some(level) = study.level(judged.place) else { continue };
+            let [nx, ny] = level.variation.cells;
             let [plain, between, extrapolated] = judged.is_efficient;
             let _ = write!(
                 text,
                 "{},{nx},{ny},{},{:e},{:e},{},{},{between},{plain},{extrapolated}",
                 kind_key(line.kind),
-                increments(&rung.variation),
-                rung.variation.tolerance,
-                rung.wall_s,
-                rung.work.convolutions,
-                rung.work.full_grid_convolutions
+                increments(&level.variation),
+                level.variation.tolerance,
+                level.wall_s,
+                level.work.convolutions,
+                level.work.full_grid_convolutions
             );
             for quantity in Quantity::ALL {
                 let number = quantity as usize;
@@ -156,22 +156,22 @@ fn kind_key(kind: Kind) -> String {
 }
 
 /// The lines for programs.
-pub fn to_json(climb: &Climb, lines: &[Line]) -> Value {
+pub fn to_json(study: &RefinementStudy, lines: &[Line]) -> Value {
     let numbers = |values: &[Option<f64>; 6]| {
         let pairs = Quantity::ALL
             .into_iter()
             .map(|quantity| (quantity.name().to_owned(), json!(values[quantity as usize])));
         Value::Object(pairs.collect())
     };
-    let rung = |judged: &Judged| {
-        let rung = climb.rung(judged.place)?;
+    let level = |judged: &Judged| {
+        let level = study.level(judged.place)?;
         Some(json!({
-            "cells": rung.variation.cells,
-            "increments": rung.variation.increments,
-            "tolerance": rung.variation.tolerance,
-            "wall_s": rung.wall_s,
-            "work": rung.work,
-            "ends": rung.ends,
+            "cells": level.variation.cells,
+            "increments": level.variation.increments,
+            "tolerance": level.variation.tolerance,
+            "wall_s": level.wall_s,
+            "work": level.work,
+            "ends": level.ends,
             "errors": numbers(&judged.errors.between),
             "errors_plain": numbers(&judged.errors.plain),
             "errors_extrapolated": numbers(&judged.errors.extrapolated),
@@ -183,6 +183,6 @@ pub fn to_json(climb: &Climb, lines: &[Line]) -> Value {
             "is_efficient": judged.is_efficient[Form::Between as usize],
         }))
     };
-    let line = |line: &Line| json!({ "refined": line.kind, "rungs": line.rungs.iter().filter_map(rung).collect::<Vec<_>>() });
+    let line = |line: &Line| json!({ "refined": line.kind, "levels": line.levels.iter().filter_map(level).collect::<Vec<_>>() });
     lines.iter().map(line).collect()
 }

@@ -1,6 +1,6 @@
 //! What a study says in words: what it was compared with, and what to choose.
 
-use fret_core::study::{Advice, Quantity, Source, Truth};
+use fret_core::study::{Advice, Quantity, Reference, Source};
 
 /// Why a study shows no errors.
 pub const NO_ERRORS: &str = "no errors: no closed form is available for this case, and a single level cannot be compared \
@@ -19,8 +19,8 @@ pub fn name(quantity: Quantity) -> &'static str {
 }
 
 /// What the quantities are compared with, one sentence per source.
-pub fn measured_by(truth: &Truth) -> String {
-    let form = truth.form().map_or("", |form| form.name());
+pub fn measured_by(reference: &Reference) -> String {
+    let form = reference.form().map_or("", |form| form.name());
     let sources = [
         (Source::ClosedForm, format!("the closed form ({form})")),
         (Source::Given, "the numbers given".to_owned()),
@@ -30,7 +30,7 @@ pub fn measured_by(truth: &Truth) -> String {
     let said = sources.into_iter().filter_map(|(source, words)| {
         let numbers: Vec<&str> = Quantity::ALL
             .into_iter()
-            .filter(|quantity| truth.source(*quantity) == Some(source) && happens(truth, *quantity))
+            .filter(|quantity| reference.source(*quantity) == Some(source) && happens(reference, *quantity))
             .map(name)
             .collect();
         (!numbers.is_empty()).then(|| format!("{} compared with {words}", numbers.join(", ")))
@@ -39,8 +39,8 @@ pub fn measured_by(truth: &Truth) -> String {
 }
 
 /// Whether a number is ever anything but zero.
-fn happens(truth: &Truth, quantity: Quantity) -> bool {
-    truth.of(quantity).iter().flatten().any(|value| *value != [0.0; 2])
+fn happens(reference: &Reference, quantity: Quantity) -> bool {
+    reference.of(quantity).iter().flatten().any(|value| *value != [0.0; 2])
 }
 
 /// One sentence: what to choose for each accuracy. `cells` and `increments` tell which of them the study has several of, and

@@ -198,7 +198,7 @@ impl Reader<'_> {
             match toml::to_string(&case) {
                 Ok(text) => {
                     let path = folder.join(format!("point {number}"));
-                    points.push(Point { values, case_file: CaseFile { path, text } });
+                    points.push(Point { values, case_file: CaseFile { path, text, beside: None } });
                 }
                 Err(error) => self.refuse(None, &error.to_string(), None),
             }

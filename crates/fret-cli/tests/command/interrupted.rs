@@ -46,11 +46,11 @@ fn a_study_goes_on_with_the_levels_that_are_left() {
     assert_eq!(whole.code, Some(0), "{}", whole.err);
     let errors = |folder: &str| {
         let told: Value = serde_json::from_str(&bench.text(&format!("{folder}/study.json"))).unwrap();
-        told["lines"][0]["rungs"]
+        told["lines"][0]["levels"]
             .as_array()
             .unwrap()
             .iter()
-            .map(|rung| rung["errors"].clone())
+            .map(|level| level["errors"].clone())
             .collect::<Vec<_>>()
     };
     assert_eq!(errors("study"), errors("whole"));

@@ -199,14 +199,14 @@ fn results_that_were_tampered_with_are_refused_without_a_fall() {
         ("fields.zarr/pressure/zarr.json", "{\"shape\": [5, 1000000000, 1000000000]}", "not an array"),
         ("fields.zarr/pressure/c/4/0/0", "short", "bytes where the grid asks for"),
         ("fields.zarr/x/c/0", "", "no grid"),
-        ("fields.zarr/step/c/0", "\u{0}\u{0}\u{0}\u{0}\u{0}\u{0}\u{0}\u{0}", "pressure/c/0"),
+        ("fields.zarr/increment/c/0", "\u{0}\u{0}\u{0}\u{0}\u{0}\u{0}\u{0}\u{0}", "pressure/c/0"),
     ] {
         let path = bench.folder.join("run").join(file);
         let good = std::fs::read(&path).unwrap();
         std::fs::write(&path, content).unwrap();
         let answer = bench.fret(&["export", "run", "--npz"]);
         // One step number less is no harm: the fields that are named are exported.
-        if file != "fields.zarr/step/c/0" {
+        if file != "fields.zarr/increment/c/0" {
             assert_eq!(answer.code, Some(1), "{file}: {}", answer.err);
             assert!(answer.err.contains(words), "{file}: expected {words:?}: {}", answer.err);
         }

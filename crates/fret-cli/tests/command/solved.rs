@@ -70,8 +70,8 @@ fn the_kept_pressure_sums_to_the_normal_force() {
     let metadata: Value =
         serde_json::from_str(&bench.text("results/case/fields.zarr/pressure/zarr.json")).unwrap();
     assert_eq!(metadata["shape"], serde_json::json!([KEPT.len(), 24, 24]));
-    assert_eq!(metadata["dimension_names"], serde_json::json!(["step", "y", "x"]));
-    let steps = std::fs::read(bench.folder.join("results/case/fields.zarr/step/c/0")).unwrap();
+    assert_eq!(metadata["dimension_names"], serde_json::json!(["increment", "y", "x"]));
+    let steps = std::fs::read(bench.folder.join("results/case/fields.zarr/increment/c/0")).unwrap();
     let steps: Vec<i64> =
         steps.chunks_exact(8).map(|eight| i64::from_le_bytes(eight.try_into().unwrap())).collect();
     assert_eq!(steps, KEPT);

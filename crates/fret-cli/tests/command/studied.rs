@@ -39,7 +39,7 @@ fn a_study_finds_the_closed_form_by_itself_and_says_what_to_choose() {
     );
     let said: Value = serde_json::from_str(&bench.text("results/case-study/study.json")).unwrap();
     assert_eq!(said["closed_form"], "Hertz");
-    assert_eq!(said["lines"][0]["rungs"].as_array().unwrap().len(), 3);
+    assert_eq!(said["lines"][0]["levels"].as_array().unwrap().len(), 3);
 }
 
 #[test]
@@ -67,7 +67,7 @@ fn a_study_without_a_closed_form_takes_the_limit_of_its_ladder() {
     let kinds: Vec<&Value> = said["lines"].as_array().unwrap().iter().map(|line| &line["refined"]).collect();
     assert_eq!(kinds, ["cells", "increments", "together"]);
     assert_eq!(bench.text("here/study.csv").lines().count(), 7);
-    // Against the finest rung, that rung has no error.
+    // Against the finest level, that level has no error.
     let answer = bench.fret(&[
         "study",
         "case.toml",
@@ -80,7 +80,7 @@ fn a_study_without_a_closed_form_takes_the_limit_of_its_ladder() {
         "here",
     ]);
     let said: Value = serde_json::from_str(&answer.out).unwrap();
-    assert_eq!(said["lines"][0]["rungs"][1]["errors"]["approach"], Value::from(0.0));
+    assert_eq!(said["lines"][0]["levels"][1]["errors"]["approach"], Value::from(0.0));
 }
 
 #[test]
@@ -97,7 +97,7 @@ fn a_study_measures_by_given_numbers() {
     );
     // Both are Hertz's values, to the ten digits given.
     for number in ["approach", "max_pressure"] {
-        let error = said["lines"][0]["rungs"][1]["errors"][number].as_f64().unwrap();
+        let error = said["lines"][0]["levels"][1]["errors"][number].as_f64().unwrap();
         assert!(error < 1e-3, "{number}: {error}");
     }
     for (text, words) in [
@@ -167,7 +167,7 @@ fn error_bars_of_a_fretting_loop_and_where_there_are_none() {
     let said: Value = serde_json::from_str(&answer.out).unwrap();
     let stages = said["error_bars"]["stages"].as_array().unwrap();
     assert_eq!(stages.len(), 2);
-    assert_eq!(said["error_bars"]["companion"]["increments"], Value::from(2 + 2 * 4));
+    assert_eq!(said["error_bars"]["auxiliary"]["increments"], Value::from(2 + 2 * 4));
     let energy = &stages[1]["dissipated_energy"];
     assert!(energy["error_bar"].as_f64().unwrap() > 0.0 && energy["value"].as_f64().unwrap() > 0.0);
     let table = bench.fret(&["run", "case.toml", "--estimate-error"]).out;
@@ -191,7 +191,7 @@ fn error_bars_of_a_fretting_loop_and_where_there_are_none() {
 
 #[test]
 fn one_rung_without_a_closed_form_says_why_there_are_no_errors() {
-    let bench = Bench::new("study-one-rung");
+    let bench = Bench::new("study-one-level");
     bench.file("case.toml", &SPHERE.replace("cycles = 2", "cycles = 1"));
     let answer = bench.fret(&["study", "case.toml", "--cells", "24", "--against", "finest"]);
     assert_eq!(answer.code, Some(0), "{}", answer.err);

@@ -20,11 +20,11 @@ pub struct CattaneoLine {
     /// Tangential force per length Q' [force / length], signed.
     pub tangential_force: f64,
     /// Largest tangential force per length that friction holds, μP' [force / length].
-    pub friction_force: f64,
+    pub sliding_force: f64,
     /// Half-width a of the contact [length].
     pub half_width: f64,
     /// Largest shear that friction holds anywhere, μp0 [pressure].
-    pub peak_friction: f64,
+    pub max_shear: f64,
     /// Half-width c of what sticks [length].
     pub stick_half_width: f64,
     /// Middle e of what sticks [length].
@@ -46,18 +46,18 @@ impl CattaneoLine {
     ) -> Result<Self, AnalyticError> {
         let (friction, modulus) = (positive("friction", friction)?, effective_modulus(modulus)?);
         within("strain", strain, strain.is_finite(), "finite")?;
-        let (a, friction_force) = (hertz.half_width, friction * hertz.line_force);
-        let peak_friction = friction * hertz.peak_pressure;
-        if !(tangential_force.abs() <= friction_force) {
+        let (a, sliding_force) = (hertz.half_width, friction * hertz.line_force);
+        let max_shear = friction * hertz.max_pressure;
+        if !(tangential_force.abs() <= sliding_force) {
             return Err(AnalyticError::TooLarge {
                 name: "tangential force",
                 value: tangential_force,
                 reason: "friction holds at most",
-                limit: friction_force,
+                limit: sliding_force,
             });
         }
-        let stick_half_width = a * (1.0 - tangential_force.abs() / friction_force).sqrt();
-        let per_strain = a * modulus / (2.0 * peak_friction);
+        let stick_half_width = a * (1.0 - tangential_force.abs() / sliding_force).sqrt();
+        let per_strain = a * modulus / (2.0 * max_shear);
         let limit = (a - stick_half_width) / per_strain;
         if strain.abs() > limit {
             return Err(AnalyticError::TooLarge {
@@ -68,14 +68,7 @@ impl CattaneoLine {
             });
         }
         let stick_offset = per_strain * strain * if tangential_force < 0.0 { -1.0 } else { 1.0 };
-        Ok(Self {
-            tangential_force,
-            friction_force,
-            half_width: a,
-            peak_friction,
-            stick_half_width,
-            stick_offset,
-        })
+        Ok(Self { tangential_force, sliding_force, half_width: a, max_shear, stick_half_width, stick_offset })
     }
 
     /// Shear at `x` from the middle [pressure], with the sign of the force; zero outside the contact.
@@ -83,7 +76,7 @@ impl CattaneoLine {
         let (a, c) = (self.half_width, self.stick_half_width);
         let root = |x: f64, half: f64| ((half - x) * (half + x)).max(0.0).sqrt() / a;
         let sign = if self.tangential_force < 0.0 { -1.0 } else { 1.0 };
-        sign * self.peak_friction * (root(x, a) - root(x - self.stick_offset, c))
+        sign * self.max_shear * (root(x, a) - root(x - self.stick_offset, c))
     }
 }
 
@@ -109,7 +102,7 @@ impl StretchedLine {
     pub fn new(hertz: &HertzLine, friction: f64, modulus: f64, strain: f64) -> Result<Self, AnalyticError> {
         let (friction, modulus) = (positive("friction", friction)?, effective_modulus(modulus)?);
         within("strain", strain, strain.is_finite(), "finite")?;
-        let load = modulus * strain.abs() / (2.0 * friction * hertz.peak_pressure);
+        let load = modulus * strain.abs() / (2.0 * friction * hertz.max_pressure);
         let stick = stick_ratio(std::f64::consts::FRAC_PI_2 * load);
         Ok(Self { half_width: hertz.half_width, stick_half_width: stick * hertz.half_width })
     }
@@ -137,7 +130,7 @@ mod tests {
 
     /// Strain that moves the middle of stick by `e/a`.
     fn strain(friction: f64, offset: f64) -> f64 {
-        2.0 * friction * hertz().peak_pressure * offset / MODULUS
+        2.0 * friction * hertz().max_pressure * offset / MODULUS
     }
 
     #[test]

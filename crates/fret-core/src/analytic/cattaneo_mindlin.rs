@@ -17,11 +17,11 @@ pub struct CattaneoMindlin {
     /// Tangential force T [force], signed.
     pub tangential_force: f64,
     /// Largest tangential force that friction holds, μP [force].
-    pub friction_force: f64,
+    pub sliding_force: f64,
     /// Radius a of the contact [length].
     pub contact_radius: f64,
     /// Largest shear that friction holds anywhere, μp0 [pressure].
-    pub peak_friction: f64,
+    pub max_shear: f64,
     /// Tangential stiffness before any slip, `8aG*` [force / length].
     pub initial_stiffness: f64,
     /// Radius c of the disc that sticks [length].
@@ -49,9 +49,9 @@ impl CattaneoMindlin {
             (positive("friction", friction)?, positive("effective shear modulus", shear_modulus)?);
         Ok(Self {
             tangential_force: 0.0,
-            friction_force: friction * hertz.force,
+            sliding_force: friction * hertz.force,
             contact_radius: hertz.contact_radius,
-            peak_friction: friction * hertz.peak_pressure,
+            max_shear: friction * hertz.max_pressure,
             initial_stiffness: 8.0 * hertz.contact_radius * shear_modulus,
             stick_radius: hertz.contact_radius,
             shift: 0.0,
@@ -64,14 +64,14 @@ impl CattaneoMindlin {
         name: &'static str,
         tangential_force: f64,
     ) -> Result<Self, AnalyticError> {
-        if tangential_force.abs() <= self.friction_force {
+        if tangential_force.abs() <= self.sliding_force {
             Ok(self.under(tangential_force))
         } else {
             Err(AnalyticError::TooLarge {
                 name,
                 value: tangential_force,
                 reason: "friction holds at most",
-                limit: self.friction_force,
+                limit: self.sliding_force,
             })
         }
     }
@@ -87,7 +87,7 @@ impl CattaneoMindlin {
 
     /// Shift at the onset of full slip, `3μP/(16aG*)` [length].
     pub fn full_slip_shift(&self) -> f64 {
-        1.5 * self.friction_force / self.initial_stiffness
+        1.5 * self.sliding_force / self.initial_stiffness
     }
 
     /// Shear at distance `r` from the middle [pressure], along the force; zero outside the contact.
@@ -101,7 +101,7 @@ impl CattaneoMindlin {
             // √(a² − r²) − √(c² − r²), without the cancellation
             a * self.lost_to_slip(2.0) / (((a - r) * (a + r)).sqrt() + ((c - r) * (c + r)).sqrt())
         };
-        self.peak_friction * shape * self.sign()
+        self.max_shear * shape * self.sign()
     }
 
     /// Slip of the upper body on the lower at distance `r` [length], along the force; zero where the bodies stick.
@@ -125,11 +125,11 @@ impl CattaneoMindlin {
     pub fn dissipated_energy(&self) -> f64 {
         let stick = self.stick_radius / self.contact_radius;
         let shape = self.lost_to_slip(1.0).powi(3) * (1.0 + 3.0 * stick + stick * stick);
-        0.3 * self.friction_force.powi(2) / self.initial_stiffness * shape
+        0.3 * self.sliding_force.powi(2) / self.initial_stiffness * shape
     }
 
     fn load_ratio(&self) -> f64 {
-        (self.tangential_force.abs() / self.friction_force).min(1.0)
+        (self.tangential_force.abs() / self.sliding_force).min(1.0)
     }
 
     /// `1 − (c/a)^power`, exact for small loads.

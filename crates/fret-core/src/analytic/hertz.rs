@@ -24,7 +24,7 @@ pub struct Hertz {
     /// Radius a of the contact [length].
     pub contact_radius: f64,
     /// Pressure p0 in the middle [pressure].
-    pub peak_pressure: f64,
+    pub max_pressure: f64,
     /// Approach δ of distant points [length].
     pub approach: f64,
 }
@@ -60,7 +60,7 @@ impl Hertz {
             effective_modulus: modulus,
             force: 4.0 * modulus * a.powi(3) / (3.0 * sphere_radius),
             contact_radius: a,
-            peak_pressure: 2.0 * modulus * a / (PI * sphere_radius),
+            max_pressure: 2.0 * modulus * a / (PI * sphere_radius),
             approach: a * a / sphere_radius,
         }
     }
@@ -68,7 +68,7 @@ impl Hertz {
     /// Pressure at distance `r` from the middle [pressure]; zero outside the contact.
     pub fn pressure(&self, r: f64) -> f64 {
         let depth = 1.0 - (r / self.contact_radius).powi(2);
-        self.peak_pressure * depth.max(0.0).sqrt()
+        self.max_pressure * depth.max(0.0).sqrt()
     }
 }
 
@@ -88,7 +88,7 @@ pub(super) mod tests {
     fn sphere_matches_the_steel_example() {
         let hertz = steel_example();
         assert!((hertz.contact_radius - 0.150_553_510_55).abs() < 1e-11);
-        assert!((hertz.peak_pressure - 2_106.491_024_52).abs() < 1e-8);
+        assert!((hertz.max_pressure - 2_106.491_024_52).abs() < 1e-8);
         assert!((hertz.approach - 2.266_635_953_9e-3).abs() < 1e-13);
     }
 

@@ -21,7 +21,7 @@ pub struct HertzEllipse {
     /// Semi-axes of the contact along x and y [length]; the longer lies along the larger radius.
     pub semi_axes: [f64; 2],
     /// Pressure p0 in the middle [pressure].
-    pub peak_pressure: f64,
+    pub max_pressure: f64,
     /// Approach δ of distant points [length].
     pub approach: f64,
 }
@@ -40,19 +40,19 @@ impl HertzEllipse {
         let integrals = CompleteElliptic::complementary(axis_ratio);
         let a = (3.0 * force * integrals.difference * flatter / (PI * modulus)).cbrt();
         let b = a * axis_ratio;
-        let peak_pressure = 1.5 * force / (PI * a * b);
+        let max_pressure = 1.5 * force / (PI * a * b);
         Ok(Self {
             force,
             semi_axes: if radius_x >= radius_y { [a, b] } else { [b, a] },
-            peak_pressure,
-            approach: peak_pressure * b * integrals.first_kind / modulus,
+            max_pressure,
+            approach: max_pressure * b * integrals.first_kind / modulus,
         })
     }
 
     /// Pressure at a point [pressure]; zero outside the contact.
     pub fn pressure(&self, x: f64, y: f64) -> f64 {
         let depth = 1.0 - (x / self.semi_axes[0]).powi(2) - (y / self.semi_axes[1]).powi(2);
-        self.peak_pressure * depth.max(0.0).sqrt()
+        self.max_pressure * depth.max(0.0).sqrt()
     }
 }
 
@@ -83,7 +83,7 @@ mod tests {
         assert!((along_y - 0.167_796_724_2).abs() < 1e-10);
         assert!((along_x - 0.105_811_893).abs() < 1e-9);
         assert!((along_x / along_y - 0.630_595_701_4).abs() < 1e-10);
-        assert!((contact.peak_pressure - 2_689.201_993).abs() < 1e-6);
+        assert!((contact.max_pressure - 2_689.201_993).abs() < 1e-6);
         assert!((contact.approach - 2.527_402_701e-3).abs() < 1e-12);
     }
 
@@ -99,7 +99,7 @@ mod tests {
     fn slender_contacts_satisfy_the_curvature_at_both_axes() {
         // Far along the short axis the contact looks like a line contact of the local load: b = 2 p0 Ry / E*.
         let contact = HertzEllipse::ellipsoid([1e8, 1.0], 1.0, 1.0).unwrap();
-        let line = 2.0 * contact.peak_pressure;
+        let line = 2.0 * contact.max_pressure;
         assert!((contact.semi_axes[1] / line - 1.0).abs() < 1e-6); // (b/a)² ln(a/b)
         assert!(contact.semi_axes.iter().all(|axis| axis.is_finite() && *axis > 0.0));
     }

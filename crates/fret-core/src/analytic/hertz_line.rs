@@ -19,7 +19,7 @@ pub struct HertzLine {
     /// Half-width a of the contact [length].
     pub half_width: f64,
     /// Pressure p0 in the middle [pressure].
-    pub peak_pressure: f64,
+    pub max_pressure: f64,
 }
 
 impl HertzLine {
@@ -30,13 +30,13 @@ impl HertzLine {
     pub fn cylinder(radius: f64, line_force: f64, modulus: f64) -> Result<Self, AnalyticError> {
         let (radius, line_force) = (positive("radius", radius)?, positive("line force", line_force)?);
         let half_width = (4.0 * line_force * radius / (PI * effective_modulus(modulus)?)).sqrt();
-        Ok(Self { line_force, half_width, peak_pressure: 2.0 * line_force / (PI * half_width) })
+        Ok(Self { line_force, half_width, max_pressure: 2.0 * line_force / (PI * half_width) })
     }
 
     /// Pressure at `x` from the middle [pressure]; zero outside the contact.
     pub fn pressure(&self, x: f64) -> f64 {
         let depth = 1.0 - (x / self.half_width).powi(2);
-        self.peak_pressure * depth.max(0.0).sqrt()
+        self.max_pressure * depth.max(0.0).sqrt()
     }
 }
 
@@ -49,7 +49,7 @@ mod tests {
     fn cylinder_matches_the_steel_example() {
         let contact = HertzLine::cylinder(10.0, 100.0, 200e3 / 0.91).unwrap();
         assert!((contact.half_width - 0.076_113_336_1).abs() < 1e-10);
-        assert!((contact.peak_pressure - 836.410_286_5).abs() < 1e-7);
+        assert!((contact.max_pressure - 836.410_286_5).abs() < 1e-7);
         let carried = integral(-contact.half_width, contact.half_width, |x| contact.pressure(x));
         assert!((carried / 100.0 - 1.0).abs() < 1e-13);
         assert!(HertzLine::cylinder(10.0, 0.0, 1.0).is_err());

@@ -23,7 +23,7 @@ pub struct SlidingCylinder {
     /// Middle of the contact from the cylinder's axis [length], with the shear on the lower body along +x.
     pub offset: f64,
     /// Largest pressure [pressure].
-    pub peak_pressure: f64,
+    pub max_pressure: f64,
     /// `E*/(2R)` [pressure / length].
     scale: f64,
 }
@@ -52,11 +52,11 @@ impl SlidingCylinder {
             half_width,
             exponent,
             offset: -2.0 * exponent * half_width,
-            peak_pressure: 0.0,
+            max_pressure: 0.0,
             scale: modulus / (2.0 * radius),
         };
         // the derivative of the logarithm vanishes at x = -2 gamma a
-        found.peak_pressure = found.pressure(-2.0 * exponent * half_width);
+        found.max_pressure = found.pressure(-2.0 * exponent * half_width);
         Ok(found)
     }
 
@@ -83,7 +83,7 @@ mod tests {
         assert!((found.exponent - 0.077_979).abs() < 5e-7);
         assert!((found.offset / found.half_width + 0.155_958).abs() < 5e-7);
         assert!((found.half_width / hertz.half_width - 1.012_388).abs() < 5e-7);
-        assert!((found.peak_pressure / hertz.peak_pressure - 0.994_228).abs() < 5e-7);
+        assert!((found.max_pressure / hertz.max_pressure - 0.994_228).abs() < 5e-7);
         let turned = SlidingCylinder::new(10.0, 0.01, 2.0, 0.5, -0.5).unwrap();
         assert!((turned.pressure(0.03) - found.pressure(-0.03)).abs() < 1e-15);
         assert_eq!(turned.offset, -found.offset);

@@ -20,11 +20,11 @@ pub struct StretchedSphere {
     /// Tangential force T along x [force], signed.
     pub tangential_force: f64,
     /// Largest tangential force that friction holds, μP [force].
-    pub friction_force: f64,
+    pub sliding_force: f64,
     /// Radius a of the contact [length].
     pub contact_radius: f64,
     /// Largest shear that friction holds anywhere, μp0 [pressure].
-    pub peak_friction: f64,
+    pub max_shear: f64,
     /// Radius c of the disc that sticks [length].
     pub stick_radius: f64,
     /// Middle e of that disc along x [length].
@@ -47,18 +47,18 @@ impl StretchedSphere {
         let friction = positive("friction", friction)?;
         let shear_modulus = positive("effective shear modulus", shear_modulus)?;
         within("strain", strain, strain.is_finite(), "finite")?;
-        let (a, friction_force) = (hertz.contact_radius, friction * hertz.force);
-        let peak_friction = friction * hertz.peak_pressure;
-        if !(tangential_force.abs() <= friction_force) {
+        let (a, sliding_force) = (hertz.contact_radius, friction * hertz.force);
+        let max_shear = friction * hertz.max_pressure;
+        if !(tangential_force.abs() <= sliding_force) {
             return Err(AnalyticError::TooLarge {
                 name: "tangential force",
                 value: tangential_force,
                 reason: "friction holds at most",
-                limit: friction_force,
+                limit: sliding_force,
             });
         }
-        let stick_radius = a * (1.0 - tangential_force.abs() / friction_force).cbrt();
-        let per_strain = 8.0 * a * shear_modulus / (std::f64::consts::PI * peak_friction);
+        let stick_radius = a * (1.0 - tangential_force.abs() / sliding_force).cbrt();
+        let per_strain = 8.0 * a * shear_modulus / (std::f64::consts::PI * max_shear);
         let limit = (a - stick_radius) / per_strain;
         if strain.abs() > limit {
             return Err(AnalyticError::TooLarge {
@@ -69,14 +69,7 @@ impl StretchedSphere {
             });
         }
         let stick_offset = per_strain * strain * if tangential_force < 0.0 { -1.0 } else { 1.0 };
-        Ok(Self {
-            tangential_force,
-            friction_force,
-            contact_radius: a,
-            peak_friction,
-            stick_radius,
-            stick_offset,
-        })
+        Ok(Self { tangential_force, sliding_force, contact_radius: a, max_shear, stick_radius, stick_offset })
     }
 
     /// Shear along x at a point [pressure], with the sign of the force; zero outside the contact.
@@ -87,7 +80,7 @@ impl StretchedSphere {
             ((radius - r) * (radius + r)).max(0.0).sqrt() / a
         };
         let sign = if self.tangential_force < 0.0 { -1.0 } else { 1.0 };
-        sign * self.peak_friction * (root(x, a) - root(x - self.stick_offset, self.stick_radius))
+        sign * self.max_shear * (root(x, a) - root(x - self.stick_offset, self.stick_radius))
     }
 }
 
@@ -113,7 +106,7 @@ impl EquibiaxialSphere {
     pub fn new(hertz: &Hertz, friction: f64, modulus: f64, strain: f64) -> Result<Self, AnalyticError> {
         let (friction, modulus) = (positive("friction", friction)?, effective_modulus(modulus)?);
         within("strain", strain, strain.is_finite(), "finite")?;
-        let stick = stick_ratio(modulus * strain.abs() / (friction * hertz.peak_pressure));
+        let stick = stick_ratio(modulus * strain.abs() / (friction * hertz.max_pressure));
         Ok(Self { contact_radius: hertz.contact_radius, stick_radius: stick * hertz.contact_radius })
     }
 }
@@ -133,7 +126,7 @@ mod tests {
         let hertz = Hertz::sphere(10.0, 1e-3, moduli.normal).unwrap();
         let force = 0.6 * friction * hertz.force;
         let found = StretchedSphere::new(&hertz, friction, moduli.shear, force, sigma / young).unwrap();
-        let expected = sigma / (std::f64::consts::PI * friction * hertz.peak_pressure);
+        let expected = sigma / (std::f64::consts::PI * friction * hertz.max_pressure);
         assert!((found.stick_offset / found.contact_radius / expected - 1.0).abs() < 1e-14);
         assert!((found.stick_radius / found.contact_radius - 0.4_f64.cbrt()).abs() < 1e-15);
         let (cells, a) = (2000_i32, found.contact_radius);
@@ -151,7 +144,7 @@ mod tests {
     fn stretching_alike_in_all_directions_leaves_a_disc_stuck() {
         let hertz = Hertz::sphere(10.0, 1e-3, 1.5).unwrap();
         for (stick, load) in [(0.9, 0.161_327), (0.5, 0.945_460)] {
-            let strain = load * 0.3 * hertz.peak_pressure / 1.5;
+            let strain = load * 0.3 * hertz.max_pressure / 1.5;
             let found = EquibiaxialSphere::new(&hertz, 0.3, 1.5, strain).unwrap();
             assert!((found.stick_radius / found.contact_radius - stick).abs() < 2e-6); // six digits of the load
         }

@@ -67,7 +67,7 @@ impl TangentialHistory {
     /// The force at which the present branch ends and an older one goes on.
     fn branch_end(&self) -> f64 {
         match self.turning_points.as_slice() {
-            [] => self.heading * self.contact.friction_force,
+            [] => self.heading * self.contact.sliding_force,
             [only] => -only,
             [.., before, _] => *before,
         }

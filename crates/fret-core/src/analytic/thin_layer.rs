@@ -22,7 +22,7 @@ pub struct ThinLayer {
     /// Radius a of the contact [length].
     pub contact_radius: f64,
     /// Pressure in the middle [pressure].
-    pub peak_pressure: f64,
+    pub max_pressure: f64,
     /// Approach δ [length].
     pub approach: f64,
     /// Whether the layer keeps its volume.
@@ -41,21 +41,21 @@ impl ThinLayer {
             let stiffness =
                 layer.material().shear_modulus() / (32.0 * sphere_radius * layer.thickness().powi(3));
             let a = (force / (PI * stiffness)).cbrt().sqrt();
-            let (peak_pressure, approach) = (3.0 * stiffness * a.powi(4), a * a / (4.0 * sphere_radius));
-            return Ok(Self { force, contact_radius: a, peak_pressure, approach, incompressible: true });
+            let (max_pressure, approach) = (3.0 * stiffness * a.powi(4), a * a / (4.0 * sphere_radius));
+            return Ok(Self { force, contact_radius: a, max_pressure, approach, incompressible: true });
         }
         let foundation =
             young * (1.0 - poisson) / ((1.0 + poisson) * (1.0 - 2.0 * poisson)) / layer.thickness();
         let a = (4.0 * force * sphere_radius / (PI * foundation)).powf(0.25);
         let approach = a * a / (2.0 * sphere_radius);
-        let peak_pressure = foundation * approach;
-        Ok(Self { force, contact_radius: a, peak_pressure, approach, incompressible: false })
+        let max_pressure = foundation * approach;
+        Ok(Self { force, contact_radius: a, max_pressure, approach, incompressible: false })
     }
 
     /// Pressure at distance `r` from the middle [pressure]; zero outside the contact.
     pub fn pressure(&self, r: f64) -> f64 {
         let depth = (1.0 - (r / self.contact_radius).powi(2)).max(0.0);
-        self.peak_pressure * if self.incompressible { depth * depth } else { depth }
+        self.max_pressure * if self.incompressible { depth * depth } else { depth }
     }
 }
 

@@ -27,7 +27,7 @@ pub struct Torsion {
     /// Radius a of the contact [length].
     pub contact_radius: f64,
     /// Largest shear that friction holds anywhere, μp0 [pressure].
-    pub peak_friction: f64,
+    pub max_shear: f64,
 }
 
 impl Torsion {
@@ -113,7 +113,7 @@ impl Torsion {
             };
             FRAC_2_PI * r * integral(((c - r) * (c + r)).sqrt(), ((a - r) * (a + r)).sqrt(), integrand)
         };
-        (self.peak_friction * shape).copysign(self.moment)
+        (self.max_shear * shape).copysign(self.moment)
     }
 
     fn untwisted(hertz: &Hertz, friction: f64) -> Self {
@@ -122,13 +122,13 @@ impl Torsion {
             twist: 0.0,
             stick_radius: hertz.contact_radius,
             contact_radius: hertz.contact_radius,
-            peak_friction: friction * hertz.peak_pressure,
+            max_shear: friction * hertz.max_pressure,
         }
     }
 
     /// Twist when the share `slipped = 1 − c²/a²` of the area slips.
     fn twist_at(&self, slipped: f64, shear_modulus: f64) -> f64 {
-        self.peak_friction / (2.0 * shear_modulus) * first_less_second(slipped)
+        self.max_shear / (2.0 * shear_modulus) * first_less_second(slipped)
     }
 
     /// Moment when the share `slipped` of the area slips; the integral over `1 − t²/a²` in place of t.
@@ -140,7 +140,7 @@ impl Torsion {
         };
         let slip =
             integral(0.0, slipped, |m| 4.0 * (1.0 - m).max(0.0).sqrt() * first_less_second(m.min(BELOW_ONE)));
-        self.peak_friction * self.contact_radius.powi(3) * (stick + slip)
+        self.max_shear * self.contact_radius.powi(3) * (stick + slip)
     }
 }
 
@@ -165,7 +165,7 @@ mod tests {
     #[test]
     fn twist_and_moment_match_printed_values() {
         let hertz = steel_example();
-        let (a, p0) = (hertz.contact_radius, hertz.peak_pressure);
+        let (a, p0) = (hertz.contact_radius, hertz.max_pressure);
         for (stick, twist, moment) in [
             (0.9, 0.080_663_279_7, 0.176_345_381_5),
             (0.7, 0.258_524_278_5, 0.409_738_479_6),

@@ -100,6 +100,6 @@ mod tests {
         let crest = 4.0 / (4.0 * std::f64::consts::PI.powi(2) * 0.01);
         let line = HertzLine::cylinder(crest, 2e-6, 5.0).unwrap();
         assert!((wave.half_width / line.half_width - 1.0).abs() < 1e-5);
-        assert!((wave.pressure(0.0) / line.peak_pressure - 1.0).abs() < 1e-5);
+        assert!((wave.pressure(0.0) / line.max_pressure - 1.0).abs() < 1e-5);
     }
 }

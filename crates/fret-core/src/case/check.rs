@@ -90,6 +90,7 @@ pub(super) fn case(
             "1e-8 serves most purposes; below 1e-12 rounding takes over",
         ),
     };
+    let units = file.units.as_ref().and_then(|file| super::units::units(&mut judge, file));
     let output = output(&mut judge, file.output.as_ref());
     let stress = stress(&mut judge, file.stress.as_ref(), bodies.as_ref(), output.as_ref(), frictionless);
     match (cells, size, bodies, profile, friction, stages, tolerance, output) {
@@ -104,6 +105,7 @@ pub(super) fn case(
             Some(output),
         ) if judge.mistakes.is_empty() => Ok(Case {
             title: file.title.unwrap_or_default(),
+            units,
             cells,
             size,
             datum,

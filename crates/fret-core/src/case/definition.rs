@@ -6,6 +6,7 @@ use super::course::Stage;
 use super::output::Output;
 use super::refusal::{CaseError, Difference, Mistake};
 use super::stress::StressRequest;
+use super::units::Units;
 use crate::model::{
     ContactPair, CoulombFriction, Integration, LoadStep, Profile, ResidualStress, Scheme, WearRule,
 };
@@ -15,6 +16,9 @@ use crate::model::{
 pub struct Case {
     /// Title, or an empty text.
     pub title: String,
+    /// Units that the case declares.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub units: Option<Units>,
     /// Cells `[nx, ny]`; `[n, 1]` in a line contact.
     pub cells: [usize; 2],
     /// Side lengths of the grid.

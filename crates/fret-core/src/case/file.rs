@@ -18,6 +18,8 @@ use crate::model::{Integration, Scheme};
 pub(super) struct CaseFile {
     /// A title for tables and figures.
     pub title: Option<String>,
+    /// Units of the numbers in the case, which then stand on axes and in attributes. Default: none, any consistent system of units.
+    pub units: Option<UnitsFile>,
     /// The mesh of the potential contact area.
     pub grid: GridFile,
     /// The body that moves.
@@ -43,6 +45,18 @@ pub(super) struct CaseFile {
     /// Subsurface stresses, evaluated from the kept tractions after the run.
     #[schemars(with = "Option<StressFile>")]
     pub stress: Option<Spanned<StressFile>>,
+}
+
+/// Units of the numbers in the case. Nothing is converted: results are in the same units.
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(super) struct UnitsFile {
+    /// Unit of every length, such as "mm".
+    #[schemars(with = "String")]
+    pub length: Spanned<String>,
+    /// Unit of every force, such as "N". That of pressures and moduli follows: `MPa` for mm and N.
+    #[schemars(with = "String")]
+    pub force: Spanned<String>,
 }
 
 /// The mesh of the potential contact area, centred on the first point of touch.

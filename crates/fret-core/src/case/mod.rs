@@ -30,6 +30,7 @@ mod stress;
 mod substrates;
 mod surface_file;
 mod table;
+mod units;
 mod wearing;
 mod wording;
 
@@ -40,7 +41,9 @@ pub use definition::{Case, GridSize};
 pub use file::schema;
 pub use numbers::{NumbersError, numbers};
 pub use output::{FIELD_NAMES, Output};
+pub use read::toml_of;
 pub use refusal::{CaseError, Difference, Mistake};
 pub(crate) use stages::apart;
 pub use stress::{FatigueRequest, Side, StressRequest};
+pub use units::Units;
 pub use wording::{in_words, printable};

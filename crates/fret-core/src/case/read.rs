@@ -318,11 +318,19 @@ impl Case {
         let refuse = |message: String| CaseError::plain(name, message);
         let value: serde_json::Value =
             serde_json::from_str(text).map_err(|error| refuse(format!("not readable as JSON: {error}")))?;
-        let table = toml::Table::try_from(without_null(value))
-            .map_err(|error| refuse(format!("not a case: {error}")))?;
-        let text = toml::to_string(&table).map_err(|error| refuse(format!("not a case: {error}")))?;
+        let text = toml_of(&value).map_err(refuse)?;
         Self::from_toml_with(&text, name, attachments)
     }
+}
+
+/// A case given as JSON, as TOML text of the same structure.
+///
+/// # Errors
+/// With a reason, when the value is no table.
+pub fn toml_of(value: &serde_json::Value) -> Result<String, String> {
+    let table =
+        toml::Table::try_from(without_null(value.clone())).map_err(|error| format!("not a case: {error}"))?;
+    toml::to_string(&table).map_err(|error| format!("not a case: {error}"))
 }
 
 /// JSON's null means "not given"; TOML has no word for it.

@@ -89,7 +89,7 @@ const fn word<R>(
     Column { name, meaning, unit, value: Value::Word(value) }
 }
 
-/// Columns of the table of increments, in its order: `history.csv`, and `history.steps` in Python.
+/// Columns of the table of increments, in its order: `history.csv`, and `history.increments` in Python.
 pub static STEP_COLUMNS: &[Column<StepRecord>] = &[
     count("increment", "number of the increment in the whole history, from 0", NO_UNIT, |step| {
         step.increment

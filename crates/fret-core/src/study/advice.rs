@@ -1,14 +1,14 @@
-//! What a ladder teaches: which rungs are worth their time, and what to choose for an accuracy.
+//! What a study teaches: which levels are worth their time, and what to choose for an accuracy.
 
 use serde::Serialize;
 
 use super::errors::{Errors, Form};
-use super::headline::Quantity;
-use super::ladder::{Kind, Ladder, Place};
-use super::rung::Rung;
-use super::truth::Truth;
+use super::level::Level;
+use super::quantities::Quantity;
+use super::reference::Reference;
+use super::resolutions::{Kind, Place, Resolutions};
 
-/// Cells and increments for an accuracy of every headline number.
+/// Cells and increments for an accuracy of every quantity of interest.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Advice {
     /// The accuracy, relative.
@@ -17,35 +17,35 @@ pub struct Advice {
     pub cells: Option<usize>,
     /// Increments of a stage or a cycle; `None`: no number of them was seen to lead there.
     pub increments: Option<usize>,
-    /// Whether one of them lies beyond the ladder and is concluded from its order.
+    /// Whether one of them lies beyond the study and is concluded from its order.
     pub concluded: bool,
 }
 
 /// Beyond so many times the finest count nothing is concluded.
 const FARTHEST: f64 = 8.0;
 
-/// Numbers of cells and increments whose errors each take half of `accuracy`. Cells are judged by the truth, increments by
+/// Numbers of cells and increments whose errors each take half of `accuracy`. Cells are judged by the reference, increments by
 /// their own limit at the most cells, so that the error of the cells does not hide in it.
 pub fn advice<'a>(
-    ladder: &Ladder,
-    rung: &impl Fn(Place) -> Option<&'a Rung>,
+    resolutions: &Resolutions,
+    level: &impl Fn(Place) -> Option<&'a Level>,
     judged: &impl Fn(Place) -> Option<Errors>,
     accuracy: f64,
 ) -> Advice {
-    let cells_line = ladder.line(Kind::Cells);
-    let increments_line = ladder.line(Kind::Increments);
+    let cells_line = resolutions.line(Kind::Cells);
+    let increments_line = resolutions.line(Kind::Increments);
     let worst = |place: Place| judged(place).and_then(|errors| errors.worst(Form::Between));
-    let alone = limit_of_increments(ladder, rung);
+    let alone = limit_of_increments(resolutions, level);
     let by_increments =
-        |place: Place| super::errors::errors(alone.as_ref()?, rung(place)?, None).worst(Form::Between);
+        |place: Place| super::errors::errors(alone.as_ref()?, level(place)?, None).worst(Form::Between);
     let (cells, beyond_cells) = choose(
-        &cells_line.iter().map(|[i, ..]| ladder.cells[*i][0]).collect::<Vec<_>>(),
+        &cells_line.iter().map(|[i, ..]| resolutions.cells[*i][0]).collect::<Vec<_>>(),
         &cells_line.iter().map(|place| worst(*place)).collect::<Vec<_>>(),
         accuracy / 2.0,
-        judged(ladder.finest()).is_some_and(|errors| areas(&errors) > accuracy / 2.0),
+        judged(resolutions.finest()).is_some_and(|errors| areas(&errors) > accuracy / 2.0),
     );
     let (increments, beyond_increments) = choose(
-        &increments_line.iter().map(|[_, j, _]| largest(&ladder.increments[*j])).collect::<Vec<_>>(),
+        &increments_line.iter().map(|[_, j, _]| largest(&resolutions.increments[*j])).collect::<Vec<_>>(),
         &increments_line.iter().map(|place| by_increments(*place)).collect::<Vec<_>>(),
         accuracy / 2.0,
         false,
@@ -58,14 +58,17 @@ fn largest(counts: &[usize]) -> usize {
 }
 
 /// The limit along the increments alone, at the most cells.
-fn limit_of_increments<'a>(ladder: &Ladder, rung: &impl Fn(Place) -> Option<&'a Rung>) -> Option<Truth> {
-    let [i, _, k] = ladder.finest();
-    let alone = Ladder {
-        cells: vec![ladder.cells[i]],
-        increments: ladder.increments.clone(),
-        tolerances: vec![ladder.tolerances[k]],
+fn limit_of_increments<'a>(
+    resolutions: &Resolutions,
+    level: &impl Fn(Place) -> Option<&'a Level>,
+) -> Option<Reference> {
+    let [i, _, k] = resolutions.finest();
+    let alone = Resolutions {
+        cells: vec![resolutions.cells[i]],
+        increments: resolutions.increments.clone(),
+        tolerances: vec![resolutions.tolerances[k]],
     };
-    Truth::limit(&alone, &|[_, j, _]: Place| rung([i, j, k]))
+    Reference::limit(&alone, &|[_, j, _]: Place| level([i, j, k]))
 }
 
 /// Largest error of the areas. Their error over the cells has no order: it depends on where the edge lies between cell centres.
@@ -104,7 +107,7 @@ fn choose(
     (is_near.then(|| (wanted / 8.0).ceil() as usize * 8), is_near)
 }
 
-/// Which of some rungs are efficient: none is both quicker and closer. Points are time and error.
+/// Which of some levels are efficient: none is both quicker and closer. Points are time and error.
 pub fn frontier(points: &[(f64, Option<f64>)]) -> Vec<bool> {
     let is_beaten = |(time, error): (f64, f64)| {
         points.iter().any(|(other_time, other)| {

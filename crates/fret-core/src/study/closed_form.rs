@@ -7,7 +7,7 @@
 
 use std::f64::consts::PI;
 
-use super::headline::Quantity;
+use super::quantities::Quantity;
 use crate::analytic::{
     Cone, EffectiveModuli, FlatPunch, Hertz, HertzEllipse, RoundedPunch, TangentialHistory,
 };
@@ -20,7 +20,7 @@ use crate::plan::{Coupling, Plan};
 pub struct Said([Option<[f64; 2]>; 6]);
 
 impl Said {
-    /// A headline number, scalars first.
+    /// A quantity of interest, scalars first.
     pub fn of(&self, quantity: Quantity) -> Option<[f64; 2]> {
         self.0[quantity as usize]
     }
@@ -121,9 +121,9 @@ impl Pressed {
     fn says(&self) -> Said {
         let mut said = Said::default();
         let (peak, approach, area) = match self {
-            Self::Sphere(form) => (Some(form.peak_pressure), form.approach, disc(form.contact_radius)),
+            Self::Sphere(form) => (Some(form.max_pressure), form.approach, disc(form.contact_radius)),
             Self::Ellipsoid(form) => {
-                (Some(form.peak_pressure), form.approach, PI * form.semi_axes[0] * form.semi_axes[1])
+                (Some(form.max_pressure), form.approach, PI * form.semi_axes[0] * form.semi_axes[1])
             }
             // The largest pressure of a rounded punch lies near its edge, in no closed form; those of an edge and a tip are infinite.
             Self::Rounded(form) => (None, form.approach, disc(form.contact_radius)),

@@ -1,17 +1,17 @@
-//! Errors of a rung, all relative.
+//! Errors of a level, all relative.
 
 use serde::Serialize;
 
-use super::headline::{Headline, Quantity};
-use super::rung::Rung;
-use super::truth::Truth;
+use super::level::Level;
+use super::quantities::{Quantity, StageQuantities};
+use super::reference::Reference;
 
 /// Share below which a motion or an energy is none.
 const NOTHING: f64 = 1e-9;
 /// Errors below this are rounding, and show no order.
 const ROUNDING: f64 = 1e-12;
 
-/// How a headline number is read.
+/// How a quantity of interest is read.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Form {
@@ -28,7 +28,7 @@ impl Form {
     pub const ALL: [Self; 3] = [Self::Plain, Self::Between, Self::Extrapolated];
 }
 
-/// Errors of a rung: of each headline number the largest at the end of any stage, relative to the largest reference value of all
+/// Errors of a level: of each quantity of interest the largest at the end of any stage, relative to the largest reference value of all
 /// ends (the stick area: to the contact area); of the fields the mean square over the cells at the end of the history.
 /// `None` where nothing is known or nothing happens.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -37,7 +37,7 @@ pub struct Errors {
     pub plain: [Option<f64>; 6],
     /// Read between the cells.
     pub between: [Option<f64>; 6],
-    /// Extrapolated with the coarser rung, when there is one.
+    /// Extrapolated with the coarser level, when there is one.
     pub extrapolated: [Option<f64>; 6],
     /// Pressure.
     pub pressure: Option<f64>,
@@ -55,34 +55,34 @@ impl Errors {
         }
     }
 
-    /// The worst headline number of a form.
+    /// The worst quantity of interest of a form.
     pub fn worst(&self, form: Form) -> Option<f64> {
         self.of(form).iter().flatten().copied().reduce(f64::max)
     }
 }
 
-/// Errors of a rung; `coarser` is the rung of half the cells, when there is one.
-pub fn errors(truth: &Truth, rung: &Rung, coarser: Option<&Rung>) -> Errors {
+/// Errors of a level; `coarser` is the level of half the cells, when there is one.
+pub fn errors(reference: &Reference, level: &Level, coarser: Option<&Level>) -> Errors {
     let judged = |reading: &dyn Fn(usize, Quantity) -> [f64; 2]| {
-        Quantity::ALL.map(|quantity| error(truth, quantity, rung.ends.len(), reading))
+        Quantity::ALL.map(|quantity| error(reference, quantity, level.ends.len(), reading))
     };
     let extrapolated = coarser.map_or([None; 6], |coarser| {
         judged(&|end, quantity| match coarser.ends.get(end) {
-            Some(coarse) => extrapolated(&rung.ends[end], coarse, quantity),
-            None => rung.ends[end].between(quantity),
+            Some(coarse) => extrapolated(&level.ends[end], coarse, quantity),
+            None => level.ends[end].between(quantity),
         })
     });
     Errors {
-        plain: judged(&|end, quantity| rung.ends[end].plain(quantity)),
-        between: judged(&|end, quantity| rung.ends[end].between(quantity)),
+        plain: judged(&|end, quantity| level.ends[end].plain(quantity)),
+        between: judged(&|end, quantity| level.ends[end].between(quantity)),
         extrapolated,
-        pressure: truth.error_of_pressure(rung),
-        shear: truth.error_of_shear(rung),
+        pressure: reference.error_of_pressure(level),
+        shear: reference.error_of_shear(level),
     }
 }
 
-/// A headline number with its error of second order taken off; only pressure and approach have one of a known order and sign.
-pub(super) fn extrapolated(fine: &Headline, coarse: &Headline, quantity: Quantity) -> [f64; 2] {
+/// A quantity of interest with its error of second order taken off; only pressure and approach have one of a known order and sign.
+pub(super) fn extrapolated(fine: &StageQuantities, coarse: &StageQuantities, quantity: Quantity) -> [f64; 2] {
     let value = fine.between(quantity);
     let factor = coarse.cell_area / fine.cell_area - 1.0;
     match quantity {
@@ -95,22 +95,23 @@ pub(super) fn extrapolated(fine: &Headline, coarse: &Headline, quantity: Quantit
 }
 
 fn error(
-    truth: &Truth,
+    reference: &Reference,
     quantity: Quantity,
     ends: usize,
     reading: &dyn Fn(usize, Quantity) -> [f64; 2],
 ) -> Option<f64> {
-    let exact = truth.of(quantity);
-    let scale_from = if quantity == Quantity::StickArea { truth.of(Quantity::ContactArea) } else { exact };
+    let exact = reference.of(quantity);
+    let scale_from =
+        if quantity == Quantity::StickArea { reference.of(Quantity::ContactArea) } else { exact };
     let largest =
         |values: &[Option<[f64; 2]>]| values.iter().flatten().map(|[x, y]| x.hypot(*y)).reduce(f64::max);
     let scale = largest(scale_from)?;
     // Beside these a shift or an energy is none: what rounding leaves of a symmetric scene.
     let beside = match quantity {
-        Quantity::Shift => largest(truth.of(Quantity::Approach)),
-        Quantity::DissipatedEnergy => largest(truth.of(Quantity::Approach))
-            .zip(largest(truth.of(Quantity::MaxPressure)))
-            .zip(largest(truth.of(Quantity::ContactArea)))
+        Quantity::Shift => largest(reference.of(Quantity::Approach)),
+        Quantity::DissipatedEnergy => largest(reference.of(Quantity::Approach))
+            .zip(largest(reference.of(Quantity::MaxPressure)))
+            .zip(largest(reference.of(Quantity::ContactArea)))
             .map(|((approach, peak), area)| approach * peak * area),
         _ => None,
     };
@@ -132,7 +133,7 @@ fn error(
     (0..ends).filter_map(apart).reduce(f64::max)
 }
 
-/// Order each rung of a line shows against the one before: `ln(e0/e1) / ln(n1/n0)`; the first has none, nor has rounding.
+/// Order each level of a line shows against the one before: `ln(e0/e1) / ln(n1/n0)`; the first has none, nor has rounding.
 pub fn orders(counts: &[f64], errors: &[Option<f64>]) -> Vec<Option<f64>> {
     (0..counts.len())
         .map(|k| {

@@ -6,8 +6,8 @@
 use serde::Serialize;
 
 use super::errors::extrapolated;
-use super::headline::{Headline, Quantity};
-use super::ladder::{LadderError, only_one_grid};
+use super::quantities::{Quantity, StageQuantities};
+use super::resolutions::{ResolutionError, only_one_grid};
 use super::variation::{Variation, fewest};
 use crate::history::warning::CELLS_IN_RADIUS;
 use crate::model::Shape;
@@ -37,7 +37,7 @@ const STICK_EDGE: f64 = 0.25;
 const SECOND_ORDER: f64 = 1.0 / 3.0;
 const UNKNOWN_ORDER: f64 = 1.5;
 
-/// A headline number with its error bar.
+/// A quantity of interest with its error bar.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Bar {
     /// Which number.
@@ -48,7 +48,7 @@ pub struct Bar {
     pub bar: Option<f64>,
 }
 
-/// The headline numbers of a stage's end with their bars.
+/// The quantities of interest of a stage's end with their bars.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Bars {
     /// Number of the stage, from 0.
@@ -68,18 +68,18 @@ impl Bars {
 ///
 /// # Errors
 /// When the grid is too coarse to be halved, or the contact that is expected has too few cells, or the scene stands on its cells.
-pub fn companion(plan: &Plan) -> Result<Plan, LadderError> {
+pub fn companion(plan: &Plan) -> Result<Plan, ResolutionError> {
     only_one_grid(plan)?;
     let least =
         if plan.grid.is_line() { plan.case.cells[0] } else { *plan.case.cells.iter().min().unwrap_or(&0) };
     if least < FEWEST_CELLS {
-        return Err(LadderError::TooCoarse(least, FEWEST_CELLS));
+        return Err(ResolutionError::TooCoarse(least, FEWEST_CELLS));
     }
     if let Some(contact) = &plan.expected {
         let [x, y] = [0, 1].map(|axis| contact.half_widths[axis] / plan.grid.spacing()[axis]);
         // What a coarse grid cannot tell from the bound is left to the run.
         if 1.05 * x.min(y) < CELLS_IN_RADIUS {
-            return Err(LadderError::FewCells(x.min(y)));
+            return Err(ResolutionError::FewCells(x.min(y)));
         }
     }
     let mut half = Variation::of(plan).halved(&plan.case.stages);
@@ -88,23 +88,23 @@ pub fn companion(plan: &Plan) -> Result<Plan, LadderError> {
         // Without friction the way does not matter, only where it ends.
         half.increments = plan.case.stages.iter().map(fewest).collect();
     }
-    half.planned(plan).map_err(|_| LadderError::TooCoarse(least, FEWEST_CELLS))
+    half.planned(plan).map_err(|_| ResolutionError::TooCoarse(least, FEWEST_CELLS))
 }
 
 /// Whether the cells show the contact at the end of a stage well enough for error bars to hold.
 ///
 /// # Errors
 /// When its radius has fewer cells than [`CELLS_IN_RADIUS`].
-pub fn resolved(end: &Headline) -> Result<(), LadderError> {
+pub fn resolved(end: &StageQuantities) -> Result<(), ResolutionError> {
     match end.radius_cells {
-        Some(few) if few < CELLS_IN_RADIUS => Err(LadderError::FewCells(few)),
+        Some(few) if few < CELLS_IN_RADIUS => Err(ResolutionError::FewCells(few)),
         _ => Ok(()),
     }
 }
 
-/// Error bars at the ends of the stages of `plan`, from its own headline numbers and those of its companion; of the stages that
+/// Error bars at the ends of the stages of `plan`, from its own quantities of interest and those of its companion; of the stages that
 /// both have reached and that end [`resolved`].
-pub fn error_bars(plan: &Plan, fine: &[Headline], coarse: &[Headline]) -> Vec<Bars> {
+pub fn error_bars(plan: &Plan, fine: &[StageQuantities], coarse: &[StageQuantities]) -> Vec<Bars> {
     let scene = Scene::of(plan);
     let mut largest = [0.0_f64; 6];
     let mut bars = Vec::new();
@@ -156,7 +156,7 @@ impl Scene {
     }
 
     /// A number with its bar; `largest` is the most it has been so far.
-    fn bar(&self, quantity: Quantity, fine: &Headline, coarse: &Headline, largest: f64) -> Bar {
+    fn bar(&self, quantity: Quantity, fine: &StageQuantities, coarse: &StageQuantities, largest: f64) -> Bar {
         let (value, other) = (fine.between(quantity), coarse.between(quantity));
         let apart = (value[0] - other[0]).hypot(value[1] - other[1]);
         let area = fine.contact_area.max(fine.cell_area);

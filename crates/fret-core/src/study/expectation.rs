@@ -185,7 +185,7 @@ fn trial(plan: &Plan) -> Option<Plan> {
     let own = Variation::of(plan);
     let [nx, ny] = own.cells;
     let shrinking = (nx.max(ny) as f64 / COARSE as f64).max(1.0);
-    let cells = if plan.grid.len() > SMALL && super::ladder::only_one_grid(plan).is_ok() {
+    let cells = if plan.grid.len() > SMALL && super::resolutions::only_one_grid(plan).is_ok() {
         own.cells.map(|side| ((side as f64 / shrinking).round() as usize).max(4).min(side))
     } else {
         own.cells

@@ -1,4 +1,4 @@
-//! Where a line of rungs is heading: Richardson's extrapolation (1911) with the order the last three rungs show.
+//! Where a line of levels is heading: Richardson's extrapolation (1911) with the order the last three levels show.
 
 /// Bounds on a plausible order.
 const ORDERS: [f64; 2] = [0.5, 4.0];

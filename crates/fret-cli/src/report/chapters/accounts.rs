@@ -44,7 +44,7 @@ pub fn energy(scene: &Scene<'_>) -> String {
     }
     let chart = Chart {
         what: "dissipated energy over the increments".to_owned(),
-        axes: ["increment".to_owned(), "dissipated energy".to_owned()],
+        axes: ["increment".to_owned(), scene.axis("dissipated energy", "force x length")],
         curves,
         logarithmic: false,
         level: None,

@@ -45,7 +45,7 @@ pub fn pressing(scene: &Scene<'_>) -> String {
     }
     let chart = Chart {
         what: "normal force over approach".to_owned(),
-        axes: ["approach".to_owned(), "normal force".to_owned()],
+        axes: [scene.axis("approach", "length"), scene.axis("normal force", "force")],
         curves,
         logarithmic: false,
         level: None,
@@ -58,7 +58,7 @@ pub fn pressing(scene: &Scene<'_>) -> String {
     }
     let chart = Chart {
         what: "loads over the increments".to_owned(),
-        axes: ["increment".to_owned(), "force".to_owned()],
+        axes: ["increment".to_owned(), scene.axis("force", "force")],
         curves: loads,
         logarithmic: false,
         level: None,
@@ -83,6 +83,7 @@ pub fn fretting_loop(scene: &Scene<'_>) -> String {
         let words = "Tangential force over relative displacement, both along the load.";
         (pairs(&scene.shift, &scene.tangential), ["relative displacement", "tangential force"], words)
     };
+    let kinds = if scene.twists { ["rad", "force x length"] } else { ["length", "force"] };
     let cycles = scene.cycles();
     let mut curves = Vec::new();
     let mut caption = words.to_owned();
@@ -104,7 +105,7 @@ pub fn fretting_loop(scene: &Scene<'_>) -> String {
     }
     let chart = Chart {
         what: format!("{} over {}", axes[1], axes[0]),
-        axes: axes.map(str::to_owned),
+        axes: [scene.axis(axes[0], kinds[0]), scene.axis(axes[1], kinds[1])],
         curves,
         logarithmic: false,
         level: None,
@@ -284,7 +285,7 @@ fn pressure_section(scene: &Scene<'_>, section: &Section) -> Result<String, Fail
     let has_form = curves.iter().any(|curve| curve.stroke == Stroke::Dashed);
     let chart = Chart {
         what: "pressure along a line through the contact".to_owned(),
-        axes: [section.name().to_owned(), "pressure".to_owned()],
+        axes: [scene.axis(section.name(), "length"), scene.axis("pressure", "pressure")],
         curves,
         logarithmic: false,
         level: None,
@@ -313,7 +314,7 @@ fn shear_section(scene: &Scene<'_>, section: &Section, direction: [f64; 2]) -> R
     let has_form = curves.iter().any(|curve| curve.stroke == Stroke::Dashed);
     let chart = Chart {
         what: "shear along a line through the contact".to_owned(),
-        axes: [section.name().to_owned(), "shear".to_owned()],
+        axes: [scene.axis(section.name(), "length"), scene.axis("shear", "pressure")],
         curves,
         logarithmic: false,
         level: None,

@@ -7,7 +7,7 @@ use super::peak::peak_pressure;
 use crate::history::StepRecord;
 use crate::model::{ContactState, SurfaceGrid, Zone};
 
-/// A headline number.
+/// A quantity of interest.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Quantity {
@@ -60,9 +60,9 @@ pub struct Plain {
     pub stick_area: f64,
 }
 
-/// Headline numbers at the end of an increment, read between the cells where that is closer.
+/// Quantities of interest at the end of an increment, read between the cells where that is closer.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct Headline {
+pub struct StageQuantities {
     /// Number of the stage, from 0.
     pub stage: usize,
     /// Largest pressure [pressure]: [`peak_pressure`].
@@ -89,8 +89,8 @@ pub struct Headline {
     pub radius_cells: Option<f64>,
 }
 
-impl Headline {
-    /// Headline numbers of a solved increment.
+impl StageQuantities {
+    /// Quantities of interest of a solved increment.
     pub fn new(grid: &SurfaceGrid, record: &StepRecord, state: &ContactState) -> Self {
         let cell = grid.cell_area();
         Self {

@@ -1,15 +1,15 @@
-//! What the rungs of a ladder are measured by: a closed form where it speaks, numbers from elsewhere, the limit of the ladder, or
-//! its finest rung.
+//! What the levels of a study are measured by: a closed form where it speaks, numbers from elsewhere, the limit of the study, or
+//! its finest level.
 
 use ndarray::Array2;
 use serde::Serialize;
 
 use super::closed_form::ClosedForm;
-use super::headline::{Headline, Quantity};
-use super::ladder::{Kind, Ladder, Place};
+use super::level::Level;
 use super::limit::still_missing;
 use super::means;
-use super::rung::Rung;
+use super::quantities::{Quantity, StageQuantities};
+use super::resolutions::{Kind, Place, Resolutions};
 use crate::model::SurfaceGrid;
 
 /// Where a reference comes from.
@@ -20,16 +20,16 @@ pub enum Source {
     ClosedForm,
     /// Numbers from elsewhere.
     Given,
-    /// What the ladder is heading for.
+    /// What the study is heading for.
     Limit,
-    /// The finest rung.
+    /// The finest level.
     Finest,
 }
 
 /// Reference values.
 #[derive(Debug, Clone)]
-pub struct Truth {
-    /// For each headline number its values at the end of each stage, and where they come from; `None` where nothing is known.
+pub struct Reference {
+    /// For each quantity of interest its values at the end of each stage, and where they come from; `None` where nothing is known.
     numbers: [(Vec<Option<[f64; 2]>>, Source); 6],
     form: Option<ClosedForm>,
     finest: Option<Fields>,
@@ -42,7 +42,7 @@ struct Fields {
     shear: [Array2<f64>; 2],
 }
 
-impl Truth {
+impl Reference {
     /// A closed form alone.
     pub fn closed(form: ClosedForm) -> Self {
         let of = |quantity: Quantity| {
@@ -52,38 +52,38 @@ impl Truth {
         Self { numbers: Quantity::ALL.map(of), form: Some(form), finest: None }
     }
 
-    /// The finest rung of a solved ladder.
-    pub fn finest(finest: &Rung) -> Self {
+    /// The finest level of a solved study.
+    pub fn finest(finest: &Level) -> Self {
         let of = |quantity: Quantity| {
             (finest.ends.iter().map(|end| Some(end.between(quantity))).collect(), Source::Finest)
         };
         Self { numbers: Quantity::ALL.map(of), form: None, finest: Some(Fields::of(finest)) }
     }
 
-    /// The limit a solved ladder is heading for; for the fields, its finest rung. `rung` gives the rung at a place.
-    pub fn limit<'a>(ladder: &Ladder, rung: &impl Fn(Place) -> Option<&'a Rung>) -> Option<Self> {
-        let finest = rung(ladder.finest())?;
-        let mut truth = Self::finest(finest);
+    /// The limit a solved study is heading for; for the fields, its finest level. `level` gives the level at a place.
+    pub fn limit<'a>(resolutions: &Resolutions, level: &impl Fn(Place) -> Option<&'a Level>) -> Option<Self> {
+        let finest = level(resolutions.finest())?;
+        let mut reference = Self::finest(finest);
         let lines = [Kind::Cells, Kind::Increments].map(|kind| {
-            let places = ladder.line(kind);
+            let places = resolutions.line(kind);
             let count = |[i, j, _]: &Place| match kind {
-                Kind::Cells => ladder.cells[*i][0] as f64,
-                _ => ladder.increments[*j].iter().sum::<usize>() as f64,
+                Kind::Cells => resolutions.cells[*i][0] as f64,
+                _ => resolutions.increments[*j].iter().sum::<usize>() as f64,
             };
             let counts: Vec<f64> = places.iter().map(count).collect();
-            let rungs: Vec<&Rung> = places.iter().filter_map(|place| rung(*place)).collect();
-            (kind, counts, rungs)
+            let levels: Vec<&Level> = places.iter().filter_map(|place| level(*place)).collect();
+            (kind, counts, levels)
         });
-        for (quantity, (values, source)) in Quantity::ALL.iter().zip(&mut truth.numbers) {
+        for (quantity, (values, source)) in Quantity::ALL.iter().zip(&mut reference.numbers) {
             for (end, value) in values.iter_mut().enumerate() {
                 let Some(value) = value else { continue };
-                for (kind, counts, rungs) in &lines {
+                for (kind, counts, levels) in &lines {
                     let order = known_order(*quantity, *kind);
                     for (axis, part) in value.iter_mut().enumerate() {
-                        let along: Vec<f64> = rungs
+                        let along: Vec<f64> = levels
                             .iter()
-                            .filter_map(|rung| rung.ends.get(end))
-                            .map(|end: &Headline| end.between(*quantity)[axis])
+                            .filter_map(|level| level.ends.get(end))
+                            .map(|end: &StageQuantities| end.between(*quantity)[axis])
                             .collect();
                         *part += still_missing(counts, &along, order);
                     }
@@ -91,10 +91,10 @@ impl Truth {
             }
             *source = Source::Limit;
         }
-        Some(truth)
+        Some(reference)
     }
 
-    /// This truth where it says something, another one elsewhere.
+    /// This reference where it says something, another one elsewhere.
     #[must_use]
     pub fn or(mut self, other: Self) -> Self {
         for (own, other) in self.numbers.iter_mut().zip(other.numbers) {
@@ -107,7 +107,7 @@ impl Truth {
         self
     }
 
-    /// This truth with numbers from elsewhere for the end of the history.
+    /// This reference with numbers from elsewhere for the end of the history.
     #[must_use]
     pub fn with(mut self, quantity: Quantity, value: [f64; 2]) -> Self {
         let (values, source) = &mut self.numbers[quantity as usize];
@@ -128,12 +128,12 @@ impl Truth {
         }
     }
 
-    /// Values of a headline number at the end of each stage, scalars first.
+    /// Values of a quantity of interest at the end of each stage, scalars first.
     pub fn of(&self, quantity: Quantity) -> &[Option<[f64; 2]>] {
         &self.numbers[quantity as usize].0
     }
 
-    /// Where a headline number comes from; `None` where nothing is known of it.
+    /// Where a quantity of interest comes from; `None` where nothing is known of it.
     pub fn source(&self, quantity: Quantity) -> Option<Source> {
         let (values, source) = &self.numbers[quantity as usize];
         values.iter().any(Option::is_some).then_some(*source)
@@ -144,43 +144,43 @@ impl Truth {
         self.form.as_ref()
     }
 
-    /// Relative error of a rung's pressure in the mean square, at the end of the history.
-    pub fn error_of_pressure(&self, rung: &Rung) -> Option<f64> {
+    /// Relative error of a level's pressure in the mean square, at the end of the history.
+    pub fn error_of_pressure(&self, level: &Level) -> Option<f64> {
         let exact = if let Some(form) = &self.form {
-            means::of_formula(&|x, y| form.pressure(x, y), &rung.grid)
+            means::of_formula(&|x, y| form.pressure(x, y), &level.grid)
         } else {
             let fields =
-                self.finest.as_ref().filter(|fields| fields.grid != rung.grid || !self.is_own(rung))?;
-            means::of_field(&fields.pressure, &fields.grid, &rung.grid)
+                self.finest.as_ref().filter(|fields| fields.grid != level.grid || !self.is_own(level))?;
+            means::of_field(&fields.pressure, &fields.grid, &level.grid)
         };
-        relative([(&rung.pressure, &exact)])
+        relative([(&level.pressure, &exact)])
     }
 
     /// The same for the shear.
-    pub fn error_of_shear(&self, rung: &Rung) -> Option<f64> {
+    pub fn error_of_shear(&self, level: &Level) -> Option<f64> {
         let exact: [Array2<f64>; 2] = match (&self.form, &self.finest) {
             (Some(form), _) if form.knows_shear() => {
-                [0, 1].map(|axis| means::of_formula(&|x, y| form.shear(x, y)[axis], &rung.grid))
+                [0, 1].map(|axis| means::of_formula(&|x, y| form.shear(x, y)[axis], &level.grid))
             }
-            (_, Some(fields)) if fields.grid != rung.grid || !self.is_own(rung) => {
-                [0, 1].map(|axis| means::of_field(&fields.shear[axis], &fields.grid, &rung.grid))
+            (_, Some(fields)) if fields.grid != level.grid || !self.is_own(level) => {
+                [0, 1].map(|axis| means::of_field(&fields.shear[axis], &fields.grid, &level.grid))
             }
             _ => return None,
         };
-        relative([(&rung.shear[0], &exact[0]), (&rung.shear[1], &exact[1])])
+        relative([(&level.shear[0], &exact[0]), (&level.shear[1], &exact[1])])
     }
 
-    /// Whether the fields are this rung's own.
-    fn is_own(&self, rung: &Rung) -> bool {
+    /// Whether the fields are this level's own.
+    fn is_own(&self, level: &Level) -> bool {
         self.finest
             .as_ref()
-            .is_some_and(|fields| fields.pressure == rung.pressure && fields.shear == rung.shear)
+            .is_some_and(|fields| fields.pressure == level.pressure && fields.shear == level.shear)
     }
 }
 
 impl Fields {
-    fn of(rung: &Rung) -> Self {
-        Self { grid: rung.grid, pressure: rung.pressure.clone(), shear: rung.shear.clone() }
+    fn of(level: &Level) -> Self {
+        Self { grid: level.grid, pressure: level.pressure.clone(), shear: level.shear.clone() }
     }
 }
 

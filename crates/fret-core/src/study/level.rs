@@ -1,4 +1,4 @@
-//! One rung of a ladder: a scene solved at one resolution, with what is compared and what it cost.
+//! One level of a study: a scene solved at one resolution, with what is compared and what it cost.
 
 use std::ops::ControlFlow;
 use std::time::Instant;
@@ -6,7 +6,7 @@ use std::time::Instant;
 use ndarray::Array2;
 use serde::{Deserialize, Serialize};
 
-use super::headline::Headline;
+use super::quantities::StageQuantities;
 use super::variation::Variation;
 use crate::fields::stored;
 use crate::history::{CycleRecord, KeptFields, StepRecord, Work};
@@ -14,15 +14,15 @@ use crate::model::{ContactState, SurfaceGrid};
 use crate::plan::Plan;
 use crate::run::{Iteration, Observer, RunError, Simulation};
 
-/// A solved rung.
+/// A solved level.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Rung {
+pub struct Level {
     /// Its resolution.
     pub variation: Variation,
     /// Its grid.
     pub grid: SurfaceGrid,
-    /// Headline numbers at the end of each stage.
-    pub ends: Vec<Headline>,
+    /// Quantities of interest at the end of each stage.
+    pub ends: Vec<StageQuantities>,
     /// Pressure at the end of the history [pressure], shape `(nx, ny)`.
     #[serde(with = "stored")]
     pub pressure: Array2<f64>,
@@ -39,13 +39,13 @@ pub struct Rung {
 ///
 /// # Errors
 /// As [`Simulation::run`].
-pub fn climbed(plan: &Plan, observer: &mut dyn Observer) -> Result<Rung, RunError> {
+pub fn solved_level(plan: &Plan, observer: &mut dyn Observer) -> Result<Level, RunError> {
     let started = Instant::now();
     let mut reader = Reader { grid: plan.grid, ends: Vec::new(), observer };
     let history = Simulation::new(plan).run(&mut reader)?;
     let ends = reader.ends;
     let work = history.work();
-    Ok(Rung {
+    Ok(Level {
         variation: Variation::of(plan),
         grid: plan.grid,
         ends,
@@ -56,10 +56,10 @@ pub fn climbed(plan: &Plan, observer: &mut dyn Observer) -> Result<Rung, RunErro
     })
 }
 
-/// Reads headline numbers of the last increment of every stage, whenever that comes.
+/// Reads quantities of interest of the last increment of every stage, whenever that comes.
 struct Reader<'a> {
     grid: SurfaceGrid,
-    ends: Vec<Headline>,
+    ends: Vec<StageQuantities>,
     observer: &'a mut dyn Observer,
 }
 
@@ -85,7 +85,7 @@ impl Observer for Reader<'_> {
         if self.ends.last().is_some_and(|end| end.stage == record.stage) {
             self.ends.pop();
         }
-        self.ends.push(Headline::new(&self.grid, record, state));
+        self.ends.push(StageQuantities::new(&self.grid, record, state));
         self.observer.solved(record, state, kept)
     }
 }

@@ -1,4 +1,4 @@
-//! A ladder of resolutions: each kind of refinement alone with the others at their finest, and cells and increments together.
+//! A study of resolutions: each kind of refinement alone with the others at their finest, and cells and increments together.
 
 use serde::Serialize;
 
@@ -7,10 +7,10 @@ use crate::case::check::{FEWEST_CELLS as FEWEST_OF_A_CASE, MOST_CELLS, MOST_CELL
 use crate::history::warning::CELLS_IN_RADIUS;
 use crate::plan::{Coupling, Plan};
 
-/// Fewest cells a side of a rung that nobody asked for.
+/// Fewest cells a side of a level that nobody asked for.
 const FEWEST_CELLS: usize = 8;
 
-/// What is refined along a line of rungs.
+/// What is refined along a line of levels.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Kind {
@@ -29,9 +29,9 @@ impl Kind {
     pub const ALL: [Self; 4] = [Self::Cells, Self::Increments, Self::Together, Self::Tolerance];
 }
 
-/// Why a ladder was refused.
+/// Why a study was refused.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
-pub enum LadderError {
+pub enum ResolutionError {
     /// A number of cells along x that no grid can have.
     #[error("--cells {0}: a grid of {0} x {1} cells; each side needs at least 4, at most {MOST_CELLS}")]
     Cells(usize, usize),
@@ -61,12 +61,12 @@ pub enum LadderError {
     EachCell(&'static str),
 }
 
-/// Place of a rung: numbers of its cells, increments and tolerance in the lists of the ladder.
+/// Place of a level: numbers of its cells, increments and tolerance in the lists of the study.
 pub type Place = [usize; 3];
 
-/// Resolutions, each list from coarse to fine; the last of each make the finest rung.
+/// Resolutions, each list from coarse to fine; the last of each make the finest level.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Ladder {
+pub struct Resolutions {
     /// Cells `[nx, ny]`.
     pub cells: Vec<[usize; 2]>,
     /// Increments of each stage, or of one of its cycles.
@@ -75,8 +75,8 @@ pub struct Ladder {
     pub tolerances: Vec<f64>,
 }
 
-impl Ladder {
-    /// A ladder for a plan. `cells` counts along x, the other side follows; `increments` holds for every stage, or one cycle of
+impl Resolutions {
+    /// A study for a plan. `cells` counts along x, the other side follows; `increments` holds for every stage, or one cycle of
     /// it. What is empty stays as the plan has it.
     ///
     /// # Errors
@@ -86,7 +86,7 @@ impl Ladder {
         cells: &[usize],
         increments: &[usize],
         tolerances: &[f64],
-    ) -> Result<Self, LadderError> {
+    ) -> Result<Self, ResolutionError> {
         let own = Variation::of(plan);
         if !cells.is_empty() {
             only_one_grid(plan)?;
@@ -100,22 +100,22 @@ impl Ladder {
         for &[along, across] in &grids {
             let sides = if is_line { [along; 2] } else { [along, across] };
             if sides.iter().any(|side| !(FEWEST_OF_A_CASE..=MOST_CELLS).contains(side)) {
-                return Err(LadderError::Cells(along, across));
+                return Err(ResolutionError::Cells(along, across));
             }
             if along * across > MOST_CELLS_IN_ALL {
-                return Err(LadderError::CellsInAll(along, across));
+                return Err(ResolutionError::CellsInAll(along, across));
             }
         }
         for count in increments {
             if let Some(stage) = plan.case.stages.iter().find(|stage| fewest(stage) > *count) {
-                return Err(LadderError::Increments(*count, stage.name.clone(), fewest(stage)));
+                return Err(ResolutionError::Increments(*count, stage.name.clone(), fewest(stage)));
             }
             if let Some(stage) = plan.case.stages.iter().find(|stage| !count.is_multiple_of(rows(stage))) {
-                return Err(LadderError::Rows(*count, stage.name.clone(), rows(stage)));
+                return Err(ResolutionError::Rows(*count, stage.name.clone(), rows(stage)));
             }
         }
         if let Some(bad) = tolerances.iter().find(|tolerance| !(1e-14..=0.1).contains(*tolerance)) {
-            return Err(LadderError::Tolerance(*bad));
+            return Err(ResolutionError::Tolerance(*bad));
         }
         let mut cells = grids;
         let mut increments: Vec<_> =
@@ -160,12 +160,12 @@ impl Ladder {
         Self { cells, increments, tolerances: vec![own.tolerance] }
     }
 
-    /// Place of the finest rung.
+    /// Place of the finest level.
     pub fn finest(&self) -> Place {
         [self.cells.len() - 1, self.increments.len() - 1, self.tolerances.len() - 1]
     }
 
-    /// Places of the rungs of a kind, from coarse to fine; empty when the ladder has no two of them.
+    /// Places of the levels of a kind, from coarse to fine; empty when the study has no two of them.
     pub fn line(&self, kind: Kind) -> Vec<Place> {
         let [i, j, k] = self.finest();
         let line: Vec<Place> = match kind {
@@ -204,14 +204,14 @@ impl Ladder {
 ///
 /// # Errors
 /// When heights or friction are given for every cell.
-pub(super) fn only_one_grid(plan: &Plan) -> Result<(), LadderError> {
+pub(super) fn only_one_grid(plan: &Plan) -> Result<(), ResolutionError> {
     let case = &plan.case;
     if !case.profile.heights.is_empty() {
-        return Err(LadderError::EachCell("heights"));
+        return Err(ResolutionError::EachCell("heights"));
     }
     let mut laws = case.stages.iter().filter_map(|stage| stage.friction.as_ref());
     if case.friction.is_map() || laws.any(crate::model::CoulombFriction::is_map) {
-        return Err(LadderError::EachCell("friction coefficients"));
+        return Err(ResolutionError::EachCell("friction coefficients"));
     }
     Ok(())
 }

@@ -1,0 +1,111 @@
+//! Units that a case declares: of length and force; those of everything else follow. The program computes without them: numbers are
+//! never converted, only called by their units.
+
+use serde::{Deserialize, Serialize};
+use toml::Spanned;
+
+use super::file::UnitsFile;
+use super::judge::Judge;
+
+/// Letters of a unit, at most.
+const LONGEST: usize = 12;
+
+/// Declared units.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Units {
+    /// Of lengths.
+    pub length: String,
+    /// Of forces.
+    pub force: String,
+    /// Of pressures, tractions, stresses and moduli; follows from the others.
+    pub pressure: String,
+}
+
+impl Units {
+    /// Units of a length and a force. A pressure has a name of its own where both are SI units with a prefix: N and mm give `MPa`.
+    pub fn new(length: &str, force: &str) -> Self {
+        let pressure = pascals(length, force).unwrap_or_else(|| format!("{force}/{length}^2"));
+        Self { length: length.to_owned(), force: force.to_owned(), pressure }
+    }
+
+    /// The unit of a kind of quantity written with the words length, force and pressure, such as `force x length` or `length^2`.
+    pub fn of(&self, kind: &str) -> String {
+        let named = kind.replace("length", "\u{1}").replace("force", "\u{2}").replace("pressure", "\u{3}");
+        named
+            .replace(" x ", " ")
+            .replace('\u{1}', &self.length)
+            .replace('\u{2}', &self.force)
+            .replace('\u{3}', &self.pressure)
+    }
+}
+
+/// Powers of ten of the prefixes that lengths and forces have.
+const PREFIXES: [(&str, i32); 8] =
+    [("G", 9), ("M", 6), ("k", 3), ("", 0), ("c", -2), ("m", -3), ("u", -6), ("n", -9)];
+
+fn power_of(unit: &str, base: &str) -> Option<i32> {
+    let prefix = unit.strip_suffix(base)?;
+    let prefix = if matches!(prefix, "µ" | "μ") { "u" } else { prefix };
+    PREFIXES.iter().find(|(known, _)| *known == prefix).map(|(_, power)| *power)
+}
+
+fn pascals(length: &str, force: &str) -> Option<String> {
+    let power = power_of(force, "N")? - 2 * power_of(length, "m")?;
+    let prefix = match power {
+        12 => "T",
+        9 => "G",
+        6 => "M",
+        3 => "k",
+        0 => "",
+        -3 => "m",
+        _ => return None,
+    };
+    Some(format!("{prefix}Pa"))
+}
+
+/// The declared units; `None` where one was refused.
+pub(super) fn units(judge: &mut Judge, file: &UnitsFile) -> Option<Units> {
+    let mut word = |name: &str, given: &Spanned<String>| {
+        let unit = given.get_ref();
+        let is_word = !unit.is_empty()
+            && unit.chars().count() <= LONGEST
+            && unit.chars().all(|letter| letter.is_alphanumeric() || "/^*._-%'\"°".contains(letter));
+        if is_word {
+            return Some(unit.clone());
+        }
+        judge.refuse(
+            given.span(),
+            format!("units.{name} = {unit:?}: must be the symbol of a unit, of 1 to {LONGEST} letters"),
+            "for example length = \"mm\", force = \"N\": then pressures are in MPa",
+        )
+    };
+    let (length, force) = (word("length", &file.length), word("force", &file.force));
+    Some(Units::new(&length?, &force?))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn pressures_have_names_of_their_own_where_they_have_some() {
+        let pressure = |length: &str, force: &str| Units::new(length, force).pressure;
+        // 1 N/mm^2 = 1e6 N/m^2 = 1 MPa; 1 mN/um^2 = 1e-3/1e-12 = 1 GPa.
+        assert_eq!(pressure("mm", "N"), "MPa");
+        assert_eq!(pressure("m", "N"), "Pa");
+        assert_eq!(pressure("µm", "mN"), "GPa");
+        assert_eq!(pressure("mm", "kN"), "GPa");
+        assert_eq!(pressure("cm", "N"), "N/cm^2"); // 1e4 Pa
+        assert_eq!(pressure("in", "lbf"), "lbf/in^2");
+    }
+
+    #[test]
+    fn other_quantities_follow() {
+        let units = Units::new("mm", "N");
+        assert_eq!(units.of("force x length"), "N mm");
+        assert_eq!(units.of("length^3"), "mm^3");
+        assert_eq!(units.of("pressure"), "MPa");
+        assert_eq!(units.of("force/length"), "N/mm");
+        assert_eq!(units.of("rad"), "rad");
+    }
+}

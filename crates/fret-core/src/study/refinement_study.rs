@@ -1,0 +1,141 @@
+//! A study solved and judged: errors, observed orders and the efficient levels of every line, and what they teach.
+
+use serde::Serialize;
+
+use super::advice::{Advice, advice, frontier};
+use super::errors::{Errors, Form, errors, orders};
+use super::level::Level;
+use super::reference::Reference;
+use super::resolutions::{Kind, Place, Resolutions};
+
+/// A solved study. Levels that could not be solved are missing; without the finest one there is nothing to judge by.
+#[derive(Debug, Clone)]
+pub struct RefinementStudy {
+    resolutions: Resolutions,
+    levels: Vec<(Place, Level)>,
+}
+
+/// A level as a table shows it.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Judged {
+    /// Its place in the study.
+    pub place: Place,
+    /// Its errors.
+    pub errors: Errors,
+    /// Orders its quantities of interest, read between the cells, show against the level before it in the line.
+    pub orders: [Option<f64>; 6],
+    /// The same of pressure and shear in the mean square.
+    pub field_orders: [Option<f64>; 2],
+    /// Whether no level of the study is both quicker and closer, by the worst quantity of interest in the order of [`Form::ALL`].
+    pub is_efficient: [bool; 3],
+}
+
+/// The levels of one kind of refinement, from coarse to fine.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Line {
+    /// What is refined.
+    pub kind: Kind,
+    /// Its levels.
+    pub levels: Vec<Judged>,
+}
+
+impl RefinementStudy {
+    /// A study with the levels that were solved.
+    pub fn new(resolutions: Resolutions, levels: Vec<(Place, Level)>) -> Self {
+        Self { resolutions, levels }
+    }
+
+    /// The study.
+    pub fn resolutions(&self) -> &Resolutions {
+        &self.resolutions
+    }
+
+    /// The level at a place.
+    pub fn level(&self, place: Place) -> Option<&Level> {
+        self.levels.iter().find(|(at, _)| *at == place).map(|(_, level)| level)
+    }
+
+    /// The finest level.
+    pub fn finest(&self) -> Option<&Level> {
+        self.level(self.resolutions.finest())
+    }
+
+    /// What the study is heading for; `None` without its finest level.
+    pub fn limit(&self) -> Option<Reference> {
+        Reference::limit(&self.resolutions, &|place| self.level(place))
+    }
+
+    /// The level of the next fewer cells, which an extrapolation also needs.
+    pub fn coarser(&self, [i, j, k]: Place) -> Option<&Level> {
+        let i = i.checked_sub(1)?;
+        self.level([i, j, k]).or_else(|| self.level([i, j.checked_sub(1)?, k]))
+    }
+
+    /// Time a form of a level takes [s]: an extrapolation pays for the coarser level too.
+    pub fn seconds(&self, place: Place, form: Form) -> Option<f64> {
+        let own = self.level(place)?.wall_s;
+        match form {
+            Form::Plain | Form::Between => Some(own),
+            Form::Extrapolated => Some(own + self.coarser(place)?.wall_s),
+        }
+    }
+
+    /// Errors of the level at a place.
+    pub fn errors(&self, reference: &Reference, place: Place) -> Option<Errors> {
+        Some(errors(reference, self.level(place)?, self.coarser(place)))
+    }
+
+    /// The lines of the study judged by `reference`.
+    pub fn judged(&self, reference: &Reference) -> Vec<Line> {
+        let all: Vec<(Place, Errors)> = self
+            .levels
+            .iter()
+            .map(|(place, level)| (*place, errors(reference, level, self.coarser(*place))))
+            .collect();
+        let efficient = Form::ALL.map(|form| {
+            let point = |(place, errors): &(Place, Errors)| {
+                (self.seconds(*place, form).unwrap_or(f64::INFINITY), errors.worst(form))
+            };
+            frontier(&all.iter().map(point).collect::<Vec<_>>())
+        });
+        let line = |kind: Kind| {
+            let places: Vec<Place> = self.resolutions.line(kind);
+            let solved: Vec<usize> =
+                places.iter().filter_map(|place| all.iter().position(|(at, _)| at == place)).collect();
+            let counts: Vec<f64> = solved.iter().map(|k| self.count(kind, all[*k].0)).collect();
+            let along = |error: &dyn Fn(&Errors) -> Option<f64>| {
+                orders(&counts, &solved.iter().map(|k| error(&all[*k].1)).collect::<Vec<_>>())
+            };
+            let of_numbers: [_; 6] = std::array::from_fn(|number| along(&|errors| errors.between[number]));
+            let of_fields = [along(&|errors| errors.pressure), along(&|errors| errors.shear)];
+            let judged = |(row, k): (usize, &usize)| Judged {
+                place: all[*k].0,
+                errors: all[*k].1,
+                orders: std::array::from_fn(|number| of_numbers[number][row]),
+                field_orders: [0, 1].map(|field| of_fields[field][row]),
+                is_efficient: [0, 1, 2].map(|form| efficient[form][*k]),
+            };
+            Line { kind, levels: solved.iter().enumerate().map(judged).collect() }
+        };
+        Kind::ALL.into_iter().map(line).filter(|line| line.levels.len() > 1).collect()
+    }
+
+    /// What to choose for an accuracy of every quantity of interest.
+    pub fn advice(&self, reference: &Reference, accuracy: f64) -> Advice {
+        advice(
+            &self.resolutions,
+            &|place| self.level(place),
+            &|place| self.errors(reference, place),
+            accuracy,
+        )
+    }
+
+    /// What an order is counted in: cells along x, increments of all stages, the inverse of the tolerance.
+    fn count(&self, kind: Kind, [i, j, k]: Place) -> f64 {
+        match kind {
+            Kind::Cells | Kind::Together => self.resolutions.cells[i][0] as f64,
+            Kind::Increments => self.resolutions.increments[j].iter().sum::<usize>() as f64,
+            Kind::Tolerance => self.resolutions.tolerances[k].recip(),
+        }
+    }
+}

@@ -1,0 +1,729 @@
+"""The case as typed dictionaries, for completion and static checks: ``case: fretting.Case = {...}``.
+
+Generated from examples/fret.schema.json by docs/site/case_types.py; a test compares the two.
+"""
+# ruff: noqa: D101, D204, D205, D400, D401, D415, E501, A003
+
+from collections.abc import Sequence
+from typing import Any, Literal, NotRequired, TypeAlias, TypedDict
+
+import numpy.typing as npt
+
+Array: TypeAlias = Sequence[Sequence[float]] | npt.NDArray[Any]
+
+
+Auto: TypeAlias = Literal["auto"]
+
+
+Axis: TypeAlias = Literal["x", "y"]
+"""
+A direction in the surface.
+"""
+
+
+Base: TypeAlias = Literal["rigid"]
+"""
+The one foundation that is not a substrate.
+"""
+
+
+CellsItem: TypeAlias = int
+
+
+Cells: TypeAlias = Sequence[CellsItem] | int
+
+
+Coefficient: TypeAlias = float | str | Sequence[Sequence[float]] | npt.NDArray[Any]
+
+
+class Cone(TypedDict):
+    """
+    A blunt cone.
+    """
+
+    slope: float
+    """
+    Slope of its side against the surface, positive: the tangent of the angle between them.
+    """
+
+
+class Cylinder(TypedDict):
+    """
+    A cylinder.
+    """
+
+    axis: Axis
+    """
+    Direction of its axis.
+    """
+    length: NotRequired[float]
+    """
+    Length along the axis [length], positive, with square ends. Default: infinite.
+    """
+    radius: float
+    """
+    Radius [length], positive; in a body's own profile negative for a groove.
+    """
+
+
+Depths: TypeAlias = Sequence[float] | Auto
+
+
+Detrend: TypeAlias = Literal["none", "mean", "plane"]
+"""
+What is subtracted from heights.
+"""
+
+
+class Ellipsoid(TypedDict):
+    """
+    An ellipsoid.
+    """
+
+    radius_x: float
+    """
+    Radius of curvature in the x-z plane [length], positive; in a body's own profile negative for a hollow.
+    """
+    radius_y: float
+    """
+    Radius of curvature in the y-z plane [length], positive; in a body's own profile negative for a hollow.
+    """
+
+
+class FlatPunch(TypedDict):
+    """
+    A flat circular punch.
+    """
+
+    radius: float
+    """
+    Radius [length], positive; no body beyond it.
+    """
+
+
+Held: TypeAlias = Literal["held"]
+
+
+Increments: TypeAlias = int | Auto
+
+
+Integration: TypeAlias = Literal["second_order", "end_point"]
+"""
+How slip is integrated over an increment.
+"""
+
+
+Law: TypeAlias = Literal["exponential", "linear"]
+"""
+How Young's modulus runs over the depth.
+"""
+
+
+Map: TypeAlias = str | Sequence[Sequence[float]] | npt.NDArray[Any]
+
+
+class Material(TypedDict):
+    """
+    An isotropic elastic material.
+    """
+
+    poisson: float
+    """
+    Poisson's ratio, above -1, at most 0.5.
+    """
+    young: float
+    """
+    Young's modulus [pressure], positive.
+    """
+
+
+Of: TypeAlias = Literal["surface", "gap"]
+"""
+What heights describe.
+"""
+
+
+class Output(TypedDict):
+    """
+    What is written to the results.
+    """
+
+    every: NotRequired[int]
+    """
+    Keep fields of every n-th increment, and of the last of each stage. Default: only of the last of each stage.
+    """
+    fields: NotRequired[Sequence[str]]
+    """
+    Fields to keep: "pressure", "shear", "slip", "gap", "zone", "`worn_depth`". Default: pressure, shear, slip, zone.
+    """
+
+
+class Phase(TypedDict):
+    """
+    Phases of the controls [degrees], each by the name of its control.
+    """
+
+    approach: NotRequired[float]
+    """
+    Of the approach.
+    """
+    normal_force: NotRequired[float]
+    """
+    Of the normal force.
+    """
+    shift: NotRequired[Sequence[float]]
+    """
+    Of the shift along x and y.
+    """
+    tangential_force: NotRequired[Sequence[float]]
+    """
+    Of the tangential force along x and y.
+    """
+    twist: NotRequired[float]
+    """
+    Of the rotation about z.
+    """
+    twist_moment: NotRequired[float]
+    """
+    Of the moment about z.
+    """
+
+
+Ramp: TypeAlias = Literal["linear", "cubic"]
+"""
+How a ramp runs.
+"""
+
+
+class RoundedPunch(TypedDict):
+    """
+    A flat punch with a rounded edge.
+    """
+
+    edge_radius: float
+    """
+    Radius of the rounding [length], positive.
+    """
+    flat_radius: float
+    """
+    Radius of the flat [length], positive.
+    """
+
+
+Scheme: TypeAlias = Literal["monolithic", "staggered"]
+"""
+How coupled pressure and shear are solved.
+"""
+
+
+Side: TypeAlias = Literal["upper", "lower"]
+"""
+One of the two bodies.
+"""
+
+
+Size: TypeAlias = Sequence[float] | float | Auto
+
+
+class Solver(TypedDict):
+    """
+    Accuracy of the solution.
+    """
+
+    history_tolerance: NotRequired[float]
+    """
+    With `increments = "auto"`: tolerance of the adaptive sub-stepping, relative to the change of the tractions over the
+    increment. Default: 0.03.
+    """
+    integration: NotRequired[Integration]
+    """
+    "`second_order`": the friction law at the end of an increment takes the direction that slip has there; "`end_point`": the direction
+    of the whole slip increment (backward Euler, of first order), for comparison. Default: "`second_order`".
+    """
+    scheme: NotRequired[Scheme]
+    """
+    "monolithic": pressure and shear together; "staggered": in alternation (Panagiotopoulos process, the published three-level
+    scheme), for comparison. Default: "monolithic".
+    """
+    tolerance: NotRequired[float]
+    """
+    Largest accepted residual of every increment (complementarity, Coulomb, equilibrium; dimensionless). Default: 1e-8.
+    """
+
+
+class Sphere(TypedDict):
+    """
+    A sphere.
+    """
+
+    radius: float
+    """
+    Radius [length], positive; in a body's own profile negative for a hollow.
+    """
+
+
+class Steady(TypedDict):
+    """
+    When the cycle counts as steady.
+    """
+
+    most_cycles: int
+    """
+    Maximum number of cycles.
+    """
+    tolerance: float
+    """
+    Tractions, forces and motions at the end of a cycle differ from those at its start by at most this, relative.
+    """
+
+
+class Stress(TypedDict):
+    """
+    Subsurface stresses of one body, and the constants of the fatigue parameters.
+    """
+
+    body: NotRequired[Side]
+    """
+    The body. Default: "lower".
+    """
+    critical_distance: NotRequired[float]
+    """
+    Length from the surface down over which fatigue parameters are averaged [length]. For the line method of the theory of
+    critical distances enter 2 L.
+    """
+    depths: NotRequired[Depths]
+    """
+    Depths below the surface of the body [length], or "auto": denser near the surface and the interfaces.
+    """
+    every: NotRequired[int]
+    """
+    Evaluate every n-th kept increment, and the last. Default: 1.
+    """
+    normal_stress_sensitivity: NotRequired[float]
+    """
+    Weight of the normal stress in Fatemi and Socie's parameter [-]. Default: 1.
+    """
+    tension_limit: NotRequired[float]
+    """
+    Fatigue limit in fully reversed tension or bending, amplitude [pressure], for Crossland and Dang Van.
+    """
+    torsion_limit: NotRequired[float]
+    """
+    Fatigue limit in fully reversed torsion, amplitude [pressure], for Crossland and Dang Van.
+    """
+    volume: NotRequired[bool]
+    """
+    Write volumes for `ParaView`. Default: false.
+    """
+    yield_strength: NotRequired[float]
+    """
+    Yield strength [pressure], for Fatemi and Socie.
+    """
+
+
+class Units(TypedDict):
+    """
+    Units of the numbers in the case. Nothing is converted: results are in the same units.
+    """
+
+    force: str
+    """
+    Unit of every force, such as "N". That of pressures and moduli follows: `MPa` for mm and N.
+    """
+    length: str
+    """
+    Unit of every length, such as "mm".
+    """
+
+
+class Wave(TypedDict):
+    """
+    A sinusoidal surface.
+    """
+
+    amplitude: float
+    """
+    Half of the height from valley to crest [length], positive.
+    """
+    wavelength_x: NotRequired[float]
+    """
+    Wavelength along x [length]. Default: constant along x.
+    """
+    wavelength_y: NotRequired[float]
+    """
+    Wavelength along y [length]. Default: constant along y.
+    """
+
+
+Waveform: TypeAlias = Literal["triangle", "sine", "trapezoid"]
+"""
+Shape of a cycle.
+"""
+
+
+WearLaw: TypeAlias = Literal["archard", "energy"]
+"""
+Wear law.
+"""
+
+
+WornBody: TypeAlias = Literal["upper", "lower"]
+"""
+One of the bodies.
+"""
+
+
+Component: TypeAlias = float | Held
+
+
+class Friction(TypedDict):
+    """
+    Coulomb's law of friction, with a shear strength of the interface where it has one.
+    """
+
+    coefficient: NotRequired[float]
+    """
+    Coefficient, zero or positive.
+    """
+    map: NotRequired[Map]
+    """
+    One coefficient per cell: a .npy or text file, rows of numbers, or from Python an array; index [i, j] = [x, y].
+    """
+    max_shear: NotRequired[Coefficient]
+    """
+    Shear strength of the interface [pressure], zero or positive, a number or one for every cell: shear is at most the smaller of it
+    and the coefficient times the pressure. Default: none.
+    """
+
+
+class Gradient(TypedDict):
+    """
+    Young's modulus over the depth of a coating: `young` at both faces and the `law` between them, or a `table`.
+    """
+
+    law: NotRequired[Law]
+    """
+    How it runs from one to the other.
+    """
+    layers: NotRequired[int]
+    """
+    Number of uniform sublayers. Default: chosen such that the surface response changes by less than 1e-4.
+    """
+    table: NotRequired[Sequence[Sequence[float]]]
+    """
+    Rows of depth [length] and Young's modulus [pressure], depths rising from 0 to the thickness; linear between them.
+    """
+    young: NotRequired[Sequence[float]]
+    """
+    Young's modulus at the coating's surface and at its lower face [pressure], positive.
+    """
+
+
+class Grid(TypedDict):
+    """
+    The mesh of the potential contact area, centred on the first point of touch.
+    """
+
+    cells: Cells
+    """
+    Number of cells along x and y; a single number makes a line contact: plane strain across it, all loads per unit length.
+    """
+    datum: NotRequired[float]
+    """
+    Depth below the load of the point that approach and shift of a line contact are relative to [length], in each body that has
+    an elastic base. Default: the size of the grid.
+    """
+    periodic: NotRequired[bool]
+    """
+    Periodic in x and y. Default: false, infinite half-space.
+    """
+    size: Size
+    """
+    Side lengths along x and y, or "auto": chosen so that the contact fits with a margin. A single number in a line contact.
+    """
+
+
+class Heights(TypedDict):
+    """
+    Topography, one height per cell: `file` or `values`.
+    """
+
+    detrend: NotRequired[Detrend]
+    """
+    What is subtracted: "none", the "mean", or the least-squares "plane". Default: "none".
+    """
+    file: NotRequired[str]
+    """
+    A .npy file, or a text file with one row of numbers per line. Relative paths start at the case file.
+    """
+    of: NotRequired[Of]
+    """
+    What the heights describe: a "surface" (the highest point touches first) or the "gap" (the lowest does). Default: "surface".
+    """
+    rows: NotRequired[Axis]
+    """
+    Axis along which the rows follow one another: "x" (index [i, j] = [x, y]) or "y" (rows of an image). Default: "x".
+    """
+    unit: NotRequired[float]
+    """
+    Length of one unit of the heights, in the case's unit of length. Default: 1.
+    """
+    values: NotRequired[Array]
+    """
+    The heights themselves, as rows of numbers; from Python an array.
+    """
+
+
+class Profile(TypedDict):
+    """
+    Shape of the undeformed gap, or of one body; the sum when several are given.
+    """
+
+    cone: NotRequired[Cone]
+    """
+    A blunt cone, slope r.
+    """
+    cylinder: NotRequired[Cylinder]
+    """
+    A cylinder, as the parabola s^2 / (2 R) across its axis.
+    """
+    ellipsoid: NotRequired[Ellipsoid]
+    """
+    A paraboloid with two radii of curvature.
+    """
+    flat_punch: NotRequired[FlatPunch]
+    """
+    A flat circular punch.
+    """
+    heights: NotRequired[Heights]
+    """
+    Measured or synthetic topography, one height per cell.
+    """
+    rounded_punch: NotRequired[RoundedPunch]
+    """
+    A flat punch with a rounded edge: flat within b, (r - b)^2 / (2 R) beyond.
+    """
+    sphere: NotRequired[Sphere]
+    """
+    A sphere, as the paraboloid r^2 / (2 R).
+    """
+    wave: NotRequired[Wave]
+    """
+    A sinusoidal surface amplitude (1 - cos(2 pi x / Lx) cos(2 pi y / Ly)).
+    """
+
+
+class Stage(TypedDict):
+    """
+    A stage of the loading history. Controls not named stay as they were.
+    """
+
+    approach: NotRequired[float]
+    """
+    Rigid approach [length]: at the end of the stage, or the amplitude.
+    """
+    columns: NotRequired[dict[str, Any]]
+    """
+    Which column of the table holds which control, when they are named otherwise: `tangential_force_x = "Q [N]"`.
+    """
+    cycles: NotRequired[int]
+    """
+    Number of cycles 0, +amplitude, -amplitude, 0 about the values before the stage.
+    """
+    dwell: NotRequired[float]
+    """
+    Fraction of a cycle for which a trapezoid holds each of its two extremes, below 0.5. Default: 0.25.
+    """
+    envelope: NotRequired[Sequence[float]]
+    """
+    Fraction of the amplitudes at the start and at the end of the cycles, linear between. Default: [1, 1].
+    """
+    friction: NotRequired[Coefficient]
+    """
+    Friction from this stage on: a coefficient, or one per cell (a file, or rows of numbers).
+    """
+    increments: Increments
+    """
+    Number of increments: per stage; with cycles, per cycle; with a table, per row. "auto": 16 per stage, 32 per cycle, 4 per
+    row, each with adaptive sub-steps controlled by `solver.history_tolerance`.
+    """
+    name: NotRequired[str]
+    """
+    A name for messages and tables.
+    """
+    normal_force: NotRequired[float]
+    """
+    Normal force [force], compression positive: at the end of the stage, or the amplitude of its cycles.
+    """
+    phase: NotRequired[Phase]
+    """
+    Phase lead of each control [degrees]. The cycle starts from the current value of the control.
+    """
+    ramp: NotRequired[Ramp]
+    """
+    How the controls run to their targets. Default: "linear".
+    """
+    shift: NotRequired[Sequence[Component]]
+    """
+    Rigid tangential displacement of the upper body along x and y [length]: at the end, or the amplitude; or "held".
+    """
+    table: NotRequired[str]
+    """
+    A CSV file with the values of the controls, instead of naming them here; its columns are named like the controls.
+    """
+    tangential_force: NotRequired[Sequence[Component]]
+    """
+    Tangential force along x and y [force]: at the end, or the amplitude; "held" where this stage does not prescribe it.
+    """
+    twist: NotRequired[float]
+    """
+    Rotation of the upper body about z [rad]: at the end, or the amplitude.
+    """
+    twist_moment: NotRequired[float]
+    """
+    Moment about z [force x length]: at the end, or the amplitude.
+    """
+    until_steady: NotRequired[Steady]
+    """
+    Instead of a number of cycles: repeat until the cycle is steady.
+    """
+    waveform: NotRequired[Waveform]
+    """
+    Shape of a cycle. Default: "triangle".
+    """
+
+
+class Wear(TypedDict):
+    """
+    Wear of the surfaces: after each computed cycle the gap grows by the wear depth.
+    """
+
+    coefficient: float
+    """
+    Wear coefficient k [1/pressure]: wear depth = k (pressure x slip distance) (Archard), or k (shear . slip) (energy).
+    """
+    every: NotRequired[int]
+    """
+    Maximum cycle jump: number of cycles one simulated cycle may represent. Default: 1.
+    """
+    largest_step: NotRequired[float]
+    """
+    Maximum wear depth per cycle jump, relative to the approach. Default: 0.01.
+    """
+    law: NotRequired[WearLaw]
+    """
+    Wear law. Default: "energy".
+    """
+    limit: NotRequired[float]
+    """
+    Stop when the wear depth reaches this value [length].
+    """
+    through_coating_of: NotRequired[WornBody]
+    """
+    Stop when the outermost coating of this body is worn through.
+    """
+
+
+class Coating(TypedDict):
+    """
+    A bonded layer: uniform (`young`), or of a stiffness that changes with depth (`gradient`).
+    """
+
+    gradient: NotRequired[Gradient]
+    """
+    Young's modulus over the depth; instead of `young`.
+    """
+    poisson: float
+    """
+    Poisson's ratio, above -1, at most 0.5; the same at every depth.
+    """
+    thickness: float
+    """
+    Thickness [length], positive.
+    """
+    young: NotRequired[float]
+    """
+    Young's modulus [pressure], positive; instead of a gradient.
+    """
+
+
+class Body(TypedDict):
+    """
+    A body: `rigid = true`, or coatings (outermost first) on a `substrate` or on `base = "rigid"`.
+    """
+
+    base: NotRequired[Base]
+    """
+    What the coatings are bonded to when there is no substrate: "rigid".
+    """
+    coatings: NotRequired[Sequence[Coating]]
+    """
+    Bonded coatings, outermost first.
+    """
+    profile: NotRequired[Profile]
+    """
+    Shape of this body's surface: its distance from the plane of first touch.
+    """
+    rigid: NotRequired[bool]
+    """
+    A body that does not deform.
+    """
+    substrate: NotRequired[Material]
+    """
+    The elastic half-space under the coatings.
+    """
+
+
+class Case(TypedDict):
+    """
+    A fretting contact: bodies, first gap, friction, and a loading history. Any consistent system of units.
+    """
+
+    friction: NotRequired[Friction]
+    """
+    Dry friction. Default: frictionless.
+    """
+    grid: Grid
+    """
+    The mesh of the potential contact area.
+    """
+    load: Sequence[Stage]
+    """
+    Stages of the loading history, in order.
+    """
+    lower: Body
+    """
+    The body below; z points into it.
+    """
+    output: NotRequired[Output]
+    """
+    What is written to the results.
+    """
+    profile: NotRequired[Profile]
+    """
+    Undeformed gap: zero at first touch. The bodies' own profiles are added.
+    """
+    solver: NotRequired[Solver]
+    """
+    Accuracy of the solution.
+    """
+    stress: NotRequired[Stress]
+    """
+    Subsurface stresses, evaluated from the kept tractions after the run.
+    """
+    title: NotRequired[str]
+    """
+    A title for tables and figures.
+    """
+    units: NotRequired[Units]
+    """
+    Units of the numbers in the case, which then stand on axes and in attributes. Default: none, any consistent system of units.
+    """
+    upper: Body
+    """
+    The body that moves.
+    """
+    wear: NotRequired[Wear]
+    """
+    Wear of the surfaces. Default: no wear.
+    """
