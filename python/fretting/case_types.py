@@ -9,6 +9,9 @@ from typing import Any, Literal, NotRequired, TypeAlias, TypedDict
 
 import numpy.typing as npt
 
+AlongPhase: TypeAlias = Sequence[float] | float
+
+
 Array: TypeAlias = Sequence[Sequence[float]] | npt.NDArray[Any]
 
 
@@ -122,21 +125,6 @@ How Young's modulus runs over the depth.
 Map: TypeAlias = str | Sequence[Sequence[float]] | npt.NDArray[Any]
 
 
-class Material(TypedDict):
-    """
-    An isotropic elastic material.
-    """
-
-    poisson: float
-    """
-    Poisson's ratio, above -1, at most 0.5.
-    """
-    young: float
-    """
-    Young's modulus [pressure], positive.
-    """
-
-
 Of: TypeAlias = Literal["surface", "gap"]
 """
 What heights describe.
@@ -167,6 +155,10 @@ class Phase(TypedDict):
     """
     Of the approach.
     """
+    bulk_stress: NotRequired[AlongPhase]
+    """
+    Of the bulk stress of the lower body.
+    """
     normal_force: NotRequired[float]
     """
     Of the normal force.
@@ -179,6 +171,14 @@ class Phase(TypedDict):
     """
     Of the tangential force along x and y.
     """
+    tilt: NotRequired[AlongPhase]
+    """
+    Of the slopes.
+    """
+    tilt_moment: NotRequired[AlongPhase]
+    """
+    Of the moments of the pressure.
+    """
     twist: NotRequired[float]
     """
     Of the rotation about z.
@@ -187,12 +187,19 @@ class Phase(TypedDict):
     """
     Of the moment about z.
     """
+    upper_bulk_stress: NotRequired[AlongPhase]
+    """
+    Of that of the upper body.
+    """
 
 
 Ramp: TypeAlias = Literal["linear", "cubic"]
 """
 How a ramp runs.
 """
+
+
+Residual: TypeAlias = float | Sequence[float] | Sequence[Sequence[float]]
 
 
 class RoundedPunch(TypedDict):
@@ -474,6 +481,25 @@ class Heights(TypedDict):
     """
 
 
+class Material(TypedDict):
+    """
+    An isotropic elastic material.
+    """
+
+    poisson: float
+    """
+    Poisson's ratio, above -1, at most 0.5.
+    """
+    residual_stress: NotRequired[Residual]
+    """
+    Residual stress, as of a coating; below the last row of a table it stays as it is there.
+    """
+    young: float
+    """
+    Young's modulus [pressure], positive.
+    """
+
+
 class Profile(TypedDict):
     """
     Shape of the undeformed gap, or of one body; the sum when several are given.
@@ -513,6 +539,68 @@ class Profile(TypedDict):
     """
 
 
+class Wear(TypedDict):
+    """
+    Wear of the surfaces: after each computed cycle the gap grows by the wear depth.
+    """
+
+    coefficient: float
+    """
+    Wear coefficient k [1/pressure]: wear depth = k (pressure x slip distance) (Archard), or k (shear . slip) (energy).
+    """
+    every: NotRequired[int]
+    """
+    Maximum cycle jump: number of cycles one simulated cycle may represent. Default: 1.
+    """
+    largest_step: NotRequired[float]
+    """
+    Maximum wear depth per cycle jump, relative to the approach. Default: 0.01.
+    """
+    law: NotRequired[WearLaw]
+    """
+    Wear law. Default: "energy".
+    """
+    limit: NotRequired[float]
+    """
+    Stop when the wear depth reaches this value [length].
+    """
+    through_coating_of: NotRequired[WornBody]
+    """
+    Stop when the outermost coating of this body is worn through.
+    """
+
+
+Along: TypeAlias = Sequence[Component] | float
+
+
+class Coating(TypedDict):
+    """
+    A bonded layer: uniform (`young`), or of a stiffness that changes with depth (`gradient`).
+    """
+
+    gradient: NotRequired[Gradient]
+    """
+    Young's modulus over the depth; instead of `young`.
+    """
+    poisson: float
+    """
+    Poisson's ratio, above -1, at most 0.5; the same at every depth.
+    """
+    residual_stress: NotRequired[Residual]
+    """
+    Residual stress [pressure], tension positive: the same along x and y, or one along each; or rows of depth below the upper
+    face [length] and stress (one, or along x and y), linear between them. It adds to the stresses below, and to nothing else.
+    """
+    thickness: float
+    """
+    Thickness [length], positive.
+    """
+    young: NotRequired[float]
+    """
+    Young's modulus [pressure], positive; instead of a gradient.
+    """
+
+
 class Stage(TypedDict):
     """
     A stage of the loading history. Controls not named stay as they were.
@@ -521,6 +609,11 @@ class Stage(TypedDict):
     approach: NotRequired[float]
     """
     Rigid approach [length]: at the end of the stage, or the amplitude.
+    """
+    bulk_stress: NotRequired[Along]
+    """
+    Bulk stress of the lower body along x and y [pressure], remote stress of its substrate, tension positive: at the end, or the
+    amplitude; or "held". A number in a line contact.
     """
     columns: NotRequired[dict[str, Any]]
     """
@@ -575,6 +668,16 @@ class Stage(TypedDict):
     """
     Tangential force along x and y [force]: at the end, or the amplitude; "held" where this stage does not prescribe it.
     """
+    tilt: NotRequired[Along]
+    """
+    Slope of the upper body along x and y [-], deeper towards positive x and y: at the end, or the amplitude; or "held". A
+    number in a line contact. Default: 0, fixed.
+    """
+    tilt_moment: NotRequired[Along]
+    """
+    First moment of the pressure along x and y, `sum p x dA` [force x length]: at the end, or the amplitude; or "held". A number
+    in a line contact.
+    """
     twist: NotRequired[float]
     """
     Rotation of the upper body about z [rad]: at the end, or the amplitude.
@@ -587,63 +690,13 @@ class Stage(TypedDict):
     """
     Instead of a number of cycles: repeat until the cycle is steady.
     """
+    upper_bulk_stress: NotRequired[Along]
+    """
+    The same of the upper body.
+    """
     waveform: NotRequired[Waveform]
     """
     Shape of a cycle. Default: "triangle".
-    """
-
-
-class Wear(TypedDict):
-    """
-    Wear of the surfaces: after each computed cycle the gap grows by the wear depth.
-    """
-
-    coefficient: float
-    """
-    Wear coefficient k [1/pressure]: wear depth = k (pressure x slip distance) (Archard), or k (shear . slip) (energy).
-    """
-    every: NotRequired[int]
-    """
-    Maximum cycle jump: number of cycles one simulated cycle may represent. Default: 1.
-    """
-    largest_step: NotRequired[float]
-    """
-    Maximum wear depth per cycle jump, relative to the approach. Default: 0.01.
-    """
-    law: NotRequired[WearLaw]
-    """
-    Wear law. Default: "energy".
-    """
-    limit: NotRequired[float]
-    """
-    Stop when the wear depth reaches this value [length].
-    """
-    through_coating_of: NotRequired[WornBody]
-    """
-    Stop when the outermost coating of this body is worn through.
-    """
-
-
-class Coating(TypedDict):
-    """
-    A bonded layer: uniform (`young`), or of a stiffness that changes with depth (`gradient`).
-    """
-
-    gradient: NotRequired[Gradient]
-    """
-    Young's modulus over the depth; instead of `young`.
-    """
-    poisson: float
-    """
-    Poisson's ratio, above -1, at most 0.5; the same at every depth.
-    """
-    thickness: float
-    """
-    Thickness [length], positive.
-    """
-    young: NotRequired[float]
-    """
-    Young's modulus [pressure], positive; instead of a gradient.
     """
 
 
