@@ -32,7 +32,7 @@ ramp = "cubic"
 [[load]]
 name = "fretting"
 tangential_force = [2.5, 0.0]
-cycles = 1
+cycles = 2
 increments = 24
 "#;
 

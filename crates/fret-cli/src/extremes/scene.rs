@@ -167,10 +167,11 @@ impl Scene {
             format!("[profile.sphere]\nradius = {:e}\n", RADIUS * length)
         };
         let [nx, ny] = self.cells;
+        // By end points: only of that rule is the balance of energy an identity of the equations.
         format!(
             "[grid]\ncells = [{nx}, {ny}]\nsize = [{width:e}, {depth:e}]\nperiodic = {}\n[upper]\nrigid = true\n\
              [lower]\n{stack}{profile}[friction]\ncoefficient = {friction:e}\n\
-             [solver]\ntolerance = {TOLERANCE:e}\n[output]\nfields = [\"pressure\"]\n",
+             [solver]\nintegration = \"end_point\"\ntolerance = {TOLERANCE:e}\n[output]\nfields = [\"pressure\"]\n",
             self.wave.is_some()
         )
     }
