@@ -25,6 +25,7 @@ struct Spence {
     friction: f64,
     punch_force: f64,
     radius: f64,
+    #[serde(rename = "peak_pressure")]
     max_pressure: f64,
     approach: f64,
     error: f64,
