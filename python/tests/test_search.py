@@ -23,7 +23,7 @@ QUERIES = {
     "Dundurs": {"reference/glossary.html", "theory/contact-problem.html"},
     "shakedown": {"theory/friction-and-history.html"},
     "mixed precision": {"theory/simplifications.html"},
-    "backward Euler": {"theory/friction-and-history.html", "theory/contact-problem.html"},
+    "backward Euler": {"theory/second-order.html", "theory/friction-and-history.html", "theory/contact-problem.html"},
     "wear coefficient": {"theory/wear.html", "learn/wear.html"},
     "energy ratio": {"theory/fretting-quantities.html"},
     "partial slip gross slip": {"theory/fretting-quantities.html"},
