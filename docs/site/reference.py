@@ -106,7 +106,7 @@ def closed_forms() -> str:
     """Return the page of the closed forms."""
     parts = [
         "# Closed-form solutions\n",
-        "<!-- Written by docs/site/reference.py from the docstrings of python/fretting/analytic.py: edit them there. -->\n",
+        "<!-- Written by docs/site/reference.py from the docstrings of python/fretting/analytic: edit them there. -->\n",
         "`fretting.analytic`: homogeneous half-spaces; several are recognised by `fret study` and drawn by `fret report`. Arguments and results: "
         "[Python](python.md#closed-forms).\n",
         "| function | problem | result | source |",

@@ -8,12 +8,12 @@ pub struct ForcingTerm {
     /// Smallest residual so far.
     pub best: f64,
     /// Iterations in a row that did not pay.
-    in_vain: i32,
+    stalled: i32,
 }
 
 impl Default for ForcingTerm {
     fn default() -> Self {
-        Self { last: f64::INFINITY, best: f64::INFINITY, in_vain: 0 }
+        Self { last: f64::INFINITY, best: f64::INFINITY, stalled: 0 }
     }
 }
 
@@ -29,24 +29,24 @@ impl ForcingTerm {
     const ENOUGH: f64 = 0.8;
     /// An iteration does not pay when it leaves more than this of the residual.
     const NO_GAIN: f64 = 0.9;
-    /// So many iterations in vain, and linear problems are to be solved in double precision.
-    const MOST_IN_VAIN: i32 = 3;
+    /// After so many iterations without progress linear problems are to be solved in double precision.
+    const MAX_STALLED: i32 = 3;
 
     /// The forcing term after a residual.
     pub fn next(&mut self, residual: f64, tolerance: f64) -> f64 {
         let ratio = residual / self.last;
-        self.in_vain = if ratio > Self::NO_GAIN { self.in_vain + 1 } else { 0 };
+        self.stalled = if ratio > Self::NO_GAIN { self.stalled + 1 } else { 0 };
         self.last = residual;
         self.best = self.best.min(residual);
         let falling =
             if ratio > 0.0 { (Self::GAMMA * ratio).clamp(Self::LEAST, Self::MOST) } else { Self::MOST };
-        let wanted = falling * 0.1_f64.powi(self.in_vain.min(6));
+        let wanted = falling * 0.1_f64.powi(self.stalled.min(6));
         wanted.max((Self::ENOUGH * tolerance / residual).min(Self::MOST))
     }
 
     /// Whether single precision may be what stands in the way.
     pub fn wants_double_precision(&self) -> bool {
-        self.in_vain >= Self::MOST_IN_VAIN
+        self.stalled >= Self::MAX_STALLED
     }
 }
 
@@ -89,7 +89,7 @@ mod tests {
         assert_eq!(forcing.next(1.0, 1e-8), 0.5);
         assert!((forcing.next(0.1, 1e-8) - 0.03).abs() < 1e-15); // 0.3 times 0.1
         assert_eq!(forcing.next(1e-5, 1e-8), 0.003);
-        assert!((forcing.next(1e-5, 1e-8) - 0.03).abs() < 1e-15); // in vain: a tenth of 0.3
+        assert!((forcing.next(1e-5, 1e-8) - 0.03).abs() < 1e-15); // stalled: a tenth of 0.3
         assert!((forcing.next(1e-5, 1e-8) - 0.003).abs() < 1e-15);
         assert!(!forcing.wants_double_precision());
         forcing.next(1e-5, 1e-8);

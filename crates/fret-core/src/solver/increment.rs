@@ -204,7 +204,7 @@ impl<'a> IncrementProblem<'a> {
     }
 
     /// Settings with fewer iterations where the end-point rule is left to fall back on.
-    fn patience(&self, settings: &SolverSettings) -> SolverSettings {
+    fn limited(&self, settings: &SolverSettings) -> SolverSettings {
         let most = if self.path.turns() { MOST_TURNING } else { usize::MAX };
         SolverSettings { max_newton_iterations: settings.max_newton_iterations.min(most), ..*settings }
     }
@@ -218,7 +218,7 @@ impl<'a> IncrementProblem<'a> {
         method: &Method<'_>,
         callback: IterationCallback<'_>,
     ) -> Result<Solved, SolveError> {
-        let settings = &self.patience(method.settings);
+        let settings = &self.limited(method.settings);
         let mut displacements = Displacements::zeros(self.region.len());
         let mut before = TangentialField::zeros(self.region.len());
         if self.touched() {
@@ -285,7 +285,7 @@ impl<'a> IncrementProblem<'a> {
         callback: IterationCallback<'_>,
     ) -> Result<Solved, SolveError> {
         let len = self.region.len();
-        let settings = &self.patience(method.settings);
+        let settings = &self.limited(method.settings);
         let own = operators.compliance.self_influence();
         let mut displacements = Displacements::zeros(len);
         let (mut gap, normal, mut iterations);

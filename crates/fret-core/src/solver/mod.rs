@@ -75,7 +75,7 @@ pub struct ContactSolver<'a> {
     coarse: Option<CoarseGrids>,
     memory: SolverMemory,
     /// Work of increments that were not solved; the next one that is counts it.
-    work_in_vain: Work,
+    unsolved_work: Work,
     in_region: bool,
     /// The one axis along which shear acts.
     shear_axis: Option<usize>,
@@ -112,7 +112,7 @@ impl<'a> ContactSolver<'a> {
             table: None,
             coarse: None,
             memory: SolverMemory::default(),
-            work_in_vain: Work::default(),
+            unsolved_work: Work::default(),
             in_region,
             shear_axis: None,
             symmetry: Symmetry::NONE,
@@ -200,7 +200,7 @@ impl<'a> ContactSolver<'a> {
         load: &LoadStep,
         callback: IterationCallback<'_>,
     ) -> Result<Increment, SolveError> {
-        let mut work = std::mem::take(&mut self.work_in_vain);
+        let mut work = std::mem::take(&mut self.unsolved_work);
         let symmetry = self.symmetry;
         let solved = if symmetry.any() {
             let part = symmetry.part_of_state(state);
@@ -213,7 +213,7 @@ impl<'a> ContactSolver<'a> {
         match solved {
             Ok(increment) => Ok(Increment { work, ..increment }),
             Err(error) => {
-                self.work_in_vain = work;
+                self.unsolved_work = work;
                 Err(error)
             }
         }
@@ -251,15 +251,15 @@ impl<'a> ContactSolver<'a> {
             if self.touches_edge(&after.pressure) {
                 return Err(SolveError::ContactAtEdge);
             }
-            let same_pressure = self.memory.last.as_ref().is_some_and(|last| {
+            let same_pressure = self.memory.last.as_ref().filter(|last| {
                 self.coupling != Coupling::Coupled
                     && self.settings.reuse_pressure
                     && last.region == region
                     && last.load.normal == load.normal
                     && last.load.tilt == load.tilt
             });
-            let found = if same_pressure {
-                None
+            let (gap, contact_area) = if let Some(last) = same_pressure {
+                (last.gap.clone(), last.contact_area)
             } else {
                 let gap = self.gap_everywhere(region, &solved, &after, work)?;
                 if self.overlaps_outside(region, &gap) {
@@ -267,14 +267,11 @@ impl<'a> ContactSolver<'a> {
                     start = start.map(|_| after.pressure);
                     continue;
                 }
-                Some((gap, self.contact_area(region, &solved)))
+                (gap, self.contact_area(region, &solved))
             };
             let last = self.memory.last.take();
             let contact_area_before = last.as_ref().map_or(0.0, |last| last.contact_area);
             let (gap_before, drift_before) = last.map(|last| (last.gap, last.drift)).unzip();
-            let (gap, contact_area) = found
-                .or_else(|| Some((gap_before.clone()?, contact_area_before)))
-                .unwrap_or_else(|| (Array2::zeros(self.grid.cells()), contact_area_before));
             let previous = self.memory.last_load.replace(*load);
             self.memory.before = previous.map(|load| Before {
                 load,

@@ -20,7 +20,7 @@ const KNOWN: f64 = 0.01;
 /// The paths in the cells of a region, in an increment that is `ratio` times as long as the last; `None` where nothing is known.
 ///
 /// *Entry.* A gap grows with the power 3/2 of the distance to the edge of contact: that distance, and with it the moment of touch, is
-/// carried on linearly from the gaps of the last two states. Up to that moment the cell goes on as in the last increment, see [`ENTRY`].
+/// extrapolated linearly from the gaps of the last two states. Up to that moment the cell goes on as in the last increment, see [`ENTRY`].
 /// An edge that moves by less than half a cell in an increment says nothing about moments; from a whole cell on it is believed.
 ///
 /// *Stop.* See [`STOP`]; nothing where slip does not fall, the whole of it where it falls to half, and where a cell has just entered.

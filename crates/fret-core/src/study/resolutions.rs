@@ -7,7 +7,7 @@ use crate::case::check::{FEWEST_CELLS as FEWEST_OF_A_CASE, MOST_CELLS, MOST_CELL
 use crate::history::warning::CELLS_IN_RADIUS;
 use crate::plan::{Coupling, Plan};
 
-/// Fewest cells a side of a level that nobody asked for.
+/// Fewest cells per side of a level that was not given.
 const FEWEST_CELLS: usize = 8;
 
 /// What is refined along a line of levels.

@@ -12,7 +12,7 @@ use super::rigid_motions::RigidMotions;
 use super::slip_path::{SlipPath, end_of_chord};
 use crate::fields::{CellRule, Reals, TangentialField, each_cell};
 
-/// Rounds in which motions and the turn of slip find each other; each takes two thirds of the difference away or more.
+/// Rounds in which motions and the turn of slip are found in alternation. What is left over after them is part of the residual.
 const MOST_TURNS: usize = 4;
 /// Change of motions that is rounding.
 const SETTLED: f64 = 1e-15;

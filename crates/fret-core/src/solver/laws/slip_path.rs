@@ -5,28 +5,30 @@
 //! contact count a way that they went before they touched; cells that come to rest have slipped before that. Here the law takes
 //!
 //! ```text
-//! s_end = M (s - a),    M v = v - c max(v . l, 0) l
+//! s_end = v - t max(v . t - k |v| |t|, 0),    v = s - a
 //! ```
 //!
-//! with `s` the change of displacement in the increment and `l` the unit direction of the last slip increment, both of the cell.
-//! *Turn:* directions of chords are those of the rates in their middles, to second order; carried on linearly from the middle of the
-//! last increment over the middle of this one to its end, the direction is turned on by `rho / (1 + rho)` of the angle between the
-//! chords, rho the ratio of this increment to the last. `M` does that with `c = rho / (1 + 2 rho)`: the tangent of the angle to l grows
-//! by `1 / (1 - c)`. It is continuous, piecewise linear, and of degree one. *Entry and stop* are offsets `a`: see `slip_history`. An
-//! offset along l turns too, and c is the smaller for it. The rule is new; its derivation and its orders, measured:
-//! `docs/theory/second-order.md`.
+//! with `s` the change of displacement in the increment, and `t` and `a` known before the increment is solved.
+//!
+//! *Turn:* the direction of a slip increment is that of the slip rate in its middle, to second order. Extrapolated linearly from the middle
+//! of the last increment over the middle of this one to its end, the direction turns on by `rho / (1 + rho)` of the angle between the two
+//! increments, rho the ratio of this one to the last. With the unit direction `l` of the last slip increment, `c = rho / (1 + 2 rho)` and
+//! `t = l sqrt(c / (1 - k))` the tangent of a small angle to l grows by `1 / (1 - c)`, which is that; beyond an angle of cosine `k`
+//! nothing is turned. The rule is continuous and of degree one. *Entry and stop* are offsets `a`: see `slip_history`. An offset along l
+//! turns too, and c is the smaller for it. The rule is new; its derivation and its measured orders: `docs/theory/second-order.md`.
 
 use super::super::contact_set::ContactSet;
 use crate::fields::{Reals, TangentialField};
 
-/// Cosine of the angle between chords from which on they say nothing of each other.
+/// Cosine k of the angle between slip increments (40 degrees) from which on the last one says nothing of this one. By trial: without it
+/// the discrete equations have several solutions much more often.
 const FADED: f64 = 0.766;
 
 /// What is known of the paths before an increment is solved, over the cells of a region or packed over a contact. With empty fields it is
 /// the end-point rule.
 #[derive(Debug, Clone, Default)]
 pub struct SlipPath {
-    /// `sqrt(c) l` [-].
+    /// The vector t of every cell [-].
     pub turn: TangentialField,
     /// The offset a [length].
     pub ahead: TangentialField,
@@ -97,7 +99,7 @@ impl SlipPath {
     }
 }
 
-/// `M v` with `turn = sqrt(c) l`.
+/// The slip at the end of the increment, up to a factor, from the slip less the offset and the vector t.
 #[inline(always)]
 pub fn end_of_chord<R: Reals>(slip: [R; 2], turn: [R; 2]) -> [R; 2] {
     let lengths = (slip[0] * slip[0] + slip[1] * slip[1]) * (turn[0] * turn[0] + turn[1] * turn[1]);
@@ -109,8 +111,8 @@ pub fn end_of_chord<R: Reals>(slip: [R; 2], turn: [R; 2]) -> [R; 2] {
 mod tests {
     use super::*;
 
-    /// Slip along a circle with even speed: chords of unequal angles. The end of the last one has the direction of the circle there up to
-    /// the third order in the angles (the chord itself: first).
+    /// Slip along a circle with even speed: slip increments of unequal angles. The end of the last one has the direction of the circle there up to
+    /// the third order in the angles (the increment itself: first).
     #[test]
     fn chords_of_a_circle_end_along_it() {
         let point = |angle: f64| [angle.cos(), angle.sin()];

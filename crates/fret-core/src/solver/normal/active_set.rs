@@ -13,7 +13,7 @@ use crate::fields::{CellRule, CellSize, Reals, add_scaled, dot, each_cell, large
 /// The contact changes when the residual on it is this much smaller than its violations.
 const SMALL_BESIDE: f64 = 0.3;
 /// Changes without halving the violations before it gives up.
-const MOST_IN_VAIN: usize = 6;
+const MAX_STALLED: usize = 6;
 
 /// What is wrong on a fixed contact.
 struct Violations {
@@ -76,7 +76,7 @@ pub fn iterate(problem: &mut NormalIteration<'_>) -> Result<Ending, SolveError> 
         if here.outer_square < 0.25 * best {
             (best, changes) = (here.outer_square, 0);
         }
-        if changes > MOST_IN_VAIN {
+        if changes > MAX_STALLED {
             return Ok(give_up(problem));
         }
         change_contact(problem, here.tense > 0.0);

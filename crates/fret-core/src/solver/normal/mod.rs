@@ -27,7 +27,7 @@ pub struct NormalSolution {
 }
 
 /// Iterations of projected conjugate gradients that need not halve the residual before the active set is tried.
-const MOST_IN_VAIN: usize = 10;
+const MAX_STALLED: usize = 10;
 
 /// Solves the normal equations from a feasible `pressure` with its `displacement`; both end at the solution.
 ///
@@ -46,19 +46,19 @@ pub fn solve_normal(
     let bounds = (settings.tolerance, settings.max_normal_iterations);
     let fields = [pressure, displacement];
     let mut problem = NormalIteration::new(task, fields, compliance, preconditioner, bounds, callback);
-    let mut most_in_vain = MOST_IN_VAIN;
+    let mut max_stalled = MAX_STALLED;
     loop {
         let ending = if by_active_set {
             active_set::iterate(&mut problem)?
         } else {
-            projected_cg::iterate(&mut problem, most_in_vain)?
+            projected_cg::iterate(&mut problem, max_stalled)?
         };
         if let Ending::Solved(residual) = ending {
             let (gap, iterations) = (problem.gap, problem.iterations);
             return Ok(NormalSolution { residual, gap, iterations });
         }
         if by_active_set {
-            most_in_vain = most_in_vain.saturating_mul(2);
+            max_stalled = max_stalled.saturating_mul(2);
         }
         by_active_set = !by_active_set;
     }

@@ -10,11 +10,11 @@ use crate::fields::{CellRule, CellSize, Reals, each_cell, largest_of};
 /// A loaded cell leaves when its own pressure could close less than this fraction of its gap.
 const LEAVE_BELOW: f64 = 0.15;
 
-/// Iterates until solved, or until `most_in_vain` iterations have not halved the residual.
+/// Iterates until solved, or until `max_stalled` iterations have not halved the residual.
 ///
 /// # Errors
 /// When the caller stopped the iteration, or it has gone on for too long.
-pub fn iterate(problem: &mut NormalIteration<'_>, most_in_vain: usize) -> Result<Ending, SolveError> {
+pub fn iterate(problem: &mut NormalIteration<'_>, max_stalled: usize) -> Result<Ending, SolveError> {
     let self_influence = problem.self_influence;
     let by_force = problem.task.total.is_some();
     let mut step = 0.8_f64;
@@ -37,7 +37,7 @@ pub fn iterate(problem: &mut NormalIteration<'_>, most_in_vain: usize) -> Result
         if residual < 0.5 * best {
             (best, waited) = (residual, 0);
         }
-        if waited > most_in_vain {
+        if waited > max_stalled {
             return Ok(Ending::Stalled);
         }
         let mean = if by_force { gaps / count.max(1.0) } else { 0.0 };
