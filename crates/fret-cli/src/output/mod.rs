@@ -12,6 +12,7 @@ mod packed_file;
 mod run_record;
 pub mod section;
 mod state_store;
+mod turn_writer;
 pub mod vtk;
 mod whole_file;
 
