@@ -61,6 +61,8 @@ pub enum Verb {
     Extremes(ExtremesArguments),
     /// Subsurface stresses from the kept tractions of a run
     Stress(StressArguments),
+    /// Temperature rise by the friction of the last cycle, and contact resistance, from the kept fields of a run
+    Heat(HeatArguments),
     /// Parameter sweep: solve a base case for lists of values of its keys
     Sweep(SweepArguments),
 }
@@ -185,6 +187,25 @@ pub struct StressArguments {
     /// What `ParaView` reads.
     #[arg(long, help = "Write a volume for ParaView of the last evaluated increment")]
     pub volume: bool,
+    /// Number of threads [default: all cores]
+    #[arg(long, value_name = "N", value_parser = threads::number)]
+    pub threads: Option<u16>,
+    /// Print only errors
+    #[arg(long)]
+    pub quiet: bool,
+}
+
+/// Which temperatures and resistances.
+#[derive(Debug, Args)]
+pub struct HeatArguments {
+    /// The results folder of a run, finished or not
+    pub folder: PathBuf,
+    /// A case file whose conductivities, resistivities and frequency are used [default: the case of the results]
+    #[arg(long, value_name = "FILE")]
+    pub case: Option<PathBuf>,
+    /// Contact resistance of every N-th kept increment, and the last [default: of the last]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    pub every: Option<u32>,
     /// Number of threads [default: all cores]
     #[arg(long, value_name = "N", value_parser = threads::number)]
     pub threads: Option<u16>,

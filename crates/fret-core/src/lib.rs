@@ -111,6 +111,7 @@
 pub mod analytic;
 pub mod case;
 pub mod compliance;
+pub mod conduction;
 mod fields;
 pub mod history;
 pub mod kernel;

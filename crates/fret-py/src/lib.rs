@@ -7,6 +7,7 @@
 mod analytic;
 mod case;
 mod command;
+mod conduction;
 mod error;
 mod history;
 mod kernels;
@@ -33,6 +34,8 @@ mod _core {
     use crate::case::Case;
     #[pymodule_export]
     use crate::command::command_line;
+    #[pymodule_export]
+    use crate::conduction::{contact_resistance, surface_temperature};
     #[pymodule_export]
     use crate::history::{History, vocabulary};
     #[pymodule_export]
