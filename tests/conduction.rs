@@ -75,7 +75,7 @@ fn heat_of_a_disc_and_of_hertzs_pressure_warms_a_half_space_as_carslaw_and_jaege
 
 #[test]
 fn one_layer_warms_as_its_image_series_says_once_cells_are_refined() {
-    // centre temperature times k1/(q a): disc, and q0 sqrt(1 - r^2/a^2); image series of the layer, nine digits (tests/golden/README.md)
+    // centre temperature times k1/(q a): disc, and q0 sqrt(1 - r^2/a^2); image series of the layer, nine digits
     for (ratio, thickness, of_disc, of_hertz) in [
         (0.1, 0.1, 0.197_988_394, 0.175_333_959),
         (0.1, 1.0, 0.721_813_686, 0.597_362_871),
@@ -96,9 +96,12 @@ fn one_layer_warms_as_its_image_series_says_once_cells_are_refined() {
                 let middle = grid.cells()[0] / 2;
                 rise(&body, &grid, &flux)[[middle, middle]] * ratio
             };
-            let errors = [50, 150].map(|cells| (centre(cells) / exact - 1.0).abs());
-            println!("{ratio} {thickness}: {errors:?}");
-            assert!(errors[1] < 2e-4 && errors[1] < 0.5 * errors[0], "{ratio}, {thickness}: {errors:?}");
+            let [coarse, fine] = [50, 150].map(|cells| centre(cells) / exact - 1.0);
+            // the flux of the cells that the rim cuts is spread over them: second order, so that a third of the side leaves a ninth;
+            // extrapolated to no side, with what the rim's staircase leaves
+            let extrapolated = (9.0 * fine - coarse) / 8.0;
+            assert!(extrapolated.abs() < 2e-6, "{ratio}, {thickness}: {coarse:e} {fine:e} {extrapolated:e}");
+            assert!(fine.abs() < 4e-5, "{ratio}, {thickness}: {fine:e}");
         }
     }
 }
@@ -161,8 +164,7 @@ fn a_disc_resists_as_holm_says() {
     let [coarse, fine] = [resistance(60), resistance(120)];
     assert!((fine / exact - 1.0).abs() < 0.01, "{}", fine / exact);
     let extrapolated = 2.0 * fine - coarse;
-    println!("{} {} {}", coarse / exact, fine / exact, extrapolated / exact);
-    assert!((extrapolated / exact - 1.0).abs() < 1e-3, "{}", extrapolated / exact);
+    assert!((extrapolated / exact - 1.0).abs() < 1e-4, "{}", extrapolated / exact);
 }
 
 #[test]
@@ -207,7 +209,6 @@ fn resistance_is_barbers_inverse_of_the_incremental_stiffness_of_a_rough_contact
         contact_resistance([lower.as_ref(), upper.as_ref()], &near.grid, false, &contact).unwrap();
     let modulus = 1.0 / ((1.0 - 0.09) / 1.0 + (1.0 - 0.04) / 3.0);
     let exact = modulus * (2.0 + 5.0) / (2.0 * stiffness);
-    println!("{touching} cells, {:e}", found / exact - 1.0);
     // difference of forces that are solved to 1e-12, over a change of 1e-6
     assert!((found / exact - 1.0).abs() < 1e-6, "{:e}", found / exact - 1.0);
 }

@@ -35,11 +35,15 @@ __all__ = [
     "no_slip_punch",
     "no_slip_sphere",
     "plan",
+    "quantile_fractions",
     "rounded_punch",
     "run",
     "run_into",
+    "sample_rows",
     "sliding_cylinder",
+    "sobol_indices",
     "spence_table",
+    "statistics",
     "stretched_line",
     "stretched_sphere",
     "study",
@@ -136,6 +140,10 @@ def influence_coefficients(
     spacing: tuple[float, float],
 ) -> dict[str, npt.NDArray[np.float64]]: ...
 
+def sample_rows(design: str) -> list[list[float]]: ...
+def quantile_fractions() -> list[float]: ...
+def statistics(values: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]: ...
+def sobol_indices(values: npt.NDArray[np.float64], count: int) -> npt.NDArray[np.float64]: ...
 def surface_temperature(
     conductors: str,
     setting: tuple[tuple[float, float], bool],

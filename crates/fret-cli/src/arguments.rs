@@ -63,7 +63,7 @@ pub enum Verb {
     Stress(StressArguments),
     /// Temperature rise by the friction of the last cycle, and contact resistance, from the kept fields of a run
     Heat(HeatArguments),
-    /// Parameter sweep: solve a base case for lists of values of its keys
+    /// Parameter sweep: solve a base case for lists of values of its keys, or for samples of uncertain ones
     Sweep(SweepArguments),
 }
 
@@ -217,7 +217,8 @@ pub struct HeatArguments {
 /// How to solve many cases.
 #[derive(Debug, Args)]
 pub struct SweepArguments {
-    /// The sweep file (TOML): base = "case.toml", and [axes] with "key.of.the.case" = [values]
+    /// The sweep file (TOML): base = "case.toml", and [axes] with "key.of.the.case" = [values], or [distributions] with
+    /// "key.of.the.case" = { normal = { mean = 0.6, deviation = 0.05 } } and [samples] count = 256
     pub sweep: PathBuf,
     /// Folder for the results; points that are finished there are skipped [default: results/ and the name of the sweep]
     #[arg(long, value_name = "DIR")]

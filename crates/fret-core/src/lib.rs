@@ -126,6 +126,7 @@ pub mod run;
 pub mod solver;
 pub mod study;
 pub mod subsurface;
+pub mod uncertainty;
 
 pub use case::{Case, CaseError};
 pub use history::{CycleRecord, History, KeptFields, Start, StepRecord, Warning};

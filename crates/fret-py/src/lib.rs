@@ -17,6 +17,7 @@ mod start;
 mod study;
 mod subsurface;
 mod threads;
+mod uncertainty;
 
 /// Conversion between Python and fret-core; use the names of `fretting`.
 #[pyo3::pymodule]
@@ -52,6 +53,9 @@ mod _core {
     use crate::subsurface::{fatigue, subsurface_stress};
     #[pymodule_export]
     use crate::threads::{check_memory, check_threads};
+
+    #[pymodule_export]
+    use crate::uncertainty::{quantile_fractions, sample_rows, sobol_indices, statistics};
 
     #[pymodule_init]
     fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {
