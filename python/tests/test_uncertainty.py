@@ -46,7 +46,7 @@ def test_power_laws_of_uncertain_numbers_have_their_moments_and_indices() -> Non
     assert abs(float(first) - square_p / both) < 0.03
     assert abs(float(total) - square_e / both) < 0.03
     again = fretting.sweep(hertz_case(), parameters, samples=128, seed=4, indices=True, threads=1)
-    assert again.identical(answer)
+    assert again["max_pressure"].identical(answer["max_pressure"])
 
 
 def test_energy_of_mindlin_and_deresiewicz_with_uncertain_friction(fretting_case: dict[str, Any]) -> None:
