@@ -13,6 +13,7 @@ mod certified;
 mod coated_limits;
 mod coefficient_regimes;
 mod coefficient_tables;
+mod conduction;
 mod coupled_friction;
 mod error_bars;
 mod fretting_cycles;

@@ -4,6 +4,7 @@ use toml::Spanned;
 
 use super::attachments::Attachments;
 use super::bodies::bodies;
+use super::conduction::conduction;
 use super::course::Stage;
 use super::definition::{Case, GridSize, Origin};
 use super::file::{CaseFile, CellsFile, OutputFile, SizeFile};
@@ -93,6 +94,13 @@ pub(super) fn case(
     let units = file.units.as_ref().and_then(|file| super::units::units(&mut judge, file));
     let output = output(&mut judge, file.output.as_ref());
     let stress = stress(&mut judge, file.stress.as_ref(), bodies.as_ref(), output.as_ref(), frictionless);
+    let conduction = conduction(
+        &mut judge,
+        [("lower", file.lower.get_ref()), ("upper", file.upper.get_ref())],
+        file.thermal.as_ref(),
+        (stages.as_deref(), output.as_ref()),
+        (frictionless, is_line, periodic),
+    );
     match (cells, size, bodies, profile, friction, stages, tolerance, output) {
         (
             Some(cells),
@@ -112,6 +120,7 @@ pub(super) fn case(
             periodic,
             bodies,
             residual_stress,
+            conduction,
             profile,
             friction,
             start: judge.attachments.start,
