@@ -14,7 +14,7 @@ use crate::failure::Failure;
 use crate::figures::{counted, duration, figure};
 use crate::output::kept_run::KeptRun;
 use crate::output::section::Section;
-use crate::output::write_whole;
+use crate::output::{kind_of_stress, write_whole};
 
 /// More sections than this are not drawn.
 const MOST_SECTIONS: usize = 12;
@@ -183,11 +183,12 @@ impl<'a> StressTables<'a> {
         let high = self.sections.iter().flatten().flatten().copied().fold(0.0, f64::max);
         for index in (0..=last).filter(|&index| is_shown(index)) {
             let increment = self.surfaces[index].increment;
-            let quantity =
-                format!("von Mises stress, increment {increment}, {} body", self.request.body.name());
+            let subject = format!("section at y = 0, increment {increment}, {} body", self.request.body.name());
             let section = Section {
                 title,
-                quantity: &quantity,
+                subject: &subject,
+                quantity: ("von Mises stress", "pressure"),
+                units: self.run.units.as_ref(),
                 x,
                 depths: &depths,
                 values: &self.sections[index],
@@ -195,21 +196,22 @@ impl<'a> StressTables<'a> {
                 range: Some([0.0, high]),
             };
             let name = format!("von_mises-{increment:05}.svg");
-            write_whole(&place.join(name), section.svg().as_bytes())?;
+            write_whole(&place.join(name), section.svg()?.as_bytes())?;
         }
         for (name, values) in fatigue.unwrap_or_default() {
-            let quantity =
-                format!("{}, last cycle, {} body", name.replace('_', " "), self.request.body.name());
+            let subject = format!("section at y = 0, last cycle, {} body", self.request.body.name());
             let section = Section {
                 title,
-                quantity: &quantity,
+                subject: &subject,
+                quantity: (&name.replace('_', " "), kind_of_stress(name)),
+                units: self.run.units.as_ref(),
                 x,
                 depths: &depths,
                 values,
                 interfaces: &self.interfaces,
                 range: None,
             };
-            write_whole(&place.join(format!("{name}.svg")), section.svg().as_bytes())?;
+            write_whole(&place.join(format!("{name}.svg")), section.svg()?.as_bytes())?;
         }
         Ok(())
     }

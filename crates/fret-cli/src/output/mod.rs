@@ -12,6 +12,7 @@ mod packed_file;
 mod run_record;
 pub mod section;
 mod state_store;
+mod stress_kinds;
 pub mod vtk;
 mod whole_file;
 
@@ -35,6 +36,7 @@ pub use packed_file::{read_packed, write_packed};
 pub use run_record::{Ending, RunRecord, fnv1a64, question, resolved};
 use state_store::StateStore;
 pub use state_store::{start_below, state_below, states_below};
+pub use stress_kinds::kind_of_stress;
 pub use whole_file::write_whole;
 
 const CASE: &str = "case.toml";

@@ -39,6 +39,20 @@ impl Units {
     }
 }
 
+impl Units {
+    /// The kind of a quantity of a line contact, whose loads are those of a unit of length; `kind` is that of a point contact.
+    pub fn per_length(kind: &str) -> &str {
+        match kind {
+            "force" => "force/length",
+            "force x length" => "force",
+            "length^2" => "length",
+            "length^3" => "length^2",
+            "force/length" => "force/length^2",
+            other => other,
+        }
+    }
+}
+
 /// Powers of ten of the prefixes that lengths and forces have.
 const PREFIXES: [(&str, i32); 8] =
     [("G", 9), ("M", 6), ("k", 3), ("", 0), ("c", -2), ("m", -3), ("u", -6), ("n", -9)];
