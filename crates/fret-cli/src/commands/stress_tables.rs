@@ -14,7 +14,7 @@ use crate::failure::Failure;
 use crate::figures::{counted, duration, figure};
 use crate::output::kept_run::KeptRun;
 use crate::output::section::Section;
-use crate::output::{kind_of_stress, write_whole};
+use crate::output::{kind_of_stress, stress_called, write_whole};
 
 /// More sections than this are not drawn.
 const MOST_SECTIONS: usize = 12;
@@ -183,7 +183,8 @@ impl<'a> StressTables<'a> {
         let high = self.sections.iter().flatten().flatten().copied().fold(0.0, f64::max);
         for index in (0..=last).filter(|&index| is_shown(index)) {
             let increment = self.surfaces[index].increment;
-            let subject = format!("section at y = 0, increment {increment}, {} body", self.request.body.name());
+            let subject =
+                format!("section at y = 0, increment {increment}, {} body", self.request.body.name());
             let section = Section {
                 title,
                 subject: &subject,
@@ -203,7 +204,7 @@ impl<'a> StressTables<'a> {
             let section = Section {
                 title,
                 subject: &subject,
-                quantity: (&name.replace('_', " "), kind_of_stress(name)),
+                quantity: (&stress_called(name), kind_of_stress(name)),
                 units: self.run.units.as_ref(),
                 x,
                 depths: &depths,

@@ -8,10 +8,10 @@ use super::scale::{Axis, Label};
 
 /// Size of a chart: narrow, so that its words are still read on a telephone.
 const WIDTH: f64 = 400.0;
-const HEIGHT: f64 = 268.0;
+const HEIGHT: f64 = 270.0;
 const RIGHT: f64 = 18.0;
 const TOP: f64 = 20.0;
-const BOTTOM: f64 = 42.0;
+const BOTTOM: f64 = 45.0;
 /// Curves of more points are drawn by their highest and lowest ones in strips of this width.
 const MANY: usize = 2000;
 const STRIP: f64 = 0.5;
@@ -78,7 +78,15 @@ pub struct Chart {
 impl Chart {
     /// A chart of curves over straight axes.
     pub fn new(what: &str, axes: [Label; 2], curves: Vec<Curve>) -> Self {
-        Self { what: what.to_owned(), axes, curves, logarithmic: false, level: None, ranges: [None; 2], here: None }
+        Self {
+            what: what.to_owned(),
+            axes,
+            curves,
+            logarithmic: false,
+            level: None,
+            ranges: [None; 2],
+            here: None,
+        }
     }
 
     /// The area that its curves are drawn in.
@@ -97,7 +105,12 @@ impl Chart {
             Axis::linear(heights(), 5)
         };
         let left = room_for(&y);
-        Frame { axes: [axis(0, 6), y], across: [left, WIDTH - RIGHT], down: [TOP, HEIGHT - BOTTOM], downward: false }
+        Frame {
+            axes: [axis(0, 6), y],
+            across: [left, WIDTH - RIGHT],
+            down: [TOP, HEIGHT - BOTTOM],
+            downward: false,
+        }
     }
 
     /// The chart with the names of its curves below it.
@@ -187,7 +200,8 @@ fn thinned(frame: &Frame, points: &[[f64; 2]]) -> Vec<[f64; 2]> {
     let ends = |strip: &[[f64; 2]]| {
         let order = |a: &(usize, &[f64; 2]), b: &(usize, &[f64; 2])| a.1[1].total_cmp(&b.1[1]);
         let of = || strip.iter().enumerate();
-        let [low, high] = [of().min_by(order), of().max_by(order)].map(|end| end.map_or(0, |(place, _)| place));
+        let [low, high] =
+            [of().min_by(order), of().max_by(order)].map(|end| end.map_or(0, |(place, _)| place));
         let mut kept = vec![low.min(high), low.max(high)];
         kept.dedup();
         kept.into_iter().map(|place| strip[place]).collect::<Vec<_>>()
@@ -204,15 +218,24 @@ mod tests {
         let mut points: Vec<[f64; 2]> = (0..20_000).map(|n| [f64::from(n), f64::from(n % 20)]).collect();
         points[7_777][1] = 100.0;
         points[12_345][1] = -50.0;
-        let chart = Chart::new("", [Label::plain("x"), Label::plain("y")], vec![Curve::line(points.clone(), "", 0)]);
+        let chart =
+            Chart::new("", [Label::plain("x"), Label::plain("y")], vec![Curve::line(points.clone(), "", 0)]);
         let left = thinned(&chart.frame(), &points);
-        assert!(left.len() < 2 * 800 && left.contains(&points[7_777]) && left.contains(&points[12_345]), "{}", left.len());
+        assert!(
+            left.len() < 2 * 800 && left.contains(&points[7_777]) && left.contains(&points[12_345]),
+            "{}",
+            left.len()
+        );
         assert!(left.windows(2).all(|pair| pair[0][0] < pair[1][0]));
     }
 
     #[test]
     fn one_point_is_seen() {
-        let chart = Chart::new("", [Label::plain("x"), Label::plain("y")], vec![Curve::line(vec![[1.0, 2.0]], "one", 0)]);
+        let chart = Chart::new(
+            "",
+            [Label::plain("x"), Label::plain("y")],
+            vec![Curve::line(vec![[1.0, 2.0]], "one", 0)],
+        );
         assert!(chart.drawing().content.into_string().contains("<circle class=\"dot c0\""));
     }
 }

@@ -53,7 +53,7 @@ impl Frame {
             @for (value, word) in &x.ticks {
                 @let at = format!("{:.1}", self.x_of(*value));
                 path class="grid" d=(format!("M{at} {top}V{bottom:.1}")) {}
-                text class="tick" x=(at) y=(format!("{:.1}", bottom + 15.0)) text-anchor="middle" { (word) }
+                text class="tick" x=(at) y=(format!("{:.1}", bottom + 18.0)) text-anchor="middle" { (word) }
             }
             @for (value, word) in &y.ticks {
                 @let at = self.y_of(*value);
@@ -63,7 +63,7 @@ impl Frame {
             @if holds_zero(x) { path class="zero" d=(format!("M{:.1} {top}V{bottom:.1}", self.x_of(0.0))) {} }
             @if holds_zero(y) { path class="zero" d=(format!("M{left:.1} {:.1}H{right}", self.y_of(0.0))) {} }
             path class="frame" d=(format!("M{left:.1} {top}V{bottom:.1}H{right}")) {}
-            text class="axis" x=(format!("{:.1}", middle[0])) y=(format!("{:.1}", bottom + 33.0)) text-anchor="middle" { (x.named(names[0])) }
+            text class="axis" x=(format!("{:.1}", middle[0])) y=(format!("{:.1}", bottom + 36.0)) text-anchor="middle" { (x.named(names[0])) }
             text class="axis" transform=(format!("translate(12 {:.1}) rotate(-90)", middle[1])) text-anchor="middle" { (y.named(names[1])) }
         }
     }
@@ -75,7 +75,11 @@ impl Frame {
 
     /// The places of the points that can be drawn.
     pub fn places(&self, points: &[[f64; 2]]) -> Vec<[f64; 2]> {
-        points.iter().filter(|point| self.shows(**point)).map(|[x, y]| [self.x_of(*x), self.y_of(*y)]).collect()
+        points
+            .iter()
+            .filter(|point| self.shows(**point))
+            .map(|[x, y]| [self.x_of(*x), self.y_of(*y)])
+            .collect()
     }
 
     /// A line through points, as the data of a path; a point that is no number breaks it. Points that cannot be told apart are one.

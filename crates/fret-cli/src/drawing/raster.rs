@@ -6,8 +6,22 @@ use crate::failure::Failure;
 
 /// Colours from low to high: matplotlib's viridis at 16 places, straight in between. Even in lightness, also for the colour-blind.
 const VIRIDIS: [[u8; 3]; 16] = [
-    [68, 1, 84], [72, 26, 108], [71, 47, 125], [65, 68, 135], [57, 86, 140], [49, 104, 142], [42, 120, 142], [35, 136, 142],
-    [31, 152, 139], [34, 168, 132], [53, 183, 121], [84, 197, 104], [122, 209, 81], [165, 219, 54], [210, 226, 27], [253, 231, 37],
+    [68, 1, 84],
+    [72, 26, 108],
+    [71, 47, 125],
+    [65, 68, 135],
+    [57, 86, 140],
+    [49, 104, 142],
+    [42, 120, 142],
+    [35, 136, 142],
+    [31, 152, 139],
+    [34, 168, 132],
+    [53, 183, 121],
+    [84, 197, 104],
+    [122, 209, 81],
+    [165, 219, 54],
+    [210, 226, 27],
+    [253, 231, 37],
 ];
 /// Colours of a scale; the last one of the palette is for what has no value, and is clear.
 const LEVELS: usize = 255;
@@ -40,7 +54,8 @@ impl Raster {
             let part = if high > low { (value - low) / (high - low) } else { 0.0 };
             if value.is_finite() { (part.clamp(0.0, 1.0) * (LEVELS - 1) as f64).round() as u8 } else { CLEAR }
         };
-        let palette = (0..LEVELS).flat_map(|level| colour(level as f64 / (LEVELS - 1) as f64)).chain([0; 3]).collect();
+        let palette =
+            (0..LEVELS).flat_map(|level| colour(level as f64 / (LEVELS - 1) as f64)).chain([0; 3]).collect();
         let mut cover = vec![u8::MAX; LEVELS];
         cover.push(0);
         Self { size, pixels: pixels(size, |column, row| level(value(column, row))), palette, cover }
@@ -49,7 +64,12 @@ impl Raster {
     /// Zones: 0 open and clear, 1 stick, 2 slip.
     pub fn of_zones(size: [usize; 2], zone: impl Fn(usize, usize) -> f64) -> Self {
         let palette = [[0; 3], STICK, SLIP].concat();
-        Self { size, pixels: pixels(size, |column, row| (zone(column, row) as u8).min(2)), palette, cover: vec![0, 255, 255] }
+        Self {
+            size,
+            pixels: pixels(size, |column, row| (zone(column, row) as u8).min(2)),
+            palette,
+            cover: vec![0, 255, 255],
+        }
     }
 
     /// The scale itself, low at the bottom.
@@ -79,7 +99,10 @@ impl Raster {
 }
 
 fn pixels([width, height]: [usize; 2], pixel: impl Fn(usize, usize) -> u8) -> Vec<u8> {
-    (0..height).flat_map(|row| (0..width).map(move |column| [column, row])).map(|[column, row]| pixel(column, row)).collect()
+    (0..height)
+        .flat_map(|row| (0..width).map(move |column| [column, row]))
+        .map(|[column, row]| pixel(column, row))
+        .collect()
 }
 
 /// The colour at a part of the scale, from 0 to 1.

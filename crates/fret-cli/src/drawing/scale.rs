@@ -43,7 +43,10 @@ impl Axis {
         let step = round_step((high - low) / ticks.max(1) as f64);
         let margin = 0.02 * (high - low);
         // A curve that starts or ends at zero shall touch the frame there.
-        Self::with_step([if low == 0.0 { 0.0 } else { low - margin }, if high == 0.0 { 0.0 } else { high + margin }], step)
+        Self::with_step(
+            [if low == 0.0 { 0.0 } else { low - margin }, if high == 0.0 { 0.0 } else { high + margin }],
+            step,
+        )
     }
 
     /// An axis over a range and no more, with about so many ticks.

@@ -36,7 +36,7 @@ pub use packed_file::{read_packed, write_packed};
 pub use run_record::{Ending, RunRecord, fnv1a64, question, resolved};
 use state_store::StateStore;
 pub use state_store::{start_below, state_below, states_below};
-pub use stress_kinds::kind_of_stress;
+pub use stress_kinds::{kind_of_stress, stress_called};
 pub use whole_file::write_whole;
 
 const CASE: &str = "case.toml";

@@ -52,7 +52,10 @@ impl Section<'_> {
             let i = (2 * column + 1) * self.x.len() / (2 * columns);
             self.values[self.row_at(depth)].get(i).copied().unwrap_or(f64::NAN)
         };
-        let label = |name: &str, kind: &str| Label { name: name.to_owned(), unit: self.units.map(|units| units.of(kind)) };
+        let label = |name: &str, kind: &str| Label {
+            name: name.to_owned(),
+            unit: self.units.map(|units| units.of(kind)),
+        };
         let map = Map {
             what: format!("{}, {}", self.quantity.0, self.subject),
             width: WIDTH,
@@ -106,7 +109,15 @@ mod tests {
     fn a_depth_shows_the_row_nearest_to_it_on_its_own_side_of_an_interface() {
         let rows = [0.0, 1.0, 1.0, 3.0];
         let section = Section {
-            title: "", subject: "", quantity: ("", ""), units: None, x: &[0.0], depths: &rows, values: &[], interfaces: &[], range: None,
+            title: "",
+            subject: "",
+            quantity: ("", ""),
+            units: None,
+            x: &[0.0],
+            depths: &rows,
+            values: &[],
+            interfaces: &[],
+            range: None,
         };
         for (depth, row) in [(0.2, 0), (0.8, 1), (1.2, 2), (2.5, 3), (3.0, 3)] {
             assert_eq!(section.row_at(depth), row, "{depth}");

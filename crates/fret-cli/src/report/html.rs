@@ -91,7 +91,10 @@ mod tests {
     #[test]
     fn words_of_a_case_cannot_become_tags() {
         let table = table(&["<b>"], &[vec!["<script>\"a\" & 'b'</script>".to_owned()]]).into_string();
-        assert!(table.contains("&lt;b&gt;") && table.contains("&lt;script&gt;") && !table.contains("<script"), "{table}");
+        assert!(
+            table.contains("&lt;b&gt;") && table.contains("&lt;script&gt;") && !table.contains("<script"),
+            "{table}"
+        );
         let page = html! { p title=("\"><script>") {} }.into_string();
         assert_eq!(page, "<p title=\"&quot;&gt;&lt;script&gt;\"></p>");
     }

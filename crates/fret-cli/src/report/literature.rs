@@ -30,8 +30,7 @@ const JOHNSON: &str = "K. L. Johnson: Contact Mechanics. Cambridge University Pr
 /// The chapter.
 pub fn chapter(view: &Overview<'_>) -> Markup {
     let coated = ["upper", "lower"].iter().any(|body| {
-        view
-            .results
+        view.results
             .planned::<Vec<serde_json::Value>>(&format!("/case/bodies/{body}/elastic/coatings"))
             .is_some_and(|coatings| !coatings.is_empty())
     });

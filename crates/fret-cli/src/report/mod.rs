@@ -23,7 +23,8 @@ const STYLE: &str = include_str!("page.css");
 /// What moves the slider, and reads charts below a pointer.
 const SCRIPT: &str = include_str!("page.js");
 /// What the browser may do: show what the page holds, and nothing else.
-const POLICY: &str = "default-src 'none'; img-src data:; style-src 'unsafe-inline'; script-src 'unsafe-inline'";
+const POLICY: &str =
+    "default-src 'none'; img-src data:; style-src 'unsafe-inline'; script-src 'unsafe-inline'";
 
 /// The page of a run.
 pub fn page(results: &Results) -> Result<String, Failure> {

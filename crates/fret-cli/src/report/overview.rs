@@ -161,7 +161,8 @@ impl<'a> Overview<'a> {
 
     /// How an increment is called where cycles matter more than increments.
     pub fn after_cycle(&self, increment: usize) -> String {
-        let of_it = |cycle: &&CycleRecord| (cycle.first_increment..=cycle.last_increment).contains(&increment);
+        let of_it =
+            |cycle: &&CycleRecord| (cycle.first_increment..=cycle.last_increment).contains(&increment);
         match self.results.cycles.iter().find(of_it) {
             Some(cycle) => format!("{}, cycle {}", self.stage_name(cycle.stage), cycle.last_cycle),
             None => self.called(increment),

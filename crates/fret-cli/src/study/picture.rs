@@ -41,7 +41,8 @@ pub fn picture(title: &str, study: &RefinementStudy, lines: &[Line]) -> String {
         }
     };
     let size = [PANEL * panels.len() as f64, DOWN[1] + 54.0 + ROW * rows as f64];
-    Drawing { what: "error over time of every resolution".to_owned(), size, reading: None, content }.alone(&[title])
+    Drawing { what: "error over time of every resolution".to_owned(), size, reading: None, content }
+        .alone(&[title])
 }
 
 fn kinds(study: &RefinementStudy, lines: &[Line]) -> Panel {
@@ -105,11 +106,14 @@ fn mark_frontier(curves: &mut [Curve]) {
 
 impl Panel {
     fn drawn(&self) -> Markup {
-        let points = |axis: usize| self.curves.iter().flat_map(move |curve| curve.points.iter().map(move |(point, _)| point[axis]));
+        let points = |axis: usize| {
+            self.curves.iter().flat_map(move |curve| curve.points.iter().map(move |(point, _)| point[axis]))
+        };
         let axes = [Axis::logarithmic(points(0), 8), Axis::logarithmic(points(1), 8)];
         let left = room_for(&axes[1]);
         let frame = Frame { axes, across: [left, PANEL - RIGHT], down: DOWN, downward: false };
-        let names = [Label { unit: Some("s".to_owned()), ..Label::plain("time") }, Label::plain("relative error")];
+        let names =
+            [Label { unit: Some("s".to_owned()), ..Label::plain("time") }, Label::plain("relative error")];
         html! {
             text class="tick" x=(format!("{left:.1}")) y=(DOWN[0] - 12.0) { (self.title) }
             (frame.drawn([&names[0], &names[1]]))

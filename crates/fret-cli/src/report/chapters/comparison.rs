@@ -37,7 +37,10 @@ pub fn comparison(view: &Overview<'_>) -> Markup {
         return html! {};
     }
     let head = ["at the end of", "", "computed", "closed form", "difference"];
-    chapter("Against the closed form", &html! { p { (words(view, form.moduli.coupling)) } (table(&head, &rows)) })
+    chapter(
+        "Against the closed form",
+        &html! { p { (words(view, form.moduli.coupling)) } (table(&head, &rows)) },
+    )
 }
 
 /// How far the closed form can be trusted here.

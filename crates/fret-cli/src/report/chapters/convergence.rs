@@ -12,7 +12,8 @@ use crate::report::overview::Overview;
 pub fn convergence(view: &Overview<'_>) -> Markup {
     let history = &view.results.table;
     let curve = |name: &str, stroke: Stroke| {
-        let points = history.column("increment").iter().zip(history.column(name)).map(|(x, y)| [*x, *y]).collect();
+        let points =
+            history.column("increment").iter().zip(history.column(name)).map(|(x, y)| [*x, *y]).collect();
         vec![Curve { name: None, stroke, ..Curve::line(points, "", 0) }]
     };
     let axes = |name: &str| [Label::plain("increment"), Label::plain(name)];
@@ -22,8 +23,11 @@ pub fn convergence(view: &Overview<'_>) -> Markup {
         level: tolerance.map(|tolerance| (tolerance, "tolerance".to_owned())),
         ..Chart::new("residual of every increment", axes("residual"), curve("residual", Stroke::Dots))
     };
-    let work =
-        Chart::new("convolutions of every increment", axes("convolutions"), curve("convolutions", Stroke::Line));
+    let work = Chart::new(
+        "convolutions of every increment",
+        axes("convolutions"),
+        curve("convolutions", Stroke::Line),
+    );
     let sum = |name: &str| history.column(name).iter().sum::<f64>();
     let count = |name: &str| html! { (sum(name)) };
     let rows = [
@@ -37,7 +41,10 @@ pub fn convergence(view: &Overview<'_>) -> Markup {
             &residual.in_page(),
             "How well every increment satisfies its equations, relative and dimensionless.",
         ),
-        figure_of(&work.in_page(), "Applications of the elastic operator: the work, independent of the machine."),
+        figure_of(
+            &work.in_page(),
+            "Applications of the elastic operator: the work, independent of the machine.",
+        ),
     ];
     chapter("Convergence", &html! { (side_by_side(&figures)) (pairs(&rows)) })
 }

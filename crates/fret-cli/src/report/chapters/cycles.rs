@@ -29,7 +29,11 @@ pub fn cycles(view: &Overview<'_>) -> Markup {
         Chart::new(&format!("{name} over the cycles"), [Label::plain("cycle"), label], vec![curve])
     };
     let twists = view.twists;
-    let (force, motion) = if twists { ("moment amplitude", "rotation amplitude") } else { ("force amplitude Q*", "displacement amplitude δ*") };
+    let (force, motion) = if twists {
+        ("moment amplitude", "rotation amplitude")
+    } else {
+        ("force amplitude Q*", "displacement amplitude δ*")
+    };
     let [of_force, of_motion] = if twists { ["force x length", "rad"] } else { ["force", "length"] };
     let mut figures = vec![figure_of(
         &chart("dissipated energy", "force x length", &|cycle| cycle.dissipated_energy).in_page(),
@@ -40,18 +44,32 @@ pub fn cycles(view: &Overview<'_>) -> Markup {
         (motion, of_motion, |cycle| cycle.displacement_amplitude),
     ] {
         let values: Vec<f64> = cycles.iter().map(value).collect();
-        let [low, high] = values.iter().fold([f64::INFINITY, 0.0_f64], |[low, high], value| [low.min(*value), high.max(*value)]);
+        let [low, high] = values
+            .iter()
+            .fold([f64::INFINITY, 0.0_f64], |[low, high], value| [low.min(*value), high.max(*value)]);
         if high - low > SEEN * high {
             figures.push(figure_of(&chart(name, kind, &value).in_page(), &format!("{name} of each cycle.")));
         }
     }
     let ratio = chart("energy ratio A", "", &|cycle| cycle.energy_ratio.unwrap_or(f64::NAN));
-    figures.push(figure_of(&ratio.in_page(), "Energy ratio A = W_d / (4 Q* δ*); 0.2 is the transition to gross slip of a sphere."));
+    figures.push(figure_of(
+        &ratio.in_page(),
+        "Energy ratio A = W_d / (4 Q* δ*); 0.2 is the transition to gross slip of a sphere.",
+    ));
     let change = Chart { logarithmic: true, ..chart("cycle-to-cycle change", "", &|cycle| cycle.closure) };
-    figures.push(figure_of(&change.in_page(), "Change of tractions and motions from the start of a cycle to its end, relative."));
+    figures.push(figure_of(
+        &change.in_page(),
+        "Change of tractions and motions from the start of a cycle to its end, relative.",
+    ));
     if !view.results.record["plan"]["case"]["wear"].is_null() {
-        figures.push(figure_of(&chart("wear volume", "length^3", &|cycle| cycle.worn_volume).in_page(), "Wear volume since the start."));
-        figures.push(figure_of(&chart("max wear depth", "length", &|cycle| cycle.max_worn_depth).in_page(), "Maximum wear depth."));
+        figures.push(figure_of(
+            &chart("wear volume", "length^3", &|cycle| cycle.worn_volume).in_page(),
+            "Wear volume since the start.",
+        ));
+        figures.push(figure_of(
+            &chart("max wear depth", "length", &|cycle| cycle.max_worn_depth).in_page(),
+            "Maximum wear depth.",
+        ));
     }
     chapter("From cycle to cycle", &side_by_side(&figures))
 }

@@ -60,7 +60,10 @@ fn account(view: &Overview<'_>) -> Option<Markup> {
                 1 => cycle.last_cycle.to_string(),
                 all => format!("{} to {}", (cycle.last_cycle + 1).saturating_sub(all), cycle.last_cycle),
             };
-            let mut row = vec![format!("{}, {which}", view.stage_name(cycle.stage)), view.number(computed, "force x length")];
+            let mut row = vec![
+                format!("{}, {which}", view.stage_name(cycle.stage)),
+                view.number(computed, "force x length"),
+            ];
             if let Some(form) = &view.tangential_form {
                 let at = |row: usize| form.after(row).map_or(f64::NAN, TangentialHistory::dissipated_energy);
                 // Before its first increment the closed form has dissipated nothing.

@@ -11,6 +11,7 @@ use crate::drawing::chart::{Chart, Curve, Stroke};
 use crate::drawing::frame::Frame;
 use crate::drawing::map::Map;
 use crate::drawing::raster::{Raster, pixels_for};
+use crate::drawing::scale::Label;
 use crate::failure::Failure;
 use crate::report::html::{chapter, figure_of, percent};
 use crate::report::overview::Overview;
@@ -22,6 +23,8 @@ const MOST: usize = 120;
 const FEWEST: usize = 12;
 /// Bytes of all of them together, about.
 const ROOM: usize = 2_500_000;
+/// Fraction of the largest value of a load below which there is none.
+const ROUNDING: f64 = 1e-12;
 /// Width of a map.
 const WIDTH: f64 = 400.0;
 
@@ -74,7 +77,11 @@ fn telling(view: &Overview<'_>) -> usize {
     let load = |position: &usize| {
         let increment = steps[*position];
         let name = if view.twists { "twist_moment" } else { "normal_force" };
-        if view.direction.is_some() && !view.twists { view.tangential[increment].abs() } else { table.at(name, increment).abs() }
+        if view.direction.is_some() && !view.twists {
+            view.tangential[increment].abs()
+        } else {
+            table.at(name, increment).abs()
+        }
     };
     (0..steps.len()).max_by(|a, b| load(a).total_cmp(&load(b))).unwrap_or(0)
 }
@@ -138,10 +145,11 @@ impl<'a> Ground<'a> {
             shear = x.iter().zip(&y).map(|(x, y)| self.direction[0] * x + self.direction[1] * y).collect();
             images.push(self.image(&self.magnitude(position)?, &field, self.most[1])?);
         }
-        let bound = self.view.friction_at(increment).filter(|_| self.has_shear).map(|(coefficient, strength)| {
-            let bound = |pressure: &f64| (coefficient * pressure).min(strength.unwrap_or(f64::INFINITY));
-            pressure.iter().map(bound).collect()
-        });
+        let bound =
+            self.view.friction_at(increment).filter(|_| self.has_shear).map(|(coefficient, strength)| {
+                let bound = |pressure: &f64| (coefficient * pressure).min(strength.unwrap_or(f64::INFINITY));
+                pressure.iter().map(bound).collect()
+            });
         Ok(Moment { increment, pressure, shear, bound, images })
     }
 
@@ -163,7 +171,8 @@ impl<'a> Ground<'a> {
         let loop_frame = path.frame();
         let sections = self.section_charts(moments, now);
         let frames: Vec<Frame> = sections.iter().map(|(chart, _)| chart.frame()).collect();
-        let changes: Vec<Value> = moments.iter().map(|moment| self.changes(moment, &loop_frame, &frames)).collect();
+        let changes: Vec<Value> =
+            moments.iter().map(|moment| self.changes(moment, &loop_frame, &frames)).collect();
         let mut figures = vec![figure_of(&path.in_page(), "The increment on the path of the load.")];
         figures.extend(sections.iter().map(|(chart, caption)| figure_of(&chart.in_page(), caption)));
         figures.extend(self.maps(now)?);
@@ -206,7 +215,11 @@ impl<'a> Ground<'a> {
             let all = || points.iter().map(|point| point[axis]);
             Some([all().fold(f64::INFINITY, f64::min), all().fold(f64::NEG_INFINITY, f64::max)])
         };
-        Chart { here: Some((here, "here")), ranges: [range(0), range(1)], ..Chart::new(&what, labels, curves) }
+        Chart {
+            here: Some((here, "here")),
+            ranges: [range(0), range(1)],
+            ..Chart::new(&what, labels, curves)
+        }
     }
 
     fn points(&self, values: &[f64]) -> Vec<[f64; 2]> {
@@ -220,7 +233,10 @@ impl<'a> Ground<'a> {
         let [first, last] = seen(along, &all);
         let x = Some([along[first], along[last]]);
         let label = || self.view.label(self.section.name(), "length");
-        let curve = |values: &[f64], id: &'static str, name: &str| Curve { id: Some(id), ..Curve::line(self.points(values), name, 0) };
+        let curve = |values: &[f64], id: &'static str, name: &str| Curve {
+            id: Some(id),
+            ..Curve::line(self.points(values), name, 0)
+        };
         let high = all.iter().map(|values| largest(values)).fold(0.0, f64::max);
         let pressure = Chart {
             ranges: [x, Some([0.0, high])],
@@ -233,12 +249,26 @@ impl<'a> Ground<'a> {
         let mut charts = vec![(pressure, "Pressure along a line through the middle.".to_owned())];
         if self.has_shear {
             let bounds = moments.iter().filter_map(|moment| moment.bound.as_ref());
-            let most = moments.iter().map(|moment| &moment.shear).chain(bounds).map(|values| largest(values)).fold(0.0, f64::max);
+            let most = moments
+                .iter()
+                .map(|moment| &moment.shear)
+                .chain(bounds)
+                .map(|values| largest(values))
+                .fold(0.0, f64::max);
             let mut curves = Vec::new();
             if let Some(bound) = &now.bound {
                 let below: Vec<f64> = bound.iter().map(|bound| -bound).collect();
-                curves.push(Curve { stroke: Stroke::Dashed, colour: 1, ..curve(bound, "bound-above", "± the friction bound") });
-                curves.push(Curve { stroke: Stroke::Dashed, colour: 1, name: None, ..curve(&below, "bound-below", "") });
+                curves.push(Curve {
+                    stroke: Stroke::Dashed,
+                    colour: 1,
+                    ..curve(bound, "bound-above", "± the friction bound")
+                });
+                curves.push(Curve {
+                    stroke: Stroke::Dashed,
+                    colour: 1,
+                    name: None,
+                    ..curve(&below, "bound-below", "")
+                });
             }
             curves.push(curve(&now.shear, "shear-line", self.shear_name));
             let axes = [label(), self.view.label("shear", "pressure")];
@@ -246,7 +276,10 @@ impl<'a> Ground<'a> {
                 ranges: [x, Some([-most, most])],
                 ..Chart::new("shear along a line through the contact", axes, curves)
             };
-            charts.push((chart, "Shear along the same line; where it reaches the bound the contact slips.".to_owned()));
+            charts.push((
+                chart,
+                "Shear along the same line; where it reaches the bound the contact slips.".to_owned(),
+            ));
         }
         charts
     }
@@ -259,10 +292,13 @@ impl<'a> Ground<'a> {
             [centres[first[axis]] - 0.5 * side, centres[first[axis] + cells[axis] - 1] + 0.5 * side]
         };
         let (x, y) = (edges(&fields.x, 0, dx), edges(&fields.y, 1, dy));
-        let map = |place: usize, what: &str, bar: Option<&str>, most: f64| Map {
+        // A line contact is the same all along y, and its sections tell all.
+        let is_line = fields.is_line();
+        let y_label = if is_line { Label::plain("") } else { self.view.label("y", "length") };
+        let map_of = |place: usize, what: &str, bar: Option<&str>, most: f64| Map {
             what: what.to_owned(),
             width: WIDTH,
-            axes: [self.view.label("x", "length"), self.view.label("y", "length")],
+            axes: [self.view.label("x", "length"), y_label.clone()],
             x,
             y,
             downward: false,
@@ -273,14 +309,18 @@ impl<'a> Ground<'a> {
         };
         let mut figures = Vec::new();
         let mut place = 0;
-        let mut add = |what: &str, bar: Option<&str>, most: f64, below: Markup, caption: &str| -> Result<(), Failure> {
-            let drawing = map(place, what, bar, most).drawing()?.in_page();
-            figures.push(figure_of(&html! { (drawing) (below) }, caption));
-            place += 1;
-            Ok(())
-        };
+        let mut add =
+            |what: &str, bar: Option<&str>, most: f64, below: Markup, caption: &str| -> Result<(), Failure> {
+                let drawing = map_of(place, what, bar, most).drawing()?.in_page();
+                figures.push(figure_of(&html! { (drawing) (below) }, caption));
+                place += 1;
+                Ok(())
+            };
         if self.has_zones {
             add("stick and slip", None, 0.0, legend(), "What each cell did in the increment.")?;
+        }
+        if is_line {
+            return Ok(figures);
         }
         add("pressure", Some("pressure"), self.most[0], html! {}, "Contact pressure.")?;
         if self.has_shear {
@@ -294,19 +334,32 @@ impl<'a> Ground<'a> {
         let (view, table, at) = (self.view, &self.view.results.table, moment.increment);
         let (stage, number) = view.place(at);
         let of = view.spans.get(stage).map_or(0, |[first, end]| end - first);
+        // what vanishes in the rounding of the others is zero
+        let beside = |values: &[f64], kind: &str| {
+            let value = values[at];
+            view.number(if value.abs() <= ROUNDING * largest(values) { 0.0 } else { value }, kind)
+        };
         let mut words = vec![
             ("increment", "word-increment", format!("{at}: {}, {number} of {of}", view.stage_name(stage))),
             ("normal force", "word-force", view.number(table.at("normal_force", at), "force")),
         ];
         if view.twists {
-            words.push(("torsional moment", "word-moment", view.number(table.at("twist_moment", at), "force x length")));
+            words.push((
+                "torsional moment",
+                "word-moment",
+                beside(table.column("twist_moment"), "force x length"),
+            ));
         } else if view.direction.is_some() {
-            words.push(("tangential force", "word-tangential", view.number(view.tangential[at], "force")));
-            words.push(("displacement", "word-shift", view.number(view.shift[at], "length")));
+            words.push(("tangential force", "word-tangential", beside(&view.tangential, "force")));
+            words.push(("displacement", "word-shift", beside(&view.shift, "length")));
         }
         words.push(("max pressure", "word-pressure", view.number(table.at("max_pressure", at), "pressure")));
         if !view.is_frictionless() {
-            words.push(("stick fraction", "word-stick", percent(table.at("stick_area", at) / table.at("contact_area", at))));
+            words.push((
+                "stick fraction",
+                "word-stick",
+                percent(table.at("stick_area", at) / table.at("contact_area", at)),
+            ));
         }
         words
     }
@@ -317,7 +370,11 @@ impl<'a> Ground<'a> {
         for (_, id, words) in self.words(moment) {
             changes.insert(id.to_owned(), json!({ "text": words }));
         }
-        if let Some([x, y]) = self.view.loop_points().get(moment.increment).map(|point| loop_frame.places(&[*point]))
+        if let Some([x, y]) = self
+            .view
+            .loop_points()
+            .get(moment.increment)
+            .map(|point| loop_frame.places(&[*point]))
             .and_then(|places| places.first().copied())
         {
             changes.insert("here".to_owned(), json!({ "cx": format!("{x:.1}"), "cy": format!("{y:.1}") }));
@@ -358,6 +415,8 @@ mod tests {
     #[test]
     fn a_name_cannot_end_the_script() {
         let text = json_in_page(&[json!({ "text": "</script><b>" })]);
-        assert!(!text.contains('<') && serde_json::from_str::<Value>(&text).unwrap()[0]["text"] == "</script><b>");
+        assert!(
+            !text.contains('<') && serde_json::from_str::<Value>(&text).unwrap()[0]["text"] == "</script><b>"
+        );
     }
 }

@@ -19,7 +19,7 @@ pub fn head(view: &Overview<'_>) -> Markup {
                 dl class="cards" { @for (name, value) in cards { div { dt { (name) } dd { (value) } } } }
             }
             @for warning in view.results.record["warnings"].as_array().map_or(&[][..], Vec::as_slice) {
-                p class="warning" { (capitalised(text(&warning["message"]))) ". " (capitalised(text(&warning["help"]))) "." }
+                p class="warning" { (capitalised(text(&warning["message"]))) "." br; span class="small" { (text(&warning["help"])) } }
             }
         }
     }

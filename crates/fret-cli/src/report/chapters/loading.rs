@@ -30,7 +30,8 @@ pub fn loading(view: &Overview<'_>) -> Markup {
         caption += " Dashed: Hertz, without friction.";
     }
     let axes = [view.label("approach", "length"), view.label("normal force", "force")];
-    let mut figures = vec![figure_of(&Chart::new("normal force over approach", axes, curves).in_page(), &caption)];
+    let mut figures =
+        vec![figure_of(&Chart::new("normal force over approach", axes, curves).in_page(), &caption)];
     if table.rows() > 1 {
         let number = table.column("increment");
         let mut loads = vec![Curve::line(joined(number, force), "normal force", 0)];
@@ -43,8 +44,15 @@ pub fn loading(view: &Overview<'_>) -> Markup {
     }
     if view.twists {
         let axes = [Label::plain("increment"), view.label("torsional moment", "force x length")];
-        let moment = vec![Curve::line(joined(table.column("increment"), table.column("twist_moment")), "torsional moment", 0)];
-        figures.push(figure_of(&Chart::new("moment over the increments", axes, moment).in_page(), "Torsional moment through the history."));
+        let moment = vec![Curve::line(
+            joined(table.column("increment"), table.column("twist_moment")),
+            "torsional moment",
+            0,
+        )];
+        figures.push(figure_of(
+            &Chart::new("moment over the increments", axes, moment).in_page(),
+            "Torsional moment through the history.",
+        ));
     }
     chapter("Loading", &side_by_side(&figures))
 }
@@ -63,8 +71,9 @@ pub fn fretting_loop(view: &Overview<'_>) -> Markup {
     };
     let mut curves = loop_curves(view);
     if let (Some(form), false) = (&view.tangential_form, view.twists) {
-        let points = (0..view.results.table.rows())
-            .map(|row| form.after(row).map_or([f64::NAN; 2], |after| [after.shift(), after.tangential_force()]));
+        let points = (0..view.results.table.rows()).map(|row| {
+            form.after(row).map_or([f64::NAN; 2], |after| [after.shift(), after.tangential_force()])
+        });
         curves.push(Curve::dashed(points.collect(), "closed form", 1));
         caption += " Dashed: the closed form for the same forces (Cattaneo, Mindlin and Deresiewicz). It neglects the slip \
                     across the force, and so gives a displacement that is some percent off.";
@@ -114,8 +123,12 @@ fn stick_fraction(view: &Overview<'_>) -> Markup {
             })
             .collect();
         curves.push(Curve::dashed(joined(number, &exact), "closed form", 1));
-        caption += " Dashed: the closed form. The computed area counts whole cells, and slip within an increment.";
+        caption +=
+            " Dashed: the closed form. The computed area counts whole cells, and slip within an increment.";
     }
     let axes = [Label::plain("increment"), Label::plain("stick fraction")];
-    figure_of(&Chart::new("stick fraction of the contact over the increments", axes, curves).in_page(), &caption)
+    figure_of(
+        &Chart::new("stick fraction of the contact over the increments", axes, curves).in_page(),
+        &caption,
+    )
 }

@@ -30,7 +30,10 @@ pub fn question(view: &Overview<'_>) -> Markup {
     });
     if let Some(datum) = plan["datum"].as_f64() {
         let depth = view.number(datum, "length");
-        rows.push(("approach and displacement".to_owned(), words(&format!("relative to {depth} below the load"))));
+        rows.push((
+            "approach and displacement".to_owned(),
+            words(&format!("relative to {depth} below the load")),
+        ));
     }
     let solved = match plan["coupling"].as_str() {
         Some("frictionless") => "pressure alone: there is no friction",
@@ -46,8 +49,11 @@ pub fn question(view: &Overview<'_>) -> Markup {
         rows.push((format!("stage {}", number + 1), self::stage(view, stage)));
     }
     let units = match &view.units {
-        Some(units) => format!("Units: length {}, force {}, pressure {}.", units.length, units.force, units.pressure),
-        None => "The case declares no units: all numbers are in its own, which may be any consistent set.".to_owned(),
+        Some(units) => {
+            format!("Units: length {}, force {}, pressure {}.", units.length, units.force, units.pressure)
+        }
+        None => "The case declares no units: all numbers are in its own, which may be any consistent set."
+            .to_owned(),
     };
     chapter("The case", &html! { (pairs(&rows)) p class="small" { (units) } })
 }
@@ -57,7 +63,9 @@ fn words(text: &str) -> Markup {
 }
 
 fn constant(view: &Overview<'_>, value: &Value, kind: &str) -> String {
-    value.as_f64().map_or("?".to_owned(), |value| if kind.is_empty() { given(value) } else { view.given(value, kind) })
+    value
+        .as_f64()
+        .map_or("?".to_owned(), |value| if kind.is_empty() { given(value) } else { view.given(value, kind) })
 }
 
 fn body(view: &Overview<'_>, body: &Value) -> Markup {
@@ -111,7 +119,9 @@ fn described(view: &Overview<'_>, value: &Value) -> String {
             parts.join(", ")
         }
         Value::Array(items) => items.iter().map(|item| described(view, item)).collect::<Vec<_>>().join(" × "),
-        Value::Number(number) => number.as_f64().map_or_else(|| number.to_string(), |number| view.given(number, "length")),
+        Value::Number(number) => {
+            number.as_f64().map_or_else(|| number.to_string(), |number| view.given(number, "length"))
+        }
         Value::String(word) => word.clone(),
         Value::Null => "straight".to_owned(),
         Value::Bool(truth) => truth.to_string(),
@@ -122,13 +132,20 @@ fn described(view: &Overview<'_>, value: &Value) -> String {
 fn topography(view: &Overview<'_>, heights: &Value) -> String {
     let source = heights["source"].as_str().filter(|source| !source.is_empty());
     let of = source.map_or(String::new(), |source| format!(" of {source}"));
-    let height = |name: &str| view.with_unit(&heights[name].as_f64().map_or("?".to_owned(), crate::report::html::number), "length");
-    format!("topography{of}: rms {} about the mean, {} from the highest point to the lowest", height("rms"), height("valley"))
+    let height = |name: &str| {
+        view.with_unit(&heights[name].as_f64().map_or("?".to_owned(), crate::report::html::number), "length")
+    };
+    format!(
+        "topography{of}: rms {} about the mean, {} from the highest point to the lowest",
+        height("rms"),
+        height("valley")
+    )
 }
 
 fn wear(view: &Overview<'_>, wear: &Value) -> String {
     let law = if wear["law"] == "energy" { "by dissipated energy" } else { "by Archard's law" };
-    let mut parts = vec![format!("{law}, coefficient {}", constant(view, &wear["coefficient"], "1/pressure"))];
+    let mut parts =
+        vec![format!("{law}, coefficient {}", constant(view, &wear["coefficient"], "1/pressure"))];
     if let Some(every) = wear["every"].as_u64().filter(|every| *every > 1) {
         parts.push(format!("a computed cycle stands for at most {every}"));
     }
@@ -164,7 +181,9 @@ fn friction(view: &Overview<'_>, friction: &Value) -> Markup {
 fn stage(view: &Overview<'_>, stage: &Value) -> Markup {
     let mut parts: Vec<String> = Vec::new();
     let mut add = |control: &Value, [force, motion]: [&str; 2], [of_force, of_motion]: [&str; 2]| {
-        let told = |kind: &str, name: &str, unit: &str| path(view, &control[kind], unit).map(|path| format!("{name} {path}"));
+        let told = |kind: &str, name: &str, unit: &str| {
+            path(view, &control[kind], unit).map(|path| format!("{name} {path}"))
+        };
         parts.extend(told("force", force, of_force).or_else(|| told("motion", motion, of_motion)));
     };
     add(&stage["normal"], ["normal force", "approach"], ["force", "length"]);
@@ -199,7 +218,8 @@ fn stage(view: &Overview<'_>, stage: &Value) -> Markup {
 
 /// What a control runs through; none where there is no control, or one that stays at zero.
 fn path(view: &Overview<'_>, path: &Value, unit: &str) -> Option<String> {
-    let values = path["through"].as_array().map(|values| format!("through {} values of a table", values.len()));
+    let values =
+        path["through"].as_array().map(|values| format!("through {} values of a table", values.len()));
     let amplitude = path["wave"]["amplitude"].as_f64();
     if amplitude == Some(0.0) {
         return None;

@@ -47,7 +47,11 @@ pub fn sections(view: &Overview<'_>) -> Result<Markup, Failure> {
     if fields.has("shear_x") && (view.direction.is_some() || view.twists) {
         figures.push(shear_section(view, &section)?);
     }
-    Ok(if figures.is_empty() { html! {} } else { chapter("Sections through the contact", &side_by_side(&figures)) })
+    Ok(if figures.is_empty() {
+        html! {}
+    } else {
+        chapter("Sections through the contact", &side_by_side(&figures))
+    })
 }
 
 /// Direction of the shear that sections show: along the load, or across the section where the contact is turned.
@@ -176,7 +180,9 @@ fn pushed_most(view: &Overview<'_>) -> Vec<usize> {
         inside = (0..steps.len()).collect();
     }
     let moment = view.results.table.column("twist_moment");
-    let push = |position: &usize| if view.twists { moment[steps[*position]] } else { view.tangential[steps[*position]] };
+    let push = |position: &usize| {
+        if view.twists { moment[steps[*position]] } else { view.tangential[steps[*position]] }
+    };
     let by_push = |a: &&usize, b: &&usize| push(a).total_cmp(&push(b));
     let mut ordered: Vec<usize> =
         [inside.iter().max_by(by_push), inside.iter().min_by(by_push), inside.last()]

@@ -9,7 +9,7 @@ use serde_json::Value;
 
 use crate::drawing::chart::{Chart, Curve};
 use crate::failure::Failure;
-use crate::output::kind_of_stress;
+use crate::output::{kind_of_stress, stress_called};
 use crate::report::html::{chapter, figure_of, side_by_side, table};
 use crate::report::overview::Overview;
 
@@ -19,17 +19,21 @@ const MOST_PICTURES: usize = 6;
 /// The chapter; nothing where there is no `stress.json`, or an unreadable one.
 pub fn stress(view: &Overview<'_>) -> Result<Markup, Failure> {
     let folder = view.results.path.join("stress");
-    let Some(record) = fs::read(folder.join("stress.json")).ok().and_then(|text| serde_json::from_slice::<Value>(&text).ok()) else {
+    let Some(record) = fs::read(folder.join("stress.json"))
+        .ok()
+        .and_then(|text| serde_json::from_slice::<Value>(&text).ok())
+    else {
         return Ok(html! {});
     };
-    let number = |value: &Value, kind: &str| value.as_f64().map_or("–".to_owned(), |value| view.number(value, kind));
+    let number =
+        |value: &Value, kind: &str| value.as_f64().map_or("–".to_owned(), |value| view.number(value, kind));
     let entries = |name: &str| record[name].as_array().cloned().unwrap_or_default();
     let largest: Vec<Vec<String>> = entries("largest")
         .iter()
         .map(|found| {
             let name = found["measure"].as_str().unwrap_or_default();
             vec![
-                name.replace('_', " "),
+                stress_called(name),
                 number(&found["value"], kind_of_stress(name)),
                 found["increment"].to_string(),
                 number(&found["x"], "length"),
@@ -45,7 +49,7 @@ pub fn stress(view: &Overview<'_>) -> Result<Markup, Failure> {
         .flatten()
         .map(|(name, found)| {
             vec![
-                name.replace('_', " "),
+                stress_called(name),
                 number(&found["largest"], kind_of_stress(name)),
                 number(&found["x"], "length"),
                 number(&found["depth"], "length"),
@@ -74,16 +78,24 @@ fn over_depth(view: &Overview<'_>, folder: &Path, record: &Value) -> Option<Mark
     let worst = worst(record)?;
     let text = fs::read_to_string(folder.join("depths.csv")).ok()?;
     let mut lines = text.lines();
-    let place = |name: &str, head: &str| head.split(',').position(|column| column.split(" [").next() == Some(name));
+    let place =
+        |name: &str, head: &str| head.split(',').position(|column| column.split(" [").next() == Some(name));
     let head = lines.next()?;
-    let [increment, depth, mises, tension] = ["increment", "depth", "von_mises", "tension"].map(|name| place(name, head));
+    let [increment, depth, mises, tension] =
+        ["increment", "depth", "von_mises", "tension"].map(|name| place(name, head));
     let rows: Vec<Vec<&str>> = lines.map(|line| line.split(',').collect()).collect();
     let of = |column: usize| -> Vec<[f64; 2]> {
-        let mine = rows.iter().filter(|row| increment.and_then(|at| row.get(at)).is_some_and(|found| *found == worst.to_string()));
-        let number = |row: &Vec<&str>, at: usize| row.get(at).and_then(|word| word.parse().ok()).unwrap_or(f64::NAN);
+        let mine = rows.iter().filter(|row| {
+            increment.and_then(|at| row.get(at)).is_some_and(|found| *found == worst.to_string())
+        });
+        let number =
+            |row: &Vec<&str>, at: usize| row.get(at).and_then(|word| word.parse().ok()).unwrap_or(f64::NAN);
         mine.map(|row| [depth.map_or(f64::NAN, |at| number(row, at)), number(row, column)]).collect()
     };
-    let curves = vec![Curve::line(of(mises?), "von Mises", 0), Curve::line(of(tension?), "largest principal stress", 1)];
+    let curves = vec![
+        Curve::line(of(mises?), "von Mises", 0),
+        Curve::line(of(tension?), "largest principal stress", 1),
+    ];
     let axes = [view.label("depth", "length"), view.label("stress", "pressure")];
     let chart = Chart::new("maximum stress over the depth", axes, curves);
     Some(figure_of(&chart.in_page(), &format!("Largest values at each depth in increment {worst}.")))
@@ -109,7 +121,7 @@ fn pictures(folder: &Path, record: &Value) -> Vec<(String, String)> {
     names.sort_by_key(|name| Some(name) != worst.as_ref());
     let picture = |name: String| {
         let svg = fs::read(folder.join(&name)).ok()?;
-        let said = name.trim_end_matches(".svg").split('-').next().unwrap_or_default().replace('_', " ");
+        let said = stress_called(name.trim_end_matches(".svg").split('-').next().unwrap_or_default());
         Some((said, format!("data:image/svg+xml;base64,{}", BASE64_STANDARD.encode(svg))))
     };
     names.into_iter().take(MOST_PICTURES).filter_map(picture).collect()

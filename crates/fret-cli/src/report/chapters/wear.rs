@@ -70,7 +70,10 @@ pub fn wear(view: &Overview<'_>) -> Result<Markup, Failure> {
         .collect();
     let axes = [view.label(section.name(), "length"), view.label("wear depth", "length")];
     let figures = [
-        figure_of(&Chart::new("wear depth along a line through the contact", axes, curves).in_page(), "Wear depth of both bodies together, along a line through the middle."),
+        figure_of(
+            &Chart::new("wear depth along a line through the contact", axes, curves).in_page(),
+            "Wear depth of both bodies together, along a line through the middle.",
+        ),
         figure_of(&map.drawing()?.in_page(), "Wear depth at the end."),
     ];
     Ok(chapter("Wear scar", &side_by_side(&figures)))
@@ -80,7 +83,9 @@ pub fn wear(view: &Overview<'_>) -> Result<Markup, Failure> {
 fn scars(view: &Overview<'_>) -> Result<Vec<usize>, Failure> {
     let table = view.results.table.column("max_worn_depth");
     let steps = &view.results.fields.steps;
-    let worn: Vec<usize> = (0..steps.len()).filter(|position| table.get(steps[*position]).is_some_and(|depth| *depth > 0.0)).collect();
+    let worn: Vec<usize> = (0..steps.len())
+        .filter(|position| table.get(steps[*position]).is_some_and(|depth| *depth > 0.0))
+        .collect();
     let count = worn.len().min(MOST);
     Ok((1..=count).map(|part| worn[part * worn.len() / count - 1]).collect())
 }
