@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 use std::path::Path;
 
-use fret_core::case::StressRequest;
+use fret_core::case::{StressRequest, Units};
 use fret_core::model::{Base, HalfSpace};
 use fret_core::subsurface::largest::look;
 use fret_core::subsurface::{DepthPoint, Largest, LoadedSurface, Measure, StressField};
@@ -78,7 +78,7 @@ impl<'a> StressTables<'a> {
             surfaces,
             interfaces,
             largest: Vec::new(),
-            by_depth: format!("increment,depth,layer,{}\n", Measure::ALL.map(Measure::name).join(",")),
+            by_depth: head_by_depth(run.units.as_ref()),
             row,
             sections: vec![Vec::new(); surfaces.len()],
             fatigue,
@@ -142,6 +142,7 @@ impl<'a> StressTables<'a> {
             "status": "computed",
             "unfinished": self.run.unfinished,
             "body": self.request.body.name(),
+            "units": self.run.units,
             "increments": self.surfaces.iter().map(|surface| surface.increment).collect::<Vec<_>>(),
             "depths": self.points.iter().map(|point| point.depth).collect::<Vec<_>>(),
             "layers": self.points.iter().map(|point| point.layer).collect::<Vec<_>>(),
@@ -221,11 +222,20 @@ impl<'a> StressTables<'a> {
         let unfinished = self.run.unfinished.as_ref().map_or(String::new(), |why| format!("{why}\n"));
         let mut text = unfinished
             + &format!(
-                "stress in the {} body: {} at {}, counted from 0\n\n  maximum            value        increment  x            y            depth        in\n",
+                "stress in the {} body: {} at {}, counted from 0\n\n",
                 self.request.body.name(),
                 counted(self.points.len(), "depth"),
                 counted(self.surfaces.len(), "increment"),
             );
+        let head = |name: &str, kind: &str| Units::heading(self.run.units.as_ref(), name, kind, false);
+        let [value, x, y, depth] =
+            [("value", "pressure"), ("x", "length"), ("y", "length"), ("depth", "length")]
+                .map(|(name, kind)| head(name, kind));
+        let _ = writeln!(
+            text,
+            "  {:<18} {value:<12} {:<10} {x:<12} {y:<12} {depth:<12} in",
+            "maximum", "increment"
+        );
         for found in &self.largest {
             if found.value <= 0.0 && names_tension(found.measure) {
                 let name = found.measure.name().replace('_', " ");
@@ -250,6 +260,13 @@ impl<'a> StressTables<'a> {
         let _ = write!(text, "\nwritten to {} in {}", place.display(), duration(wall_s));
         text
     }
+}
+
+/// The head of `depths.csv`.
+fn head_by_depth(units: Option<&Units>) -> String {
+    let head = |name: &str, kind: &str| Units::heading(units, name, kind, false);
+    let measures = Measure::ALL.map(|measure| head(measure.name(), kind_of_stress(measure.name())));
+    format!("increment,{},layer,{}\n", head("depth", "length"), measures.join(","))
 }
 
 /// Whether a number that is not above zero is no tension at all.

@@ -179,14 +179,16 @@ fn class_of(curve: &Curve) -> String {
 
 fn drawn(frame: &Frame, curve: &Curve) -> Markup {
     let points = thinned(frame, &curve.points);
+    let path = frame.path(&points);
+    // what does not move is one point
+    let is_still = !path.is_empty() && !path.contains('L') && curve.id.is_none();
     html! {
-        @if is_dotted(curve) {
-            @for [x, y] in frame.places(&points) {
+        @if is_dotted(curve) || is_still {
+            @for [x, y] in frame.places(&points).into_iter().take(if is_still { 1 } else { usize::MAX }) {
                 circle class=(format!("dot c{}", curve.colour)) cx=(format!("{x:.1}")) cy=(format!("{y:.1}")) r="2.2" {}
             }
-        } @else {
-            @let path = frame.path(&points);
-            @if !path.is_empty() || curve.id.is_some() { path class=(class_of(curve)) id=[curve.id] d=(path) {} }
+        } @else if !path.is_empty() || curve.id.is_some() {
+            path class=(class_of(curve)) id=[curve.id] d=(path) {}
         }
     }
 }

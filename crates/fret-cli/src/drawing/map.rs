@@ -97,7 +97,9 @@ fn outside(frame: &Frame, names: [&Label; 2]) -> Markup {
             text class="tick" x=(format!("{:.1}", left - 6.0)) y=(format!("{:.1}", at + 4.0)) text-anchor="end" { (word) }
         }
         text class="axis" x=(format!("{:.1}", 0.5 * (left + right))) y=(format!("{:.1}", bottom + 36.0)) text-anchor="middle" { (x.named(names[0])) }
-        text class="axis" transform=(format!("translate(12 {:.1}) rotate(-90)", 0.5 * (top + bottom))) text-anchor="middle" { (y.named(names[1])) }
+        @if !names[1].name.is_empty() {
+            text class="axis" transform=(format!("translate(12 {:.1}) rotate(-90)", 0.5 * (top + bottom))) text-anchor="middle" { (y.named(names[1])) }
+        }
     }
 }
 

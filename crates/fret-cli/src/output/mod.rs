@@ -160,8 +160,8 @@ impl ResultFolder {
             write_whole(&path.join(name), content)?;
         }
         Ok(Self {
-            history: HistoryTable::create(&path.join(HISTORY), Lines::Increments)?,
-            cycles: HistoryTable::create(&path.join(CYCLES), Lines::Cycles)?,
+            history: HistoryTable::create(&path.join(HISTORY), Lines::Increments, &plan.case)?,
+            cycles: HistoryTable::create(&path.join(CYCLES), Lines::Cycles, &plan.case)?,
             fields: FieldStore::create(&path.join(FIELDS), plan)?,
             states: StateStore::create(path, plan.start.as_deref())?,
             path: path.to_owned(),
@@ -200,10 +200,10 @@ impl ResultFolder {
                 table.display()
             ))
         };
-        if solved != stored.head.tally.solved || !HistoryTable::holds(&history, written, solved) {
+        if solved != stored.head.tally.solved || !HistoryTable::holds(&history, written, solved, &plan.case) {
             return not_whole(&history, solved);
         }
-        match HistoryTable::cycles(&cycles, cycles_written) {
+        match HistoryTable::cycles(&cycles, cycles_written, &plan.case) {
             Some(records) if records.len() == ended => stored.head.tally.cycles = records,
             _ => return not_whole(&cycles, ended),
         }

@@ -12,6 +12,9 @@ use crate::results::Results;
 /// Share of the largest force below which there is none.
 const NOTHING: f64 = 1e-9;
 
+/// With more cycles a chart over the increments is a block of colour.
+const MANY_CYCLES: usize = 20;
+
 /// A run with what the page needs to know about it.
 #[derive(Debug)]
 pub struct Overview<'a> {
@@ -71,7 +74,8 @@ impl<'a> Overview<'a> {
     /// The unit of a kind of quantity such as `force x length`, where the case declares units.
     pub fn unit(&self, kind: &str) -> Option<String> {
         let is_line = self.results.fields.is_line();
-        self.units.as_ref().map(|units| units.of(if is_line { Units::per_length(kind) } else { kind }))
+        let unit = self.units.as_ref()?.of(if is_line { Units::per_length(kind) } else { kind });
+        Some(unit.replace("^2", "²").replace("^3", "³"))
     }
 
     /// The name of an axis with its unit.
@@ -166,6 +170,18 @@ impl<'a> Overview<'a> {
         match self.results.cycles.iter().find(of_it) {
             Some(cycle) => format!("{}, cycle {}", self.stage_name(cycle.stage), cycle.last_cycle),
             None => self.called(increment),
+        }
+    }
+
+    /// Increments that a chart over them shows: all, or of many cycles the last two; and how they are called.
+    pub fn shown_increments(&self) -> ([usize; 2], String) {
+        let cycles = self.cycles();
+        match cycles.len().checked_sub(2) {
+            Some(last) if cycles.len() > MANY_CYCLES => {
+                let called = format!(" The last two of {} cycles.", cycles.len());
+                ([cycles[last].span[0], cycles[last + 1].span[1]], called)
+            }
+            _ => ([0, self.results.table.rows()], String::new()),
         }
     }
 

@@ -19,4 +19,5 @@ mod studied;
 mod surfaces;
 mod swept;
 mod told;
+mod units;
 mod unwritten;

@@ -33,14 +33,18 @@ pub fn loading(view: &Overview<'_>) -> Markup {
     let mut figures =
         vec![figure_of(&Chart::new("normal force over approach", axes, curves).in_page(), &caption)];
     if table.rows() > 1 {
-        let number = table.column("increment");
-        let mut loads = vec![Curve::line(joined(number, force), "normal force", 0)];
+        let ([from, to], called) = view.shown_increments();
+        let over_number = |values: &[f64]| joined(&table.column("increment")[from..to], &values[from..to]);
+        let mut loads = vec![Curve::line(over_number(force), "normal force", 0)];
         if view.direction.is_some() {
-            loads.push(Curve::line(joined(number, &view.tangential), "tangential force", 1));
+            loads.push(Curve::line(over_number(&view.tangential), "tangential force", 1));
         }
         let axes = [Label::plain("increment"), view.label("force", "force")];
         let chart = Chart::new("forces over the increments", axes, loads);
-        figures.push(figure_of(&chart.in_page(), "Forces through the history, prescribed or found."));
+        figures.push(figure_of(
+            &chart.in_page(),
+            &format!("Forces through the history, prescribed or found.{called}"),
+        ));
     }
     if view.twists {
         let axes = [Label::plain("increment"), view.label("torsional moment", "force x length")];
@@ -109,9 +113,10 @@ fn stick_fraction(view: &Overview<'_>) -> Markup {
     let table = &view.results.table;
     let fractions: Vec<f64> =
         table.column("stick_area").iter().zip(table.column("contact_area")).map(|(s, c)| s / c).collect();
-    let number = table.column("increment");
-    let mut curves = vec![Curve::line(joined(number, &fractions), "computed", 0)];
-    let mut caption = "Fraction of the contact area that sticks.".to_owned();
+    let ([from, to], called) = view.shown_increments();
+    let over_number = |values: &[f64]| joined(&table.column("increment")[from..to], &values[from..to]);
+    let mut curves = vec![Curve::line(over_number(&fractions), "computed", 0)];
+    let mut caption = format!("Fraction of the contact area that sticks.{called}");
     if let Some(form) = &view.tangential_form {
         let exact: Vec<f64> = (0..table.rows())
             .map(|row| {
@@ -122,7 +127,7 @@ fn stick_fraction(view: &Overview<'_>) -> Markup {
                 })
             })
             .collect();
-        curves.push(Curve::dashed(joined(number, &exact), "closed form", 1));
+        curves.push(Curve::dashed(over_number(&exact), "closed form", 1));
         caption +=
             " Dashed: the closed form. The computed area counts whole cells, and slip within an increment.";
     }
