@@ -33,6 +33,7 @@ mod random_cases;
 mod reduced_contact;
 mod refinement;
 mod rough_surfaces;
+mod second_order;
 mod shear_strength;
 mod sliding;
 mod subsurface;
