@@ -89,12 +89,7 @@ fn without_meaning(
 }
 
 /// The conductor that a body is by one key; `None` where no layer has it, or it was refused.
-fn conductor(
-    judge: &mut Judge,
-    which: &str,
-    body: &BodyFile,
-    (key, conductivity): Key,
-) -> Option<Conductor> {
+fn conductor(judge: &mut Judge, which: &str, body: &BodyFile, (key, conductivity): Key) -> Option<Conductor> {
     let is_thermal = key == THERMAL.0;
     let pick = |thermal: &Option<Spanned<f64>>, electrical: &Option<Spanned<f64>>| {
         if is_thermal { thermal.clone() } else { electrical.clone() }
@@ -150,9 +145,12 @@ fn conductor(
             Some(_) => {}
         }
     }
-    let values: Option<Vec<f64>> =
-        parts.iter().map(|(_, _, value)| value.as_ref().map(|value| conductivity(*value.get_ref()))).collect();
-    let (base, values) = values.filter(|_| good)?.split_last().map(|(base, above)| (*base, above.to_vec()))?;
+    let values: Option<Vec<f64>> = parts
+        .iter()
+        .map(|(_, _, value)| value.as_ref().map(|value| conductivity(*value.get_ref())))
+        .collect();
+    let (base, values) =
+        values.filter(|_| good)?.split_last().map(|(base, above)| (*base, above.to_vec()))?;
     let layers = coatings
         .iter()
         .zip(values)
@@ -192,14 +190,20 @@ mod tests {
     fn conductivities_of_layers_and_of_what_is_rigid_are_read() {
         let case = read(CONDUCTS, "[thermal]\nfrequency = 20.0\n").unwrap();
         let [lower, upper] = case.conduction.thermal.map(Option::unwrap);
-        assert_eq!((lower.base(), lower.layers()[0].conductivity, lower.layers()[0].thickness), (5.0, 2.0, 0.5));
+        assert_eq!(
+            (lower.base(), lower.layers()[0].conductivity, lower.layers()[0].thickness),
+            (5.0, 2.0, 0.5)
+        );
         assert_eq!((upper.base(), upper.layers().len()), (7.0, 0));
         assert_eq!(case.conduction.frequency, Some(20.0));
         assert!(case.conduction.electrical.iter().all(Option::is_none));
         let current = ["", ", electrical_resistivity = 4.0", ", electrical_resistivity = 0.5", "5"];
         let case = read(current, "").unwrap();
         assert_eq!(case.conduction.electrical[0].as_ref().unwrap().layers()[0].conductivity, 0.25);
-        assert!(case.conduction.electrical[1].is_none() && read(["", "", "", "5"], "").unwrap().conduction.is_none());
+        assert!(
+            case.conduction.electrical[1].is_none()
+                && read(["", "", "", "5"], "").unwrap().conduction.is_none()
+        );
     }
 
     #[test]
@@ -214,7 +218,11 @@ mod tests {
             ([upper, coating, substrate, every], "[thermal]\nfrequency = 0.0\n", "thermal.frequency"),
             (["", "", "", every], heat, "neither body conducts heat"),
             ([upper, coating, substrate, "2"], heat, "which are not kept"),
-            ([upper, coating, substrate, every], "[[load]]\nshift = [0.0, 0.0]\nincrements = 1\n[thermal]\nfrequency = 1.0\n", "no cycles"),
+            (
+                [upper, coating, substrate, every],
+                "[[load]]\nshift = [0.0, 0.0]\nincrements = 1\n[thermal]\nfrequency = 1.0\n",
+                "no cycles",
+            ),
         ] {
             let error = read(words, more).unwrap_err();
             assert!(error.contains(message), "{words:?} {more}: {error}");
