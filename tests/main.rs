@@ -32,6 +32,7 @@ mod periodic;
 mod random_cases;
 mod reduced_contact;
 mod refinement;
+mod rig;
 mod rough_surfaces;
 mod shear_strength;
 mod sliding;
