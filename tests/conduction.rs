@@ -109,7 +109,8 @@ fn one_layer_warms_as_its_image_series_says_once_cells_are_refined() {
 #[test]
 fn homogeneous_bodies_share_heat_by_their_conductivities_whatever_the_contact() {
     let grid = SurfaceGrid::new([24, 20], [0.5, 0.7]).unwrap();
-    let heat = Array2::from_shape_fn((24, 20), |(i, j)| if (i * 7 + j * 5) % 3 == 0 { 1.0 + i as f64 } else { 0.0 });
+    let heat =
+        Array2::from_shape_fn((24, 20), |(i, j)| if (i * 7 + j * 5) % 3 == 0 { 1.0 + i as f64 } else { 0.0 });
     let contact = Array2::from_shape_fn((24, 20), |(i, j)| (i + j) % 4 != 1);
     let [lower, upper] = [homogeneous(3.0), homogeneous(1.0)];
     let found = surface_temperature([Some(&lower), Some(&upper)], &grid, false, &heat, &contact).unwrap();
@@ -175,8 +176,9 @@ fn resistance_is_barbers_inverse_of_the_incremental_stiffness_of_a_rough_contact
         let heights: Vec<String> = (0..48)
             .map(|i| {
                 let row = (0..48).map(|j| {
-                    let (x, y) = (i as f64, j as f64);
-                    let rough = (0.9 * x).sin() * (0.7 * y + 0.3).cos() + 0.6 * (1.7 * x + 2.1 * y).sin()
+                    let (x, y) = (f64::from(i), f64::from(j));
+                    let rough = (0.9 * x).sin() * (0.7 * y + 0.3).cos()
+                        + 0.6 * (1.7 * x + 2.1 * y).sin()
                         + 0.3 * (2.9 * y - 1.3 * x).cos();
                     format!("{:.6e}", 1e-3 * rough)
                 });
@@ -205,8 +207,7 @@ fn resistance_is_barbers_inverse_of_the_incremental_stiffness_of_a_rough_contact
     let force = |history: &fret_core::History| history.steps[0].normal_force;
     let stiffness = (force(&far) - force(&near)) / (far.state.approach - near.state.approach);
     let [lower, upper] = case(0.012).conduction.electrical;
-    let found =
-        contact_resistance([lower.as_ref(), upper.as_ref()], &near.grid, false, &contact).unwrap();
+    let found = contact_resistance([lower.as_ref(), upper.as_ref()], &near.grid, false, &contact).unwrap();
     let modulus = 1.0 / ((1.0 - 0.09) / 1.0 + (1.0 - 0.04) / 3.0);
     let exact = modulus * (2.0 + 5.0) / (2.0 * stiffness);
     // difference of forces that are solved to 1e-12, over a change of 1e-6

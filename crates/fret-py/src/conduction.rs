@@ -56,13 +56,18 @@ pub fn surface_temperature<'py>(
         })
         .collect();
     let is_odd = |field: &Array2<f64>| field.dim() != shape;
-    if surfaces.iter().any(|surface| {
-        is_odd(&surface.pressure) || surface.shear.iter().chain(&surface.slip).any(is_odd)
-    }) {
-        return Err(PyValueError::new_err(format!("fields of other shapes than the first pressure, {shape:?}")));
+    if surfaces
+        .iter()
+        .any(|surface| is_odd(&surface.pressure) || surface.shear.iter().chain(&surface.slip).any(is_odd))
+    {
+        return Err(PyValueError::new_err(format!(
+            "fields of other shapes than the first pressure, {shape:?}"
+        )));
     }
     let Some(slip) = slip_of_cycle(surfaces, dissipated_energy, grid.cell_area()) else {
-        return Err(PyValueError::new_err("the kept fields of the cycle give another dissipated energy than the run"));
+        return Err(PyValueError::new_err(
+            "the kept fields of the cycle give another dissipated energy than the run",
+        ));
     };
     let [lower, upper] = conductors.each_ref().map(Option::as_ref);
     let found = on_pool(py, threads, || {

@@ -112,7 +112,8 @@ fn temperature(
 ) -> Result<(SurfaceTemperature, CycleRecord, f64), Failure> {
     let shown = folder.display();
     let refuse = |what: String| {
-        let help = "run the case again with [output] every = 1, and pressure, shear and slip among its fields";
+        let help =
+            "run the case again with [output] every = 1, and pressure, shear and slip among its fields";
         Failure::Call(format!("{shown}: {what}"), help.to_owned())
     };
     let Some(cycle) = run.cycles.last() else {
@@ -127,7 +128,9 @@ fn temperature(
     for increment in cycle.first_increment.saturating_sub(1)..=cycle.last_increment {
         let field = |name: &str| -> Result<Array2<f64>, Failure> {
             let kept = run.field(name, increment)?;
-            kept.ok_or_else(|| refuse(format!("{name} of increment {increment} of the last cycle is not kept")))
+            kept.ok_or_else(|| {
+                refuse(format!("{name} of increment {increment} of the last cycle is not kept"))
+            })
         };
         increments.push(HeatedSurface {
             pressure: field("pressure")?,
@@ -172,10 +175,7 @@ fn told(
         ("friction power", figure(power)),
         ("max temperature rise", format!("{} at x {}, y {}", figure(largest), figure(x), figure(y))),
         ("mean temperature rise", format!("{} where heat is made", figure(mean))),
-        (
-            "heat into the lower body",
-            found.lower_fraction().map_or("-".to_owned(), |fraction| figure(fraction)),
-        ),
+        ("heat into the lower body", found.lower_fraction().map_or("-".to_owned(), figure)),
     ] {
         let _ = writeln!(table, "{name:<30}{value}");
     }
@@ -238,7 +238,8 @@ fn resistances(
             continue;
         }
         if interrupt::is_asked() {
-            let help = format!("the resistances are not finished; run `fret heat {}` again", folder.display());
+            let help =
+                format!("the resistances are not finished; run `fret heat {}` again", folder.display());
             return Err(Failure::Interrupted(help));
         }
         let Some(pressure) = run.field("pressure", increment)? else { continue };

@@ -130,7 +130,11 @@ impl SweepFolder {
     ///
     /// # Errors
     /// When the file cannot be written.
-    pub fn spread(&self, question: &Question, answers: &[Option<Answer>]) -> Result<Option<String>, Unwritten> {
+    pub fn spread(
+        &self,
+        question: &Question,
+        answers: &[Option<Answer>],
+    ) -> Result<Option<String>, Unwritten> {
         let Some(design) = &question.design else { return Ok(None) };
         let column = |of: &dyn Fn(&Value) -> Option<f64>| -> Vec<f64> {
             let value = |answer: &Option<Answer>| answer.as_ref().and_then(|answer| of(&answer.0));
@@ -157,7 +161,8 @@ impl SweepFolder {
 
 /// A number of the last increment of an answer, by its name in `history.csv`.
 fn at_end<'a>(answer: &'a Value, name: &str) -> &'a Value {
-    let axis = name.strip_suffix("_x").map(|stem| (stem, 0)).or(name.strip_suffix("_y").map(|stem| (stem, 1)));
+    let axis =
+        name.strip_suffix("_x").map(|stem| (stem, 0)).or(name.strip_suffix("_y").map(|stem| (stem, 1)));
     axis.map_or(&answer["end"][name], |(stem, axis)| &answer["end"][stem][axis])
 }
 

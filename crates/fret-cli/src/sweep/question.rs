@@ -194,7 +194,11 @@ impl Reader<'_> {
         let help = "\"friction.coefficient\" = { normal = { mean = 0.6, deviation = 0.05 } }";
         let DeValue::Table(table) = value.get_ref() else {
             let key = before.trim_end_matches('.');
-            self.refuse(Some(value.span()), &format!("distributions: `{key}` has no distribution"), Some(help));
+            self.refuse(
+                Some(value.span()),
+                &format!("distributions: `{key}` has no distribution"),
+                Some(help),
+            );
             return;
         };
         for (name, value) in table {
@@ -233,7 +237,8 @@ impl Reader<'_> {
             return None;
         };
         if !axes.is_empty() {
-            let message = "distributions: beside [axes] or [[point]], which would need statistics of their own";
+            let message =
+                "distributions: beside [axes] or [[point]], which would need statistics of their own";
             self.refuse(Some(span), message, Some("one sweep per value, or fretting.sweep from Python"));
             return None;
         }

@@ -84,7 +84,8 @@ impl<'a> Spread<'a> {
             for Quantity { name, indices, .. } in varying() {
                 let Some(indices) = indices else { continue };
                 for (key, index) in self.keys.iter().zip(indices) {
-                    let _ = writeln!(table, "{name:<NAMES$}{key:<34} {:>6.3} {:>6.3}", index.first, index.total);
+                    let _ =
+                        writeln!(table, "{name:<NAMES$}{key:<34} {:>6.3} {:>6.3}", index.first, index.total);
                 }
             }
         }

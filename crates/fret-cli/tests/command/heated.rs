@@ -35,7 +35,11 @@ fn a_run_ends_with_temperature_and_resistances_and_heat_tells_them_again() {
     bench.file("case.toml", CASE);
     let run = bench.fret(&["run", "case.toml", "--out", "out"]);
     assert_eq!(run.code, Some(0), "{}", run.err);
-    assert!(run.out.contains("max temperature rise") && run.out.contains("electrical contact resistance"), "{}", run.out);
+    assert!(
+        run.out.contains("max temperature rise") && run.out.contains("electrical contact resistance"),
+        "{}",
+        run.out
+    );
     let first: Value = serde_json::from_str(&bench.text("out/heat/heat.json")).unwrap();
     let answer = bench.fret(&["heat", "out", "--every", "4", "--json"]);
     assert_eq!(answer.code, Some(0), "{}", answer.err);
@@ -74,7 +78,11 @@ fn conductivities_come_from_another_case_where_the_results_have_none() {
     assert!(!bench.folder.join("out/heat").exists());
     let refused = bench.fret(&["heat", "out"]);
     assert_eq!(refused.code, Some(1));
-    assert!(refused.err.contains("says nothing about conduction") && refused.err.contains("--case"), "{}", refused.err);
+    assert!(
+        refused.err.contains("says nothing about conduction") && refused.err.contains("--case"),
+        "{}",
+        refused.err
+    );
     assert_eq!(bench.fret(&["heat", "out", "--case", "case.toml"]).code, Some(0));
 }
 
@@ -87,5 +95,9 @@ fn increments_that_were_not_kept_are_named() {
     assert_eq!(bench.fret(&["run", "sparse.toml", "--out", "out", "--quiet"]).code, Some(0));
     let refused = bench.fret(&["heat", "out", "--case", "case.toml"]);
     assert_eq!(refused.code, Some(1), "{}", refused.out);
-    assert!(refused.err.contains("of the last cycle is not kept") && refused.err.contains("every = 1"), "{}", refused.err);
+    assert!(
+        refused.err.contains("of the last cycle is not kept") && refused.err.contains("every = 1"),
+        "{}",
+        refused.err
+    );
 }

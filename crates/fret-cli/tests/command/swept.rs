@@ -126,7 +126,8 @@ fn samples_of_uncertain_keys_are_drawn_told_and_drawn_again_alike() {
     let told: Value = serde_json::from_str(&bench.text("results/many/uncertainty.json")).unwrap();
     let pressure = &told["quantities"]["max_pressure"];
     let summary = bench.text("results/many/summary.csv");
-    let values: Vec<f64> = column(&summary, "max_pressure").iter().map(|cell| cell.parse().unwrap()).collect();
+    let values: Vec<f64> =
+        column(&summary, "max_pressure").iter().map(|cell| cell.parse().unwrap()).collect();
     let mean = values[..8].iter().sum::<f64>() / 8.0;
     assert!((pressure["mean"].as_f64().unwrap() / mean - 1.0).abs() < 1e-14);
     // friction moves the pressure little, also in four samples
@@ -143,16 +144,29 @@ fn wrong_distributions_are_refused_where_they_stand() {
     bench.file("case.toml", SPHERE);
     let good = "\"friction.coefficient\" = { uniform = { from = 0.1, to = 0.2 } }";
     for (text, words) in [
-        ("[distributions]\n\"friction.coefficient\" = { uniform = { from = 0.2, to = 0.1 } }\n[samples]\ncount = 4", "from must lie below to"),
-        ("[distributions]\n\"friction.coefficient\" = { normal = { mean = 0.2 } }\n[samples]\ncount = 4", "deviation"),
-        ("[distributions]\n\"friction.coefficient\" = { gauss = 1.0 }\n[samples]\ncount = 4", "has no distribution"),
+        (
+            "[distributions]\n\"friction.coefficient\" = { uniform = { from = 0.2, to = 0.1 } }\n[samples]\ncount = 4",
+            "from must lie below to",
+        ),
+        (
+            "[distributions]\n\"friction.coefficient\" = { normal = { mean = 0.2 } }\n[samples]\ncount = 4",
+            "deviation",
+        ),
+        (
+            "[distributions]\n\"friction.coefficient\" = { gauss = 1.0 }\n[samples]\ncount = 4",
+            "has no distribution",
+        ),
         (&format!("[distributions]\n{good}"), "how many"),
         (&format!("[distributions]\n{good}\n[samples]\ncount = 1"), "between 2 and"),
         (&format!("[distributions]\n{good}\n[samples]\ncount = 4\nsede = 1"), "sede"),
-        (&format!("[axes]\n\"grid.cells\" = [[8, 8]]\n[distributions]\n{good}\n[samples]\ncount = 4"), "beside [axes]"),
+        (
+            &format!("[axes]\n\"grid.cells\" = [[8, 8]]\n[distributions]\n{good}\n[samples]\ncount = 4"),
+            "beside [axes]",
+        ),
         ("[samples]\ncount = 4", "nothing to draw from"),
     ] {
-        let answer = bench.file("many.toml", &format!("base = \"case.toml\"\n{text}\n")).fret(&["sweep", "many.toml"]);
+        let answer =
+            bench.file("many.toml", &format!("base = \"case.toml\"\n{text}\n")).fret(&["sweep", "many.toml"]);
         assert_eq!(answer.code, Some(1), "{text}: {}", answer.err);
         assert!(answer.err.contains(words), "{text}: {}", answer.err);
     }

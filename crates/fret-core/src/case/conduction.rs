@@ -6,7 +6,7 @@ use super::course::{Course, Stage};
 use super::file::{BodyFile, ThermalFile};
 use super::judge::Judge;
 use super::output::Output;
-use crate::model::{ConductingLayer, Conduction, Conductor, ConductorError};
+use crate::model::{ConductingLayer, Conduction, Conductor};
 
 /// What a key of a layer means: its name, and conductivity from its value.
 type Key = (&'static str, fn(f64) -> f64);
@@ -89,41 +89,33 @@ fn without_meaning(
 }
 
 /// The conductor that a body is by one key; `None` where no layer has it, or it was refused.
-fn conductor(
-    judge: &mut Judge,
-    which: &str,
-    body: &BodyFile,
-    (key, conductivity): Key,
-) -> Option<Conductor> {
+fn conductor(judge: &mut Judge, which: &str, body: &BodyFile, (key, conductivity): Key) -> Option<Conductor> {
     let is_thermal = key == THERMAL.0;
-    let pick = |thermal: &Option<Spanned<f64>>, electrical: &Option<Spanned<f64>>| {
-        if is_thermal { thermal.clone() } else { electrical.clone() }
+    let pick = |thermal: Option<&Spanned<f64>>, electrical: Option<&Spanned<f64>>| {
+        if is_thermal { thermal.cloned() } else { electrical.cloned() }
     };
     let coatings = body.coatings.as_ref().map_or(&[][..], |list| list.get_ref());
     let mut parts: Vec<(String, std::ops::Range<usize>, Option<Spanned<f64>>)> = Vec::new();
     for (index, coating) in coatings.iter().enumerate() {
         let given = coating.get_ref();
-        let value = pick(&given.thermal_conductivity, &given.electrical_resistivity);
+        let value = pick(given.thermal_conductivity.as_ref(), given.electrical_resistivity.as_ref());
         parts.push((format!("{which}.coatings[{index}]"), coating.span(), value));
     }
-    let own = pick(&body.thermal_conductivity, &body.electrical_resistivity);
-    match &body.substrate {
-        Some(substrate) => {
-            if let Some(own) = &own {
-                return judge.refuse(
-                    own.span(),
-                    format!("{which}.{key}: beside a substrate it belongs into the substrate"),
-                    &format!("substrate = {{ ..., {key} = ... }}"),
-                );
-            }
-            let given = substrate.get_ref();
-            let value = pick(&given.thermal_conductivity, &given.electrical_resistivity);
-            parts.push((format!("{which}.substrate"), substrate.span(), value));
+    let own = pick(body.thermal_conductivity.as_ref(), body.electrical_resistivity.as_ref());
+    if let Some(substrate) = &body.substrate {
+        if let Some(own) = &own {
+            return judge.refuse(
+                own.span(),
+                format!("{which}.{key}: beside a substrate it belongs into the substrate"),
+                &format!("substrate = {{ ..., {key} = ... }}"),
+            );
         }
-        None => {
-            let place = own.as_ref().map(Spanned::span).or_else(|| coatings.first().map(Spanned::span));
-            parts.push((which.to_owned(), place.unwrap_or_default(), own));
-        }
+        let given = substrate.get_ref();
+        let value = pick(given.thermal_conductivity.as_ref(), given.electrical_resistivity.as_ref());
+        parts.push((format!("{which}.substrate"), substrate.span(), value));
+    } else {
+        let place = own.as_ref().map(Spanned::span).or_else(|| coatings.first().map(Spanned::span));
+        parts.push((which.to_owned(), place.unwrap_or_default(), own));
     }
     if parts.iter().all(|(_, _, value)| value.is_none()) {
         return None;
@@ -150,9 +142,12 @@ fn conductor(
             Some(_) => {}
         }
     }
-    let values: Option<Vec<f64>> =
-        parts.iter().map(|(_, _, value)| value.as_ref().map(|value| conductivity(*value.get_ref()))).collect();
-    let (base, values) = values.filter(|_| good)?.split_last().map(|(base, above)| (*base, above.to_vec()))?;
+    let values: Option<Vec<f64>> = parts
+        .iter()
+        .map(|(_, _, value)| value.as_ref().map(|value| conductivity(*value.get_ref())))
+        .collect();
+    let (base, values) =
+        values.filter(|_| good)?.split_last().map(|(base, above)| (*base, above.to_vec()))?;
     let layers = coatings
         .iter()
         .zip(values)
@@ -161,11 +156,8 @@ fn conductor(
             conductivity,
         })
         .collect();
-    match Conductor::new(layers, base) {
-        Ok(conductor) => Some(conductor),
-        // a thickness is refused where the bodies are judged
-        Err(ConductorError::Conductivity(_) | ConductorError::Thickness(_)) => None,
-    }
+    // a thickness is refused where the bodies are judged
+    Conductor::new(layers, base).ok()
 }
 
 #[cfg(test)]
@@ -192,14 +184,20 @@ mod tests {
     fn conductivities_of_layers_and_of_what_is_rigid_are_read() {
         let case = read(CONDUCTS, "[thermal]\nfrequency = 20.0\n").unwrap();
         let [lower, upper] = case.conduction.thermal.map(Option::unwrap);
-        assert_eq!((lower.base(), lower.layers()[0].conductivity, lower.layers()[0].thickness), (5.0, 2.0, 0.5));
+        assert_eq!(
+            (lower.base(), lower.layers()[0].conductivity, lower.layers()[0].thickness),
+            (5.0, 2.0, 0.5)
+        );
         assert_eq!((upper.base(), upper.layers().len()), (7.0, 0));
         assert_eq!(case.conduction.frequency, Some(20.0));
         assert!(case.conduction.electrical.iter().all(Option::is_none));
         let current = ["", ", electrical_resistivity = 4.0", ", electrical_resistivity = 0.5", "5"];
         let case = read(current, "").unwrap();
         assert_eq!(case.conduction.electrical[0].as_ref().unwrap().layers()[0].conductivity, 0.25);
-        assert!(case.conduction.electrical[1].is_none() && read(["", "", "", "5"], "").unwrap().conduction.is_none());
+        assert!(
+            case.conduction.electrical[1].is_none()
+                && read(["", "", "", "5"], "").unwrap().conduction.is_none()
+        );
     }
 
     #[test]
@@ -214,7 +212,11 @@ mod tests {
             ([upper, coating, substrate, every], "[thermal]\nfrequency = 0.0\n", "thermal.frequency"),
             (["", "", "", every], heat, "neither body conducts heat"),
             ([upper, coating, substrate, "2"], heat, "which are not kept"),
-            ([upper, coating, substrate, every], "[[load]]\nshift = [0.0, 0.0]\nincrements = 1\n[thermal]\nfrequency = 1.0\n", "no cycles"),
+            (
+                [upper, coating, substrate, every],
+                "[[load]]\nshift = [0.0, 0.0]\nincrements = 1\n[thermal]\nfrequency = 1.0\n",
+                "no cycles",
+            ),
         ] {
             let error = read(words, more).unwrap_err();
             assert!(error.contains(message), "{words:?} {more}: {error}");

@@ -8,7 +8,8 @@ use super::refusal::{CaseError, Difference, Mistake};
 use super::stress::StressRequest;
 use super::units::Units;
 use crate::model::{
-    Conduction, ContactPair, CoulombFriction, Integration, LoadStep, Profile, ResidualStress, Scheme, WearRule,
+    Conduction, ContactPair, CoulombFriction, Integration, LoadStep, Profile, ResidualStress, Scheme,
+    WearRule,
 };
 
 /// A case that has passed every check.

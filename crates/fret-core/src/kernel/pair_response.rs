@@ -117,10 +117,10 @@ impl PairResponse {
 
 #[cfg(test)]
 mod tests {
-    use super::super::samples::{Random, material, stack};
-    use super::*;
     use super::super::quadrature::GaussRule;
     use super::super::radial::RadialKernels;
+    use super::super::samples::{Random, material, stack};
+    use super::*;
     use crate::model::{ConductingLayer, HalfSpace};
 
     fn two(upper: &HalfSpace, lower: &HalfSpace) -> PairResponse {
@@ -180,7 +180,10 @@ mod tests {
     fn by_images(ratio: f64, thickness: f64) -> [f64; 2] {
         let lambda = (ratio - 1.0) / (ratio + 1.0);
         let of = |z: f64| {
-            [(1.0 + z * z).sqrt() - z, 0.5 * ((1.0 + z * z) * (0.5 * std::f64::consts::PI - libm::atan(z)) - z)]
+            [
+                (1.0 + z * z).sqrt() - z,
+                0.5 * ((1.0 + z * z) * (0.5 * std::f64::consts::PI - libm::atan(z)) - z),
+            ]
         };
         let mut sum = of(0.0);
         for n in 1..=400 {
@@ -193,7 +196,8 @@ mod tests {
 
     #[test]
     fn conduction_through_a_layer_is_its_image_series() {
-        for (ratio, thickness) in [(0.1, 0.1), (0.1, 1.0), (0.5, 0.5), (2.0, 0.1), (2.0, 1.0), (10.0, 0.5), (10.0, 1.0)]
+        for (ratio, thickness) in
+            [(0.1, 0.1), (0.1, 1.0), (0.5, 0.5), (2.0, 0.1), (2.0, 1.0), (10.0, 0.5), (10.0, 1.0)]
         {
             let layer = ConductingLayer { thickness, conductivity: ratio };
             let body = Conductor::new(vec![layer], 1.0).unwrap();

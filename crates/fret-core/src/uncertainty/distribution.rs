@@ -72,7 +72,9 @@ impl Distribution {
             Self::Normal { deviation, .. } | Self::Lognormal { deviation, .. } if deviation <= 0.0 => {
                 refuse("deviation must be positive")
             }
-            Self::Lognormal { mean, .. } if mean <= 0.0 => refuse("the mean of a lognormal number is positive"),
+            Self::Lognormal { mean, .. } if mean <= 0.0 => {
+                refuse("the mean of a lognormal number is positive")
+            }
             Self::Triangular { from, mode, to } if !(from <= mode && mode <= to && from < to) => {
                 refuse("from, mode and to must rise")
             }

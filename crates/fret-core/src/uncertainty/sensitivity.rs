@@ -26,8 +26,8 @@ pub fn sensitivity(values: &[f64], count: usize) -> Option<Vec<Sensitivity>> {
     }
     let number = good.len() as f64;
     let mean = good.iter().map(|&n| a[n] + b[n]).sum::<f64>() / (2.0 * number);
-    let variance =
-        good.iter().map(|&n| (a[n] - mean).powi(2) + (b[n] - mean).powi(2)).sum::<f64>() / (2.0 * number - 1.0);
+    let variance = good.iter().map(|&n| (a[n] - mean).powi(2) + (b[n] - mean).powi(2)).sum::<f64>()
+        / (2.0 * number - 1.0);
     if !(variance > 0.0) {
         return None;
     }
@@ -50,11 +50,7 @@ mod tests {
     fn ishigamis_function_has_its_indices() {
         // Ishigami & Homma (1990): sin x1 + a sin^2 x2 + b x3^4 sin x1, uniform in (-pi, pi), a = 7, b = 0.1. Exact:
         let (a, b) = (7.0, 0.1);
-        let alone = [
-            0.5 * (1.0 + b * PI.powi(4) / 5.0_f64).powi(2),
-            a * a / 8.0,
-            0.0,
-        ];
+        let alone = [0.5 * (1.0 + b * PI.powi(4) / 5.0_f64).powi(2), a * a / 8.0, 0.0];
         let together = b * b * PI.powi(8) * (1.0 / 18.0 - 1.0 / 50.0);
         let variance = alone.iter().sum::<f64>() + together;
         let first = alone.map(|part| part / variance);

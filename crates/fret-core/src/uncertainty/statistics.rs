@@ -63,7 +63,9 @@ mod tests {
         let found = statistics(&values).unwrap();
         assert_eq!(found.count, 4096);
         // 1.96 and 0.6745 deviations; evenly spread points leave the spacing of the samples there
-        for (quantile, deviations) in found.quantiles.iter().zip([-1.959_964, -0.674_490, 0.0, 0.674_490, 1.959_964]) {
+        for (quantile, deviations) in
+            found.quantiles.iter().zip([-1.959_964, -0.674_490, 0.0, 0.674_490, 1.959_964])
+        {
             assert!((quantile - 10.0 - 2.0 * deviations).abs() < 0.01, "{found:?}");
         }
         assert!((found.mean - 10.0).abs() < 1e-3 && (found.deviation - 2.0).abs() < 5e-3, "{found:?}");
