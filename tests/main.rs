@@ -33,6 +33,7 @@ mod periodic;
 mod random_cases;
 mod reduced_contact;
 mod refinement;
+mod rig;
 mod rough_surfaces;
 mod second_order;
 mod shear_strength;

@@ -177,6 +177,11 @@ class History:
         return self.status == "solved"
 
     @property
+    def _units(self) -> dict[str, str]:
+        """The declared units, and whether loads are those of a unit of length."""
+        return self.units | {"line": "loads per unit length"} if self.units and len(self.y) == 1 else self.units
+
+    @property
     def units(self) -> dict[str, str]:
         """Units of ``length``, ``force`` and ``pressure`` that ``[units]`` of the case declares; empty without."""
         return dict(self.plan["case"].get("units") or {})

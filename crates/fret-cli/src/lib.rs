@@ -6,6 +6,7 @@ mod arguments;
 mod case_file;
 mod commands;
 mod defect;
+mod drawing;
 pub mod embedded;
 mod estimate;
 mod export;

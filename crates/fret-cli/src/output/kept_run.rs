@@ -4,7 +4,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use fret_core::case::{Side, StressRequest};
+use fret_core::case::{Side, StressRequest, Units};
 use fret_core::history::CycleRecord;
 use fret_core::model::{Conduction, ContactPair, ResidualStress, SurfaceGrid};
 use fret_core::subsurface::EvenStress;
@@ -25,6 +25,8 @@ pub struct KeptRun {
     pub record: Value,
     /// Its title.
     pub title: String,
+    /// Units that its case declares.
+    pub units: Option<Units>,
     /// The two bodies.
     pub bodies: ContactPair,
     /// The grid.
@@ -85,6 +87,7 @@ impl KeptRun {
         Ok(Self {
             fields,
             title: plan["case"]["title"].as_str().unwrap_or_default().to_owned(),
+            units: part(&plan["case"]["units"]),
             bodies: part(&plan["case"]["bodies"]).ok_or_else(|| broken("the bodies"))?,
             grid: part(&plan["grid"]).ok_or_else(|| broken("the grid"))?,
             periodic: plan["case"]["periodic"].as_bool().unwrap_or(false),

@@ -5,6 +5,8 @@ use std::fmt::Write;
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use fret_core::case::Units;
+use fret_core::history::{CYCLE_COLUMNS, STEP_COLUMNS};
 use serde_json::{Value, json};
 
 use crate::failure::{Failure, Unwritten};
@@ -101,9 +103,18 @@ impl SweepFolder {
     /// # Errors
     /// When the file cannot be written.
     pub fn summarise(&self, question: &Question, answers: &[Option<Answer>]) -> Result<PathBuf, Unwritten> {
-        let cycle = CYCLE.iter().map(|name| format!("cycle_{name}"));
+        let units = question.points.first().and_then(|point| units_of(&point.case_file.text));
+        let heading = |name: &str, kind: &str| Units::heading(units.as_ref(), name, kind, false);
+        let kind = |name: &str| {
+            STEP_COLUMNS.iter().find(|column| column.name == name).map_or("", |column| column.unit)
+        };
+        let of_cycle = |name: &str| {
+            CYCLE_COLUMNS.iter().find(|column| column.name == name).map_or("", |column| column.unit)
+        };
+        let cycle = CYCLE.iter().map(|name| heading(&format!("cycle_{name}"), of_cycle(name)));
         let head = ["point".to_owned()].into_iter().chain(question.keys.iter().cloned());
-        let head = head.chain(["status".to_owned()]).chain(END.map(str::to_owned)).chain(cycle);
+        let head =
+            head.chain(["status".to_owned()]).chain(END.map(|name| heading(name, kind(name)))).chain(cycle);
         let mut text =
             head.chain(["message".to_owned()]).map(|cell| quoted(&cell)).collect::<Vec<_>>().join(",") + "\n";
         for (number, (point, answer)) in question.points.iter().zip(answers).enumerate() {
@@ -166,6 +177,15 @@ fn at_end<'a>(answer: &'a Value, name: &str) -> &'a Value {
     axis.map_or(&answer["end"][name], |(stem, axis)| &answer["end"][stem][axis])
 }
 
+/// Units that the text of a case declares. Of a line contact, whose grid is not known here, none are told.
+fn units_of(text: &str) -> Option<Units> {
+    let table = text.parse::<toml::Table>().ok()?;
+    let units = table.get("units")?;
+    let cells = table.get("grid")?.get("cells")?.as_array()?;
+    let is_line = cells.get(1).and_then(toml::Value::as_integer) == Some(1);
+    (!is_line).then(|| Some(Units::new(units.get("length")?.as_str()?, units.get("force")?.as_str()?)))?
+}
+
 /// Names of files in a case: words under the keys that can name one.
 fn files_named(text: &str) -> Vec<String> {
     fn look(value: &toml::Value, key: &str, found: &mut Vec<String>) {
@@ -205,8 +225,6 @@ fn quoted(text: &str) -> String {
 
 #[cfg(test)]
 mod tests {
-    use fret_core::history::{CYCLE_COLUMNS, STEP_COLUMNS};
-
     use super::*;
 
     #[test]

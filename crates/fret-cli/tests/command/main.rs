@@ -20,4 +20,5 @@ mod studied;
 mod surfaces;
 mod swept;
 mod told;
+mod units;
 mod unwritten;

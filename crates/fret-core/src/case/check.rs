@@ -15,6 +15,7 @@ use super::output::{FIELD_NAMES, Output};
 use super::refusal::Mistake;
 use super::repeating::repeats;
 use super::residual::residual;
+use super::rig::rig;
 use super::shape::profile;
 use super::stages::{sliding, stages};
 use super::stress::stress;
@@ -56,7 +57,9 @@ pub(super) fn case(
     let changes = friction.as_ref().zip(changes).map(|(first, changes)| of_one_interface(first, changes));
     let laws = friction.as_ref().zip(changes.as_ref()).map(|(first, changes)| in_force(first, changes));
     let history_tolerance = file.solver.as_ref().and_then(|solver| solver.history_tolerance.as_ref());
-    let stages = stages(&mut judge, &file.load, laws.as_deref(), history_tolerance);
+    let rig_file = file.rig.as_ref();
+    let rig = rig(&mut judge, rig_file);
+    let stages = stages(&mut judge, &file.load, (laws.as_deref(), rig_file), history_tolerance);
     let stages = stages.zip(changes.as_ref()).map(|(stages, changes)| with_friction(stages, changes));
     let loading = (&file.load, stages.as_deref());
     let is_line = matches!(file.grid.cells.get_ref(), CellsFile::Line(_));
@@ -123,6 +126,7 @@ pub(super) fn case(
             conduction,
             profile,
             friction,
+            rig,
             start: judge.attachments.start,
             stages,
             wear,

@@ -8,7 +8,7 @@ use super::refusal::{CaseError, Difference, Mistake};
 use super::stress::StressRequest;
 use super::units::Units;
 use crate::model::{
-    Conduction, ContactPair, CoulombFriction, Integration, LoadStep, Profile, ResidualStress, Scheme,
+    Conduction, ContactPair, CoulombFriction, Integration, LoadStep, Profile, ResidualStress, Rig, Scheme,
     WearRule,
 };
 
@@ -41,6 +41,9 @@ pub struct Case {
     pub profile: Profile,
     /// Friction law at the start; stages may change it.
     pub friction: CoulombFriction,
+    /// The machine between the upper body and what is driven, where it gives.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub rig: Option<Rig>,
     /// What is prescribed where the history starts; `None`: bodies that have not touched yet.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub start: Option<LoadStep>,
@@ -89,6 +92,11 @@ impl Case {
     /// Whether it is a line contact: plane strain across a line along y, all loads per unit length.
     pub fn is_line(&self) -> bool {
         self.cells[1] == 1
+    }
+
+    /// Springs between the upper body and what is driven.
+    pub fn springs(&self) -> Rig {
+        self.rig.unwrap_or(Rig::RIGID)
     }
 
     /// Whether the upper body is tilted along an axis (0: x, 1: y) by any stage, or where the history starts.

@@ -5,6 +5,7 @@ use serde::Deserialize;
 use serde::de::{self, SeqAccess, Visitor};
 use toml::Spanned;
 
+use super::along::{AlongFile, AlongPhaseSchema};
 use super::pair::Pair;
 use super::residual_file::{ResidualFile, ResidualSchema};
 use super::stage_file::{AutoWord, StageFile, WearFile};
@@ -33,6 +34,8 @@ pub(super) struct CaseFile {
     pub profile: Option<Spanned<ProfileFile>>,
     /// Dry friction. Default: frictionless.
     pub friction: Option<FrictionFile>,
+    /// The machine between the upper body and what is driven. Default: rigid.
+    pub rig: Option<RigFile>,
     /// Stages of the loading history, in order.
     #[schemars(with = "Vec<StageFile>")]
     pub load: Spanned<Vec<Spanned<StageFile>>>,
@@ -48,6 +51,19 @@ pub(super) struct CaseFile {
     /// Temperature rise of the surfaces by friction, evaluated from the kept fields after the run.
     #[schemars(with = "Option<ThermalFile>")]
     pub thermal: Option<Spanned<ThermalFile>>,
+}
+
+/// The machine: springs between the upper body and what a stage drives with `actuator` and `actuator_approach`.
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RigFile {
+    /// Tangential stiffness of the machine [force/length], along x and y or in both directions alike: actuator = shift + tangential
+    /// force / stiffness. Default: rigid.
+    #[schemars(with = "Option<AlongPhaseSchema>")]
+    pub tangential_stiffness: Option<Spanned<AlongFile<f64>>>,
+    /// Normal stiffness of the machine [force/length]: actuator_approach = approach + normal force / stiffness. Default: rigid.
+    #[schemars(with = "Option<f64>")]
+    pub normal_stiffness: Option<Spanned<f64>>,
 }
 
 /// Units of the numbers in the case. Nothing is converted: results are in the same units.

@@ -24,6 +24,7 @@ mod refusal;
 mod repeating;
 mod residual;
 mod residual_file;
+mod rig;
 mod shape;
 mod stage_file;
 mod stages;
