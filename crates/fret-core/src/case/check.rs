@@ -85,15 +85,8 @@ pub(super) fn case(
         sliding(&mut judge, laws, &file.load, stages);
     }
     let wear = wear(&mut judge, file.wear.as_ref(), bodies.as_ref(), stages.as_deref(), frictionless);
-    let tolerance = match file.solver.as_ref().and_then(|solver| solver.tolerance.as_ref()) {
-        None => Some(TOLERANCE),
-        Some(given) if (1e-13..=1e-2).contains(given.get_ref()) => Some(*given.get_ref()),
-        Some(given) => judge.refuse(
-            given.span(),
-            format!("solver.tolerance = {:e}: must lie between 1e-13 and 1e-2", given.get_ref()),
-            "1e-8 serves most purposes; below 1e-12 rounding takes over",
-        ),
-    };
+    let solver = file.solver.as_ref();
+    let tolerance = tolerance(&mut judge, solver.and_then(|solver| solver.tolerance.as_ref()));
     let units = file.units.as_ref().and_then(|file| super::units::units(&mut judge, file));
     let output = output(&mut judge, file.output.as_ref());
     let stress = stress(&mut judge, file.stress.as_ref(), bodies.as_ref(), output.as_ref(), frictionless);
@@ -131,21 +124,29 @@ pub(super) fn case(
             stages,
             wear,
             tolerance,
-            scheme: file
-                .solver
-                .as_ref()
+            scheme: solver
                 .and_then(|solver| solver.scheme.as_ref())
-                .map_or(Scheme::default(), |scheme| *scheme.get_ref()),
-            integration: file
-                .solver
-                .as_ref()
+                .map_or_else(Scheme::default, |one| *one.get_ref()),
+            integration: solver
                 .and_then(|solver| solver.integration.as_ref())
-                .map_or(Integration::default(), |integration| *integration.get_ref()),
+                .map_or_else(Integration::default, |one| *one.get_ref()),
             output,
             stress,
             origin: Origin { name: name.to_owned(), text: text.to_owned(), size: file.grid.size.span() },
         }),
         _ => Err(judge.mistakes),
+    }
+}
+
+fn tolerance(judge: &mut Judge, given: Option<&Spanned<f64>>) -> Option<f64> {
+    match given {
+        None => Some(TOLERANCE),
+        Some(given) if (1e-13..=1e-2).contains(given.get_ref()) => Some(*given.get_ref()),
+        Some(given) => judge.refuse(
+            given.span(),
+            format!("solver.tolerance = {:e}: must lie between 1e-13 and 1e-2", given.get_ref()),
+            "1e-8 serves most purposes; below 1e-12 rounding takes over",
+        ),
     }
 }
 
