@@ -176,7 +176,7 @@ fn resistance_is_barbers_inverse_of_the_incremental_stiffness_of_a_rough_contact
         let heights: Vec<String> = (0..48)
             .map(|i| {
                 let row = (0..48).map(|j| {
-                    let (x, y) = (i as f64, j as f64);
+                    let (x, y) = (f64::from(i), f64::from(j));
                     let rough = (0.9 * x).sin() * (0.7 * y + 0.3).cos()
                         + 0.6 * (1.7 * x + 2.1 * y).sin()
                         + 0.3 * (2.9 * y - 1.3 * x).cos();

@@ -51,7 +51,7 @@ def test_power_laws_of_uncertain_numbers_have_their_moments_and_indices() -> Non
 
 def test_energy_of_mindlin_and_deresiewicz_with_uncertain_friction(fretting_case: dict[str, Any]) -> None:
     fretting_case["output"] = {"fields": ["pressure"]}
-    fretting_case["grid"] = {"cells": [32, 32], "size": [220e-6, 220e-6]}
+    fretting_case["grid"] = {"cells": [32, 32], "size": [300e-6, 300e-6]}
     parameters = {"friction.coefficient": fretting.Uniform(0.2, 0.4)}
     answer = fretting.sweep(fretting_case, parameters, samples=32, seed=1, keep="all")
     found = answer["cycle_dissipated_energy"].values

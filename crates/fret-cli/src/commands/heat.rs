@@ -175,10 +175,7 @@ fn told(
         ("friction power", figure(power)),
         ("max temperature rise", format!("{} at x {}, y {}", figure(largest), figure(x), figure(y))),
         ("mean temperature rise", format!("{} where heat is made", figure(mean))),
-        (
-            "heat into the lower body",
-            found.lower_fraction().map_or("-".to_owned(), |fraction| figure(fraction)),
-        ),
+        ("heat into the lower body", found.lower_fraction().map_or("-".to_owned(), figure)),
     ] {
         let _ = writeln!(table, "{name:<30}{value}");
     }

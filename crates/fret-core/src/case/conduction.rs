@@ -6,7 +6,7 @@ use super::course::{Course, Stage};
 use super::file::{BodyFile, ThermalFile};
 use super::judge::Judge;
 use super::output::Output;
-use crate::model::{ConductingLayer, Conduction, Conductor, ConductorError};
+use crate::model::{ConductingLayer, Conduction, Conductor};
 
 /// What a key of a layer means: its name, and conductivity from its value.
 type Key = (&'static str, fn(f64) -> f64);
@@ -91,34 +91,31 @@ fn without_meaning(
 /// The conductor that a body is by one key; `None` where no layer has it, or it was refused.
 fn conductor(judge: &mut Judge, which: &str, body: &BodyFile, (key, conductivity): Key) -> Option<Conductor> {
     let is_thermal = key == THERMAL.0;
-    let pick = |thermal: &Option<Spanned<f64>>, electrical: &Option<Spanned<f64>>| {
-        if is_thermal { thermal.clone() } else { electrical.clone() }
+    let pick = |thermal: Option<&Spanned<f64>>, electrical: Option<&Spanned<f64>>| {
+        if is_thermal { thermal.cloned() } else { electrical.cloned() }
     };
     let coatings = body.coatings.as_ref().map_or(&[][..], |list| list.get_ref());
     let mut parts: Vec<(String, std::ops::Range<usize>, Option<Spanned<f64>>)> = Vec::new();
     for (index, coating) in coatings.iter().enumerate() {
         let given = coating.get_ref();
-        let value = pick(&given.thermal_conductivity, &given.electrical_resistivity);
+        let value = pick(given.thermal_conductivity.as_ref(), given.electrical_resistivity.as_ref());
         parts.push((format!("{which}.coatings[{index}]"), coating.span(), value));
     }
-    let own = pick(&body.thermal_conductivity, &body.electrical_resistivity);
-    match &body.substrate {
-        Some(substrate) => {
-            if let Some(own) = &own {
-                return judge.refuse(
-                    own.span(),
-                    format!("{which}.{key}: beside a substrate it belongs into the substrate"),
-                    &format!("substrate = {{ ..., {key} = ... }}"),
-                );
-            }
-            let given = substrate.get_ref();
-            let value = pick(&given.thermal_conductivity, &given.electrical_resistivity);
-            parts.push((format!("{which}.substrate"), substrate.span(), value));
+    let own = pick(body.thermal_conductivity.as_ref(), body.electrical_resistivity.as_ref());
+    if let Some(substrate) = &body.substrate {
+        if let Some(own) = &own {
+            return judge.refuse(
+                own.span(),
+                format!("{which}.{key}: beside a substrate it belongs into the substrate"),
+                &format!("substrate = {{ ..., {key} = ... }}"),
+            );
         }
-        None => {
-            let place = own.as_ref().map(Spanned::span).or_else(|| coatings.first().map(Spanned::span));
-            parts.push((which.to_owned(), place.unwrap_or_default(), own));
-        }
+        let given = substrate.get_ref();
+        let value = pick(given.thermal_conductivity.as_ref(), given.electrical_resistivity.as_ref());
+        parts.push((format!("{which}.substrate"), substrate.span(), value));
+    } else {
+        let place = own.as_ref().map(Spanned::span).or_else(|| coatings.first().map(Spanned::span));
+        parts.push((which.to_owned(), place.unwrap_or_default(), own));
     }
     if parts.iter().all(|(_, _, value)| value.is_none()) {
         return None;
@@ -159,11 +156,8 @@ fn conductor(judge: &mut Judge, which: &str, body: &BodyFile, (key, conductivity
             conductivity,
         })
         .collect();
-    match Conductor::new(layers, base) {
-        Ok(conductor) => Some(conductor),
-        // a thickness is refused where the bodies are judged
-        Err(ConductorError::Conductivity(_) | ConductorError::Thickness(_)) => None,
-    }
+    // a thickness is refused where the bodies are judged
+    Conductor::new(layers, base).ok()
 }
 
 #[cfg(test)]

@@ -102,7 +102,9 @@ mod tests {
         let rows = design(6, 64, 3, false).rows().unwrap();
         for number in 0..6 {
             let mut hit = [0; 64];
-            rows.iter().for_each(|row| hit[(row[number] * 64.0) as usize] += 1);
+            for row in &rows {
+                hit[(row[number] * 64.0) as usize] += 1;
+            }
             assert!(hit.iter().all(|count| *count == 1), "{number}: {hit:?}");
         }
     }
