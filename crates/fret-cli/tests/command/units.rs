@@ -24,7 +24,11 @@ fn rows(table: &str) -> Vec<Vec<String>> {
     let head: Vec<&str> = table.lines().next().unwrap().split(',').collect();
     let time = head.iter().position(|name| *name == "wall_s");
     let cells = |line: &str| -> Vec<String> {
-        line.split(',').enumerate().filter(|(n, _)| Some(*n) != time).map(|(_, cell)| cell.to_owned()).collect()
+        line.split(',')
+            .enumerate()
+            .filter(|(n, _)| Some(*n) != time)
+            .map(|(_, cell)| cell.to_owned())
+            .collect()
     };
     table.lines().skip(1).map(cells).collect()
 }
