@@ -13,6 +13,7 @@ import numpy as np
 import numpy.typing as npt
 
 from fretting._arrays import Reals
+from fretting._bands import band, loop_band
 from fretting._meaning import VECTORS, ZONE_NAMES, in_units, label, unit
 
 if TYPE_CHECKING:
@@ -23,7 +24,7 @@ if TYPE_CHECKING:
 
     from fretting.history import History
 
-__all__ = ["animation", "field", "loop", "regime_map", "section", "zones"]
+__all__ = ["animation", "band", "field", "loop", "loop_band", "regime_map", "section", "zones"]
 
 Direction = Literal["x", "y"]
 Motion = Literal["x", "y", "twist"]

@@ -7,6 +7,7 @@
 mod analytic;
 mod case;
 mod command;
+mod conduction;
 mod error;
 mod history;
 mod kernels;
@@ -16,6 +17,7 @@ mod start;
 mod study;
 mod subsurface;
 mod threads;
+mod uncertainty;
 
 /// Conversion between Python and fret-core; use the names of `fretting`.
 #[pyo3::pymodule]
@@ -34,6 +36,8 @@ mod _core {
     #[pymodule_export]
     use crate::command::command_line;
     #[pymodule_export]
+    use crate::conduction::{contact_resistance, surface_temperature};
+    #[pymodule_export]
     use crate::history::{History, vocabulary};
     #[pymodule_export]
     use crate::kernels::{Convolution, frequency_response, influence_coefficients};
@@ -49,6 +53,9 @@ mod _core {
     use crate::subsurface::{fatigue, subsurface_stress};
     #[pymodule_export]
     use crate::threads::{check_memory, check_threads};
+
+    #[pymodule_export]
+    use crate::uncertainty::{quantile_fractions, sample_rows, sobol_indices, statistics};
 
     #[pymodule_init]
     fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {

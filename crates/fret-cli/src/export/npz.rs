@@ -90,6 +90,18 @@ pub fn write(results: &Results, path: &Path) -> Result<Vec<PathBuf>, Failure> {
     Ok(vec![path.to_owned()])
 }
 
+/// Writes arrays of numbers, each with its name and shape, as a `.npz` file.
+pub fn arrays(path: &Path, arrays: &[(&str, &[usize], &[f64])]) -> Result<(), Failure> {
+    written(path, |writer| {
+        let mut archive = Archive { zip: ZipWriter::new(UntilFailed::new(writer)), path };
+        for (name, shape, values) in arrays {
+            archive.array(name, "<f8", shape, &bytes(values))?;
+        }
+        archive.zip.finish().map_err(|error| unwritten(path, error))?;
+        Ok(())
+    })
+}
+
 /// Passes on what is written until that fails once; then only counts it: an archive that is given up still tries to write its end, and
 /// would complain of it on standard error.
 struct UntilFailed<W> {

@@ -198,6 +198,10 @@ mod tests {
             steady: true,
             worn_volume: 1.0,
             max_worn_depth: -0.0,
+            actuator_amplitude: Some(5.0),
+            actuator_energy_ratio: None,
+            actuator_sliding_ratio: Some(0.1),
+            actuator_stiffness: None,
         };
         let other = CycleRecord { regime: None, steady: false, ..one.clone() };
         for record in [one, other] {

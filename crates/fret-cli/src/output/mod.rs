@@ -13,6 +13,7 @@ mod run_record;
 pub mod section;
 mod state_store;
 mod stress_kinds;
+mod turn_writer;
 pub mod vtk;
 mod whole_file;
 
