@@ -109,7 +109,7 @@ impl Waypoint<'_> {
     /// A copy that lasts.
     pub(crate) fn checkpoint(&self) -> Checkpoint {
         Checkpoint {
-            place: self.place.clone(),
+            place: *self.place,
             state: self.state.clone(),
             memory: self.memory.clone(),
             cycle: self.cycle.cloned(),
