@@ -9,6 +9,7 @@ mod case;
 mod command;
 mod error;
 mod history;
+mod identify;
 mod kernels;
 mod plan;
 mod simulation;
@@ -35,6 +36,8 @@ mod _core {
     use crate::command::command_line;
     #[pymodule_export]
     use crate::history::{History, vocabulary};
+    #[pymodule_export]
+    use crate::identify::identify;
     #[pymodule_export]
     use crate::kernels::{Convolution, frequency_response, influence_coefficients};
     #[pymodule_export]

@@ -193,6 +193,10 @@ mod tests {
             steady: true,
             worn_volume: 1.0,
             max_worn_depth: -0.0,
+            actuator_amplitude: None,
+            actuator_energy_ratio: None,
+            actuator_sliding_ratio: None,
+            actuator_stiffness: None,
         };
         let other = CycleRecord { regime: None, steady: false, ..one.clone() };
         for record in [one, other] {

@@ -4,7 +4,7 @@
 //! tells), and the page itself here.
 
 mod chapters;
-mod chart;
+pub mod chart;
 mod closed_form;
 pub mod html;
 mod literature;
@@ -37,10 +37,14 @@ pub fn page(results: &Results) -> Result<String, Failure> {
         chapters::left_out(&scene),
         literature::chapter(&scene),
     ];
-    Ok(format!(
+    Ok(whole_page(&title, &chapters.concat()))
+}
+
+/// A page with the style of all; title and chapters are HTML already.
+pub fn whole_page(title: &str, chapters: &str) -> String {
+    format!(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
          <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
-         <title>{title}</title>\n<style>\n{STYLE}</style>\n</head>\n<body>\n<main>\n{}</main>\n</body>\n</html>\n",
-        chapters.concat()
-    ))
+         <title>{title}</title>\n<style>\n{STYLE}</style>\n</head>\n<body>\n<main>\n{chapters}</main>\n</body>\n</html>\n"
+    )
 }

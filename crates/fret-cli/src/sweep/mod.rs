@@ -3,7 +3,7 @@
 
 mod answer;
 mod folder;
-mod key;
+pub mod key;
 mod question;
 
 pub use answer::Answer;
