@@ -34,6 +34,7 @@ from fretting.errors import (
     UnreadableError,
 )
 from fretting.history import History
+from fretting.identifying import Identification, identify
 from fretting.kernels import Convolution, frequency_response, influence_coefficients
 from fretting.loading import open_results
 from fretting.planning import Plan, plan
@@ -48,6 +49,7 @@ __all__ = [
     "FrettingError",
     "FrettingWarning",
     "History",
+    "Identification",
     "MissingFileError",
     "Mistake",
     "OutOfMemoryError",
@@ -59,6 +61,7 @@ __all__ = [
     "__version__",
     "analytic",
     "frequency_response",
+    "identify",
     "influence_coefficients",
     "open_results",
     "plan",

@@ -1,5 +1,7 @@
 //! Cycles of a log, and what is read from each of them without any model.
 
+use std::f64::consts::TAU;
+
 use serde_json::{Value, json};
 
 use super::log::Table;
@@ -335,12 +337,28 @@ fn calm(values: &[f64]) -> Vec<f64> {
     (0..count).map(|k| (0..5).map(|near| values[(k + count + near - 2) % count]).sum::<f64>() / 5.0).collect()
 }
 
+/// Where the displacement is largest and smallest: the middle of the time that it spends in the outermost fifth of its range, which
+/// noise does not move.
 fn turns(displacement: &[f64]) -> [usize; 2] {
-    let calm = calm(displacement);
-    let best = |sign: f64| {
-        (0..calm.len()).max_by(|a, b| (sign * calm[*a]).total_cmp(&(sign * calm[*b]))).unwrap_or(0)
+    let [low, high] = calm_range(displacement);
+    let count = displacement.len();
+    let middle = |sign: f64| {
+        let outer = |value: f64| {
+            if sign > 0.0 { (value - low) / (high - low) } else { (high - value) / (high - low) }
+        };
+        let (mut cos, mut sin) = (0.0, 0.0);
+        for (row, value) in displacement.iter().enumerate() {
+            // A cycle has no first point: the mean of directions around it.
+            if outer(*value) > 0.8 {
+                let angle = TAU * row as f64 / count as f64;
+                cos += angle.cos();
+                sin += angle.sin();
+            }
+        }
+        let share = sin.atan2(cos).rem_euclid(TAU) / TAU;
+        (share * count as f64).round() as usize % count
     };
-    [best(1.0), best(-1.0)]
+    [middle(1.0), middle(-1.0)]
 }
 
 /// Where the displacement turns back from its largest values.

@@ -7,9 +7,9 @@ use crate::failure::Failure;
 pub const ROLES: [&str; 4] = ["displacement", "force", "cycle", "normal_force"];
 /// Names by which columns are known when none are given.
 const KNOWN: [&[&str]; 4] = [
-    &["displacement", "actuator", "actuator_x", "delta", "stroke", "slip", "position", "weg", "x"],
-    &["force", "tangential_force", "tangential_force_x", "friction_force", "q", "ft", "t", "kraft"],
-    &["cycle", "cycles", "cycle_number", "n", "zyklus"],
+    &["displacement", "actuator", "actuator_x", "delta", "stroke", "position", "weg"],
+    &["force", "tangential_force", "tangential_force_x", "friction_force", "q", "ft", "kraft"],
+    &["cycle", "cycles", "cycle_number", "zyklus"],
     &["normal_force", "p", "fn", "normal_load", "normalkraft"],
 ];
 /// Lines above the head, at the most.

@@ -113,21 +113,25 @@ fn constant(json: &Value, place: usize) -> [f64; 3] {
     ["value", "low", "high"].map(|key| json["parameters"][place][key].as_f64().unwrap())
 }
 
-/// In how many of the trials the 95 % intervals hold the truth, of friction and of the stiffness; and the worst errors.
-fn coverage(rig: Rig, trials: u64) -> ([usize; 2], [f64; 2]) {
-    let all: Vec<[(bool, f64); 2]> = (0..trials)
+/// Of every trial, for friction and stiffness: error over the half-width of the interval, and over the truth.
+fn trials(rig: Rig, count: u64) -> [Vec<[f64; 2]>; 2] {
+    let all: Vec<[[f64; 2]; 2]> = (0..count)
         .into_par_iter()
         .map(|seed| {
             let json = identified(&rig.log(seed), &Request::default());
             [(0, rig.friction), (1, rig.stiffness)].map(|(place, truth)| {
-                let [value, low, high] = constant(&json, place);
-                (low <= truth && truth <= high, (value / truth - 1.0).abs())
+                let [value, _, high] = constant(&json, place);
+                [(value / truth).ln().abs() / (high / value).ln(), (value / truth - 1.0).abs()]
             })
         })
         .collect();
-    let held = [0, 1].map(|k| all.iter().filter(|trial| trial[k].0).count());
-    let worst = [0, 1].map(|k| all.iter().map(|trial| trial[k].1).fold(0.0, f64::max));
-    (held, worst)
+    [0, 1].map(|k| all.iter().map(|trial| trial[k]).collect())
+}
+
+fn median(trials: &[[f64; 2]], of: usize) -> f64 {
+    let mut values: Vec<f64> = trials.iter().map(|trial| trial[of]).collect();
+    values.sort_by(f64::total_cmp);
+    values[values.len() / 2]
 }
 
 /// Without noise what is left is the error of 40 cells and of the interpolated loop.
@@ -138,7 +142,6 @@ fn a_clean_loop_gives_its_constants_back() {
     for rig in [clean, gross] {
         let json = identified(&rig.log(0), &Request::default());
         let [friction, stiffness] = [0, 1].map(|place| constant(&json, place)[0]);
-        println!("{friction} {stiffness} {}", json["noise"]);
         assert!((friction / rig.friction - 1.0).abs() < 0.01, "{friction}");
         assert!((stiffness / rig.stiffness - 1.0).abs() < 0.01, "{stiffness}");
         // W_d of the log is the closed form's area by 200 chords: below 0.1 %.
@@ -151,21 +154,25 @@ fn a_clean_loop_gives_its_constants_back() {
     assert_eq!(identified(&clean.log(0), &Request::default())["sliding_condition"], "partial_slip");
 }
 
+/// 1 % of noise, 5 % of drift, 200 points: the middle one of six trials is within 1 %, and twice the 95 % interval (3.9 standard
+/// deviations) holds the truth in all.
 #[test]
-fn intervals_hold_the_truth_in_a_few_trials() {
-    let (held, worst) = coverage(PARTIAL, 8);
-    println!("{held:?} {worst:?}");
-    // Binomial: of 8 trials of 95 % fewer than 6 hold in 0.6 % of all sets of seeds; these are fixed.
-    assert!(held.iter().all(|held| *held >= 6), "{held:?}");
+fn noisy_loops_in_gross_slip_give_their_constants_back() {
+    for found in trials(Rig { amplitude: 8e-3, ..PARTIAL }, 6) {
+        assert!(median(&found, 1) < 0.01, "{found:?}");
+        assert!(found.iter().all(|trial| trial[0] < 2.0), "{found:?}");
+    }
 }
 
+/// The promise of the intervals: 93 and 95 of 100 in partial slip, 98 and 92 in gross slip when this was written.
 #[test]
-#[ignore = "long: a hundred identifications"]
+#[ignore = "long: two hundred identifications"]
 fn intervals_hold_the_truth_in_ninety_of_a_hundred_trials() {
     for rig in [PARTIAL, Rig { amplitude: 8e-3, ..PARTIAL }] {
-        let (held, worst) = coverage(rig, 100);
-        println!("{held:?} {worst:?}");
-        assert!(held.iter().all(|held| *held >= 90), "{held:?}");
+        for found in trials(rig, 100) {
+            let held = found.iter().filter(|trial| trial[0] <= 1.0).count();
+            assert!(held >= 90, "{held}");
+        }
     }
 }
 

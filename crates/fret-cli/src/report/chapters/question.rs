@@ -195,7 +195,8 @@ fn friction(friction: &Value) -> String {
 fn stage(stage: &Value) -> String {
     let to = |control: &Value, force: &str, motion: &str| {
         let told = |kind: &str, name: &str| path(&control[kind]).map(|path| format!("{name} {path}"));
-        told("force", force).or_else(|| told("motion", motion))
+        let actuator = format!("actuator, {motion}");
+        told("force", force).or_else(|| told("motion", motion)).or_else(|| told("far_end", &actuator))
     };
     let mut parts: Vec<String> = Vec::new();
     parts.extend(to(&stage["normal"], "normal force", "approach"));
