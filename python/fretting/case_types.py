@@ -328,6 +328,17 @@ class Stress(TypedDict):
     """
 
 
+class Thermal(TypedDict):
+    """
+    Steady temperature rise by the friction of the last cycle.
+    """
+
+    frequency: float
+    """
+    Cycles per unit of time; that of the conductivities, so that energy times frequency is their power.
+    """
+
+
 class Units(TypedDict):
     """
     Units of the numbers in the case. Nothing is converted: results are in the same units.
@@ -486,6 +497,10 @@ class Material(TypedDict):
     An isotropic elastic material.
     """
 
+    electrical_resistivity: NotRequired[float]
+    """
+    Electrical resistivity [resistance x length], positive; of all layers of a body and its substrate, or of none.
+    """
     poisson: float
     """
     Poisson's ratio, above -1, at most 0.5.
@@ -493,6 +508,10 @@ class Material(TypedDict):
     residual_stress: NotRequired[Residual]
     """
     Residual stress, as of a coating; below the last row of a table it stays as it is there.
+    """
+    thermal_conductivity: NotRequired[float]
+    """
+    Thermal conductivity [power/(length temperature)], positive; of all layers of a body and its substrate, or of none.
     """
     young: float
     """
@@ -578,6 +597,10 @@ class Coating(TypedDict):
     A bonded layer: uniform (`young`), or of a stiffness that changes with depth (`gradient`).
     """
 
+    electrical_resistivity: NotRequired[float]
+    """
+    Electrical resistivity [resistance x length], positive; of all layers of a body and its substrate, or of none.
+    """
     gradient: NotRequired[Gradient]
     """
     Young's modulus over the depth; instead of `young`.
@@ -590,6 +613,10 @@ class Coating(TypedDict):
     """
     Residual stress [pressure], tension positive: the same along x and y, or one along each; or rows of depth below the upper
     face [length] and stress (one, or along x and y), linear between them. It adds to the stresses below, and to nothing else.
+    """
+    thermal_conductivity: NotRequired[float]
+    """
+    Thermal conductivity [power/(length temperature)], positive; of all layers of a body and its substrate, or of none.
     """
     thickness: float
     """
@@ -713,6 +740,10 @@ class Body(TypedDict):
     """
     Bonded coatings, outermost first.
     """
+    electrical_resistivity: NotRequired[float]
+    """
+    Electrical resistivity [resistance x length], positive; of what is rigid: the body, or the base of its coatings.
+    """
     profile: NotRequired[Profile]
     """
     Shape of this body's surface: its distance from the plane of first touch.
@@ -724,6 +755,10 @@ class Body(TypedDict):
     substrate: NotRequired[Material]
     """
     The elastic half-space under the coatings.
+    """
+    thermal_conductivity: NotRequired[float]
+    """
+    Thermal conductivity [power/(length temperature)], positive; of what is rigid: the body, or the base of its coatings.
     """
 
 
@@ -763,6 +798,10 @@ class Case(TypedDict):
     stress: NotRequired[Stress]
     """
     Subsurface stresses, evaluated from the kept tractions after the run.
+    """
+    thermal: NotRequired[Thermal]
+    """
+    Temperature rise of the surfaces by friction, evaluated from the kept fields after the run.
     """
     title: NotRequired[str]
     """

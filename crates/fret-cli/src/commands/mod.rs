@@ -4,6 +4,7 @@ pub mod check;
 pub mod export;
 pub mod extremes;
 pub mod fatigue;
+pub mod heat;
 pub mod identify;
 mod loaded_surfaces;
 pub mod plan;

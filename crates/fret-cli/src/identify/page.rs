@@ -1,11 +1,13 @@
 //! The page of an identification: the measured loop beside the computed one, the loops of all cycles, what was found.
 
 use fret_core::case::Units;
+use maud::{Markup, html};
 use serde_json::Value;
 
 use super::MeasuredCycle;
-use crate::report::chart::{Chart, Curve, Stroke};
-use crate::report::html::{escaped, figure_of, number, table};
+use crate::drawing::chart::{Chart, Curve, Stroke};
+use crate::drawing::scale::Label;
+use crate::report::html::{figure_of, number, table};
 use crate::report::whole_page;
 
 /// Loops that the stack shows, at the most.
@@ -14,31 +16,33 @@ const MOST_LOOPS: usize = 40;
 /// The page.
 pub fn page(json: &Value, units: &Units, cycles: &[MeasuredCycle]) -> String {
     let title = format!("Fretting loops of {}", json["log"].as_str().unwrap_or_default());
-    let mut parts = vec![format!("<h1>{}</h1>\n", escaped(&title)), constants(json, units)];
-    let axes = [format!("displacement [{}]", units.length), format!("tangential force [{}]", units.force)];
-    parts.push(figure_of(&beside(json, &axes).svg(), "Measured points, freed from offset and drift, and the loop that the solver computes; dashed: the contact's own loop."));
-    if cycles.len() > 1 {
-        parts.push(figure_of(
-            &stack(cycles, &axes).svg(),
-            "Fretting log: the loops one after the other, each moved to the right and up; from the first (bottom) to the last.",
-        ));
-    }
-    parts.push(rows(json, units));
-    let notes: Vec<String> = json["notes"]
-        .as_array()
-        .into_iter()
-        .flatten()
-        .map(|note| format!("<li>{}</li>", escaped(note.as_str().unwrap_or_default())))
-        .collect();
-    parts.push(format!("<ul>{}</ul>\n", notes.concat()));
-    whole_page(&escaped(&title), &parts.concat())
+    let label = |name: &str, unit: &str| Label { name: name.to_owned(), unit: Some(unit.to_owned()) };
+    let axes = [label("displacement", &units.length), label("tangential force", &units.force)];
+    let notes = json["notes"].as_array().map(Vec::as_slice).unwrap_or_default();
+    let content = html! {
+        h1 { (title) }
+        (constants(json, units))
+        (figure_of(
+            &beside(json, axes.clone()).in_page(),
+            "Measured points without offset and drift, and the loop that the solver computes; dashed: the loop of the contact itself."
+        ))
+        @if cycles.len() > 1 {
+            (figure_of(
+                &stack(cycles, axes).in_page(),
+                "Fretting log: the loops one after the other, each moved to the right and up; the first at the bottom."
+            ))
+        }
+        (rows(json, units))
+        ul { @for note in notes { li { (note.as_str().unwrap_or_default()) } } }
+    };
+    whole_page(&title, &content)
 }
 
 fn shown(value: &Value) -> String {
     value.as_f64().map_or_else(|| "–".to_owned(), number)
 }
 
-fn constants(json: &Value, units: &Units) -> String {
+fn constants(json: &Value, units: &Units) -> Markup {
     let rows: Vec<Vec<String>> = json["parameters"]
         .as_array()
         .into_iter()
@@ -47,11 +51,11 @@ fn constants(json: &Value, units: &Units) -> String {
             let told = constant["told"].as_bool() == Some(true);
             let cell = |key: &str| if told { shown(&constant[key]) } else { "not told".to_owned() };
             vec![
-                escaped(constant["name"].as_str().unwrap_or_default()),
+                constant["name"].as_str().unwrap_or_default().to_owned(),
                 cell("value"),
                 cell("low"),
                 cell("high"),
-                escaped(&units.of(constant["unit"].as_str().unwrap_or_default())),
+                units.of(constant["unit"].as_str().unwrap_or_default()),
             ]
         })
         .collect();
@@ -62,7 +66,7 @@ fn numbers(value: &Value) -> Vec<f64> {
     value.as_array().into_iter().flatten().filter_map(Value::as_f64).collect()
 }
 
-fn beside(json: &Value, axes: &[String; 2]) -> Chart {
+fn beside(json: &Value, axes: [Label; 2]) -> Chart {
     let removed = |key: &str| json["removed"][key].as_f64().unwrap_or(0.0);
     let (displacement, force) =
         (numbers(&json["measured"]["displacement"]), numbers(&json["measured"]["force"]));
@@ -83,22 +87,17 @@ fn beside(json: &Value, axes: &[String; 2]) -> Chart {
         name: Some(name.to_owned()),
         colour,
         stroke,
+        id: None,
     };
-    Chart {
-        what: "measured and computed fretting loop".to_owned(),
-        axes: axes.clone(),
-        curves: vec![
+    Chart::new("measured and computed fretting loop", axes, vec![
             curve(points.collect(), "measured", 1, Stroke::Dots),
             curve(computed("displacement"), "computed, at the actuator", 0, Stroke::Line),
             curve(computed("shift"), "computed, the contact's own", 2, Stroke::Dashed),
-        ],
-        logarithmic: false,
-        level: None,
-    }
+        ])
 }
 
 /// The loops of a log, each moved on by a part of the range.
-fn stack(cycles: &[MeasuredCycle], axes: &[String; 2]) -> Chart {
+fn stack(cycles: &[MeasuredCycle], axes: [Label; 2]) -> Chart {
     let every = cycles.len().div_ceil(MOST_LOOPS);
     let range = |of: &dyn Fn(&MeasuredCycle) -> &[f64]| {
         let all = cycles.iter().flat_map(|cycle| of(cycle).iter().copied());
@@ -117,19 +116,13 @@ fn stack(cycles: &[MeasuredCycle], axes: &[String; 2]) -> Chart {
             points,
             name: None,
             colour: 0,
-            stroke: if k + 1 == shown.len() { Stroke::Line } else { Stroke::Faint },
+            stroke: if k + 1 == shown.len() { Stroke::Line } else { Stroke::Faint }, id: None,
         }
     });
-    Chart {
-        what: "fretting log: loops of the cycles".to_owned(),
-        axes: axes.clone(),
-        curves: curves.collect(),
-        logarithmic: false,
-        level: None,
-    }
+    Chart::new("fretting log: loops of the cycles", axes, curves.collect())
 }
 
-fn rows(json: &Value, units: &Units) -> String {
+fn rows(json: &Value, units: &Units) -> Markup {
     let columns = [
         ("cycle", ""),
         ("dissipated_energy", "force x length"),

@@ -4,6 +4,7 @@ use toml::Spanned;
 
 use super::attachments::Attachments;
 use super::bodies::bodies;
+use super::conduction::conduction;
 use super::course::Stage;
 use super::definition::{Case, GridSize, Origin};
 use super::file::{CaseFile, CellsFile, OutputFile, SizeFile};
@@ -84,18 +85,18 @@ pub(super) fn case(
         sliding(&mut judge, laws, &file.load, stages);
     }
     let wear = wear(&mut judge, file.wear.as_ref(), bodies.as_ref(), stages.as_deref(), frictionless);
-    let tolerance = match file.solver.as_ref().and_then(|solver| solver.tolerance.as_ref()) {
-        None => Some(TOLERANCE),
-        Some(given) if (1e-13..=1e-2).contains(given.get_ref()) => Some(*given.get_ref()),
-        Some(given) => judge.refuse(
-            given.span(),
-            format!("solver.tolerance = {:e}: must lie between 1e-13 and 1e-2", given.get_ref()),
-            "1e-8 serves most purposes; below 1e-12 rounding takes over",
-        ),
-    };
+    let solver = file.solver.as_ref();
+    let tolerance = tolerance(&mut judge, solver.and_then(|solver| solver.tolerance.as_ref()));
     let units = file.units.as_ref().and_then(|file| super::units::units(&mut judge, file));
     let output = output(&mut judge, file.output.as_ref());
     let stress = stress(&mut judge, file.stress.as_ref(), bodies.as_ref(), output.as_ref(), frictionless);
+    let conduction = conduction(
+        &mut judge,
+        [("lower", file.lower.get_ref()), ("upper", file.upper.get_ref())],
+        file.thermal.as_ref(),
+        (stages.as_deref(), output.as_ref()),
+        (frictionless, is_line, periodic),
+    );
     match (cells, size, bodies, profile, friction, stages, tolerance, output) {
         (
             Some(cells),
@@ -115,6 +116,7 @@ pub(super) fn case(
             periodic,
             bodies,
             residual_stress,
+            conduction,
             profile,
             friction,
             rig,
@@ -122,21 +124,29 @@ pub(super) fn case(
             stages,
             wear,
             tolerance,
-            scheme: file
-                .solver
-                .as_ref()
+            scheme: solver
                 .and_then(|solver| solver.scheme.as_ref())
-                .map_or(Scheme::default(), |scheme| *scheme.get_ref()),
-            integration: file
-                .solver
-                .as_ref()
+                .map_or_else(Scheme::default, |one| *one.get_ref()),
+            integration: solver
                 .and_then(|solver| solver.integration.as_ref())
-                .map_or(Integration::default(), |integration| *integration.get_ref()),
+                .map_or_else(Integration::default, |one| *one.get_ref()),
             output,
             stress,
             origin: Origin { name: name.to_owned(), text: text.to_owned(), size: file.grid.size.span() },
         }),
         _ => Err(judge.mistakes),
+    }
+}
+
+fn tolerance(judge: &mut Judge, given: Option<&Spanned<f64>>) -> Option<f64> {
+    match given {
+        None => Some(TOLERANCE),
+        Some(given) if (1e-13..=1e-2).contains(given.get_ref()) => Some(*given.get_ref()),
+        Some(given) => judge.refuse(
+            given.span(),
+            format!("solver.tolerance = {:e}: must lie between 1e-13 and 1e-2", given.get_ref()),
+            "1e-8 serves most purposes; below 1e-12 rounding takes over",
+        ),
     }
 }
 

@@ -8,7 +8,8 @@ use super::refusal::{CaseError, Difference, Mistake};
 use super::stress::StressRequest;
 use super::units::Units;
 use crate::model::{
-    ContactPair, CoulombFriction, Integration, LoadStep, Profile, ResidualStress, Rig, Scheme, WearRule,
+    Conduction, ContactPair, CoulombFriction, Integration, LoadStep, Profile, ResidualStress, Rig, Scheme,
+    WearRule,
 };
 
 /// A case that has passed every check.
@@ -33,6 +34,9 @@ pub struct Case {
     /// Residual stress of the lower and of the upper body.
     #[serde(skip_serializing_if = "are_none")]
     pub residual_stress: [ResidualStress; 2],
+    /// What the bodies conduct, and how often they rub.
+    #[serde(skip_serializing_if = "Conduction::is_none")]
+    pub conduction: Conduction,
     /// Undeformed gap.
     pub profile: Profile,
     /// Friction law at the start; stages may change it.

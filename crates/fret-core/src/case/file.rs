@@ -48,6 +48,9 @@ pub(super) struct CaseFile {
     /// Subsurface stresses, evaluated from the kept tractions after the run.
     #[schemars(with = "Option<StressFile>")]
     pub stress: Option<Spanned<StressFile>>,
+    /// Temperature rise of the surfaces by friction, evaluated from the kept fields after the run.
+    #[schemars(with = "Option<ThermalFile>")]
+    pub thermal: Option<Spanned<ThermalFile>>,
 }
 
 /// The machine: springs between the upper body and what a stage drives with `actuator` and `actuator_approach`.
@@ -209,6 +212,12 @@ pub(super) struct BodyFile {
     /// What the coatings are bonded to when there is no substrate: "rigid".
     #[schemars(with = "Option<BaseFile>")]
     pub base: Option<Spanned<BaseFile>>,
+    /// Thermal conductivity [power/(length temperature)], positive; of what is rigid: the body, or the base of its coatings.
+    #[schemars(with = "Option<f64>")]
+    pub thermal_conductivity: Option<Spanned<f64>>,
+    /// Electrical resistivity [resistance x length], positive; of what is rigid: the body, or the base of its coatings.
+    #[schemars(with = "Option<f64>")]
+    pub electrical_resistivity: Option<Spanned<f64>>,
     /// Shape of this body's surface: its distance from the plane of first touch.
     #[schemars(with = "Option<ProfileFile>")]
     pub profile: Option<Spanned<ProfileFile>>,
@@ -242,6 +251,12 @@ pub(super) struct CoatingFile {
     /// face [length] and stress (one, or along x and y), linear between them. It adds to the stresses below, and to nothing else.
     #[schemars(with = "Option<ResidualSchema>")]
     pub residual_stress: Option<Spanned<ResidualFile>>,
+    /// Thermal conductivity [power/(length temperature)], positive; of all layers of a body and its substrate, or of none.
+    #[schemars(with = "Option<f64>")]
+    pub thermal_conductivity: Option<Spanned<f64>>,
+    /// Electrical resistivity [resistance x length], positive; of all layers of a body and its substrate, or of none.
+    #[schemars(with = "Option<f64>")]
+    pub electrical_resistivity: Option<Spanned<f64>>,
 }
 
 /// Young's modulus over the depth of a coating: `young` at both faces and the `law` between them, or a `table`.
@@ -285,6 +300,12 @@ pub(super) struct MaterialFile {
     /// Residual stress, as of a coating; below the last row of a table it stays as it is there.
     #[schemars(with = "Option<ResidualSchema>")]
     pub residual_stress: Option<Spanned<ResidualFile>>,
+    /// Thermal conductivity [power/(length temperature)], positive; of all layers of a body and its substrate, or of none.
+    #[schemars(with = "Option<f64>")]
+    pub thermal_conductivity: Option<Spanned<f64>>,
+    /// Electrical resistivity [resistance x length], positive; of all layers of a body and its substrate, or of none.
+    #[schemars(with = "Option<f64>")]
+    pub electrical_resistivity: Option<Spanned<f64>>,
 }
 
 /// Accuracy of the solution.
@@ -351,6 +372,15 @@ pub(super) struct StressFile {
     /// critical distances enter 2 L.
     #[schemars(with = "Option<f64>")]
     pub critical_distance: Option<Spanned<f64>>,
+}
+
+/// Steady temperature rise by the friction of the last cycle.
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(super) struct ThermalFile {
+    /// Cycles per unit of time; that of the conductivities, so that energy times frequency is their power.
+    #[schemars(with = "f64")]
+    pub frequency: Spanned<f64>,
 }
 
 /// One of the two bodies.

@@ -7,6 +7,7 @@ mod axis;
 mod bodies;
 pub(crate) mod check;
 mod coating;
+mod conduction;
 mod controls;
 mod course;
 mod definition;

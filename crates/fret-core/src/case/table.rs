@@ -7,6 +7,7 @@ use toml::Spanned;
 
 use super::judge::Judge;
 use super::stage_file::StageFile;
+use super::units::Units;
 
 /// Controls a column can hold, by the names of `history.csv`.
 pub(super) const COLUMNS: [&str; 19] = [
@@ -64,7 +65,8 @@ pub(super) fn table(
         .trim(csv::Trim::All)
         .from_reader(text.as_bytes());
     let names: Vec<String> = match reader.headers() {
-        Ok(names) => names.iter().map(str::to_owned).collect(),
+        // a table of results has units in its head
+        Ok(names) => names.iter().map(|name| column_name(name).to_owned()).collect(),
         Err(error) => return at.refuse(judge, &unreadable(&error), ""),
     };
     let chosen = chosen(judge, file, &names, &at)?;
@@ -97,6 +99,12 @@ pub(super) fn table(
         return at.refuse(judge, &message, "");
     }
     Some(columns)
+}
+
+/// The name of a column: of one of the controls without the unit that may stand behind it.
+fn column_name(head: &str) -> &str {
+    let name = Units::name_of(head);
+    if COLUMNS.contains(&name) { name } else { head }
 }
 
 /// Why a row cannot be read.

@@ -23,6 +23,11 @@ impl Complex {
         Self::new(modulus * libm::cos(angle), modulus * libm::sin(angle))
     }
 
+    /// The conjugate.
+    pub(crate) const fn conj(self) -> Self {
+        Self::new(self.re, -self.im)
+    }
+
     /// `(sinh z, cosh z)`.
     pub(crate) fn sinh_cosh(self) -> (Self, Self) {
         let (sinh, cosh) = (libm::sinh(self.re), libm::cosh(self.re));

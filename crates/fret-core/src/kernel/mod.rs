@@ -36,7 +36,7 @@ mod hankel_lattice;
 mod homogeneous;
 mod line_kernels;
 mod panels;
-mod quadrature;
+pub(crate) mod quadrature;
 mod radial;
 #[cfg(test)]
 pub(crate) mod samples;

@@ -1,6 +1,7 @@
 //! The nouns of a contact: grid, bodies, profile, friction, loads, state. No numerics live here.
 
 pub mod bulk;
+pub mod conduction;
 pub mod friction;
 pub mod graded;
 pub mod grid;
@@ -18,6 +19,7 @@ pub mod wear;
 
 pub use crate::fields::TangentialField;
 pub use bulk::{BulkCompliance, bulk_stress_in_layer};
+pub use conduction::{ConductingLayer, Conduction, Conductor, ConductorError};
 pub use friction::{CellValues, CoulombFriction, FrictionError};
 pub use graded::{GradedCoating, GradientError, Layer, YoungGradient};
 pub use grid::{GridError, SurfaceGrid};

@@ -297,6 +297,7 @@ impl<'a> Journey<'a> {
         (friction > 0.0 && depends).then_some(Refinement {
             tolerance,
             residual: self.case().tolerance,
+            integration: self.case().integration,
             friction,
         })
     }

@@ -4,7 +4,10 @@
 //! Axes: x and y of the contact, z INTO the body in question, from its own surface. Tension is positive. The shear given is
 //! what acts on the body: on the lower body the contact's shear, on the upper one minus it.
 
+pub mod coating_fracture;
+pub mod crack;
 pub mod depths;
+pub mod edge_crack;
 pub mod even;
 pub mod fatigue;
 pub mod largest;

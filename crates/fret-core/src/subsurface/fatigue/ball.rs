@@ -96,6 +96,13 @@ pub(super) fn centre(points: &[Point]) -> Point {
     smallest(&mut points.to_vec(), points.len(), &Boundary::default(), scale).0
 }
 
+/// Radius of the smallest ball around points: the distance of the farthest from its centre.
+pub(super) fn farthest_from_centre(points: &[Point]) -> f64 {
+    let centre = centre(points);
+    let square = |point: &Point| dot(&minus(point, &centre), &minus(point, &centre));
+    points.iter().map(square).fold(0.0, f64::max).sqrt()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

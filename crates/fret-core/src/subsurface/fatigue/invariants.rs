@@ -61,7 +61,7 @@ pub fn dang_van(cycle: &[StressTensor], endurance: &Endurance) -> f64 {
 }
 
 /// Coordinates of a deviator in which the squared distance is `S : S`.
-fn deviator_point(stress: &StressTensor) -> Point {
+pub(super) fn deviator_point(stress: &StressTensor) -> Point {
     let [xx, yy, zz, xy, xz, yz] = stress.deviator().0;
     let root = 2.0_f64.sqrt();
     [1.5_f64.sqrt() * zz, (xx - yy) / root, root * xy, root * xz, root * yz]
