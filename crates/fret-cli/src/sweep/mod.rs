@@ -5,7 +5,7 @@ mod answer;
 mod common;
 mod drawn;
 mod folder;
-mod key;
+pub mod key;
 mod question;
 mod spread;
 
