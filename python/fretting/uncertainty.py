@@ -137,7 +137,8 @@ def uncertainty(dataset: "xarray.Dataset") -> "xarray.Dataset":
             continue
         others = tuple(dimension for dimension in variable.dims if dimension != "sample")
         values = variable.transpose("sample", *others).values
-        if not np.nanstd(values[:own]) > 0.0:
+        known = values[:own][np.isfinite(values[:own])]
+        if len(known) < 2 or np.ptp(known) == 0.0:
             continue
         numbers = _along_samples(_core.statistics, values[:own])
         variables[str(name)] = (("statistic", *others), numbers[: len(STATISTICS)], variable.attrs)
