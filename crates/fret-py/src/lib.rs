@@ -8,6 +8,7 @@ mod analytic;
 mod case;
 mod command;
 mod error;
+mod fatigue;
 mod history;
 mod kernels;
 mod plan;
@@ -34,6 +35,8 @@ mod _core {
     #[pymodule_export]
     use crate::command::command_line;
     #[pymodule_export]
+    use crate::fatigue::{crack, fatigue};
+    #[pymodule_export]
     use crate::history::{History, vocabulary};
     #[pymodule_export]
     use crate::kernels::{Convolution, frequency_response, influence_coefficients};
@@ -46,7 +49,7 @@ mod _core {
     #[pymodule_export]
     use crate::study::study;
     #[pymodule_export]
-    use crate::subsurface::{fatigue, subsurface_stress};
+    use crate::subsurface::subsurface_stress;
     #[pymodule_export]
     use crate::threads::{check_memory, check_threads};
 

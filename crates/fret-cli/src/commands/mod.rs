@@ -1,9 +1,10 @@
 //! The verbs of `fret`, one file each, with what they need beside.
 
 pub mod check;
+mod crack;
 pub mod export;
 pub mod extremes;
-pub mod fatigue;
+mod fatigue;
 mod loaded_surfaces;
 pub mod plan;
 pub mod report;

@@ -10,6 +10,7 @@ use super::units::Units;
 use crate::model::{
     ContactPair, CoulombFriction, Integration, LoadStep, Profile, ResidualStress, Scheme, WearRule,
 };
+use crate::subsurface::fatigue::LayerConstants;
 
 /// A case that has passed every check.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -33,6 +34,9 @@ pub struct Case {
     /// Residual stress of the lower and of the upper body.
     #[serde(skip_serializing_if = "are_none")]
     pub residual_stress: [ResidualStress; 2],
+    /// Constants for fatigue and fracture of the layers of the lower and of the upper body.
+    #[serde(skip_serializing_if = "have_no_constants")]
+    pub fatigue: [LayerConstants; 2],
     /// Undeformed gap.
     pub profile: Profile,
     /// Friction law at the start; stages may change it.
@@ -61,6 +65,10 @@ pub struct Case {
 
 fn are_none(residual: &[ResidualStress; 2]) -> bool {
     residual.iter().all(ResidualStress::is_none)
+}
+
+fn have_no_constants(layers: &[LayerConstants; 2]) -> bool {
+    layers.iter().all(LayerConstants::is_none)
 }
 
 /// The text a case was read from, and where in it things stand.
