@@ -132,12 +132,8 @@ fn rubbed(all: &mut Vec<Judged>) {
     }
 }
 
-#[test]
-fn error_bars_hold_and_are_not_much_too_wide() {
-    let mut all = Vec::new();
-    coated(&mut all);
-    bare(&mut all);
-    rubbed(&mut all);
+/// At least 95 of 100 bars hold, number by number, and none are ten times too wide.
+fn hold(all: &[Judged]) {
     let outside: Vec<&Judged> = all.iter().filter(|one| one.error > one.bar).collect();
     for one in &outside {
         println!(
@@ -148,7 +144,7 @@ fn error_bars_hold_and_are_not_much_too_wide() {
             one.bar
         );
     }
-    for quantity in Quantity::ALL {
+    for quantity in Quantity::ALL.into_iter().filter(|one| all.iter().any(|judged| judged.quantity == *one)) {
         let own: Vec<&Judged> = all.iter().filter(|one| one.quantity == quantity).collect();
         let inside = own.iter().filter(|one| one.error <= one.bar).count();
         let ratios: Vec<f64> = own.iter().map(|one| one.error / one.bar).collect();
@@ -165,6 +161,65 @@ fn error_bars_hold_and_are_not_much_too_wide() {
         assert!(mean >= 0.1, "{}: bars more than ten times too wide: {mean}", quantity.name());
     }
     assert!(outside.len() as f64 <= 0.05 * all.len() as f64, "{} of {} outside", outside.len(), all.len());
+}
+
+#[test]
+fn error_bars_hold_and_are_not_much_too_wide() {
+    let mut all = Vec::new();
+    coated(&mut all);
+    bare(&mut all);
+    rubbed(&mut all);
+    hold(&all);
+}
+
+/// Coupled contacts, coated and not, pressed, pulled and pulled back, on few cells in few increments, against many of both. Bars hold for
+/// the rule of second order; those of the end-point rule are wider for it.
+#[test]
+#[ignore = "half a minute: cargo xtask test --long"]
+fn error_bars_hold_where_pressure_and_shear_are_coupled() {
+    let scenes = [
+        (0.1, 0.7, 2.0),
+        (0.3, 0.5, 2.0),
+        (0.5, 0.8, 1.0),
+        (0.3, 0.9, 0.5),
+        (0.3, 0.7, 4.0),
+        (0.8, 0.4, 1.0),
+    ];
+    let case = |(friction, share, ratio): (f64, f64, f64), cells, pressing, increments, integration: &str| {
+        let sphere = Sphere { cells, size: 2.9, coating: Some((ratio, 1.0)), friction, ..Sphere::default() };
+        let pressed = sphere.pressed(1.0, pressing, "cubic");
+        let there = sphere.pulled(&pressed, share, increments, None);
+        let back = sphere.pulled(&there, -share, 2 * increments, None);
+        back.replace("[solver]\n", &format!("[solver]\nintegration = \"{integration}\"\n"))
+    };
+    let of = [
+        Quantity::DissipatedEnergy,
+        Quantity::Shift,
+        Quantity::StickArea,
+        Quantity::Approach,
+        Quantity::MaxPressure,
+    ];
+    let mut all = [Vec::new(), Vec::new()];
+    for scene in scenes {
+        let limit = solved_level(&planned(&case(scene, 160, 60, 60, "second_order")), &mut Silent).unwrap();
+        for (all, integration) in all.iter_mut().zip(["second_order", "end_point"]) {
+            for (cells, pressing, increments) in [(32, 16, 8), (40, 10, 16), (56, 24, 12)] {
+                let plan = planned(&case(scene, cells, pressing, increments, integration));
+                for (bars, end) in bars(&plan).iter().zip(&limit.ends) {
+                    for quantity in of {
+                        if (quantity, bars.stage) != (Quantity::Shift, 0) {
+                            let name =
+                                format!("{scene:?}, {cells} cells, {integration}, stage {}", bars.stage);
+                            judge(&name, bars, quantity, end.between(quantity), all);
+                        }
+                    }
+                }
+            }
+        }
+    }
+    for all in &all {
+        hold(all);
+    }
 }
 
 /// Results scale exactly with lengths and moduli, and so do their bars.

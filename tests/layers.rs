@@ -295,3 +295,32 @@ fn a_circle_is_found() {
     ]);
     assert_eq!(circles(&imports), [[&a, &b, &c]]);
 }
+
+/// Pages for developers name source files; each of them exists. A name without folders may stand anywhere.
+#[test]
+fn files_that_the_pages_name_exist() {
+    let sources: Vec<String> = ["crates", "tests"]
+        .iter()
+        .flat_map(|folder| walkdir::WalkDir::new(repository().join(folder)))
+        .filter_map(Result::ok)
+        .map(|entry| format!("/{}", entry.path().strip_prefix(repository()).unwrap().to_string_lossy()))
+        .map(|path| path.replace('\\', "/"))
+        .filter(|path| path.ends_with(".rs"))
+        .collect();
+    let missing: Vec<String> = ["ARCHITECTURE.md", "CONTRIBUTING.md", "docs/developers/extend.md"]
+        .iter()
+        .flat_map(|page| {
+            let text = fs::read_to_string(repository().join(page)).unwrap();
+            let named = text.split('`').skip(1).step_by(2).filter(|word| word.ends_with(".rs"));
+            let exists = |name: &str| {
+                let (start, end) = name.split_once('*').unwrap_or((name, ""));
+                sources.iter().any(|path| {
+                    path.rsplit_once(&format!("/{start}")).is_some_and(|(_, rest)| rest.ends_with(end))
+                })
+            };
+            let unknown = named.filter(|name| !exists(name));
+            unknown.map(|name| format!("{page}: {name}")).collect::<Vec<_>>()
+        })
+        .collect();
+    assert!(missing.is_empty(), "{missing:#?}");
+}

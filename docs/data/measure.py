@@ -19,6 +19,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from orders import orders
 
 import fretting
 from fretting import analytic
@@ -319,7 +320,7 @@ def cost() -> dict[str, Any]:
     return {"rows": rows}
 
 
-MEASUREMENTS = {"verification": verification, "spence": spence, "cost": cost}
+MEASUREMENTS = {"verification": verification, "spence": spence, "cost": cost, "orders": orders}
 
 
 if __name__ == "__main__":

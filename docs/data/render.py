@@ -124,6 +124,21 @@ def spence() -> str:
     return _table(head, rows, of)
 
 
+def orders() -> str:
+    """Return the table of the orders of histories of every kind."""
+    of = data("orders")
+    rows = []
+    for row in of["rows"]:
+        rules = [row["end_point"], row["second_order"]]
+        errors = [", ".join(f"{error:.1e}" for error in rule["errors"]) for rule in rules]
+        at = of["counts"].index(32)
+        counts = ", ".join(str(rule["convolutions"][at]) for rule in rules)
+        rows.append([row["history"], row["quantity"].replace("_", " "), *errors, f"{row['second_order']['order']:.1f}", counts])
+    counts = ", ".join(str(count) for count in of["counts"])
+    head = ["cycle", "quantity", f"end point, {counts}", "second order", "order shown", "applications at 32"]
+    return _table(head, rows, of)
+
+
 def cost() -> str:
     """Return the table of costs."""
     of = data("cost")
@@ -191,7 +206,7 @@ def _slowest() -> str:
     return found[1] if found else "1"
 
 
-TABLES: dict[str, Callable[[], str]] = {"verification": verification, "spence": spence, "cost": cost, "others": others}
+TABLES: dict[str, Callable[[], str]] = {"verification": verification, "spence": spence, "orders": orders, "cost": cost, "others": others}
 NUMBERS: dict[str, Callable[[], str]] = {
     "random_cases": _random(1),
     "random_unsolved": _random(4),

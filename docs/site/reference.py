@@ -59,6 +59,10 @@ FILES = [
         "stress/",
         "written by `fret stress`: `stress.json` (maxima, fatigue parameters), `depths.csv` (one row per depth), sections (SVG), volume (VTK)",
     ),
+    (
+        "heat/",
+        "written by `fret heat`, and by `fret run` of a case with conductivities: `heat.json` (temperature rise, contact resistance), `temperature.npz` (fields)",
+    ),
     ("export.npz, csv/, vtk/", "written by `fret export`"),
 ]
 RUN = [

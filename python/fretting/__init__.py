@@ -40,22 +40,29 @@ from fretting.planning import Plan, plan
 from fretting.simulation import run
 from fretting.studying import study
 from fretting.sweeping import sweep
+from fretting.uncertainty import Distribution, Lognormal, Normal, Triangular, Uniform, Weibull, uncertainty
 
 __all__ = [
     "Case",
     "CaseError",
     "Convolution",
+    "Distribution",
     "FrettingError",
     "FrettingWarning",
     "History",
+    "Lognormal",
     "MissingFileError",
     "Mistake",
+    "Normal",
     "OutOfMemoryError",
     "Parameter",
     "Plan",
     "RunError",
     "RunInterrupted",
+    "Triangular",
+    "Uniform",
     "UnreadableError",
+    "Weibull",
     "__version__",
     "analytic",
     "frequency_response",
@@ -66,4 +73,5 @@ __all__ = [
     "run",
     "study",
     "sweep",
+    "uncertainty",
 ]

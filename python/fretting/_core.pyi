@@ -18,6 +18,7 @@ __all__ = [
     "check_threads",
     "command_line",
     "cone",
+    "contact_resistance",
     "effective_moduli",
     "equibiaxial_sphere",
     "expected",
@@ -34,15 +35,20 @@ __all__ = [
     "no_slip_punch",
     "no_slip_sphere",
     "plan",
+    "quantile_fractions",
     "rounded_punch",
     "run",
     "run_into",
+    "sample_rows",
     "sliding_cylinder",
+    "sobol_indices",
     "spence_table",
+    "statistics",
     "stretched_line",
     "stretched_sphere",
     "study",
     "subsurface_stress",
+    "surface_temperature",
     "thick_layer",
     "thin_layer",
     "tilted_line_punch",
@@ -134,6 +140,29 @@ def influence_coefficients(
     spacing: tuple[float, float],
 ) -> dict[str, npt.NDArray[np.float64]]: ...
 
+def sample_rows(design: str) -> list[list[float]]: ...
+def quantile_fractions() -> list[float]: ...
+def statistics(values: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]: ...
+def sobol_indices(values: npt.NDArray[np.float64], count: int) -> npt.NDArray[np.float64]: ...
+def surface_temperature(
+    conductors: str,
+    setting: tuple[tuple[float, float], bool],
+    increments: list[
+        tuple[
+            npt.NDArray[np.float64],
+            tuple[npt.NDArray[np.float64], npt.NDArray[np.float64]],
+            tuple[npt.NDArray[np.float64], npt.NDArray[np.float64]],
+        ]
+    ],
+    loading: tuple[float, float],
+    threads: int | None,
+) -> dict[str, Any]: ...
+def contact_resistance(
+    conductors: str,
+    setting: tuple[tuple[float, float], bool],
+    pressure: npt.NDArray[np.float64],
+    threads: int | None,
+) -> float: ...
 def subsurface_stress(
     bodies: tuple[str, bool],
     setting: tuple[tuple[float, float], bool],

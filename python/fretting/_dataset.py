@@ -32,15 +32,15 @@ def of_history(history: "History", every: bool) -> "xarray.Dataset":
     increment = {"long_name": MEANING["increment"]}
     coordinates: dict[str, Any] = {
         "increment": ("increment", chosen, increment),
-        "x": ("x", history.x, described("cell centres along x [length]", history.units)),
+        "x": ("x", history.x, described("cell centres along x [length]", history._units)),
         "stage": ("increment", history.increments["stage"][chosen], {"long_name": MEANING["stage"]}),
         "stage_name": ("increment", _names(history, history.increments["stage"][chosen])),
     }
     if not history.is_line:
-        coordinates["y"] = ("y", history.y, described("cell centres along y [length]", history.units))
+        coordinates["y"] = ("y", history.y, described("cell centres along y [length]", history._units))
     across = ("x",) if history.is_line else ("y", "x")
     variables: dict[str, Any] = {
-        name: ("increment", column[chosen], described(MEANING[name], history.units))
+        name: ("increment", column[chosen], described(MEANING[name], history._units))
         for name, column in history.increments.items()
         if name not in ("increment", "stage")
     }
@@ -48,7 +48,7 @@ def of_history(history: "History", every: bool) -> "xarray.Dataset":
     if fields and every:
         coordinates["kept_increment"] = ("kept_increment", kept, {"long_name": "number of an increment whose fields are kept"})
     for name, stack in fields.items():
-        attributes: dict[str, Any] = described(MEANING[name], history.units)
+        attributes: dict[str, Any] = described(MEANING[name], history._units)
         if name == "zone":
             attributes["flag_values"] = np.arange(len(ZONE_NAMES), dtype=np.uint8)
             attributes["flag_meanings"] = " ".join(ZONE_NAMES)
@@ -57,7 +57,7 @@ def of_history(history: "History", every: bool) -> "xarray.Dataset":
         coordinates |= _cycle_coordinates(history)
         for name, column in history.cycles.items():
             if name not in ("cycle", "stage"):
-                variables[f"cycle_{name}"] = ("cycle", column, described(cycles.MEANING[name], history.units))
+                variables[f"cycle_{name}"] = ("cycle", column, described(cycles.MEANING[name], history._units))
     attributes = {"stages": history.stages, "status": history.status}
     dataset: xarray.Dataset = library.Dataset(variables, coords=coordinates, attrs=attributes)
     return dataset

@@ -44,13 +44,27 @@ ZONE_NAMES: tuple[str, ...] = tuple(_VOCABULARY["zones"])
 
 
 Units = Mapping[str, str]
-"""Units of ``length``, ``force`` and ``pressure``, as a case declares them; empty without."""
+"""Units of ``length``, ``force`` and ``pressure``, as a case declares them, with ``line`` in a line contact; empty without."""
+
+
+_PER_LENGTH = {
+    "force": "force/length",
+    "force x length": "force",
+    "length^2": "length",
+    "length^3": "length^2",
+    "force/length": "force/length^2",
+}
 
 
 def in_units(kind: str, units: Units) -> str:
-    """Return the unit of a kind of quantity, such as ``"force x length"``; the kind itself where the case declares no units."""
+    """Return the unit of a kind of quantity, such as ``"force x length"``; the kind itself where the case declares no units.
+
+    Loads of a line contact, of whose units ``line`` is one, are those of a unit of length.
+    """
     if not units:
         return kind
+    if "line" in units:
+        kind = _PER_LENGTH.get(kind, kind)
     return re.sub(r"length|force|pressure", lambda word: units[word[0]], kind).replace(" x ", " ")
 
 

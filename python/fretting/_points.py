@@ -13,6 +13,7 @@ import numpy.typing as npt
 from fretting import _case
 from fretting._meaning import MEANING
 from fretting.errors import CaseError
+from fretting.uncertainty import Distribution, drawn
 
 Table: TypeAlias = dict[str, Any]
 Key: TypeAlias = str | tuple[str, ...]
@@ -34,13 +35,13 @@ class Parameter:
     ... }
     """
 
-    values: Sequence[Any]
-    """The values, one per point of the axis."""
+    values: Sequence[Any] | Distribution
+    """The values, one per point of the axis; or a distribution that they are drawn from."""
     apply: str | Callable[[Table, Any], object]
     """A dotted key of the case; or a function, called with a copy of the case (a dict, the caller's to change) and a value."""
 
 
-Values: TypeAlias = Sequence[Any] | npt.NDArray[Any] | Parameter
+Values: TypeAlias = Sequence[Any] | npt.NDArray[Any] | Parameter | Distribution
 Parameters: TypeAlias = Mapping[Any, Values] | Sequence[Mapping[str, Any]]
 """Values of each axis by the key of the case that takes them, or a list of points."""
 
@@ -63,10 +64,26 @@ class Point:
     case: Table
 
 
-def dimensions(parameters: Parameters) -> list[Dimension]:
+@dataclass(frozen=True)
+class Draw:
+    """How samples are drawn from distributions."""
+
+    samples: int | None = None
+    seed: int = 0
+    indices: bool = False
+
+
+def is_uncertain(values: object) -> bool:
+    """Whether values of an axis are a distribution."""
+    return isinstance(values.values if isinstance(values, Parameter) else values, Distribution)
+
+
+def dimensions(parameters: Parameters, draw: Draw | None = None) -> list[Dimension]:
     """Understand the parameters of a sweep."""
     if isinstance(parameters, Mapping):
-        found = [_dimension(key, values) for key, values in parameters.items()]
+        uncertain = {key: values for key, values in parameters.items() if is_uncertain(values)}
+        found = [_dimension(key, values) for key, values in parameters.items() if key not in uncertain]
+        found += _samples(uncertain, draw or Draw())
     elif isinstance(parameters, Sequence) and not isinstance(parameters, str):
         found = [_list_of_points(parameters)]
     else:
@@ -123,6 +140,39 @@ def _dimension(key: Key, given: object) -> Dimension:
             raise ValueError(f"parameter {', '.join(key)}: value {index} must hold {len(key)} values, found {row!r}")
     columns = {part: [row[number] for row in rows] for number, part in enumerate(key)}
     return Dimension(", ".join(key), columns, [_by_keys(key, row) for row in rows])
+
+
+def _samples(uncertain: Mapping[Any, Any], draw: Draw) -> list[Dimension]:
+    """Understand the distributions: one dimension of samples of all of them."""
+    if not uncertain:
+        if draw.samples is not None:
+            raise ValueError("samples: no parameter has a distribution, such as fretting.Normal(0.6, 0.05)")
+        return []
+    if draw.samples is None:
+        raise ValueError(f"parameter {next(iter(uncertain))!r} has a distribution: give samples=..., how many are drawn")
+    keys = list(uncertain)
+    if not all(isinstance(key, str) for key in keys):
+        raise TypeError("a distribution belongs to one key of the case")
+    distributions = [given.values if isinstance(given, Parameter) else given for given in uncertain.values()]
+    rows = drawn(distributions, draw.samples, draw.seed, draw.indices)
+    columns = {key: [row[number] for row in rows] for number, key in enumerate(keys)}
+    one = [_applied(key, given) for key, given in uncertain.items()]
+
+    def change(row: Sequence[float]) -> Callable[[Table], object]:
+        def all_of_them(case: Table) -> None:
+            for apply, value in zip(one, row, strict=True):
+                apply(value)(case)
+
+        return all_of_them
+
+    return [Dimension("sample", columns, [change(row) for row in rows])]
+
+
+def _applied(key: str, given: object) -> Callable[[object], Callable[[Table], object]]:
+    apply = given.apply if isinstance(given, Parameter) else key
+    if isinstance(apply, str):
+        return lambda value: _by_keys([apply], [value])
+    return lambda value: _by_function(apply, value)
 
 
 def _list_of_points(rows: Sequence[Mapping[str, Any]]) -> Dimension:

@@ -186,6 +186,14 @@ class Phase(TypedDict):
     Phases of the controls [degrees], each by the name of its control.
     """
 
+    actuator: NotRequired[Sequence[float]]
+    """
+    Of the actuator along x and y.
+    """
+    actuator_approach: NotRequired[float]
+    """
+    Of the actuator along z.
+    """
     approach: NotRequired[float]
     """
     Of the approach.
@@ -235,6 +243,22 @@ How a ramp runs.
 
 
 Residual: TypeAlias = float | Sequence[float] | Sequence[Sequence[float]]
+
+
+class Rig(TypedDict):
+    """
+    The machine: springs between the upper body and what a stage drives with `actuator` and `actuator_approach`.
+    """
+
+    normal_stiffness: NotRequired[float]
+    """
+    Normal stiffness of the machine [force/length]: actuator_approach = approach + normal force / stiffness. Default: rigid.
+    """
+    tangential_stiffness: NotRequired[AlongPhase]
+    """
+    Tangential stiffness of the machine [force/length], along x and y or in both directions alike: actuator = shift + tangential
+    force / stiffness. Default: rigid.
+    """
 
 
 class RoundedPunch(TypedDict):
@@ -383,6 +407,17 @@ class Stress(TypedDict):
     yield_strength: NotRequired[float]
     """
     Yield strength [pressure], for Fatemi and Socie.
+    """
+
+
+class Thermal(TypedDict):
+    """
+    Steady temperature rise by the friction of the last cycle.
+    """
+
+    frequency: float
+    """
+    Cycles per unit of time; that of the conductivities, so that energy times frequency is their power.
     """
 
 
@@ -599,6 +634,10 @@ class Material(TypedDict):
     An isotropic elastic material.
     """
 
+    electrical_resistivity: NotRequired[float]
+    """
+    Electrical resistivity [resistance x length], positive; of all layers of a body and its substrate, or of none.
+    """
     fatigue: NotRequired[FatigueConstants]
     """
     Constants for fatigue and fracture. What has no constants is not computed; none is built in.
@@ -610,6 +649,10 @@ class Material(TypedDict):
     residual_stress: NotRequired[Residual]
     """
     Residual stress, as of a coating; below the last row of a table it stays as it is there.
+    """
+    thermal_conductivity: NotRequired[float]
+    """
+    Thermal conductivity [power/(length temperature)], positive; of all layers of a body and its substrate, or of none.
     """
     young: float
     """
@@ -695,6 +738,10 @@ class Coating(TypedDict):
     A bonded layer: uniform (`young`), or of a stiffness that changes with depth (`gradient`).
     """
 
+    electrical_resistivity: NotRequired[float]
+    """
+    Electrical resistivity [resistance x length], positive; of all layers of a body and its substrate, or of none.
+    """
     fatigue: NotRequired[FatigueConstants]
     """
     Constants for fatigue and fracture. What has no constants is not computed; none is built in.
@@ -712,6 +759,10 @@ class Coating(TypedDict):
     Residual stress [pressure], tension positive: the same along x and y, or one along each; or rows of depth below the upper
     face [length] and stress (one, or along x and y), linear between them. It adds to the stresses below, and to nothing else.
     """
+    thermal_conductivity: NotRequired[float]
+    """
+    Thermal conductivity [power/(length temperature)], positive; of all layers of a body and its substrate, or of none.
+    """
     thickness: float
     """
     Thickness [length], positive.
@@ -727,6 +778,15 @@ class Stage(TypedDict):
     A stage of the loading history. Controls not named stay as they were.
     """
 
+    actuator: NotRequired[Sequence[Component]]
+    """
+    Displacement of the actuator along x and y [length], the far end of the machine's spring ([rig]): shift + tangential force /
+    stiffness; at the end, or the amplitude; or "held".
+    """
+    actuator_approach: NotRequired[float]
+    """
+    Normal displacement of the actuator [length]: approach + normal force / stiffness; at the end, or the amplitude.
+    """
     approach: NotRequired[float]
     """
     Rigid approach [length]: at the end of the stage, or the amplitude.
@@ -834,6 +894,10 @@ class Body(TypedDict):
     """
     Bonded coatings, outermost first.
     """
+    electrical_resistivity: NotRequired[float]
+    """
+    Electrical resistivity [resistance x length], positive; of what is rigid: the body, or the base of its coatings.
+    """
     profile: NotRequired[Profile]
     """
     Shape of this body's surface: its distance from the plane of first touch.
@@ -845,6 +909,10 @@ class Body(TypedDict):
     substrate: NotRequired[Material]
     """
     The elastic half-space under the coatings.
+    """
+    thermal_conductivity: NotRequired[float]
+    """
+    Thermal conductivity [power/(length temperature)], positive; of what is rigid: the body, or the base of its coatings.
     """
 
 
@@ -877,6 +945,10 @@ class Case(TypedDict):
     """
     Undeformed gap: zero at first touch. The bodies' own profiles are added.
     """
+    rig: NotRequired[Rig]
+    """
+    The machine between the upper body and what is driven. Default: rigid.
+    """
     solver: NotRequired[Solver]
     """
     Accuracy of the solution.
@@ -884,6 +956,10 @@ class Case(TypedDict):
     stress: NotRequired[Stress]
     """
     Subsurface stresses, evaluated from the kept tractions after the run.
+    """
+    thermal: NotRequired[Thermal]
+    """
+    Temperature rise of the surfaces by friction, evaluated from the kept fields after the run.
     """
     title: NotRequired[str]
     """

@@ -59,7 +59,7 @@ def fatigue(
         name: (
             ("depth", *across) if values.ndim == 3 else across,
             oriented(values),
-            described(PARAMETERS[name], history.units),
+            described(PARAMETERS[name], history._units),
         )
         for name, values in answer.items()
         if name not in ("depth", "layer")
@@ -101,12 +101,12 @@ def crack(
         return np.array([np.inf if at[key] is None else at[key] for at in lengths], dtype=float)
 
     variables = {
-        name: (("length",), column(key), described(words, history.units)) for name, (key, words) in LENGTHS.items()
+        name: (("length",), column(key), described(words, history._units)) for name, (key, words) in LENGTHS.items()
     }
     if any(at["cycles"] is not None for at in lengths):
         words = "cycles from the initial length on; inf: never reached"
         variables["cycles"] = (("length",), column("cycles"), {"long_name": words})
-    length = ("length", column("length"), described("length of the crack [length]", history.units))
+    length = ("length", column("length"), described("length of the crack [length]", history._units))
     dataset = module.Dataset(variables, coords={"length": length}, attrs=attributes)
     return dataset
 

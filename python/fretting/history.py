@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, Literal, Protocol, Self
 import numpy as np
 import numpy.typing as npt
 
-from fretting import _core, _dataset, fatigue, plot, stress
+from fretting import _core, _dataset, fatigue, heat, plot, stress
 from fretting._arrays import Reals
 from fretting._meaning import FIELD_NAMES, VECTORS, FieldName, VectorName
 from fretting.cycles import Columns, columns
@@ -177,6 +177,11 @@ class History:
     def finished(self) -> bool:
         """Whether this is the whole history of its case."""
         return self.status == "solved"
+
+    @property
+    def _units(self) -> dict[str, str]:
+        """The declared units, and whether loads are those of a unit of length."""
+        return self.units | {"line": "loads per unit length"} if self.units and len(self.y) == 1 else self.units
 
     @property
     def units(self) -> dict[str, str]:
@@ -497,6 +502,84 @@ class History:
             When there are no constants of cracks, one is out of its range, the body is rigid, or too few increments are kept.
         """
         return fatigue.crack(self, _whole("cycle", cycle), body, constants, threads)
+
+    def temperature(
+        self, *, cycle: int = -1, frequency: float | None = None, threads: int | None = None
+    ) -> "xarray.Dataset":
+        """Return the steady temperature rise of both surfaces by the friction of a cycle.
+
+        The dissipated energy of every cell times the frequency is the heat; it is shared so that both surfaces have one temperature in the
+        contact, with the conductivities of all layers (``thermal_conductivity`` in the case). A body without takes no heat.
+
+        Parameters
+        ----------
+        cycle : int
+            Computed cycle of the history, from 0; negative from the end. Pressure, shear and slip of all its increments must be
+            kept (``[output] every = 1``).
+        frequency : float, optional
+            Cycles per unit of time. Default: ``[thermal] frequency`` of the case.
+        threads : int, optional
+            Worker threads. Default: all cores. The result is the same for any number.
+
+        Returns
+        -------
+        xarray.Dataset
+            ``heat``, ``heat_into_lower`` [power/area], ``rise_lower``, ``rise_upper`` [temperature, above the bodies far from the
+            contact] with the dimensions (y, x). The attribute ``kept_fields_account_for`` is the dissipated energy of the fields over that of
+            the run, to which they are scaled.
+
+        Raises
+        ------
+        ValueError
+            When neither body conducts heat, the case is periodic or a line contact, or there is no frequency.
+        KeyError
+            When fields of an increment of the cycle were not kept.
+        """
+        return heat.temperature(self, _whole("cycle", cycle), frequency, threads)
+
+    def contact_resistance(
+        self,
+        *,
+        increment: int = -1,
+        kind: Literal["electrical", "thermal"] = "electrical",
+        threads: int | None = None,
+    ) -> float:
+        """Return the resistance of the contact, between points far inside both bodies.
+
+        Of all cells in contact, with all layers; both bodies need ``electrical_resistivity``, or ``thermal_conductivity``. In a periodic
+        case what the contact of one period adds to that of bodies in full contact.
+
+        Parameters
+        ----------
+        increment : int
+            Number of the increment, from 0; negative from the end. Its ``pressure`` must be kept.
+        kind : {"electrical", "thermal"}
+            Resistance to current [that of the resistivities over length] or to heat [temperature/power].
+        threads : int, optional
+            Worker threads. Default: all cores. The result is the same for any number.
+
+        Raises
+        ------
+        ValueError
+            When a body does not conduct, the bodies are apart, or it is a line contact.
+        KeyError
+            When the pressure of the increment was not kept.
+
+        Examples
+        --------
+        >>> import fretting
+        >>> copper = {"young": 120e9, "poisson": 0.34, "electrical_resistivity": 1.7e-8}
+        >>> history = fretting.run({
+        ...     "grid": {"cells": [64, 64], "size": "auto"},
+        ...     "upper": {"substrate": copper},
+        ...     "lower": {"substrate": copper},
+        ...     "profile": {"sphere": {"radius": 10e-3}},
+        ...     "load": [{"normal_force": 10.0, "increments": 1}],
+        ... })
+        >>> print(f"{1e3 * history.contact_resistance():.2f} mOhm")
+        0.08 mOhm
+        """
+        return heat.contact_resistance(self, increment, kind, threads)
 
     def plot_loop(
         self,

@@ -176,7 +176,7 @@ def _record(path: Path) -> dict[str, Any]:
 def _steps(path: Path, whole: bool) -> Table:
     """Return the columns of ``history.csv``."""
     rows = list(csv.reader(_lines(path, whole)))
-    head, body = rows[0], rows[1:]
+    head, body = [_name(cell) for cell in rows[0]], rows[1:]
     wanted = [name for name in head if name in STEP_KINDS]
     if lost := [name for name in STEP_KINDS if name not in head]:
         _refuse(path, f"has no column {lost[0]}; it may be of an earlier version: run the case again")
@@ -184,6 +184,11 @@ def _steps(path: Path, whole: bool) -> Table:
         return Table((name, _column(name, [row[head.index(name)] for row in body])) for name in wanted)
     except (ValueError, IndexError) as error:
         _refuse(path, f"not the table of a run: {error}")
+
+
+def _name(heading: str) -> str:
+    """Return the name of a column, whose head has its unit in brackets where the case declares units."""
+    return heading.partition(" [")[0]
 
 
 def _column(name: str, cells: list[str]) -> npt.NDArray[Any]:
@@ -194,8 +199,9 @@ def _cycles(path: Path, whole: bool) -> list[dict[str, Any]]:
     """Return the lines of ``cycles.csv``."""
     rows = csv.DictReader(_lines(path, whole))
     try:
-        return [{name: _value(row[name]) for name in CYCLE_COLUMNS} for row in rows]
-    except (KeyError, TypeError) as error:
+        named = [{_name(head): cell for head, cell in row.items()} for row in rows]
+        return [{name: _value(row[name]) for name in CYCLE_COLUMNS} for row in named]
+    except (AttributeError, KeyError, TypeError) as error:
         _refuse(path, f"not the table of a run's cycles: {error}")
 
 

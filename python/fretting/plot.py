@@ -13,6 +13,7 @@ import numpy as np
 import numpy.typing as npt
 
 from fretting._arrays import Reals
+from fretting._bands import band, loop_band
 from fretting._meaning import VECTORS, ZONE_NAMES, in_units, label, unit
 
 if TYPE_CHECKING:
@@ -23,7 +24,7 @@ if TYPE_CHECKING:
 
     from fretting.history import History
 
-__all__ = ["animation", "field", "loop", "regime_map", "section", "zones"]
+__all__ = ["animation", "band", "field", "loop", "loop_band", "regime_map", "section", "zones"]
 
 Direction = Literal["x", "y"]
 Motion = Literal["x", "y", "twist"]
@@ -117,9 +118,9 @@ def section(
     values = {name: _along(history.field(name, increment), along, across, at) for name in names}  # type: ignore[arg-type]
     axes = _own_axes(ax)
     for name, course in values.items():
-        axes.plot(here, course, **{"lw": 1.4, "label": label(name, history.units), **_long_names(line)})
-    units = {in_units(unit(name), history.units) for name in names}
-    axes.set(xlabel=f"{along} [{in_units('length', history.units)}]", ylabel=f"[{units.pop()}]" if len(units) == 1 else "")
+        axes.plot(here, course, **{"lw": 1.4, "label": label(name, history._units), **_long_names(line)})
+    units = {in_units(unit(name), history._units) for name in names}
+    axes.set(xlabel=f"{along} [{in_units('length', history._units)}]", ylabel=f"[{units.pop()}]" if len(units) == 1 else "")
     axes.ticklabel_format(scilimits=(-2, 3))
     axes.legend(frameon=False)
     return axes
@@ -157,7 +158,7 @@ def field(
     values = history.field(name, increment)  # type: ignore[arg-type]
     axes = _own_axes(ax)
     drawn = _image(history, values, axes, image)
-    axes.figure.colorbar(drawn, ax=axes, label=label(name, history.units))
+    axes.figure.colorbar(drawn, ax=axes, label=label(name, history._units))
     return axes
 
 
@@ -235,7 +236,7 @@ def animation(
         _colour_legend(right, ZONES)
     else:
         image = _image(history, frames[0], right, {}, limits=_limits(np.stack(frames)))
-        figure.colorbar(image, ax=right, label=label(name, history.units))
+        figure.colorbar(image, ax=right, label=label(name, history._units))
 
     def draw(number: int) -> list[Any]:
         increment = kept[number]
@@ -342,7 +343,7 @@ _LOOP_LABELS = {
 
 def _loop_label(history: "History", column: str) -> str:
     words, kind = _LOOP_LABELS[column]
-    return f"{words} [{in_units(kind, history.units)}]"
+    return f"{words} [{in_units(kind, history._units)}]"
 
 
 def _loop_columns(history: "History", along: str | None, stage: int | str | None) -> tuple[str, str]:
@@ -415,7 +416,7 @@ def _image(
     if "norm" in keywords:
         del look["vmin"], look["vmax"]
     image: AxesImage = axes.imshow(values.T, origin="lower", extent=edges, **look)
-    length = in_units("length", history.units)
+    length = in_units("length", history._units)
     axes.set(xlabel=f"x [{length}]", ylabel="" if history.is_line else f"y [{length}]")
     if history.is_line:
         axes.set(aspect="auto", yticks=[])

@@ -40,18 +40,18 @@ def subsurface(
     tensor = np.stack([np.stack([stress["".join(sorted(i + j))] for j in "xyz"], axis=-1) for i in "xyz"], axis=-1)
     principal = np.moveaxis(np.linalg.eigvalsh(tensor)[..., ::-1], -1, 0)
     variables: dict[str, Any] = {
-        name: (("depth", *across), values, described(f"stress {name}, tension positive [pressure]", history.units))
+        name: (("depth", *across), values, described(f"stress {name}, tension positive [pressure]", history._units))
         for name, values in stress.items()
     }
     variables["von_mises"] = (
         ("depth", *across),
         oriented(answer["von_mises"]),
-        described("von Mises stress [pressure]", history.units),
+        described("von Mises stress [pressure]", history._units),
     )
     variables["principal"] = (
         ("order", "depth", *across),
         principal,
-        described("principal stress, tension positive [pressure]", history.units),
+        described("principal stress, tension positive [pressure]", history._units),
     )
     axes = {**coordinates(history, answer), "order": ("order", np.arange(1, 4), {"long_name": "1: the largest principal stress"})}
     attributes = {"body": body, "increment": history._number(increment)}
@@ -69,12 +69,12 @@ def bulk_stress(history: "History", number: int, body: str) -> tuple[float, floa
 def coordinates(history: "History", answer: dict[str, npt.NDArray[Any]]) -> dict[str, Any]:
     """Return depths with their layers and the axes of the surface."""
     axes: dict[str, Any] = {
-        "depth": ("depth", answer["depth"], described("depth under the surface [length]", history.units)),
+        "depth": ("depth", answer["depth"], described("depth under the surface [length]", history._units)),
         "layer": ("depth", answer["layer"], {"long_name": "layer: 0 is the outermost coating"}),
-        "x": ("x", history.x, described("x [length]", history.units)),
+        "x": ("x", history.x, described("x [length]", history._units)),
     }
     if not history.is_line:
-        axes["y"] = ("y", history.y, described("y [length]", history.units))
+        axes["y"] = ("y", history.y, described("y [length]", history._units))
     return axes
 
 

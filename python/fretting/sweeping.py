@@ -13,7 +13,7 @@ import numpy.typing as npt
 
 from fretting import _case, _core, _start, cycles
 from fretting._meaning import MEANING
-from fretting._points import RESERVED, Dimension, Parameters, Point, Table, dimensions, points
+from fretting._points import RESERVED, Dimension, Draw, Parameters, Point, Table, dimensions, is_uncertain, points
 from fretting._progress import PointLine
 from fretting._sweep_folder import SweepFolder, with_files_in
 from fretting.errors import CaseError, OutOfMemoryError, RunError
@@ -42,8 +42,11 @@ def sweep(
     threads: int | None = None,
     progress: bool | Told = False,
     start: _start.StartLike | None = None,
+    samples: int | None = None,
+    seed: int = 0,
+    indices: bool = False,
 ) -> "xarray.Dataset":
-    """Solve a case at all points of a grid of its parameters.
+    """Solve a case at all points of a grid of its parameters, or at samples of uncertain ones.
 
     Parameters
     ----------
@@ -55,7 +58,8 @@ def sweep(
         ``"load.indent.normal_force"``, ``"load.1.tangential_force.0"``). A tuple of keys with tuples of values makes
         several keys change together; a name with a :class:`Parameter` stands for a key of the
         case, or changes the case by a function. A list of mappings
-        from keys to values is a list of points, along one dimension ``point``.
+        from keys to values is a list of points, along one dimension ``point``. A :class:`Distribution` in place of values
+        makes a key uncertain: all of them are drawn together, along one dimension ``sample``, beside the other axes.
     executor : concurrent.futures.Executor, optional
         Where the points are solved: threads, processes, a dask client's ``get_executor()``, ``MPIPoolExecutor``. In
         default: the calling thread, one after the other.
@@ -75,6 +79,12 @@ def sweep(
         ``failed``, ``name`` and ``status`` of the point.
     start : path, History or pair, optional
         A solved state that every point starts from, as for :func:`fretting.run`: press once, branch into many loads.
+    samples : int, optional
+        Samples of the distributions, 2 to 65536; a power of two is spread most evenly (Sobol' points).
+    seed : int
+        Chooses one set of samples of many; the same seed, the same samples.
+    indices : bool
+        Also solve the points that Sobol' indices need: ``samples * (uncertain keys + 2)`` in all. :func:`uncertainty` then has them.
 
     Returns
     -------
@@ -116,7 +126,8 @@ def sweep(
         raise ValueError(f"keep = {keep!r}: must be one of {', '.join(_LENGTH)}")
     _core.check_threads(threads)
     base = _as_table(base_case)
-    found = dimensions(parameters)
+    draw = Draw(samples, seed, indices)
+    found = dimensions(parameters, draw)
     asked = list(points(base, found))
     settings = {"keep": keep, "measure": None if measure is None else _name_of(measure)}
     origin = _start.read(start)
@@ -143,7 +154,11 @@ def sweep(
         first = answers[asked[0].place]
         raise CaseError(f"all {len(asked)} points of the sweep are refused; the first:\n{first['error']}",
                         [tuple(mistake) for mistake in first["mistakes"]])  # fmt: skip
-    return _dataset(found, answers, keep, {"solved_before": solved_before})
+    attributes: dict[str, Any] = {"solved_before": solved_before}
+    if samples is not None and isinstance(parameters, Mapping):
+        uncertain = [str(key) for key, values in parameters.items() if is_uncertain(values)]
+        attributes |= {"samples": samples, "seed": seed, "indices": int(indices), "uncertain": uncertain}
+    return _dataset(found, answers, keep, attributes)
 
 
 def _fits_memory(asked: list[Point], executor: Executor | None) -> None:

@@ -285,7 +285,7 @@ impl Increment<'_> {
                     worst.raise(over(found[0].abs(), found[0].abs()));
                 }
                 Control::Force(asked) => worst.raise(over(found[mode] - asked, units[mode])),
-                Control::Motion(_) => {}
+                Control::Motion(_) | Control::FarEnd(_) => {}
             }
         }
         let tilted = self.tilt_moments();

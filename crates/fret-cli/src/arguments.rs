@@ -61,7 +61,9 @@ pub enum Verb {
     Extremes(ExtremesArguments),
     /// Subsurface stresses from the kept tractions of a run
     Stress(StressArguments),
-    /// Parameter sweep: solve a base case for lists of values of its keys
+    /// Temperature rise by the friction of the last cycle, and contact resistance, from the kept fields of a run
+    Heat(HeatArguments),
+    /// Parameter sweep: solve a base case for lists of values of its keys, or for samples of uncertain ones
     Sweep(SweepArguments),
 }
 
@@ -193,10 +195,30 @@ pub struct StressArguments {
     pub quiet: bool,
 }
 
+/// Which temperatures and resistances.
+#[derive(Debug, Args)]
+pub struct HeatArguments {
+    /// The results folder of a run, finished or not
+    pub folder: PathBuf,
+    /// A case file whose conductivities, resistivities and frequency are used [default: the case of the results]
+    #[arg(long, value_name = "FILE")]
+    pub case: Option<PathBuf>,
+    /// Contact resistance of every N-th kept increment, and the last [default: of the last]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    pub every: Option<u32>,
+    /// Number of threads [default: all cores]
+    #[arg(long, value_name = "N", value_parser = threads::number)]
+    pub threads: Option<u16>,
+    /// Print only errors
+    #[arg(long)]
+    pub quiet: bool,
+}
+
 /// How to solve many cases.
 #[derive(Debug, Args)]
 pub struct SweepArguments {
-    /// The sweep file (TOML): base = "case.toml", and [axes] with "key.of.the.case" = [values]
+    /// The sweep file (TOML): base = "case.toml", and [axes] with "key.of.the.case" = [values], or [distributions] with
+    /// "key.of.the.case" = { normal = { mean = 0.6, deviation = 0.05 } } and [samples] count = 256
     pub sweep: PathBuf,
     /// Folder for the results; points that are finished there are skipped [default: results/ and the name of the sweep]
     #[arg(long, value_name = "DIR")]

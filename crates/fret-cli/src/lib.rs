@@ -6,6 +6,7 @@ mod arguments;
 mod case_file;
 mod commands;
 mod defect;
+mod drawing;
 pub mod embedded;
 mod estimate;
 mod export;
@@ -70,6 +71,7 @@ fn dispatch(arguments: &Arguments) -> Result<(), Told> {
         Verb::Export(arguments) => commands::export::export(arguments, as_json),
         Verb::Study(arguments) => commands::study::study(arguments, as_json),
         Verb::Stress(arguments) => commands::stress::stress(arguments, as_json),
+        Verb::Heat(arguments) => commands::heat::heat(arguments, as_json),
     }?;
     Ok(())
 }

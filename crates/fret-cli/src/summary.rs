@@ -3,7 +3,7 @@
 use std::fmt::Write;
 use std::path::Path;
 
-use fret_core::case::Stage;
+use fret_core::case::{Stage, Units};
 use fret_core::history::{CycleRecord, StepRecord, Warning};
 use fret_core::plan::{Coupling, Plan};
 use serde_json::{Value, json};
@@ -55,7 +55,7 @@ impl Summary<'_> {
         let names = shown.iter().map(|record| self.stage_name(record.stage));
         row(&mut table, "at the end of", names.map(|name| shortened(name, COLUMN - 2)));
         for (name, reading) in self.readings() {
-            row(&mut table, name, shown.iter().map(reading));
+            row(&mut table, &self.heading(name), shown.iter().map(reading));
         }
         if self.plan.case.wear.is_some() {
             row(&mut table, "cycles", shown.iter().map(|record| self.cycles_of(record.stage)));
@@ -66,7 +66,7 @@ impl Summary<'_> {
         table.push('\n');
         self.cycles(&mut table);
         if let Some(worn) = &self.tally.worn_through {
-            let [x, y] = worn.place.map(figure);
+            let [x, y] = worn.place.map(|place| self.length(place));
             let after = counted(worn.cycles, "cycle");
             let _ = writeln!(
                 table,
@@ -81,8 +81,12 @@ impl Summary<'_> {
         let residual =
             format!("{:.1e} (tolerance {:.1e})", self.tally.largest_residual, self.plan.case.tolerance);
         if let Some(datum) = self.plan.datum {
-            let _ =
-                writeln!(table, "{:<NAMES$}{} below the load", "approach, shift relative to", figure(datum));
+            let _ = writeln!(
+                table,
+                "{:<NAMES$}{} below the load",
+                "approach, shift relative to",
+                self.length(datum)
+            );
         }
         for (name, value) in [
             ("increments", self.tally.solved.to_string()),
@@ -157,6 +161,20 @@ impl Summary<'_> {
         readings
     }
 
+    /// A name with its unit, where the case declares units.
+    fn heading(&self, name: &str) -> String {
+        Units::heading(self.plan.case.units.as_ref(), name, kind_of_row(name), self.plan.grid.is_line())
+    }
+
+    /// A length with its unit.
+    fn length(&self, value: f64) -> String {
+        self.plan
+            .case
+            .units
+            .as_ref()
+            .map_or_else(|| figure(value), |units| format!("{} {}", figure(value), units.length))
+    }
+
     /// Cycles of a stage that are over, those that computed ones stand for among them.
     fn cycles_of(&self, stage: usize) -> String {
         let last = self.tally.cycles.iter().rfind(|cycle| cycle.stage == stage);
@@ -178,7 +196,9 @@ impl Summary<'_> {
                 }
             };
             let value = figure(energy.dissipated_energy);
-            let _ = writeln!(table, "{name:<NAMES$}{value:>COLUMN$}  {}", self.stage_name(energy.stage));
+            row(table, &self.heading(&name), std::iter::once(value));
+            table.truncate(table.len() - 1);
+            let _ = writeln!(table, "  {}", self.stage_name(energy.stage));
         };
         energies.iter().take(1).for_each(&mut line);
         energies.iter().skip(1 + skipped).for_each(&mut line);
@@ -221,6 +241,7 @@ impl Summary<'_> {
             "status": failure.map_or("solved", Failure::status),
             "message": failure.map(Failure::message),
             "title": self.plan.case.title,
+            "units": self.plan.case.units,
             "line_contact": self.plan.grid.is_line(),
             "datum": self.plan.datum,
             "stages": stages,
@@ -252,12 +273,40 @@ pub fn warning_line(warning: &Warning) -> String {
     shortened(&format!("warning: {}; {}", warning.message, warning.help), LONGEST_LINE)
 }
 
+/// A row of the table; the first number gives way to a long name.
 fn row(table: &mut String, name: &str, values: impl Iterator<Item = String>) {
     let _ = write!(table, "{name:<NAMES$}");
-    for value in values {
-        let _ = write!(table, "{value:>COLUMN$}");
+    let over = (name.chars().count() + 1).saturating_sub(NAMES);
+    for (place, value) in values.enumerate() {
+        let width = if place == 0 { COLUMN.saturating_sub(over.saturating_sub(1)) } else { COLUMN };
+        let _ = write!(table, "{value:>width$}");
     }
     table.push('\n');
+}
+
+/// The kind of the quantity of a row, for its unit.
+fn kind_of_row(name: &str) -> &'static str {
+    let begins = |words: &[&str]| words.iter().any(|word| name.starts_with(word));
+    match name {
+        _ if begins(&["normal force", "tangential force"]) => "force",
+        _ if begins(&["approach", "radius", "shift", "max wear depth"]) => "length",
+        _ if begins(&["contact area", "contact width"]) => "length^2",
+        _ if begins(&["max pressure", "max shear", "bulk stress"]) => "pressure",
+        _ if begins(&[
+            "dissipated energy",
+            "energy dissipated",
+            "in each of cycles",
+            "work of",
+            "torsional moment",
+            "tilt moment",
+        ]) =>
+        {
+            "force x length"
+        }
+        _ if begins(&["worn volume"]) => "length^3",
+        _ if begins(&["twist", "tilt"]) => "rad",
+        _ => "",
+    }
 }
 
 /// Share of the cells in contact that stick; none when nothing touches.

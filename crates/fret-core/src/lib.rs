@@ -111,6 +111,7 @@
 pub mod analytic;
 pub mod case;
 pub mod compliance;
+pub mod conduction;
 mod fields;
 pub mod history;
 pub mod kernel;
@@ -125,6 +126,7 @@ pub mod run;
 pub mod solver;
 pub mod study;
 pub mod subsurface;
+pub mod uncertainty;
 
 pub use case::{Case, CaseError};
 pub use history::{CycleRecord, History, KeptFields, Start, StepRecord, Warning};

@@ -6,9 +6,7 @@ use fret_core::subsurface::crack::crack_course;
 use fret_core::subsurface::crack_path::{CrackStart, NoCrack, crack_path};
 use fret_core::subsurface::fatigue::{FatigueConstants, LayerConstants, Parameter};
 use fret_core::subsurface::severity::{constants_of, material_of};
-use fret_core::subsurface::{
-    DepthPoint, EvenStress, Judged, LoadedSurface, Severity, depth_points, survey,
-};
+use fret_core::subsurface::{DepthPoint, EvenStress, Judged, LoadedSurface, Severity, depth_points, survey};
 use ndarray::{Array2, Array3, Axis};
 use numpy::{IntoPyArray, PyReadonlyArray2};
 use pyo3::exceptions::PyValueError;
@@ -105,10 +103,17 @@ impl Cycle {
         let all = (0..self.surfaces.len()).collect();
         let mut severity =
             Severity::new(&self.half_space, &self.constants, points, (&self.surfaces, all), None);
-        survey(&self.half_space, &self.grid, self.periodic, points, &self.surfaces, |point, surface, field| {
-            severity.look(point, surface, field);
-            true
-        })?;
+        survey(
+            &self.half_space,
+            &self.grid,
+            self.periodic,
+            points,
+            &self.surfaces,
+            |point, surface, field| {
+                severity.look(point, surface, field);
+                true
+            },
+        )?;
         Ok(severity.judged())
     }
 
@@ -123,7 +128,8 @@ impl Cycle {
 
 /// Planes of shape `(nx, ny)` as one array `(nz, nx, ny)`; `None` where one of them is missing.
 fn stacked(planes: &[Option<Array2<f64>>]) -> Option<Array3<f64>> {
-    let planes: Option<Vec<_>> = planes.iter().map(|plane| plane.as_ref().map(|plane| plane.view())).collect();
+    let planes: Option<Vec<_>> =
+        planes.iter().map(|plane| plane.as_ref().map(|plane| plane.view())).collect();
     ndarray::stack(Axis(0), &planes?).ok()
 }
 

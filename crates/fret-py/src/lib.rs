@@ -7,6 +7,7 @@
 mod analytic;
 mod case;
 mod command;
+mod conduction;
 mod error;
 mod fatigue;
 mod history;
@@ -17,6 +18,7 @@ mod start;
 mod study;
 mod subsurface;
 mod threads;
+mod uncertainty;
 
 /// Conversion between Python and fret-core; use the names of `fretting`.
 #[pyo3::pymodule]
@@ -35,6 +37,8 @@ mod _core {
     #[pymodule_export]
     use crate::command::command_line;
     #[pymodule_export]
+    use crate::conduction::{contact_resistance, surface_temperature};
+    #[pymodule_export]
     use crate::fatigue::{crack, fatigue};
     #[pymodule_export]
     use crate::history::{History, vocabulary};
@@ -52,6 +56,9 @@ mod _core {
     use crate::subsurface::subsurface_stress;
     #[pymodule_export]
     use crate::threads::{check_memory, check_threads};
+
+    #[pymodule_export]
+    use crate::uncertainty::{quantile_fractions, sample_rows, sobol_indices, statistics};
 
     #[pymodule_init]
     fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {

@@ -45,14 +45,17 @@ impl Crack<'_> {
             let setting = (grid, self.run.periodic);
             let goes_on = || !interrupt::is_asked();
             let path = crack_path(self.half_space, setting, &start, constants.final_length, cycle, goes_on)?;
-            let course = crack_course(&path, &constants).ok_or(NoCrack::TooInclined(start.angle.to_degrees()))?;
+            let course =
+                crack_course(&path, &constants).ok_or(NoCrack::TooInclined(start.angle.to_degrees()))?;
             Ok((start, course))
         });
         Ok(Some(match followed {
             Ok((start, course)) => self.answer(&start, &course),
             Err(NoCrack::Kernel(error)) => return Err(Failure::Defect(format!("stress kernels: {error}"))),
             Err(NoCrack::Stopped) => {
-                return Err(Failure::Interrupted("the stresses are not finished and nothing is written".to_owned()));
+                return Err(Failure::Interrupted(
+                    "the stresses are not finished and nothing is written".to_owned(),
+                ));
             }
             Err(why) => CrackAnswer {
                 record: json!({ "fate": "none", "reason": why.to_string() }),
@@ -77,7 +80,8 @@ impl Crack<'_> {
             CrackFate::Grows => format!("grows to {length}"),
             CrackFate::Fractures => format!("reaches the toughness at {length}"),
         };
-        let cycles = course.cycles.map_or(String::new(), |cycles| format!(" after {} cycles", figure(cycles)));
+        let cycles =
+            course.cycles.map_or(String::new(), |cycles| format!(" after {} cycles", figure(cycles)));
         let table = format!(
             "  crack from x {} y {}, {} degrees from the normal: {end}{cycles}\n",
             figure(x),

@@ -98,8 +98,10 @@ impl<'a> Fatigue<'a> {
             increments.last().copied().unwrap_or(0)
         );
         for parameter in Parameter::ALL {
-            let of: Vec<&MostSevere> = judged.found.iter().filter(|found| found.parameter == parameter).collect();
-            let largest = of.iter().copied().reduce(|most, next| if next.value > most.value { next } else { most });
+            let of: Vec<&MostSevere> =
+                judged.found.iter().filter(|found| found.parameter == parameter).collect();
+            let largest =
+                of.iter().copied().reduce(|most, next| if next.value > most.value { next } else { most });
             let Some(largest) = largest else { continue };
             let mut entry = self.entry(largest);
             if of.len() > 1 {
@@ -108,7 +110,8 @@ impl<'a> Fatigue<'a> {
             self.line(largest, &mut finished.table);
             if let Some((_, at)) = judged.at_distance.iter().find(|(of, _)| *of == parameter) {
                 let constants = constants_of(self.half_space, self.constants, 0);
-                let cycles = |value: f64| parameter.cycles(value, &material_of(self.half_space, 0)?, &constants);
+                let cycles =
+                    |value: f64| parameter.cycles(value, &material_of(self.half_space, 0)?, &constants);
                 let told = |(value, cell): (f64, [usize; 2])| {
                     let [x, y] = self.place(cell, [0.0; 2]);
                     let mut told = json!({ "value": value, "x": x, "y": y });
@@ -118,7 +121,8 @@ impl<'a> Fatigue<'a> {
                     told
                 };
                 let in_words = |value: f64| {
-                    let cycles = cycles(value).map_or(String::new(), |cycles| format!(" ({} cycles)", worded(cycles)));
+                    let cycles =
+                        cycles(value).map_or(String::new(), |cycles| format!(" ({} cycles)", worded(cycles)));
                     figure(value) + &cycles
                 };
                 entry["critical_distance"] =
@@ -143,7 +147,12 @@ impl<'a> Fatigue<'a> {
                 let [x, y] = self.place(cell, [0.0; 2]);
                 parameters.insert(name.to_owned(), json!({ "largest": value, "x": x, "y": y, "depth": 0.0 }));
                 let name = name.replace('_', " ");
-                let _ = writeln!(finished.table, "  {name:<20} {:<12} at x {:<12} surface", figure(value), figure(x));
+                let _ = writeln!(
+                    finished.table,
+                    "  {name:<20} {:<12} at x {:<12} surface",
+                    figure(value),
+                    figure(x)
+                );
             }
         }
         finished.files.push(("fatigue.csv", self.by_layer(judged)));
@@ -156,7 +165,8 @@ impl<'a> Fatigue<'a> {
             finished.files.extend(csv.map(|csv| ("crack.csv", csv)));
         }
         finished.fatigue = Some(fatigue);
-        let row = |values: &Option<ndarray::Array2<f64>>| values.as_ref().map(|values| values.column(0).to_vec());
+        let row =
+            |values: &Option<ndarray::Array2<f64>>| values.as_ref().map(|values| values.column(0).to_vec());
         let whole = |(parameter, values): &(Parameter, Vec<Option<ndarray::Array2<f64>>>)| {
             let values: Option<Vec<Vec<f64>>> = values.iter().map(row).collect();
             Some((parameter.name().to_owned(), values?))

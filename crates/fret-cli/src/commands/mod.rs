@@ -5,6 +5,7 @@ mod crack;
 pub mod export;
 pub mod extremes;
 mod fatigue;
+pub mod heat;
 mod loaded_surfaces;
 pub mod plan;
 pub mod report;

@@ -119,6 +119,8 @@ pub fn left_out_in_short(plan: &Plan) -> String {
 
 /// The grid in a line.
 pub fn cells(plan: &Plan) -> String {
+    let unit = plan.case.units.as_ref().map_or_else(String::new, |units| format!(" {}", units.length));
+    let figure = |value: f64| format!("{}{unit}", figure(value));
     let ([nx, ny], [dx, dy], [width, depth]) = (plan.grid.cells(), plan.grid.spacing(), plan.grid.size());
     if plan.grid.is_line() {
         let datum = plan.datum.map_or_else(String::new, |datum| {

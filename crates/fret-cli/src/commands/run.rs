@@ -17,7 +17,7 @@ use super::run_observer::{Clock, RunObserver};
 use crate::arguments::{LeavingOut, RunArguments};
 use crate::case_file::CaseFile;
 use crate::commands::plan::left_out_in_short;
-use crate::commands::stress::after_run;
+use crate::commands::{heat, stress};
 use crate::defect;
 use crate::estimate::{Estimate, NoBars};
 use crate::failure::{Failure, Told};
@@ -309,13 +309,16 @@ impl Preparation {
         }
     }
 
-    /// Stresses, where the case asks for them.
+    /// Stresses, temperatures and contact resistances, where the case asks for them.
     fn stresses(&self, quiet: bool) -> Result<(), Failure> {
-        if self.plan.case.stress.is_none() {
-            return Ok(());
+        let (case, folder) = (&self.plan.case, &self.folder);
+        if case.stress.is_some() {
+            self.pool.install(|| stress::after_run(folder, quiet))?;
         }
-        let folder = &self.folder;
-        self.pool.install(|| after_run(folder, quiet))
+        if !case.conduction.is_none() {
+            self.pool.install(|| heat::after_run(folder, quiet))?;
+        }
+        Ok(())
     }
 
     fn solved(&self, departure: Departure, quiet: bool, as_json: bool) -> Result<(), Told> {

@@ -93,7 +93,7 @@ fn computed(folder: &Path, run: &KeptRun, request: &StressRequest) -> Result<Ans
     let mut volume = if request.volume {
         let depths: Vec<f64> = points.iter().map(|point| point.depth).collect();
         let name = format!("volume-{:05}.vtr", surfaces.last().map_or(0, |surface| surface.increment));
-        Some(Volume::create(&place.join(name), &run.grid, &depths, &VOLUME_FIELDS)?)
+        Some(Volume::create(&place.join(name), &run.grid, &depths, &VOLUME_FIELDS, run.units.as_ref())?)
     } else {
         None
     };

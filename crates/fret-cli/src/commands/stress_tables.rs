@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 use std::path::Path;
 
-use fret_core::case::StressRequest;
+use fret_core::case::{StressRequest, Units};
 use fret_core::model::{Base, HalfSpace};
 use fret_core::subsurface::fatigue::LayerConstants;
 use fret_core::subsurface::largest::look;
@@ -15,7 +15,7 @@ use crate::failure::Failure;
 use crate::figures::{counted, duration, figure};
 use crate::output::kept_run::KeptRun;
 use crate::output::section::Section;
-use crate::output::write_whole;
+use crate::output::{kind_of_stress, stress_called, write_whole};
 
 /// More sections than this are not drawn.
 const MOST_SECTIONS: usize = 12;
@@ -79,7 +79,7 @@ impl<'a> StressTables<'a> {
             surfaces,
             interfaces,
             largest: Vec::new(),
-            by_depth: format!("increment,depth,layer,{}\n", Measure::ALL.map(Measure::name).join(",")),
+            by_depth: head_by_depth(run.units.as_ref()),
             row,
             sections: vec![Vec::new(); surfaces.len()],
             fatigue,
@@ -142,6 +142,7 @@ impl<'a> StressTables<'a> {
             "status": "computed",
             "unfinished": self.run.unfinished,
             "body": self.request.body.name(),
+            "units": self.run.units,
             "increments": self.surfaces.iter().map(|surface| surface.increment).collect::<Vec<_>>(),
             "depths": self.points.iter().map(|point| point.depth).collect::<Vec<_>>(),
             "layers": self.points.iter().map(|point| point.layer).collect::<Vec<_>>(),
@@ -187,11 +188,13 @@ impl<'a> StressTables<'a> {
         let high = self.sections.iter().flatten().flatten().copied().fold(0.0, f64::max);
         for index in (0..=last).filter(|&index| is_shown(index)) {
             let increment = self.surfaces[index].increment;
-            let quantity =
-                format!("von Mises stress, increment {increment}, {} body", self.request.body.name());
+            let subject =
+                format!("section at y = 0, increment {increment}, {} body", self.request.body.name());
             let section = Section {
                 title,
-                quantity: &quantity,
+                subject: &subject,
+                quantity: ("von Mises stress", "pressure"),
+                units: self.run.units.as_ref(),
                 x,
                 depths: &depths,
                 values: &self.sections[index],
@@ -199,21 +202,22 @@ impl<'a> StressTables<'a> {
                 range: Some([0.0, high]),
             };
             let name = format!("von_mises-{increment:05}.svg");
-            write_whole(&place.join(name), section.svg().as_bytes())?;
+            write_whole(&place.join(name), section.svg()?.as_bytes())?;
         }
         for (name, values) in fatigue {
-            let quantity =
-                format!("{}, last cycle, {} body", name.replace('_', " "), self.request.body.name());
+            let subject = format!("section at y = 0, last cycle, {} body", self.request.body.name());
             let section = Section {
                 title,
-                quantity: &quantity,
+                subject: &subject,
+                quantity: (&stress_called(name), kind_of_stress(name)),
+                units: self.run.units.as_ref(),
                 x,
                 depths: &depths,
                 values,
                 interfaces: &self.interfaces,
                 range: None,
             };
-            write_whole(&place.join(format!("{name}.svg")), section.svg().as_bytes())?;
+            write_whole(&place.join(format!("{name}.svg")), section.svg()?.as_bytes())?;
         }
         Ok(())
     }
@@ -222,11 +226,20 @@ impl<'a> StressTables<'a> {
         let unfinished = self.run.unfinished.as_ref().map_or(String::new(), |why| format!("{why}\n"));
         let mut text = unfinished
             + &format!(
-                "stress in the {} body: {} at {}, counted from 0\n\n  maximum            value        increment  x            y            depth        in\n",
+                "stress in the {} body: {} at {}, counted from 0\n\n",
                 self.request.body.name(),
                 counted(self.points.len(), "depth"),
                 counted(self.surfaces.len(), "increment"),
             );
+        let head = |name: &str, kind: &str| Units::heading(self.run.units.as_ref(), name, kind, false);
+        let [value, x, y, depth] =
+            [("value", "pressure"), ("x", "length"), ("y", "length"), ("depth", "length")]
+                .map(|(name, kind)| head(name, kind));
+        let _ = writeln!(
+            text,
+            "  {:<18} {value:<12} {:<10} {x:<12} {y:<12} {depth:<12} in",
+            "maximum", "increment"
+        );
         for found in &self.largest {
             if found.value <= 0.0 && names_tension(found.measure) {
                 let name = found.measure.name().replace('_', " ");
@@ -251,6 +264,13 @@ impl<'a> StressTables<'a> {
         let _ = write!(text, "\nwritten to {} in {}", place.display(), duration(wall_s));
         text
     }
+}
+
+/// The head of `depths.csv`.
+fn head_by_depth(units: Option<&Units>) -> String {
+    let head = |name: &str, kind: &str| Units::heading(units, name, kind, false);
+    let measures = Measure::ALL.map(|measure| head(measure.name(), kind_of_stress(measure.name())));
+    format!("increment,{},layer,{}\n", head("depth", "length"), measures.join(","))
 }
 
 /// Whether a number that is not above zero is no tension at all.

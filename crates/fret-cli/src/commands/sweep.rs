@@ -40,6 +40,7 @@ pub fn sweep(arguments: &SweepArguments, as_json: bool) -> Result<(), Told> {
         return Err(failure.into());
     }
     let summary = summary?;
+    let spread = folder.spread(&question, &board.answers())?;
     let counts = board.counts();
     if as_json {
         terminal::answer(&format!(
@@ -56,6 +57,9 @@ pub fn sweep(arguments: &SweepArguments, as_json: bool) -> Result<(), Told> {
             })
         ))?;
     } else if !arguments.quiet {
+        if let Some(table) = spread {
+            terminal::answer(&format!("{table}\n"))?;
+        }
         terminal::answer(&format!(
             "{} solved, {} not, {} found finished\nsummary    {}",
             counts.solved,

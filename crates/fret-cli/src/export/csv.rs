@@ -22,7 +22,9 @@ pub fn write(results: &Results, path: &Path) -> Result<Vec<PathBuf>, Failure> {
             fields.names.iter().map(|name| fields.field(name, position)).collect::<Result<_, _>>()?;
         written(&file, |writer| {
             let is_line = fields.is_line();
-            let mut row = format!("x,{}{}\n", if is_line { "" } else { "y," }, fields.names.join(","));
+            let columns_of_place: &[&str] = if is_line { &["x"] } else { &["x", "y"] };
+            let heads = columns_of_place.iter().chain(&fields.names).map(|name| results.field_heading(name));
+            let mut row = heads.collect::<Vec<_>>().join(",") + "\n";
             for (i, x) in fields.x.iter().enumerate() {
                 for (j, y) in fields.y.iter().enumerate() {
                     let _ = if is_line { write!(row, "{x:?}") } else { write!(row, "{x:?},{y:?}") };

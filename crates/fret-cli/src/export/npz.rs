@@ -1,17 +1,19 @@
-//! `--npz`: one file for `numpy.load`: `x`, `y`, `kept_increment`, every kept field with shape `(kept_increment, x, y)`, every column of the history.
+//! `--npz`: one file for `numpy.load`: `x`, `y`, `kept_increment`, every kept field with shape `(kept_increment, x, y)`, every column
+//! of the history; `units`, a text in JSON, where the case declares units.
 //!
 //! Formats: <https://numpy.org/doc/stable/reference/generated/numpy.lib.format.html>, in a zip archive without compression.
 
 use std::io::{self, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
+use fret_core::case::Units;
 use fret_core::history::{STEP_COLUMNS, Value};
 use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, ZipWriter};
 
 use super::written;
 use crate::failure::{Failure, Unwritten};
-use crate::results::Results;
+use crate::results::{Results, kind_of_field};
 
 /// Archives of more bytes need the wider form of the format.
 const WIDE: usize = 1 << 31;
@@ -19,6 +21,19 @@ const WIDE: usize = 1 << 31;
 /// Whether a column of the history holds whole numbers.
 fn counts(name: &str) -> bool {
     STEP_COLUMNS.iter().any(|column| column.name == name && matches!(column.value, Value::Count(_)))
+}
+
+/// The unit of every array that has one, as JSON in a single text.
+fn units_in_json(results: &Results, units: &Units) -> String {
+    let is_line = results.fields.is_line();
+    let fields = ["x", "y"].iter().chain(&results.fields.names).map(|name| (*name, kind_of_field(name)));
+    let columns = STEP_COLUMNS.iter().map(|column| (column.name, column.unit));
+    let named = fields.chain(columns).filter_map(|(name, kind)| {
+        let heading = Units::heading(Some(units), name, kind, is_line);
+        let unit = heading.strip_prefix(name)?.strip_prefix(" [")?.strip_suffix(']')?;
+        Some((name.to_owned(), serde_json::Value::from(unit)))
+    });
+    serde_json::Value::Object(named.collect()).to_string()
 }
 
 /// Writes the results as a `.npz` file.
@@ -63,11 +78,28 @@ pub fn write(results: &Results, path: &Path) -> Result<Vec<PathBuf>, Failure> {
             let padded = word.chars().chain(std::iter::repeat('\0')).take(letters);
             words.extend(padded.flat_map(|letter| u32::from(letter).to_le_bytes()));
         }
+        if let Some(units) = results.units() {
+            let words = units_in_json(results, &units);
+            let letters: Vec<u8> = words.chars().flat_map(|letter| u32::from(letter).to_le_bytes()).collect();
+            archive.array("units", &format!("<U{}", words.chars().count()), &[], &letters)?;
+        }
         archive.array("regime", &format!("<U{letters}"), &[regimes.len()], &words)?;
         archive.zip.finish().map_err(|error| unwritten(path, error))?;
         Ok(())
     })?;
     Ok(vec![path.to_owned()])
+}
+
+/// Writes arrays of numbers, each with its name and shape, as a `.npz` file.
+pub fn arrays(path: &Path, arrays: &[(&str, &[usize], &[f64])]) -> Result<(), Failure> {
+    written(path, |writer| {
+        let mut archive = Archive { zip: ZipWriter::new(UntilFailed::new(writer)), path };
+        for (name, shape, values) in arrays {
+            archive.array(name, "<f8", shape, &bytes(values))?;
+        }
+        archive.zip.finish().map_err(|error| unwritten(path, error))?;
+        Ok(())
+    })
 }
 
 /// Passes on what is written until that fails once; then only counts it: an archive that is given up still tries to write its end, and

@@ -6,9 +6,11 @@
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
+use fret_core::case::Units;
+
 use super::{folder, written};
 use crate::failure::{Failure, Unwritten};
-use crate::results::{Field, Fields, Results};
+use crate::results::{Field, Fields, Results, kind_of_field};
 
 /// Writes the results as VTK files into a folder; the files, the list of them first.
 pub fn write(results: &Results, path: &Path) -> Result<Vec<PathBuf>, Failure> {
@@ -20,7 +22,7 @@ pub fn write(results: &Results, path: &Path) -> Result<Vec<PathBuf>, Failure> {
     for (position, &step) in fields.steps.iter().enumerate() {
         let name = format!("fields_{step:06}.vti");
         let file = path.join(&name);
-        image(fields, position, &file)?;
+        image(fields, position, &file, results.units().as_ref())?;
         entries += &format!("    <DataSet timestep=\"{step}\" part=\"0\" file=\"{name}\"/>\n");
         files.push(file);
     }
@@ -34,6 +36,21 @@ pub fn write(results: &Results, path: &Path) -> Result<Vec<PathBuf>, Failure> {
     Ok(files)
 }
 
+/// The end of the element of an array: with its unit, as VTK keeps it, where there is one.
+pub fn data_array_end(units: Option<&Units>, name: &str) -> String {
+    let kind =
+        if let "shear" | "slip" = name { kind_of_field(&format!("{name}_x")) } else { kind_of_field(name) };
+    match units.filter(|_| !kind.is_empty()) {
+        Some(units) => {
+            let unit = maud::html! { (units.of(kind)) }.into_string();
+            format!(
+                "><InformationKey name=\"UNITS_LABEL\" location=\"vtkDataArray\">{unit}</InformationKey></DataArray>"
+            )
+        }
+        None => "/>".to_owned(),
+    }
+}
+
 /// An array of the image.
 struct Array {
     name: &'static str,
@@ -42,7 +59,7 @@ struct Array {
     bytes: Vec<u8>,
 }
 
-fn image(fields: &Fields, position: usize, file: &Path) -> Result<(), Failure> {
+fn image(fields: &Fields, position: usize, file: &Path, units: Option<&Units>) -> Result<(), Failure> {
     let [nx, ny] = fields.cells();
     let [dx, dy] = fields.spacing();
     let arrays = arrays(fields, position)?;
@@ -51,7 +68,8 @@ fn image(fields: &Fields, position: usize, file: &Path) -> Result<(), Failure> {
     for Array { name, kind, components, bytes } in &arrays {
         described += &format!(
             "        <DataArray type=\"{kind}\" Name=\"{name}\" NumberOfComponents=\"{components}\" \
-             format=\"appended\" offset=\"{offset}\"/>\n"
+             format=\"appended\" offset=\"{offset}\"{}\n",
+            data_array_end(units, name)
         );
         offset += 8 + bytes.len();
     }

@@ -1,11 +1,10 @@
 //! `checkpoint/`: where an unfinished run stands. `even` and `odd` are written over in turn after every increment, so that one
-//! of them is whole however the process ends; that costs a copy in memory. `synced` is replaced now and then, waits for the
+//! of them is whole however the process ends; that costs a copy in memory, written while the next increment is solved. `synced` is replaced now and then, waits for the
 //! disk, and survives a power failure. `lock` tells that a run is alive. The folder is gone when the run is solved.
 //!
 //! A file is a line of text, a checksum, a length, a head, the waypoint of the core, and whatever an older one left behind that.
 
 use std::fs::{self, File, TryLockError};
-use std::io::{Seek, Write};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
@@ -16,6 +15,7 @@ use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
 use super::history_table::Written;
+use super::turn_writer::TurnWriter;
 use super::whole_file::write_whole;
 use crate::failure::{Failure, Unwritten};
 use crate::tally::Tally;
@@ -77,8 +77,7 @@ pub struct CheckpointFolder {
     path: PathBuf,
     /// Held while this lives.
     _lock: File,
-    bytes: Vec<u8>,
-    turns: [Option<File>; 2],
+    turns: TurnWriter,
     synced_at: Option<Instant>,
     sync_took: Duration,
 }
@@ -96,8 +95,7 @@ impl CheckpointFolder {
             Ok(()) | Err(TryLockError::Error(_)) => Ok(Self {
                 path,
                 _lock: lock,
-                bytes: Vec::new(),
-                turns: [None, None],
+                turns: TurnWriter::default(),
                 synced_at: None,
                 sync_took: Duration::ZERO,
             }),
@@ -169,25 +167,18 @@ impl CheckpointFolder {
         waypoint: &Waypoint<'_>,
         settle: impl FnOnce() -> Result<(), Unwritten>,
     ) -> Result<(), Failure> {
-        pack(&mut self.bytes, head, waypoint)?;
+        let mut bytes = self.turns.room()?;
+        pack(&mut bytes, head, waypoint)?;
         let is_due = self.synced_at.is_none_or(|then| then.elapsed() >= self.sync_took * SYNC_SHARE);
         if is_due {
             let started = Instant::now();
             settle()?;
-            write_whole(&self.path.join(SYNCED), &self.bytes)?;
+            write_whole(&self.path.join(SYNCED), &bytes)?;
             self.sync_took = started.elapsed();
             self.synced_at = Some(Instant::now());
         }
-        Ok(self.write_turn(waypoint.solved() % 2)?)
-    }
-
-    fn write_turn(&mut self, turn: usize) -> Result<(), Unwritten> {
-        let path = self.path.join(TURNS[turn]);
-        let open = || File::options().write(true).create(true).truncate(false).open(&path);
-        let mut file = self.turns[turn].take().map_or_else(open, Ok).map_err(Unwritten::at(&path))?;
-        file.rewind().and_then(|()| file.write_all(&self.bytes)).map_err(Unwritten::at(&path))?;
-        self.turns[turn] = Some(file);
-        Ok(())
+        let turn = waypoint.solved() % 2;
+        Ok(self.turns.write(turn, self.path.join(TURNS[turn]), bytes)?)
     }
 
     /// The run is solved: nothing is left to go on from.

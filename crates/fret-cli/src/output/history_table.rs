@@ -4,6 +4,7 @@ use std::fs::File;
 use std::io::{Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
+use fret_core::case::{Case, Units};
 use fret_core::history::{CYCLE_COLUMNS, Column, CycleRecord, STEP_COLUMNS, StepRecord, Value};
 use serde::{Deserialize, Serialize};
 use serde_json::Value as Json;
@@ -20,14 +21,17 @@ pub enum Lines {
 }
 
 impl Lines {
-    fn head(self) -> String {
-        fn names<R>(columns: &[Column<R>]) -> String {
-            let names: Vec<&str> = columns.iter().map(|column| column.name).collect();
-            names.join(",") + "\n"
+    /// The head, with units where the case declares some.
+    fn head(self, case: &Case) -> String {
+        fn names<R>(columns: &[Column<R>], case: &Case) -> String {
+            let is_line = case.is_line();
+            let head =
+                |column: &Column<R>| Units::heading(case.units.as_ref(), column.name, column.unit, is_line);
+            columns.iter().map(head).collect::<Vec<_>>().join(",") + "\n"
         }
         match self {
-            Self::Increments => names(STEP_COLUMNS),
-            Self::Cycles => names(CYCLE_COLUMNS),
+            Self::Increments => names(STEP_COLUMNS, case),
+            Self::Cycles => names(CYCLE_COLUMNS, case),
         }
     }
 }
@@ -52,10 +56,10 @@ pub struct HistoryTable {
 
 impl HistoryTable {
     /// A table with its head; an earlier one is gone.
-    pub fn create(path: &Path, lines: Lines) -> Result<Self, Unwritten> {
+    pub fn create(path: &Path, lines: Lines, case: &Case) -> Result<Self, Unwritten> {
         let file = File::create(path).map_err(Unwritten::at(path))?;
         let mut table = Self { path: path.to_owned(), file, bytes: 0, checksum: crc32fast::Hasher::new() };
-        table.append(&lines.head())?;
+        table.append(&lines.head(case))?;
         Ok(table)
     }
 
@@ -69,13 +73,14 @@ impl HistoryTable {
     }
 
     /// Whether the table at `path` begins with what was `written`: its head and so many lines, none of them changed.
-    pub fn holds(path: &Path, written: Written, lines: usize) -> bool {
-        whole_lines(path, written, Lines::Increments).is_some_and(|text| text.lines().count() == lines)
+    pub fn holds(path: &Path, written: Written, lines: usize, case: &Case) -> bool {
+        whole_lines(path, written, &Lines::Increments.head(case))
+            .is_some_and(|text| text.lines().count() == lines)
     }
 
     /// The cycles in what was `written` of the table at `path`; none where that is not its head and whole lines, or changed.
-    pub fn cycles(path: &Path, written: Written) -> Option<Vec<CycleRecord>> {
-        whole_lines(path, written, Lines::Cycles)?.lines().map(cycle).collect()
+    pub fn cycles(path: &Path, written: Written, case: &Case) -> Option<Vec<CycleRecord>> {
+        whole_lines(path, written, &Lines::Cycles.head(case))?.lines().map(cycle).collect()
     }
 
     /// The cycles of the table at `path`; a last line that a kill has torn is left away. None where there is no such table.
@@ -149,14 +154,14 @@ fn cycle(line: &str) -> Option<CycleRecord> {
 }
 
 /// What was written of a table below its head, when it still stands there: the head and whole lines.
-fn whole_lines(path: &Path, written: Written, lines: Lines) -> Option<String> {
+fn whole_lines(path: &Path, written: Written, head: &str) -> Option<String> {
     let mut text = std::fs::read_to_string(path).ok()?;
     let bytes = usize::try_from(written.bytes).ok()?;
     let is_whole = text
         .get(..bytes)
         .is_some_and(|text| text.ends_with('\n') && crc32fast::hash(text.as_bytes()) == written.checksum);
     text.truncate(if is_whole { bytes } else { 0 });
-    text.strip_prefix(&lines.head()).map(str::to_owned)
+    text.strip_prefix(head).map(str::to_owned)
 }
 
 /// The shortest digits that read back as the same number.
@@ -193,6 +198,10 @@ mod tests {
             steady: true,
             worn_volume: 1.0,
             max_worn_depth: -0.0,
+            actuator_amplitude: Some(5.0),
+            actuator_energy_ratio: None,
+            actuator_sliding_ratio: Some(0.1),
+            actuator_stiffness: None,
         };
         let other = CycleRecord { regime: None, steady: false, ..one.clone() };
         for record in [one, other] {

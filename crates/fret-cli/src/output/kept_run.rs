@@ -4,8 +4,9 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use fret_core::case::{Side, StressRequest};
-use fret_core::model::{ContactPair, ResidualStress, SurfaceGrid};
+use fret_core::case::{Side, StressRequest, Units};
+use fret_core::history::CycleRecord;
+use fret_core::model::{Conduction, ContactPair, ResidualStress, SurfaceGrid};
 use fret_core::subsurface::EvenStress;
 use fret_core::subsurface::fatigue::LayerConstants;
 use ndarray::Array2;
@@ -13,7 +14,7 @@ use serde::de::DeserializeOwned;
 use serde_json::Value;
 
 use super::field_store::chunk;
-use super::{FIELDS, HISTORY, RECORD};
+use super::{CYCLES, FIELDS, HISTORY, HistoryTable, RECORD};
 use crate::failure::Failure;
 use crate::results::{Table, unfinished};
 
@@ -25,6 +26,8 @@ pub struct KeptRun {
     pub record: Value,
     /// Its title.
     pub title: String,
+    /// Units that its case declares.
+    pub units: Option<Units>,
     /// The two bodies.
     pub bodies: ContactPair,
     /// The grid.
@@ -44,6 +47,10 @@ pub struct KeptRun {
     pub steps: Vec<usize>,
     /// Increments that are solved.
     pub solved: usize,
+    /// What the bodies conduct.
+    pub conduction: Conduction,
+    /// The cycles that are over.
+    pub cycles: Vec<CycleRecord>,
     /// Bulk stresses of the lower and of the upper body along x and y at the end of every increment.
     bulk_stress: [[Vec<f64>; 2]; 2],
     /// Residual stress of the lower and of the upper body.
@@ -83,6 +90,7 @@ impl KeptRun {
         Ok(Self {
             fields,
             title: plan["case"]["title"].as_str().unwrap_or_default().to_owned(),
+            units: part(&plan["case"]["units"]),
             bodies: part(&plan["case"]["bodies"]).ok_or_else(|| broken("the bodies"))?,
             grid: part(&plan["grid"]).ok_or_else(|| broken("the grid"))?,
             periodic: plan["case"]["periodic"].as_bool().unwrap_or(false),
@@ -92,6 +100,8 @@ impl KeptRun {
             cyclic,
             steps,
             solved,
+            conduction: part(&plan["case"]["conduction"]).unwrap_or_default(),
+            cycles: HistoryTable::all_cycles(&folder.join(CYCLES)),
             residual_stress: part(&plan["case"]["residual_stress"]).unwrap_or_default(),
             fatigue: part(&plan["case"]["fatigue"]).unwrap_or_default(),
             bulk_stress: ["bulk_stress", "upper_bulk_stress"]

@@ -12,6 +12,8 @@ mod packed_file;
 mod run_record;
 pub mod section;
 mod state_store;
+mod stress_kinds;
+mod turn_writer;
 pub mod vtk;
 mod whole_file;
 
@@ -35,6 +37,7 @@ pub use packed_file::{read_packed, write_packed};
 pub use run_record::{Ending, RunRecord, fnv1a64, question, resolved};
 use state_store::StateStore;
 pub use state_store::{start_below, state_below, states_below};
+pub use stress_kinds::{kind_of_stress, stress_called};
 pub use whole_file::write_whole;
 
 const CASE: &str = "case.toml";
@@ -158,8 +161,8 @@ impl ResultFolder {
             write_whole(&path.join(name), content)?;
         }
         Ok(Self {
-            history: HistoryTable::create(&path.join(HISTORY), Lines::Increments)?,
-            cycles: HistoryTable::create(&path.join(CYCLES), Lines::Cycles)?,
+            history: HistoryTable::create(&path.join(HISTORY), Lines::Increments, &plan.case)?,
+            cycles: HistoryTable::create(&path.join(CYCLES), Lines::Cycles, &plan.case)?,
             fields: FieldStore::create(&path.join(FIELDS), plan)?,
             states: StateStore::create(path, plan.start.as_deref())?,
             path: path.to_owned(),
@@ -198,10 +201,10 @@ impl ResultFolder {
                 table.display()
             ))
         };
-        if solved != stored.head.tally.solved || !HistoryTable::holds(&history, written, solved) {
+        if solved != stored.head.tally.solved || !HistoryTable::holds(&history, written, solved, &plan.case) {
             return not_whole(&history, solved);
         }
-        match HistoryTable::cycles(&cycles, cycles_written) {
+        match HistoryTable::cycles(&cycles, cycles_written, &plan.case) {
             Some(records) if records.len() == ended => stored.head.tally.cycles = records,
             _ => return not_whole(&cycles, ended),
         }

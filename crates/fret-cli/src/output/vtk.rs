@@ -8,8 +8,10 @@ use std::fs::{self, File};
 use std::io::{self, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
+use fret_core::case::Units;
 use fret_core::model::SurfaceGrid;
 
+use crate::export::vtk::data_array_end;
 use crate::failure::Unwritten;
 
 /// A volume of named scalar fields while it is filled.
@@ -35,12 +37,13 @@ impl Volume {
         grid: &SurfaceGrid,
         depths: &[f64],
         names: &[&'static str],
+        units: Option<&Units>,
     ) -> Result<Self, Unwritten> {
         let mut part = path.as_os_str().to_owned();
         part.push(".part");
         let part = PathBuf::from(part);
         let cells = grid.cells();
-        let (file, start) = begin(&part, grid, depths, names).map_err(Unwritten::at(path))?;
+        let (file, start) = begin(&part, grid, depths, names, units).map_err(Unwritten::at(path))?;
         Ok(Self {
             path: path.to_owned(),
             part,
@@ -104,7 +107,13 @@ fn header(cells: [usize; 2], depths: usize) -> u64 {
     (cells[0] * cells[1] * depths * 4) as u64
 }
 
-fn begin(part: &Path, grid: &SurfaceGrid, depths: &[f64], names: &[&'static str]) -> io::Result<(File, u64)> {
+fn begin(
+    part: &Path,
+    grid: &SurfaceGrid,
+    depths: &[f64],
+    names: &[&'static str],
+    units: Option<&Units>,
+) -> io::Result<(File, u64)> {
     let [nx, ny] = grid.cells();
     let extent = format!("0 {} 0 {} 0 {}", nx - 1, ny - 1, depths.len() - 1);
     let bytes = header([nx, ny], depths.len());
@@ -114,10 +123,11 @@ fn begin(part: &Path, grid: &SurfaceGrid, depths: &[f64], names: &[&'static str]
     text += &format!(
         "  <RectilinearGrid WholeExtent=\"{extent}\">\n    <Piece Extent=\"{extent}\">\n      <PointData>\n"
     );
+    let end = data_array_end(units, "pressure"); // stresses have the unit of a pressure
     for (number, name) in names.iter().enumerate() {
         let offset = number as u64 * (8 + bytes);
         text += &format!(
-            "        <DataArray type=\"Float32\" Name=\"{name}\" format=\"appended\" offset=\"{offset}\"/>\n"
+            "        <DataArray type=\"Float32\" Name=\"{name}\" format=\"appended\" offset=\"{offset}\"{end}\n"
         );
     }
     text += "      </PointData>\n      <Coordinates>\n";

@@ -1,24 +1,10 @@
-//! Words of the page: nothing from a case reaches it unescaped.
+//! Numbers as they are printed, and the parts that all chapters are made of. Words of a case are escaped by the templates.
+
+use maud::{Markup, html};
 
 use crate::figures::figure;
 
-use super::scale::superscript;
-
-/// Text between tags or in an attribute.
-pub fn escaped(text: &str) -> String {
-    let mut safe = String::with_capacity(text.len());
-    for letter in text.chars() {
-        match letter {
-            '&' => safe.push_str("&amp;"),
-            '<' => safe.push_str("&lt;"),
-            '>' => safe.push_str("&gt;"),
-            '"' => safe.push_str("&quot;"),
-            '\'' => safe.push_str("&#39;"),
-            _ => safe.push(letter),
-        }
-    }
-    safe
-}
+use crate::drawing::scale::superscript;
 
 /// A number as it is printed.
 pub fn number(value: f64) -> String {
@@ -32,8 +18,10 @@ pub fn short(value: f64) -> String {
 
 /// A number as it was typed: as few digits as say it.
 pub fn given(value: f64) -> String {
+    // what was typed in degrees or read from a file has digits of rounding
+    let rounded: f64 = format!("{value:.9e}").parse().unwrap_or(value);
     let is_plain = (1e-3..1e5).contains(&value.abs()) || value == 0.0;
-    printed(&if is_plain { format!("{value}") } else { format!("{value:e}") })
+    printed(&if is_plain { format!("{rounded}") } else { format!("{rounded:e}") })
 }
 
 /// Digits with a power of ten in place of an `e`, and a true minus.
@@ -62,31 +50,38 @@ pub fn deviation(computed: f64, exact: f64) -> String {
     format!("{share:+.decimals$} %").replace('-', "−")
 }
 
-/// A table of names and values; values are HTML already.
-pub fn pairs(rows: &[(String, String)]) -> String {
-    let rows: Vec<String> = rows
-        .iter()
-        .map(|(name, value)| format!("<tr><th scope=\"row\">{}</th><td>{value}</td></tr>", escaped(name)))
-        .collect();
-    format!("<table class=\"pairs\">{}</table>\n", rows.concat())
+/// A chapter with its heading.
+pub fn chapter(heading: &str, body: &Markup) -> Markup {
+    html! { section { h2 { (heading) } (body) } }
 }
 
-/// A table with a head; cells are HTML already.
-pub fn table(head: &[&str], rows: &[Vec<String>]) -> String {
-    let cells = |tag: &str, row: &mut dyn Iterator<Item = String>| -> String {
-        row.map(|cell| format!("<{tag}>{cell}</{tag}>")).collect()
-    };
-    let body: String =
-        rows.iter().map(|row| format!("<tr>{}</tr>", cells("td", &mut row.iter().cloned()))).collect();
-    format!(
-        "<table class=\"grid\"><thead><tr>{}</tr></thead><tbody>{body}</tbody></table>\n",
-        cells("th", &mut head.iter().map(|name| escaped(name)))
-    )
+/// A table of names and values.
+pub fn pairs(rows: &[(String, Markup)]) -> Markup {
+    html! {
+        div class="scroll" { table class="pairs" { @for (name, value) in rows { tr { th scope="row" { (name) } td { (value) } } } } }
+    }
 }
 
-/// A figure with its caption, which is HTML already.
-pub fn figure_of(drawing: &str, caption: &str) -> String {
-    format!("<figure>{drawing}<figcaption>{caption}</figcaption></figure>\n")
+/// A table with a head.
+pub fn table(head: &[&str], rows: &[Vec<String>]) -> Markup {
+    html! {
+        div class="scroll" {
+            table class="grid" {
+                thead { tr { @for name in head { th { (name) } } } }
+                tbody { @for row in rows { tr { @for cell in row { td { (cell) } } } } }
+            }
+        }
+    }
+}
+
+/// A figure with its caption.
+pub fn figure_of(drawing: &Markup, caption: &str) -> Markup {
+    html! { figure { (drawing) figcaption { (caption) } } }
+}
+
+/// Figures side by side where there is room.
+pub fn side_by_side(figures: &[Markup]) -> Markup {
+    html! { div class="figures" { @for figure in figures { (figure) } } }
 }
 
 #[cfg(test)]
@@ -95,10 +90,13 @@ mod tests {
 
     #[test]
     fn words_of_a_case_cannot_become_tags() {
-        assert_eq!(
-            escaped("<script>\"a\" & 'b'</script>"),
-            "&lt;script&gt;&quot;a&quot; &amp; &#39;b&#39;&lt;/script&gt;"
+        let table = table(&["<b>"], &[vec!["<script>\"a\" & 'b'</script>".to_owned()]]).into_string();
+        assert!(
+            table.contains("&lt;b&gt;") && table.contains("&lt;script&gt;") && !table.contains("<script"),
+            "{table}"
         );
+        let page = html! { p title=("\"><script>") {} }.into_string();
+        assert_eq!(page, "<p title=\"&quot;&gt;&lt;script&gt;\"></p>");
     }
 
     #[test]
@@ -107,6 +105,7 @@ mod tests {
         assert_eq!(number(12.0), "12.000");
         assert_eq!(given(210e9), "2.1 · 10¹¹");
         assert_eq!(given(0.3), "0.3");
+        assert_eq!(given(3.208_999_999_999_999_7e-7), "3.209 · 10⁻⁷");
         assert_eq!(deviation(1.0012, 1.0), "+0.12 %");
         assert_eq!(deviation(1.0, 0.0), "–");
     }

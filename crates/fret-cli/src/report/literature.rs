@@ -1,8 +1,9 @@
 //! What to cite: the works whose methods and formulas stand behind this very page.
 
+use maud::{Markup, html};
+
 use super::closed_form::Pressed;
-use super::html::escaped;
-use super::scene::Scene;
+use super::overview::Overview;
 
 const LAYERS: &str = "T. C. O'Sullivan, R. B. King: Sliding contact stress field due to a spherical indenter on a layered \
                       elastic half-space. J. Tribol. 110 (1988) 235–240.";
@@ -27,39 +28,34 @@ const DERESIEWICZ: &str = "R. D. Mindlin, H. Deresiewicz: Elastic spheres in con
 const JOHNSON: &str = "K. L. Johnson: Contact Mechanics. Cambridge University Press (1985).";
 
 /// The chapter.
-pub fn chapter(scene: &Scene<'_>) -> String {
+pub fn chapter(view: &Overview<'_>) -> Markup {
     let coated = ["upper", "lower"].iter().any(|body| {
-        scene
-            .results
+        view.results
             .planned::<Vec<serde_json::Value>>(&format!("/case/bodies/{body}/elastic/coatings"))
             .is_some_and(|coatings| !coatings.is_empty())
     });
-    let periodic = scene.results.planned::<bool>("/case/periodic") == Some(true);
-    let pressed = scene.normal_form.and_then(|form| form.under(1.0));
-    let partial_slip = scene.tangential_form.is_some();
+    let periodic = view.results.planned::<bool>("/case/periodic") == Some(true);
+    let pressed = view.normal_form.and_then(|form| form.under(1.0));
+    let partial_slip = view.tangential_form.is_some();
     let works = [
         (coated, COATED),
         (coated, LAYERS),
         (!coated && !periodic, LOVE),
         (!periodic, CONVOLUTION),
         (true, GRADIENTS),
-        (scene.direction.is_some(), FRETTING),
+        (view.direction.is_some(), FRETTING),
         (matches!(pressed, Some(Pressed::Sphere(_) | Pressed::Ellipsoid(_))), HERTZ),
         (partial_slip, CATTANEO),
         (partial_slip, MINDLIN),
-        (partial_slip && !scene.cycles().is_empty(), DERESIEWICZ),
+        (partial_slip && !view.cycles().is_empty(), DERESIEWICZ),
         (pressed.is_some(), JOHNSON),
     ];
-    let items: Vec<String> = works
-        .iter()
-        .filter(|(is_used, _)| *is_used)
-        .map(|(_, work)| format!("<li>{}</li>", escaped(work)))
-        .collect();
-    let version = scene.results.record["version"].as_str().unwrap_or_default();
-    format!(
-        "<section><h2>To cite</h2><p>The program, fretting {}, with its file <code>CITATION.cff</code>; and the works that \
-         this page builds on:</p><ul class=\"works\">{}</ul></section>\n",
-        escaped(version),
-        items.concat()
-    )
+    let version = view.results.record["version"].as_str().unwrap_or_default();
+    html! {
+        section {
+            h2 { "To cite" }
+            p { "The program, fretting " (version) ", with its file " code { "CITATION.cff" } "; and the works that this page builds on:" }
+            ul class="works" { @for (is_used, work) in works { @if is_used { li { (work) } } } }
+        }
+    }
 }

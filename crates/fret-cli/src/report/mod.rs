@@ -1,46 +1,46 @@
-//! A run in one page: HTML with its style and its drawings inside, so that it needs neither network nor other files.
+//! A run in one page: HTML with its style, its drawings and its script inside, so that it needs neither network nor other files, and
+//! tells the browser to refuse both.
 //!
-//! From the ground: `scale` and `html`, `chart` and `map` (drawings), `closed_form` (what theory says), `chapters` (what the page
-//! tells), and the page itself here.
+//! From the ground: `html` (numbers and parts), `closed_form` (what theory says), `overview` (the run as a whole), `window` (what of
+//! the grid is shown), `chapters` (what the page tells), and the page itself here.
 
 mod chapters;
-mod chart;
 mod closed_form;
-pub mod html;
+mod html;
 mod literature;
-mod map;
-pub mod scale;
-mod scene;
+mod overview;
+mod window;
 
+use maud::{DOCTYPE, PreEscaped, html};
+
+use crate::drawing;
 use crate::failure::Failure;
 use crate::results::Results;
-use html::escaped;
-use scene::Scene;
+use overview::Overview;
 
 /// The style of the page.
 const STYLE: &str = include_str!("page.css");
+/// What moves the slider, and reads charts below a pointer.
+const SCRIPT: &str = include_str!("page.js");
+/// What the browser may do: show what the page holds, and nothing else.
+const POLICY: &str =
+    "default-src 'none'; img-src data:; style-src 'unsafe-inline'; script-src 'unsafe-inline'";
 
 /// The page of a run.
 pub fn page(results: &Results) -> Result<String, Failure> {
-    let scene = Scene::of(results);
-    let title = escaped(&results.title());
-    let chapters = [
-        chapters::head(&scene),
-        chapters::question(&scene),
-        chapters::pressing(&scene),
-        chapters::fretting_loop(&scene),
-        chapters::sections(&scene)?,
-        chapters::zones(&scene)?,
-        chapters::energy(&scene),
-        chapters::comparison(&scene),
-        chapters::convergence(&scene),
-        chapters::left_out(&scene),
-        literature::chapter(&scene),
-    ];
-    Ok(format!(
-        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
-         <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
-         <title>{title}</title>\n<style>\n{STYLE}</style>\n</head>\n<body>\n<main>\n{}</main>\n</body>\n</html>\n",
-        chapters.concat()
-    ))
+    let view = Overview::of(results);
+    let page = html! {
+        (DOCTYPE)
+        html lang="en" {
+            head {
+                meta charset="utf-8";
+                meta http-equiv="Content-Security-Policy" content=(POLICY);
+                meta name="viewport" content="width=device-width, initial-scale=1";
+                title { (results.title()) }
+                style { (PreEscaped(drawing::STYLE)) (PreEscaped(STYLE)) }
+            }
+            body { main { (chapters::all(&view)?) } script { (PreEscaped(SCRIPT)) } }
+        }
+    };
+    Ok(page.into_string() + "\n")
 }

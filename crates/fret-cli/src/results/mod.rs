@@ -7,7 +7,8 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
-use fret_core::history::CycleRecord;
+use fret_core::case::Units;
+use fret_core::history::{CycleRecord, FIELDS};
 use fret_core::machine::memory;
 use serde_json::Value;
 
@@ -83,12 +84,27 @@ impl Results {
         self.record["plan"].pointer(pointer).and_then(|value| T::deserialize(value).ok())
     }
 
+    /// Units that the case declares.
+    pub fn units(&self) -> Option<Units> {
+        self.planned("/case/units")
+    }
+
+    /// The head of a column of a field, with its unit where the case declares units.
+    pub fn field_heading(&self, name: &str) -> String {
+        Units::heading(self.units().as_ref(), name, kind_of_field(name), false)
+    }
+
     /// Names of the stages.
     pub fn stages(&self) -> Vec<String> {
         let stages = self.record["plan"]["case"]["stages"].as_array();
         let name = |stage: &Value| stage["name"].as_str().unwrap_or_default().to_owned();
         stages.map_or_else(Vec::new, |stages| stages.iter().map(name).collect())
     }
+}
+
+/// The kind of a field, or of a coordinate, for its unit.
+pub fn kind_of_field(name: &str) -> &'static str {
+    FIELDS.iter().find(|field| field.name == name).map_or("length", |field| field.unit)
 }
 
 /// Why the run of a record is not finished, in a sentence; none of a finished one. `solved`: increments it has solved.

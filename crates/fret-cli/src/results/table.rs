@@ -3,6 +3,8 @@
 use std::fs;
 use std::path::Path;
 
+use fret_core::case::Units;
+
 use super::unusable;
 use crate::failure::Failure;
 
@@ -26,7 +28,7 @@ impl Table {
             fs::read_to_string(path).map_err(|error| unusable(path, &format!("cannot be read: {error}")))?;
         let text = text.rsplit_once('\n').map_or("", |(whole, _)| whole).to_owned() + "\n";
         let mut lines = text.lines();
-        let names: Vec<&str> = lines.next().unwrap_or_default().split(',').collect();
+        let names: Vec<&str> = lines.next().unwrap_or_default().split(',').map(Units::name_of).collect();
         let mut table = Self { text: String::new(), columns: Vec::new(), regimes: Vec::new(), rows: 0 };
         table.columns.extend(names.iter().map(|&name| (name.to_owned(), Vec::new())));
         for (number, line) in lines.enumerate() {

@@ -1,22 +1,25 @@
 //! The folder of a sweep: `sweep.toml` (verbatim copy), `points/HASH.json` (a finished point, known by the hash of its
-//! case, of the files it names, of the state it starts from and of the version), `summary.csv` (a line a point).
+//! case, of the files it names, of the state it starts from and of the version), `summary.csv` (a line a point), of samples `uncertainty.json`.
 
 use std::fmt::Write;
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use fret_core::case::Units;
+use fret_core::history::{CYCLE_COLUMNS, STEP_COLUMNS};
 use serde_json::{Value, json};
 
 use crate::failure::{Failure, Unwritten};
 use crate::origin::Origin;
 use crate::output::{fnv1a64, write_whole};
-use crate::sweep::{Answer, Point, Question};
+use crate::sweep::{Answer, Point, Question, Spread};
 
 /// Version of the folder's format.
 const FORMAT: u32 = 1;
 const SWEEP: &str = "sweep.toml";
 const POINTS: &str = "points";
 const SUMMARY: &str = "summary.csv";
+const UNCERTAINTY: &str = "uncertainty.json";
 
 /// Columns of the summary after the keys: the last increment.
 const END: [&str; 12] = [
@@ -100,9 +103,18 @@ impl SweepFolder {
     /// # Errors
     /// When the file cannot be written.
     pub fn summarise(&self, question: &Question, answers: &[Option<Answer>]) -> Result<PathBuf, Unwritten> {
-        let cycle = CYCLE.iter().map(|name| format!("cycle_{name}"));
+        let units = question.points.first().and_then(|point| units_of(&point.case_file.text));
+        let heading = |name: &str, kind: &str| Units::heading(units.as_ref(), name, kind, false);
+        let kind = |name: &str| {
+            STEP_COLUMNS.iter().find(|column| column.name == name).map_or("", |column| column.unit)
+        };
+        let of_cycle = |name: &str| {
+            CYCLE_COLUMNS.iter().find(|column| column.name == name).map_or("", |column| column.unit)
+        };
+        let cycle = CYCLE.iter().map(|name| heading(&format!("cycle_{name}"), of_cycle(name)));
         let head = ["point".to_owned()].into_iter().chain(question.keys.iter().cloned());
-        let head = head.chain(["status".to_owned()]).chain(END.map(str::to_owned)).chain(cycle);
+        let head =
+            head.chain(["status".to_owned()]).chain(END.map(|name| heading(name, kind(name)))).chain(cycle);
         let mut text =
             head.chain(["message".to_owned()]).map(|cell| quoted(&cell)).collect::<Vec<_>>().join(",") + "\n";
         for (number, (point, answer)) in question.points.iter().zip(answers).enumerate() {
@@ -113,15 +125,7 @@ impl SweepFolder {
             }
             let _ = write!(text, ",{}", cell(&answer["status"]));
             for name in END {
-                let value = match name
-                    .strip_suffix("_x")
-                    .map(|stem| (stem, 0))
-                    .or(name.strip_suffix("_y").map(|stem| (stem, 1)))
-                {
-                    Some((stem, axis)) => &answer["end"][stem][axis],
-                    None => &answer["end"][name],
-                };
-                let _ = write!(text, ",{}", cell(value));
+                let _ = write!(text, ",{}", cell(at_end(answer, name)));
             }
             for name in CYCLE {
                 let _ = write!(text, ",{}", cell(&answer["cycle"][name]));
@@ -133,6 +137,28 @@ impl SweepFolder {
         Ok(path)
     }
 
+    /// Writes what the samples of a sweep say, where its points are samples; gives it to a person.
+    ///
+    /// # Errors
+    /// When the file cannot be written.
+    pub fn spread(
+        &self,
+        question: &Question,
+        answers: &[Option<Answer>],
+    ) -> Result<Option<String>, Unwritten> {
+        let Some(design) = &question.design else { return Ok(None) };
+        let column = |of: &dyn Fn(&Value) -> Option<f64>| -> Vec<f64> {
+            let value = |answer: &Option<Answer>| answer.as_ref().and_then(|answer| of(&answer.0));
+            answers.iter().map(|answer| value(answer).unwrap_or(f64::NAN)).collect()
+        };
+        let end = END.map(|name| (name.to_owned(), column(&|answer| at_end(answer, name).as_f64())));
+        let cycle =
+            CYCLE.map(|name| (format!("cycle_{name}"), column(&|answer| answer["cycle"][name].as_f64())));
+        let spread = Spread::new(&question.keys, design, end.into_iter().chain(cycle).collect());
+        write_whole(&self.path.join(UNCERTAINTY), format!("{:#}\n", spread.to_json()).as_bytes())?;
+        Ok(Some(spread.table()))
+    }
+
     fn place(&self, point: &Point) -> PathBuf {
         let mut known_by = format!("{}\n{}\n", env!("CARGO_PKG_VERSION"), point.case_file.text).into_bytes();
         known_by.extend(self.start.iter().flat_map(|start| start.bytes()));
@@ -142,6 +168,22 @@ impl SweepFolder {
         }
         self.path.join(POINTS).join(format!("{}.json", fnv1a64(&known_by)))
     }
+}
+
+/// A number of the last increment of an answer, by its name in `history.csv`.
+fn at_end<'a>(answer: &'a Value, name: &str) -> &'a Value {
+    let axis =
+        name.strip_suffix("_x").map(|stem| (stem, 0)).or(name.strip_suffix("_y").map(|stem| (stem, 1)));
+    axis.map_or(&answer["end"][name], |(stem, axis)| &answer["end"][stem][axis])
+}
+
+/// Units that the text of a case declares. Of a line contact, whose grid is not known here, none are told.
+fn units_of(text: &str) -> Option<Units> {
+    let table = text.parse::<toml::Table>().ok()?;
+    let units = table.get("units")?;
+    let cells = table.get("grid")?.get("cells")?.as_array()?;
+    let is_line = cells.get(1).and_then(toml::Value::as_integer) == Some(1);
+    (!is_line).then(|| Some(Units::new(units.get("length")?.as_str()?, units.get("force")?.as_str()?)))?
 }
 
 /// Names of files in a case: words under the keys that can name one.
@@ -183,8 +225,6 @@ fn quoted(text: &str) -> String {
 
 #[cfg(test)]
 mod tests {
-    use fret_core::history::{CYCLE_COLUMNS, STEP_COLUMNS};
-
     use super::*;
 
     #[test]

@@ -1,14 +1,16 @@
 //! The sweep file: `base`, a case file beside it or a table; `[axes]`, values of keys of the case, all combined; or
-//! `[[point]]`, values of keys that change together.
+//! `[[point]]`, values of keys that change together; or `[distributions]` of keys, from which `[samples]` are drawn.
 
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 use fret_core::case::{CaseError, Mistake, in_words};
+use fret_core::uncertainty::SampleDesign;
 use toml::de::{DeTable, DeValue};
 use toml::{Spanned, Table, Value};
 
 use crate::case_file::CaseFile;
+use crate::sweep::drawn::{Drawn, KINDS};
 use crate::sweep::key::put;
 
 /// Points of a sweep at the most.
@@ -21,6 +23,8 @@ pub struct Question {
     pub keys: Vec<String>,
     /// The points, the last axis fastest.
     pub points: Vec<Point>,
+    /// How the points were drawn, where they are samples.
+    pub design: Option<SampleDesign>,
 }
 
 /// One point of a sweep.
@@ -67,25 +71,34 @@ impl Reader<'_> {
         };
         let mut base = None;
         let mut axes = Vec::new();
+        let mut drawn = Drawn::default();
         for (name, value) in &table {
             match name.get_ref().as_ref() {
                 "base" => base = self.base(value),
                 "axes" => self.axes(value, "", &mut axes),
                 "point" => axes.extend(self.points(value)),
+                "distributions" => {
+                    drawn.span = Some(name.span());
+                    self.distributions(value, "", &mut drawn);
+                }
+                "samples" => self.samples(value, &mut drawn),
                 other => self.refuse(
                     Some(name.span()),
-                    &format!("unknown key `{other}`, expected `base`, `axes` or `point`"),
+                    &format!(
+                        "unknown key `{other}`, expected `base`, `axes`, `point`, `distributions` or `samples`"
+                    ),
                     None,
                 ),
             }
         }
         axes.sort_by_key(|axis| axis.span.start);
+        let design = self.designed(drawn, &mut axes);
         let nothing = Some("[axes]\n\"friction.coefficient\" = [0.1, 0.2]");
         if base.is_none() && self.mistakes.is_empty() {
             self.refuse(None, "no base case", Some("base = \"case.toml\", or a table [base]"));
         }
         if axes.is_empty() && self.mistakes.is_empty() {
-            self.refuse(None, "nothing changes: no [axes] and no [[point]]", nothing);
+            self.refuse(None, "nothing changes: no [axes], no [[point]] and no [distributions]", nothing);
         }
         let count = axes.iter().try_fold(1_usize, |count, axis| count.checked_mul(axis.rows.len()));
         if count.is_none_or(|count| count > MOST_POINTS) {
@@ -99,7 +112,7 @@ impl Reader<'_> {
             self.refuse_unknown_keys(first, &axes);
         }
         if self.mistakes.is_empty() {
-            Ok(Question { keys: axes.into_iter().flat_map(|axis| axis.keys).collect(), points })
+            Ok(Question { keys: axes.into_iter().flat_map(|axis| axis.keys).collect(), points, design })
         } else {
             Err(self.refusal())
         }
@@ -174,6 +187,74 @@ impl Reader<'_> {
         }
         let rows = tables.iter().map(|table| table.values().cloned().collect()).collect();
         Some(Axis { keys, rows, span: value.span() })
+    }
+
+    /// Distributions of a table; tables in it that are none are parts of dotted keys.
+    fn distributions(&mut self, value: &Spanned<DeValue<'_>>, before: &str, drawn: &mut Drawn) {
+        let help = "\"friction.coefficient\" = { normal = { mean = 0.6, deviation = 0.05 } }";
+        let DeValue::Table(table) = value.get_ref() else {
+            let key = before.trim_end_matches('.');
+            self.refuse(
+                Some(value.span()),
+                &format!("distributions: `{key}` has no distribution"),
+                Some(help),
+            );
+            return;
+        };
+        for (name, value) in table {
+            let key = format!("{before}{}", name.get_ref());
+            let kind = match value.get_ref() {
+                DeValue::Table(inner) => inner.keys().find(|kind| KINDS.contains(&kind.get_ref().as_ref())),
+                _ => None,
+            };
+            if kind.is_none() {
+                self.distributions(value, &format!("{key}."), drawn);
+                continue;
+            }
+            let plain = self.plain(value);
+            if let Err(message) = drawn.add(key, plain) {
+                self.refuse(Some(value.span()), &message, Some(help));
+            }
+        }
+    }
+
+    /// How many samples are drawn, and how.
+    fn samples(&mut self, value: &Spanned<DeValue<'_>>, drawn: &mut Drawn) {
+        let plain = self.plain(value);
+        if let Err(message) = drawn.count(plain) {
+            let help = "[samples]\ncount = 256\nseed = 1\nindices = true";
+            self.refuse(Some(value.span()), &message, Some(help));
+        }
+        drawn.samples = Some(value.span());
+    }
+
+    /// The samples of the distributions, as the rows of an axis.
+    fn designed(&mut self, drawn: Drawn, axes: &mut Vec<Axis>) -> Option<SampleDesign> {
+        let Some(span) = drawn.span.clone() else {
+            if drawn.samples.is_some() {
+                self.refuse(drawn.samples, "samples: there is nothing to draw from", Some("[distributions]"));
+            }
+            return None;
+        };
+        if !axes.is_empty() {
+            let message =
+                "distributions: beside [axes] or [[point]], which would need statistics of their own";
+            self.refuse(Some(span), message, Some("one sweep per value, or fretting.sweep from Python"));
+            return None;
+        }
+        if !self.mistakes.is_empty() {
+            return None;
+        }
+        match drawn.rows() {
+            Ok((keys, rows, design)) => {
+                axes.push(Axis { keys, rows, span });
+                Some(design)
+            }
+            Err(message) => {
+                self.refuse(Some(drawn.samples.unwrap_or(span)), &message, Some("[samples]\ncount = 256"));
+                None
+            }
+        }
     }
 
     /// All points, the last axis fastest.

@@ -27,7 +27,7 @@ fn a_grid_of_the_wrong_unit_is_told_of_by_every_verb() {
     assert!(names(&bench.text("results/case/run.json")).contains(&"few_cells".to_owned()));
     assert!(bench.fret(&["run", "case.toml"]).out.contains("warning: cells in the contact radius: "));
     assert_eq!(bench.fret(&["report", "results/case"]).code, Some(0));
-    assert!(bench.text("results/case/report.html").contains("cells in the contact radius: "));
+    assert!(bench.text("results/case/report.html").contains("Cells in the contact radius: "));
     let refused = bench.fret(&["run", "case.toml", "--estimate-error", "--force"]);
     assert_eq!(refused.code, Some(1));
     assert!(refused.err.contains("cells in the contact radius are too few"), "{}", refused.err);

@@ -54,9 +54,15 @@ fn a_case_with_a_stress_table_is_followed_by_stresses_and_fatigue() {
     bench.file("case.toml", &with_stress(table));
     let answer = bench.fret(&["run", "case.toml", "--out", "out"]);
     assert_eq!(answer.code, Some(0), "{}", answer.err);
-    for word in
-        ["von mises", "fatemi socie", "dang van", "crossland", "smith watson topper", "ruiz f1", "line method"]
-    {
+    for word in [
+        "von mises",
+        "fatemi socie",
+        "dang van",
+        "crossland",
+        "smith watson topper",
+        "ruiz f1",
+        "line method",
+    ] {
         assert!(answer.out.contains(word), "{word}: {}", answer.out);
     }
     let record: Value = serde_json::from_str(&bench.text("out/stress/stress.json")).unwrap();

@@ -113,3 +113,61 @@ fn mistakes_in_a_sweep_are_refused_with_their_places() {
     assert!(answer.err.contains("holds files that are no sweep"), "{}", answer.err);
     assert!(!bench.folder.join("results").exists(), "nothing was written");
 }
+
+#[test]
+fn samples_of_uncertain_keys_are_drawn_told_and_drawn_again_alike() {
+    let bench = Bench::new("sweep-samples");
+    let sweep = "base = \"case.toml\"\n[distributions]\n\"friction.coefficient\" = { uniform = { from = 0.1, to = 0.2 } }\n\
+        [distributions.profile.sphere]\nradius = { lognormal = { mean = 10e-3, deviation = 0.5e-3 } }\n\
+        [samples]\ncount = 4\nseed = 3\nindices = true\n";
+    let answer = bench.file("case.toml", SPHERE).file("many.toml", sweep).fret(&["sweep", "many.toml"]);
+    assert_eq!(answer.code, Some(0), "{}", answer.err);
+    assert!(answer.out.contains("16 solved") && answer.out.contains("Sobol' indices"), "{}", answer.out);
+    let told: Value = serde_json::from_str(&bench.text("results/many/uncertainty.json")).unwrap();
+    let pressure = &told["quantities"]["max_pressure"];
+    let summary = bench.text("results/many/summary.csv");
+    let values: Vec<f64> =
+        column(&summary, "max_pressure").iter().map(|cell| cell.parse().unwrap()).collect();
+    let mean = values[..8].iter().sum::<f64>() / 8.0;
+    assert!((pressure["mean"].as_f64().unwrap() / mean - 1.0).abs() < 1e-14);
+    // friction moves the pressure little, also in four samples
+    let total = |key: &str| pressure["sobol_indices"][key]["total"].as_f64().unwrap();
+    assert!(total("profile.sphere.radius") > 5.0 * total("friction.coefficient"), "{pressure}");
+    std::fs::remove_dir_all(bench.folder.join("results/many/points")).unwrap();
+    assert_eq!(bench.fret(&["sweep", "many.toml", "--quiet"]).code, Some(0));
+    assert_eq!(bench.text("results/many/summary.csv"), summary);
+}
+
+#[test]
+fn wrong_distributions_are_refused_where_they_stand() {
+    let bench = Bench::new("sweep-wrong-samples");
+    bench.file("case.toml", SPHERE);
+    let good = "\"friction.coefficient\" = { uniform = { from = 0.1, to = 0.2 } }";
+    for (text, words) in [
+        (
+            "[distributions]\n\"friction.coefficient\" = { uniform = { from = 0.2, to = 0.1 } }\n[samples]\ncount = 4",
+            "from must lie below to",
+        ),
+        (
+            "[distributions]\n\"friction.coefficient\" = { normal = { mean = 0.2 } }\n[samples]\ncount = 4",
+            "deviation",
+        ),
+        (
+            "[distributions]\n\"friction.coefficient\" = { gauss = 1.0 }\n[samples]\ncount = 4",
+            "has no distribution",
+        ),
+        (&format!("[distributions]\n{good}"), "how many"),
+        (&format!("[distributions]\n{good}\n[samples]\ncount = 1"), "between 2 and"),
+        (&format!("[distributions]\n{good}\n[samples]\ncount = 4\nsede = 1"), "sede"),
+        (
+            &format!("[axes]\n\"grid.cells\" = [[8, 8]]\n[distributions]\n{good}\n[samples]\ncount = 4"),
+            "beside [axes]",
+        ),
+        ("[samples]\ncount = 4", "nothing to draw from"),
+    ] {
+        let answer =
+            bench.file("many.toml", &format!("base = \"case.toml\"\n{text}\n")).fret(&["sweep", "many.toml"]);
+        assert_eq!(answer.code, Some(1), "{text}: {}", answer.err);
+        assert!(answer.err.contains(words), "{text}: {}", answer.err);
+    }
+}

@@ -4,6 +4,7 @@ use toml::Spanned;
 
 use super::attachments::Attachments;
 use super::bodies::bodies;
+use super::conduction::conduction;
 use super::course::Stage;
 use super::definition::{Case, GridSize, Origin};
 use super::file::{CaseFile, CellsFile, OutputFile, SizeFile};
@@ -14,6 +15,7 @@ use super::output::{FIELD_NAMES, Output};
 use super::refusal::Mistake;
 use super::repeating::repeats;
 use super::residual::residual;
+use super::rig::rig;
 use super::shape::profile;
 use super::stages::{sliding, stages};
 use super::stress::stress;
@@ -57,7 +59,9 @@ pub(super) fn case(
     let changes = friction.as_ref().zip(changes).map(|(first, changes)| of_one_interface(first, changes));
     let laws = friction.as_ref().zip(changes.as_ref()).map(|(first, changes)| in_force(first, changes));
     let history_tolerance = file.solver.as_ref().and_then(|solver| solver.history_tolerance.as_ref());
-    let stages = stages(&mut judge, &file.load, laws.as_deref(), history_tolerance);
+    let rig_file = file.rig.as_ref();
+    let rig = rig(&mut judge, rig_file);
+    let stages = stages(&mut judge, &file.load, (laws.as_deref(), rig_file), history_tolerance);
     let stages = stages.zip(changes.as_ref()).map(|(stages, changes)| with_friction(stages, changes));
     let loading = (&file.load, stages.as_deref());
     let is_line = matches!(file.grid.cells.get_ref(), CellsFile::Line(_));
@@ -95,6 +99,13 @@ pub(super) fn case(
     let units = file.units.as_ref().and_then(|file| super::units::units(&mut judge, file));
     let output = output(&mut judge, file.output.as_ref());
     let stress = stress(&mut judge, file.stress.as_ref(), bodies.as_ref(), output.as_ref(), frictionless);
+    let conduction = conduction(
+        &mut judge,
+        [("lower", file.lower.get_ref()), ("upper", file.upper.get_ref())],
+        file.thermal.as_ref(),
+        (stages.as_deref(), output.as_ref()),
+        (frictionless, is_line, periodic),
+    );
     match (cells, size, bodies, profile, friction, stages, tolerance, output) {
         (
             Some(cells),
@@ -115,8 +126,10 @@ pub(super) fn case(
             bodies,
             residual_stress,
             fatigue,
+            conduction,
             profile,
             friction,
+            rig,
             start: judge.attachments.start,
             stages,
             wear,

@@ -11,7 +11,7 @@ use super::judge::Judge;
 use super::pair::Pair;
 use super::phases::{Phases, phases};
 use super::stage_file::StageFile;
-use super::table::{COLUMNS, Columns};
+use super::table::{ACTUATOR, ACTUATOR_APPROACH, COLUMNS, Columns};
 
 /// What a stage prescribes, if anything.
 #[derive(Default)]
@@ -59,17 +59,22 @@ pub(super) fn controls(
         if cyclic { Path::Wave { amplitude: value, phase: phase / 360.0 } } else { Path::To(value) }
     };
     let Phases { rigid, tilt, bulk_stress } = phases;
-    let normal = (("normal_force", &file.normal_force), ("approach", &file.approach));
-    let twist = (("twist_moment", &file.twist_moment), ("twist", &file.twist));
-    let normal = scalar(judge, place, normal, rigid[0], &path);
-    let twist = scalar(judge, place, twist, rigid[3], &path);
+    let normal = [
+        ("normal_force", &file.normal_force, FORCE),
+        ("approach", &file.approach, MOTION),
+        ("actuator_approach", &file.actuator_approach, FAR_END),
+    ];
+    let twist = [("twist_moment", &file.twist_moment, FORCE), ("twist", &file.twist, MOTION)];
+    let normal = scalar(judge, place, &normal, rigid[0], &path);
+    let twist = scalar(judge, place, &twist, rigid[3], &path);
     let pair = |given: &Spanned<Pair<AxisFile>>| (given.get_ref().0, given.span());
     let [x, y] = along(
         judge,
         place,
         [
-            ("tangential_force", true, file.tangential_force.as_ref().map(pair)),
-            ("shift", false, file.shift.as_ref().map(pair)),
+            ("tangential_force", FORCE, file.tangential_force.as_ref().map(pair)),
+            ("shift", MOTION, file.shift.as_ref().map(pair)),
+            ("actuator", FAR_END, file.actuator.as_ref().map(pair)),
         ],
         [rigid[1], rigid[2]],
         &path,
@@ -79,15 +84,14 @@ pub(super) fn controls(
         judge,
         place,
         [
-            ("tilt_moment", true, file.tilt_moment.as_ref().map(pair)),
-            ("tilt", false, file.tilt.as_ref().map(pair)),
+            ("tilt_moment", FORCE, file.tilt_moment.as_ref().map(pair)),
+            ("tilt", MOTION, file.tilt.as_ref().map(pair)),
         ],
         tilt,
         &path,
     );
     let mut stretched = |key, given: &Option<Spanned<_>>, phases| {
-        let none = ("", false, None);
-        along(judge, place, [(key, true, given.as_ref().map(pair)), none], phases, &path)
+        along(judge, place, [(key, FORCE, given.as_ref().map(pair))], phases, &path)
     };
     let bulk_stress = [
         stretched("bulk_stress", &file.bulk_stress, bulk_stress[0]),
@@ -103,6 +107,8 @@ fn named(file: &StageFile) -> Option<Range<usize>> {
         file.approach.as_ref().map(Spanned::span),
         file.tangential_force.as_ref().map(Spanned::span),
         file.shift.as_ref().map(Spanned::span),
+        file.actuator.as_ref().map(Spanned::span),
+        file.actuator_approach.as_ref().map(Spanned::span),
         file.twist_moment.as_ref().map(Spanned::span),
         file.twist.as_ref().map(Spanned::span),
         file.tilt_moment.as_ref().map(Spanned::span),
@@ -121,30 +127,44 @@ fn from_table(columns: &Columns) -> Controls {
         column(force).map(StageControl::Force).or_else(|| column(motion).map(StageControl::Motion))
     };
     let stress = |index: usize| column(index).map(StageControl::Force);
+    let driven = |force: usize, motion: usize, far_end: usize| {
+        pair(force, motion).or_else(|| column(far_end).map(StageControl::FarEnd))
+    };
     Controls {
-        rigid: [pair(0, 1), pair(2, 4), pair(3, 5), pair(6, 7)],
+        rigid: [
+            driven(0, 1, ACTUATOR_APPROACH),
+            driven(2, 4, ACTUATOR[0]),
+            driven(3, 5, ACTUATOR[1]),
+            pair(6, 7),
+        ],
         tilt: [pair(8, 10), pair(9, 11)],
         bulk_stress: [[stress(12), stress(13)], [stress(14), stress(15)]],
     }
 }
 
-/// A key with what stands there.
-type Named<'a> = (&'a str, &'a Option<Spanned<f64>>);
+/// How a path becomes a control.
+type Kind = fn(Path) -> StageControl;
+const FORCE: Kind = StageControl::Force;
+const MOTION: Kind = StageControl::Motion;
+const FAR_END: Kind = StageControl::FarEnd;
 
-/// A force or a motion that is one number.
+/// A key with what stands there, and the kind of control that it is.
+type Named<'a> = (&'a str, &'a Option<Spanned<f64>>, Kind);
+
+/// One of several controls that is one number.
 fn scalar(
     judge: &mut Judge,
     place: &str,
-    (force, motion): (Named<'_>, Named<'_>),
+    keys: &[Named<'_>],
     phase: f64,
     path: ToPath<'_>,
 ) -> Option<StageControl> {
-    let (key, given, kind): (_, _, fn(Path) -> StageControl) = match (force.1, motion.1) {
-        (None, None) => return None,
-        (Some(value), None) => (force.0, value, StageControl::Force),
-        (None, Some(value)) => (motion.0, value, StageControl::Motion),
-        (Some(_), Some(value)) => return both(judge, place, force.0, motion.0, value.span()),
-    };
+    let mut there =
+        keys.iter().filter_map(|(key, given, kind)| given.as_ref().map(|given| (*key, given, kind)));
+    let (key, given, kind) = there.next()?;
+    if let Some((other, value, _)) = there.next() {
+        return both(judge, place, key, other, value.span());
+    }
     let value = *given.get_ref();
     if !value.is_finite() {
         return judge.refuse(given.span(), format!("{place}.{key} = {value}: must be finite"), "");
@@ -152,20 +172,20 @@ fn scalar(
     Some(kind(path(value, phase)))
 }
 
-/// A key, whether it prescribes a force, and its values along x and y with their place.
-type AlongAxes<'a> = (&'a str, bool, Option<([AxisFile; 2], Range<usize>)>);
+/// A key, the kind of control that it is, and its values along x and y with their place.
+type AlongAxes<'a> = (&'a str, Kind, Option<([AxisFile; 2], Range<usize>)>);
 
 /// Forces or motions along x and y.
-fn along(
+fn along<const N: usize>(
     judge: &mut Judge,
     place: &str,
-    keys: [AlongAxes<'_>; 2],
+    keys: [AlongAxes<'_>; N],
     phases: [f64; 2],
     path: ToPath<'_>,
 ) -> [Option<StageControl>; 2] {
-    let [force, motion] = [keys[0].0, keys[1].0];
     let mut found = [None, None];
-    for (key, by_force, given) in keys {
+    let mut by = [""; 2];
+    for (key, kind, given) in keys {
         let Some((values, span)) = given else { continue };
         let parts = values.map(AxisFile::value);
         if parts.iter().flatten().any(|part| !part.is_finite()) {
@@ -175,11 +195,11 @@ fn along(
         for (axis, part) in parts.into_iter().enumerate() {
             let Some(value) = part else { continue };
             if found[axis].is_some() {
-                both::<()>(judge, place, force, motion, span.clone());
+                both::<()>(judge, place, by[axis], key, span.clone());
                 continue;
             }
-            let path = path(value, phases[axis]);
-            found[axis] = Some(if by_force { StageControl::Force(path) } else { StageControl::Motion(path) });
+            found[axis] = Some(kind(path(value, phases[axis])));
+            by[axis] = key;
         }
     }
     found
@@ -189,6 +209,9 @@ fn both<T>(judge: &mut Judge, place: &str, force: &str, motion: &str, span: Rang
     let help = match motion {
         "shift" => {
             "prescribe one of the two along each axis: tangential_force = [1.0, \"held\"], shift = [\"held\", 0.0]"
+        }
+        "actuator" => {
+            "prescribe one of the two along each axis: tangential_force = [1.0, \"held\"], actuator = [\"held\", 0.0]"
         }
         "tilt" => {
             "prescribe one of the two along each axis: tilt_moment = [1.0, \"held\"], tilt = [\"held\", 0.0]"

@@ -52,6 +52,8 @@ pub enum StageControl {
     Force(Path),
     /// A motion [length] or rotation [rad].
     Motion(Path),
+    /// The motion of the far end of the machine's spring [length].
+    FarEnd(Path),
 }
 
 /// How a stage runs from where it starts.
@@ -206,13 +208,13 @@ impl Stage {
 
     /// Value of a control at the end of increment `k` (from 1), when the stage found it at `start`.
     pub fn value(&self, control: &StageControl, start: f64, k: usize) -> f64 {
-        let (StageControl::Force(path) | StageControl::Motion(path)) = control;
+        let path = control.path();
         match (path, &self.course) {
             (Path::To(target), _) if k == self.increments => *target,
             (Path::To(target), course) => {
                 let power = match (course, control) {
                     (Course::Cubic, StageControl::Force(_)) => 3,
-                    (Course::Cubic, StageControl::Motion(_)) => 2,
+                    (Course::Cubic, StageControl::Motion(_) | StageControl::FarEnd(_)) => 2,
                     _ => 1,
                 };
                 start + (target - start) * (k as f64 / self.increments as f64).powi(power)
@@ -242,9 +244,7 @@ impl Stage {
     pub fn load(&self, start: &LoadStep, k: usize) -> LoadStep {
         let one = |control: &Option<StageControl>, start: Control| match (control, start) {
             (None, start) => start,
-            (Some(control), Control::Force(from) | Control::Motion(from)) => {
-                control.prescribing(self.value(control, from, k))
-            }
+            (Some(control), start) => control.prescribing(self.value(control, start.value(), k)),
         };
         LoadStep {
             normal: one(&self.normal, start.normal),
@@ -282,7 +282,7 @@ impl Stage {
 impl StageControl {
     /// What it runs through.
     pub fn path(&self) -> &Path {
-        let (Self::Force(path) | Self::Motion(path)) = self;
+        let (Self::Force(path) | Self::Motion(path) | Self::FarEnd(path)) = self;
         path
     }
 
@@ -291,12 +291,13 @@ impl StageControl {
         match self {
             Self::Force(_) => Control::Force(value),
             Self::Motion(_) => Control::Motion(value),
+            Self::FarEnd(_) => Control::FarEnd(value),
         }
     }
 
-    /// Whether it prescribes a motion.
+    /// Whether it prescribes a motion, of the body or of the actuator.
     pub fn is_motion(&self) -> bool {
-        matches!(self, Self::Motion(_))
+        matches!(self, Self::Motion(_) | Self::FarEnd(_))
     }
 }
 
@@ -324,10 +325,11 @@ pub fn walk(start: Option<&LoadStep>, stages: &[Stage], mut visit: impl FnMut(us
 }
 
 fn known(stage: &Stage, control: &StageControl, start: Option<Control>, k: usize) -> Option<Control> {
-    let (StageControl::Force(path) | StageControl::Motion(path)) = control;
+    let path = control.path();
     match (control, start) {
         (StageControl::Force(_), Some(Control::Force(from)))
-        | (StageControl::Motion(_), Some(Control::Motion(from))) => {
+        | (StageControl::Motion(_), Some(Control::Motion(from)))
+        | (StageControl::FarEnd(_), Some(Control::FarEnd(from))) => {
             Some(control.prescribing(stage.value(control, from, k)))
         }
         _ => match path {

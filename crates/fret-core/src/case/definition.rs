@@ -8,7 +8,8 @@ use super::refusal::{CaseError, Difference, Mistake};
 use super::stress::StressRequest;
 use super::units::Units;
 use crate::model::{
-    ContactPair, CoulombFriction, Integration, LoadStep, Profile, ResidualStress, Scheme, WearRule,
+    Conduction, ContactPair, CoulombFriction, Integration, LoadStep, Profile, ResidualStress, Rig, Scheme,
+    WearRule,
 };
 use crate::subsurface::fatigue::LayerConstants;
 
@@ -37,10 +38,16 @@ pub struct Case {
     /// Constants for fatigue and fracture of the layers of the lower and of the upper body.
     #[serde(skip_serializing_if = "have_no_constants")]
     pub fatigue: [LayerConstants; 2],
+    /// What the bodies conduct, and how often they rub.
+    #[serde(skip_serializing_if = "Conduction::is_none")]
+    pub conduction: Conduction,
     /// Undeformed gap.
     pub profile: Profile,
     /// Friction law at the start; stages may change it.
     pub friction: CoulombFriction,
+    /// The machine between the upper body and what is driven, where it gives.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub rig: Option<Rig>,
     /// What is prescribed where the history starts; `None`: bodies that have not touched yet.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub start: Option<LoadStep>,
@@ -93,6 +100,11 @@ impl Case {
     /// Whether it is a line contact: plane strain across a line along y, all loads per unit length.
     pub fn is_line(&self) -> bool {
         self.cells[1] == 1
+    }
+
+    /// Springs between the upper body and what is driven.
+    pub fn springs(&self) -> Rig {
+        self.rig.unwrap_or(Rig::RIGID)
     }
 
     /// Whether the upper body is tilted along an axis (0: x, 1: y) by any stage, or where the history starts.

@@ -53,7 +53,11 @@ fn constants(
     if let (false, Some((key, value))) =
         (is_coating, of_coatings.iter().find_map(|(key, value)| value.as_ref().map(|value| (key, value))))
     {
-        judge.refuse::<()>(value.span(), format!("{place}.{key}: a constant of coatings"), "coatings = [{ ..., fatigue = { ... } }]");
+        judge.refuse::<()>(
+            value.span(),
+            format!("{place}.{key}: a constant of coatings"),
+            "coatings = [{ ..., fatigue = { ... } }]",
+        );
     }
     plain
 }
@@ -87,13 +91,25 @@ mod tests {
     fn wrong_constants_are_refused_where_they_stand() {
         let crack = "threshold = 1.0, short_crack_length = 0.1, initial_length = 0.2";
         for (coating, substrate, words) in [
-            ("yield_strength = -1.0", "", "lower.coatings[0].fatigue.yield_strength = -1.0: must be positive"),
+            (
+                "yield_strength = -1.0",
+                "",
+                "lower.coatings[0].fatigue.yield_strength = -1.0: must be positive",
+            ),
             ("torsion_limit = 1.0", "", "belong together"),
             ("", "fracture_energy = 1.0", "a constant of coatings"),
             ("", "yield = 1.0", "yield"),
             ("", &format!("crack = {{ {crack}, final_length = 0.1 }}"), "final_length must be greater"),
-            ("", &format!("crack = {{ {crack}, final_length = 1.0, paris_exponent = 3.0 }}"), "belong together"),
-            ("", "strain_life = { strength_coefficient = 9.0, strength_exponent = 0.1, ductility_coefficient = 0.3, ductility_exponent = -0.6 }", "must be negative"),
+            (
+                "",
+                &format!("crack = {{ {crack}, final_length = 1.0, paris_exponent = 3.0 }}"),
+                "belong together",
+            ),
+            (
+                "",
+                "strain_life = { strength_coefficient = 9.0, strength_exponent = 0.1, ductility_coefficient = 0.3, ductility_exponent = -0.6 }",
+                "must be negative",
+            ),
         ] {
             let error = read(coating, substrate).unwrap_err();
             assert!(error.contains(words), "{error}");

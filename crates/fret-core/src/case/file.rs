@@ -5,6 +5,7 @@ use serde::Deserialize;
 use serde::de::{self, SeqAccess, Visitor};
 use toml::Spanned;
 
+use super::along::{AlongFile, AlongPhaseSchema};
 use super::pair::Pair;
 use super::residual_file::{ResidualFile, ResidualSchema};
 use super::stage_file::{AutoWord, StageFile, WearFile};
@@ -37,6 +38,8 @@ pub(super) struct CaseFile {
     pub profile: Option<Spanned<ProfileFile>>,
     /// Dry friction. Default: frictionless.
     pub friction: Option<FrictionFile>,
+    /// The machine between the upper body and what is driven. Default: rigid.
+    pub rig: Option<RigFile>,
     /// Stages of the loading history, in order.
     #[schemars(with = "Vec<StageFile>")]
     pub load: Spanned<Vec<Spanned<StageFile>>>,
@@ -49,6 +52,22 @@ pub(super) struct CaseFile {
     /// Subsurface stresses, evaluated from the kept tractions after the run.
     #[schemars(with = "Option<StressFile>")]
     pub stress: Option<Spanned<StressFile>>,
+    /// Temperature rise of the surfaces by friction, evaluated from the kept fields after the run.
+    #[schemars(with = "Option<ThermalFile>")]
+    pub thermal: Option<Spanned<ThermalFile>>,
+}
+
+/// The machine: springs between the upper body and what a stage drives with `actuator` and `actuator_approach`.
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RigFile {
+    /// Tangential stiffness of the machine [force/length], along x and y or in both directions alike: actuator = shift + tangential
+    /// force / stiffness. Default: rigid.
+    #[schemars(with = "Option<AlongPhaseSchema>")]
+    pub tangential_stiffness: Option<Spanned<AlongFile<f64>>>,
+    /// Normal stiffness of the machine [force/length]: actuator_approach = approach + normal force / stiffness. Default: rigid.
+    #[schemars(with = "Option<f64>")]
+    pub normal_stiffness: Option<Spanned<f64>>,
 }
 
 /// Units of the numbers in the case. Nothing is converted: results are in the same units.
@@ -197,6 +216,12 @@ pub(super) struct BodyFile {
     /// What the coatings are bonded to when there is no substrate: "rigid".
     #[schemars(with = "Option<BaseFile>")]
     pub base: Option<Spanned<BaseFile>>,
+    /// Thermal conductivity [power/(length temperature)], positive; of what is rigid: the body, or the base of its coatings.
+    #[schemars(with = "Option<f64>")]
+    pub thermal_conductivity: Option<Spanned<f64>>,
+    /// Electrical resistivity [resistance x length], positive; of what is rigid: the body, or the base of its coatings.
+    #[schemars(with = "Option<f64>")]
+    pub electrical_resistivity: Option<Spanned<f64>>,
     /// Shape of this body's surface: its distance from the plane of first touch.
     #[schemars(with = "Option<ProfileFile>")]
     pub profile: Option<Spanned<ProfileFile>>,
@@ -233,6 +258,12 @@ pub(super) struct CoatingFile {
     /// Constants for fatigue and fracture. What has no constants is not computed; none is built in.
     #[schemars(with = "Option<FatigueConstants>")]
     pub fatigue: Option<Spanned<ConstantsFile>>,
+    /// Thermal conductivity [power/(length temperature)], positive; of all layers of a body and its substrate, or of none.
+    #[schemars(with = "Option<f64>")]
+    pub thermal_conductivity: Option<Spanned<f64>>,
+    /// Electrical resistivity [resistance x length], positive; of all layers of a body and its substrate, or of none.
+    #[schemars(with = "Option<f64>")]
+    pub electrical_resistivity: Option<Spanned<f64>>,
 }
 
 /// Young's modulus over the depth of a coating: `young` at both faces and the `law` between them, or a `table`.
@@ -279,6 +310,12 @@ pub(super) struct MaterialFile {
     /// Constants for fatigue and fracture. What has no constants is not computed; none is built in.
     #[schemars(with = "Option<FatigueConstants>")]
     pub fatigue: Option<Spanned<ConstantsFile>>,
+    /// Thermal conductivity [power/(length temperature)], positive; of all layers of a body and its substrate, or of none.
+    #[schemars(with = "Option<f64>")]
+    pub thermal_conductivity: Option<Spanned<f64>>,
+    /// Electrical resistivity [resistance x length], positive; of all layers of a body and its substrate, or of none.
+    #[schemars(with = "Option<f64>")]
+    pub electrical_resistivity: Option<Spanned<f64>>,
 }
 
 /// Accuracy of the solution.
@@ -345,6 +382,15 @@ pub(super) struct StressFile {
     /// down to 2 L (line method).
     #[schemars(with = "Option<f64>")]
     pub critical_distance: Option<Spanned<f64>>,
+}
+
+/// Steady temperature rise by the friction of the last cycle.
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(super) struct ThermalFile {
+    /// Cycles per unit of time; that of the conductivities, so that energy times frequency is their power.
+    #[schemars(with = "f64")]
+    pub frequency: Spanned<f64>,
 }
 
 /// One of the two bodies.

@@ -29,6 +29,8 @@ pub(super) fn phases(judge: &mut Judge, place: &str, file: &StageFile) -> Phases
         approach,
         tangential_force,
         shift,
+        actuator,
+        actuator_approach,
         twist_moment,
         twist,
         tilt_moment,
@@ -39,6 +41,7 @@ pub(super) fn phases(judge: &mut Judge, place: &str, file: &StageFile) -> Phases
     let scalars = [
         (0, "normal_force", normal_force, file.normal_force.is_some()),
         (0, "approach", approach, file.approach.is_some()),
+        (0, "actuator_approach", actuator_approach, file.actuator_approach.is_some()),
         (3, "twist_moment", twist_moment, file.twist_moment.is_some()),
         (3, "twist", twist, file.twist.is_some()),
     ];
@@ -59,8 +62,11 @@ pub(super) fn phases(judge: &mut Judge, place: &str, file: &StageFile) -> Phases
                 }
             }
         };
-    let pairs =
-        [("tangential_force", tangential_force, &file.tangential_force), ("shift", shift, &file.shift)];
+    let pairs = [
+        ("tangential_force", tangential_force, &file.tangential_force),
+        ("shift", shift, &file.shift),
+        ("actuator", actuator, &file.actuator),
+    ];
     for (key, phase, control) in pairs {
         let phase = phase.as_ref().map(|phase| (phase.get_ref().0, phase.span()));
         read(key, phase, control.as_ref().map(|control| control.get_ref().0), &mut phases.rigid[1..3]);

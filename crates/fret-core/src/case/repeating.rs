@@ -66,10 +66,12 @@ pub(super) fn repeats(
         }
         let normal = [
             ("approach", stage.approach.as_ref().map(Spanned::span)),
+            ("actuator_approach", stage.actuator_approach.as_ref().map(Spanned::span)),
             ("an approach", in_table(&|stage| moves(&stage.normal))),
         ];
         let tangential = [
             ("shift", stage.shift.as_ref().map(Spanned::span)),
+            ("actuator", stage.actuator.as_ref().map(Spanned::span)),
             ("a shift", in_table(&|stage| stage.tangential.iter().any(moves))),
         ];
         for (axis, motions) in [normal, tangential].into_iter().enumerate() {

@@ -30,6 +30,13 @@ pub(super) struct StageFile {
     /// Rigid tangential displacement of the upper body along x and y [length]: at the end, or the amplitude; or "held".
     #[schemars(with = "Option<[AxisSchema; 2]>")]
     pub shift: Option<Spanned<Pair<AxisFile>>>,
+    /// Displacement of the actuator along x and y [length], the far end of the machine's spring ([rig]): shift + tangential force /
+    /// stiffness; at the end, or the amplitude; or "held".
+    #[schemars(with = "Option<[AxisSchema; 2]>")]
+    pub actuator: Option<Spanned<Pair<AxisFile>>>,
+    /// Normal displacement of the actuator [length]: approach + normal force / stiffness; at the end, or the amplitude.
+    #[schemars(with = "Option<f64>")]
+    pub actuator_approach: Option<Spanned<f64>>,
     /// Moment about z [force x length]: at the end, or the amplitude.
     #[schemars(with = "Option<f64>")]
     pub twist_moment: Option<Spanned<f64>>,
@@ -177,6 +184,12 @@ pub(super) struct PhaseFile {
     /// Of the shift along x and y.
     #[schemars(with = "Option<[f64; 2]>")]
     pub shift: Option<Spanned<Pair<f64>>>,
+    /// Of the actuator along x and y.
+    #[schemars(with = "Option<[f64; 2]>")]
+    pub actuator: Option<Spanned<Pair<f64>>>,
+    /// Of the actuator along z.
+    #[schemars(with = "Option<f64>")]
+    pub actuator_approach: Option<Spanned<f64>>,
     /// Of the moment about z.
     #[schemars(with = "Option<f64>")]
     pub twist_moment: Option<Spanned<f64>>,

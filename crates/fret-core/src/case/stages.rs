@@ -4,7 +4,9 @@ use toml::Spanned;
 
 use super::controls::{Controls, controls};
 use super::course::{Course, Cycles, Stage, StageControl, Waveform, walk};
+use super::file::RigFile;
 use super::judge::Judge;
+use super::rig::driven;
 use super::stage_file::{IncrementsFile, RampFile, StageFile, WaveformFile};
 use super::table::table;
 use crate::model::{Control, CoulombFriction};
@@ -20,7 +22,7 @@ const MOST_CYCLES: usize = 1_000_000;
 pub(super) fn stages(
     judge: &mut Judge,
     list: &Spanned<Vec<Spanned<StageFile>>>,
-    friction: Option<&[&CoulombFriction]>,
+    (friction, rig): (Option<&[&CoulombFriction]>, Option<&RigFile>),
     history_tolerance: Option<&Spanned<f64>>,
 ) -> Option<Vec<Stage>> {
     let tolerance = self::history_tolerance(judge, list.get_ref(), history_tolerance)?;
@@ -34,7 +36,7 @@ pub(super) fn stages(
     let mut checked = Vec::new();
     for (index, given) in list.get_ref().iter().enumerate() {
         let frictionless = friction.is_some_and(|laws| laws[index].is_frictionless());
-        checked.push(stage(judge, index, given, frictionless, tolerance));
+        checked.push(stage(judge, index, given, (frictionless, rig), tolerance));
     }
     let stages: Vec<Stage> = checked.into_iter().collect::<Option<_>>()?;
     let in_all = stages.iter().fold(0_usize, |sum, stage| {
@@ -79,7 +81,7 @@ fn stage(
     judge: &mut Judge,
     index: usize,
     given: &Spanned<StageFile>,
-    frictionless: bool,
+    (frictionless, rig): (bool, Option<&RigFile>),
     tolerance: f64,
 ) -> Option<Stage> {
     let before = judge.mistakes.len();
@@ -104,6 +106,7 @@ fn stage(
         increments = increments.saturating_mul(rows);
     }
     let controls = controls(judge, &place, file, columns.as_ref());
+    driven(judge, &place, file, columns.as_ref(), rig);
     let Controls { rigid: [normal, x, y, twist], tilt, bulk_stress } = controls;
     let starts_free = index == 0 && judge.attachments.start.is_none();
     if starts_free && normal.is_none() && judge.mistakes.len() == before {
@@ -130,6 +133,7 @@ fn stage(
         let spans = [
             file.tangential_force.as_ref().map(Spanned::span),
             file.shift.as_ref().map(Spanned::span),
+            file.actuator.as_ref().map(Spanned::span),
             file.twist_moment.as_ref().map(Spanned::span),
             file.twist.as_ref().map(Spanned::span),
             file.table.as_ref().map(Spanned::span),
@@ -145,7 +149,7 @@ fn stage(
         judge.refuse::<()>(
             given.span(),
             format!("{place}: nothing is prescribed"),
-            "normal_force, approach, tangential_force, shift, twist_moment, twist, tilt_moment, tilt, bulk_stress, upper_bulk_stress or friction",
+            "normal_force, approach, tangential_force, shift, actuator, actuator_approach, twist_moment, twist, tilt_moment, tilt, bulk_stress, upper_bulk_stress or friction",
         );
     }
     (judge.mistakes.len() == before).then_some(stage)
@@ -372,7 +376,7 @@ impl Stage {
     /// Whether it prescribes more than forces that stay zero. A bulk stress of a contact without friction only adds to the stresses below.
     fn is_tangential_beyond_rest(&self) -> bool {
         let rests = |control: &StageControl| match control {
-            StageControl::Motion(_) => false,
+            StageControl::Motion(_) | StageControl::FarEnd(_) => false,
             StageControl::Force(path) => path.is_zero(),
         };
         self.tangential.iter().flatten().any(|control| !rests(control)) || self.twist.is_some()

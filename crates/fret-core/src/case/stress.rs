@@ -27,7 +27,13 @@ pub struct StressRequest {
 
 impl Default for StressRequest {
     fn default() -> Self {
-        Self { depths: None, body: Side::Lower, every: 1, volume: false, fatigue: FatigueConstants::default() }
+        Self {
+            depths: None,
+            body: Side::Lower,
+            every: 1,
+            volume: false,
+            fatigue: FatigueConstants::default(),
+        }
     }
 }
 

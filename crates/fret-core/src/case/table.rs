@@ -7,9 +7,10 @@ use toml::Spanned;
 
 use super::judge::Judge;
 use super::stage_file::StageFile;
+use super::units::Units;
 
 /// Controls a column can hold, by the names of `history.csv`.
-pub(super) const COLUMNS: [&str; 16] = [
+pub(super) const COLUMNS: [&str; 19] = [
     "normal_force",
     "approach",
     "tangential_force_x",
@@ -26,11 +27,19 @@ pub(super) const COLUMNS: [&str; 16] = [
     "bulk_stress_y",
     "upper_bulk_stress_x",
     "upper_bulk_stress_y",
+    "actuator_x",
+    "actuator_y",
+    "actuator_approach",
 ];
 
+/// Where the actuator along x and y stands among them.
+pub(super) const ACTUATOR: [usize; 2] = [16, 17];
+/// Where its approach does.
+pub(super) const ACTUATOR_APPROACH: usize = 18;
+
 /// Columns that prescribe one thing, of which a table may have one.
-const RIVALS: [[usize; 2]; 10] =
-    [[0, 1], [2, 4], [3, 5], [6, 7], [8, 10], [9, 11], [12, 12], [13, 13], [14, 14], [15, 15]];
+const RIVALS: [&[usize]; 10] =
+    [&[0, 1, 18], &[2, 4, 16], &[3, 5, 17], &[6, 7], &[8, 10], &[9, 11], &[12], &[13], &[14], &[15]];
 
 /// Rows of a table, at the most.
 const MOST_ROWS: usize = 1_000_000;
@@ -56,7 +65,8 @@ pub(super) fn table(
         .trim(csv::Trim::All)
         .from_reader(text.as_bytes());
     let names: Vec<String> = match reader.headers() {
-        Ok(names) => names.iter().map(str::to_owned).collect(),
+        // a table of results has units in its head
+        Ok(names) => names.iter().map(|name| column_name(name).to_owned()).collect(),
         Err(error) => return at.refuse(judge, &unreadable(&error), ""),
     };
     let chosen = chosen(judge, file, &names, &at)?;
@@ -89,6 +99,12 @@ pub(super) fn table(
         return at.refuse(judge, &message, "");
     }
     Some(columns)
+}
+
+/// The name of a column: of one of the controls without the unit that may stand behind it.
+fn column_name(head: &str) -> &str {
+    let name = Units::name_of(head);
+    if COLUMNS.contains(&name) { name } else { head }
 }
 
 /// Why a row cannot be read.
@@ -146,14 +162,18 @@ fn chosen(
             chosen.push((known, index));
         }
     }
-    for pair in RIVALS {
-        let [force, motion] = pair.map(|index| COLUMNS[index]);
-        let has = |control: &str| chosen.iter().filter(|(known, _)| *known == control).count();
-        if let Some(twice) = [force, motion].into_iter().find(|control| has(control) > 1) {
-            return at.refuse(judge, &format!("column {twice:?} stands there twice"), "");
-        }
-        if force != motion && has(force) + has(motion) > 1 {
-            let message = format!("{force} and {motion} prescribe one thing, and one column may do so");
+    for rivals in RIVALS {
+        let there: Vec<&str> = rivals
+            .iter()
+            .flat_map(|&rival| chosen.iter().filter(move |(known, _)| *known == COLUMNS[rival]))
+            .map(|(known, _)| *known)
+            .collect();
+        if let [one, other, ..] = there[..] {
+            let message = if one == other {
+                format!("column {one:?} stands there twice")
+            } else {
+                format!("{one} and {other} prescribe one thing, and one column may do so")
+            };
             return at.refuse(judge, &message, "");
         }
     }

@@ -39,6 +39,35 @@ impl Units {
     }
 }
 
+impl Units {
+    /// The head of a column: its name, with its unit in brackets where the case declares units and the quantity has one of them.
+    pub fn heading(units: Option<&Self>, name: &str, kind: &str, is_line: bool) -> String {
+        let kind = if is_line { Self::per_length(kind) } else { kind };
+        let depends = ["length", "force", "pressure"].iter().any(|word| kind.contains(word));
+        match units {
+            Some(units) if depends => format!("{name} [{}]", units.of(kind)),
+            _ => name.to_owned(),
+        }
+    }
+
+    /// The name of a column, whose head may have a unit.
+    pub fn name_of(heading: &str) -> &str {
+        heading.split_once(" [").map_or(heading, |(name, _)| name)
+    }
+
+    /// The kind of a quantity of a line contact, whose loads are those of a unit of length; `kind` is that of a point contact.
+    pub fn per_length(kind: &str) -> &str {
+        match kind {
+            "force" => "force/length",
+            "force x length" => "force",
+            "length^2" => "length",
+            "length^3" => "length^2",
+            "force/length" => "force/length^2",
+            other => other,
+        }
+    }
+}
+
 /// Powers of ten of the prefixes that lengths and forces have.
 const PREFIXES: [(&str, i32); 8] =
     [("G", 9), ("M", 6), ("k", 3), ("", 0), ("c", -2), ("m", -3), ("u", -6), ("n", -9)];
@@ -107,5 +136,17 @@ mod tests {
         assert_eq!(units.of("pressure"), "MPa");
         assert_eq!(units.of("force/length"), "N/mm");
         assert_eq!(units.of("rad"), "rad");
+    }
+
+    #[test]
+    fn heads_of_columns_have_units_where_there_are_some() {
+        let units = Units::new("mm", "N");
+        let head = |name: &str, kind: &str, is_line: bool| Units::heading(Some(&units), name, kind, is_line);
+        assert_eq!(head("normal_force", "force", false), "normal_force [N]");
+        assert_eq!(head("normal_force", "force", true), "normal_force [N/mm]");
+        assert_eq!(head("dissipated_energy", "force x length", true), "dissipated_energy [N]");
+        assert_eq!(head("wall_s", "s", false), "wall_s");
+        assert_eq!(Units::heading(None, "approach", "length", false), "approach");
+        assert_eq!(Units::name_of("normal_force [N/mm]"), "normal_force");
     }
 }

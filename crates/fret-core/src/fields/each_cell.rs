@@ -2,6 +2,7 @@
 
 use pulp::{Arch, Scalar, Simd, WithSimd};
 
+use super::portions::{PORTION, pieces, split, split_mut};
 use super::registers::{Number, Reals};
 
 /// Registers after which sums go on in double precision.
@@ -18,6 +19,19 @@ pub trait CellRule<const READ: usize, const WRITE: usize, const SUMS: usize> {
 
 /// `to = factor * from`, in the precision of `to`.
 pub fn convert<A: Number, B: Number>(from: &[A], factor: f64, to: &mut [B]) {
+    convert_in(pieces(to.len() / PORTION), from, factor, to);
+}
+
+fn convert_in<A: Number, B: Number>(pieces: usize, from: &[A], factor: f64, to: &mut [B]) {
+    if pieces > 1 {
+        let middle = to.len() * (pieces / 2) / pieces;
+        let ([from, from_behind], (to, behind)) = (split([from], middle), to.split_at_mut(middle));
+        rayon::join(
+            || convert_in(pieces / 2, from[0], factor, to),
+            || convert_in(pieces - pieces / 2, from_behind[0], factor, behind),
+        );
+        return;
+    }
     Arch::new().dispatch(
         #[inline(always)]
         || {
@@ -28,11 +42,67 @@ pub fn convert<A: Number, B: Number>(from: &[A], factor: f64, to: &mut [B]) {
     );
 }
 
-/// Applies a rule to every cell; returns its sums, taken in an order that is fixed on a machine.
+/// Applies a rule to every cell, on all threads of the current pool where there are many; returns its sums, taken in an order that is
+/// fixed on a machine.
 ///
 /// # Panics
 /// When the fields differ in length, but for [optional](CellRule::OPTIONAL) ones that are all empty.
 pub fn each_cell<N, R, const READ: usize, const WRITE: usize, const SUMS: usize>(
+    rule: &R,
+    read: [&[N]; READ],
+    write: [&mut [N]; WRITE],
+) -> [f64; SUMS]
+where
+    N: Number,
+    R: CellRule<READ, WRITE, SUMS> + Sync,
+{
+    let len = read.first().map(|field| field.len()).or(write.first().map(|field| field.len())).unwrap_or(0);
+    if len <= PORTION {
+        return pass(rule, read, write);
+    }
+    let of_one_length = |field: usize, found: usize| {
+        let may_lack = READ - R::OPTIONAL <= field && found == 0;
+        assert!(found == len || may_lack, "fields of one length");
+    };
+    read.iter().enumerate().for_each(|(field, values)| of_one_length(field, values.len()));
+    write.iter().for_each(|values| of_one_length(0, values.len()));
+    let mut sums = vec![[0.0; SUMS]; len.div_ceil(PORTION)];
+    in_portions(rule, read, write, &mut sums, pieces(len / PORTION));
+    sums.iter().fold([0.0; SUMS], |total, part| std::array::from_fn(|sum| total[sum] + part[sum]))
+}
+
+/// Applies a rule to portions of the cells in turn, or to so many pieces of them at once; the sums of each portion go to `sums`.
+fn in_portions<N, R, const READ: usize, const WRITE: usize, const SUMS: usize>(
+    rule: &R,
+    mut read: [&[N]; READ],
+    mut write: [&mut [N]; WRITE],
+    sums: &mut [[f64; SUMS]],
+    pieces: usize,
+) where
+    N: Number,
+    R: CellRule<READ, WRITE, SUMS> + Sync,
+{
+    if pieces > 1 {
+        let middle = sums.len() * (pieces / 2) / pieces;
+        let (sums, sums_behind) = sums.split_at_mut(middle);
+        let [read, read_behind] = split(read, middle * PORTION);
+        let [write, write_behind] = split_mut(write, middle * PORTION);
+        rayon::join(
+            || in_portions(rule, read, write, sums, pieces / 2),
+            || in_portions(rule, read_behind, write_behind, sums_behind, pieces - pieces / 2),
+        );
+        return;
+    }
+    for sums in sums {
+        let [read_here, read_behind] = split(read, PORTION);
+        let [write_here, write_behind] = split_mut(write, PORTION);
+        *sums = pass(rule, read_here, write_here);
+        (read, write) = (read_behind, write_behind);
+    }
+}
+
+/// Applies a rule to every cell, here.
+fn pass<N, R, const READ: usize, const WRITE: usize, const SUMS: usize>(
     rule: &R,
     read: [&[N]; READ],
     write: [&mut [N]; WRITE],
@@ -151,7 +221,28 @@ pub trait CellSize<const READ: usize> {
 ///
 /// # Panics
 /// When the fields differ in length.
-pub fn largest_of<N: Number, R: CellSize<READ>, const READ: usize>(size: &R, read: [&[N]; READ]) -> f64 {
+pub fn largest_of<N: Number, R: CellSize<READ> + Sync, const READ: usize>(
+    size: &R,
+    read: [&[N]; READ],
+) -> f64 {
+    let len = read[0].len();
+    assert!(read.iter().all(|field| field.len() == len), "fields of one length");
+    largest_in(pieces(len / PORTION), size, read)
+}
+
+fn largest_in<N: Number, R: CellSize<READ> + Sync, const READ: usize>(
+    pieces: usize,
+    size: &R,
+    read: [&[N]; READ],
+) -> f64 {
+    if pieces > 1 {
+        let [read, behind] = split(read, read[0].len() * (pieces / 2) / pieces);
+        let (one, other) = rayon::join(
+            || largest_in(pieces / 2, size, read),
+            || largest_in(pieces - pieces / 2, size, behind),
+        );
+        return one.max(other);
+    }
     Arch::new().dispatch(Largest { size, read })
 }
 
@@ -219,6 +310,41 @@ mod tests {
         for len in [0, 1, 7, 16, 515, 1024 + 9] {
             empty_is_zero::<f64>(len);
             empty_is_zero::<f32>(len);
+        }
+    }
+
+    /// A sum over cells of many portions has the same bits on any number of threads, and is that of the cells to rounding; every cell is
+    /// passed once.
+    #[test]
+    fn sums_do_not_depend_on_the_threads() {
+        let len = 9 * PORTION + 1234;
+        let a: Vec<f64> = (0..len).map(|cell| (cell as f64 * 0.7).sin() + 0.1).collect();
+        let on = |threads: usize| {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+            pool.install(|| {
+                let mut to = vec![1.0; len];
+                let [sum, none] = each_cell(&AddThrice, [&a, &[]], [&mut to]);
+                assert!(none == 0.0 && to.iter().zip(&a).all(|(to, a)| *to == 1.0 + a));
+                let mut single = vec![0.0_f32; len];
+                convert(&a, 2.0, &mut single);
+                assert!(single.iter().zip(&a).all(|(to, a)| *to == (2.0 * a) as f32));
+                (sum, largest_of(&Own, [&a]))
+            })
+        };
+        let (sum, largest) = on(1);
+        let exact: f64 = a.iter().sum();
+        assert!((sum - exact).abs() < 1e-10 * len as f64, "{sum} {exact}");
+        assert_eq!(largest, a.iter().copied().fold(0.0, f64::max));
+        for threads in [2, 3, 8] {
+            assert_eq!(on(threads), (sum, largest), "{threads}");
+        }
+    }
+
+    struct Own;
+
+    impl CellSize<1> for Own {
+        fn of<R: Reals>(&self, [a]: [R; 1]) -> R {
+            a
         }
     }
 

@@ -2,11 +2,13 @@
 
 mod arithmetic;
 mod each_cell;
+mod portions;
 mod registers;
 pub(crate) mod stored;
 mod tangential;
 
 pub use arithmetic::{add_scaled, dot, largest, lower, norm, sum};
 pub use each_cell::{CellRule, CellSize, convert, each_cell, largest_of};
+pub use portions::{PORTION, pieces};
 pub use registers::{Number, Reals};
 pub use tangential::TangentialField;

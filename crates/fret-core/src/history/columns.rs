@@ -181,6 +181,19 @@ pub static STEP_COLUMNS: &[Column<StepRecord>] = &[
         WORK,
         |step| step.bulk_work,
     ),
+    real(
+        "actuator_x",
+        "tangential displacement of the actuator along x: shift, and force over stiffness of the rig",
+        LENGTH,
+        |step| step.actuator[0],
+    ),
+    real("actuator_y", "the same along y", LENGTH, |step| step.actuator[1]),
+    real(
+        "actuator_approach",
+        "normal displacement of the actuator: approach, and force over stiffness of the rig",
+        LENGTH,
+        |step| step.actuator_approach,
+    ),
 ];
 
 /// Columns of the table of cycles, in its order: `cycles.csv`, and `history.cycles` in Python. Names are those of the record.
@@ -234,6 +247,24 @@ pub static CYCLE_COLUMNS: &[Column<CycleRecord>] = &[
         WORK,
         |cycle| cycle.total_dissipated_energy,
     ),
+    real_or_none(
+        "actuator_amplitude",
+        "half the range of the actuator's displacement along the axis of the force",
+        NO_UNIT,
+        |cycle| cycle.actuator_amplitude,
+    ),
+    real_or_none("actuator_energy_ratio", "A of the loop at the actuator", RATIO, |cycle| {
+        cycle.actuator_energy_ratio
+    }),
+    real_or_none("actuator_sliding_ratio", "D of the loop at the actuator", RATIO, |cycle| {
+        cycle.actuator_sliding_ratio
+    }),
+    real_or_none(
+        "actuator_stiffness",
+        "slope of the loop at the actuator directly after reversal",
+        NO_UNIT,
+        |cycle| cycle.actuator_stiffness,
+    ),
 ];
 
 fn regime_word(regime: Regime) -> &'static str {
@@ -283,7 +314,8 @@ mod tests {
             "dissipated_energy": 7.5, "total_dissipated_energy": 8.5, "drive": "torsional", "direction": 9.5,
             "force_amplitude": 10.5, "displacement_amplitude": 11.5, "opening": 12.5, "energy_ratio": 13.5,
             "sliding_ratio": 14.5, "stiffness": 15.5, "regime": "mixed", "closure": 16.5, "steady": true,
-            "worn_volume": 17.5, "max_worn_depth": 18.5,
+            "worn_volume": 17.5, "max_worn_depth": 18.5, "actuator_amplitude": 19.5,
+            "actuator_energy_ratio": 20.5, "actuator_sliding_ratio": 21.5, "actuator_stiffness": 22.5,
         });
         serde_json::from_value(all).unwrap()
     }

@@ -78,6 +78,15 @@ pub struct CycleRecord {
     pub worn_volume: f64,
     /// Largest worn depth after them [length].
     pub max_worn_depth: f64,
+    /// Half of the range of the actuator's displacement along the direction of the force [length]; of a case with a machine that
+    /// gives and a cycle driven tangentially, as what follows.
+    pub actuator_amplitude: Option<f64>,
+    /// Dissipated energy over `4 Q* d*` of the loop at the actuator [-]. The machine dissipates nothing.
+    pub actuator_energy_ratio: Option<f64>,
+    /// Opening over amplitude of the loop at the actuator [-]. Both loops are equally open.
+    pub actuator_sliding_ratio: Option<f64>,
+    /// Slope of the loop at the actuator over the first increment back from the largest force [force/length].
+    pub actuator_stiffness: Option<f64>,
 }
 
 /// Zhou and Vincent's running condition of several cycles, which may change from one to the next.

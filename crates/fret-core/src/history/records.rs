@@ -27,6 +27,10 @@ pub struct StepRecord {
     pub tangential_force: [f64; 2],
     /// Rigid tangential displacement of the upper body [length].
     pub shift: [f64; 2],
+    /// Normal displacement of the actuator [length]: the approach, and what the machine gives.
+    pub actuator_approach: f64,
+    /// Tangential displacement of the actuator [length]: the shift, and what the machine gives.
+    pub actuator: [f64; 2],
     /// Moment about z on the lower body [force x length].
     pub twist_moment: f64,
     /// Rotation of the upper body about z [rad].

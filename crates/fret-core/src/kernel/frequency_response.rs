@@ -5,7 +5,7 @@ use super::complex::Wavenumber;
 use super::compliance_below::Compliance;
 use super::layer::{Carry, LayerMatrices, OPAQUE};
 use super::layer_constants::LayerConstants;
-use crate::model::{Base, HalfSpace};
+use crate::model::{Base, ConductingLayer, Conductor, HalfSpace};
 
 /// Surface displacement per traction at one wavenumber.
 ///
@@ -55,6 +55,8 @@ pub struct FrequencyResponse {
     /// From the surface down.
     layers: Vec<Layer>,
     base: Option<LayerConstants>,
+    /// Whether `tt` is all there is, and stands for the others.
+    conducts: bool,
 }
 
 impl FrequencyResponse {
@@ -86,7 +88,20 @@ impl FrequencyResponse {
             Base::Elastic(material) => Some(LayerConstants::new(material)),
             Base::Rigid => None,
         };
-        Self { layers, base }
+        Self { layers, base, conducts: false }
+    }
+
+    /// Potential of the surface (temperature, voltage) per flux into it: `zz`, `rr` and `tt` are one, `rz = 0`.
+    ///
+    /// Conduction is antiplane shear with the conductivity for the shear modulus; of one layer on a half-space
+    /// `1/(k1 k) (1 + lam e)/(1 - lam e)`, `e = exp(-2 k h)`, `lam = (k1 - k2)/(k1 + k2)`.
+    pub fn conduction(conductor: &Conductor) -> Self {
+        let layer = |layer: ConductingLayer| Layer {
+            constants: LayerConstants::conducting(layer.conductivity),
+            thickness: layer.thickness,
+        };
+        let layers = conductor.layers().into_iter().map(layer).collect();
+        Self { layers, base: Some(LayerConstants::conducting(conductor.base())), conducts: true }
     }
 
     /// `C(k)` at a wavenumber `k > 0` [rad/length]: [length/pressure].
@@ -103,6 +118,9 @@ impl FrequencyResponse {
     /// `k C(k)` at a real or complex wavenumber.
     pub(crate) fn times_wavenumber<T: Wavenumber>(&self, k: T) -> ResponseTimesK<T> {
         let Compliance { in_plane, tt, .. } = self.compliance(k);
+        if self.conducts {
+            return ResponseTimesK { zz: tt, rr: tt, rz: T::zero(), tt };
+        }
         ResponseTimesK { zz: in_plane.zz, rr: in_plane.rr, rz: in_plane.rz, tt }
     }
 
@@ -193,6 +211,7 @@ mod tests {
         FrequencyResponse {
             layers: layers.iter().map(layer).collect(),
             base: substrate.map(|elasticity| LayerConstants::new(&material(elasticity))),
+            conducts: false,
         }
     }
 

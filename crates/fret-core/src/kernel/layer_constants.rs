@@ -38,6 +38,12 @@ impl LayerConstants {
         }
     }
 
+    /// Of a layer whose shear modulus stands for a conductivity: conduction is antiplane shear (Poisson's ratio does not enter).
+    pub(crate) fn conducting(conductivity: f64) -> Self {
+        let c0 = 1.0 / conductivity;
+        Self { nu: 0.0, mu: conductivity, b: 0.5, g: 0.5, c0, b_one_minus_4nu: 0.5, one_minus_g2: 0.75 }
+    }
+
     /// Poisson's ratio.
     pub(crate) fn poisson(&self) -> f64 {
         self.nu

@@ -2,7 +2,7 @@
 
 use super::complex::Wavenumber;
 use super::frequency_response::{FrequencyResponse, Response, ResponseTimesK};
-use crate::model::{Body, ContactPair};
+use crate::model::{Body, Conductor, ContactPair};
 
 /// Composite frequency response of a pair: displacements of the lower surface minus those of the upper one, as the contact
 /// sees them.
@@ -33,6 +33,13 @@ impl PairResponse {
             Body::Elastic(half_space) => Some(FrequencyResponse::all_layers(half_space, thickness)),
         };
         Self { lower: prepare(pair.lower()), upper: prepare(pair.upper()) }
+    }
+
+    /// Potentials of both surfaces by a flux out of one into the other, see [`FrequencyResponse::conduction`]; a body that is absent adds
+    /// nothing.
+    pub fn conduction(conductors: [Option<&Conductor>; 2]) -> Self {
+        let [lower, upper] = conductors.map(|conductor| conductor.map(FrequencyResponse::conduction));
+        Self { lower, upper }
     }
 
     /// `C(k)` at a wavenumber `k > 0` [rad/length]: [length/pressure].
@@ -110,9 +117,11 @@ impl PairResponse {
 
 #[cfg(test)]
 mod tests {
+    use super::super::quadrature::GaussRule;
+    use super::super::radial::RadialKernels;
     use super::super::samples::{Random, material, stack};
     use super::*;
-    use crate::model::HalfSpace;
+    use crate::model::{ConductingLayer, HalfSpace};
 
     fn two(upper: &HalfSpace, lower: &HalfSpace) -> PairResponse {
         let pair = ContactPair::new(Body::Elastic(upper.clone()), Body::Elastic(lower.clone())).unwrap();
@@ -164,5 +173,71 @@ mod tests {
         let lower = stack(&[(1.0, 0.3, 1.0)], Some((2.0, 0.3)));
         let upper = stack(&[(1.0, 0.3, 1.0)], Some((2.0, 0.31)));
         assert!(!two(&upper, &lower).is_uncoupled());
+    }
+
+    /// Temperature times k1/(q a) at the centre of a heated disc of radius 1 on a layer, by images at the depths 2 n h: of a uniform flux,
+    /// and of `sqrt(1 - r^2)`.
+    fn by_images(ratio: f64, thickness: f64) -> [f64; 2] {
+        let lambda = (ratio - 1.0) / (ratio + 1.0);
+        let of = |z: f64| {
+            [
+                (1.0 + z * z).sqrt() - z,
+                0.5 * ((1.0 + z * z) * (0.5 * std::f64::consts::PI - libm::atan(z)) - z),
+            ]
+        };
+        let mut sum = of(0.0);
+        for n in 1..=400 {
+            let image = of(2.0 * f64::from(n) * thickness);
+            let strength = 2.0 * libm::pow(lambda, f64::from(n));
+            sum = [0, 1].map(|flux| sum[flux] + strength * image[flux]);
+        }
+        sum
+    }
+
+    #[test]
+    fn conduction_through_a_layer_is_its_image_series() {
+        for (ratio, thickness) in
+            [(0.1, 0.1), (0.1, 1.0), (0.5, 0.5), (2.0, 0.1), (2.0, 1.0), (10.0, 0.5), (10.0, 1.0)]
+        {
+            let layer = ConductingLayer { thickness, conductivity: ratio };
+            let body = Conductor::new(vec![layer], 1.0).unwrap();
+            let response = PairResponse::conduction([Some(&body), None]);
+            let [disc, hertz] = by_images(ratio, thickness);
+            let whole = RadialKernels::new(&response, 1.0, 2.0).over_disc()[0] * ratio;
+            assert!((whole / disc - 1.0).abs() < 1e-12, "{ratio}, {thickness}: {whole} {disc}"); // rounding of 400 images
+            // the flux over a small disc around the middle is one but for 5e-9 of 1e-4; beyond by Gauss points in the angle of sin = r
+            let least = 1e-4_f64;
+            let kernels = RadialKernels::new(&response, least, 2.0);
+            let from = libm::asin(least);
+            let half = 0.5 * (std::f64::consts::FRAC_PI_2 - from);
+            let beyond: f64 = GaussRule::new(40)
+                .points
+                .iter()
+                .map(|(point, weight)| {
+                    let angle = from + half * (1.0 + point);
+                    let (r, flux) = (libm::sin(angle), libm::cos(angle));
+                    weight * half * flux * flux * std::f64::consts::TAU * r * kernels.at_square(r * r)[0]
+                })
+                .sum();
+            let found = ratio * (kernels.over_disc()[0] + beyond);
+            assert!((found / hertz - 1.0).abs() < 1e-11, "{ratio}, {thickness}: {found} {hertz}");
+        }
+    }
+
+    #[test]
+    fn the_response_of_a_layer_that_conducts_is_the_closed_form() {
+        let (k1, k2, h) = (0.3, 4.0, 0.7);
+        let body = Conductor::new(vec![ConductingLayer { thickness: h, conductivity: k1 }], k2).unwrap();
+        let lambda = (k1 - k2) / (k1 + k2);
+        for k in [1e-6, 0.1, 1.0, 7.0, 300.0] {
+            let e = lambda * libm::exp(-2.0 * k * h);
+            let exact = (1.0 + e) / (k1 * k * (1.0 - e));
+            let found = PairResponse::conduction([Some(&body), None]).at(k);
+            assert!((found.zz / exact - 1.0).abs() < 1e-14 && found.rz == 0.0, "{k}");
+        }
+        // layers of one conductivity are none
+        let layer = ConductingLayer { thickness: h, conductivity: k2 };
+        let same = Conductor::new(vec![layer, layer], k2).unwrap();
+        assert!(PairResponse::conduction([Some(&same), None]).constant().is_some());
     }
 }

@@ -9,14 +9,25 @@ pub enum Control {
     Force(f64),
     /// The rigid motion [length], or [rad] for twist, slope for tilt; the resultant follows.
     Motion(f64),
+    /// The motion of the far end of the machine's spring [length]: the body's own plus what the spring gives; both motion and
+    /// resultant follow. Not for twist and tilt.
+    FarEnd(f64),
+}
+
+impl Control {
+    /// The number that is prescribed.
+    pub fn value(self) -> f64 {
+        let (Self::Force(value) | Self::Motion(value) | Self::FarEnd(value)) = self;
+        value
+    }
 }
 
 /// Loads and motions at the end of one increment.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct LoadStep {
-    /// Normal force (compression positive) or approach.
+    /// Normal force (compression positive) or approach, of the body or of the actuator.
     pub normal: Control,
-    /// Tangential force on the lower body, or shift of the upper body, along x and y.
+    /// Tangential force on the lower body, or shift of the upper body or of the actuator, along x and y.
     pub tangential: [Control; 2],
     /// Moment about z on the lower body, or rotation of the upper body.
     pub twist: Control,
@@ -41,6 +52,7 @@ impl LoadStep {
         let one = |from: Control, to: Control| match (from, to) {
             (Control::Force(a), Control::Force(b)) if share < 1.0 => Control::Force(a + (b - a) * share),
             (Control::Motion(a), Control::Motion(b)) if share < 1.0 => Control::Motion(a + (b - a) * share),
+            (Control::FarEnd(a), Control::FarEnd(b)) if share < 1.0 => Control::FarEnd(a + (b - a) * share),
             (_, to) => to,
         };
         Self {

@@ -1,6 +1,7 @@
 //! The nouns of a contact: grid, bodies, profile, friction, loads, state. No numerics live here.
 
 pub mod bulk;
+pub mod conduction;
 pub mod friction;
 pub mod graded;
 pub mod grid;
@@ -9,6 +10,7 @@ pub mod heights;
 pub mod load;
 pub mod profile;
 pub mod residual;
+pub mod rig;
 pub mod scheme;
 pub mod shape;
 pub mod state;
@@ -17,6 +19,7 @@ pub mod wear;
 
 pub use crate::fields::TangentialField;
 pub use bulk::{BulkCompliance, bulk_stress_in_layer};
+pub use conduction::{ConductingLayer, Conduction, Conductor, ConductorError};
 pub use friction::{CellValues, CoulombFriction, FrictionError};
 pub use graded::{GradedCoating, GradientError, Layer, YoungGradient};
 pub use grid::{GridError, SurfaceGrid};
@@ -25,6 +28,7 @@ pub use heights::{Detrend, Heights};
 pub use load::{Control, LoadStep};
 pub use profile::{BEYOND_THE_BODY, Profile};
 pub use residual::{ResidualLayer, ResidualStress};
+pub use rig::Rig;
 pub use scheme::{Integration, Scheme};
 pub use shape::{Axis, ProfileError, Shape};
 pub use state::{ContactState, SolvedState, Zone};

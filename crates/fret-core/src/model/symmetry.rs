@@ -106,7 +106,7 @@ impl Symmetry {
         let share = 1.0 / self.copies() as f64;
         let part = |control: Control| match control {
             Control::Force(force) => Control::Force(force * share),
-            Control::Motion(motion) => Control::Motion(motion),
+            Control::Motion(_) | Control::FarEnd(_) => control,
         };
         LoadStep {
             normal: part(load.normal),

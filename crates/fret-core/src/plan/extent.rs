@@ -120,9 +120,11 @@ pub fn expected_contact(case: &Case) -> Option<ExpectedContact> {
 fn heaviest_loads(case: &Case) -> Vec<Control> {
     let mut force = 0.0_f64;
     let mut approach = 0.0_f64;
+    let mut far_end = 0.0_f64;
     walk(case.start.as_ref(), &case.stages, |_, [normal, ..]| match normal {
         Some(Control::Force(value)) => force = force.max(*value),
         Some(Control::Motion(value)) => approach = approach.max(*value),
+        Some(Control::FarEnd(value)) => far_end = far_end.max(*value),
         None => {}
     });
     let mut loads = Vec::new();
@@ -131,6 +133,9 @@ fn heaviest_loads(case: &Case) -> Vec<Control> {
     }
     if approach > 0.0 {
         loads.push(Control::Motion(approach));
+    }
+    if far_end > 0.0 {
+        loads.push(Control::FarEnd(far_end));
     }
     loads
 }
@@ -156,7 +161,8 @@ fn extent_under(case: &Case, size: [f64; 2], normal: Control) -> Extent {
         response,
         settings,
         false,
-    );
+    )
+    .with_rig(case.springs());
     let load = LoadStep { normal, tangential: [Control::Force(0.0); 2], ..LoadStep::FREE };
     let untouched = ContactState::untouched(cells);
     let solved = match solver.step(&untouched, &load, &mut |_, _| ControlFlow::Continue(())) {
@@ -205,13 +211,13 @@ fn first_guess_of_line(case: &Case, curvature: f64, compliance: f64) -> Option<f
     use std::f64::consts::PI;
     let hertz = |radius: f64, load: Control| match load {
         Control::Force(force) => (4.0 * force * radius * compliance / PI).sqrt(),
-        Control::Motion(approach) => (radius * approach).sqrt(),
+        Control::Motion(approach) | Control::FarEnd(approach) => (radius * approach).sqrt(),
     };
     let half_width = |shape: &Shape, load: Control| match (*shape, load) {
         (Shape::RoundedPunch { flat_radius, edge_radius }, _) => flat_radius + hertz(edge_radius, load),
         (Shape::FlatPunch { radius }, _) => radius,
         (Shape::Cone { slope }, Control::Force(force)) => 2.0 * force * compliance / slope,
-        (Shape::Cone { slope }, Control::Motion(approach)) => approach / slope,
+        (Shape::Cone { slope }, Control::Motion(approach) | Control::FarEnd(approach)) => approach / slope,
         _ => f64::INFINITY,
     };
     let under = |load: Control| {
@@ -227,14 +233,14 @@ fn half_widths(shape: &Shape, load: Control, compliance: f64) -> [f64; 2] {
     use std::f64::consts::PI;
     let hertz = |radius: f64| match load {
         Control::Force(force) => (0.75 * force * radius * compliance).cbrt(),
-        Control::Motion(approach) => (radius * approach).sqrt(),
+        Control::Motion(approach) | Control::FarEnd(approach) => (radius * approach).sqrt(),
     };
     match *shape {
         Shape::Sphere { radius } => [hertz(radius); 2],
         Shape::Cylinder { radius, axis, length: Some(length) } => {
             let across = match load {
                 Control::Force(force) => (4.0 * force / length * radius * compliance / PI).sqrt(),
-                Control::Motion(approach) => (radius * approach).sqrt(),
+                Control::Motion(approach) | Control::FarEnd(approach) => (radius * approach).sqrt(),
             };
             match axis {
                 Axis::X => [length / 2.0, across],
@@ -245,7 +251,7 @@ fn half_widths(shape: &Shape, load: Control, compliance: f64) -> [f64; 2] {
         Shape::FlatPunch { radius } => [radius; 2],
         Shape::Cone { slope } => match load {
             Control::Force(force) => [(2.0 * force * compliance / (PI * slope)).sqrt(); 2],
-            Control::Motion(approach) => [2.0 * approach / (PI * slope); 2],
+            Control::Motion(approach) | Control::FarEnd(approach) => [2.0 * approach / (PI * slope); 2],
         },
         Shape::Ellipsoid { .. } | Shape::Cylinder { length: None, .. } | Shape::Wave { .. } => {
             [f64::INFINITY; 2]

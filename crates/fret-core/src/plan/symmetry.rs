@@ -76,6 +76,5 @@ pub fn is_twisted(case: &Case, start: Option<&ContactState>) -> bool {
 }
 
 fn asks_for_something(control: Control) -> bool {
-    let (Control::Force(value) | Control::Motion(value)) = control;
-    value != 0.0
+    control.value() != 0.0
 }

@@ -10,7 +10,7 @@ use super::fretting_loop::FrettingLoop;
 use super::wear::Collected;
 use crate::case::{Case, Stage};
 use crate::history::{Start, WornThrough};
-use crate::model::{ContactState, LoadStep, SolvedState};
+use crate::model::{ContactState, Control, LoadStep, SolvedState};
 use crate::plan::Plan;
 use crate::solver::{Resultants, SolverMemory};
 
@@ -233,8 +233,18 @@ pub(crate) fn solved_state(place: &Place, state: &ContactState, wear: Option<&Co
     if let (Some(depth), Some(wear)) = (&mut state.worn_depth, wear) {
         *depth += wear.depth();
     }
+    // An actuator belongs to its machine, and another history may have another one: it holds the body where it is.
+    let held = |control: Control, motion: f64| match control {
+        Control::FarEnd(_) => Control::Motion(motion),
+        other => other,
+    };
+    let loads = LoadStep {
+        normal: held(place.held.normal, state.approach),
+        tangential: [0, 1].map(|axis| held(place.held.tangential[axis], state.shift[axis])),
+        ..place.held
+    };
     SolvedState {
-        loads: place.held,
+        loads,
         normal_force: normal,
         tangential_force: tangential,
         twist_moment: moment,

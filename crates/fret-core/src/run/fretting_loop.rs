@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::fields::stored;
 use crate::history::{CycleRecord, CycleRegime, Drive, Regime, SLIDING_ENERGY_RATIO, StepRecord};
-use crate::model::{ContactState, CoulombFriction};
+use crate::model::{ContactState, CoulombFriction, Rig};
 
 /// Force and moment, shift and twist at the end of an increment.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -50,6 +50,8 @@ pub struct CycleEnd {
     pub tolerance: Option<f64>,
     /// Volume worn off so far, and largest worn depth.
     pub worn: [f64; 2],
+    /// The machine, where it gives.
+    pub rig: Option<Rig>,
 }
 
 impl FrettingLoop {
@@ -116,6 +118,14 @@ impl FrettingLoop {
         let moves = read.work_scale() > 0.0;
         let energy_ratio = moves.then(|| dissipated_energy / (4.0 * read.work_scale()));
         let closure = self.closure(state, friction);
+        let at_actuator = end.rig.filter(|_| drive == Drive::Tangential).map(|rig| {
+            let far = |point: &Point| {
+                let [x, y] = rig.actuator(point.shift, point.force);
+                [point.force[0] * cos + point.force[1] * sin, x * cos + y * sin]
+            };
+            Reading::of(&self.points.iter().map(far).collect::<Vec<_>>())
+        });
+        let moving = at_actuator.as_ref().filter(|far| far.work_scale() > 0.0);
         CycleRecord {
             stage: self.stage,
             cycle: self.cycle,
@@ -139,6 +149,10 @@ impl FrettingLoop {
             steady: end.tolerance.is_some_and(|tolerance| closure <= tolerance),
             worn_volume: end.worn[0],
             max_worn_depth: end.worn[1],
+            actuator_amplitude: at_actuator.as_ref().map(|far| far.displacement_amplitude),
+            actuator_energy_ratio: moving.map(|far| dissipated_energy / (4.0 * far.work_scale())),
+            actuator_sliding_ratio: moving.map(|far| far.opening / far.displacement_amplitude),
+            actuator_stiffness: at_actuator.as_ref().and_then(|far| far.stiffness),
         }
     }
 

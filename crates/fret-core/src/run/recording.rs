@@ -5,10 +5,16 @@ use ndarray::Array2;
 use crate::fields::largest;
 use crate::history::{Footprint, KeptFields, Residual, StepRecord};
 use crate::machine::memory::MemoryError;
+use crate::model::Rig;
 use crate::solver::Increment;
 
 /// The record of a solved increment; what it has worn is not yet known.
-pub fn record(solved: &Increment, increment: usize, stage: usize, parts: usize, wall_s: f64) -> StepRecord {
+pub fn record(
+    solved: &Increment,
+    rig: Rig,
+    (increment, stage, parts): (usize, usize, usize),
+    wall_s: f64,
+) -> StepRecord {
     let state = &solved.state;
     let outcome = &solved.outcome;
     let [qx, qy] = &state.shear;
@@ -25,6 +31,8 @@ pub fn record(solved: &Increment, increment: usize, stage: usize, parts: usize, 
         approach: state.approach,
         tangential_force: outcome.resultants.tangential,
         shift: state.shift,
+        actuator_approach: rig.actuator_approach(state.approach, outcome.resultants.normal),
+        actuator: rig.actuator(state.shift, outcome.resultants.tangential),
         twist_moment: outcome.resultants.moment,
         twist: state.twist,
         tilt: state.tilt,

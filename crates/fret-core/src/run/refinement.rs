@@ -5,7 +5,7 @@ use ndarray::Zip;
 
 use super::wear::Wearing;
 use crate::history::Work;
-use crate::model::{ContactState, LoadStep};
+use crate::model::{ContactState, Integration, LoadStep};
 use crate::solver::{ContactSolver, Increment, IterationCallback, SolveError, SolverMemory};
 
 /// Halvings of a step that is not solved as a whole, at the most.
@@ -15,6 +15,9 @@ const MOST_PARTS: usize = 1024;
 /// Two solutions of one problem differ by at most so many times the bound on their residuals; 100 leaves room for
 /// compliance that amplifies it.
 const NOISE: f64 = 100.0;
+/// The difference of two solutions, one in twice as many parts, over the error of the finer one: 2^order - 1.
+const FIRST_ORDER: f64 = 1.0;
+const SECOND_ORDER: f64 = 3.0;
 
 /// Where an increment starts and ends.
 #[derive(Debug, Clone, Copy)]
@@ -79,6 +82,8 @@ fn after(first: &Increment, mut second: Increment) -> Increment {
 pub struct Refinement {
     /// Bound on the error of the tractions in an increment, in shares of the way they went in it.
     pub tolerance: f64,
+    /// Of which order the parts are.
+    pub integration: Integration,
     /// Bound on the residuals of each solution.
     pub residual: f64,
     /// Largest coefficient of friction: what makes pressure and shear comparable.
@@ -129,9 +134,8 @@ struct Way {
 }
 
 impl Refinement {
-    /// Solves an increment in `parts` parts, in twice as many, and so on, until two solutions in turn differ at the end by less than
-    /// the tolerance allows, which bounds the error of the finer one where the error is of first order. The solver then
-    /// remembers the finer one.
+    /// Solves an increment in `parts` parts, in twice as many, and so on, until the difference of two solutions in turn says, by the
+    /// order of the integration, that the error of the finer one is within the tolerance. The solver then remembers the finer one.
     ///
     /// # Errors
     /// [`DivisionError::Unresolved`] when even the most parts are not enough; errors of the equations as they come.
@@ -155,10 +159,14 @@ impl Refinement {
         };
         let mut parts = parts.clamp(1, MOST_PARTS / 2);
         let mut coarse = try_in(parts)?;
+        let exceeding = match self.integration {
+            Integration::EndPoint => FIRST_ORDER,
+            Integration::SecondOrder => SECOND_ORDER,
+        };
         loop {
             parts *= 2;
             let fine = try_in(parts)?;
-            let error = self.distance(&coarse.end.state, &fine.end.state);
+            let error = self.distance(&coarse.end.state, &fine.end.state) / exceeding;
             let size = self
                 .distance(&ContactState::untouched(fine.end.state.pressure.dim().into()), &fine.end.state);
             let bound = self.tolerance * fine.length + NOISE * self.residual * size;

@@ -252,6 +252,7 @@ impl<'a> Simulation<'a> {
         )
         .with_shear_axis(plan.along)
         .with_bulk(BulkCompliance::of(&case.bodies, case.is_line()))
+        .with_rig(case.springs())
         .with_symmetry(plan.symmetry);
         if case.periodic {
             return solver;
@@ -296,6 +297,7 @@ impl<'a> Journey<'a> {
         (friction > 0.0 && depends).then_some(Refinement {
             tolerance,
             residual: self.case().tolerance,
+            integration: self.case().integration,
             friction,
         })
     }
@@ -329,7 +331,8 @@ impl<'a> Journey<'a> {
         let place = &self.place;
         let (number, begins) = (place.stage, place.solved_of_stage == 0);
         let steps = if begins {
-            StageSteps::new(stage, &place.held, &self.history.state, &place.resultants)
+            let reached = (&place.resultants, self.case().springs());
+            StageSteps::new(stage, &place.held, &self.history.state, reached)
         } else {
             StageSteps::from_start(stage, place.stage_start)
         };
@@ -464,7 +467,8 @@ impl<'a> Journey<'a> {
                 (divided.end, divided.parts)
             }
         };
-        let record = record(&solved, increment, stage, parts, started.elapsed().as_secs_f64());
+        let wall_s = started.elapsed().as_secs_f64();
+        let record = record(&solved, case.springs(), (increment, stage, parts), wall_s);
         let kept = may_keep.then(|| kept(&solved, increment, &case.output.fields)).transpose();
         let kept = kept.map_err(|error| RunError::OutOfMemory { increment, error })?;
         self.place.resultants = solved.outcome.resultants;
@@ -481,6 +485,7 @@ impl<'a> Journey<'a> {
         self.place.cycles += stands_for;
         let (Some(cycle), Some(course)) = (&self.cycle, stage.cycles()) else { return Ok(None) };
         let end = CycleEnd {
+            rig: self.case().rig,
             stands_for,
             last_cycle: self.place.cycles,
             tolerance: course.until_steady,

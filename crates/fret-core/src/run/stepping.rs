@@ -1,7 +1,7 @@
 //! From stages to increments: what is prescribed at the end of each.
 
 use crate::case::{Stage, StageControl};
-use crate::model::{ContactState, Control, LoadStep};
+use crate::model::{ContactState, Control, LoadStep, Rig};
 use crate::solver::Resultants;
 
 /// The increments of one stage, resolved from where the stage starts.
@@ -14,23 +14,35 @@ pub struct StageSteps<'a> {
 impl<'a> StageSteps<'a> {
     /// Steps of `stage` after controls `held`, from the motions of `state` and the forces `resultants` reached so far.
     /// A control that changes its kind starts from what was reached.
-    pub fn new(stage: &'a Stage, held: &LoadStep, state: &ContactState, resultants: &Resultants) -> Self {
+    pub fn new(
+        stage: &'a Stage,
+        held: &LoadStep,
+        state: &ContactState,
+        (resultants, rig): (&Resultants, Rig),
+    ) -> Self {
         let begin =
-            |control: &Option<StageControl>, held: Control, force: f64, motion: f64| match (control, held) {
-                (Some(StageControl::Force(_)), Control::Motion(_)) => Control::Force(force),
-                (Some(StageControl::Motion(_)), Control::Force(_)) => Control::Motion(motion),
-                _ => held,
+            |control: &Option<StageControl>, held: Control, force: f64, motion: f64, spring: f64| match (
+                control, held,
+            ) {
+                (None, _)
+                | (Some(StageControl::Force(_)), Control::Force(_))
+                | (Some(StageControl::Motion(_)), Control::Motion(_))
+                | (Some(StageControl::FarEnd(_)), Control::FarEnd(_)) => held,
+                (Some(StageControl::Force(_)), _) => Control::Force(force),
+                (Some(StageControl::Motion(_)), _) => Control::Motion(motion),
+                (Some(StageControl::FarEnd(_)), _) => Control::FarEnd(motion + spring * force),
             };
         let start = LoadStep {
-            normal: begin(&stage.normal, held.normal, resultants.normal, state.approach),
+            normal: begin(&stage.normal, held.normal, resultants.normal, state.approach, rig.normal),
             tangential: [0, 1].map(|axis| {
                 let control = &stage.tangential[axis];
-                begin(control, held.tangential[axis], resultants.tangential[axis], state.shift[axis])
+                let (force, shift) = (resultants.tangential[axis], state.shift[axis]);
+                begin(control, held.tangential[axis], force, shift, rig.tangential[axis])
             }),
-            twist: begin(&stage.twist, held.twist, resultants.moment, state.twist),
+            twist: begin(&stage.twist, held.twist, resultants.moment, state.twist, 0.0),
             tilt: [0, 1].map(|axis| {
                 let control = &stage.tilt[axis];
-                begin(control, held.tilt[axis], resultants.tilt_moment[axis], state.tilt[axis])
+                begin(control, held.tilt[axis], resultants.tilt_moment[axis], state.tilt[axis], 0.0)
             }),
             bulk_stress: held.bulk_stress,
         };

@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use pulp::Arch;
 
-use crate::fields::Number;
+use crate::fields::{Number, PORTION, pieces};
 use crate::model::TangentialField;
 
 /// Cells in contact, as runs along the rows of the region.
@@ -71,36 +71,12 @@ impl ContactSet {
 
     /// Packs `factor` times a field of the region, into any precision.
     pub fn gather<A: Number, B: Number>(&self, field: &[A], factor: f64, packed: &mut [B]) {
-        Arch::new().dispatch(
-            #[inline(always)]
-            || {
-                let mut first = 0;
-                for run in &self.runs {
-                    let to = &mut packed[first..first + run.len()];
-                    for (to, from) in to.iter_mut().zip(&field[run.clone()]) {
-                        *to = B::of(*from, factor);
-                    }
-                    first += run.len();
-                }
-            },
-        );
+        gather_runs(pieces(self.len / PORTION), &self.runs, field, factor, packed);
     }
 
     /// Writes `factor` times a packed field into one of the region, which keeps what it holds elsewhere, in any precision.
     pub fn place<A: Number, B: Number>(&self, packed: &[A], factor: f64, field: &mut [B]) {
-        Arch::new().dispatch(
-            #[inline(always)]
-            || {
-                let mut first = 0;
-                for run in &self.runs {
-                    let from = &packed[first..first + run.len()];
-                    for (to, from) in field[run.clone()].iter_mut().zip(from) {
-                        *to = B::of(*from, factor);
-                    }
-                    first += run.len();
-                }
-            },
-        );
+        place_runs(pieces(self.len / PORTION), (&self.runs, 0), packed, factor, field);
     }
 
     /// Writes a packed field into one of the region, which is zero elsewhere.
@@ -114,6 +90,76 @@ impl ContactSet {
         self.scatter(&packed.x, &mut field.x);
         self.scatter(&packed.y, &mut field.y);
     }
+}
+
+/// The first of so many pieces of runs and the others; and how many cells the first ones have.
+fn halved(runs: &[Range<usize>], pieces: usize) -> (&[Range<usize>], &[Range<usize>], usize) {
+    let (first, others) = runs.split_at(runs.len() * (pieces / 2) / pieces);
+    (first, others, first.iter().map(ExactSizeIterator::len).sum())
+}
+
+fn gather_runs<A: Number, B: Number>(
+    pieces: usize,
+    runs: &[Range<usize>],
+    field: &[A],
+    factor: f64,
+    packed: &mut [B],
+) {
+    if pieces > 1 {
+        let (first, others, cells) = halved(runs, pieces);
+        let (of_first, of_others) = packed.split_at_mut(cells);
+        rayon::join(
+            || gather_runs(pieces / 2, first, field, factor, of_first),
+            || gather_runs(pieces - pieces / 2, others, field, factor, of_others),
+        );
+        return;
+    }
+    Arch::new().dispatch(
+        #[inline(always)]
+        || {
+            let mut first = 0;
+            for run in runs {
+                let to = &mut packed[first..first + run.len()];
+                for (to, from) in to.iter_mut().zip(&field[run.clone()]) {
+                    *to = B::of(*from, factor);
+                }
+                first += run.len();
+            }
+        },
+    );
+}
+
+/// `field` begins with the cell `start` of the region.
+fn place_runs<A: Number, B: Number>(
+    pieces: usize,
+    (runs, start): (&[Range<usize>], usize),
+    packed: &[A],
+    factor: f64,
+    field: &mut [B],
+) {
+    if pieces > 1 {
+        let (first, others, cells) = halved(runs, pieces);
+        let border = others.first().map_or(start + field.len(), |run| run.start);
+        let (of_first, of_others) = field.split_at_mut(border - start);
+        rayon::join(
+            || place_runs(pieces / 2, (first, start), &packed[..cells], factor, of_first),
+            || place_runs(pieces - pieces / 2, (others, border), &packed[cells..], factor, of_others),
+        );
+        return;
+    }
+    Arch::new().dispatch(
+        #[inline(always)]
+        || {
+            let mut first = 0;
+            for run in runs {
+                let from = &packed[first..first + run.len()];
+                for (to, from) in field[run.start - start..run.end - start].iter_mut().zip(from) {
+                    *to = B::of(*from, factor);
+                }
+                first += run.len();
+            }
+        },
+    );
 }
 
 #[cfg(test)]
@@ -134,5 +180,21 @@ mod tests {
         assert_eq!(back, [9.0, 1.0, 2.0, 9.0, 9.0, 5.0, 9.0]);
         contact.scatter(&[7.0, 8.0, 9.0], &mut back);
         assert_eq!(back, [0.0, 7.0, 8.0, 0.0, 0.0, 9.0, 0.0]);
+    }
+
+    #[test]
+    fn large_fields_go_the_same_way_on_many_threads() {
+        let cells = 8 * PORTION;
+        let contact = ContactSet::of(cells, |cell| cell % 97 < 80);
+        let field: Vec<f64> = (0..cells).map(|cell| cell as f64).collect();
+        rayon::ThreadPoolBuilder::new().num_threads(3).build().unwrap().install(|| {
+            let mut packed = vec![0.0; contact.len()];
+            contact.gather(&field, 2.0, &mut packed);
+            assert!(packed.iter().zip(contact.cells()).all(|(value, cell)| *value == 2.0 * cell as f64));
+            let mut back = vec![-1.0; cells];
+            contact.place(&packed, 0.5, &mut back);
+            let expected = |cell: usize| if cell % 97 < 80 { cell as f64 } else { -1.0 };
+            assert!(back.iter().enumerate().all(|(cell, value)| *value == expected(cell)));
+        });
     }
 }

@@ -173,7 +173,7 @@ impl<'a> Attempt<'a> {
     fn guess_motions(&mut self) {
         let Self { problem, self_influence: [_, own], here, .. } = self;
         let contact = ContactSet::loaded(&here.tractions.pressure);
-        if problem.total.is_some() && contact.len() > 0 {
+        if (problem.total.is_some() || problem.approach_give > 0.0) && contact.len() > 0 {
             let heights =
                 contact.cells().map(|cell| here.displacements.normal[cell] + problem.undeformed[cell]);
             here.approach = heights.sum::<f64>() / contact.len() as f64;
@@ -284,10 +284,14 @@ impl<'a> Attempt<'a> {
         let cells = point.tractions.pressure.iter().filter(|p| **p > 0.0).count().max(1) as f64;
         if let Some(total) = problem.total {
             square += (sums[0] - total).powi(2) / cells;
+        } else if problem.approach_give > 0.0 {
+            let missing = (problem.approach - point.approach) / problem.approach_give;
+            square += (sums[0] - missing).powi(2) / cells;
         }
         for mode in 0..3 {
             if self.motions.by_force[mode] {
-                square += (sums[1 + mode] - problem.resultant[mode]).powi(2) / cells;
+                let carried = sums[1 + mode] + self.motions.spring[mode] * point.motion[mode];
+                square += (carried - problem.resultant[mode]).powi(2) / cells;
             }
         }
         square
@@ -333,7 +337,8 @@ impl<'a> Attempt<'a> {
         let Self { problem, motions, self_influence: [unit, _], .. } = self;
         // Rows of displacements and columns of motions are in units of the normal self-influence.
         let motion_unknown: Vec<usize> = (0..3).filter(|&mode| motions.by_force[mode]).collect();
-        let approach_unknown = usize::from(problem.total.is_some());
+        let gives = problem.approach_give > 0.0;
+        let approach_unknown = usize::from(problem.total.is_some() || gives);
         let size = unknowns + approach_unknown + motion_unknown.len();
         let mut matrix = Mat::<f64>::zeros(size, size);
         let mut right = Mat::<f64>::zeros(size, 1);
@@ -390,9 +395,14 @@ impl<'a> Attempt<'a> {
         }
         if let Some(total) = problem.total {
             right[(unknowns, 0)] = total;
+        } else if gives {
+            matrix[(unknowns, unknowns)] = unit / problem.approach_give;
+            right[(unknowns, 0)] = problem.approach / problem.approach_give;
         }
         for (index, &mode) in motion_unknown.iter().enumerate() {
-            right[(unknowns + approach_unknown + index, 0)] += problem.resultant[mode];
+            let at = unknowns + approach_unknown + index;
+            right[(at, 0)] += problem.resultant[mode];
+            matrix[(at, at)] += motions.spring[mode] * unit;
         }
         let solution = matrix.partial_piv_lu().solve(&right);
         let value = |index: usize| solution[(index, 0)];

@@ -10,7 +10,7 @@ use super::laws::complementarity::{NormalResidual, normal_residual};
 use super::laws::friction::FrictionLaw;
 use super::laws::limit::carried_fraction;
 use super::laws::projection::project_pressure;
-use super::laws::rigid_motions::CellPositions;
+use super::laws::rigid_motions::{CellPositions, RigidMotions};
 use super::laws::slip::TangentialResidual;
 use super::laws::slip_path::SlipPath;
 use super::memory::{Before, Drift};
@@ -24,7 +24,9 @@ use super::staggered;
 use super::tractions::{Displacements, Tractions};
 use crate::compliance::{SpectralCompliance, SurfaceCompliance};
 use crate::fields::add_scaled;
-use crate::model::{ContactState, Control, CoulombFriction, LoadStep, Scheme, SurfaceGrid, TangentialField};
+use crate::model::{
+    ContactState, Control, CoulombFriction, LoadStep, Rig, Scheme, SurfaceGrid, TangentialField,
+};
 
 /// Residual to which the frictionless start of a coupled contact is solved.
 const ROUGH: f64 = 1e-2;
@@ -51,9 +53,11 @@ pub struct IncrementProblem<'a> {
     /// Sum of the pressures over the cells, when the force is prescribed [pressure].
     total: Option<f64>,
     approach: f64,
+    /// By how much the machine gives under a unit of the summed pressure, where its far end is prescribed [length/pressure].
+    approach_give: f64,
     /// Increments of prescribed motions: shift, twist x length [length].
     motion: [f64; 3],
-    /// Sums of shear times mode over the cells, for motions by force [pressure].
+    /// Sums of shear times mode over the cells, for motions by force, at no motion [pressure].
     resultant: [f64; 3],
     periodic: bool,
     /// What is known of the paths of slip.
@@ -73,6 +77,8 @@ pub struct Stretch {
     pub middle: [f64; 2],
     /// What is prescribed at the end.
     pub load: LoadStep,
+    /// The machine that prescribes it.
+    pub rig: Rig,
 }
 
 impl Stretch {
@@ -124,7 +130,7 @@ impl<'a> IncrementProblem<'a> {
             (0..region.shape[axis]).map(|index| grid.centre(axis, region.origin[axis] + index)).collect()
         };
         let controls = [load.tangential[0], load.tangential[1], load.twist];
-        let by_force = controls.map(|control| matches!(control, Control::Force(_)));
+        let by_force = controls.map(|control| !matches!(control, Control::Motion(_)));
         let rotates = state.twist != 0.0 || load.twist != Control::Motion(0.0);
         let positions = CellPositions::new(centres(0), centres(1), rotates, by_force);
         let area = grid.cell_area();
@@ -132,15 +138,32 @@ impl<'a> IncrementProblem<'a> {
         let units = [1.0, 1.0, positions.length];
         let mut motion = [0.0; 3];
         let mut resultant = [0.0; 3];
-        for mode in 0..3 {
+        let mut spring = [0.0; 3];
+        let [x, y] = stretch.rig.tangential;
+        for (mode, compliance) in [x, y, 0.0].into_iter().enumerate() {
             match controls[mode] {
-                Control::Motion(target) => motion[mode] = (target - now[mode]) * units[mode],
+                Control::FarEnd(target) if compliance > 0.0 => {
+                    spring[mode] = 1.0 / (compliance * area);
+                    resultant[mode] = (target - now[mode]) * spring[mode];
+                }
+                Control::Motion(target) | Control::FarEnd(target) => {
+                    motion[mode] = (target - now[mode]) * units[mode];
+                }
                 Control::Force(target) => resultant[mode] = target / (area * units[mode]),
             }
         }
+        // The far end of a spring that does not give is the body itself.
+        let by_force = [0, 1, 2].map(|mode| {
+            by_force[mode] && (matches!(controls[mode], Control::Force(_)) || spring[mode] > 0.0)
+        });
+        let positions = positions.with_springs(by_force, spring);
         let (total, approach) = match load.normal {
             Control::Force(force) => (Some(force / area), state.approach),
-            Control::Motion(approach) => (None, approach),
+            Control::Motion(approach) | Control::FarEnd(approach) => (None, approach),
+        };
+        let approach_give = match load.normal {
+            Control::FarEnd(_) => stretch.rig.normal * area,
+            Control::Force(_) | Control::Motion(_) => 0.0,
         };
         Self {
             grid,
@@ -151,6 +174,7 @@ impl<'a> IncrementProblem<'a> {
             undeformed: region.gather(undeformed),
             total,
             approach,
+            approach_give,
             motion,
             resultant,
             periodic,
@@ -168,6 +192,11 @@ impl<'a> IncrementProblem<'a> {
             None => (self.approach <= lowest, self.approach),
         };
         let len = self.region.len();
+        let spring = self.positions.spring;
+        let motion = [0, 1, 2].map(|mode| {
+            // A spring that carries nothing keeps its length.
+            if spring[mode] > 0.0 { self.resultant[mode] / spring[mode] } else { self.motion[mode] }
+        });
         apart.then(|| Solved {
             tractions: Tractions::zeros(len),
             displacements: Displacements::zeros(len),
@@ -176,7 +205,7 @@ impl<'a> IncrementProblem<'a> {
             end_slip: TangentialField::zeros(len),
             drift: TangentialField::zeros(len),
             normal: NormalResidual { approach, residual: 0.0 },
-            tangential: TangentialResidual { motion: self.motion, residual: 0.0 },
+            tangential: TangentialResidual { motion, residual: 0.0 },
             tangential_stiffness: 1.0,
             iterations: 0,
         })
@@ -293,7 +322,8 @@ impl<'a> IncrementProblem<'a> {
             tractions.pressure = self.region.gather(&self.state.pressure);
             displacements.normal.clone_from(&last.normal);
             gap = displacements.normal.iter().zip(&self.undeformed).map(|(u, g)| u + g).collect::<Vec<_>>();
-            let approach = self.total.is_none().then_some(self.approach);
+            let gives = self.normal_equations().given_way(&tractions.pressure);
+            let approach = self.total.is_none().then_some(self.approach - gives);
             normal = normal_residual(&tractions.pressure, &mut gap, &self.undeformed, own.normal, approach);
             iterations = 0;
         } else {
@@ -402,6 +432,7 @@ impl<'a> IncrementProblem<'a> {
             friction: &self.friction,
             total: self.total,
             approach: self.approach,
+            approach_give: self.approach_give,
             before,
             path: &self.path,
             positions: &self.positions,
@@ -411,7 +442,12 @@ impl<'a> IncrementProblem<'a> {
     }
 
     fn normal_equations(&self) -> NormalEquations<'_> {
-        NormalEquations { undeformed: &self.undeformed, total: self.total, approach: self.approach }
+        NormalEquations {
+            undeformed: &self.undeformed,
+            total: self.total,
+            approach: self.approach,
+            give: self.approach_give,
+        }
     }
 
     /// A first pressure; exact at once where a periodic problem is in full contact.
@@ -446,11 +482,13 @@ impl<'a> IncrementProblem<'a> {
     fn check_limit(&self, tractions: &Tractions) -> Result<(), SolveError> {
         let contact = ContactSet::loaded(&tractions.pressure);
         let bound = self.friction.packed(&contact).bound(&contact.packed(&tractions.pressure));
-        let fraction = carried_fraction(&bound.bound, &self.positions.motions_of(&contact), self.resultant);
+        let motions = RigidMotions { by_force: self.positions.held(), ..self.positions.motions_of(&contact) };
+        let prescribed = motions.only_by_force(self.resultant);
+        let fraction = carried_fraction(&bound.bound, &motions, prescribed);
         if fraction > LIMIT {
             return Ok(());
         }
-        let [x, y, moment] = self.resultant;
+        let [x, y, moment] = prescribed;
         if moment != 0.0 {
             return Err(SolveError::AboveFullSlip { fraction });
         }
@@ -561,7 +599,7 @@ impl<'a> IncrementProblem<'a> {
         };
         let lengths = [1.0, 1.0, self.positions.length];
         let found = [found.tangential[0], found.tangential[1], found.moment];
-        (0..3).filter(|&mode| limit > 0.0 && self.positions.by_force[mode]).fold(normal, |worst, mode| {
+        (0..3).filter(|&mode| limit > 0.0 && self.positions.held()[mode]).fold(normal, |worst, mode| {
             worst.max((found[mode] / lengths[mode] - self.resultant[mode] * area).abs() / limit)
         })
     }

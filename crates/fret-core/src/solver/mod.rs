@@ -35,7 +35,7 @@ use ndarray::Array2;
 use crate::compliance::{CellResponse, OperatorSet, SpectralCompliance, SurfaceResponse};
 use crate::kernel::ResponseTable;
 use crate::model::{
-    BulkCompliance, ContactState, Control, CoulombFriction, Integration, LoadStep, Scheme, SurfaceGrid,
+    BulkCompliance, ContactState, Control, CoulombFriction, Integration, LoadStep, Rig, Scheme, SurfaceGrid,
     Symmetry,
 };
 
@@ -84,6 +84,8 @@ pub struct ContactSolver<'a> {
     middle: [f64; 2],
     /// Strains of the bodies under their bulk stresses.
     bulk: BulkCompliance,
+    /// Springs between the upper body and what is driven, of the whole contact.
+    rig: Rig,
     /// Slope of the upper body that is in the gap, and the gap without it.
     tilt: [f64; 2],
     level: Option<Array2<f64>>,
@@ -118,6 +120,7 @@ impl<'a> ContactSolver<'a> {
             symmetry: Symmetry::NONE,
             middle: [0.0; 2],
             bulk: BulkCompliance::NONE,
+            rig: Rig::RIGID,
             tilt: [0.0; 2],
             level: None,
         }
@@ -127,6 +130,12 @@ impl<'a> ContactSolver<'a> {
     #[must_use]
     pub fn with_bulk(self, bulk: BulkCompliance) -> Self {
         Self { bulk, ..self }
+    }
+
+    /// The same solver of a contact in a machine that gives.
+    #[must_use]
+    pub fn with_rig(self, rig: Rig) -> Self {
+        Self { rig, ..self }
     }
 
     /// The same solver, which also knows the frequency response of the pair: for non-periodic problems, where coefficients on a region
@@ -441,7 +450,12 @@ impl<'a> ContactSolver<'a> {
     fn stretch(&self, state: &ContactState, load: &LoadStep) -> Stretch {
         let [before, after] =
             [state.bulk_stress, load.bulk_stress].map(|stress| self.bulk.relative_strain(stress));
-        Stretch { strain: [after[0] - before[0], after[1] - before[1]], middle: self.middle, load: *load }
+        Stretch {
+            strain: [after[0] - before[0], after[1] - before[1]],
+            middle: self.middle,
+            load: *load,
+            rig: self.rig.of_part(self.symmetry.copies()),
+        }
     }
 
     /// Whether the forces asked for are those of the solution: with a prescribed approach they may be more than friction carries.
@@ -481,7 +495,7 @@ impl<'a> ContactSolver<'a> {
 fn tangential_force(load: &LoadStep) -> f64 {
     let [x, y] = load.tangential.map(|control| match control {
         Control::Force(force) => force,
-        Control::Motion(_) => 0.0,
+        Control::Motion(_) | Control::FarEnd(_) => 0.0,
     });
     x.hypot(y)
 }

@@ -18,7 +18,7 @@ use super::operators::RegionOperators;
 use super::settings::{IterationCallback, SolveError, SolverSettings};
 use super::tractions::{Displacements, Tractions};
 use crate::compliance::SurfaceCompliance;
-use crate::fields::{CellRule, Reals, add_scaled, each_cell, largest};
+use crate::fields::{CellRule, Reals, add_scaled, each_cell, largest, lower, sum};
 use crate::model::TangentialField;
 
 /// What the equations of one increment ask for, over the cells of a region.
@@ -32,8 +32,10 @@ pub struct ContactProblem<'a> {
     pub friction: &'a FrictionLaw,
     /// Sum of the pressures over the cells, when the force is prescribed [pressure].
     pub total: Option<f64>,
-    /// Approach, when it is prescribed [length].
+    /// Approach of the body or of the actuator, when it is prescribed [length].
     pub approach: f64,
+    /// By how much the machine gives under a unit of the summed pressure; 0: the approach is that of the body [length/pressure].
+    pub approach_give: f64,
     /// Tangential displacement before the increment [length].
     pub before: &'a TangentialField,
     /// What is known of the paths of slip.
@@ -42,8 +44,35 @@ pub struct ContactProblem<'a> {
     pub positions: &'a CellPositions,
     /// Increments of the motions that are prescribed [length].
     pub motion: [f64; 3],
-    /// Sums over the cells of shear times mode, for motions that follow from a resultant [pressure].
+    /// Sums over the cells of shear times mode, for motions that follow from a resultant, at no motion [pressure].
     pub resultant: [f64; 3],
+}
+
+impl ContactProblem<'_> {
+    /// Approach of the body under pressures, where it does not follow from their sum [length].
+    pub fn approach_under(&self, pressure: &[f64]) -> Option<f64> {
+        let gives = if self.approach_give > 0.0 { self.approach_give * sum(pressure) } else { 0.0 };
+        self.total.is_none().then_some(self.approach - gives)
+    }
+
+    /// By how much the machine gives under a unit of the summed traction, normally and along x and y [length/pressure].
+    fn give(&self) -> [f64; 3] {
+        let [x, y, _] = self.positions.spring.map(|spring| if spring > 0.0 { 1.0 / spring } else { 0.0 });
+        [self.approach_give, x, y]
+    }
+
+    /// Resultants that a projection restores: those that are prescribed, and those of `shear` where a spring lets them be, as far as
+    /// the friction `bound` carries them.
+    fn to_restore(&self, shear: &TangentialField, bound: &[f64]) -> [f64; 3] {
+        let spring = self.positions.spring;
+        if spring == [0.0; 3] {
+            return self.resultant;
+        }
+        let found = [sum(&shear.x), sum(&shear.y)];
+        let (size, most) = (found[0].hypot(found[1]), sum(bound));
+        let fraction = if size > most { most / size } else { 1.0 };
+        [0, 1, 2].map(|mode| if spring[mode] > 0.0 { found[mode] * fraction } else { self.resultant[mode] })
+    }
 }
 
 /// Whether the pressure is one of the unknowns.
@@ -96,6 +125,10 @@ pub fn solve(
     let mut backtracking = Backtracking::default();
     let mut circles_left = MOST_ROUNDS_TO_CIRCLES;
     operators.linear.begin();
+    if problem.give() != [0.0; 3] {
+        // A machine that gives much drowns what single precision would leave of the contact's own displacement.
+        operators.linear.avoid_single_precision();
+    }
     for iteration in 0..settings.max_newton_iterations {
         let residual = iterate.evaluate();
         if callback(iteration, residual).is_break() {
@@ -159,7 +192,7 @@ pub fn make_shear_feasible(
         path: &SlipPath::default(),
         motions: &problem.positions.motions_of(&contact),
         motion: problem.motion,
-        resultant: problem.resultant,
+        resultant: problem.to_restore(&shear, &bound.bound),
         self_influence,
     };
     let sets = ActiveSets::of(&shear, &at_rest, &bound, self_influence);
@@ -185,6 +218,8 @@ struct Iterate<'a> {
     slip: SlipIncrement,
     sets: ActiveSets,
     step: ContactVector<f64>,
+    /// Resultants that the next projection restores [pressure].
+    to_restore: [f64; 3],
     packed: Packed,
     projection: ShearProjection,
 }
@@ -245,6 +280,7 @@ impl<'a> Iterate<'a> {
             slip: SlipIncrement::default(),
             sets: ActiveSets::default(),
             step: ContactVector::default(),
+            to_restore: problem.resultant,
             packed: Packed::default(),
             projection: ShearProjection::default(),
         };
@@ -269,7 +305,7 @@ impl<'a> Iterate<'a> {
             let Self { gap, tractions, displacements, .. } = self;
             gap.resize(problem.undeformed.len(), 0.0);
             each_cell(&Height, [&displacements.normal, problem.undeformed], [gap]);
-            let approach = problem.total.is_none().then_some(problem.approach);
+            let approach = problem.approach_under(&tractions.pressure);
             let [own, _] = self.self_influence;
             let normal = normal_residual(&tractions.pressure, gap, problem.undeformed, own, approach);
             self.normal = Some(normal);
@@ -307,7 +343,20 @@ impl<'a> Iterate<'a> {
             Pressure::Unknown => (largest(pressure), self_influence[0]),
             Pressure::Given => (largest(&bound.bound), self_influence[1]),
         };
-        let left_over = self.slip.left_over(&packed.path, &self.sets);
+        let mut left_over = self.slip.left_over(&packed.path, &self.sets);
+        if self.motions.any_spring() {
+            // Of the shear as it is the spring makes another motion than of what the law makes of it.
+            let left = left_over.to_mut();
+            for (mode, (slip, shear)) in
+                [(&mut left.x, &packed.shear.x), (&mut left.y, &packed.shear.y)].into_iter().enumerate()
+            {
+                let spring = self.motions.spring[mode];
+                if spring > 0.0 {
+                    let motion = (problem.resultant[mode] - sum(shear)) / spring;
+                    lower(slip, self.tangential.motion[mode] - motion);
+                }
+            }
+        }
         let linearised = Linearised {
             contact: &self.contact,
             sets: &self.sets,
@@ -316,6 +365,7 @@ impl<'a> Iterate<'a> {
             gap,
             slip: left_over.parts(),
             holds_force: problem.total.is_some(),
+            give: problem.give(),
             forcing,
             most_steps: settings.max_krylov_steps,
             floor: 0.02 * settings.tolerance * size * own,
@@ -330,6 +380,7 @@ impl<'a> Iterate<'a> {
         let (step, [x, y]) = self.step.parts();
         add_scaled(&mut shear.x, 1.0, x);
         add_scaled(&mut shear.y, 1.0, y);
+        self.to_restore = self.problem.to_restore(shear, &bound.bound);
         if self.problem.pressure == Pressure::Unknown {
             add_scaled(pressure, 1.0, step);
             if !project_pressure(pressure, self.problem.total) {
@@ -350,6 +401,7 @@ impl<'a> Iterate<'a> {
         let mut shear = std::mem::take(&mut self.packed.shear);
         let [_, own] = self.self_influence;
         let equations = self.packed.tangential_problem(self.problem, &self.motions, own);
+        let equations = TangentialProblem { resultant: self.to_restore, ..equations };
         self.projection.project(&mut shear, &self.sets, &equations);
         self.packed.shear = shear;
     }
@@ -368,6 +420,7 @@ impl<'a> Iterate<'a> {
         if slipping.is_empty() {
             return false;
         }
+        self.to_restore = self.problem.to_restore(&self.packed.shear, &self.packed.bound.bound);
         self.find_sets();
         for cell in slipping {
             self.sets.stick[cell] = 0.0;
@@ -399,6 +452,7 @@ impl<'a> Iterate<'a> {
             contact.pack(&tractions.pressure, &mut packed.pressure);
             contact.pack_tangential(&tractions.shear, &mut packed.shear);
             packed.law.find_bound(&packed.pressure, &mut packed.bound);
+            self.to_restore = self.problem.to_restore(&packed.shear, &packed.bound.bound);
             self.project_shear();
             self.contact.scatter_tangential(&self.packed.shear, &mut self.tractions.shear);
         }

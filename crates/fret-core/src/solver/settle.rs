@@ -90,7 +90,7 @@ fn state_after(problem: &IncrementProblem<'_>, solved: &Solved) -> ContactState 
     state.twist = before.twist + turned / problem.positions.length;
     let Stretch { load, .. } = &problem.stretch;
     state.tilt = load.tilt.map(|tilt| match tilt {
-        Control::Motion(slope) => slope,
+        Control::Motion(slope) | Control::FarEnd(slope) => slope,
         Control::Force(_) => 0.0, // the tilt is found outside, and prescribed here
     });
     state.bulk_stress = load.bulk_stress;

@@ -46,8 +46,12 @@ pub fn solve(
         compliance.full([&unloaded.pressure, x, y], from_shear.parts_mut());
         let mut undeformed = problem.undeformed.to_vec();
         add_scaled(&mut undeformed, 1.0, &from_shear.normal);
-        let equations =
-            NormalEquations { undeformed: &undeformed, total: problem.total, approach: problem.approach };
+        let equations = NormalEquations {
+            undeformed: &undeformed,
+            total: problem.total,
+            approach: problem.approach,
+            give: problem.approach_give,
+        };
         compliance.normal(&tractions.pressure, &mut from_pressure.normal);
         let (pressure, normal) = (&mut tractions.pressure, &mut from_pressure.normal);
         solve_normal(&equations, pressure, normal, compliance, preconditioner, &inner, callback)?;

@@ -67,7 +67,7 @@ impl ContactSolver<'_> {
     ) -> Result<Increment, SolveError> {
         let by_moment = load.tilt.map(|control| matches!(control, Control::Force(_)));
         let tilt = [0, 1].map(|axis| match load.tilt[axis] {
-            Control::Motion(slope) => slope,
+            Control::Motion(slope) | Control::FarEnd(slope) => slope,
             Control::Force(_) => state.tilt[axis],
         });
         if by_moment == [false; 2] {

@@ -177,7 +177,7 @@ fn pressed_by(plan: &Plan, control: Control, modulus: f64) -> Option<Pressed> {
             Control::Force(force) => {
                 HertzEllipse::ellipsoid([x.recip(), y.recip()], force, modulus).ok().map(Pressed::Ellipsoid)
             }
-            Control::Motion(_) => None,
+            Control::Motion(_) | Control::FarEnd(_) => None,
         };
     }
     let (Control::Force(force), [shape]) = (control, profile.shapes.as_slice()) else { return None };

@@ -10,7 +10,7 @@ use super::quantities::{Quantity, StageQuantities};
 use super::resolutions::{ResolutionError, only_one_grid};
 use super::variation::{Variation, fewest};
 use crate::history::warning::CELLS_IN_RADIUS;
-use crate::model::Shape;
+use crate::model::{Integration, Shape};
 use crate::plan::{Coupling, Plan};
 
 /// Residual a companion is solved to at the least: far below what is estimated.
@@ -33,9 +33,15 @@ const SCATTER_OF_ENERGY: f64 = 2.0;
 const END_OF_A_BODY: f64 = 0.5;
 /// Edge of what sticks: counted by cells, in steps of the load.
 const STICK_EDGE: f64 = 0.25;
-/// Share of the difference of two runs: of second order extrapolated; of an unknown one.
+/// Share of the difference of two runs: of second order extrapolated; of an unknown one; of what sticks; of the shift with increments of
+/// second order; of a pressure that has a cusp in the middle of a small stick zone.
 const SECOND_ORDER: f64 = 1.0 / 3.0;
 const UNKNOWN_ORDER: f64 = 1.5;
+const STICK: f64 = 1.0;
+const SHIFT: f64 = 1.0;
+const CUSP: f64 = 3.5;
+/// Factor on these for increments of first order.
+const END_POINTS: f64 = 2.5;
 
 /// A quantity of interest with its error bar.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -134,8 +140,12 @@ struct Scene {
     is_pointed: bool,
     /// Pressure depends on the way.
     is_coupled: bool,
+    /// Something may stick and slip.
+    has_friction: bool,
     /// A line contact.
     is_line: bool,
+    /// Increments of first order.
+    by_end_points: bool,
 }
 
 impl Scene {
@@ -151,7 +161,10 @@ impl Scene {
             ends,
             is_pointed: ends || shapes.iter().any(|shape| matches!(shape, Shape::Cone { .. })),
             is_coupled: plan.coupling == Coupling::Coupled,
+            has_friction: plan.coupling != Coupling::Frictionless,
             is_line: plan.grid.is_line(),
+            by_end_points: plan.coupling == Coupling::Coupled
+                && plan.case.integration == Integration::EndPoint,
         }
     }
 
@@ -166,6 +179,7 @@ impl Scene {
             _ => SCATTER,
         };
         let least = scatter * fine.cell_area / area * largest;
+        let increments = if self.by_end_points { END_POINTS } else { 1.0 };
         let (value, bar) = match quantity {
             Quantity::MaxPressure if self.is_pointed => (value, None),
             Quantity::Approach if self.ends => {
@@ -179,8 +193,19 @@ impl Scene {
                 let edge = if self.is_line { EDGE_OF_LINE } else { EDGE };
                 (value, Some(if self.ends { END_OF_A_BODY } else { edge } * fine.contact_edge))
             }
-            Quantity::StickArea => (value, Some((STICK_EDGE * fine.stick_edge).max(apart))),
-            _ => (value, Some(least.max(UNKNOWN_ORDER * apart))),
+            Quantity::StickArea => {
+                // What sticks may be a cell that no cell shows.
+                let least = if self.has_friction { fine.cell_area } else { 0.0 };
+                (value, Some((STICK_EDGE * fine.stick_edge).max(increments * STICK * apart).max(least)))
+            }
+            _ => {
+                let share = match quantity {
+                    Quantity::MaxPressure if self.is_coupled => CUSP,
+                    Quantity::Shift if self.is_coupled => SHIFT,
+                    _ => UNKNOWN_ORDER,
+                };
+                (value, Some(least.max(increments * share * apart)))
+            }
         };
         Bar { quantity, value, bar }
     }

@@ -60,10 +60,12 @@ impl Film {
     pub fn released(&self, stress: f64, factor: Option<f64>, phase: Option<f64>) -> Released {
         let factor = factor.or(self.is_matched().then_some(CHANNELLING_WITHOUT_MISMATCH));
         let phase = phase.or(self.is_matched().then_some(PHASE_WITHOUT_MISMATCH));
-        let stiffness = self.material.young() / ((1.0 - self.material.poisson()) * (1.0 + self.material.poisson()));
+        let stiffness =
+            self.material.young() / ((1.0 - self.material.poisson()) * (1.0 + self.material.poisson()));
         let energy = stress * stress * self.thickness / stiffness;
         Released {
-            channelling: factor.map(|g| if stress > 0.0 { std::f64::consts::FRAC_PI_2 * g * energy } else { 0.0 }),
+            channelling: factor
+                .map(|g| if stress > 0.0 { std::f64::consts::FRAC_PI_2 * g * energy } else { 0.0 }),
             delamination: 0.5 * energy,
             phase: if stress > 0.0 { phase } else { Some(90.0) },
         }

@@ -135,8 +135,9 @@ fn at_length(path: &CrackPath, crack: &EdgeCrack, constants: &CrackConstants, le
     let points = crack.points(length, &breaks);
     let (mut opening, mut sliding) = ([f64::INFINITY, 0.0_f64], [f64::INFINITY, f64::NEG_INFINITY]);
     for increment in 0..path.stress.len() {
-        let tractions =
-            points.iter().map(|point| crack.tractions(&path.at(increment, point.distance * down), path.horizontal));
+        let tractions = points
+            .iter()
+            .map(|point| crack.tractions(&path.at(increment, point.distance * down), path.horizontal));
         let [one, two] = stress_intensity(&points, tractions);
         opening = [opening[0].min(one), opening[1].max(one)];
         sliding = [sliding[0].min(two), sliding[1].max(two)];

@@ -19,7 +19,9 @@ pub enum NoCrack {
     #[error("no plane at the surface is under tension in the cycle")]
     NoTension,
     /// The critical plane is nearly parallel to the surface.
-    #[error("the critical plane leaves the normal of the surface by {0:.0} degrees: cracks are followed up to 60")]
+    #[error(
+        "the critical plane leaves the normal of the surface by {0:.0} degrees: cracks are followed up to 60"
+    )]
     TooInclined(f64),
     /// The crack would leave the part of the surface that the grid covers.
     #[error("the crack would leave the grid before its final length")]
@@ -52,7 +54,9 @@ impl CrackStart {
     /// # Errors
     /// Without tension, or where the plane leaves the normal of the surface by more than [`STEEPEST`].
     pub fn of(severe: &MostSevere, is_line: bool) -> Result<Self, NoCrack> {
-        let Some([x, y, z]) = severe.normal.filter(|_| severe.value > 0.0) else { return Err(NoCrack::NoTension) };
+        let Some([x, y, z]) = severe.normal.filter(|_| severe.value > 0.0) else {
+            return Err(NoCrack::NoTension);
+        };
         let (across, towards) = if is_line { (x.abs(), [x, 0.0]) } else { (x.hypot(y), [x, y]) };
         let angle = (-z).atan2(across);
         if angle.is_nan() || angle.abs() > STEEPEST {

@@ -41,7 +41,8 @@ impl Distances {
     /// Whether the values of a parameter under all cells are wanted at a depth.
     pub(super) fn want(&self, parameter: Parameter, depth: f64) -> bool {
         let line = self.lines.iter().find(|line| line.parameter == parameter);
-        parameter != Parameter::ShakedownStrength && (depth == 0.0 || line.is_some_and(|line| line.integral.0 < 2.0 * self.distance))
+        parameter != Parameter::ShakedownStrength
+            && (depth == 0.0 || line.is_some_and(|line| line.integral.0 < 2.0 * self.distance))
     }
 
     /// Takes the values at a depth, depths from 0 on, not falling; linear between them. Where a depth comes twice, at an interface, the
@@ -77,7 +78,9 @@ impl Distances {
     pub(super) fn found(self) -> Vec<(Parameter, AtDistance)> {
         let largest = |values: &Array2<f64>| {
             let first = (f64::NEG_INFINITY, [0, 0]);
-            values.indexed_iter().fold(first, |best, ((i, j), &value)| if value > best.0 { (value, [i, j]) } else { best })
+            values
+                .indexed_iter()
+                .fold(first, |best, ((i, j), &value)| if value > best.0 { (value, [i, j]) } else { best })
         };
         let distance = self.distance;
         let of = |line: Line| {
@@ -101,7 +104,8 @@ mod tests {
     fn both_methods_follow_the_polygon() {
         let mut distances = Distances::new(1.0);
         let parameter = Parameter::SmithWatsonTopper;
-        for (depth, values) in [(0.0, [4.0, 1.0]), (0.75, [2.5, 1.0]), (0.75, [2.5, 5.0]), (3.0, [-2.0, 5.0])] {
+        for (depth, values) in [(0.0, [4.0, 1.0]), (0.75, [2.5, 1.0]), (0.75, [2.5, 5.0]), (3.0, [-2.0, 5.0])]
+        {
             assert!(distances.want(parameter, depth) || depth > 2.0);
             distances.take(parameter, depth, &Array2::from_shape_vec((2, 1), values.to_vec()).unwrap());
         }
@@ -109,7 +113,7 @@ mod tests {
         let found = distances.found();
         let (_, at) = found[0];
         assert_eq!(at.point, (3.0, [0, 0])); // at L/2 = 0.5
-        let mean = (0.75 * 1.0 + 1.25 * 5.0) / 2.0; // over 2 L = 2
+        let mean = 0.5 * (0.75 * 1.0 + 1.25 * 5.0); // over 2 L = 2
         assert!((at.line.0 - mean).abs() < 1e-15 && at.line.1 == [1, 0]);
     }
 }

@@ -109,7 +109,8 @@ impl EdgeCrack {
                 let place = 1.0 - s * s;
                 let values = chebyshev(place);
                 let factor = 2.0 * half * weight * scale;
-                let sum = |terms: [f64; TERMS]| factor * terms.iter().zip(values).map(|(c, v)| c * v).sum::<f64>();
+                let sum =
+                    |terms: [f64; TERMS]| factor * terms.iter().zip(values).map(|(c, v)| c * v).sum::<f64>();
                 let weights = self.coefficients.map(|mode| mode.map(sum));
                 points.push(WeightedPoint { distance: place * length, weights });
             }
@@ -223,9 +224,11 @@ mod tests {
     /// digits by `tests/golden/edge_crack.py`.
     #[test]
     fn inclined_cracks_have_the_factors_of_the_handbook() {
-        for (degrees, opens, slides, tolerance) in
-            [(30.0, 0.920_10, 0.305_80, 2e-5), (45.0, 0.704_91, 0.364_49, 2e-5), (60.0, 0.462_4, 0.336_1, 5e-4)]
-        {
+        for (degrees, opens, slides, tolerance) in [
+            (30.0, 0.920_10, 0.305_80, 2e-5),
+            (45.0, 0.704_91, 0.364_49, 2e-5),
+            (60.0, 0.462_4, 0.336_1, 5e-4),
+        ] {
             for sign in [1.0, -1.0] {
                 let found = factors(sign * degrees, |_| tension(1.0));
                 assert!((found[0] - opens).abs() < tolerance, "{degrees}: {found:?}");

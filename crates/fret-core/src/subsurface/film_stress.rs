@@ -72,12 +72,16 @@ impl FilmStress {
                 let [xx, yy, xy] = [xx, yy[[i, j]], xy[[i, j]]].map(|integral| integral / thickness);
                 let (mean, radius) = (f64::midpoint(xx, yy), (0.5 * (xx - yy)).hypot(xy));
                 let along = (0.5 * (2.0 * xy).atan2(xx - yy)).to_degrees();
-                for (slot, stress, direction) in [(0, mean + radius, along), (1, mean - radius, along + 90.0)] {
+                for (slot, stress, direction) in [(0, mean + radius, along), (1, mean - radius, along + 90.0)]
+                {
                     let sign = if slot == 0 { 1.0 } else { -1.0 };
                     let is_more = found[slot].is_none_or(|known| sign * stress > sign * known.stress);
                     if is_more && sign * stress > 0.0 {
-                        let released =
-                            self.film.released(stress, constants.channelling_factor, constants.interface_phase);
+                        let released = self.film.released(
+                            stress,
+                            constants.channelling_factor,
+                            constants.interface_phase,
+                        );
                         found[slot] = Some(FilmCrack { stress, direction, surface, cell: [i, j], released });
                     }
                 }
@@ -96,7 +100,8 @@ mod tests {
     #[test]
     fn the_mean_over_the_thickness_by_hand() {
         let material = ElasticMaterial::new(100.0, 0.25).unwrap();
-        let body = HalfSpace::new(vec![Coating::new(material, 2.0).unwrap()], Base::Elastic(material)).unwrap();
+        let body =
+            HalfSpace::new(vec![Coating::new(material, 2.0).unwrap()], Base::Elastic(material)).unwrap();
         let mut film = FilmStress::new(Film::outermost(&body).unwrap());
         for (depth, layer) in [(0.0, 0), (0.5, 0), (2.0, 0), (2.0, 1)] {
             let mut field = StressField::zeros([2, 1]);
@@ -106,7 +111,9 @@ mod tests {
         }
         let found = film.most_severe(&FatigueConstants::default());
         assert_eq!(found.len(), 2);
-        assert!((found[0].stress - 7.0).abs() < 1e-14 && found[0].cell == [0, 0] && found[0].direction == 0.0);
+        assert!(
+            (found[0].stress - 7.0).abs() < 1e-14 && found[0].cell == [0, 0] && found[0].direction == 0.0
+        );
         assert!((found[1].stress + 5.0).abs() < 1e-14 && found[1].cell == [1, 0]);
         assert!((found[1].direction - 135.0).abs() < 1e-12 && found[1].released.channelling == Some(0.0));
     }

@@ -7,11 +7,13 @@ use serde::Serialize;
 
 use super::critical_distance::{AtDistance, Distances};
 use super::depths::DepthPoint;
-use super::fatigue::{Bounds, Evaluated, FatigueConstants, LayerConstants, Parameter, Ruiz, SurfacePoint, ruiz};
+use super::fatigue::{
+    Bounds, Evaluated, FatigueConstants, LayerConstants, Parameter, Ruiz, SurfacePoint, ruiz,
+};
 use super::largest::along_lines;
 use super::survey::LoadedSurface;
 use super::tensor::{StressField, StressTensor};
-use crate::model::{Base, ElasticMaterial, HalfSpace};
+use crate::model::{Base, Coating, ElasticMaterial, HalfSpace};
 
 /// Cells whose bound is a smaller fraction of the largest value of a depth are not evaluated where only large values count.
 const FAR_BELOW: f64 = 0.6;
@@ -190,7 +192,8 @@ impl<'a> Severity<'a> {
 
     fn note(&mut self, look: &Look, value: f64, (cell, off): ([usize; 2], [f64; 2]), point: DepthPoint) {
         let cycle = cycle_at(&self.here, cell);
-        let normal = look.parameter.of(&cycle, &look.material, &look.constants).and_then(|found| found.normal);
+        let normal =
+            look.parameter.of(&cycle, &look.material, &look.constants).and_then(|found| found.normal);
         let found = MostSevere {
             parameter: look.parameter,
             value,
@@ -204,9 +207,8 @@ impl<'a> Severity<'a> {
         if point.depth == 0.0 {
             self.at_surface.push(found);
         }
-        let same = |known: &&mut MostSevere| {
-            known.parameter == look.parameter && known.point.layer == point.layer
-        };
+        let same =
+            |known: &&mut MostSevere| known.parameter == look.parameter && known.point.layer == point.layer;
         match self.found.iter_mut().find(same) {
             Some(known) if value > known.value => *known = found,
             Some(_) => {}
@@ -254,7 +256,7 @@ pub fn material_of(half_space: &HalfSpace, layer: usize) -> Option<ElasticMateri
 
 /// Constants of a layer of the half-space.
 pub fn constants_of(half_space: &HalfSpace, constants: &LayerConstants, layer: usize) -> FatigueConstants {
-    let above: f64 = half_space.coatings().iter().take(layer).map(|coating| coating.thickness()).sum();
+    let above: f64 = half_space.coatings().iter().take(layer).map(Coating::thickness).sum();
     let middle = half_space.coatings().get(layer).map_or(f64::INFINITY, |own| above + 0.5 * own.thickness());
     constants.at(middle)
 }
@@ -324,7 +326,11 @@ impl Look {
     ) -> Option<([usize; 2], f64)> {
         let ny = fields.first().map_or(0, |field| field.components[0].ncols());
         let place = |cell: usize| [cell / ny, cell % ny];
-        let (promising, bound) = bounds.iter().copied().enumerate().reduce(|most, next| if next.1 > most.1 { next } else { most })?;
+        let (promising, bound) = bounds
+            .iter()
+            .copied()
+            .enumerate()
+            .reduce(|most, next| if next.1 > most.1 { next } else { most })?;
         if bound <= known {
             return None;
         }

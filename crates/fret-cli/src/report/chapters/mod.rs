@@ -1,19 +1,41 @@
-//! What the page tells, a chapter a function; an empty text where a run has nothing to say.
+//! What the page tells, a file a chapter; nothing where a run has nothing to say.
 
-mod accounts;
-mod pictures;
+mod comparison;
+mod convergence;
+mod cycles;
+mod energy;
+mod explorer;
+mod head;
+mod loading;
 mod question;
+mod sections;
+mod stress;
+mod wear;
+mod zones;
 
-pub use accounts::{comparison, convergence, energy};
-pub use pictures::{fretting_loop, pressing, sections, zones};
-pub use question::{head, left_out, question};
+use maud::{Markup, html};
 
-/// A chapter with its heading.
-fn chapter(heading: &str, body: &str) -> String {
-    format!("<section><h2>{heading}</h2>\n{body}</section>\n")
-}
+use super::literature;
+use super::overview::Overview;
+use crate::failure::Failure;
 
-/// Two or more figures side by side where there is room.
-fn side_by_side(figures: &str) -> String {
-    format!("<div class=\"figures\">{figures}</div>\n")
+/// All chapters in their order.
+pub fn all(view: &Overview<'_>) -> Result<Markup, Failure> {
+    Ok(html! {
+        (head::head(view))
+        (explorer::explorer(view)?)
+        (question::question(view))
+        (loading::loading(view))
+        (loading::fretting_loop(view))
+        (cycles::cycles(view))
+        (sections::sections(view)?)
+        (zones::zones(view)?)
+        (energy::energy(view))
+        (wear::wear(view)?)
+        (stress::stress(view)?)
+        (comparison::comparison(view))
+        (convergence::convergence(view))
+        (question::simplifications(view))
+        (literature::chapter(view))
+    })
 }

@@ -10,8 +10,11 @@ pub struct RigidMotions {
     pub rotation: TangentialField,
     /// Whether the bodies may rotate.
     pub rotates: bool,
-    /// Which motions follow from a prescribed resultant.
+    /// Which motions follow from a prescribed resultant, or from one that falls with the motion.
     pub by_force: [bool; 3],
+    /// By how much the resultant falls with the motion [pressure/length]: `sum q . mode + spring x motion = resultant`; 0 of a
+    /// resultant that is prescribed.
+    pub spring: [f64; 3],
 }
 
 /// Where the cells of a region are, and how the bodies may move.
@@ -22,8 +25,10 @@ pub struct CellPositions {
     /// Length that makes the rotation field of order one [length].
     pub length: f64,
     rotates: bool,
-    /// Which motions follow from a prescribed resultant.
+    /// As in [`RigidMotions`].
     pub by_force: [bool; 3],
+    /// As in [`RigidMotions`].
+    pub spring: [f64; 3],
 }
 
 impl CellPositions {
@@ -31,7 +36,18 @@ impl CellPositions {
     pub fn new(x: Vec<f64>, y: Vec<f64>, rotates: bool, by_force: [bool; 3]) -> Self {
         let largest = x.iter().chain(&y).fold(0.0_f64, |most, value| most.max(value.abs()));
         let length = if largest > 0.0 { largest } else { 1.0 };
-        Self { x, y, length, rotates, by_force }
+        Self { x, y, length, rotates, by_force, spring: [0.0; 3] }
+    }
+
+    /// The same with springs between the bodies and what is driven.
+    #[must_use]
+    pub fn with_springs(self, by_force: [bool; 3], spring: [f64; 3]) -> Self {
+        Self { by_force, spring, ..self }
+    }
+
+    /// Which motions follow from a resultant that is prescribed as it is.
+    pub fn held(&self) -> [bool; 3] {
+        [0, 1, 2].map(|mode| self.by_force[mode] && self.spring[mode] == 0.0)
     }
 
     /// The motions of the cells in contact.
@@ -44,7 +60,7 @@ impl CellPositions {
                 rotation.set(place, [-y / self.length, x / self.length]);
             }
         }
-        RigidMotions { rotation, rotates: self.rotates, by_force: self.by_force }
+        RigidMotions { rotation, rotates: self.rotates, by_force: self.by_force, spring: self.spring }
     }
 }
 
@@ -52,6 +68,16 @@ impl RigidMotions {
     /// Whether any motion follows from a resultant.
     pub fn any_by_force(&self) -> bool {
         self.by_force.iter().any(|&by_force| by_force)
+    }
+
+    /// Which motions follow from a resultant that is prescribed as it is.
+    pub fn held(&self) -> [bool; 3] {
+        [0, 1, 2].map(|mode| self.by_force[mode] && self.spring[mode] == 0.0)
+    }
+
+    /// Whether the far end of a spring is prescribed.
+    pub fn any_spring(&self) -> bool {
+        self.spring != [0.0; 3]
     }
 
     /// A motion of these amounts at a cell.
@@ -70,13 +96,18 @@ impl RigidMotions {
 
     /// Solves the symmetric system `[xx, yy, rr, xy, xr, yr]` of the force-controlled modes, others zero; a singular
     /// matrix gets a relative 1e-13 on its diagonal.
-    pub fn solve(&self, [xx, yy, rr, xy, xr, yr]: [f64; 6], right: [f64; 3]) -> [f64; 3] {
+    pub fn solve(&self, matrix: [f64; 6], right: [f64; 3]) -> [f64; 3] {
+        Self::solve_of(self.by_force, matrix, right)
+    }
+
+    /// The same of some modes.
+    pub fn solve_of(modes: [bool; 3], [xx, yy, rr, xy, xr, yr]: [f64; 6], right: [f64; 3]) -> [f64; 3] {
         let mut a = [[xx, xy, xr], [xy, yy, yr], [xr, yr, rr]];
         let mut b = right;
-        let trace: f64 = (0..3).filter(|&m| self.by_force[m]).map(|m| a[m][m]).sum();
+        let trace: f64 = (0..3).filter(|&m| modes[m]).map(|m| a[m][m]).sum();
         let shift = trace * 1e-13;
         for m in 0..3 {
-            if self.by_force[m] && trace > 0.0 {
+            if modes[m] && trace > 0.0 {
                 a[m][m] += shift;
             } else {
                 for n in 0..3 {

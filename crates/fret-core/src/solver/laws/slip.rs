@@ -30,7 +30,7 @@ pub struct TangentialProblem<'a> {
     pub motions: &'a RigidMotions,
     /// Increments of the motions that are prescribed [length]; 0 for the others.
     pub motion: [f64; 3],
-    /// Sums over the cells of shear times mode, for the motions that follow from a resultant [pressure].
+    /// Sums over the cells of shear times mode, for the motions that follow from a resultant, at no motion [pressure].
     pub resultant: [f64; 3],
     /// Influence of a cell's shear on its own displacement [length/pressure].
     pub self_influence: f64,
@@ -76,7 +76,10 @@ impl SlipIncrement {
         let write = [&mut slip.x[..], &mut slip.y, &mut trial.x, &mut trial.y];
         let rule = PrescribedSlip { motion: problem.motion, stiffness };
         let [trial_squares, bounds, bound_squares] = each_cell(&rule, read, write);
-        let mut found = [0.0; 3];
+        // Without anything to carry a force a spring keeps its length.
+        let mut found = [0, 1, 2].map(|mode| {
+            if motions.spring[mode] > 0.0 { problem.resultant[mode] / motions.spring[mode] } else { 0.0 }
+        });
         if motions.any_by_force() && bounds > 0.0 {
             let count = bound.len() as f64;
             let scale = Scale { total: bounds, spread: (trial_squares / count).sqrt() + bounds / count };
@@ -141,7 +144,7 @@ impl SlipIncrement {
         each_cell(&rule, read, [&mut trial.x, &mut trial.y]);
     }
 
-    /// Root of `sum Proj(trial + motion) . mode = resultant`. Motions are in units of pressure.
+    /// Root of `sum Proj(trial + motion) . mode + spring x motion = resultant`. Motions are in units of pressure.
     fn motion_by_force(&self, problem: &TangentialProblem<'_>, scale: Scale, guess: [f64; 3]) -> [f64; 3] {
         let motions = problem.motions;
         let mut motion = motions.only_by_force(guess);
@@ -205,8 +208,10 @@ impl SlipIncrement {
         };
         for mode in 0..3 {
             if motions.by_force[mode] {
-                potential.value -= motion[mode] * problem.resultant[mode];
-                potential.defect[mode] -= problem.resultant[mode];
+                let spring = motions.spring[mode] * problem.self_influence;
+                potential.value += motion[mode] * (0.5 * spring * motion[mode] - problem.resultant[mode]);
+                potential.defect[mode] += spring * motion[mode] - problem.resultant[mode];
+                potential.curvature[mode] += spring;
             } else {
                 potential.defect[mode] = 0.0;
             }

@@ -29,16 +29,17 @@ pub fn products<R: Reals>([x, y]: [R; 2], weight: R, [around_x, around_y]: [R; 2
 
 /// Takes off a field what rigid motions that follow from resultants can do.
 pub struct RigidProjector<'a, N> {
-    motions: &'a RigidMotions,
     sets: SetFields<'a, N>,
     gram: [f64; 6],
+    held: [bool; 3],
 }
 
 impl<'a, N: Number> RigidProjector<'a, N> {
     /// Projector on active sets. Of equations: with their weights for the slip.
-    pub fn new(motions: &'a RigidMotions, sets: SetFields<'a, N>) -> Self {
-        let gram = if motions.any_by_force() { each_cell(&Gram, sets, []) } else { [0.0; 6] };
-        Self { motions, sets, gram }
+    pub fn new(motions: &RigidMotions, sets: SetFields<'a, N>) -> Self {
+        let held = motions.held();
+        let gram = if held.contains(&true) { each_cell(&Gram, sets, []) } else { [0.0; 6] };
+        Self { sets, gram, held }
     }
 
     /// Keeps the free part of a field, without what rigid motions can do.
@@ -49,12 +50,16 @@ impl<'a, N: Number> RigidProjector<'a, N> {
 
     /// Amounts of the motions whose free parts have these products with the free parts of all.
     pub fn amounts(&self, products: [f64; 3]) -> [f64; 3] {
-        if self.motions.any_by_force() { self.motions.solve(self.gram, products) } else { [0.0; 3] }
+        if self.held.contains(&true) {
+            RigidMotions::solve_of(self.held, self.gram, products)
+        } else {
+            [0.0; 3]
+        }
     }
 
     /// Takes off the rigid motion whose free part has these products with the free parts of all.
     pub fn remove(&self, field: [&mut [N]; 2], products: [f64; 3]) {
-        if self.motions.any_by_force() {
+        if self.held.contains(&true) {
             each_cell(&RemoveRigid(self.amounts(products)), self.sets, field);
         }
     }

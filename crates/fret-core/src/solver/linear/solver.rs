@@ -10,7 +10,7 @@ use super::gmres::Gmres;
 use super::preconditioner::Preconditioner;
 use super::problem::{LinearProblem, LinearSets, LinearWorkspace, right_side};
 use crate::compliance::SurfaceCompliance;
-use crate::fields::{Number, largest};
+use crate::fields::{Number, largest, lower, sum};
 
 /// Relative residual to which a problem is solved in single precision at the most.
 const SINGLE: f64 = 1e-5;
@@ -32,6 +32,8 @@ pub struct Linearised<'a> {
     pub slip: [&'a [f64]; 2],
     /// The normal force is prescribed.
     pub holds_force: bool,
+    /// Displacement that the machine gives by a unit of the summed traction, normally and along x and y [length/pressure].
+    pub give: [f64; 3],
     /// Relative residual at which it is solved well enough.
     pub forcing: f64,
     /// Krylov steps at the most.
@@ -111,6 +113,17 @@ impl LinearSolver {
     }
 }
 
+/// Adds the displacement by which the machine gives under tractions: one more compliance on their resultant.
+fn give_way<N: Number>(give: [f64; 3], tractions: &ContactVector<N>, to: &mut ContactVector<N>) {
+    let (pressure, [x, y]) = tractions.parts();
+    let (normal, [along_x, along_y]) = to.parts_mut();
+    for (give, from, to) in [(give[0], pressure, normal), (give[1], x, along_x), (give[2], y, along_y)] {
+        if give > 0.0 && !from.is_empty() {
+            lower(to, -give * sum(from));
+        }
+    }
+}
+
 /// The method in one precision.
 #[derive(Debug, Default)]
 struct Krylov<N> {
@@ -150,6 +163,7 @@ impl<N: Number> Krylov<N> {
         let apply = |from: &ContactVector<N>, to: &mut ContactVector<N>| {
             linear.precondition(from, tractions);
             fields.apply(tractions, to, &mut operator);
+            give_way(problem.give.map(|give| give / unit), tractions, to);
             linear.complete(to);
         };
         gmres.solve(unit_right, apply, (forcing, problem.most_steps), combination);

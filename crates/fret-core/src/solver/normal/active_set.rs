@@ -94,7 +94,7 @@ fn examine(problem: &mut NormalIteration<'_>) -> Violations {
     let [inner_square, outer_square, tense] = each_cell(&rule, [pressure, active], [gap, residual]);
     let inner = largest_of(&Size, [residual]);
     let outer = largest_of(&Violation { own }, [gap, pressure, active]);
-    let scale = if load > 0.0 { (work / load).abs() } else { 0.0 };
+    let scale = if load > 0.0 { (work / load - problem.task.give * load).abs() } else { 0.0 };
     let relative = |size: f64| if scale > 0.0 { size / scale } else { f64::INFINITY };
     Violations {
         approach,

@@ -199,6 +199,7 @@ impl Level {
                 undeformed: &undeformed,
                 total: prescribed.total,
                 approach: prescribed.approach,
+                give: 0.0,
             };
             let mut pressure = match &start {
                 Some(start) => region.gather(start),

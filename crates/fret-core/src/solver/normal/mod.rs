@@ -10,7 +10,7 @@ use super::laws::complementarity::NormalResidual;
 use super::linear::preconditioner::Preconditioner;
 use super::settings::{IterationCallback, SolveError, SolverSettings};
 use crate::compliance::SurfaceCompliance;
-use crate::fields::sum;
+use crate::fields::{lower, sum};
 
 pub use problem::NormalEquations;
 use problem::{Ending, NormalIteration};
@@ -53,7 +53,10 @@ pub fn solve_normal(
         } else {
             projected_cg::iterate(&mut problem, max_stalled)?
         };
-        if let Ending::Solved(residual) = ending {
+        if let Ending::Solved(mut residual) = ending {
+            let gives = task.given_way(problem.pressure);
+            lower(problem.displacement, gives);
+            residual.approach -= gives;
             let (gap, iterations) = (problem.gap, problem.iterations);
             return Ok(NormalSolution { residual, gap, iterations });
         }

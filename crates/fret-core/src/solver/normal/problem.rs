@@ -4,7 +4,7 @@ use super::super::laws::complementarity::NormalResidual;
 use super::super::linear::preconditioner::Preconditioner;
 use super::super::settings::{IterationCallback, SolveError};
 use crate::compliance::SurfaceCompliance;
-use crate::fields::{CellRule, Reals, each_cell};
+use crate::fields::{CellRule, Reals, each_cell, lower, sum};
 
 /// What the normal equations of one increment ask for, over the cells of a region.
 #[derive(Debug)]
@@ -13,8 +13,18 @@ pub struct NormalEquations<'a> {
     pub undeformed: &'a [f64],
     /// Sum of the pressures over the cells, when the force is prescribed [pressure].
     pub total: Option<f64>,
-    /// Approach, when it is prescribed [length].
+    /// Approach of the body or of the actuator, when it is prescribed [length].
     pub approach: f64,
+    /// By how much the machine gives under a unit of the summed pressure [length/pressure]: displacements have it in them while the
+    /// problem is solved; 0: the approach is that of the body.
+    pub give: f64,
+}
+
+impl NormalEquations<'_> {
+    /// What the machine gives under pressures, or a change of them [length].
+    pub fn given_way(&self, pressure: &[f64]) -> f64 {
+        if self.give > 0.0 { self.give * sum(pressure) } else { 0.0 }
+    }
 }
 
 /// How an iteration ended.
@@ -72,6 +82,7 @@ impl<'a> NormalIteration<'a> {
         callback: IterationCallback<'a>,
     ) -> Self {
         let field = || vec![0.0; task.undeformed.len()];
+        lower(displacement, -task.given_way(pressure));
         Self {
             gap: field(),
             active: field(),
@@ -114,12 +125,14 @@ impl<'a> NormalIteration<'a> {
     pub fn convolve_change(&mut self) {
         self.iterations += 1;
         self.compliance.normal(&self.change, &mut self.image);
+        lower(&mut self.image, -self.task.given_way(&self.change));
     }
 
     /// `displacement` becomes that of `pressure`.
     pub fn convolve_pressure(&mut self) {
         self.iterations += 1;
         self.compliance.normal(self.pressure, self.displacement);
+        lower(self.displacement, -self.task.given_way(self.pressure));
     }
 
     /// `steepest` becomes the preconditioned residual, on all cells.
@@ -136,7 +149,7 @@ impl<'a> NormalIteration<'a> {
             Some(_) if count > 0.0 => heights / count,
             _ => self.task.approach,
         };
-        (approach, (load > 0.0).then(|| (work / load).abs()))
+        (approach, (load > 0.0).then(|| (work / load - self.task.give * load).abs()))
     }
 
     /// Adds `fraction` of the change to pressures and displacements; rounding leaves no tension.

@@ -108,10 +108,7 @@ impl ContactSolver<'_> {
     ) -> Option<(Array2<f64>, [Array2<f64>; 2])> {
         let last_solved = self.memory.last.as_ref()?;
         let last = self.memory.last_load.as_ref()?;
-        let value = |control: Control| match control {
-            Control::Force(value) | Control::Motion(value) => value,
-        };
-        let loads = [before.load.normal, last.normal, load.normal].map(value);
+        let loads = [before.load.normal, last.normal, load.normal].map(Control::value);
         if loads[1] == loads[2] || loads.iter().any(|load| *load <= 0.0) {
             return None;
         }
@@ -172,7 +169,9 @@ impl ContactSolver<'_> {
         let (before, last) = (&self.memory.before.as_ref()?.load, self.memory.last_load.as_ref()?);
         let are_alike = matches!(
             load.tangential,
-            [Control::Force(_), Control::Force(_)] | [Control::Motion(_), Control::Motion(_)]
+            [Control::Force(_), Control::Force(_)]
+                | [Control::Motion(_), Control::Motion(_)]
+                | [Control::FarEnd(_), Control::FarEnd(_)]
         );
         Some(products(change(before, last)?, change(last, load)?, are_alike))
     }
@@ -201,7 +200,9 @@ type Loads = [f64; 10];
 /// Loads as numbers, when both name the same controls.
 fn change(from: &LoadStep, to: &LoadStep) -> Option<Loads> {
     let difference = |a: Control, b: Control| match (a, b) {
-        (Control::Force(a), Control::Force(b)) | (Control::Motion(a), Control::Motion(b)) => Some(b - a),
+        (Control::Force(a), Control::Force(b))
+        | (Control::Motion(a), Control::Motion(b))
+        | (Control::FarEnd(a), Control::FarEnd(b)) => Some(b - a),
         _ => None,
     };
     let bulk = |body: usize, axis: usize| to.bulk_stress[body][axis] - from.bulk_stress[body][axis];

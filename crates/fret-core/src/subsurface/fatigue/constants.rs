@@ -295,7 +295,10 @@ mod tests {
     fn each_layer_has_its_own_constants() {
         let none = FatigueConstants::default();
         let layers = LayerConstants::new(vec![(0.0, constants(3.0)), (1.0, none), (2.0, constants(5.0))]);
-        assert_eq!([0.5, 1.5, 2.5].map(|depth| layers.at(depth).yield_strength), [Some(3.0), None, Some(5.0)]);
+        assert_eq!(
+            [0.5, 1.5, 2.5].map(|depth| layers.at(depth).yield_strength),
+            [Some(3.0), None, Some(5.0)]
+        );
         let filled = layers.or(constants(7.0));
         assert_eq!([0.5, 1.5, 2.5].map(|depth| filled.at(depth).yield_strength), [3.0, 7.0, 5.0].map(Some));
         assert_eq!(LayerConstants::default().or(constants(7.0)).at(9.0).yield_strength, Some(7.0));

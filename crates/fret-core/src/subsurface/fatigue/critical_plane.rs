@@ -26,7 +26,8 @@ pub fn smith_watson_topper(cycle: &[StressTensor], material: &ElasticMaterial) -
         return CriticalPlane { value: 0.0, normal: [0.0, 0.0, 1.0] }; // no principal stress is tensile
     }
     // a free surface has no stress across it but for rounding, which is no tension
-    let rounding = 1e-12 * cycle.iter().flat_map(|stress| stress.0).fold(0.0, |most, part| part.abs().max(most));
+    let rounding =
+        1e-12 * cycle.iter().flat_map(|stress| stress.0).fold(0.0, |most, part| part.abs().max(most));
     largest_over_planes(|n, _| {
         let (mut least, mut most, mut stress_most) = (f64::INFINITY, f64::NEG_INFINITY, 0.0_f64);
         for stress in cycle {

@@ -90,7 +90,9 @@ impl Parameter {
             Self::SmithWatsonTopper => {
                 constants.strain_life.map(|law| cycles_by_smith_watson_topper(value, material, &law))
             }
-            Self::FatemiSocie => constants.shear_life.map(|law| cycles_by_fatemi_socie(value, material, &law)),
+            Self::FatemiSocie => {
+                constants.shear_life.map(|law| cycles_by_fatemi_socie(value, material, &law))
+            }
             Self::Crossland | Self::DangVan | Self::ShakedownStrength => None,
         }
     }
@@ -153,7 +155,8 @@ impl Bounds {
 
     /// What a parameter cannot exceed.
     pub fn on(&self, parameter: Parameter, material: &ElasticMaterial, constants: &FatigueConstants) -> f64 {
-        let weighted = |weight: f64| weight * if weight > 0.0 { self.hydrostatic[1] } else { self.hydrostatic[0] };
+        let weighted =
+            |weight: f64| weight * if weight > 0.0 { self.hydrostatic[1] } else { self.hydrostatic[0] };
         let value = match (parameter, constants.endurance(), constants.yield_strength) {
             (Parameter::SmithWatsonTopper, ..) => 0.5 * self.tension * self.strain,
             (Parameter::FatemiSocie, _, Some(strength)) => {

@@ -26,7 +26,7 @@ mod tests {
 
     /// Stress under a Hertz line contact of half-width 1 and pressure 1 at `(x, z)`, plane strain, without friction.
     ///
-    /// Source: McEwen (1949), in Johnson (1985), *Contact Mechanics*, eq. 4.49.
+    /// Source: `McEwen` (1949), in Johnson (1985), *Contact Mechanics*, eq. 4.49.
     fn under_hertz_line(x: f64, z: f64, poisson: f64) -> StressTensor {
         let s = 1.0 - x * x + z * z;
         let root = (s * s + 4.0 * x * x * z * z).sqrt();
@@ -60,7 +60,8 @@ mod tests {
     /// First yield under a cylinder and a sphere: Johnson (1985), sec. 6.2: by von Mises p0 = 3.1 k, nu = 0.3; and 1.60 Y.
     #[test]
     fn first_yield_has_the_textbook_pressures() {
-        let line: Vec<StressTensor> = (0..400).map(|i| under_hertz_line(0.0, 0.005 * f64::from(i), 0.3)).collect();
+        let line: Vec<StressTensor> =
+            (0..400).map(|i| under_hertz_line(0.0, 0.005 * f64::from(i), 0.3)).collect();
         let in_shear = 3.0_f64.sqrt() / first_yield_strength(&line);
         assert!((in_shear - 3.1).abs() < 0.05, "{in_shear}"); // the digits of the book
         let axis = |z: f64| {

@@ -1,5 +1,21 @@
 //! Axes: round ticks, and the power of ten that stands beside an axis' name so that its numbers stay short.
 
+/// What an axis shows, and in which unit where the case declares units.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Label {
+    /// The quantity.
+    pub name: String,
+    /// Its unit.
+    pub unit: Option<String>,
+}
+
+impl Label {
+    /// A name without unit.
+    pub fn plain(name: &str) -> Self {
+        Self { name: name.to_owned(), unit: None }
+    }
+}
+
 /// One axis of a chart.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Axis {
@@ -27,8 +43,22 @@ impl Axis {
         let step = round_step((high - low) / ticks.max(1) as f64);
         let margin = 0.02 * (high - low);
         // A curve that starts or ends at zero shall touch the frame there.
-        let range =
-            [if low == 0.0 { 0.0 } else { low - margin }, if high == 0.0 { 0.0 } else { high + margin }];
+        Self::with_step(
+            [if low == 0.0 { 0.0 } else { low - margin }, if high == 0.0 { 0.0 } else { high + margin }],
+            step,
+        )
+    }
+
+    /// An axis over a range and no more, with about so many ticks.
+    pub fn over([low, high]: [f64; 2], ticks: usize) -> Self {
+        if low < high {
+            Self::with_step([low, high], round_step((high - low) / ticks.max(1) as f64))
+        } else {
+            Self::linear([low, high].into_iter(), ticks)
+        }
+    }
+
+    fn with_step(range: [f64; 2], step: f64) -> Self {
         let largest = range[0].abs().max(range[1].abs());
         let magnitude = largest.log10().floor() as i32;
         let exponent = if PLAIN.contains(&magnitude) { 0 } else { magnitude.div_euclid(3) * 3 };
@@ -65,11 +95,13 @@ impl Axis {
     }
 
     /// The name of the axis with the power of ten its ticks leave out.
-    pub fn named(&self, name: &str) -> String {
-        if self.exponent == 0 {
-            name.to_owned()
-        } else {
-            format!("{name} / 10{}", superscript(self.exponent))
+    pub fn named(&self, label: &Label) -> String {
+        let power = format!("10{}", superscript(self.exponent));
+        match (&label.unit, self.exponent) {
+            (None, 0) => label.name.clone(),
+            (None, _) => format!("{} / {power}", label.name),
+            (Some(unit), 0) => format!("{} [{unit}]", label.name),
+            (Some(unit), _) => format!("{} [{power} {unit}]", label.name),
         }
     }
 }
@@ -116,7 +148,9 @@ mod tests {
         assert_eq!((words(&axis), axis.exponent), (vec!["−200", "−100", "0", "100", "200"], -9));
         let axis = Axis::linear([0.0, 2.74e9].into_iter(), 5);
         assert_eq!((words(&axis), axis.exponent), (vec!["0.0", "0.5", "1.0", "1.5", "2.0", "2.5"], 9));
-        assert_eq!(axis.named("pressure"), "pressure / 10⁹");
+        assert_eq!(axis.named(&Label::plain("pressure")), "pressure / 10⁹");
+        let in_pascals = Label { unit: Some("Pa".to_owned()), ..Label::plain("pressure") };
+        assert_eq!(axis.named(&in_pascals), "pressure [10⁹ Pa]");
         let axis = Axis::linear([0.0, 0.31].into_iter(), 3);
         assert_eq!(words(&axis), ["0.0", "0.1", "0.2", "0.3"]);
     }

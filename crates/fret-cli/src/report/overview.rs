@@ -1,16 +1,23 @@
-//! A run seen as a whole: which way it was pushed, which increments are worth showing, what theory has to say about it.
+//! A run seen as a whole: its units, which way it was loaded, which increments are worth showing, what theory has to say about it.
 
 use fret_core::case::Units;
+use fret_core::history::CycleRecord;
+use serde_json::Value;
 
 use super::closed_form::{NormalForm, TangentialForm, components};
+use super::html::{given, number};
+use crate::drawing::scale::Label;
 use crate::results::Results;
 
 /// Share of the largest force below which there is none.
 const NOTHING: f64 = 1e-9;
 
+/// With more cycles a chart over the increments is a block of colour.
+const MANY_CYCLES: usize = 20;
+
 /// A run with what the page needs to know about it.
 #[derive(Debug)]
-pub struct Scene<'a> {
+pub struct Overview<'a> {
     /// The results.
     pub results: &'a Results,
     /// Direction of the tangential load, when there is any.
@@ -27,6 +34,8 @@ pub struct Scene<'a> {
     pub twists: bool,
     /// Increments of each stage: first, and one after the last.
     pub spans: Vec<[usize; 2]>,
+    /// Units that the case declares.
+    pub units: Option<Units>,
 }
 
 /// A cycle of a stage.
@@ -36,7 +45,7 @@ pub struct Cycle {
     pub span: [usize; 2],
 }
 
-impl<'a> Scene<'a> {
+impl<'a> Overview<'a> {
     /// Looks at a run.
     pub fn of(results: &'a Results) -> Self {
         let table = &results.table;
@@ -58,13 +67,82 @@ impl<'a> Scene<'a> {
             tangential_form,
             twists: twists(results),
             spans: spans(table.column("stage"), results.stages().len()),
+            units: results.planned("/case/units"),
         }
     }
 
-    /// The name of an axis with its unit, where the case declares units; `kind` as `force x length`.
-    pub fn axis(&self, name: &str, kind: &str) -> String {
-        let units: Option<Units> = self.results.planned("/case/units");
-        units.map_or_else(|| name.to_owned(), |units| format!("{name} [{}]", units.of(kind)))
+    /// The unit of a kind of quantity such as `force x length`, where the case declares units.
+    pub fn unit(&self, kind: &str) -> Option<String> {
+        let is_line = self.results.fields.is_line();
+        let unit = self.units.as_ref()?.of(if is_line { Units::per_length(kind) } else { kind });
+        Some(unit.replace("^2", "²").replace("^3", "³"))
+    }
+
+    /// The name of an axis with its unit.
+    pub fn label(&self, name: &str, kind: &str) -> Label {
+        Label { name: name.to_owned(), unit: self.unit(kind) }
+    }
+
+    /// A printed number with its unit.
+    pub fn with_unit(&self, number: &str, kind: &str) -> String {
+        self.unit(kind).map_or_else(|| number.to_owned(), |unit| format!("{number}\u{a0}{unit}"))
+    }
+
+    /// A number of the results with its unit.
+    pub fn number(&self, value: f64, kind: &str) -> String {
+        self.with_unit(&number(value), kind)
+    }
+
+    /// A number of the case with its unit.
+    pub fn given(&self, value: f64, kind: &str) -> String {
+        self.with_unit(&given(value), kind)
+    }
+
+    /// Whether there is no friction, and so neither stick nor slip.
+    pub fn is_frictionless(&self) -> bool {
+        self.results.record["plan"]["coupling"] == "frictionless"
+    }
+
+    /// Whether the contact grows while pressure and shear act on each other: then each increment shows in the shear.
+    pub fn grows_with_friction(&self) -> bool {
+        self.results.record["plan"]["coupling"] == "coupled"
+    }
+
+    /// What bounds shear in an increment: friction coefficient and shear strength, where they are the same everywhere.
+    pub fn friction_at(&self, increment: usize) -> Option<(f64, Option<f64>)> {
+        let (stage, _) = self.place(increment);
+        let of_stage = format!("/case/stages/{stage}/friction");
+        let changed = self.results.planned::<Value>(&of_stage).is_some_and(|friction| !friction.is_null());
+        let rule: Value = self.results.planned(if changed { &of_stage } else { "/case/friction" })?;
+        let coefficient = rule["coefficient"]["uniform"].as_f64().filter(|coefficient| *coefficient > 0.0)?;
+        if rule["max_shear"].is_null() {
+            return Some((coefficient, None));
+        }
+        Some((coefficient, Some(rule["max_shear"]["uniform"].as_f64()?)))
+    }
+
+    /// The tangential load: force and motion of the loop, or moment and rotation where that is what moves.
+    pub fn loop_points(&self) -> Vec<[f64; 2]> {
+        let table = &self.results.table;
+        let joined = |x: &[f64], y: &[f64]| x.iter().zip(y).map(|(x, y)| [*x, *y]).collect();
+        if self.twists {
+            joined(table.column("twist"), table.column("twist_moment"))
+        } else if self.direction.is_some() {
+            joined(&self.shift, &self.tangential)
+        } else {
+            joined(table.column("approach"), table.column("normal_force"))
+        }
+    }
+
+    /// Names of the axes of [`Self::loop_points`].
+    pub fn loop_labels(&self) -> [Label; 2] {
+        if self.twists {
+            [self.label("rotation", "rad"), self.label("torsional moment", "force x length")]
+        } else if self.direction.is_some() {
+            [self.label("relative displacement", "length"), self.label("tangential force", "force")]
+        } else {
+            [self.label("approach", "length"), self.label("normal force", "force")]
+        }
     }
 
     /// Name of a stage.
@@ -83,6 +161,28 @@ impl<'a> Scene<'a> {
     pub fn called(&self, increment: usize) -> String {
         let (stage, number) = self.place(increment);
         format!("{}, {number}", self.stage_name(stage))
+    }
+
+    /// How an increment is called where cycles matter more than increments.
+    pub fn after_cycle(&self, increment: usize) -> String {
+        let of_it =
+            |cycle: &&CycleRecord| (cycle.first_increment..=cycle.last_increment).contains(&increment);
+        match self.results.cycles.iter().find(of_it) {
+            Some(cycle) => format!("{}, cycle {}", self.stage_name(cycle.stage), cycle.last_cycle),
+            None => self.called(increment),
+        }
+    }
+
+    /// Increments that a chart over them shows: all, or of many cycles the last two; and how they are called.
+    pub fn shown_increments(&self) -> ([usize; 2], String) {
+        let cycles = self.cycles();
+        match cycles.len().checked_sub(2) {
+            Some(last) if cycles.len() > MANY_CYCLES => {
+                let called = format!(" The last two of {} cycles.", cycles.len());
+                ([cycles[last].span[0], cycles[last + 1].span[1]], called)
+            }
+            _ => ([0, self.results.table.rows()], String::new()),
+        }
     }
 
     /// The cycles that are done.

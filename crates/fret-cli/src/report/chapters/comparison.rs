@@ -1,0 +1,62 @@
+//! Numbers against closed forms.
+
+use maud::{Markup, html};
+
+use crate::report::html::{chapter, deviation, table};
+use crate::report::overview::Overview;
+
+/// Numbers against the closed form at the end of each stage.
+pub fn comparison(view: &Overview<'_>) -> Markup {
+    let Some(form) = &view.normal_form else { return html! {} };
+    let history = &view.results.table;
+    let mut rows = Vec::new();
+    let mut add = |place: String, what: &str, kind: &str, computed: f64, exact: f64| {
+        let numbers = [view.number(computed, kind), view.number(exact, kind), deviation(computed, exact)];
+        rows.push([place, what.to_owned()].into_iter().chain(numbers).collect());
+    };
+    for (stage, [_, end]) in view.spans.iter().enumerate() {
+        let row = end - 1;
+        if let Some(pressed) = form.under(history.at("normal_force", row)) {
+            let name = || view.stage_name(stage);
+            add(name(), "max pressure", "pressure", history.at("max_pressure", row), pressed.peak());
+            add(name(), "contact area", "length^2", history.at("contact_area", row), pressed.area());
+            add(name(), "approach", "length", history.at("approach", row), pressed.approach());
+        }
+    }
+    if let Some(form) = &view.tangential_form {
+        let farthest = (0..history.rows())
+            .filter(|row| form.after(*row).is_some())
+            .max_by(|a, b| view.tangential[*a].abs().total_cmp(&view.tangential[*b].abs()));
+        if let Some((row, after)) = farthest.and_then(|row| form.after(row).map(|after| (row, after))) {
+            add(view.called(row), "displacement", "length", view.shift[row], after.shift());
+            let stuck = (history.at("stick_area", row) / std::f64::consts::PI).sqrt();
+            add(view.called(row), "radius of stick", "length", stuck, after.stick_radius());
+        }
+    }
+    if rows.is_empty() {
+        return html! {};
+    }
+    let head = ["at the end of", "", "computed", "closed form", "difference"];
+    chapter(
+        "Against the closed form",
+        &html! { p { (words(view, form.moduli.coupling)) } (table(&head, &rows)) },
+    )
+}
+
+/// How far the closed form can be trusted here.
+fn words(view: &Overview<'_>, coupling: f64) -> Markup {
+    if view.results.record["plan"]["coupling"] == "coupled" {
+        return html! {
+            "The closed forms are frictionless ones: they neglect normal-tangential coupling (Dundurs' |" i { "β" } "| = "
+            (format!("{:.3}", coupling.abs())) "), which changes pressure and approach by some percent. There is none of partial slip here."
+        };
+    }
+    let history = &view.results.table;
+    let [dx, _] = view.results.fields.spacing();
+    let last = history.rows().saturating_sub(1);
+    let cells = 2.0 * (history.at("contact_area", last) / std::f64::consts::PI).sqrt() / dx;
+    html! {
+        (format!("The contact is {cells:.0} cells wide at the end; its edge is known to about half a cell."))
+        @if view.tangential_form.is_some() { " The closed form of partial slip neglects the slip across the force." }
+    }
+}

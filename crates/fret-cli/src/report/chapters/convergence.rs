@@ -1,0 +1,50 @@
+//! How well the equations were solved, and what it took.
+
+use maud::{Markup, html};
+
+use crate::drawing::chart::{Chart, Curve, Stroke};
+use crate::drawing::scale::Label;
+use crate::figures::duration;
+use crate::report::html::{chapter, figure_of, pairs, side_by_side};
+use crate::report::overview::Overview;
+
+/// Residuals and work.
+pub fn convergence(view: &Overview<'_>) -> Markup {
+    let history = &view.results.table;
+    let curve = |name: &str, stroke: Stroke| {
+        let points =
+            history.column("increment").iter().zip(history.column(name)).map(|(x, y)| [*x, *y]).collect();
+        vec![Curve { name: None, stroke, ..Curve::line(points, "", 0) }]
+    };
+    let axes = |name: &str| [Label::plain("increment"), Label::plain(name)];
+    let tolerance = view.results.record["tolerance"].as_f64();
+    let residual = Chart {
+        logarithmic: true,
+        level: tolerance.map(|tolerance| (tolerance, "tolerance".to_owned())),
+        ..Chart::new("residual of every increment", axes("residual"), curve("residual", Stroke::Dots))
+    };
+    let work = Chart::new(
+        "convolutions of every increment",
+        axes("convolutions"),
+        curve("convolutions", Stroke::Line),
+    );
+    let sum = |name: &str| history.column(name).iter().sum::<f64>();
+    let count = |name: &str| html! { (sum(name)) };
+    let rows = [
+        ("convolutions in all".to_owned(), count("convolutions")),
+        ("preconditioner passes".to_owned(), count("preconditioner_passes")),
+        ("changes of the zones".to_owned(), count("outer_iterations")),
+        ("time in increments".to_owned(), html! { (duration(sum("wall_s"))) }),
+    ];
+    let figures = [
+        figure_of(
+            &residual.in_page(),
+            "How well every increment satisfies its equations, relative and dimensionless.",
+        ),
+        figure_of(
+            &work.in_page(),
+            "Applications of the elastic operator: the work, independent of the machine.",
+        ),
+    ];
+    chapter("Convergence", &html! { (side_by_side(&figures)) (pairs(&rows)) })
+}

@@ -1,0 +1,85 @@
+//! Dissipated energy, over the increments and by cycle.
+
+use fret_core::analytic::TangentialHistory;
+use maud::{Markup, html};
+
+use crate::drawing::chart::{Chart, Curve};
+use crate::drawing::scale::Label;
+use crate::report::html::{chapter, deviation, figure_of, side_by_side, table};
+use crate::report::overview::Overview;
+
+/// Cycles listed one by one.
+const MOST_CYCLES: usize = 12;
+
+/// Work of friction.
+pub fn energy(view: &Overview<'_>) -> Markup {
+    let history = &view.results.table;
+    let energy = history.column("dissipated_energy");
+    if (view.direction.is_none() && !view.twists) || energy.last().is_none_or(|energy| *energy == 0.0) {
+        return html! {};
+    }
+    let points = |values: &[f64]| -> Vec<[f64; 2]> {
+        history.column("increment").iter().zip(values).map(|(x, y)| [*x, *y]).collect()
+    };
+    let mut curves = vec![Curve::line(points(energy), "computed", 0)];
+    let mut caption = "Work of friction since the start.".to_owned();
+    if view.results.cycles.iter().any(|cycle| cycle.stands_for > 1) {
+        caption += " The end of a computed cycle has the work of all cycles that it stands for.";
+    }
+    if let Some(form) = &view.tangential_form {
+        let exact: Vec<f64> = (0..history.rows())
+            .map(|row| form.after(row).map_or(f64::NAN, TangentialHistory::dissipated_energy))
+            .collect();
+        curves.push(Curve::dashed(points(&exact), "closed form", 1));
+        caption += " Dashed: the closed form.";
+    }
+    let axes = [Label::plain("increment"), view.label("dissipated energy", "force x length")];
+    let chart = Chart::new("dissipated energy over the increments", axes, curves);
+    let mut parts = vec![figure_of(&chart.in_page(), &caption)];
+    parts.extend(account(view).map(|account| html! { div { (account) } }));
+    chapter("Dissipated energy", &side_by_side(&parts))
+}
+
+/// The energy of each cycle, with the closed form where there is one.
+fn account(view: &Overview<'_>) -> Option<Markup> {
+    let cycles = &view.results.cycles;
+    if cycles.is_empty() {
+        return None;
+    }
+    let skipped = cycles.len().saturating_sub(MOST_CYCLES);
+    let mut head = vec!["cycle", "dissipated in one"];
+    if view.tangential_form.is_some() {
+        head.extend(["closed form", "difference"]);
+    }
+    let shown = cycles.iter().take(1).chain(cycles.iter().skip(1 + skipped));
+    let rows: Vec<Vec<String>> = shown
+        .map(|cycle| {
+            let (before, last) = (cycle.first_increment.checked_sub(1), cycle.last_increment);
+            let computed = cycle.dissipated_energy;
+            let which = match cycle.stands_for {
+                1 => cycle.last_cycle.to_string(),
+                all => format!("{} to {}", (cycle.last_cycle + 1).saturating_sub(all), cycle.last_cycle),
+            };
+            let mut row = vec![
+                format!("{}, {which}", view.stage_name(cycle.stage)),
+                view.number(computed, "force x length"),
+            ];
+            if let Some(form) = &view.tangential_form {
+                let at = |row: usize| form.after(row).map_or(f64::NAN, TangentialHistory::dissipated_energy);
+                // Before its first increment the closed form has dissipated nothing.
+                let started = before.map_or(0.0, |before| form.after(before).map_or(0.0, |_| at(before)));
+                let exact = at(last) - started;
+                row.extend(if exact.is_finite() {
+                    [view.number(exact, "force x length"), deviation(computed, exact)]
+                } else {
+                    ["–".to_owned(), "–".to_owned()]
+                });
+            }
+            row
+        })
+        .collect();
+    Some(html! {
+        (table(&head, &rows))
+        @if skipped > 0 { p class="small" { "The first cycle and the last " (MOST_CYCLES - 1) " of " (cycles.len()) "." } }
+    })
+}

@@ -1,0 +1,422 @@
+//! The history as it moves: loop, sections and maps of an increment, and a slider that goes through the kept ones. Without scripts
+//! the increment of the largest load stands there.
+
+use maud::{Markup, PreEscaped, html};
+use serde_json::{Value, json};
+
+use super::loading::loop_curves;
+use super::sections::{seen, shear_direction};
+use super::zones::{cell, image, legend};
+use crate::drawing::chart::{Chart, Curve, Stroke};
+use crate::drawing::frame::Frame;
+use crate::drawing::map::Map;
+use crate::drawing::raster::{Raster, pixels_for};
+use crate::drawing::scale::Label;
+use crate::failure::Failure;
+use crate::report::html::{chapter, figure_of, percent};
+use crate::report::overview::Overview;
+use crate::report::window::{Section, Window};
+use crate::results::Field;
+
+/// Increments that the slider shows, at most, and at least where there are so many.
+const MOST: usize = 120;
+const FEWEST: usize = 12;
+/// Bytes of all of them together, about.
+const ROOM: usize = 2_500_000;
+/// Fraction of the largest value of a load below which there is none.
+const ROUNDING: f64 = 1e-12;
+/// Width of a map.
+const WIDTH: f64 = 400.0;
+
+/// What is shown of one increment.
+struct Moment {
+    increment: usize,
+    /// Along the section: pressure, shear, and the bound of shear where it is known.
+    pressure: Vec<f64>,
+    shear: Vec<f64>,
+    bound: Option<Vec<f64>>,
+    /// Images by the place of their map, each an address.
+    images: Vec<String>,
+}
+
+/// What holds for all moments.
+struct Ground<'a> {
+    view: &'a Overview<'a>,
+    section: Section,
+    direction: [f64; 2],
+    shear_name: &'static str,
+    has_shear: bool,
+    has_zones: bool,
+    window: Window,
+    /// Largest pressure and largest shear of a cell.
+    most: [f64; 2],
+}
+
+/// The chapter.
+pub fn explorer(view: &Overview<'_>) -> Result<Markup, Failure> {
+    let fields = &view.results.fields;
+    if !fields.has("pressure") || fields.steps.is_empty() {
+        return Ok(html! {});
+    }
+    let telling = telling(view);
+    let ground = Ground::of(view)?;
+    let first = ground.moment(telling)?;
+    let bytes: usize = first.images.iter().map(String::len).sum::<usize>() + 20 * first.pressure.len();
+    let chosen = view.telling((ROOM / bytes.max(1)).clamp(FEWEST, MOST));
+    let start = (0..chosen.len()).min_by_key(|place| chosen[*place].abs_diff(telling)).unwrap_or(0);
+    let mut moments = Vec::new();
+    for position in chosen {
+        moments.push(ground.moment(position)?);
+    }
+    ground.shown(&moments, start)
+}
+
+/// The kept increment of the largest load, tangential where there is one.
+fn telling(view: &Overview<'_>) -> usize {
+    let (table, steps) = (&view.results.table, &view.results.fields.steps);
+    let load = |position: &usize| {
+        let increment = steps[*position];
+        let name = if view.twists { "twist_moment" } else { "normal_force" };
+        if view.direction.is_some() && !view.twists {
+            view.tangential[increment].abs()
+        } else {
+            table.at(name, increment).abs()
+        }
+    };
+    (0..steps.len()).max_by(|a, b| load(a).total_cmp(&load(b))).unwrap_or(0)
+}
+
+fn largest(values: &[f64]) -> f64 {
+    values.iter().fold(0.0, |most: f64, value| most.max(value.abs()))
+}
+
+impl<'a> Ground<'a> {
+    fn of(view: &'a Overview<'a>) -> Result<Self, Failure> {
+        let fields = &view.results.fields;
+        let section = Section::of(view);
+        let (direction, shear_name) = shear_direction(view, &section);
+        let has_shear = fields.has("shear_x") && !view.is_frictionless();
+        let has_zones = fields.has("zone") && !view.is_frictionless();
+        let mut ground = Self {
+            view,
+            section,
+            direction,
+            shear_name,
+            has_shear,
+            has_zones,
+            window: Window::new(fields.cells()),
+            most: [0.0; 2],
+        };
+        for position in view.telling(MOST) {
+            let pressure = fields.field("pressure", position)?;
+            ground.window.widen(&pressure);
+            ground.most[0] = ground.most[0].max(largest(&pressure.values));
+            if has_shear {
+                ground.most[1] = ground.most[1].max(largest(&ground.magnitude(position)?.values));
+            }
+        }
+        Ok(ground)
+    }
+
+    /// Magnitude of the shear.
+    fn magnitude(&self, position: usize) -> Result<Field, Failure> {
+        let fields = &self.view.results.fields;
+        let (mut x, y) = (fields.field("shear_x", position)?, fields.field("shear_y", position)?);
+        for (x, y) in x.values.iter_mut().zip(&y.values) {
+            *x = x.hypot(*y);
+        }
+        Ok(x)
+    }
+
+    fn moment(&self, position: usize) -> Result<Moment, Failure> {
+        let fields = &self.view.results.fields;
+        let increment = fields.steps[position];
+        let field = fields.field("pressure", position)?;
+        let pressure = self.section.values(&field);
+        let mut images = Vec::new();
+        if self.has_zones {
+            images.push(image(&fields.field("zone", position)?, &self.window)?);
+        }
+        images.push(self.image(&field, &field, self.most[0])?);
+        let mut shear = Vec::new();
+        if self.has_shear {
+            let parts = [fields.field("shear_x", position)?, fields.field("shear_y", position)?];
+            let [x, y] = parts.map(|part| self.section.values(&part));
+            shear = x.iter().zip(&y).map(|(x, y)| self.direction[0] * x + self.direction[1] * y).collect();
+            images.push(self.image(&self.magnitude(position)?, &field, self.most[1])?);
+        }
+        let bound =
+            self.view.friction_at(increment).filter(|_| self.has_shear).map(|(coefficient, strength)| {
+                let bound = |pressure: &f64| (coefficient * pressure).min(strength.unwrap_or(f64::INFINITY));
+                pressure.iter().map(bound).collect()
+            });
+        Ok(Moment { increment, pressure, shear, bound, images })
+    }
+
+    /// A field in false colours where there is contact.
+    fn image(&self, field: &Field, pressure: &Field, most: f64) -> Result<String, Failure> {
+        let (first, cells) = self.window.cells();
+        let size = cells.map(pixels_for);
+        let value = |column: usize, row: usize| {
+            let [i, j] = cell(first, cells, size, [column, row]);
+            if pressure.at(i, j) > 0.0 { field.at(i, j) } else { f64::NAN }
+        };
+        Raster::of_values(size, [0.0, most], value).address()
+    }
+
+    fn shown(&self, moments: &[Moment], start: usize) -> Result<Markup, Failure> {
+        let view = self.view;
+        let now = &moments[start];
+        let path = self.loop_chart(now);
+        let loop_frame = path.frame();
+        let sections = self.section_charts(moments, now);
+        let frames: Vec<Frame> = sections.iter().map(|(chart, _)| chart.frame()).collect();
+        let changes: Vec<Value> =
+            moments.iter().map(|moment| self.changes(moment, &loop_frame, &frames)).collect();
+        let mut figures = vec![figure_of(&path.in_page(), "The increment on the path of the load.")];
+        figures.extend(sections.iter().map(|(chart, caption)| figure_of(&chart.in_page(), caption)));
+        figures.extend(self.maps(now)?);
+        let body = html! {
+            @if moments.len() > 1 {
+                div class="slider" id="slider" hidden {
+                    button type="button" id="play" aria-label="play" { "▶" }
+                    input type="range" id="moment" min="0" max=(moments.len() - 1) value=(start) step="1" aria-label="increment";
+                }
+            }
+            dl class="moment" {
+                @for (name, id, words) in self.words(now) { div { dt { (name) } dd id=(id) { (words) } } }
+            }
+            div class="wide figures" { @for figure in &figures { (figure) } }
+            @if moments.len() > 1 {
+                noscript { p class="small" { "With scripts a slider here goes through " (moments.len()) " increments." } }
+                script type="application/json" id="moments" { (PreEscaped(json_in_page(&changes))) }
+            }
+        };
+        let heading = if moments.len() > 1 { "Through the history" } else { "The contact" };
+        let kept = view.results.fields.steps.len();
+        let note = html! {
+            @if kept > moments.len() { p class="small" { (moments.len()) " of the " (kept) " increments whose fields are kept." } }
+            @else if kept < view.results.table.rows() && moments.len() > 1 {
+                p class="small" {
+                    (kept) " of " (view.results.table.rows()) " increments have their fields kept; " code { "[output] every" } " keeps more."
+                }
+            }
+        };
+        Ok(chapter(heading, &html! { (body) (note) }))
+    }
+
+    fn loop_chart(&self, now: &Moment) -> Chart {
+        let points = self.view.loop_points();
+        let labels = self.view.loop_labels();
+        let what = format!("{} over {}", labels[1].name, labels[0].name);
+        let here = points.get(now.increment).copied().unwrap_or([f64::NAN; 2]);
+        let curves = loop_curves(self.view).into_iter().map(|curve| Curve { name: None, ..curve }).collect();
+        let range = |axis: usize| {
+            let all = || points.iter().map(|point| point[axis]);
+            Some([all().fold(f64::INFINITY, f64::min), all().fold(f64::NEG_INFINITY, f64::max)])
+        };
+        Chart {
+            here: Some((here, "here")),
+            ranges: [range(0), range(1)],
+            ..Chart::new(&what, labels, curves)
+        }
+    }
+
+    fn points(&self, values: &[f64]) -> Vec<[f64; 2]> {
+        self.section.along.iter().zip(values).map(|(s, value)| [*s, *value]).collect()
+    }
+
+    /// Charts of the section with their captions: pressure, and shear with its bound.
+    fn section_charts(&self, moments: &[Moment], now: &Moment) -> Vec<(Chart, String)> {
+        let all: Vec<&[f64]> = moments.iter().map(|moment| moment.pressure.as_slice()).collect();
+        let along = &self.section.along;
+        let [first, last] = seen(along, &all);
+        let x = Some([along[first], along[last]]);
+        let label = || self.view.label(self.section.name(), "length");
+        let curve = |values: &[f64], id: &'static str, name: &str| Curve {
+            id: Some(id),
+            ..Curve::line(self.points(values), name, 0)
+        };
+        let high = all.iter().map(|values| largest(values)).fold(0.0, f64::max);
+        let pressure = Chart {
+            ranges: [x, Some([0.0, high])],
+            ..Chart::new(
+                "pressure along a line through the contact",
+                [label(), self.view.label("pressure", "pressure")],
+                vec![Curve { name: None, ..curve(&now.pressure, "pressure-line", "") }],
+            )
+        };
+        let mut charts = vec![(pressure, "Pressure along a line through the middle.".to_owned())];
+        if self.has_shear {
+            let bounds = moments.iter().filter_map(|moment| moment.bound.as_ref());
+            let most = moments
+                .iter()
+                .map(|moment| &moment.shear)
+                .chain(bounds)
+                .map(|values| largest(values))
+                .fold(0.0, f64::max);
+            let mut curves = Vec::new();
+            if let Some(bound) = &now.bound {
+                let below: Vec<f64> = bound.iter().map(|bound| -bound).collect();
+                curves.push(Curve {
+                    stroke: Stroke::Dashed,
+                    colour: 1,
+                    ..curve(bound, "bound-above", "± the friction bound")
+                });
+                curves.push(Curve {
+                    stroke: Stroke::Dashed,
+                    colour: 1,
+                    name: None,
+                    ..curve(&below, "bound-below", "")
+                });
+            }
+            curves.push(curve(&now.shear, "shear-line", self.shear_name));
+            let axes = [label(), self.view.label("shear", "pressure")];
+            let chart = Chart {
+                ranges: [x, Some([-most, most])],
+                ..Chart::new("shear along a line through the contact", axes, curves)
+            };
+            charts.push((
+                chart,
+                "Shear along the same line; where it reaches the bound the contact slips.".to_owned(),
+            ));
+        }
+        charts
+    }
+
+    fn maps(&self, now: &Moment) -> Result<Vec<Markup>, Failure> {
+        let fields = &self.view.results.fields;
+        let (first, cells) = self.window.cells();
+        let [dx, dy] = fields.spacing();
+        let edges = |centres: &[f64], axis: usize, side: f64| {
+            [centres[first[axis]] - 0.5 * side, centres[first[axis] + cells[axis] - 1] + 0.5 * side]
+        };
+        let (x, y) = (edges(&fields.x, 0, dx), edges(&fields.y, 1, dy));
+        // A line contact is the same all along y, and its sections tell all.
+        let is_line = fields.is_line();
+        let y_label = if is_line { Label::plain("") } else { self.view.label("y", "length") };
+        let map_of = |place: usize, what: &str, bar: Option<&str>, most: f64| Map {
+            what: what.to_owned(),
+            width: WIDTH,
+            axes: [self.view.label("x", "length"), y_label.clone()],
+            x,
+            y,
+            downward: false,
+            image: now.images[place].clone(),
+            id: Some(["map-0", "map-1", "map-2"][place]),
+            bar: bar.map(|name| (self.view.label(name, "pressure"), [0.0, most])),
+            levels: Vec::new(),
+        };
+        let mut figures = Vec::new();
+        let mut place = 0;
+        let mut add =
+            |what: &str, bar: Option<&str>, most: f64, below: Markup, caption: &str| -> Result<(), Failure> {
+                let drawing = map_of(place, what, bar, most).drawing()?.in_page();
+                figures.push(figure_of(&html! { (drawing) (below) }, caption));
+                place += 1;
+                Ok(())
+            };
+        if self.has_zones {
+            add("stick and slip", None, 0.0, legend(), "What each cell did in the increment.")?;
+        }
+        if is_line {
+            return Ok(figures);
+        }
+        add("pressure", Some("pressure"), self.most[0], html! {}, "Contact pressure.")?;
+        if self.has_shear {
+            add("shear", Some("shear"), self.most[1], html! {}, "Magnitude of the shear traction.")?;
+        }
+        Ok(figures)
+    }
+
+    /// What is told of an increment in words.
+    fn words(&self, moment: &Moment) -> Vec<(&'static str, &'static str, String)> {
+        let (view, table, at) = (self.view, &self.view.results.table, moment.increment);
+        let (stage, number) = view.place(at);
+        let of = view.spans.get(stage).map_or(0, |[first, end]| end - first);
+        // what vanishes in the rounding of the others is zero
+        let beside = |values: &[f64], kind: &str| {
+            let value = values[at];
+            view.number(if value.abs() <= ROUNDING * largest(values) { 0.0 } else { value }, kind)
+        };
+        let mut words = vec![
+            ("increment", "word-increment", format!("{at}: {}, {number} of {of}", view.stage_name(stage))),
+            ("normal force", "word-force", view.number(table.at("normal_force", at), "force")),
+        ];
+        if view.twists {
+            words.push((
+                "torsional moment",
+                "word-moment",
+                beside(table.column("twist_moment"), "force x length"),
+            ));
+        } else if view.direction.is_some() {
+            words.push(("tangential force", "word-tangential", beside(&view.tangential, "force")));
+            words.push(("displacement", "word-shift", beside(&view.shift, "length")));
+        }
+        words.push(("max pressure", "word-pressure", view.number(table.at("max_pressure", at), "pressure")));
+        if !view.is_frictionless() {
+            words.push((
+                "stick fraction",
+                "word-stick",
+                percent(table.at("stick_area", at) / table.at("contact_area", at)),
+            ));
+        }
+        words
+    }
+
+    /// What the slider changes: attributes, or the text, of the elements of the page.
+    fn changes(&self, moment: &Moment, loop_frame: &Frame, sections: &[Frame]) -> Value {
+        let mut changes = serde_json::Map::new();
+        for (_, id, words) in self.words(moment) {
+            changes.insert(id.to_owned(), json!({ "text": words }));
+        }
+        if let Some([x, y]) = self
+            .view
+            .loop_points()
+            .get(moment.increment)
+            .map(|point| loop_frame.places(&[*point]))
+            .and_then(|places| places.first().copied())
+        {
+            changes.insert("here".to_owned(), json!({ "cx": format!("{x:.1}"), "cy": format!("{y:.1}") }));
+        }
+        let mut line = |id: &str, frame: &Frame, values: &[f64]| {
+            changes.insert(id.to_owned(), json!({ "d": frame.path(&self.shown_part(frame, values)) }));
+        };
+        line("pressure-line", &sections[0], &moment.pressure);
+        if let Some(frame) = sections.get(1) {
+            line("shear-line", frame, &moment.shear);
+            if let Some(bound) = &moment.bound {
+                line("bound-above", frame, bound);
+                line("bound-below", frame, &bound.iter().map(|bound| -bound).collect::<Vec<_>>());
+            }
+        }
+        for (place, address) in moment.images.iter().enumerate() {
+            changes.insert(format!("map-{place}"), json!({ "href": address }));
+        }
+        Value::Object(changes)
+    }
+
+    /// The points of a section that lie in its frame.
+    fn shown_part(&self, frame: &Frame, values: &[f64]) -> Vec<[f64; 2]> {
+        let [low, high] = frame.axes[0].range;
+        self.points(values).into_iter().filter(|[s, _]| (low..=high).contains(s)).collect()
+    }
+}
+
+/// JSON that cannot end the element it stands in.
+fn json_in_page(value: &[Value]) -> String {
+    serde_json::to_string(value).unwrap_or_default().replace('<', "\\u003c")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_name_cannot_end_the_script() {
+        let text = json_in_page(&[json!({ "text": "</script><b>" })]);
+        assert!(
+            !text.contains('<') && serde_json::from_str::<Value>(&text).unwrap()[0]["text"] == "</script><b>"
+        );
+    }
+}

@@ -1,0 +1,124 @@
+//! The run at a glance: title, how it ended, its most telling numbers, what about them may mislead.
+
+use maud::{Markup, html};
+use serde_json::Value;
+
+use crate::figures::{counted, duration};
+use crate::report::html::{percent, short};
+use crate::report::overview::Overview;
+
+/// Title, how the run ended, and its most telling numbers.
+pub fn head(view: &Overview<'_>) -> Markup {
+    html! {
+        header {
+            h1 { (view.results.title()) }
+            p class="lead" { (how_it_ended(view)) }
+            @if let Some(why) = view.results.unfinished() { p class="warning" { (capitalised(&why)) "." } }
+            @let cards = cards(view);
+            @if !cards.is_empty() {
+                dl class="cards" { @for (name, value) in cards { div { dt { (name) } dd { (value) } } } }
+            }
+            @for warning in view.results.record["warnings"].as_array().map_or(&[][..], Vec::as_slice) {
+                p class="warning" { (capitalised(text(&warning["message"]))) "." br; span class="small" { (text(&warning["help"])) } }
+            }
+        }
+    }
+}
+
+fn text(value: &Value) -> &str {
+    value.as_str().unwrap_or_default()
+}
+
+fn how_it_ended(view: &Overview<'_>) -> String {
+    let (record, table) = (&view.results.record, &view.results.table);
+    let status = text(&record["status"]);
+    let all = record["plan"]["increments"].as_u64().unwrap_or(0) as usize;
+    let mut line = vec![
+        format!("fretting {}", text(&record["version"])),
+        status.to_owned(),
+        if table.rows() == all || status == "solved" {
+            counted(table.rows(), "increment")
+        } else {
+            format!("{} of {all} increments", table.rows())
+        },
+    ];
+    if let Some(cycles) = record["worn_through"]["cycles"].as_u64() {
+        line.push(format!("worn to the limit after {}", counted(cycles as usize, "cycle")));
+    }
+    if let Some(wall_s) = record["totals"]["wall_s"].as_f64() {
+        let threads = record["threads"].as_u64().unwrap_or(1) as usize;
+        line.push(format!("{} on {}", duration(wall_s), counted(threads, "thread")));
+    }
+    line.extend(record["started_unix_s"].as_u64().map(|seconds| format!("started {}", date(seconds))));
+    line.join(" · ")
+}
+
+/// A sentence that begins with a capital letter.
+fn capitalised(words: &str) -> String {
+    let mut letters = words.chars();
+    letters.next().map_or(String::new(), |first| first.to_uppercase().chain(letters).collect())
+}
+
+fn cards(view: &Overview<'_>) -> Vec<(&'static str, String)> {
+    let table = &view.results.table;
+    let Some(last) = table.rows().checked_sub(1) else { return Vec::new() };
+    let largest = |name: &str| table.column(name).iter().copied().fold(0.0, f64::max);
+    let area = if view.results.fields.is_line() { "max contact width" } else { "max contact area" };
+    let mut cards = vec![
+        ("max pressure", view.number(largest("max_pressure"), "pressure")),
+        (area, view.number(largest("contact_area"), "length^2")),
+    ];
+    if view.direction.is_some() || view.twists {
+        cards.push(("max shear", view.number(largest("max_shear"), "pressure")));
+        cards.push((
+            "stick at the end",
+            percent(table.at("stick_cells", last) / table.at("contact_cells", last)),
+        ));
+        cards.push(("dissipated energy", view.number(table.at("dissipated_energy", last), "force x length")));
+    }
+    if !view.results.record["plan"]["case"]["wear"].is_null() {
+        cards.push(("wear volume", view.number(table.at("worn_volume", last), "length^3")));
+        cards.push(("max wear depth", view.number(table.at("max_worn_depth", last), "length")));
+        if let Some(cycle) = view.results.cycles.last() {
+            cards.push(("cycles", cycle.last_cycle.to_string()));
+        }
+    }
+    cards.push(("max residual", short(largest("residual"))));
+    cards
+}
+
+/// The day of a moment, in seconds since 1970 began, in Greenwich.
+///
+/// Source: Hinnant, "chrono-compatible low-level date algorithms": days to a civil date of the Gregorian calendar.
+fn date(seconds: u64) -> String {
+    let days = seconds / 86_400 + 719_468;
+    let era = days / 146_097;
+    let day_of_era = days % 146_097;
+    let year_of_era = (day_of_era - day_of_era / 1460 + day_of_era / 36_524 - day_of_era / 146_096) / 365;
+    let day_of_year = day_of_era - (365 * year_of_era + year_of_era / 4 - year_of_era / 100);
+    let shifted_month = (5 * day_of_year + 2) / 153;
+    let day = day_of_year - (153 * shifted_month + 2) / 5 + 1;
+    let month = if shifted_month < 10 { shifted_month + 3 } else { shifted_month - 9 };
+    let year = year_of_era + 400 * era + u64::from(month <= 2);
+    let (hour, minute) = (seconds / 3600 % 24, seconds / 60 % 60);
+    format!("{year}-{month:02}-{day:02} {hour:02}:{minute:02} UTC")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::date;
+
+    #[test]
+    fn dates_are_those_of_the_calendar() {
+        // From `date -u -d @SECONDS`.
+        for (seconds, day) in [
+            (0, "1970-01-01 00:00 UTC"),
+            (951_782_399, "2000-02-28 23:59 UTC"),
+            (951_868_800, "2000-03-01 00:00 UTC"),
+            (1_795_269_876, "2026-11-21 14:04 UTC"),
+            (4_107_542_400, "2100-03-01 00:00 UTC"),
+        ] {
+            assert_eq!(date(seconds), day);
+        }
+    }
+}

@@ -1,0 +1,139 @@
+//! Loads through the history, and the loop of force and displacement.
+
+use maud::{Markup, html};
+
+use crate::drawing::chart::{Chart, Curve, Stroke};
+use crate::drawing::scale::Label;
+use crate::report::html::{chapter, figure_of, side_by_side};
+use crate::report::overview::{Cycle, Overview};
+
+/// Earlier cycles that are drawn behind the last one.
+const MOST_BEHIND: usize = 8;
+
+fn joined(x: &[f64], y: &[f64]) -> Vec<[f64; 2]> {
+    x.iter().zip(y).map(|(x, y)| [*x, *y]).collect()
+}
+
+/// Normal force over approach, and the loads over the increments.
+pub fn loading(view: &Overview<'_>) -> Markup {
+    let table = &view.results.table;
+    let (approach, force) = (table.column("approach"), table.column("normal_force"));
+    let mut curves = vec![Curve::line(joined(approach, force), "computed", 0)];
+    let mut caption = "Normal force over approach.".to_owned();
+    if let Some(form) = &view.normal_form {
+        let most = force.iter().copied().fold(0.0, f64::max);
+        let curve = (1..=100).filter_map(|part| {
+            let force = most * (f64::from(part) / 100.0).powi(3);
+            form.under(force).map(|pressed| [pressed.approach(), force])
+        });
+        curves.insert(0, Curve::dashed(std::iter::once([0.0; 2]).chain(curve).collect(), "Hertz", 1));
+        caption += " Dashed: Hertz, without friction.";
+    }
+    let axes = [view.label("approach", "length"), view.label("normal force", "force")];
+    let mut figures =
+        vec![figure_of(&Chart::new("normal force over approach", axes, curves).in_page(), &caption)];
+    if table.rows() > 1 {
+        let ([from, to], called) = view.shown_increments();
+        let over_number = |values: &[f64]| joined(&table.column("increment")[from..to], &values[from..to]);
+        let mut loads = vec![Curve::line(over_number(force), "normal force", 0)];
+        if view.direction.is_some() {
+            loads.push(Curve::line(over_number(&view.tangential), "tangential force", 1));
+        }
+        let axes = [Label::plain("increment"), view.label("force", "force")];
+        let chart = Chart::new("forces over the increments", axes, loads);
+        figures.push(figure_of(
+            &chart.in_page(),
+            &format!("Forces through the history, prescribed or found.{called}"),
+        ));
+    }
+    if view.twists {
+        let axes = [Label::plain("increment"), view.label("torsional moment", "force x length")];
+        let moment = vec![Curve::line(
+            joined(table.column("increment"), table.column("twist_moment")),
+            "torsional moment",
+            0,
+        )];
+        figures.push(figure_of(
+            &Chart::new("moment over the increments", axes, moment).in_page(),
+            "Torsional moment through the history.",
+        ));
+    }
+    chapter("Loading", &side_by_side(&figures))
+}
+
+/// Tangential force over displacement, or moment over rotation where that is what moves.
+pub fn fretting_loop(view: &Overview<'_>) -> Markup {
+    if view.direction.is_none() && !view.twists {
+        return html! {};
+    }
+    let axes = view.loop_labels();
+    let what = format!("{} over {}", axes[1].name, axes[0].name);
+    let mut caption = if view.twists {
+        "Moment over rotation.".to_owned()
+    } else {
+        "Tangential force over relative displacement, both along the load.".to_owned()
+    };
+    let mut curves = loop_curves(view);
+    if let (Some(form), false) = (&view.tangential_form, view.twists) {
+        let points = (0..view.results.table.rows()).map(|row| {
+            form.after(row).map_or([f64::NAN; 2], |after| [after.shift(), after.tangential_force()])
+        });
+        curves.push(Curve::dashed(points.collect(), "closed form", 1));
+        caption += " Dashed: the closed form for the same forces (Cattaneo, Mindlin and Deresiewicz). It neglects the slip \
+                    across the force, and so gives a displacement that is some percent off.";
+    }
+    let figures = [figure_of(&Chart::new(&what, axes, curves).in_page(), &caption), stick_fraction(view)];
+    chapter("Fretting loop", &side_by_side(&figures))
+}
+
+/// The loop: of several cycles the last one, over what came before.
+pub fn loop_curves(view: &Overview<'_>) -> Vec<Curve> {
+    let all = view.loop_points();
+    let cycles = view.cycles();
+    let (Some(last), true) = (cycles.last(), cycles.len() > 1) else {
+        return vec![Curve::line(all, "computed", 0)];
+    };
+    // From the increment before: so the loop is closed.
+    let of = |cycle: &Cycle| all[cycle.span[0].saturating_sub(1)..cycle.span[1]].to_vec();
+    let behind = if cycles.len() <= MOST_BEHIND {
+        Curve { stroke: Stroke::Faint, ..Curve::line(all.clone(), "all of the history", 0) }
+    } else {
+        let mut points = all[..cycles[0].span[1]].to_vec();
+        for part in 1..MOST_BEHIND {
+            points.push([f64::NAN; 2]);
+            points.extend(of(&cycles[part * (cycles.len() - 1) / MOST_BEHIND]));
+        }
+        Curve { stroke: Stroke::Faint, ..Curve::line(points, "some cycles before", 0) }
+    };
+    vec![behind, Curve::line(of(last), "last cycle", 0)]
+}
+
+/// How much of the contact sticks.
+fn stick_fraction(view: &Overview<'_>) -> Markup {
+    let table = &view.results.table;
+    let fractions: Vec<f64> =
+        table.column("stick_area").iter().zip(table.column("contact_area")).map(|(s, c)| s / c).collect();
+    let ([from, to], called) = view.shown_increments();
+    let over_number = |values: &[f64]| joined(&table.column("increment")[from..to], &values[from..to]);
+    let mut curves = vec![Curve::line(over_number(&fractions), "computed", 0)];
+    let mut caption = format!("Fraction of the contact area that sticks.{called}");
+    if let Some(form) = &view.tangential_form {
+        let exact: Vec<f64> = (0..table.rows())
+            .map(|row| {
+                let (after, force) = (form.after(row), table.at("normal_force", row));
+                let pressed = view.normal_form.and_then(|form| form.under(force));
+                after.zip(pressed).map_or(f64::NAN, |(after, pressed)| {
+                    std::f64::consts::PI * after.stick_radius().powi(2) / pressed.area()
+                })
+            })
+            .collect();
+        curves.push(Curve::dashed(over_number(&exact), "closed form", 1));
+        caption +=
+            " Dashed: the closed form. The computed area counts whole cells, and slip within an increment.";
+    }
+    let axes = [Label::plain("increment"), Label::plain("stick fraction")];
+    figure_of(
+        &Chart::new("stick fraction of the contact over the increments", axes, curves).in_page(),
+        &caption,
+    )
+}

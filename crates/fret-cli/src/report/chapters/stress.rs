@@ -1,0 +1,158 @@
+//! Stresses below the surface, where `fret stress` has computed them: their maxima, fatigue parameters, and its pictures.
+
+use std::fs;
+use std::path::Path;
+
+use base64::prelude::{BASE64_STANDARD, Engine};
+use maud::{Markup, html};
+use serde_json::Value;
+
+use crate::drawing::chart::{Chart, Curve};
+use crate::failure::Failure;
+use crate::figures::figure;
+use crate::output::{kind_of_stress, stress_called};
+use crate::report::html::{chapter, figure_of, side_by_side, table};
+use crate::report::overview::Overview;
+
+/// Pictures that are shown, at most.
+const MOST_PICTURES: usize = 6;
+
+/// The chapter; nothing where there is no `stress.json`, or an unreadable one.
+pub fn stress(view: &Overview<'_>) -> Result<Markup, Failure> {
+    let folder = view.results.path.join("stress");
+    let Some(record) = fs::read(folder.join("stress.json"))
+        .ok()
+        .and_then(|text| serde_json::from_slice::<Value>(&text).ok())
+    else {
+        return Ok(html! {});
+    };
+    let number =
+        |value: &Value, kind: &str| value.as_f64().map_or("–".to_owned(), |value| view.number(value, kind));
+    let entries = |name: &str| record[name].as_array().cloned().unwrap_or_default();
+    let largest: Vec<Vec<String>> = entries("largest")
+        .iter()
+        .map(|found| {
+            let name = found["measure"].as_str().unwrap_or_default();
+            vec![
+                stress_called(name),
+                number(&found["value"], kind_of_stress(name)),
+                found["increment"].to_string(),
+                number(&found["x"], "length"),
+                number(&found["y"], "length"),
+                number(&found["depth"], "length"),
+                found["layer"].as_str().unwrap_or_default().to_owned(),
+            ]
+        })
+        .collect();
+    let parameters = record["fatigue"]["parameters"].as_object();
+    let fatigue: Vec<Vec<String>> = parameters
+        .into_iter()
+        .flatten()
+        .map(|(name, found)| {
+            vec![
+                stress_called(name),
+                number(&found["largest"], kind_of_stress(name)),
+                number(&found["x"], "length"),
+                number(&found["depth"], "length"),
+                number(&found["critical_distance"]["line"]["value"], kind_of_stress(name)),
+                plain(&found["cycles"]),
+                plain(&found["factor_of_safety"]),
+            ]
+        })
+        .collect();
+    let mut figures: Vec<Markup> = over_depth(view, &folder, &record).into_iter().collect();
+    for (name, address) in pictures(&folder, &record) {
+        figures.push(figure_of(&html! { img class="picture" alt=(name) src=(address); }, &name));
+    }
+    let body = html! {
+        p { "In the " (record["body"].as_str().unwrap_or_default()) " body, from the kept tractions. Maxima over all increments and depths:" }
+        (table(&["", "maximum", "increment", "x", "y", "depth", "in"], &largest))
+        @if !fatigue.is_empty() {
+            p class="after" { "Fatigue parameters over the last cycle, under all cells:" }
+            (table(&["", "maximum", "x", "depth", "by the line method", "cycles to initiation", "factor of safety"], &fatigue))
+        }
+        @if let Some(sentence) = crack_of(&record) {
+            p { (sentence) }
+        }
+        (side_by_side(&figures))
+    };
+    Ok(chapter("Stress below the surface", &body))
+}
+
+/// A number without a unit, or a word in its place; nothing where there is none.
+fn plain(value: &Value) -> String {
+    value.as_f64().map_or_else(|| value.as_str().unwrap_or_default().to_owned(), figure)
+}
+
+/// What becomes of the short crack, in a sentence.
+fn crack_of(record: &Value) -> Option<String> {
+    let crack = &record["fatigue"]["crack"];
+    let length = plain(&crack["length"]);
+    let becomes = match crack["fate"].as_str()? {
+        "none" => {
+            return Some(format!("No crack was followed: {}.", crack["reason"].as_str().unwrap_or_default()));
+        }
+        "does_not_grow" => format!("does not grow from its length of {length}"),
+        "stops" => format!("stops at a length of {length}"),
+        "fractures" => format!("reaches the toughness at a length of {length}"),
+        _ => format!("grows to a length of {length}"),
+    };
+    let [x, angle] = ["x", "angle"].map(|name| plain(&crack[name]));
+    let cycles =
+        crack["cycles"].as_f64().map_or(String::new(), |cycles| format!(" after {} cycles", figure(cycles)));
+    Some(format!("A crack from x = {x}, {angle} degrees from the normal of the surface, {becomes}{cycles}."))
+}
+
+/// Von Mises stress over the depth, largest at each, in the increment where it is largest of all.
+fn over_depth(view: &Overview<'_>, folder: &Path, record: &Value) -> Option<Markup> {
+    let worst = worst(record)?;
+    let text = fs::read_to_string(folder.join("depths.csv")).ok()?;
+    let mut lines = text.lines();
+    let place =
+        |name: &str, head: &str| head.split(',').position(|column| column.split(" [").next() == Some(name));
+    let head = lines.next()?;
+    let [increment, depth, mises, tension] =
+        ["increment", "depth", "von_mises", "tension"].map(|name| place(name, head));
+    let rows: Vec<Vec<&str>> = lines.map(|line| line.split(',').collect()).collect();
+    let of = |column: usize| -> Vec<[f64; 2]> {
+        let mine = rows.iter().filter(|row| {
+            increment.and_then(|at| row.get(at)).is_some_and(|found| *found == worst.to_string())
+        });
+        let number =
+            |row: &Vec<&str>, at: usize| row.get(at).and_then(|word| word.parse().ok()).unwrap_or(f64::NAN);
+        mine.map(|row| [depth.map_or(f64::NAN, |at| number(row, at)), number(row, column)]).collect()
+    };
+    let curves = vec![
+        Curve::line(of(mises?), "von Mises", 0),
+        Curve::line(of(tension?), "largest principal stress", 1),
+    ];
+    let axes = [view.label("depth", "length"), view.label("stress", "pressure")];
+    let chart = Chart::new("maximum stress over the depth", axes, curves);
+    Some(figure_of(&chart.in_page(), &format!("Largest values at each depth in increment {worst}.")))
+}
+
+/// The increment of the largest von Mises stress.
+fn worst(record: &Value) -> Option<u64> {
+    let largest = record["largest"].as_array()?;
+    largest.iter().find(|found| found["measure"] == "von_mises")?["increment"].as_u64()
+}
+
+/// Pictures of the folder: von Mises stress of the worst increment, and what fatigue shows.
+fn pictures(folder: &Path, record: &Value) -> Vec<(String, String)> {
+    let mut names: Vec<String> = fs::read_dir(folder)
+        .into_iter()
+        .flatten()
+        .filter_map(|entry| entry.ok()?.file_name().into_string().ok())
+        .filter(|name| name.ends_with(".svg"))
+        .collect();
+    names.sort();
+    let worst = worst(record).map(|worst| format!("von_mises-{worst:05}.svg"));
+    names.retain(|name| !name.starts_with("von_mises-") || Some(name) == worst.as_ref());
+    names.sort_by_key(|name| Some(name) != worst.as_ref());
+    let picture = |name: String| {
+        let svg = fs::read(folder.join(&name)).ok()?;
+        let said = stress_called(name.trim_end_matches(".svg").split('-').next().unwrap_or_default());
+        Some((said, format!("data:image/svg+xml;base64,{}", BASE64_STANDARD.encode(svg))))
+    };
+    names.into_iter().take(MOST_PICTURES).filter_map(picture).collect()
+}

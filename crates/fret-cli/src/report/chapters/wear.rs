@@ -1,0 +1,91 @@
+//! The wear scar: a map and sections of its depth.
+
+use maud::{Markup, html};
+
+use crate::drawing::chart::{Chart, Curve};
+use crate::drawing::map::Map;
+use crate::drawing::raster::{Raster, pixels_for};
+use crate::failure::Failure;
+use crate::report::chapters::sections::seen;
+use crate::report::chapters::zones::cell;
+use crate::report::html::{chapter, figure_of, side_by_side};
+use crate::report::overview::Overview;
+use crate::report::window::{Section, Window};
+
+/// Sections, at most.
+const MOST: usize = 5;
+
+/// The wear scar.
+pub fn wear(view: &Overview<'_>) -> Result<Markup, Failure> {
+    let fields = &view.results.fields;
+    if view.results.record["plan"]["case"]["wear"].is_null() {
+        return Ok(html! {});
+    }
+    let Some(last) = fields.steps.len().checked_sub(1).filter(|_| fields.has("worn_depth")) else {
+        let words = html! {
+            p { "Wear depths are not kept: " code { "\"worn_depth\"" } " in " code { "[output] fields" } " keeps them for a map and sections." }
+        };
+        return Ok(chapter("Wear scar", &words));
+    };
+    let scar = fields.field("worn_depth", last)?;
+    let most = scar.values.iter().copied().fold(0.0, f64::max);
+    let mut window = Window::new(fields.cells());
+    window.widen(&scar);
+    let (first, cells) = window.cells();
+    let size = cells.map(pixels_for);
+    let value = |column: usize, row: usize| {
+        let [i, j] = cell(first, cells, size, [column, row]);
+        if scar.at(i, j) > 0.0 { scar.at(i, j) } else { f64::NAN }
+    };
+    let [dx, dy] = fields.spacing();
+    let ends = |centres: &[f64], axis: usize, side: f64| {
+        [centres[first[axis]] - 0.5 * side, centres[first[axis] + cells[axis] - 1] + 0.5 * side]
+    };
+    let map = Map {
+        what: "wear depth".to_owned(),
+        width: 400.0,
+        axes: [view.label("x", "length"), view.label("y", "length")],
+        x: ends(&fields.x, 0, dx),
+        y: ends(&fields.y, 1, dy),
+        downward: false,
+        image: Raster::of_values(size, [0.0, most], value).address()?,
+        id: None,
+        bar: Some((view.label("wear depth", "length"), [0.0, most])),
+        levels: Vec::new(),
+    };
+    let section = Section::of(view);
+    let mut profiles = Vec::new();
+    for position in scars(view)? {
+        profiles.push((fields.steps[position], section.values(&fields.field("worn_depth", position)?)));
+    }
+    let values: Vec<&[f64]> = profiles.iter().map(|(_, values)| values.as_slice()).collect();
+    let [low, high] = seen(&section.along, &values);
+    let curves = profiles
+        .iter()
+        .enumerate()
+        .map(|(colour, (increment, values))| {
+            let points = (low..=high).map(|k| [section.along[k], values[k]]).collect();
+            Curve::line(points, &view.after_cycle(*increment), colour)
+        })
+        .collect();
+    let axes = [view.label(section.name(), "length"), view.label("wear depth", "length")];
+    let figures = [
+        figure_of(
+            &Chart::new("wear depth along a line through the contact", axes, curves).in_page(),
+            "Wear depth of both bodies together, along a line through the middle.",
+        ),
+        figure_of(&map.drawing()?.in_page(), "Wear depth at the end."),
+    ];
+    Ok(chapter("Wear scar", &side_by_side(&figures)))
+}
+
+/// Kept increments with a scar that can be told from the others, evenly over the run.
+fn scars(view: &Overview<'_>) -> Result<Vec<usize>, Failure> {
+    let table = view.results.table.column("max_worn_depth");
+    let steps = &view.results.fields.steps;
+    let worn: Vec<usize> = (0..steps.len())
+        .filter(|position| table.get(steps[*position]).is_some_and(|depth| *depth > 0.0))
+        .collect();
+    let count = worn.len().min(MOST);
+    Ok((1..=count).map(|part| worn[part * worn.len() / count - 1]).collect())
+}

@@ -1,0 +1,231 @@
+//! The judgement of conductivities, and of what is asked about friction heat.
+
+use toml::Spanned;
+
+use super::course::{Course, Stage};
+use super::file::{BodyFile, ThermalFile};
+use super::judge::Judge;
+use super::output::Output;
+use crate::model::{ConductingLayer, Conduction, Conductor, ConductorError};
+
+/// What a key of a layer means: its name, and conductivity from its value.
+type Key = (&'static str, fn(f64) -> f64);
+
+const THERMAL: Key = ("thermal_conductivity", |value| value);
+const ELECTRICAL: Key = ("electrical_resistivity", |value| 1.0 / value);
+
+/// Conductors of the lower and the upper body; what was refused conducts nothing.
+pub(super) fn conduction(
+    judge: &mut Judge,
+    bodies: [(&str, &BodyFile); 2],
+    thermal: Option<&Spanned<ThermalFile>>,
+    history: (Option<&[Stage]>, Option<&Output>),
+    (frictionless, is_line, periodic): (bool, bool, bool),
+) -> Conduction {
+    let before = judge.mistakes.len();
+    let of = |judge: &mut Judge, key: Key| bodies.map(|(which, body)| conductor(judge, which, body, key));
+    let mut conduction =
+        Conduction { thermal: of(judge, THERMAL), electrical: of(judge, ELECTRICAL), frequency: None };
+    let Some(table) = thermal else { return conduction };
+    let given = &table.get_ref().frequency;
+    let frequency = *given.get_ref();
+    if frequency.is_finite() && frequency > 0.0 {
+        conduction.frequency = Some(frequency);
+    } else {
+        let message = format!("thermal.frequency = {frequency:?}: must be positive and finite");
+        judge.refuse::<()>(given.span(), message, "cycles per unit of time, as in the conductivities");
+    }
+    if judge.mistakes.len() > before {
+        return conduction;
+    }
+    if let Some((why, help)) = without_meaning(&conduction, history, (frictionless, is_line, periodic)) {
+        judge.refuse::<()>(table.span(), format!("thermal: {why}"), help);
+    }
+    conduction
+}
+
+/// Why no temperature can be told of this case, and what to do.
+fn without_meaning(
+    conduction: &Conduction,
+    (stages, output): (Option<&[Stage]>, Option<&Output>),
+    (frictionless, is_line, periodic): (bool, bool, bool),
+) -> Option<(&'static str, &'static str)> {
+    let is_cyclic = |stage: &Stage| matches!(stage.course, Course::Cycles(_));
+    if conduction.thermal.iter().all(Option::is_none) {
+        return Some((
+            "neither body conducts heat",
+            "thermal_conductivity = ... in every layer and substrate of a body",
+        ));
+    }
+    if frictionless {
+        return Some(("a contact without friction makes no heat", "[friction] coefficient = ..."));
+    }
+    if is_line {
+        return Some((
+            "a line contact: along an infinite line no steady temperature is finite",
+            "cells = [x, y], a contact of finite length",
+        ));
+    }
+    if periodic {
+        return Some((
+            "a periodic case: heated all over, a half-space has no steady temperature",
+            "a single contact, on a grid around it: periodic = false",
+        ));
+    }
+    if stages.is_some_and(|stages| !stages.last().is_some_and(is_cyclic)) {
+        return Some((
+            "the last stage has no cycles, and only of a cycle is the mean power known",
+            "cycles = ... in the last stage",
+        ));
+    }
+    let kept = output.is_none_or(|output| {
+        let keeps = |name: &str| output.fields.iter().any(|field| field == name);
+        output.every == Some(1) && keeps("pressure") && keeps("shear") && keeps("slip")
+    });
+    (!kept).then_some((
+        "the heat of a cycle is made of the tractions and the slip of all its increments, which are not kept",
+        "[output] every = 1, and fields = [\"pressure\", \"shear\", \"slip\", ...] where fields are given",
+    ))
+}
+
+/// The conductor that a body is by one key; `None` where no layer has it, or it was refused.
+fn conductor(judge: &mut Judge, which: &str, body: &BodyFile, (key, conductivity): Key) -> Option<Conductor> {
+    let is_thermal = key == THERMAL.0;
+    let pick = |thermal: &Option<Spanned<f64>>, electrical: &Option<Spanned<f64>>| {
+        if is_thermal { thermal.clone() } else { electrical.clone() }
+    };
+    let coatings = body.coatings.as_ref().map_or(&[][..], |list| list.get_ref());
+    let mut parts: Vec<(String, std::ops::Range<usize>, Option<Spanned<f64>>)> = Vec::new();
+    for (index, coating) in coatings.iter().enumerate() {
+        let given = coating.get_ref();
+        let value = pick(&given.thermal_conductivity, &given.electrical_resistivity);
+        parts.push((format!("{which}.coatings[{index}]"), coating.span(), value));
+    }
+    let own = pick(&body.thermal_conductivity, &body.electrical_resistivity);
+    match &body.substrate {
+        Some(substrate) => {
+            if let Some(own) = &own {
+                return judge.refuse(
+                    own.span(),
+                    format!("{which}.{key}: beside a substrate it belongs into the substrate"),
+                    &format!("substrate = {{ ..., {key} = ... }}"),
+                );
+            }
+            let given = substrate.get_ref();
+            let value = pick(&given.thermal_conductivity, &given.electrical_resistivity);
+            parts.push((format!("{which}.substrate"), substrate.span(), value));
+        }
+        None => {
+            let place = own.as_ref().map(Spanned::span).or_else(|| coatings.first().map(Spanned::span));
+            parts.push((which.to_owned(), place.unwrap_or_default(), own));
+        }
+    }
+    if parts.iter().all(|(_, _, value)| value.is_none()) {
+        return None;
+    }
+    let mut good = true;
+    for (place, span, value) in &parts {
+        match value {
+            None => {
+                good = false;
+                judge.refuse::<()>(
+                    span.clone(),
+                    format!("{place}: no {key}, but another part of this body has one"),
+                    "of all layers and what they lie on, or of none",
+                );
+            }
+            Some(value) if !(1e-100..=1e100).contains(value.get_ref()) => {
+                good = false;
+                let message = format!(
+                    "{place}.{key} = {:?}: must be positive and finite, between 1e-100 and 1e100",
+                    value.get_ref()
+                );
+                judge.refuse::<()>(value.span(), message, "");
+            }
+            Some(_) => {}
+        }
+    }
+    let values: Option<Vec<f64>> = parts
+        .iter()
+        .map(|(_, _, value)| value.as_ref().map(|value| conductivity(*value.get_ref())))
+        .collect();
+    let (base, values) =
+        values.filter(|_| good)?.split_last().map(|(base, above)| (*base, above.to_vec()))?;
+    let layers = coatings
+        .iter()
+        .zip(values)
+        .map(|(coating, conductivity)| ConductingLayer {
+            thickness: *coating.get_ref().thickness.get_ref(),
+            conductivity,
+        })
+        .collect();
+    match Conductor::new(layers, base) {
+        Ok(conductor) => Some(conductor),
+        // a thickness is refused where the bodies are judged
+        Err(ConductorError::Conductivity(_) | ConductorError::Thickness(_)) => None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::case::Case;
+
+    const CASE: &str = "[grid]\ncells = [16, 16]\nsize = [3.0, 3.0]\n[upper]\nrigid = true\nUPPER\n[lower]\n\
+        coatings = [{ thickness = 0.5, young = 2.0, poisson = 0.3COATING }]\n\
+        substrate = { young = 1.0, poisson = 0.3SUBSTRATE }\n[profile.sphere]\nradius = 100.0\n\
+        [friction]\ncoefficient = 0.3\n[output]\nevery = EVERY\n[[load]]\nnormal_force = 0.01\nincrements = 1\n\
+        [[load]]\ntangential_force = [1e-3, 0.0]\nincrements = 8\ncycles = 1\n";
+
+    fn read(words: [&str; 4], more: &str) -> Result<Case, String> {
+        let [upper, coating, substrate, every] = words;
+        let text = CASE.replace("UPPER", upper).replace("COATING", coating);
+        let text = text.replace("SUBSTRATE", substrate).replace("EVERY", every);
+        Case::from_toml(&format!("{text}{more}"), "case.toml").map_err(|error| error.to_string())
+    }
+
+    const CONDUCTS: [&str; 4] =
+        ["thermal_conductivity = 7.0", ", thermal_conductivity = 2.0", ", thermal_conductivity = 5.0", "1"];
+
+    #[test]
+    fn conductivities_of_layers_and_of_what_is_rigid_are_read() {
+        let case = read(CONDUCTS, "[thermal]\nfrequency = 20.0\n").unwrap();
+        let [lower, upper] = case.conduction.thermal.map(Option::unwrap);
+        assert_eq!(
+            (lower.base(), lower.layers()[0].conductivity, lower.layers()[0].thickness),
+            (5.0, 2.0, 0.5)
+        );
+        assert_eq!((upper.base(), upper.layers().len()), (7.0, 0));
+        assert_eq!(case.conduction.frequency, Some(20.0));
+        assert!(case.conduction.electrical.iter().all(Option::is_none));
+        let current = ["", ", electrical_resistivity = 4.0", ", electrical_resistivity = 0.5", "5"];
+        let case = read(current, "").unwrap();
+        assert_eq!(case.conduction.electrical[0].as_ref().unwrap().layers()[0].conductivity, 0.25);
+        assert!(
+            case.conduction.electrical[1].is_none()
+                && read(["", "", "", "5"], "").unwrap().conduction.is_none()
+        );
+    }
+
+    #[test]
+    fn what_is_missing_or_has_no_meaning_is_refused_in_words() {
+        let [upper, coating, substrate, every] = CONDUCTS;
+        let heat = "[thermal]\nfrequency = 20.0\n";
+        for (words, more, message) in [
+            ([upper, "", substrate, every], heat, "lower.coatings[0]: no thermal_conductivity"),
+            ([upper, coating, "", every], "", "lower.substrate: no thermal_conductivity"),
+            ([upper, coating, ", thermal_conductivity = -5.0", every], "", "must be positive"),
+            (["thermal_conductivity = inf", coating, substrate, every], "", "must be positive"),
+            ([upper, coating, substrate, every], "[thermal]\nfrequency = 0.0\n", "thermal.frequency"),
+            (["", "", "", every], heat, "neither body conducts heat"),
+            ([upper, coating, substrate, "2"], heat, "which are not kept"),
+            (
+                [upper, coating, substrate, every],
+                "[[load]]\nshift = [0.0, 0.0]\nincrements = 1\n[thermal]\nfrequency = 1.0\n",
+                "no cycles",
+            ),
+        ] {
+            let error = read(words, more).unwrap_err();
+            assert!(error.contains(message), "{words:?} {more}: {error}");
+        }
+    }
+}

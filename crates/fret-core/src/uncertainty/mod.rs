@@ -1,0 +1,11 @@
+//! Uncertain inputs and what they make of results: distributions, Sobol' points, quantiles, Sobol' indices. No mechanics.
+
+pub mod distribution;
+pub mod sample_design;
+pub mod sensitivity;
+pub mod statistics;
+
+pub use distribution::{Distribution, DistributionError};
+pub use sample_design::{DesignError, MOST_SAMPLES, SampleDesign};
+pub use sensitivity::{Sensitivity, sensitivity};
+pub use statistics::{QUANTILES, Statistics, statistics};

@@ -1,0 +1,74 @@
+//! Mean, standard deviation and quantiles of samples.
+
+use serde::Serialize;
+
+/// Fractions below the quantiles that are told.
+pub const QUANTILES: [f64; 5] = [0.025, 0.25, 0.5, 0.75, 0.975];
+
+/// What samples of a number have in common.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Statistics {
+    /// Samples that count.
+    pub count: usize,
+    /// Mean.
+    pub mean: f64,
+    /// Standard deviation of the distribution that was sampled (divisor n - 1).
+    pub deviation: f64,
+    /// Smallest value.
+    pub min: f64,
+    /// Largest value.
+    pub max: f64,
+    /// Values below which lie the fractions [`QUANTILES`], linear between samples.
+    pub quantiles: [f64; 5],
+}
+
+/// Statistics of samples; those that are no numbers do not count. `None` of fewer than two.
+pub fn statistics(values: &[f64]) -> Option<Statistics> {
+    let mut sorted: Vec<f64> = values.iter().copied().filter(|value| value.is_finite()).collect();
+    sorted.sort_by(f64::total_cmp);
+    let count = sorted.len();
+    let (first, last) = (*sorted.first()?, *sorted.last()?);
+    if count < 2 {
+        return None;
+    }
+    let mean = sorted.iter().sum::<f64>() / count as f64;
+    let squares: f64 = sorted.iter().map(|value| (value - mean).powi(2)).sum();
+    let quantile = |fraction: f64| {
+        // Hazen: the n-th of the sorted samples stands for the fraction (n - 1/2)/count
+        let place = (fraction * count as f64 - 0.5).clamp(0.0, (count - 1) as f64);
+        let below = place.floor() as usize;
+        let above = (below + 1).min(count - 1);
+        sorted[below] + (place - below as f64) * (sorted[above] - sorted[below])
+    };
+    Some(Statistics {
+        count,
+        mean,
+        deviation: (squares / (count - 1) as f64).sqrt(),
+        min: first,
+        max: last,
+        quantiles: QUANTILES.map(quantile),
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::uncertainty::{Distribution, SampleDesign};
+
+    #[test]
+    fn quantiles_of_sobol_points_of_a_normal_number_are_those_of_tables() {
+        let normal = Distribution::Normal { mean: 10.0, deviation: 2.0 };
+        let design = SampleDesign { distributions: vec![normal], count: 4096, seed: 1, indices: false };
+        let values: Vec<f64> = design.rows().unwrap().into_iter().flatten().chain([f64::NAN]).collect();
+        let found = statistics(&values).unwrap();
+        assert_eq!(found.count, 4096);
+        // 1.96 and 0.6745 deviations; evenly spread points leave the spacing of the samples there
+        for (quantile, deviations) in
+            found.quantiles.iter().zip([-1.959_964, -0.674_490, 0.0, 0.674_490, 1.959_964])
+        {
+            assert!((quantile - 10.0 - 2.0 * deviations).abs() < 0.01, "{found:?}");
+        }
+        assert!((found.mean - 10.0).abs() < 1e-3 && (found.deviation - 2.0).abs() < 5e-3, "{found:?}");
+        assert_eq!(statistics(&[1.0, f64::NAN]), None);
+    }
+}

@@ -1,0 +1,116 @@
+"""Figures of sweeps with uncertain parameters: bands between quantiles."""
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import numpy.typing as npt
+
+if TYPE_CHECKING:
+    import xarray
+    from matplotlib.axes import Axes
+
+QUANTILES = (0.025, 0.5, 0.975)
+
+
+def band(
+    dataset: "xarray.Dataset",
+    name: str,
+    *,
+    ax: "Axes | None" = None,
+    **line: Any,  # noqa: ANN401 - what matplotlib takes
+) -> "Axes":
+    """Draw a number of a sweep over its one certain axis: the median of the samples, and the band that holds 95 % of them.
+
+    Parameters
+    ----------
+    dataset : xarray.Dataset
+        From :func:`fretting.sweep` with distributions, and one axis beside them (or ``keep="all"``: the increments).
+    name : str
+        The number, such as ``"cycle_energy_ratio"``.
+    ax : matplotlib Axes, optional
+        Where to draw.
+
+    Returns
+    -------
+    matplotlib Axes
+    """
+    values = _own_samples(dataset, name)
+    others = [dimension for dimension in values.dims if dimension != "sample"]
+    if len(others) != 1:
+        raise ValueError(f"band: {name} needs one axis beside the samples, and has {', '.join(map(str, others)) or 'none'}")
+    low, middle, high = np.nanquantile(values.transpose("sample", ...).values, QUANTILES, axis=0)
+    here = values[others[0]].values
+    axes = _own_axes(ax)
+    drawn = axes.plot(here, middle, **{"lw": 1.4, "label": "median", **line})
+    axes.fill_between(here, low, high, color=drawn[0].get_color(), alpha=0.25, lw=0, label="95 % of the samples")
+    axes.set(xlabel=str(others[0]), ylabel=values.attrs.get("long_name", name))
+    axes.legend(frameon=False)
+    return axes
+
+
+def loop_band(
+    dataset: "xarray.Dataset",
+    *,
+    along: str = "x",
+    ax: "Axes | None" = None,
+    **line: Any,  # noqa: ANN401 - what matplotlib takes
+) -> "Axes":
+    """Draw the loop of the median, and the band that holds the loops of 95 % of the samples, increment by increment.
+
+    Parameters
+    ----------
+    dataset : xarray.Dataset
+        From :func:`fretting.sweep` with distributions and ``keep="all"``.
+    along : {"x", "y"}
+        Which motion.
+    ax : matplotlib Axes, optional
+        Where to draw.
+
+    Returns
+    -------
+    matplotlib Axes
+    """
+    if along not in ("x", "y"):
+        raise ValueError(f"along = {along!r}: must be 'x' or 'y'")
+    shift, force = (_own_samples(dataset, f"{name}_{along}") for name in ("shift", "tangential_force"))
+    if set(shift.dims) != {"sample", "increment"}:
+        raise ValueError('loop_band: needs the samples of a sweep with keep="all", and no other axis')
+    shifts, forces = (np.nanquantile(part.transpose("sample", ...).values, QUANTILES, axis=0) for part in (shift, force))
+    axes = _own_axes(ax)
+    drawn = axes.plot(shifts[1], forces[1], **{"lw": 1.4, "label": "median", **line})
+    # What is prescribed is the same in all samples: the band lies across it, branch by branch.
+    by_force = np.ptp(forces, axis=0).max() / max(np.ptp(forces), 1e-300) <= np.ptp(shifts, axis=0).max() / max(np.ptp(shifts), 1e-300)
+    course, low, high = (forces[1], shifts[0], shifts[2]) if by_force else (shifts[1], forces[0], forces[2])
+    fill = axes.fill_betweenx if by_force else axes.fill_between
+    style = {"color": drawn[0].get_color(), "alpha": 0.25, "lw": 0}
+    for number, (start, end) in enumerate(_branches(course)):
+        part = slice(start, end + 1)
+        fill(course[part], low[part], high[part], label="95 % of the samples" if number == 0 else None, **style)
+    axes.set(xlabel=shift.attrs.get("long_name", "shift"), ylabel=force.attrs.get("long_name", "force"))
+    axes.ticklabel_format(scilimits=(-2, 3))
+    axes.legend(frameon=False)
+    return axes
+
+
+def _branches(course: npt.NDArray[np.float64]) -> list[tuple[int, int]]:
+    """First and last places of the parts of a course between its turns."""
+    steps = np.sign(np.diff(course))
+    turns = [place + 1 for place in range(len(steps) - 1) if steps[place] * steps[place + 1] < 0.0]
+    ends = [0, *turns, len(course) - 1]
+    return list(zip(ends[:-1], ends[1:], strict=True))
+
+
+def _own_samples(dataset: "xarray.Dataset", name: str) -> "xarray.DataArray":
+    """The samples of a number, without those that only serve its indices."""
+    if "sample" not in dataset.dims:
+        raise ValueError("the sweep has no samples; give it distributions, such as fretting.Normal(0.6, 0.05)")
+    if name not in dataset:
+        raise ValueError(f"the sweep has no number {name!r}")
+    count = int(dataset.attrs["samples"]) * (2 if dataset.attrs["indices"] else 1)
+    return dataset[name].isel(sample=slice(count))
+
+
+def _own_axes(ax: "Axes | None") -> "Axes":
+    from fretting import plot
+
+    return plot._own_axes(ax)

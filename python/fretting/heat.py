@@ -1,0 +1,78 @@
+"""Temperature rise by friction and contact resistance of a history."""
+
+import json
+from typing import TYPE_CHECKING, Any, Literal
+
+import numpy as np
+
+from fretting import _core, _dataset
+from fretting._meaning import described
+from fretting.stress import on_grid
+
+if TYPE_CHECKING:
+    import xarray
+
+    from fretting.history import History
+
+FIELDS = {
+    "heat": "heat of friction, mean over the cycle [power/area]",
+    "heat_into_lower": "heat that goes into the lower body [power/area]",
+    "rise_lower": "temperature rise of the lower surface",
+    "rise_upper": "temperature rise of the upper surface",
+}
+
+
+def _conductors(history: "History", kind: str) -> str:
+    conduction = history.plan["case"].get("conduction") or {kind: [None, None]}
+    return json.dumps(conduction[kind])
+
+
+def temperature(history: "History", cycle: int, frequency: float | None, threads: int | None) -> "xarray.Dataset":
+    """Return temperature rises: see :meth:`fretting.History.temperature`."""
+    module = _dataset.module("temperature")
+    if frequency is None:
+        frequency = (history.plan["case"].get("conduction") or {}).get("frequency")
+        if frequency is None:
+            raise ValueError("temperature: the case has no [thermal] frequency; give frequency=...")
+    if not (np.isfinite(frequency) and frequency > 0.0):
+        raise ValueError(f"frequency = {frequency}: must be positive and finite")
+    count = len(history.cycles["cycle"])
+    if not -count <= cycle < count:
+        raise IndexError(f"cycle {cycle}: the history has {count} computed cycles, counted from 0")
+    first, last = (int(history.cycles[name][cycle]) for name in ("first_increment", "last_increment"))
+    increments = []
+    if first == 0:
+        none = np.zeros((len(history.x), len(history.y)))
+        increments.append((none, (none, none), (none, none)))
+    for number in range(max(first - 1, 0), last + 1):
+        pressure, *parts = (
+            on_grid(history, history.field(name, number))
+            for name in ("pressure", "shear_x", "shear_y", "slip_x", "slip_y")
+        )
+        increments.append((pressure, (parts[0], parts[1]), (parts[2], parts[3])))
+    loading = float(history.cycles["dissipated_energy"][cycle]), float(frequency)
+    setting = history._spacing, history._periodic
+    answer = _core.surface_temperature(_conductors(history, "thermal"), setting, increments, loading, threads)
+    variables: dict[str, Any] = {
+        name: (("y", "x"), answer[name].T, described(meaning, history.units))
+        for name, meaning in FIELDS.items()
+        if name in answer
+    }
+    coordinates = {
+        "x": ("x", history.x, described("cell centres along x [length]", history.units)),
+        "y": ("y", history.y, described("cell centres along y [length]", history.units)),
+    }
+    attributes = {"frequency": frequency, "increments": [first, last], "kept_fields_account_for": answer["accounted"]}
+    dataset: xarray.Dataset = module.Dataset(variables, coords=coordinates, attrs=attributes)
+    return dataset
+
+
+def contact_resistance(
+    history: "History", increment: int, kind: Literal["electrical", "thermal"], threads: int | None
+) -> float:
+    """Return the resistance of the contact: see :meth:`fretting.History.contact_resistance`."""
+    if kind not in ("electrical", "thermal"):
+        raise ValueError(f"kind = {kind!r}: must be 'electrical' or 'thermal'")
+    pressure = on_grid(history, history.field("pressure", increment))
+    setting = history._spacing, history._periodic
+    return _core.contact_resistance(_conductors(history, kind), setting, pressure, threads)
