@@ -50,6 +50,41 @@ class Cone(TypedDict):
     """
 
 
+class CrackConstants(TypedDict):
+    """
+    Constants of a short crack.
+    """
+
+    final_length: float
+    """
+    Length up to which it is followed [length].
+    """
+    initial_length: float
+    """
+    Length that the crack has first [length].
+    """
+    paris_coefficient: NotRequired[float]
+    """
+    Paris' C: growth per cycle [length] is `C dK^m`.
+    """
+    paris_exponent: NotRequired[float]
+    """
+    Paris' m [-].
+    """
+    short_crack_length: float
+    """
+    El Haddad's length l0 [length]: the threshold of a crack of length l is `threshold sqrt(l/(l + l0))`.
+    """
+    threshold: float
+    """
+    Threshold of long cracks, range of the stress intensity while the crack is open [pressure x sqrt(length)].
+    """
+    toughness: NotRequired[float]
+    """
+    Fracture toughness [pressure x sqrt(length)]: there the crack runs through.
+    """
+
+
 class Cylinder(TypedDict):
     """
     A cylinder.
@@ -151,6 +186,14 @@ class Phase(TypedDict):
     Phases of the controls [degrees], each by the name of its control.
     """
 
+    actuator: NotRequired[Sequence[float]]
+    """
+    Of the actuator along x and y.
+    """
+    actuator_approach: NotRequired[float]
+    """
+    Of the actuator along z.
+    """
     approach: NotRequired[float]
     """
     Of the approach.
@@ -200,6 +243,22 @@ How a ramp runs.
 
 
 Residual: TypeAlias = float | Sequence[float] | Sequence[Sequence[float]]
+
+
+class Rig(TypedDict):
+    """
+    The machine: springs between the upper body and what a stage drives with `actuator` and `actuator_approach`.
+    """
+
+    normal_stiffness: NotRequired[float]
+    """
+    Normal stiffness of the machine [force/length]: actuator_approach = approach + normal force / stiffness. Default: rigid.
+    """
+    tangential_stiffness: NotRequired[AlongPhase]
+    """
+    Tangential stiffness of the machine [force/length], along x and y or in both directions alike: actuator = shift + tangential
+    force / stiffness. Default: rigid.
+    """
 
 
 class RoundedPunch(TypedDict):
@@ -284,9 +343,32 @@ class Steady(TypedDict):
     """
 
 
+class StrainLife(TypedDict):
+    """
+    Coffin, Manson and Basquin's law: strain amplitude `= S/E (2N)^b + e (2N)^c`; in shear with G for E.
+    """
+
+    ductility_coefficient: float
+    """
+    Fatigue ductility coefficient e [-], positive.
+    """
+    ductility_exponent: float
+    """
+    Fatigue ductility exponent c [-], negative.
+    """
+    strength_coefficient: float
+    """
+    Fatigue strength coefficient S [pressure], positive.
+    """
+    strength_exponent: float
+    """
+    Fatigue strength exponent b [-], negative.
+    """
+
+
 class Stress(TypedDict):
     """
-    Subsurface stresses of one body, and the constants of the fatigue parameters.
+    Subsurface stresses of one body, and constants of the fatigue parameters for those of its layers that name none of their own.
     """
 
     body: NotRequired[Side]
@@ -295,8 +377,8 @@ class Stress(TypedDict):
     """
     critical_distance: NotRequired[float]
     """
-    Length from the surface down over which fatigue parameters are averaged [length]. For the line method of the theory of
-    critical distances enter 2 L.
+    Critical distance L [length]: fatigue parameters are also told at the depth L/2 (point method) and as means from the surface
+    down to 2 L (line method).
     """
     depths: NotRequired[Depths]
     """
@@ -392,6 +474,61 @@ One of the bodies.
 
 
 Component: TypeAlias = float | Held
+
+
+class FatigueConstants(TypedDict):
+    """
+    Constants of a layer for fatigue and fracture, each for what it is needed for.
+    """
+
+    channelling_factor: NotRequired[float]
+    """
+    Beuth's g(alpha, beta) of a coating [-], which channelling needs where coating and substrate differ in stiffness.
+    """
+    crack: NotRequired[CrackConstants]
+    """
+    Growth of a short crack from the most severe place of the surface.
+    """
+    critical_distance: NotRequired[float]
+    """
+    Critical distance L [length]: parameters are also told at the depth L/2 (point method) and as means down to 2 L (line method).
+    """
+    fracture_energy: NotRequired[float]
+    """
+    Fracture energy of a coating [force/length], for channelling cracks.
+    """
+    interface_energy: NotRequired[float]
+    """
+    Fracture energy of the interface below a coating [force/length], for delamination.
+    """
+    interface_phase: NotRequired[float]
+    """
+    Phase angle of the interface crack under tension [degrees], which the mode mix needs where coating and substrate differ in stiffness.
+    """
+    normal_stress_sensitivity: NotRequired[float]
+    """
+    Weight of the normal stress in Fatemi and Socie's parameter [-]. Default: 1.
+    """
+    shear_life: NotRequired[StrainLife]
+    """
+    Life in torsion over the shear strain, for cycles to initiation by Fatemi and Socie.
+    """
+    strain_life: NotRequired[StrainLife]
+    """
+    Life in tension over the normal strain, for cycles to initiation by Smith, Watson and Topper.
+    """
+    tension_limit: NotRequired[float]
+    """
+    Fatigue limit in fully reversed tension or bending, amplitude [pressure], for Crossland and Dang Van.
+    """
+    torsion_limit: NotRequired[float]
+    """
+    Fatigue limit in fully reversed torsion, amplitude [pressure], for Crossland and Dang Van.
+    """
+    yield_strength: NotRequired[float]
+    """
+    Yield strength [pressure], for Fatemi and Socie and for elastic shakedown.
+    """
 
 
 class Friction(TypedDict):
@@ -501,6 +638,10 @@ class Material(TypedDict):
     """
     Electrical resistivity [resistance x length], positive; of all layers of a body and its substrate, or of none.
     """
+    fatigue: NotRequired[FatigueConstants]
+    """
+    Constants for fatigue and fracture. What has no constants is not computed; none is built in.
+    """
     poisson: float
     """
     Poisson's ratio, above -1, at most 0.5.
@@ -601,6 +742,10 @@ class Coating(TypedDict):
     """
     Electrical resistivity [resistance x length], positive; of all layers of a body and its substrate, or of none.
     """
+    fatigue: NotRequired[FatigueConstants]
+    """
+    Constants for fatigue and fracture. What has no constants is not computed; none is built in.
+    """
     gradient: NotRequired[Gradient]
     """
     Young's modulus over the depth; instead of `young`.
@@ -633,6 +778,15 @@ class Stage(TypedDict):
     A stage of the loading history. Controls not named stay as they were.
     """
 
+    actuator: NotRequired[Sequence[Component]]
+    """
+    Displacement of the actuator along x and y [length], the far end of the machine's spring ([rig]): shift + tangential force /
+    stiffness; at the end, or the amplitude; or "held".
+    """
+    actuator_approach: NotRequired[float]
+    """
+    Normal displacement of the actuator [length]: approach + normal force / stiffness; at the end, or the amplitude.
+    """
     approach: NotRequired[float]
     """
     Rigid approach [length]: at the end of the stage, or the amplitude.
@@ -790,6 +944,10 @@ class Case(TypedDict):
     profile: NotRequired[Profile]
     """
     Undeformed gap: zero at first touch. The bodies' own profiles are added.
+    """
+    rig: NotRequired[Rig]
+    """
+    The machine between the upper body and what is driven. Default: rigid.
     """
     solver: NotRequired[Solver]
     """

@@ -7,7 +7,7 @@ import numpy as np
 
 from fretting import _core, _dataset
 from fretting._meaning import described
-from fretting.stress import _on_grid
+from fretting.stress import on_grid
 
 if TYPE_CHECKING:
     import xarray
@@ -46,7 +46,7 @@ def temperature(history: "History", cycle: int, frequency: float | None, threads
         increments.append((none, (none, none), (none, none)))
     for number in range(max(first - 1, 0), last + 1):
         pressure, *parts = (
-            _on_grid(history, history.field(name, number))
+            on_grid(history, history.field(name, number))
             for name in ("pressure", "shear_x", "shear_y", "slip_x", "slip_y")
         )
         increments.append((pressure, (parts[0], parts[1]), (parts[2], parts[3])))
@@ -73,6 +73,6 @@ def contact_resistance(
     """Return the resistance of the contact: see :meth:`fretting.History.contact_resistance`."""
     if kind not in ("electrical", "thermal"):
         raise ValueError(f"kind = {kind!r}: must be 'electrical' or 'thermal'")
-    pressure = _on_grid(history, history.field("pressure", increment))
+    pressure = on_grid(history, history.field("pressure", increment))
     setting = history._spacing, history._periodic
     return _core.contact_resistance(_conductors(history, kind), setting, pressure, threads)

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, Literal, Protocol, Self
 import numpy as np
 import numpy.typing as npt
 
-from fretting import _core, _dataset, heat, plot, stress
+from fretting import _core, _dataset, fatigue, heat, plot, stress
 from fretting._arrays import Reals
 from fretting._meaning import FIELD_NAMES, VECTORS, FieldName, VectorName
 from fretting.cycles import Columns, columns
@@ -20,6 +20,8 @@ if TYPE_CHECKING:
     import xarray
     from matplotlib.animation import FuncAnimation
     from matplotlib.axes import Axes
+
+    from fretting.case_types import FatigueConstants
 
 class Table(dict[str, npt.NDArray[Any]]):
     """Columns by name; an unknown name raises a KeyError that lists the known ones."""
@@ -427,13 +429,10 @@ class History:
         *,
         cycle: int = -1,
         body: Literal["lower", "upper"] = "lower",
-        yield_strength: float | None = None,
-        torsion_limit: float | None = None,
-        tension_limit: float | None = None,
-        normal_stress_sensitivity: float = 1.0,
+        constants: "FatigueConstants | None" = None,
         threads: int | None = None,
     ) -> "xarray.Dataset":
-        """Return fatigue parameters over a cycle, on the section along x nearest to y = 0.
+        """Return fatigue parameters over a cycle, under all cells.
 
         Bulk stress and residual stress are included, layer by layer.
 
@@ -446,29 +445,63 @@ class History:
             need their ``pressure``, ``shear`` and ``slip`` kept (``[output] every``).
         body : {"lower", "upper"}
             The body.
-        yield_strength : float, optional
-            Yield strength [pressure], for Fatemi and Socie.
-        torsion_limit, tension_limit : float, optional
-            Fatigue limits in fully reversed torsion and tension, amplitudes [pressure], for Crossland and Dang Van.
-        normal_stress_sensitivity : float
-            Weight of the normal stress in Fatemi and Socie's parameter [-].
+        constants : dict, optional
+            Constants of fatigue for all layers, with the keys of a layer's ``fatigue`` in the case. Default: those of the case.
         threads : int, optional
             Worker threads. Default: all cores.
 
         Returns
         -------
         xarray.Dataset
-            ``smith_watson_topper``, and where their constants are given ``fatemi_socie``, ``crossland``, ``dang_van``, with the
-            dimensions (depth, x); ``ruiz_f1``, ``ruiz_f2`` along x, where 0 is among the depths. Formulas and sources: *Subsurface
-            stress and fatigue* of the site.
+            ``smith_watson_topper``, ``shakedown_strength``, and where all layers at the depths have their constants ``fatemi_socie``,
+            ``crossland``, ``dang_van``, ``smith_watson_topper_cycles``, ``fatemi_socie_cycles``, with the dimensions (depth, y, x), of a
+            line contact (depth, x); ``ruiz_f1``, ``ruiz_f2`` at the surface, where 0 is among the depths. Formulas and sources:
+            *Subsurface stress and fatigue* of the site.
 
         Raises
         ------
         ValueError
             When a depth or a constant is out of its range, the body is rigid, or too few increments of the cycle are kept.
         """
-        constants = stress.Constants(yield_strength, torsion_limit, tension_limit, normal_stress_sensitivity)
-        return stress.fatigue(self, depths, _whole("cycle", cycle), body, constants, threads)
+        return fatigue.fatigue(self, depths, _whole("cycle", cycle), body, constants, threads)
+
+    def crack(
+        self,
+        *,
+        cycle: int = -1,
+        body: Literal["lower", "upper"] = "lower",
+        constants: "FatigueConstants | None" = None,
+        threads: int | None = None,
+    ) -> "xarray.Dataset":
+        """Return the course of a short crack through a cycle.
+
+        It starts where the Smith-Watson-Topper parameter of the surface is largest and lies in its critical plane. Stress intensities
+        by the weight function of an edge crack in one material, from the stresses below the contact.
+
+        Parameters
+        ----------
+        cycle : int
+            Computed cycle of the history, from 0; negative from the end. Three of its increments need their fields kept.
+        body : {"lower", "upper"}
+            The body.
+        constants : dict, optional
+            Constants of fatigue with the key ``crack``, as of a layer in the case. Default: those of the case.
+        threads : int, optional
+            Worker threads. Default: all cores.
+
+        Returns
+        -------
+        xarray.Dataset
+            ``k1_max``, ``k1_range``, ``k2_range``, ``threshold`` [pressure x sqrt(length)], and with constants of growth ``cycles``, over
+            ``length``. Attributes: ``fate`` ("does_not_grow", "stops", "grows", "fractures"; "none" with a ``reason``), ``x``, ``y``,
+            ``angle`` from the normal of the surface [degrees] ``towards`` a horizontal direction, ``length`` and ``cycles`` at its end.
+
+        Raises
+        ------
+        ValueError
+            When there are no constants of cracks, one is out of its range, the body is rigid, or too few increments are kept.
+        """
+        return fatigue.crack(self, _whole("cycle", cycle), body, constants, threads)
 
     def temperature(
         self, *, cycle: int = -1, frequency: float | None = None, threads: int | None = None

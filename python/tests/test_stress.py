@@ -73,18 +73,25 @@ def test_fatigue_parameters_are_those_of_the_command(fretting_case: dict[str, An
     fretting_case["output"] = {"fields": ["pressure", "shear", "slip"], "every": 2}
     fretting_case["stress"] = {"depths": [0.0, 20e-6], "yield_strength": 1e9, "torsion_limit": 3e8, "tension_limit": 4e8}
     history = fretting.run(fretting_case, folder=tmp_path / "run")
-    fatigue = history.fatigue([0.0, 20e-6], yield_strength=1e9, torsion_limit=3e8, tension_limit=4e8)
+    fatigue = history.fatigue([0.0, 20e-6])
+    given = history.fatigue([0.0, 20e-6], constants={"yield_strength": 1e9, "torsion_limit": 3e8, "tension_limit": 4e8})
+    assert fatigue.identical(given)
     told = json.loads((tmp_path / "run" / "stress" / "stress.json").read_text())["fatigue"]
     assert told["increments"] == fatigue.attrs["increments"]
     for name, entry in told["parameters"].items():
-        if "ruiz" in name:  # the others are also read at the edge of contact, between the cells
+        if "ruiz" in name:  # the others are also extrapolated to the edge of contact, between the cells
             assert float(fatigue[name].max()) == pytest.approx(entry["largest"], rel=1e-12), name
         else:
             assert float(fatigue[name].max()) <= entry["largest"] * (1 + 1e-12)
-    assert fatigue["smith_watson_topper"].dims == ("depth", "x")
-    with pytest.raises(ValueError, match="needs? both"):
-        history.fatigue([0.0], torsion_limit=3e8)
+    assert fatigue["smith_watson_topper"].dims == ("depth", "y", "x")
+    # the contact is its own mirror image in y, and so is what its cycle does
+    swt = fatigue["smith_watson_topper"].values
+    assert np.abs(swt - swt[:, ::-1]).max() < 1e-6 * swt.max()
+    with pytest.raises(ValueError, match="need both"):
+        history.fatigue([0.0], constants={"torsion_limit": 3e8})
     with pytest.raises(ValueError, match="must be positive"):
-        history.fatigue([0.0], yield_strength=-1.0)
+        history.fatigue([0.0], constants={"yield_strength": -1.0})
+    with pytest.raises(ValueError, match="no constants of cracks"):
+        history.crack()
     with pytest.raises(IndexError, match="1 computed cycles"):
         history.fatigue([0.0], cycle=1)

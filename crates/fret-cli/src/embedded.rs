@@ -4,19 +4,15 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use fret_core::case::FatigueRequest;
 use fret_core::history::History;
 use fret_core::history::Start;
-use fret_core::model::HalfSpace;
 use fret_core::plan::{LeaveOut, Plan};
 use fret_core::run::RunError;
 use fret_core::study::{StageQuantities, companion};
-use fret_core::subsurface::{DepthPoint, LoadedSurface, survey};
 use serde_json::Value;
 
 use crate::arguments::StudyArguments;
 use crate::case_file::{Beside, CaseFile};
-use crate::commands::fatigue::Fatigue;
 use crate::commands::run::{self, Wanted};
 use crate::commands::study::{Question, studied};
 use crate::estimate::{Estimate, NoBars};
@@ -28,7 +24,6 @@ use crate::tally::Tally;
 use crate::terminal;
 use crate::threads;
 
-pub use crate::commands::fatigue::Section;
 pub use crate::commands::run::Guest;
 
 /// Why a call ended without its answer.
@@ -268,27 +263,6 @@ pub fn study(
         }
     };
     Ok(studied((&plan.case.title, plan), question, None, &say, guest)?.record)
-}
-
-/// Fatigue parameters of a cycle on the section along x nearest to y = 0.
-///
-/// # Errors
-/// When the influence coefficients at a depth cannot be had.
-pub fn fatigue(
-    (half_space, grid, periodic): (&HalfSpace, &fret_core::model::SurfaceGrid, bool),
-    points: &[DepthPoint],
-    surfaces: &[LoadedSurface],
-    request: FatigueRequest,
-) -> Result<Section, Stopped> {
-    let row = grid.cells()[1] / 2;
-    let mut collected =
-        Fatigue::new(request, half_space, points, surfaces, (0..surfaces.len()).collect(), row);
-    survey(half_space, grid, periodic, points, surfaces, |point, surface, field| {
-        collected.look(point, surface, field);
-        true
-    })
-    .map_err(|error| Stopped::Defect(format!("stress kernels: {error}")))?;
-    Ok(collected.section())
 }
 
 /// Constants of a model from a measured log, as `identified.json` has them, and the page with its pictures.

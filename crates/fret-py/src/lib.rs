@@ -9,6 +9,7 @@ mod case;
 mod command;
 mod conduction;
 mod error;
+mod fatigue;
 mod history;
 mod identify;
 mod kernels;
@@ -39,6 +40,8 @@ mod _core {
     #[pymodule_export]
     use crate::conduction::{contact_resistance, surface_temperature};
     #[pymodule_export]
+    use crate::fatigue::{crack, fatigue};
+    #[pymodule_export]
     use crate::history::{History, vocabulary};
     #[pymodule_export]
     use crate::identify::identify;
@@ -53,7 +56,7 @@ mod _core {
     #[pymodule_export]
     use crate::study::study;
     #[pymodule_export]
-    use crate::subsurface::{fatigue, subsurface_stress};
+    use crate::subsurface::subsurface_stress;
     #[pymodule_export]
     use crate::threads::{check_memory, check_threads};
 

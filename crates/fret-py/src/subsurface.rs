@@ -1,7 +1,6 @@
 //! Stress under the surface of one body of a pair, from tractions.
 
-use fret_cli::embedded;
-use fret_core::case::{FatigueRequest, Side};
+use fret_core::case::Side;
 use fret_core::model::{Body, ContactPair, HalfSpace, ResidualStress, SurfaceGrid};
 use fret_core::plan::memory_of_stress;
 use fret_core::subsurface::{EvenStress, LoadedSurface, StressTensor, depth_points, survey};
@@ -11,11 +10,11 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::{Bound, PyDictMethods, PyResult, Python, pyfunction};
 use pyo3::types::PyDict;
 
-use crate::error::{bad_value, stopped};
+use crate::error::bad_value;
 use crate::threads::{Threads, check_memory, on_pool};
 
 /// The half-space of one body of a pair given as JSON text, and the sign of the contact's shear on it.
-fn half_space_of((text, upper): (&str, bool)) -> PyResult<(HalfSpace, f64)> {
+pub fn half_space_of((text, upper): (&str, bool)) -> PyResult<(HalfSpace, f64)> {
     let pair: ContactPair = serde_json::from_str(text).map_err(bad_value)?;
     let side = if upper { Side::Upper } else { Side::Lower };
     match side.of(&pair) {
@@ -28,7 +27,7 @@ fn half_space_of((text, upper): (&str, bool)) -> PyResult<(HalfSpace, f64)> {
 }
 
 /// The residual stress of one body of those of the lower and the upper, given as JSON text.
-fn residual_of(text: &str, upper: bool) -> PyResult<ResidualStress> {
+pub fn residual_of(text: &str, upper: bool) -> PyResult<ResidualStress> {
     let [of_lower, of_upper]: [ResidualStress; 2] = serde_json::from_str(text).map_err(bad_value)?;
     Ok(if upper { of_upper } else { of_lower })
 }
@@ -87,81 +86,6 @@ pub fn subsurface_stress<'py>(
     let depths: Vec<f64> = points.iter().map(|point| point.depth).collect();
     let layers: Vec<i64> = points.iter().map(|point| point.layer as i64).collect();
     items.set_item("depth", depths.into_pyarray(py))?;
-    items.set_item("layer", layers.into_pyarray(py))?;
-    Ok(items)
-}
-
-/// Two fields of a vector.
-type VectorArrays<'py> = (PyReadonlyArray2<'py, f64>, PyReadonlyArray2<'py, f64>);
-
-/// Fields of an increment: pressure, shear, slip and the bulk stress of the body.
-type IncrementArrays<'py> =
-    (PyReadonlyArray2<'py, f64>, Option<VectorArrays<'py>>, Option<VectorArrays<'py>>, [f64; 2]);
-
-/// Fatigue parameters over increments `(pressure, shear, slip, bulk stress)` on the section along x nearest to y = 0: arrays of shape (nz, nx), `ruiz_f1`
-/// and `ruiz_f2` of shape (nx,); depth and layer of shape (nz,).
-#[pyfunction]
-pub fn fatigue<'py>(
-    py: Python<'py>,
-    bodies: (&str, bool),
-    setting: ([f64; 2], bool),
-    loading: (Vec<IncrementArrays<'py>>, &str),
-    depths: Vec<f64>,
-    request: &str,
-    threads: Threads,
-) -> PyResult<Bound<'py, PyDict>> {
-    let (spacing, periodic) = setting;
-    let (increments, residual_stress) = loading;
-    let residual = residual_of(residual_stress, bodies.1)?;
-    let (half_space, sign) = half_space_of(bodies)?;
-    let request: FatigueRequest = serde_json::from_str(request).map_err(bad_value)?;
-    let points = depth_points(&half_space, &depths).map_err(bad_value)?;
-    let Some(shape) = increments.first().map(|(pressure, ..)| pressure.as_array().dim()) else {
-        return Err(PyValueError::new_err("no increment with kept fields"));
-    };
-    let cells = shape.0 * shape.1;
-    check_memory(
-        &format!("{} increments of {} x {} cells", increments.len(), shape.0, shape.1),
-        memory_of_stress(cells, increments.len()).saturating_add(48 * cells.saturating_mul(increments.len())),
-    )?;
-    let vector = |(x, y): &VectorArrays<'py>, sign: f64| [x, y].map(|part| part.as_array().to_owned() * sign);
-    let surfaces: Vec<LoadedSurface> = increments
-        .iter()
-        .enumerate()
-        .map(|(increment, (pressure, shear, slip, bulk))| LoadedSurface {
-            increment,
-            pressure: pressure.as_array().to_owned(),
-            shear: shear.as_ref().map(|shear| vector(shear, sign)),
-            slip: slip.as_ref().map(|slip| vector(slip, 1.0)),
-            even: EvenStress { bulk: *bulk, residual: residual.clone() },
-        })
-        .collect();
-    let is_odd = |field: &Array2<f64>| field.dim() != shape;
-    if surfaces.iter().any(|surface| {
-        is_odd(&surface.pressure) || surface.shear.iter().chain(&surface.slip).flatten().any(is_odd)
-    }) {
-        return Err(PyValueError::new_err(format!(
-            "fields of other shapes than the first pressure, {shape:?}"
-        )));
-    }
-    let grid = SurfaceGrid::new([shape.0, shape.1], spacing).map_err(bad_value)?;
-    let section = on_pool(py, threads, || {
-        embedded::fatigue((&half_space, &grid, periodic), &points, &surfaces, request)
-    })?
-    .map_err(stopped)?;
-    let items = PyDict::new(py);
-    for (name, values) in section.fields {
-        let flat: Vec<f64> = values.iter().flatten().copied().collect();
-        let field = Array2::from_shape_vec((values.len(), shape.0), flat).map_err(bad_value)?;
-        items.set_item(name, field.into_pyarray(py))?;
-    }
-    if let Some(ruiz) = section.ruiz {
-        for (part, name) in ["ruiz_f1", "ruiz_f2"].into_iter().enumerate() {
-            items.set_item(name, ruiz.iter().map(|pair| pair[part]).collect::<Vec<_>>().into_pyarray(py))?;
-        }
-    }
-    items.set_item("depth", points.iter().map(|point| point.depth).collect::<Vec<_>>().into_pyarray(py))?;
-    let layers: Vec<i64> = points.iter().map(|point| point.layer as i64).collect();
     items.set_item("layer", layers.into_pyarray(py))?;
     Ok(items)
 }

@@ -1,261 +1,286 @@
-//! Fatigue parameters over the last cycle, on the section nearest to y = 0 and, for Ruiz, along its surface.
+//! Fatigue over the last cycle, under all cells at all depths: parameters, cycles to initiation, factors of safety; fracture of the coating.
 
 use std::fmt::Write as _;
 
-use fret_core::case::FatigueRequest;
-use fret_core::model::{Base, ElasticMaterial, HalfSpace};
-use fret_core::subsurface::fatigue::{
-    SurfacePoint, crossland, dang_van, fatemi_socie, line_mean, ruiz, smith_watson_topper,
-};
-use fret_core::subsurface::rim::at_rims;
-use fret_core::subsurface::{DepthPoint, LoadedSurface, StressField, StressTensor};
-use rayon::prelude::*;
+use fret_core::model::HalfSpace;
+use fret_core::subsurface::coating_fracture::Film;
+use fret_core::subsurface::fatigue::{LayerConstants, Parameter};
+use fret_core::subsurface::film_stress::{FilmCrack, FilmStress};
+use fret_core::subsurface::severity::{constants_of, material_of};
+use fret_core::subsurface::{DepthPoint, Judged, LoadedSurface, MostSevere, Severity, StressField};
 use serde_json::{Value, json};
 
+use super::crack::{Crack, CrackAnswer};
+use crate::failure::Failure;
 use crate::figures::figure;
+use crate::output::kept_run::KeptRun;
 
-/// Collects the stresses of a cycle, one depth at a time.
+/// Collects what fatigue is judged by, one depth at a time.
 pub struct Fatigue<'a> {
-    request: FatigueRequest,
+    run: &'a KeptRun,
     half_space: &'a HalfSpace,
+    constants: &'a LayerConstants,
     points: &'a [DepthPoint],
     surfaces: &'a [LoadedSurface],
-    /// Indices of the surfaces of the cycle.
+    /// Indices of the surfaces of the cycle; none where the history has no whole cycle.
     cycle: Vec<usize>,
-    row: usize,
-    /// Stresses of the depth at hand, `[i][increment of the cycle]`.
-    here: Vec<Vec<StressTensor>>,
-    /// Names and values `[point][i]` of the parameters.
-    fields: Vec<(&'static str, Vec<Vec<f64>>)>,
-    /// The largest value at a rim of the surface, of each parameter, and its place along x [cells].
-    at_rims: Vec<Option<(f64, f64)>>,
-    /// Ruiz's parameters along the surface.
-    ruiz: Option<Vec<[f64; 2]>>,
-}
-
-/// Fatigue parameters on a section along x.
-#[derive(Debug, Clone)]
-pub struct Section {
-    /// Names and values `[point][i]`; a depth in a rigid base has none.
-    pub fields: Vec<(&'static str, Vec<Vec<f64>>)>,
-    /// Ruiz's F1 and F2 along the surface, where it was among the depths and its slip is known.
-    pub ruiz: Option<Vec<[f64; 2]>>,
+    severity: Option<Severity<'a>>,
+    film: Option<FilmStress>,
 }
 
 /// A name and its values `[point][i]`.
 pub type Picture = (String, Vec<Vec<f64>>);
 
 /// What is told at the end.
+#[derive(Default)]
 pub struct Finished {
-    /// For `stress.json`.
-    pub record: Value,
+    /// Fatigue, for `stress.json`.
+    pub fatigue: Option<Value>,
+    /// Fracture of the coating, for `stress.json`.
+    pub coating: Option<Value>,
     /// For a person.
     pub table: String,
     /// To be drawn.
     pub pictures: Vec<Picture>,
+    /// Files: name and content.
+    pub files: Vec<(&'static str, String)>,
 }
 
 impl<'a> Fatigue<'a> {
-    /// Nothing collected yet.
+    /// Nothing collected yet; `cycle` are the surfaces of the last cycle, three at least.
     pub fn new(
-        request: FatigueRequest,
+        run: &'a KeptRun,
         half_space: &'a HalfSpace,
-        points: &'a [DepthPoint],
-        surfaces: &'a [LoadedSurface],
+        constants: &'a LayerConstants,
+        (points, surfaces): (&'a [DepthPoint], &'a [LoadedSurface]),
         cycle: Vec<usize>,
         row: usize,
     ) -> Self {
-        let mut names = vec!["smith_watson_topper"];
-        if request.yield_strength.is_some() {
-            names.push("fatemi_socie");
-        }
-        if request.endurance.is_some() {
-            names.extend(["crossland", "dang_van"]);
-        }
-        let at_rims = vec![None; names.len()];
-        let fields = names.into_iter().map(|name| (name, Vec::new())).collect();
-        Self {
-            request,
-            half_space,
-            points,
-            surfaces,
-            cycle,
-            row,
-            here: Vec::new(),
-            fields,
-            at_rims,
-            ruiz: None,
-        }
+        let severity = (cycle.len() > 2)
+            .then(|| Severity::new(half_space, constants, points, (surfaces, cycle.clone()), Some(row)));
+        let film = Film::outermost(half_space).map(FilmStress::new);
+        Self { run, half_space, constants, points, surfaces, cycle, severity, film }
     }
 
     /// Takes the stress at one depth in one increment.
     pub fn look(&mut self, point: usize, surface: usize, field: &StressField) {
-        let (Some(&first), Some(&last)) = (self.cycle.first(), self.cycle.last()) else { return };
-        if !self.cycle.contains(&surface) {
-            return;
+        if let Some(severity) = &mut self.severity {
+            severity.look(point, surface, field);
         }
-        let nx = field.components[0].nrows();
-        if surface == first {
-            self.here = vec![Vec::with_capacity(self.cycle.len()); nx];
-        }
-        for (i, stresses) in self.here.iter_mut().enumerate() {
-            stresses.push(field.at(i, self.row));
-        }
-        if surface == last {
-            self.judge(point);
+        if let Some(film) = &mut self.film {
+            film.look(self.points[point], surface, field);
         }
     }
 
-    fn material(&self, layer: usize) -> Option<ElasticMaterial> {
-        let coating = self.half_space.coatings().get(layer).map(|coating| *coating.material());
-        coating.or(match self.half_space.base() {
-            Base::Elastic(material) => Some(*material),
-            Base::Rigid => None,
-        })
-    }
-
-    fn judge(&mut self, point: usize) {
-        let place = self.points[point];
-        let Some(material) = self.material(place.layer) else { return };
-        let request = self.request;
-        for (name, values) in &mut self.fields {
-            let value = |cycle: &Vec<StressTensor>| match (*name, request.endurance, request.yield_strength) {
-                ("crossland", Some(endurance), _) => crossland(cycle, &endurance),
-                ("dang_van", Some(endurance), _) => dang_van(cycle, &endurance),
-                ("fatemi_socie", _, Some(strength)) => {
-                    fatemi_socie(cycle, &material, strength, request.normal_stress_sensitivity).value
-                }
-                _ => smith_watson_topper(cycle, &material).value,
-            };
-            values.push(self.here.par_iter().map(value).collect());
+    /// The largest values and where, the crack, the coating.
+    pub fn finished(mut self) -> Result<Finished, Failure> {
+        let mut finished = Finished::default();
+        self.coating(&mut finished);
+        if let Some(severity) = self.severity.take() {
+            let judged = severity.judged();
+            self.parameters(&judged, &mut finished)?;
         }
-        if place.depth == 0.0 {
-            self.ruiz = self.along_surface();
-            self.at_rims = self.rims();
-        }
+        Ok(finished)
     }
 
-    /// The parameters of the surface at the rims that the contact has in the cycle.
-    fn rims(&self) -> Vec<Option<(f64, f64)>> {
-        let largest = |values: &[f64]| {
-            let of = |surface: &usize| {
-                let pressure = self.surfaces[*surface].pressure.column(self.row).to_vec();
-                at_rims(values, &pressure)
-            };
-            let all = self.cycle.iter().flat_map(of).map(|rim| (rim.value, rim.cell as f64 + rim.off));
-            all.reduce(|most, next| if next.0 > most.0 { next } else { most })
-        };
-        self.fields.iter().map(|(_, values)| values.last().and_then(|values| largest(values))).collect()
+    fn place(&self, cell: [usize; 2], off: [f64; 2]) -> [f64; 2] {
+        let grid = &self.run.grid;
+        [0, 1].map(|axis| grid.centre(axis, cell[axis]) + off[axis] * grid.spacing()[axis])
     }
 
-    fn along_surface(&self) -> Option<Vec<[f64; 2]>> {
-        let (here, row) = (&self.here, self.row);
-        (0..here.len())
-            .map(|i| {
-                let history: Option<Vec<SurfacePoint>> = self
-                    .cycle
-                    .iter()
-                    .enumerate()
-                    .map(|(n, &surface)| {
-                        let surface = &self.surfaces[surface];
-                        let (shear, slip) = (surface.shear.as_ref()?, surface.slip.as_ref()?);
-                        Some(SurfacePoint {
-                            shear: [shear[0][[i, row]], shear[1][[i, row]]],
-                            slip: [slip[0][[i, row]], slip[1][[i, row]]],
-                            stress: here[i][n],
-                        })
-                    })
-                    .collect();
-                let found = ruiz(&history?);
-                Some([found.f1, found.f2])
-            })
-            .collect()
-    }
-
-    /// All values.
-    pub fn section(self) -> Section {
-        Section { fields: self.fields, ruiz: self.ruiz }
-    }
-
-    /// The largest values, and the means over the critical distance.
-    pub fn finished(self, x: &[f64], _interfaces: &[f64]) -> Finished {
+    fn parameters(&self, judged: &Judged, finished: &mut Finished) -> Result<(), Failure> {
         let increments: Vec<usize> = self.cycle.iter().map(|&n| self.surfaces[n].increment).collect();
-        let depths: Vec<f64> = self.points.iter().map(|point| point.depth).collect();
         let mut parameters = serde_json::Map::new();
-        let mut table = format!(
-            "  fatigue over increments {} to {}, section nearest to y = 0\n",
+        let _ = writeln!(
+            finished.table,
+            "  fatigue over increments {} to {}, all cells",
             increments.first().copied().unwrap_or(0),
             increments.last().copied().unwrap_or(0)
         );
-        let from_surface = depths.first() == Some(&0.0) && depths.windows(2).all(|pair| pair[0] <= pair[1]);
-        for ((name, values), rim) in self.fields.iter().zip(&self.at_rims) {
-            let Some((point, i)) = largest_of(values) else { continue };
-            let (mut value, mut at, mut point) = (values[point][i], x[i], point);
-            if let Some((most, place)) = *rim
-                && most > value
-                && let Some(surface) = depths.iter().position(|depth| *depth == 0.0)
-            {
-                let cell = x.get(1).map_or(0.0, |next| next - x[0]);
-                (value, at, point) = (most, x[0] + place * cell, surface);
+        for parameter in Parameter::ALL {
+            let of: Vec<&MostSevere> =
+                judged.found.iter().filter(|found| found.parameter == parameter).collect();
+            let largest =
+                of.iter().copied().reduce(|most, next| if next.value > most.value { next } else { most });
+            let Some(largest) = largest else { continue };
+            let mut entry = self.entry(largest);
+            if of.len() > 1 {
+                entry["layers"] = of.iter().map(|found| self.entry(found)).collect();
             }
-            let mut entry = json!({ "largest": value, "x": at, "depth": depths[point], "layer": self.points[point].layer });
-            let _ = write!(
-                table,
-                "  {:<20} {:<12} at x {:<12} depth {:<12}",
-                name.replace('_', " "),
-                figure(value),
-                figure(at),
-                figure(depths[point])
-            );
-            if let (Some(distance), true) = (self.request.critical_distance, from_surface) {
-                let means: Vec<f64> = (0..x.len())
-                    .map(|i| {
-                        let line: Vec<f64> = values.iter().map(|row| row[i]).collect();
-                        line_mean(&depths, &line, distance)
-                    })
-                    .collect();
-                let most = (0..x.len()).max_by(|&a, &b| means[a].total_cmp(&means[b])).unwrap_or(0);
-                entry["largest_mean"] = json!({ "value": means[most], "x": x[most], "distance": distance });
-                let _ = write!(table, " mean {} at x {}", figure(means[most]), figure(x[most]));
-            }
-            table.truncate(table.trim_end().len());
-            table.push('\n');
-            parameters.insert((*name).to_owned(), entry);
-        }
-        if let Some(ruiz) = &self.ruiz {
-            for (part, name) in ["ruiz_f1", "ruiz_f2"].into_iter().enumerate() {
-                let most =
-                    (0..ruiz.len()).max_by(|&a, &b| ruiz[a][part].total_cmp(&ruiz[b][part])).unwrap_or(0);
-                let value = ruiz[most][part];
-                parameters.insert(name.to_owned(), json!({ "largest": value, "x": x[most], "depth": 0.0 }));
+            self.line(largest, &mut finished.table);
+            if let Some((_, at)) = judged.at_distance.iter().find(|(of, _)| *of == parameter) {
+                let constants = constants_of(self.half_space, self.constants, 0);
+                let cycles =
+                    |value: f64| parameter.cycles(value, &material_of(self.half_space, 0)?, &constants);
+                let told = |(value, cell): (f64, [usize; 2])| {
+                    let [x, y] = self.place(cell, [0.0; 2]);
+                    let mut told = json!({ "value": value, "x": x, "y": y });
+                    if let Some(cycles) = cycles(value) {
+                        told["cycles"] = finite(cycles);
+                    }
+                    told
+                };
+                let in_words = |value: f64| {
+                    let cycles =
+                        cycles(value).map_or(String::new(), |cycles| format!(" ({} cycles)", worded(cycles)));
+                    figure(value) + &cycles
+                };
+                entry["critical_distance"] =
+                    json!({ "distance": at.distance, "point": told(at.point), "line": told(at.line) });
                 let _ = writeln!(
-                    table,
-                    "  {:<20} {:<12} at x {:<12} surface",
-                    name.replace('_', " "),
+                    finished.table,
+                    "    at the critical distance {}: {} by the point method, {} by the line method",
+                    figure(at.distance),
+                    in_words(at.point.0),
+                    in_words(at.line.0)
+                );
+            }
+            parameters.insert(parameter.name().to_owned(), entry);
+        }
+        if let Some(ruiz) = &judged.ruiz {
+            for (part, name) in ["ruiz_f1", "ruiz_f2"].into_iter().enumerate() {
+                let first = (f64::NEG_INFINITY, [0, 0]);
+                let (value, cell) = ruiz.indexed_iter().fold(first, |best, ((i, j), ruiz)| {
+                    let value = [ruiz.f1, ruiz.f2][part];
+                    if value > best.0 { (value, [i, j]) } else { best }
+                });
+                let [x, y] = self.place(cell, [0.0; 2]);
+                parameters.insert(name.to_owned(), json!({ "largest": value, "x": x, "y": y, "depth": 0.0 }));
+                let name = name.replace('_', " ");
+                let _ = writeln!(
+                    finished.table,
+                    "  {name:<20} {:<12} at x {:<12} surface",
                     figure(value),
-                    figure(x[most])
+                    figure(x)
                 );
             }
         }
-        let pictures = self
-            .fields
-            .iter()
-            .filter(|(_, values)| values.len() == depths.len())
-            .map(|(name, values)| ((*name).to_owned(), values.clone()))
-            .collect();
-        let record = json!({ "increments": increments, "parameters": parameters });
-        Finished { record, table, pictures }
+        finished.files.push(("fatigue.csv", self.by_layer(judged)));
+        let crack = Crack { run: self.run, half_space: self.half_space, constants: self.constants };
+        let cycle: Vec<LoadedSurface> = self.cycle.iter().map(|&n| self.surfaces[n].clone()).collect();
+        let mut fatigue = json!({ "increments": increments, "parameters": parameters });
+        if let Some(CrackAnswer { record, table, csv }) = crack.followed(&judged.at_surface, &cycle)? {
+            fatigue["crack"] = record;
+            finished.table += &table;
+            finished.files.extend(csv.map(|csv| ("crack.csv", csv)));
+        }
+        finished.fatigue = Some(fatigue);
+        let row =
+            |values: &Option<ndarray::Array2<f64>>| values.as_ref().map(|values| values.column(0).to_vec());
+        let whole = |(parameter, values): &(Parameter, Vec<Option<ndarray::Array2<f64>>>)| {
+            let values: Option<Vec<Vec<f64>>> = values.iter().map(row).collect();
+            Some((parameter.name().to_owned(), values?))
+        };
+        finished.pictures = judged.fields.iter().filter_map(whole).collect();
+        Ok(())
+    }
+
+    fn entry(&self, found: &MostSevere) -> Value {
+        let [x, y] = self.place(found.cell, found.off);
+        let mut entry = json!({
+            "largest": found.value, "x": x, "y": y, "depth": found.point.depth, "layer": found.point.layer,
+        });
+        if let Some(normal) = found.normal {
+            entry["normal"] = json!(normal);
+        }
+        for (name, value) in [("cycles", found.cycles), ("factor_of_safety", found.factor_of_safety)] {
+            if let Some(value) = value {
+                entry[name] = finite(value);
+            }
+        }
+        entry
+    }
+
+    fn line(&self, found: &MostSevere, table: &mut String) {
+        let [x, y] = self.place(found.cell, found.off);
+        let _ = write!(
+            table,
+            "  {:<20} {:<12} at x {:<12} y {:<12} depth {:<12}",
+            found.parameter.name().replace('_', " "),
+            figure(found.value),
+            figure(x),
+            figure(y),
+            figure(found.point.depth)
+        );
+        if let Some(cycles) = found.cycles {
+            let _ = write!(table, " cycles to initiation {}", worded(cycles));
+        }
+        if let Some(factor) = found.factor_of_safety {
+            let _ = write!(table, " factor of safety {}", worded(factor));
+        }
+        table.truncate(table.trim_end().len());
+        table.push('\n');
+    }
+
+    /// Lines of `fatigue.csv`: the largest value of every parameter in every layer.
+    fn by_layer(&self, judged: &Judged) -> String {
+        let mut text = "parameter,layer,largest,x,y,depth,cycles,factor_of_safety\n".to_owned();
+        for found in &judged.found {
+            let [x, y] = self.place(found.cell, found.off);
+            let optional = |value: Option<f64>| value.map_or(String::new(), |value| format!("{value:e}"));
+            let _ = writeln!(
+                text,
+                "{},{},{:e},{x:e},{y:e},{:e},{},{}",
+                found.parameter.name(),
+                found.point.layer,
+                found.value,
+                found.point.depth,
+                optional(found.cycles),
+                optional(found.factor_of_safety)
+            );
+        }
+        text
+    }
+
+    /// Channelling and delamination of the outermost coating.
+    fn coating(&mut self, finished: &mut Finished) {
+        let Some(film) = self.film.take() else { return };
+        let constants = constants_of(self.half_space, self.constants, 0);
+        let cracks = film.most_severe(&constants);
+        if cracks.is_empty() || material_of(self.half_space, 0).is_none() {
+            return;
+        }
+        let mut records = Vec::new();
+        for FilmCrack { stress, direction, surface, cell, released } in cracks {
+            let [x, y] = self.place(cell, [0.0; 2]);
+            let increment = self.surfaces[surface].increment;
+            let mut record = json!({
+                "stress": stress, "direction": direction, "increment": increment, "x": x, "y": y,
+                "channelling": released.channelling, "delamination": released.delamination, "phase": released.phase,
+            });
+            for (name, energy, toughness) in [
+                ("channelling_factor_of_safety", released.channelling, constants.fracture_energy),
+                ("delamination_factor_of_safety", Some(released.delamination), constants.interface_energy),
+            ] {
+                if let Some((energy, toughness)) = energy.zip(toughness) {
+                    record[name] = finite((toughness / energy).sqrt());
+                }
+            }
+            let sense = if stress > 0.0 { "tension" } else { "compression" };
+            let channelling = match released.channelling {
+                Some(energy) => figure(energy),
+                None => "not known: the coating's fatigue.channelling_factor".to_owned(),
+            };
+            let _ = writeln!(
+                finished.table,
+                "  coating, mean {sense:<11} {:<12} at x {:<12} y {:<12} energy released: channelling {channelling}, delamination {}",
+                figure(stress),
+                figure(x),
+                figure(y),
+                figure(released.delamination)
+            );
+            records.push(record);
+        }
+        finished.coating = Some(Value::Array(records));
     }
 }
 
-fn largest_of(values: &[Vec<f64>]) -> Option<(usize, usize)> {
-    let mut best: Option<(usize, usize)> = None;
-    for (point, row) in values.iter().enumerate() {
-        for (i, &value) in row.iter().enumerate() {
-            if best.is_none_or(|(p, c)| value > values[p][c]) {
-                best = Some((point, i));
-            }
-        }
-    }
-    best
+/// A number for a person, or the word for one beyond all bounds.
+fn worded(value: f64) -> String {
+    if value.is_finite() { figure(value) } else { "unlimited".to_owned() }
+}
+
+/// A number, or the word for one beyond all bounds.
+pub fn finite(value: f64) -> Value {
+    if value.is_finite() { json!(value) } else { json!("unlimited") }
 }

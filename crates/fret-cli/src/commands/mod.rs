@@ -1,9 +1,10 @@
 //! The verbs of `fret`, one file each, with what they need beside.
 
 pub mod check;
+mod crack;
 pub mod export;
 pub mod extremes;
-pub mod fatigue;
+mod fatigue;
 pub mod heat;
 pub mod identify;
 mod loaded_surfaces;

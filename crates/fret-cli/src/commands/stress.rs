@@ -88,7 +88,8 @@ fn computed(folder: &Path, run: &KeptRun, request: &StressRequest) -> Result<Ans
     };
     let place = folder.join("stress");
     fs::create_dir_all(&place).map_err(Unwritten::at(&place))?;
-    let mut tables = StressTables::new(run, request, half_space, &points, &surfaces);
+    let constants = run.fatigue_constants(request);
+    let mut tables = StressTables::new(run, request, (half_space, &constants), &points, &surfaces);
     let mut volume = if request.volume {
         let depths: Vec<f64> = points.iter().map(|point| point.depth).collect();
         let name = format!("volume-{:05}.vtr", surfaces.last().map_or(0, |surface| surface.increment));

@@ -5,11 +5,12 @@ use std::path::Path;
 
 use fret_core::case::{StressRequest, Units};
 use fret_core::model::{Base, HalfSpace};
+use fret_core::subsurface::fatigue::LayerConstants;
 use fret_core::subsurface::largest::look;
 use fret_core::subsurface::{DepthPoint, Largest, LoadedSurface, Measure, StressField};
 use serde_json::{Value, json};
 
-use super::fatigue::{Fatigue, Picture};
+use super::fatigue::{Fatigue, Finished, Picture};
 use crate::failure::Failure;
 use crate::figures::{counted, duration, figure};
 use crate::output::kept_run::KeptRun;
@@ -47,7 +48,7 @@ impl<'a> StressTables<'a> {
     pub fn new(
         run: &'a KeptRun,
         request: &'a StressRequest,
-        half_space: &'a HalfSpace,
+        (half_space, constants): (&'a HalfSpace, &'a LayerConstants),
         points: &'a [DepthPoint],
         surfaces: &'a [LoadedSurface],
     ) -> Self {
@@ -68,8 +69,8 @@ impl<'a> StressTables<'a> {
             .filter(|(_, surface)| (first..=last).contains(&surface.increment))
             .map(|(index, _)| index)
             .collect();
-        let fatigue = (run.cyclic && cycle.len() > 2)
-            .then(|| Fatigue::new(request.fatigue, half_space, points, surfaces, cycle, row));
+        let cycle = if run.cyclic { cycle } else { Vec::new() };
+        let fatigue = Some(Fatigue::new(run, half_space, constants, (points, surfaces), cycle, row));
         Self {
             run,
             request,
@@ -120,7 +121,6 @@ impl<'a> StressTables<'a> {
     }
 
     pub fn written(mut self, place: &Path, wall_s: f64) -> Result<Answer, Failure> {
-        let centres = [self.run.grid.centres(0), self.run.grid.centres(1)];
         let largest: Vec<Value> = self
             .largest
             .iter()
@@ -136,8 +136,8 @@ impl<'a> StressTables<'a> {
                 })
             })
             .collect();
-        let fatigue =
-            self.fatigue.take().map(|fatigue| fatigue.finished(&centres[0].to_vec(), &self.interfaces));
+        let Self { fatigue, .. } = &mut self;
+        let fatigue = fatigue.take().map_or_else(|| Ok(Finished::default()), Fatigue::finished)?;
         let record = json!({
             "status": "computed",
             "unfinished": self.run.unfinished,
@@ -147,13 +147,17 @@ impl<'a> StressTables<'a> {
             "depths": self.points.iter().map(|point| point.depth).collect::<Vec<_>>(),
             "layers": self.points.iter().map(|point| point.layer).collect::<Vec<_>>(),
             "largest": largest,
-            "fatigue": fatigue.as_ref().map(|fatigue| fatigue.record.clone()),
+            "fatigue": fatigue.fatigue,
+            "coating": fatigue.coating,
             "wall_s": wall_s,
         });
         write_whole(&place.join("stress.json"), format!("{record:#}\n").as_bytes())?;
         write_whole(&place.join("depths.csv"), self.by_depth.as_bytes())?;
-        self.draw(place, &centres[0].to_vec(), fatigue.as_ref().map(|fatigue| &fatigue.pictures[..]))?;
-        let table = self.table(place, fatigue.as_ref().map(|fatigue| fatigue.table.as_str()), wall_s);
+        for (name, content) in &fatigue.files {
+            write_whole(&place.join(name), content.as_bytes())?;
+        }
+        self.draw(place, &self.run.grid.centres(0).to_vec(), &fatigue.pictures)?;
+        let table = self.table(place, &fatigue.table, wall_s);
         Ok(Answer { record, table })
     }
 
@@ -169,7 +173,7 @@ impl<'a> StressTables<'a> {
 
     /// Sections of the increments (of many: of the last and of the one with the largest von Mises stress), and of what fatigue
     /// shows.
-    fn draw(&self, place: &Path, x: &[f64], fatigue: Option<&[Picture]>) -> Result<(), Failure> {
+    fn draw(&self, place: &Path, x: &[f64], fatigue: &[Picture]) -> Result<(), Failure> {
         let depths: Vec<f64> = self.points.iter().map(|point| point.depth).collect();
         if !depths.windows(2).all(|pair| pair[0] <= pair[1]) || depths.first() == depths.last() {
             return Ok(()); // no section without rising depths
@@ -200,7 +204,7 @@ impl<'a> StressTables<'a> {
             let name = format!("von_mises-{increment:05}.svg");
             write_whole(&place.join(name), section.svg()?.as_bytes())?;
         }
-        for (name, values) in fatigue.unwrap_or_default() {
+        for (name, values) in fatigue {
             let subject = format!("section at y = 0, last cycle, {} body", self.request.body.name());
             let section = Section {
                 title,
@@ -218,7 +222,7 @@ impl<'a> StressTables<'a> {
         Ok(())
     }
 
-    fn table(&self, place: &Path, fatigue: Option<&str>, wall_s: f64) -> String {
+    fn table(&self, place: &Path, fatigue: &str, wall_s: f64) -> String {
         let unfinished = self.run.unfinished.as_ref().map_or(String::new(), |why| format!("{why}\n"));
         let mut text = unfinished
             + &format!(
@@ -254,7 +258,7 @@ impl<'a> StressTables<'a> {
                 self.layer_name(found.point.layer)
             );
         }
-        if let Some(fatigue) = fatigue {
+        if !fatigue.is_empty() {
             let _ = write!(text, "\n{fatigue}");
         }
         let _ = write!(text, "\nwritten to {} in {}", place.display(), duration(wall_s));

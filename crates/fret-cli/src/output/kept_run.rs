@@ -8,6 +8,7 @@ use fret_core::case::{Side, StressRequest, Units};
 use fret_core::history::CycleRecord;
 use fret_core::model::{Conduction, ContactPair, ResidualStress, SurfaceGrid};
 use fret_core::subsurface::EvenStress;
+use fret_core::subsurface::fatigue::LayerConstants;
 use ndarray::Array2;
 use serde::de::DeserializeOwned;
 use serde_json::Value;
@@ -54,6 +55,8 @@ pub struct KeptRun {
     bulk_stress: [[Vec<f64>; 2]; 2],
     /// Residual stress of the lower and of the upper body.
     residual_stress: [ResidualStress; 2],
+    /// Constants for fatigue and fracture of the lower and of the upper body.
+    fatigue: [LayerConstants; 2],
     /// Why the run is not finished, in a sentence, when it is not.
     pub unfinished: Option<String>,
 }
@@ -100,6 +103,7 @@ impl KeptRun {
             conduction: part(&plan["case"]["conduction"]).unwrap_or_default(),
             cycles: HistoryTable::all_cycles(&folder.join(CYCLES)),
             residual_stress: part(&plan["case"]["residual_stress"]).unwrap_or_default(),
+            fatigue: part(&plan["case"]["fatigue"]).unwrap_or_default(),
             bulk_stress: ["bulk_stress", "upper_bulk_stress"]
                 .map(|name| ["x", "y"].map(|axis| table.column(&format!("{name}_{axis}")).to_vec())),
             unfinished: unfinished(&record, solved),
@@ -113,6 +117,11 @@ impl KeptRun {
         let at = |column: &Vec<f64>| column.get(increment).copied().unwrap_or(0.0);
         let [x, y] = &self.bulk_stress[place];
         EvenStress { bulk: [at(x), at(y)], residual: self.residual_stress[place].clone() }
+    }
+
+    /// Constants of the layers of the body that is asked about: their own, or else those of the request.
+    pub fn fatigue_constants(&self, request: &StressRequest) -> LayerConstants {
+        self.fatigue[usize::from(request.body == Side::Upper)].clone().or(request.fatigue)
     }
 
     /// A kept field of an increment; `None` when it was not kept.

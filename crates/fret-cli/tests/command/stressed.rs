@@ -54,16 +54,23 @@ fn a_case_with_a_stress_table_is_followed_by_stresses_and_fatigue() {
     bench.file("case.toml", &with_stress(table));
     let answer = bench.fret(&["run", "case.toml", "--out", "out"]);
     assert_eq!(answer.code, Some(0), "{}", answer.err);
-    for word in
-        ["von mises", "fatemi socie", "dang van", "crossland", "smith watson topper", "ruiz f1", "mean"]
-    {
+    for word in [
+        "von mises",
+        "fatemi socie",
+        "dang van",
+        "crossland",
+        "smith watson topper",
+        "ruiz f1",
+        "line method",
+    ] {
         assert!(answer.out.contains(word), "{word}: {}", answer.out);
     }
     let record: Value = serde_json::from_str(&bench.text("out/stress/stress.json")).unwrap();
     let parameters = &record["fatigue"]["parameters"];
     for name in ["smith_watson_topper", "fatemi_socie", "crossland", "dang_van"] {
         assert!(parameters[name]["largest"].as_f64().unwrap() > 0.0, "{name}");
-        assert!(parameters[name]["largest_mean"]["value"].as_f64().is_some(), "{name}");
+        let at = &parameters[name]["critical_distance"];
+        assert!(at["point"]["value"].as_f64().is_some() && at["line"]["value"].as_f64().is_some(), "{name}");
     }
     assert!(parameters["ruiz_f1"]["largest"].as_f64().unwrap() > 0.0);
     // every second kept increment, and the last

@@ -51,6 +51,8 @@ pub(super) fn case(
     let bodies = bodies(&mut judge, &file.upper, &file.lower);
     let residual_stress = [("lower", &file.lower), ("upper", &file.upper)]
         .map(|(which, body)| residual(&mut judge, which, body.get_ref()));
+    let fatigue = [("lower", &file.lower), ("upper", &file.upper)]
+        .map(|(which, body)| super::fatigue::fatigue(&mut judge, which, body.get_ref()));
     let profile = profile(&mut judge, &file, cells);
     let friction = friction(&mut judge, file.friction.as_ref(), cells);
     let changes = of_stages(&mut judge, file.load.get_ref(), cells);
@@ -116,6 +118,7 @@ pub(super) fn case(
             periodic,
             bodies,
             residual_stress,
+            fatigue,
             conduction,
             profile,
             friction,

@@ -11,6 +11,7 @@ use crate::model::{
     Conduction, ContactPair, CoulombFriction, Integration, LoadStep, Profile, ResidualStress, Rig, Scheme,
     WearRule,
 };
+use crate::subsurface::fatigue::LayerConstants;
 
 /// A case that has passed every check.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -34,6 +35,9 @@ pub struct Case {
     /// Residual stress of the lower and of the upper body.
     #[serde(skip_serializing_if = "are_none")]
     pub residual_stress: [ResidualStress; 2],
+    /// Constants for fatigue and fracture of the layers of the lower and of the upper body.
+    #[serde(skip_serializing_if = "have_no_constants")]
+    pub fatigue: [LayerConstants; 2],
     /// What the bodies conduct, and how often they rub.
     #[serde(skip_serializing_if = "Conduction::is_none")]
     pub conduction: Conduction,
@@ -68,6 +72,10 @@ pub struct Case {
 
 fn are_none(residual: &[ResidualStress; 2]) -> bool {
     residual.iter().all(ResidualStress::is_none)
+}
+
+fn have_no_constants(layers: &[LayerConstants; 2]) -> bool {
+    layers.iter().all(LayerConstants::is_none)
 }
 
 /// The text a case was read from, and where in it things stand.

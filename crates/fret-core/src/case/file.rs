@@ -11,6 +11,10 @@ use super::residual_file::{ResidualFile, ResidualSchema};
 use super::stage_file::{AutoWord, StageFile, WearFile};
 use super::surface_file::{FrictionFile, ProfileFile};
 use crate::model::{Integration, Scheme};
+use crate::subsurface::fatigue::FatigueConstants;
+
+/// Constants of a layer, each with its place.
+pub(super) type ConstantsFile = FatigueConstants<Spanned<f64>>;
 
 /// A fretting contact: bodies, first gap, friction, and a loading history. Any consistent system of units.
 #[derive(Deserialize, JsonSchema)]
@@ -251,6 +255,9 @@ pub(super) struct CoatingFile {
     /// face [length] and stress (one, or along x and y), linear between them. It adds to the stresses below, and to nothing else.
     #[schemars(with = "Option<ResidualSchema>")]
     pub residual_stress: Option<Spanned<ResidualFile>>,
+    /// Constants for fatigue and fracture. What has no constants is not computed; none is built in.
+    #[schemars(with = "Option<FatigueConstants>")]
+    pub fatigue: Option<Spanned<ConstantsFile>>,
     /// Thermal conductivity [power/(length temperature)], positive; of all layers of a body and its substrate, or of none.
     #[schemars(with = "Option<f64>")]
     pub thermal_conductivity: Option<Spanned<f64>>,
@@ -300,6 +307,9 @@ pub(super) struct MaterialFile {
     /// Residual stress, as of a coating; below the last row of a table it stays as it is there.
     #[schemars(with = "Option<ResidualSchema>")]
     pub residual_stress: Option<Spanned<ResidualFile>>,
+    /// Constants for fatigue and fracture. What has no constants is not computed; none is built in.
+    #[schemars(with = "Option<FatigueConstants>")]
+    pub fatigue: Option<Spanned<ConstantsFile>>,
     /// Thermal conductivity [power/(length temperature)], positive; of all layers of a body and its substrate, or of none.
     #[schemars(with = "Option<f64>")]
     pub thermal_conductivity: Option<Spanned<f64>>,
@@ -341,7 +351,7 @@ pub(super) struct OutputFile {
     pub every: Option<Spanned<usize>>,
 }
 
-/// Subsurface stresses of one body, and the constants of the fatigue parameters.
+/// Subsurface stresses of one body, and constants of the fatigue parameters for those of its layers that name none of their own.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(super) struct StressFile {
@@ -368,8 +378,8 @@ pub(super) struct StressFile {
     /// Weight of the normal stress in Fatemi and Socie's parameter [-]. Default: 1.
     #[schemars(with = "Option<f64>")]
     pub normal_stress_sensitivity: Option<Spanned<f64>>,
-    /// Length from the surface down over which fatigue parameters are averaged [length]. For the line method of the theory of
-    /// critical distances enter 2 L.
+    /// Critical distance L [length]: fatigue parameters are also told at the depth L/2 (point method) and as means from the surface
+    /// down to 2 L (line method).
     #[schemars(with = "Option<f64>")]
     pub critical_distance: Option<Spanned<f64>>,
 }

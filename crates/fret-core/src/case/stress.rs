@@ -8,7 +8,7 @@ use super::judge::Judge;
 use super::output::Output;
 use crate::model::{Body, ContactPair};
 use crate::subsurface::depth_points;
-use crate::subsurface::fatigue::Endurance;
+use crate::subsurface::fatigue::FatigueConstants;
 
 /// What is asked about stresses under the surface.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -21,27 +21,20 @@ pub struct StressRequest {
     pub every: usize,
     /// Whether volumes are written.
     pub volume: bool,
-    /// What fatigue is judged by.
-    pub fatigue: FatigueRequest,
+    /// Constants for fatigue of the layers that have none of their own.
+    pub fatigue: FatigueConstants,
 }
 
 impl Default for StressRequest {
     fn default() -> Self {
-        Self { depths: None, body: Side::Lower, every: 1, volume: false, fatigue: FatigueRequest::default() }
+        Self {
+            depths: None,
+            body: Side::Lower,
+            every: 1,
+            volume: false,
+            fatigue: FatigueConstants::default(),
+        }
     }
-}
-
-/// Constants of the material for fatigue; parameters without their constants are left out.
-#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
-pub struct FatigueRequest {
-    /// Fatigue limits, for Crossland and Dang Van.
-    pub endurance: Option<Endurance>,
-    /// Yield strength [pressure], for Fatemi and Socie.
-    pub yield_strength: Option<f64>,
-    /// Weight k of the normal stress in Fatemi and Socie's parameter [-].
-    pub normal_stress_sensitivity: f64,
-    /// Distance over which parameters are averaged from the surface down [length].
-    pub critical_distance: Option<f64>,
 }
 
 /// One of the two bodies.
@@ -106,9 +99,9 @@ pub(super) fn stress(
         );
     }
     let sensitivity = match &file.normal_stress_sensitivity {
-        None => 1.0,
-        Some(given) if given.get_ref().is_finite() && *given.get_ref() >= 0.0 => *given.get_ref(),
-        Some(given) => judge.refuse::<f64>(
+        None => None,
+        Some(given) if given.get_ref().is_finite() && *given.get_ref() >= 0.0 => Some(*given.get_ref()),
+        Some(given) => judge.refuse::<Option<f64>>(
             given.span(),
             format!("stress.normal_stress_sensitivity = {:?}: must be zero or positive", given.get_ref()),
             "0.3 to 1 for most metals",
@@ -165,12 +158,13 @@ pub(super) fn stress(
             );
         }
     }
-    let endurance = torsion.zip(tension).map(|(torsion, tension)| Endurance { torsion, tension });
-    let fatigue = FatigueRequest {
-        endurance,
+    let fatigue = FatigueConstants {
         yield_strength,
         normal_stress_sensitivity: sensitivity,
+        torsion_limit: torsion,
+        tension_limit: tension,
         critical_distance,
+        ..FatigueConstants::default()
     };
     Some(StressRequest { depths, body, every, volume: file.volume.unwrap_or(false), fatigue })
 }

@@ -13,6 +13,8 @@ pub const PLANNING: usize = 48;
 const WEAR: usize = 50;
 /// Bytes a cell of the tractions and slips of an increment whose stresses are looked at.
 const TRACTIONS: usize = 5 * 8;
+/// Bytes a cell of what fatigue and the fracture of a coating collect of an increment: the stress at the depth at work, sums over depths.
+const COLLECTED: usize = 12 * 8;
 /// Bytes a cell of the depth at work: kernels of all components, their transforms, the stress.
 const DEPTH: usize = 620;
 /// Bytes a cell of heights or of a friction map: as they are held, and in the gap.
@@ -52,7 +54,7 @@ pub fn of_run(case: &Case, grid: &SurfaceGrid, coupling: Coupling, symmetry: Sym
 
 /// Memory to compute stresses under the surface from the tractions of so many increments [bytes], one depth after the other.
 pub fn of_stress(cells: usize, increments: usize) -> usize {
-    cells.saturating_mul(TRACTIONS.saturating_mul(increments).saturating_add(DEPTH))
+    cells.saturating_mul((TRACTIONS + COLLECTED).saturating_mul(increments).saturating_add(DEPTH))
 }
 
 /// Bytes of all fields that a case keeps: on disk, or in memory where the history holds them.

@@ -43,6 +43,16 @@ impl Measure {
         }
     }
 
+    /// What it cannot exceed, without principal stresses [pressure].
+    fn bound(self, stress: &StressTensor) -> f64 {
+        let bound = match self {
+            Self::Tresca => 2.0 / 3.0_f64.sqrt() * stress.von_mises(),
+            Self::Tension => stress.hydrostatic() + 2.0 / 3.0 * stress.von_mises(),
+            _ => return f64::INFINITY,
+        };
+        bound + 1e-9 * bound.abs() // rounding
+    }
+
     /// Whether it has its meaning at interfaces alone.
     pub fn at_interfaces_only(self) -> bool {
         matches!(self, Self::InterfaceShear | Self::Peel)
@@ -97,7 +107,11 @@ pub fn look(
         let shape = field.components[0].dim();
         for i in 0..shape.0 {
             for j in 0..shape.1 {
-                let value = measure.of(&field.at(i, j));
+                let stress = field.at(i, j);
+                if best.is_some_and(|(most, ..)| measure.bound(&stress) <= most) {
+                    continue;
+                }
+                let value = measure.of(&stress);
                 if best.is_none_or(|(most, ..)| value > most) {
                     best = Some((value, [i, j], [0.0; 2]));
                 }
@@ -123,7 +137,7 @@ pub fn look(
 }
 
 /// Values at the rims of all lines of cells along x and y, each with its cell and its place from there [cells].
-fn along_lines(values: &Array2<f64>, pressure: &Array2<f64>) -> Vec<(f64, [usize; 2], [f64; 2])> {
+pub(super) fn along_lines(values: &Array2<f64>, pressure: &Array2<f64>) -> Vec<(f64, [usize; 2], [f64; 2])> {
     let mut found = Vec::new();
     for axis in 0..2 {
         let lines = |field: &Array2<f64>| -> Vec<Vec<f64>> {

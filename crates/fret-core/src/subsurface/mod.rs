@@ -6,13 +6,17 @@
 
 pub mod coating_fracture;
 pub mod crack;
+pub mod crack_path;
+pub mod critical_distance;
 pub mod depths;
 pub mod edge_crack;
 pub mod even;
 pub mod fatigue;
+pub mod film_stress;
 pub mod largest;
 pub mod operator;
 pub mod rim;
+pub mod severity;
 pub mod survey;
 pub mod tensor;
 
@@ -20,5 +24,6 @@ pub use depths::{DepthError, DepthPoint, automatic_depths, depth_points};
 pub use even::EvenStress;
 pub use largest::{Largest, Measure};
 pub use operator::{DepthOperator, Tractions};
+pub use severity::{Judged, MostSevere, Severity};
 pub use survey::{LoadedSurface, survey};
 pub use tensor::{Principal, StressField, StressTensor};

@@ -9,6 +9,7 @@ use serde_json::Value;
 
 use crate::drawing::chart::{Chart, Curve};
 use crate::failure::Failure;
+use crate::figures::figure;
 use crate::output::{kind_of_stress, stress_called};
 use crate::report::html::{chapter, figure_of, side_by_side, table};
 use crate::report::overview::Overview;
@@ -53,7 +54,9 @@ pub fn stress(view: &Overview<'_>) -> Result<Markup, Failure> {
                 number(&found["largest"], kind_of_stress(name)),
                 number(&found["x"], "length"),
                 number(&found["depth"], "length"),
-                number(&found["largest_mean"]["value"], kind_of_stress(name)),
+                number(&found["critical_distance"]["line"]["value"], kind_of_stress(name)),
+                plain(&found["cycles"]),
+                plain(&found["factor_of_safety"]),
             ]
         })
         .collect();
@@ -65,12 +68,39 @@ pub fn stress(view: &Overview<'_>) -> Result<Markup, Failure> {
         p { "In the " (record["body"].as_str().unwrap_or_default()) " body, from the kept tractions. Maxima over all increments and depths:" }
         (table(&["", "maximum", "increment", "x", "y", "depth", "in"], &largest))
         @if !fatigue.is_empty() {
-            p class="after" { "Fatigue parameters over the last cycle, on the section nearest to y = 0:" }
-            (table(&["", "maximum", "x", "depth", "mean over the critical distance"], &fatigue))
+            p class="after" { "Fatigue parameters over the last cycle, under all cells:" }
+            (table(&["", "maximum", "x", "depth", "by the line method", "cycles to initiation", "factor of safety"], &fatigue))
+        }
+        @if let Some(sentence) = crack_of(&record) {
+            p { (sentence) }
         }
         (side_by_side(&figures))
     };
     Ok(chapter("Stress below the surface", &body))
+}
+
+/// A number without a unit, or a word in its place; nothing where there is none.
+fn plain(value: &Value) -> String {
+    value.as_f64().map_or_else(|| value.as_str().unwrap_or_default().to_owned(), figure)
+}
+
+/// What becomes of the short crack, in a sentence.
+fn crack_of(record: &Value) -> Option<String> {
+    let crack = &record["fatigue"]["crack"];
+    let length = plain(&crack["length"]);
+    let becomes = match crack["fate"].as_str()? {
+        "none" => {
+            return Some(format!("No crack was followed: {}.", crack["reason"].as_str().unwrap_or_default()));
+        }
+        "does_not_grow" => format!("does not grow from its length of {length}"),
+        "stops" => format!("stops at a length of {length}"),
+        "fractures" => format!("reaches the toughness at a length of {length}"),
+        _ => format!("grows to a length of {length}"),
+    };
+    let [x, angle] = ["x", "angle"].map(|name| plain(&crack[name]));
+    let cycles =
+        crack["cycles"].as_f64().map_or(String::new(), |cycles| format!(" after {} cycles", figure(cycles)));
+    Some(format!("A crack from x = {x}, {angle} degrees from the normal of the surface, {becomes}{cycles}."))
 }
 
 /// Von Mises stress over the depth, largest at each, in the increment where it is largest of all.

@@ -1,5 +1,7 @@
 //! Criteria on the critical plane: the plane on which the parameter is largest.
 
+use std::sync::LazyLock;
+
 use serde::Serialize;
 
 use crate::model::ElasticMaterial;
@@ -20,6 +22,12 @@ pub struct CriticalPlane {
 /// Source: Smith, Watson & Topper (1970), *J. Materials* 5, 767; on the critical plane Szolwinski & Farris (1996), *Wear* 198, 93.
 pub fn smith_watson_topper(cycle: &[StressTensor], material: &ElasticMaterial) -> CriticalPlane {
     let (nu, per_young) = (material.poisson(), 1.0 / material.young());
+    if cycle.iter().all(|stress| stress.hydrostatic() + 2.0 / 3.0 * stress.von_mises() <= 0.0) {
+        return CriticalPlane { value: 0.0, normal: [0.0, 0.0, 1.0] }; // no principal stress is tensile
+    }
+    // a free surface has no stress across it but for rounding, which is no tension
+    let rounding =
+        1e-12 * cycle.iter().flat_map(|stress| stress.0).fold(0.0, |most, part| part.abs().max(most));
     largest_over_planes(|n, _| {
         let (mut least, mut most, mut stress_most) = (f64::INFINITY, f64::NEG_INFINITY, 0.0_f64);
         for stress in cycle {
@@ -29,7 +37,7 @@ pub fn smith_watson_topper(cycle: &[StressTensor], material: &ElasticMaterial) -
             most = most.max(strain);
             stress_most = stress_most.max(normal);
         }
-        stress_most * 0.5 * (most - least)
+        if stress_most > rounding { stress_most * 0.5 * (most - least) } else { 0.0 }
     })
 }
 
@@ -82,52 +90,62 @@ fn normal_stress(stress: &StressTensor, n: [f64; 3]) -> f64 {
     traction[0] * n[0] + traction[1] * n[1] + traction[2] * n[2]
 }
 
+/// Normals over half the sphere, every ten degrees.
+static COARSE: LazyLock<Vec<[f64; 3]>> = LazyLock::new(|| {
+    const STEP: f64 = 10.0;
+    let mut normals = Vec::new();
+    for ring in 0..=9 {
+        let polar = (f64::from(ring) * STEP).to_radians();
+        let turns = (360.0 / STEP * polar.sin()).ceil().max(1.0) as i32;
+        let (turns, span) = if ring == 9 { (turns / 2, 180.0_f64) } else { (turns, 360.0) };
+        for turn in 0..turns {
+            let turn = (span * f64::from(turn) / f64::from(turns)).to_radians();
+            normals.push([polar.sin() * turn.cos(), polar.sin() * turn.sin(), polar.cos()]);
+        }
+    }
+    normals
+});
+
 /// Largest value over the half sphere of normals: every ten degrees, then closer and closer around the best to a thousandth of
 /// a degree. The parameter may return minus infinity where it cannot reach the second argument, the best so far.
 fn largest_over_planes(mut parameter: impl FnMut([f64; 3], f64) -> f64) -> CriticalPlane {
-    const COARSE: f64 = 10.0;
-    let normal = |polar: f64, turn: f64| {
-        let (polar, turn) = (polar.to_radians(), turn.to_radians());
-        [polar.sin() * turn.cos(), polar.sin() * turn.sin(), polar.cos()]
-    };
-    let mut best = (f64::NEG_INFINITY, [0.0, 0.0]);
-    let mut consider = |angles: [f64; 2], best: &mut (f64, [f64; 2])| {
-        let value = parameter(normal(angles[0], angles[1]), best.0);
+    let mut best = (f64::NEG_INFINITY, [0.0, 0.0, 1.0]);
+    for &normal in COARSE.iter() {
+        let value = parameter(normal, best.0);
         if value > best.0 {
-            *best = (value, angles);
-        }
-    };
-    for ring in 0..=9 {
-        let polar = f64::from(ring) * COARSE;
-        let turns = (360.0 / COARSE * polar.to_radians().sin()).ceil().max(1.0) as i32;
-        let turns = if ring == 9 { turns / 2 } else { turns };
-        for turn in 0..turns {
-            let span = if ring == 9 { 180.0 } else { 360.0 };
-            consider([polar, span * f64::from(turn) / f64::from(turns)], &mut best);
+            best = (value, normal);
         }
     }
-    let mut step = 0.5 * COARSE;
-    while step > 1e-3 {
-        let [polar, turn] = best.1;
-        let sine = polar.to_radians().sin().abs().max(0.05);
-        let before = best.0;
-        for (a, b) in [
-            (1.0, 0.0),
-            (-1.0, 0.0),
-            (0.0, 1.0),
-            (0.0, -1.0),
-            (0.7, 0.7),
-            (0.7, -0.7),
-            (-0.7, 0.7),
-            (-0.7, -0.7),
-        ] {
-            consider([polar + a * step, turn + b * step / sine], &mut best);
+    let mut step = 5.0_f64.to_radians();
+    while step > 1e-3_f64.to_radians() {
+        let (centre, before) = (best.1, best.0);
+        let [one, other] = tangents(centre);
+        for (a, b) in DIRECTIONS {
+            let moved: [f64; 3] =
+                std::array::from_fn(|axis| centre[axis] + step * (a * one[axis] + b * other[axis]));
+            let length = moved.iter().map(|part| part * part).sum::<f64>().sqrt();
+            let normal = moved.map(|part| part / length);
+            let value = parameter(normal, best.0);
+            if value > best.0 {
+                best = (value, normal);
+            }
         }
         if best.0 == before {
             step *= 0.5;
         }
     }
-    CriticalPlane { value: best.0, normal: normal(best.1[0], best.1[1]) }
+    CriticalPlane { value: best.0, normal: best.1 }
+}
+
+/// Where a better normal is looked for around the best.
+const DIRECTIONS: [(f64, f64); 8] =
+    [(1.0, 0.0), (-1.0, 0.0), (0.0, 1.0), (0.0, -1.0), (0.7, 0.7), (0.7, -0.7), (-0.7, 0.7), (-0.7, -0.7)];
+
+/// Two unit vectors at right angles to a normal and to each other; those along and across its meridian.
+fn tangents([x, y, z]: [f64; 3]) -> [[f64; 3]; 2] {
+    let flat = x.hypot(y);
+    let [c, s] = if flat > 1e-9 { [x / flat, y / flat] } else { [1.0, 0.0] };
+    [[z * c, z * s, -flat], [-s, c, 0.0]]
 }
 
 #[cfg(test)]
@@ -175,6 +193,12 @@ mod tests {
         for (found, exact) in found.into_iter().zip(expected) {
             assert!((found - exact).abs() < 1e-7 * exact, "{found} {exact}");
         }
+    }
+
+    #[test]
+    fn the_rounding_of_a_free_surface_is_no_tension() {
+        let pressed = |across: f64| StressTensor([-2e9, -1e9, across, 0.0, 0.0, 0.0]);
+        assert_eq!(smith_watson_topper(&[pressed(-3e8), pressed(1e-7)], &steel()).value, 0.0);
     }
 
     #[test]

@@ -26,7 +26,7 @@ mod tests {
 
     /// Stress under a Hertz line contact of half-width 1 and pressure 1 at `(x, z)`, plane strain, without friction.
     ///
-    /// Source: McEwen (1949), in Johnson (1985), *Contact Mechanics*, eq. 4.49.
+    /// Source: `McEwen` (1949), in Johnson (1985), *Contact Mechanics*, eq. 4.49.
     fn under_hertz_line(x: f64, z: f64, poisson: f64) -> StressTensor {
         let s = 1.0 - x * x + z * z;
         let root = (s * s + 4.0 * x * x * z * z).sqrt();

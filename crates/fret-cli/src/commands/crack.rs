@@ -1,0 +1,102 @@
+//! A short crack from the most severe place of the surface, through the last cycle.
+
+use std::fmt::Write as _;
+
+use fret_core::model::HalfSpace;
+use fret_core::subsurface::crack::{CrackCourse, CrackFate, crack_course};
+use fret_core::subsurface::crack_path::{CrackStart, NoCrack, crack_path};
+use fret_core::subsurface::fatigue::{LayerConstants, Parameter};
+use fret_core::subsurface::severity::constants_of;
+use fret_core::subsurface::{LoadedSurface, MostSevere};
+use serde_json::{Value, json};
+
+use crate::failure::Failure;
+use crate::figures::figure;
+use crate::interrupt;
+use crate::output::kept_run::KeptRun;
+
+/// Where the crack runs.
+pub struct Crack<'a> {
+    pub run: &'a KeptRun,
+    pub half_space: &'a HalfSpace,
+    pub constants: &'a LayerConstants,
+}
+
+/// What is told of it.
+pub struct CrackAnswer {
+    pub record: Value,
+    pub table: String,
+    /// `crack.csv`, where it was followed.
+    pub csv: Option<String>,
+}
+
+impl Crack<'_> {
+    /// The crack's course; nothing where the outermost layer has no constants of cracks, or the surface is not among the depths.
+    pub fn followed(
+        &self,
+        at_surface: &[MostSevere],
+        cycle: &[LoadedSurface],
+    ) -> Result<Option<CrackAnswer>, Failure> {
+        let Some(constants) = constants_of(self.half_space, self.constants, 0).crack else { return Ok(None) };
+        let severe = at_surface.iter().find(|found| found.parameter == Parameter::SmithWatsonTopper);
+        let Some(severe) = severe else { return Ok(None) };
+        let grid = &self.run.grid;
+        let followed = CrackStart::of(severe, grid.is_line()).and_then(|start| {
+            let setting = (grid, self.run.periodic);
+            let goes_on = || !interrupt::is_asked();
+            let path = crack_path(self.half_space, setting, &start, constants.final_length, cycle, goes_on)?;
+            let course =
+                crack_course(&path, &constants).ok_or(NoCrack::TooInclined(start.angle.to_degrees()))?;
+            Ok((start, course))
+        });
+        Ok(Some(match followed {
+            Ok((start, course)) => self.answer(&start, &course),
+            Err(NoCrack::Kernel(error)) => return Err(Failure::Defect(format!("stress kernels: {error}"))),
+            Err(NoCrack::Stopped) => {
+                return Err(Failure::Interrupted(
+                    "the stresses are not finished and nothing is written".to_owned(),
+                ));
+            }
+            Err(why) => CrackAnswer {
+                record: json!({ "fate": "none", "reason": why.to_string() }),
+                table: format!("  crack: none: {why}\n"),
+                csv: None,
+            },
+        }))
+    }
+
+    fn answer(&self, start: &CrackStart, course: &CrackCourse) -> CrackAnswer {
+        let grid = &self.run.grid;
+        let [x, y] = [0, 1].map(|axis| grid.centre(axis, 0) + start.place[axis] * grid.spacing()[axis]);
+        let degrees = start.angle.to_degrees();
+        let record = json!({
+            "fate": course.fate, "x": x, "y": y, "angle": degrees, "towards": start.horizontal,
+            "length": course.length, "cycles": course.cycles,
+        });
+        let length = figure(course.length);
+        let end = match course.fate {
+            CrackFate::DoesNotGrow => format!("does not grow: below the threshold at {length}"),
+            CrackFate::Stops => format!("stops at length {length}"),
+            CrackFate::Grows => format!("grows to {length}"),
+            CrackFate::Fractures => format!("reaches the toughness at {length}"),
+        };
+        let cycles =
+            course.cycles.map_or(String::new(), |cycles| format!(" after {} cycles", figure(cycles)));
+        let table = format!(
+            "  crack from x {} y {}, {} degrees from the normal: {end}{cycles}\n",
+            figure(x),
+            figure(y),
+            figure(degrees)
+        );
+        let mut csv = "length,k1_max,k1_range,k2_range,threshold,cycles\n".to_owned();
+        for at in &course.lengths {
+            let cycles = at.cycles.map_or(String::new(), |cycles| format!("{cycles:e}"));
+            let _ = writeln!(
+                csv,
+                "{:e},{:e},{:e},{:e},{:e},{cycles}",
+                at.length, at.largest, at.range, at.sliding_range, at.threshold
+            );
+        }
+        CrackAnswer { record, table, csv: Some(csv) }
+    }
+}

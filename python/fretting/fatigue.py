@@ -1,0 +1,153 @@
+"""Fatigue of a history over a cycle: parameters under all cells, and a short crack, as Datasets."""
+
+import json
+from typing import TYPE_CHECKING, Any, Literal
+
+import numpy as np
+import numpy.typing as npt
+
+from fretting import _core, _dataset
+from fretting._meaning import described
+from fretting.stress import bulk_stress, coordinates, frictionless, is_upper, on_grid, points
+
+if TYPE_CHECKING:
+    import xarray
+
+    from fretting.case_types import FatigueConstants
+    from fretting.history import History
+
+PARAMETERS = {
+    "smith_watson_topper": "Smith-Watson-Topper parameter, largest of all planes [pressure]",
+    "fatemi_socie": "Fatemi-Socie parameter, largest of all planes [-]",
+    "crossland": "Crossland criterion: below 1, unlimited life [-]",
+    "dang_van": "Dang Van criterion: below 1, unlimited life [-]",
+    "shakedown_strength": "smallest yield strength for elastic shakedown [pressure]",
+    "ruiz_f1": "Ruiz parameter F1 [pressure x length]",
+    "ruiz_f2": "Ruiz parameter F2 [pressure^2 x length]",
+    "smith_watson_topper_cycles": "cycles to initiation by Smith-Watson-Topper; inf: above 1e18",
+    "fatemi_socie_cycles": "cycles to initiation by Fatemi-Socie; inf: above 1e18",
+}
+LENGTHS = {
+    "k1_max": ("largest", "largest stress intensity K_I of the cycle [pressure x sqrt(length)]"),
+    "k1_range": ("range", "range of K_I while the crack is open [pressure x sqrt(length)]"),
+    "k2_range": ("sliding_range", "range of K_II [pressure x sqrt(length)]"),
+    "threshold": ("threshold", "threshold of a crack of this length [pressure x sqrt(length)]"),
+}
+
+
+def fatigue(
+    history: "History",
+    depths: npt.ArrayLike,
+    cycle: int,
+    body: Literal["lower", "upper"],
+    constants: "FatigueConstants | None",
+    threads: int | None,
+) -> "xarray.Dataset":
+    """Return fatigue parameters: see :meth:`fretting.History.fatigue`."""
+    module = _dataset.module("fatigue")
+    chosen, arguments = _cycle(history, cycle, body)
+    answer = _core.fatigue(*arguments, points(depths), _constants(history, constants), threads)
+    across = ("x",) if history.is_line else ("y", "x")
+    order = (0, 1) if history.is_line else (0, 2, 1)
+
+    def oriented(values: npt.NDArray[Any]) -> npt.NDArray[Any]:
+        if values.ndim == 2:  # at the surface
+            return values.reshape(history.shape).transpose()
+        return values.reshape(len(values), *history.shape).transpose(order)
+
+    variables = {
+        name: (
+            ("depth", *across) if values.ndim == 3 else across,
+            oriented(values),
+            described(PARAMETERS[name], history._units),
+        )
+        for name, values in answer.items()
+        if name not in ("depth", "layer")
+    }
+    attributes = {"body": body, "increments": chosen}
+    dataset: xarray.Dataset = module.Dataset(variables, coords=coordinates(history, answer), attrs=attributes)
+    return dataset
+
+
+def crack(
+    history: "History",
+    cycle: int,
+    body: Literal["lower", "upper"],
+    constants: "FatigueConstants | None",
+    threads: int | None,
+) -> "xarray.Dataset":
+    """Return the course of a short crack: see :meth:`fretting.History.crack`."""
+    module = _dataset.module("crack")
+    chosen, arguments = _cycle(history, cycle, body)
+    told = json.loads(_core.crack(*arguments, _constants(history, constants), threads))
+    attributes: dict[str, Any] = {"body": body, "increments": chosen}
+    dataset: xarray.Dataset
+    if "reason" in told:
+        dataset = module.Dataset(attrs={**attributes, "fate": "none", "reason": told["reason"]})
+        return dataset
+    course = told["course"]
+    centres = (history.x, history.y)
+    x, y = (
+        float(centres[axis][0]) + told["place"][axis] * history._spacing[axis] if len(centres[axis]) > 1 else 0.0
+        for axis in range(2)
+    )
+    attributes |= {"fate": course["fate"], "x": x, "y": y, "angle": told["angle"], "towards": told["towards"]}
+    attributes["length"] = course["length"]
+    if course["cycles"] is not None:
+        attributes["cycles"] = course["cycles"]
+    lengths = course["lengths"]
+
+    def column(key: str) -> npt.NDArray[np.float64]:
+        return np.array([np.inf if at[key] is None else at[key] for at in lengths], dtype=float)
+
+    variables = {
+        name: (("length",), column(key), described(words, history._units)) for name, (key, words) in LENGTHS.items()
+    }
+    if any(at["cycles"] is not None for at in lengths):
+        words = "cycles from the initial length on; inf: never reached"
+        variables["cycles"] = (("length",), column("cycles"), {"long_name": words})
+    length = ("length", column("length"), described("length of the crack [length]", history._units))
+    dataset = module.Dataset(variables, coords={"length": length}, attrs=attributes)
+    return dataset
+
+
+def _cycle(history: "History", cycle: int, body: Literal["lower", "upper"]) -> tuple[list[int], tuple[Any, Any, Any]]:
+    """Return the kept increments of a cycle, and bodies, setting and loading for the core."""
+    count = len(history.cycles["cycle"])
+    if not -count <= cycle < count:
+        raise IndexError(f"cycle {cycle}: the history has {count} computed cycles, counted from 0")
+    first, last = (int(history.cycles[name][cycle]) for name in ("first_increment", "last_increment"))
+    chosen = [number for number in history.kept_increments if first - 1 <= number <= last]
+    if len(chosen) < 3:
+        raise ValueError(
+            f"fields of {len(chosen)} increments of the cycle are kept: three are needed ([output] every = ... keeps more)"
+        )
+    increments = [(*_fields(history, number), bulk_stress(history, number, body)) for number in chosen]
+    setting = history._spacing, history._periodic
+    return chosen, ((history._bodies, is_upper(body)), setting, (increments, history._residual_stress))
+
+
+_Pair = tuple[npt.NDArray[np.float64], npt.NDArray[np.float64]]
+
+
+def _fields(history: "History", number: int) -> tuple[npt.NDArray[np.float64], _Pair | None, _Pair | None]:
+    """Return pressure, shear and slip of an increment; None for what is not kept."""
+    kept = history._kept.kept_fields(number)
+
+    def vector(name: Literal["shear", "slip"]) -> _Pair | None:
+        if f"{name}_x" not in kept:
+            return None
+        x, y = (on_grid(history, part) for part in history.field(name, number))
+        return x, y
+
+    shear = None if frictionless(history) else vector("shear")
+    if shear is None and not frictionless(history):
+        history.field("shear_x", number)  # refuses
+    return on_grid(history, history.field("pressure", number)), shear, vector("slip")
+
+
+def _constants(history: "History", given: "FatigueConstants | None") -> str:
+    """Return the constants as the core reads them: those given, or else those of the case."""
+    case = history.plan["case"]
+    stress = (case.get("stress") or {}).get("fatigue")
+    return json.dumps({"case": case.get("fatigue"), "stress": stress, "given": given})

@@ -1,0 +1,109 @@
+"""Stress, fatigue and a crack under a line contact with bulk and residual stress, against closed forms."""
+
+import json
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+import pytest
+
+import fretting
+
+pytest.importorskip("xarray")
+
+YOUNG, POISSON = 74e9, 0.33
+STRENGTH = {"strength_coefficient": 714e6, "strength_exponent": -0.078, "ductility_coefficient": 0.166, "ductility_exponent": -0.538}
+CRACK = {"threshold": 1e6, "short_crack_length": 90e-6, "initial_length": 20e-6, "final_length": 0.2e-3}
+
+
+def line_case(line_force: float, bulk: float) -> dict[str, Any]:
+    """Return a frictionless cylinder on a flat that is pulled back and forth, with a residual stress of (-50, 20) MPa."""
+    substrate = {"young": YOUNG, "poisson": POISSON}
+    return {
+        "grid": {"cells": 512, "size": 0.96e-3},
+        "upper": {"substrate": substrate},
+        "lower": {"substrate": {**substrate, "residual_stress": [-50e6, 20e6]}},
+        "profile": {"cylinder": {"radius": 50e-3, "axis": "y"}},
+        "load": [
+            {"normal_force": line_force, "increments": 1},
+            {"bulk_stress": bulk, "cycles": 1, "increments": 8},
+        ],
+        "output": {"every": 1},
+    }
+
+
+def under_hertz_line(x: npt.NDArray[Any], z: float) -> dict[str, npt.NDArray[Any]]:
+    """Return the stress under a Hertz line contact of half-width 1 and pressure 1: McEwen 1949; Johnson 1985, eq. 4.49."""
+    s = 1 - x**2 + z**2
+    root = np.sqrt(s**2 + 4 * x**2 * z**2)
+    m, n = np.sqrt((root + s) / 2), np.sign(x) * np.sqrt(np.maximum(root - s, 0) / 2)
+    share = (z**2 + n**2) / (m**2 + n**2)
+    return {
+        "xx": -(m * (1 + share) - 2 * z),
+        "zz": -m * (1 - share),
+        "xz": -n * (m**2 - z**2) / (m**2 + n**2),
+    }
+
+
+def test_stress_with_bulk_and_residual_stress_is_the_sum_of_the_closed_forms() -> None:
+    """Johnson's stress below a cylinder, the bulk in plane strain and the residual stress add: at the peak of the pull, at depths."""
+    history = fretting.run(line_case(9.327e4, 92.7e6))
+    hertz = fretting.analytic.hertz_line(radius=50e-3, line_force=9.327e4, modulus=YOUNG / (2 * (1 - POISSON**2)))
+    a, p0 = hertz.half_width, hertz.max_pressure
+    peak = int(np.argmax(history.increments["bulk_stress_x"]))
+    assert history.increments["bulk_stress_x"][peak] == pytest.approx(92.7e6)
+    for depth in (0.3, 0.78, 2.0):
+        stress = history.subsurface([depth * a], increment=peak)
+        exact = under_hertz_line(history.x / a, depth)
+        exact["yy"] = POISSON * (exact["xx"] + exact["zz"])
+        even = {"xx": 92.7e6 - 50e6, "yy": POISSON * 92.7e6 + 20e6, "zz": 0.0, "xz": 0.0}
+        for name, part in even.items():
+            error = np.abs(stress[name].values[0] - (p0 * exact[name] + part)).max()
+            assert error < 2e-4 * p0, (name, depth)  # 200 cells in the half-width: the pressure is good to 1e-4
+
+
+def test_smith_watson_topper_of_the_cycle_is_that_of_the_closed_form() -> None:
+    """The contact stands still while the bulk stress swings: the parameter over all planes by a fine table in Python."""
+    history = fretting.run(line_case(9.327e4, 92.7e6))
+    hertz = fretting.analytic.hertz_line(radius=50e-3, line_force=9.327e4, modulus=YOUNG / (2 * (1 - POISSON**2)))
+    a, p0, depth = hertz.half_width, hertz.max_pressure, 1.5
+    found = history.fatigue([depth * a], constants={"strain_life": STRENGTH})
+    exact = under_hertz_line(history.x / a, depth)
+    angle = np.linspace(0, np.pi, 2001)[:, None]
+    c, s = np.cos(angle), np.sin(angle)
+    # normals in the plane: the stress along y is never the largest here
+    contact = p0 * (exact["xx"] * c**2 + exact["zz"] * s**2 + 2 * exact["xz"] * s * c)
+    largest = contact + (92.7e6 - 50e6) * c**2
+    strain = ((1 + POISSON) * 92.7e6 * c**2 - POISSON * (1 + POISSON) * 92.7e6) / YOUNG
+    table = np.maximum(largest, 0) * np.abs(strain)
+    parameter = table.max(axis=0)
+    outside = np.abs(history.x) > 1.1 * a  # tension by the bulk; below the contact planes across y count as well
+    assert np.abs(found["smith_watson_topper"].values[0] - parameter)[outside].max() < 2e-4 * parameter.max()
+    # life by the law itself: the parameter at the cycles found
+    cycles = found["smith_watson_topper_cycles"].values[0][outside]
+    law = 714e6**2 / YOUNG * (2 * cycles) ** -0.156 + 714e6 * 0.166 * (2 * cycles) ** -0.616
+    assert np.allclose(law, found["smith_watson_topper"].values[0][outside], rtol=1e-9)
+    # a swinging uniaxial strain in plane strain needs the von Mises stress of half its range to shake down
+    needed = 92.7e6 * np.sqrt(1 - POISSON + POISSON**2)
+    assert np.allclose(found["shakedown_strength"].values, needed, rtol=1e-9)
+
+
+def test_a_crack_beside_a_light_contact_is_that_of_the_pull_alone(tmp_path: Any) -> None:
+    """K = 1.1215 s sqrt(pi l) of an edge crack in tension: the pull less the residual stress; the command says the same as Python."""
+    case = line_case(10.0, 150e6)
+    case["lower"]["substrate"]["fatigue"] = {"crack": CRACK, "strain_life": STRENGTH}
+    case["stress"] = {"depths": [0.0, 10e-6]}
+    history = fretting.run(case, folder=tmp_path / "run")
+    crack = history.crack()
+    exact = 1.121522 * (150e6 - 50e6) * np.sqrt(np.pi * crack.length.values)
+    assert np.abs(crack["k1_range"].values / exact - 1).max() < 0.02  # p0 is 1 % of the pull
+    assert abs(crack.attrs["angle"]) < 1.0
+    threshold = 1e6 * np.sqrt(crack.length.values / (crack.length.values + 90e-6))
+    assert np.allclose(crack["threshold"].values, threshold, rtol=1e-12)
+    told = json.loads((tmp_path / "run" / "stress" / "stress.json").read_text())["fatigue"]["crack"]
+    assert {name: told[name] for name in ("fate", "x", "angle", "length")} == {
+        name: crack.attrs[name] for name in ("fate", "x", "angle", "length")
+    }
+    assert crack.attrs["fate"] == "grows"
+    weak = history.crack(constants={"crack": {**CRACK, "threshold": 1e8}})
+    assert weak.attrs["fate"] == "does_not_grow"
