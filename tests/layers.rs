@@ -305,13 +305,13 @@ fn files_that_the_pages_name_exist() {
         .filter_map(Result::ok)
         .map(|entry| format!("/{}", entry.path().strip_prefix(repository()).unwrap().to_string_lossy()))
         .map(|path| path.replace('\\', "/"))
-        .filter(|path| path.ends_with(".rs"))
+        .filter(|path| is_source(path))
         .collect();
     let missing: Vec<String> = ["ARCHITECTURE.md", "CONTRIBUTING.md", "docs/developers/extend.md"]
         .iter()
         .flat_map(|page| {
             let text = fs::read_to_string(repository().join(page)).unwrap();
-            let named = text.split('`').skip(1).step_by(2).filter(|word| word.ends_with(".rs"));
+            let named = text.split('`').skip(1).step_by(2).filter(|word| is_source(word));
             let exists = |name: &str| {
                 let (start, end) = name.split_once('*').unwrap_or((name, ""));
                 sources.iter().any(|path| {
@@ -323,4 +323,8 @@ fn files_that_the_pages_name_exist() {
         })
         .collect();
     assert!(missing.is_empty(), "{missing:#?}");
+}
+
+fn is_source(name: &str) -> bool {
+    Path::new(name).extension().is_some_and(|extension| extension == "rs")
 }

@@ -5,6 +5,9 @@ use fret_validation::{Sphere, run};
 
 const FINEST: usize = 256;
 
+/// A case for a number of increments.
+type Case<'a> = Box<dyn Fn(usize) -> String + 'a>;
+
 /// A rigid sphere on a coating twice as stiff and as thick as the contact radius, indented in 40 increments, then one cycle.
 fn cycle(controls: &str, more: &str, increments: usize) -> String {
     let sphere =
@@ -51,9 +54,8 @@ fn histories_of_every_kind_are_of_second_order() {
     let sine = "waveform = \"sine\"\n";
     let pull = format!("tangential_force = [{:e}, 0.0]\n", 0.4 * force);
     let torsion = format!("{pull}twist_moment = {:e}\nphase = {{ twist_moment = 90 }}\n{sine}", 0.15 * force);
-    let swinging = format!("{pull}normal_force = {:e}\nphase = {{ normal_force = 90 }}\n{sine}", force);
+    let swinging = format!("{pull}normal_force = {force:e}\nphase = {{ normal_force = 90 }}\n{sine}");
     let worn = format!("tangential_force = [{:e}, 0.0]\n", 0.7 * force);
-    type Case<'a> = Box<dyn Fn(usize) -> String + 'a>;
     let histories: [(&str, Case<'_>); 4] = [
         ("torsion and pull", Box::new(|n| cycle(&torsion, "", n))),
         ("normal and tangential force", Box::new(|n| cycle(&swinging, "", n))),

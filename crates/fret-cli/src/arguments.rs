@@ -244,7 +244,7 @@ pub struct IdentifyArguments {
     /// The case: bodies, profile, grid and the stages that press them. Its friction is where the fit starts
     #[arg(long, value_name = "CASE")]
     pub case: PathBuf,
-    /// Which column holds what: displacement=NAME,force=NAME,cycle=NAME,normal_force=NAME [default: by usual names]
+    /// Which column holds what: `displacement=NAME,force=NAME,cycle=NAME,normal_force=NAME` [default: by usual names]
     #[arg(long, value_name = "WHAT=NAME,...", value_delimiter = ',')]
     pub columns: Vec<String>,
     /// Units of the columns, such as displacement=um,force=N [default: those beside the names, or those of the case]

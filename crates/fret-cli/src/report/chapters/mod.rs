@@ -33,7 +33,7 @@ pub fn all(view: &Overview<'_>) -> Result<Markup, Failure> {
         (zones::zones(view)?)
         (energy::energy(view))
         (wear::wear(view)?)
-        (stress::stress(view)?)
+        (stress::stress(view))
         (comparison::comparison(view))
         (convergence::convergence(view))
         (question::simplifications(view))

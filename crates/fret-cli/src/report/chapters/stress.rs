@@ -18,13 +18,13 @@ use crate::report::overview::Overview;
 const MOST_PICTURES: usize = 6;
 
 /// The chapter; nothing where there is no `stress.json`, or an unreadable one.
-pub fn stress(view: &Overview<'_>) -> Result<Markup, Failure> {
+pub fn stress(view: &Overview<'_>) -> Markup {
     let folder = view.results.path.join("stress");
     let Some(record) = fs::read(folder.join("stress.json"))
         .ok()
         .and_then(|text| serde_json::from_slice::<Value>(&text).ok())
     else {
-        return Ok(html! {});
+        return html! {};
     };
     let number =
         |value: &Value, kind: &str| value.as_f64().map_or("–".to_owned(), |value| view.number(value, kind));
@@ -143,7 +143,7 @@ fn pictures(folder: &Path, record: &Value) -> Vec<(String, String)> {
         .into_iter()
         .flatten()
         .filter_map(|entry| entry.ok()?.file_name().into_string().ok())
-        .filter(|name| name.ends_with(".svg"))
+        .filter(|name| Path::new(name).extension().is_some_and(|extension| extension == "svg"))
         .collect();
     names.sort();
     let worst = worst(record).map(|worst| format!("von_mises-{worst:05}.svg"));
