@@ -89,11 +89,15 @@ fn beside(json: &Value, axes: [Label; 2]) -> Chart {
         stroke,
         id: None,
     };
-    Chart::new("measured and computed fretting loop", axes, vec![
+    Chart::new(
+        "measured and computed fretting loop",
+        axes,
+        vec![
             curve(points.collect(), "measured", 1, Stroke::Dots),
             curve(computed("displacement"), "computed, at the actuator", 0, Stroke::Line),
             curve(computed("shift"), "computed, the contact's own", 2, Stroke::Dashed),
-        ])
+        ],
+    )
 }
 
 /// The loops of a log, each moved on by a part of the range.
@@ -116,7 +120,8 @@ fn stack(cycles: &[MeasuredCycle], axes: [Label; 2]) -> Chart {
             points,
             name: None,
             colour: 0,
-            stroke: if k + 1 == shown.len() { Stroke::Line } else { Stroke::Faint }, id: None,
+            stroke: if k + 1 == shown.len() { Stroke::Line } else { Stroke::Faint },
+            id: None,
         }
     });
     Chart::new("fretting log: loops of the cycles", axes, curves.collect())
