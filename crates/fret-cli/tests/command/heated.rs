@@ -4,7 +4,7 @@ use serde_json::Value;
 
 use crate::bench::Bench;
 
-const CASE: &str = r#"
+const CASE: &str = r"
 [grid]
 cells = [32, 32]
 size = [140e-6, 140e-6]
@@ -27,7 +27,7 @@ increments = 1
 shift = [2e-6, 0.0]
 increments = 16
 cycles = 1
-"#;
+";
 
 #[test]
 fn a_run_ends_with_temperature_and_resistances_and_heat_tells_them_again() {

@@ -8,7 +8,6 @@ use maud::{Markup, html};
 use serde_json::Value;
 
 use crate::drawing::chart::{Chart, Curve};
-use crate::failure::Failure;
 use crate::figures::figure;
 use crate::output::{kind_of_stress, stress_called};
 use crate::report::html::{chapter, figure_of, side_by_side, table};
@@ -76,7 +75,7 @@ pub fn stress(view: &Overview<'_>) -> Markup {
         }
         (side_by_side(&figures))
     };
-    Ok(chapter("Stress below the surface", &body))
+    chapter("Stress below the surface", &body)
 }
 
 /// A number without a unit, or a word in its place; nothing where there is none.

@@ -55,7 +55,7 @@ pub fn wear(view: &Overview<'_>) -> Result<Markup, Failure> {
     };
     let section = Section::of(view);
     let mut profiles = Vec::new();
-    for position in scars(view)? {
+    for position in scars(view) {
         profiles.push((fields.steps[position], section.values(&fields.field("worn_depth", position)?)));
     }
     let values: Vec<&[f64]> = profiles.iter().map(|(_, values)| values.as_slice()).collect();
@@ -80,12 +80,12 @@ pub fn wear(view: &Overview<'_>) -> Result<Markup, Failure> {
 }
 
 /// Kept increments with a scar that can be told from the others, evenly over the run.
-fn scars(view: &Overview<'_>) -> Result<Vec<usize>, Failure> {
+fn scars(view: &Overview<'_>) -> Vec<usize> {
     let table = view.results.table.column("max_worn_depth");
     let steps = &view.results.fields.steps;
     let worn: Vec<usize> = (0..steps.len())
         .filter(|position| table.get(steps[*position]).is_some_and(|depth| *depth > 0.0))
         .collect();
     let count = worn.len().min(MOST);
-    Ok((1..=count).map(|part| worn[part * worn.len() / count - 1]).collect())
+    (1..=count).map(|part| worn[part * worn.len() / count - 1]).collect()
 }
