@@ -252,7 +252,7 @@ class Rig(TypedDict):
 
     normal_stiffness: NotRequired[float]
     """
-    Normal stiffness of the machine [force/length]: actuator_approach = approach + normal force / stiffness. Default: rigid.
+    Normal stiffness of the machine [force/length]: `actuator_approach` = approach + normal force / stiffness. Default: rigid.
     """
     tangential_stiffness: NotRequired[AlongPhase]
     """

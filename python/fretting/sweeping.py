@@ -239,7 +239,11 @@ def _solve(task: _Task) -> Table:
         "status": "solved",
         "error": "",
         "steps": {name: column[rows].tolist() for name, column in history.increments.items()},
-        "cycle": {name: column[-1].item() for name, column in history.cycles.items() if len(column)},
+        "cycle": {
+            name: column[-1].item()
+            for name, column in history.cycles.items()
+            if len(column) and column[-1] == column[-1]  # not a number: there is none
+        },
         "measured": {name: _measured(name, value) for name, value in measured.items()},
     }
 
