@@ -34,6 +34,7 @@ from fretting.errors import (
     UnreadableError,
 )
 from fretting.history import History
+from fretting.identifying import Identification, identify
 from fretting.kernels import Convolution, frequency_response, influence_coefficients
 from fretting.loading import open_results
 from fretting.planning import Plan, plan
@@ -50,6 +51,7 @@ __all__ = [
     "FrettingError",
     "FrettingWarning",
     "History",
+    "Identification",
     "Lognormal",
     "MissingFileError",
     "Mistake",
@@ -66,6 +68,7 @@ __all__ = [
     "__version__",
     "analytic",
     "frequency_response",
+    "identify",
     "influence_coefficients",
     "open_results",
     "plan",

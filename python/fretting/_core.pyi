@@ -25,6 +25,7 @@ __all__ = [
     "fatigue",
     "flat_punch",
     "frequency_response",
+    "identify",
     "hertz",
     "hertz_ellipse",
     "hertz_line",
@@ -124,6 +125,12 @@ def run_into(
     threads: int | None,
     on_step: Callable[[dict[str, Any], int, int], object] | None,
 ) -> BaseException | None: ...
+def identify(
+    log: tuple[str, bytes],
+    case: Case,
+    asked: tuple[list[tuple[str, str]], list[tuple[str, str]], float | None, str | None],
+    threads: int | None,
+) -> tuple[str, str]: ...
 def study(
     case: Case,
     resolutions: tuple[list[int], list[int], list[float], str | None],

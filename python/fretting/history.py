@@ -69,7 +69,7 @@ class History:
         ``stick_area``, ``dissipated_energy``, ``worn_volume`` (both since the start, over all cycles that computed ones
         stand for), ``max_worn_depth``, ``residual``, ``wall_s`` (float); ``increment``, ``stage``, ``contact_cells``, ``stick_cells``, ``convolutions``, ``preconditioner_passes``, ``outer_iterations``, ``parts``
         (int); ``full_grid_convolutions``, ``tilt_x``, ``tilt_y``, ``tilt_moment_x``, ``tilt_moment_y``, ``bulk_stress_x``, ``bulk_stress_y`` (of the lower body),
-        ``upper_bulk_stress_x``, ``upper_bulk_stress_y``, ``bulk_work`` (float); ``regime`` (str).
+        ``upper_bulk_stress_x``, ``upper_bulk_stress_y``, ``bulk_work``, ``actuator_x``, ``actuator_y``, ``actuator_approach`` (float); ``regime`` (str).
     x, y : ndarray
         Coordinates of the cell centres [length], shapes (nx,) and (ny,); of a line contact `y` is one zero.
     stages : list of str

@@ -61,6 +61,8 @@ pub enum Verb {
     Extremes(ExtremesArguments),
     /// Subsurface stresses from the kept tractions of a run
     Stress(StressArguments),
+    /// Friction coefficient, stiffness of the rig and the quantities of every cycle from measured fretting loops
+    Identify(IdentifyArguments),
     /// Temperature rise by the friction of the last cycle, and contact resistance, from the kept fields of a run
     Heat(HeatArguments),
     /// Parameter sweep: solve a base case for lists of values of its keys, or for samples of uncertain ones
@@ -227,6 +229,37 @@ pub struct SweepArguments {
     #[arg(long, value_name = "RESULTS[:INCREMENT]")]
     pub from: Option<String>,
     /// Number of threads, one per point [default: all cores]
+    #[arg(long, value_name = "N", value_parser = threads::number)]
+    pub threads: Option<u16>,
+    /// Print only errors
+    #[arg(long)]
+    pub quiet: bool,
+}
+
+/// Which loops, and what is known of the test.
+#[derive(Debug, Args)]
+pub struct IdentifyArguments {
+    /// The measured log (CSV): displacement of the actuator and tangential force, row by row; any lines above the names of the columns
+    pub log: PathBuf,
+    /// The case: bodies, profile, grid and the stages that press them. Its friction is where the fit starts
+    #[arg(long, value_name = "CASE")]
+    pub case: PathBuf,
+    /// Which column holds what: displacement=NAME,force=NAME,cycle=NAME,normal_force=NAME [default: by usual names]
+    #[arg(long, value_name = "WHAT=NAME,...", value_delimiter = ',')]
+    pub columns: Vec<String>,
+    /// Units of the columns, such as displacement=um,force=N [default: those beside the names, or those of the case]
+    #[arg(long, value_name = "WHAT=UNIT,...", value_delimiter = ',')]
+    pub units: Vec<String>,
+    /// The cycle to fit, by its number [default: the last]
+    #[arg(long, value_name = "N")]
+    pub cycle: Option<f64>,
+    /// Also fit one number of the case, such as lower.substrate.young
+    #[arg(long, value_name = "KEY")]
+    pub fit: Option<String>,
+    /// Folder for the answer [default: results/ and the name of the log with -identified]
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+    /// Number of threads [default: all cores]
     #[arg(long, value_name = "N", value_parser = threads::number)]
     pub threads: Option<u16>,
     /// Print only errors

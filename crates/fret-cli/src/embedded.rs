@@ -21,6 +21,7 @@ use crate::commands::run::{self, Wanted};
 use crate::commands::study::{Question, studied};
 use crate::estimate::{Estimate, NoBars};
 use crate::failure::{Failure, Unwritten};
+pub use crate::identify::Request as IdentifyRequest;
 use crate::origin::Origin;
 use crate::output::{ERROR_BARS, Ending, ResultFolder, RunRecord, Standing, Wish, write_whole};
 use crate::tally::Tally;
@@ -288,4 +289,17 @@ pub fn fatigue(
     })
     .map_err(|error| Stopped::Defect(format!("stress kernels: {error}")))?;
     Ok(collected.section())
+}
+
+/// Constants of a model from a measured log, as `identified.json` has them, and the page with its pictures.
+///
+/// # Errors
+/// When the log cannot be read as fretting loops of such a case, or the case cannot be solved.
+pub fn identify(
+    log: (&str, &[u8]),
+    case: CaseText,
+    request: &IdentifyRequest,
+) -> Result<(Value, String), Stopped> {
+    let answer = crate::identify::identify(log, case.into(), request)?;
+    Ok((answer.json, answer.page))
 }

@@ -13,6 +13,7 @@ mod export;
 mod extremes;
 mod failure;
 mod figures;
+mod identify;
 mod interrupt;
 mod origin;
 mod output;
@@ -64,6 +65,7 @@ fn dispatch(arguments: &Arguments) -> Result<(), Told> {
         Verb::Extremes(arguments) => return commands::extremes::extremes(arguments, as_json),
         Verb::Sweep(arguments) => return commands::sweep::sweep(arguments, as_json),
         Verb::Run(arguments) => return commands::run::run(arguments, as_json),
+        Verb::Identify(arguments) => commands::identify::identify(arguments, as_json),
         Verb::Check { case, from } => commands::check::check(case, from.as_deref(), as_json),
         Verb::Plan { case, from } => commands::plan::plan(case, from.as_deref(), as_json),
         Verb::Schema => commands::schema::schema(),

@@ -10,6 +10,7 @@ mod command;
 mod conduction;
 mod error;
 mod history;
+mod identify;
 mod kernels;
 mod plan;
 mod simulation;
@@ -39,6 +40,8 @@ mod _core {
     use crate::conduction::{contact_resistance, surface_temperature};
     #[pymodule_export]
     use crate::history::{History, vocabulary};
+    #[pymodule_export]
+    use crate::identify::identify;
     #[pymodule_export]
     use crate::kernels::{Convolution, frequency_response, influence_coefficients};
     #[pymodule_export]

@@ -5,6 +5,7 @@ pub mod export;
 pub mod extremes;
 pub mod fatigue;
 pub mod heat;
+pub mod identify;
 mod loaded_surfaces;
 pub mod plan;
 pub mod report;

@@ -17,7 +17,7 @@ use crate::failure::{Failure, Told, Unwritten};
 use crate::figures::{counted, duration};
 use crate::interrupt::{self, Listener};
 use crate::origin::Origin;
-use crate::sweep::{Answer, Point, Question, SweepFolder};
+use crate::sweep::{Answer, CommonBeginnings, Point, Question, SweepFolder};
 use crate::terminal;
 use crate::threads;
 
@@ -110,6 +110,8 @@ struct Board<'a> {
     at_work: Mutex<usize>,
     /// One of them is over.
     freed: Condvar,
+    /// What points begin with alike.
+    common: CommonBeginnings,
     /// Points that were found finished.
     before: usize,
     /// Those of them that are solved.
@@ -132,7 +134,9 @@ impl Drop for AtWork<'_> {
 impl<'a> Board<'a> {
     fn new(question: &'a Question, origin: Option<Origin>, known: Vec<Option<Answer>>, quiet: bool) -> Self {
         let open: Vec<usize> = (0..known.len()).filter(|&number| known[number].is_none()).collect();
+        let common = CommonBeginnings::of(&question.points, &open, origin.as_ref());
         Self {
+            common,
             question,
             origin,
             before: known.len() - open.len(),
@@ -156,7 +160,11 @@ impl<'a> Board<'a> {
                 String::new()
             };
             let points = counted(self.question.points.len(), "point");
-            terminal::say(&format!("{points}{found}, on {}", counted(threads, "thread")));
+            let common = match self.common.count() {
+                0 => String::new(),
+                count => format!(", {} solved once", counted(count, "common beginning")),
+            };
+            terminal::say(&format!("{points}{found}{common}, on {}", counted(threads, "thread")));
         }
     }
 
@@ -182,14 +190,20 @@ impl<'a> Board<'a> {
         while let Some(&number) = self.open.get(self.next.fetch_add(1, Ordering::Relaxed)) {
             let point = &self.question.points[number];
             let solve = || -> Result<Answer, Failure> {
-                let plan = self.planned(point)?;
+                let known = self.common.plan_of(number);
+                let plan = known.map_or_else(|| self.planned(point), Ok)?;
                 let _at_work = self.memory_for(&plan)?;
-                let run = Simulation::new(&plan).in_claimed_memory().run(&mut Listener);
+                let simulation = Simulation::new(&plan).in_claimed_memory();
+                let common = self.common.of_point(number, &plan, &simulation);
+                let run = match &common {
+                    Some(beginning) => beginning.followed_by(&simulation, &mut Listener),
+                    None => simulation.run(&mut Listener),
+                };
                 let history = run.map_err(|error| match error {
                     RunError::Interrupted { .. } => Failure::Interrupted(String::new()),
                     error => Failure::Unsolved(error),
                 })?;
-                Ok(Answer::solved(&history))
+                Ok(Answer::solved(&history, common.map_or(0, |beginning| beginning.increments())))
             };
             let answer = match catch_unwind(AssertUnwindSafe(|| pool.install(solve))) {
                 Ok(Ok(answer)) => answer,

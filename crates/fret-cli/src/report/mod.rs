@@ -6,12 +6,12 @@
 
 mod chapters;
 mod closed_form;
-mod html;
+pub mod html;
 mod literature;
 mod overview;
 mod window;
 
-use maud::{DOCTYPE, PreEscaped, html};
+use maud::{DOCTYPE, Markup, PreEscaped, html};
 
 use crate::drawing;
 use crate::failure::Failure;
@@ -29,6 +29,11 @@ const POLICY: &str =
 /// The page of a run.
 pub fn page(results: &Results) -> Result<String, Failure> {
     let view = Overview::of(results);
+    Ok(whole_page(&results.title(), &chapters::all(&view)?))
+}
+
+/// A page with the style, the script and the limits of all.
+pub fn whole_page(title: &str, content: &Markup) -> String {
     let page = html! {
         (DOCTYPE)
         html lang="en" {
@@ -36,11 +41,11 @@ pub fn page(results: &Results) -> Result<String, Failure> {
                 meta charset="utf-8";
                 meta http-equiv="Content-Security-Policy" content=(POLICY);
                 meta name="viewport" content="width=device-width, initial-scale=1";
-                title { (results.title()) }
+                title { (title) }
                 style { (PreEscaped(drawing::STYLE)) (PreEscaped(STYLE)) }
             }
-            body { main { (chapters::all(&view)?) } script { (PreEscaped(SCRIPT)) } }
+            body { main { (content) } script { (PreEscaped(SCRIPT)) } }
         }
     };
-    Ok(page.into_string() + "\n")
+    page.into_string() + "\n"
 }

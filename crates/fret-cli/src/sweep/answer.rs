@@ -10,11 +10,12 @@ use crate::failure::Failure;
 pub struct Answer(pub Value);
 
 impl Answer {
-    /// The answer of a solved point.
-    pub fn solved(history: &History) -> Self {
+    /// The answer of a solved point, of which so many first increments were solved together with other points.
+    pub fn solved(history: &History, common: usize) -> Self {
         Self(json!({
             "status": "solved",
             "message": "",
+            "increments_in_common": common,
             "end": history.steps.last(),
             "stages": stage_ends(&history.steps),
             "cycle": history.cycles.last(),

@@ -34,6 +34,14 @@ fn a_sweep_solves_every_point_as_it_is_solved_alone_and_records_failures() {
     assert!(told.contains("friction.coefficient = -0.1: must be zero or positive"), "{}", answer.err);
     assert!(answer.err.contains("2 refused, 0 failed"), "{}", answer.err);
     assert!(answer.out.contains("4 solved, 2 not, 0 found finished"), "{}", answer.out);
+    // Both amplitudes of a friction begin with the same indentation.
+    assert!(answer.err.contains("2 common beginnings solved once"), "{}", answer.err);
+    let points = std::fs::read_dir(bench.folder.join("results/many/points")).unwrap();
+    let in_common = points.filter_map(|point| {
+        let point: Value = serde_json::from_slice(&std::fs::read(point.unwrap().path()).unwrap()).unwrap();
+        point["increments_in_common"].as_u64()
+    });
+    assert_eq!(in_common.collect::<Vec<_>>(), [3; 4], "the increments of the indentation");
     let summary = bench.text("results/many/summary.csv");
     assert_eq!(column(&summary, "status"), ["solved", "solved", "refused", "refused", "solved", "solved"]);
     assert_eq!(column(&summary, "friction.coefficient"), ["0.1", "0.1", "-0.1", "-0.1", "0.2", "0.2"]);

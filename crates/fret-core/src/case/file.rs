@@ -61,7 +61,7 @@ pub(super) struct RigFile {
     /// force / stiffness. Default: rigid.
     #[schemars(with = "Option<AlongPhaseSchema>")]
     pub tangential_stiffness: Option<Spanned<AlongFile<f64>>>,
-    /// Normal stiffness of the machine [force/length]: actuator_approach = approach + normal force / stiffness. Default: rigid.
+    /// Normal stiffness of the machine [force/length]: `actuator_approach` = approach + normal force / stiffness. Default: rigid.
     #[schemars(with = "Option<f64>")]
     pub normal_stiffness: Option<Spanned<f64>>,
 }

@@ -60,12 +60,9 @@ where
     if len <= PORTION {
         return pass(rule, read, write);
     }
-    let of_one_length = |field: usize, found: usize| {
-        let may_lack = READ - R::OPTIONAL <= field && found == 0;
-        assert!(found == len || may_lack, "fields of one length");
-    };
-    read.iter().enumerate().for_each(|(field, values)| of_one_length(field, values.len()));
-    write.iter().for_each(|values| of_one_length(0, values.len()));
+    let lacks = |field: usize| READ - R::OPTIONAL <= field && read[field].is_empty();
+    let are_whole = (0..READ).all(|field| read[field].len() == len || lacks(field));
+    assert!(are_whole && write.iter().all(|field| field.len() == len), "fields of one length");
     let mut sums = vec![[0.0; SUMS]; len.div_ceil(PORTION)];
     in_portions(rule, read, write, &mut sums, pieces(len / PORTION));
     sums.iter().fold([0.0; SUMS], |total, part| std::array::from_fn(|sum| total[sum] + part[sum]))

@@ -16,4 +16,5 @@ pub use field_names::{FIELDS, Field, FieldValues, ZONE_WORDS};
 pub use footprint::Footprint;
 pub use records::{History, KeptFields, StepRecord, WornThrough};
 pub use start::Start;
+pub(crate) use start::{setting, way_of_solving};
 pub use warning::{Concern, Warning};

@@ -116,7 +116,7 @@ impl Start {
 }
 
 /// What a state belongs to, with the keys that a case has for it.
-fn setting(plan: &Value) -> Value {
+pub(crate) fn setting(plan: &Value) -> Value {
     let case = &plan["case"];
     let mut setting = json!({
         "grid": {
@@ -136,7 +136,7 @@ fn setting(plan: &Value) -> Value {
 }
 
 /// What a solver's memory belongs to besides.
-fn way_of_solving(plan: &Value) -> String {
+pub(crate) fn way_of_solving(plan: &Value) -> String {
     let case = &plan["case"];
     let shortcuts =
         ["coupling", "along", "symmetry", "single_precision", "leave_out"].map(|name| &plan[name]);

@@ -106,6 +106,17 @@ impl Waypoint<'_> {
         self.place.solved
     }
 
+    /// A copy that lasts.
+    pub(crate) fn checkpoint(&self) -> Checkpoint {
+        Checkpoint {
+            place: *self.place,
+            state: self.state.clone(),
+            memory: self.memory.clone(),
+            cycle: self.cycle.cloned(),
+            wear: self.wear.cloned(),
+        }
+    }
+
     /// Appends the bytes of the waypoint: its format, then its parts in a compact form, floats bit by bit.
     ///
     /// # Errors

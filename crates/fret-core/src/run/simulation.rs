@@ -105,6 +105,11 @@ impl<'a> Simulation<'a> {
         Self { is_claimed: true, ..self }
     }
 
+    /// What it is a simulation of.
+    pub(crate) fn plan(&self) -> &'a Plan {
+        self.plan
+    }
+
     /// Runs the whole history. Use inside a thread pool to bound the threads; the bits do not depend on their number.
     ///
     /// # Errors

@@ -63,7 +63,7 @@ impl ContactProblem<'_> {
 
     /// Resultants that a projection restores: those that are prescribed, and those of `shear` where a spring lets them be, as far as
     /// the friction `bound` carries them.
-    fn to_restore(&self, shear: &TangentialField, bound: &[f64]) -> [f64; 3] {
+    fn to_restore(self, shear: &TangentialField, bound: &[f64]) -> [f64; 3] {
         let spring = self.positions.spring;
         if spring == [0.0; 3] {
             return self.resultant;

@@ -5,18 +5,16 @@ use maud::{Markup, PreEscaped, html};
 use serde_json::{Value, json};
 
 use super::loading::loop_curves;
-use super::sections::{seen, shear_direction};
-use super::zones::{cell, image, legend};
+use super::moment::{Ground, Moment, largest};
+use super::sections::seen;
+use super::zones::legend;
 use crate::drawing::chart::{Chart, Curve, Stroke};
 use crate::drawing::frame::Frame;
 use crate::drawing::map::Map;
-use crate::drawing::raster::{Raster, pixels_for};
 use crate::drawing::scale::Label;
 use crate::failure::Failure;
 use crate::report::html::{chapter, figure_of, percent};
 use crate::report::overview::Overview;
-use crate::report::window::{Section, Window};
-use crate::results::Field;
 
 /// Increments that the slider shows, at most, and at least where there are so many.
 const MOST: usize = 120;
@@ -28,30 +26,6 @@ const ROUNDING: f64 = 1e-12;
 /// Width of a map.
 const WIDTH: f64 = 400.0;
 
-/// What is shown of one increment.
-struct Moment {
-    increment: usize,
-    /// Along the section: pressure, shear, and the bound of shear where it is known.
-    pressure: Vec<f64>,
-    shear: Vec<f64>,
-    bound: Option<Vec<f64>>,
-    /// Images by the place of their map, each an address.
-    images: Vec<String>,
-}
-
-/// What holds for all moments.
-struct Ground<'a> {
-    view: &'a Overview<'a>,
-    section: Section,
-    direction: [f64; 2],
-    shear_name: &'static str,
-    has_shear: bool,
-    has_zones: bool,
-    window: Window,
-    /// Largest pressure and largest shear of a cell.
-    most: [f64; 2],
-}
-
 /// The chapter.
 pub fn explorer(view: &Overview<'_>) -> Result<Markup, Failure> {
     let fields = &view.results.fields;
@@ -59,7 +33,7 @@ pub fn explorer(view: &Overview<'_>) -> Result<Markup, Failure> {
         return Ok(html! {});
     }
     let telling = telling(view);
-    let ground = Ground::of(view)?;
+    let ground = Ground::of(view, MOST)?;
     let first = ground.moment(telling)?;
     let bytes: usize = first.images.iter().map(String::len).sum::<usize>() + 20 * first.pressure.len();
     let chosen = view.telling((ROOM / bytes.max(1)).clamp(FEWEST, MOST));
@@ -86,84 +60,7 @@ fn telling(view: &Overview<'_>) -> usize {
     (0..steps.len()).max_by(|a, b| load(a).total_cmp(&load(b))).unwrap_or(0)
 }
 
-fn largest(values: &[f64]) -> f64 {
-    values.iter().fold(0.0, |most: f64, value| most.max(value.abs()))
-}
-
-impl<'a> Ground<'a> {
-    fn of(view: &'a Overview<'a>) -> Result<Self, Failure> {
-        let fields = &view.results.fields;
-        let section = Section::of(view);
-        let (direction, shear_name) = shear_direction(view, &section);
-        let has_shear = fields.has("shear_x") && !view.is_frictionless();
-        let has_zones = fields.has("zone") && !view.is_frictionless();
-        let mut ground = Self {
-            view,
-            section,
-            direction,
-            shear_name,
-            has_shear,
-            has_zones,
-            window: Window::new(fields.cells()),
-            most: [0.0; 2],
-        };
-        for position in view.telling(MOST) {
-            let pressure = fields.field("pressure", position)?;
-            ground.window.widen(&pressure);
-            ground.most[0] = ground.most[0].max(largest(&pressure.values));
-            if has_shear {
-                ground.most[1] = ground.most[1].max(largest(&ground.magnitude(position)?.values));
-            }
-        }
-        Ok(ground)
-    }
-
-    /// Magnitude of the shear.
-    fn magnitude(&self, position: usize) -> Result<Field, Failure> {
-        let fields = &self.view.results.fields;
-        let (mut x, y) = (fields.field("shear_x", position)?, fields.field("shear_y", position)?);
-        for (x, y) in x.values.iter_mut().zip(&y.values) {
-            *x = x.hypot(*y);
-        }
-        Ok(x)
-    }
-
-    fn moment(&self, position: usize) -> Result<Moment, Failure> {
-        let fields = &self.view.results.fields;
-        let increment = fields.steps[position];
-        let field = fields.field("pressure", position)?;
-        let pressure = self.section.values(&field);
-        let mut images = Vec::new();
-        if self.has_zones {
-            images.push(image(&fields.field("zone", position)?, &self.window)?);
-        }
-        images.push(self.image(&field, &field, self.most[0])?);
-        let mut shear = Vec::new();
-        if self.has_shear {
-            let parts = [fields.field("shear_x", position)?, fields.field("shear_y", position)?];
-            let [x, y] = parts.map(|part| self.section.values(&part));
-            shear = x.iter().zip(&y).map(|(x, y)| self.direction[0] * x + self.direction[1] * y).collect();
-            images.push(self.image(&self.magnitude(position)?, &field, self.most[1])?);
-        }
-        let bound =
-            self.view.friction_at(increment).filter(|_| self.has_shear).map(|(coefficient, strength)| {
-                let bound = |pressure: &f64| (coefficient * pressure).min(strength.unwrap_or(f64::INFINITY));
-                pressure.iter().map(bound).collect()
-            });
-        Ok(Moment { increment, pressure, shear, bound, images })
-    }
-
-    /// A field in false colours where there is contact.
-    fn image(&self, field: &Field, pressure: &Field, most: f64) -> Result<String, Failure> {
-        let (first, cells) = self.window.cells();
-        let size = cells.map(pixels_for);
-        let value = |column: usize, row: usize| {
-            let [i, j] = cell(first, cells, size, [column, row]);
-            if pressure.at(i, j) > 0.0 { field.at(i, j) } else { f64::NAN }
-        };
-        Raster::of_values(size, [0.0, most], value).address()
-    }
-
+impl Ground<'_> {
     fn shown(&self, moments: &[Moment], start: usize) -> Result<Markup, Failure> {
         let view = self.view;
         let now = &moments[start];

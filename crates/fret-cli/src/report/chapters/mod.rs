@@ -7,6 +7,7 @@ mod energy;
 mod explorer;
 mod head;
 mod loading;
+mod moment;
 mod question;
 mod sections;
 mod stress;

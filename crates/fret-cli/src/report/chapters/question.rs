@@ -184,7 +184,9 @@ fn stage(view: &Overview<'_>, stage: &Value) -> Markup {
         let told = |kind: &str, name: &str, unit: &str| {
             path(view, &control[kind], unit).map(|path| format!("{name} {path}"))
         };
-        parts.extend(told("force", force, of_force).or_else(|| told("motion", motion, of_motion)));
+        let actuator = format!("actuator, {motion}");
+        let motions = || told("motion", motion, of_motion).or_else(|| told("far_end", &actuator, of_motion));
+        parts.extend(told("force", force, of_force).or_else(motions));
     };
     add(&stage["normal"], ["normal force", "approach"], ["force", "length"]);
     for (axis, name) in ["x", "y"].into_iter().enumerate() {

@@ -1,0 +1,219 @@
+//! The loop that the solver computes for a rig: the bodies of the case, pressed as it says, driven to and fro by the actuator.
+
+use std::f64::consts::PI;
+
+use fret_core::case::{Case, Course, GridSize, Output, Path, Stage, StageControl};
+use fret_core::model::{CoulombFriction, Rig};
+use fret_core::plan::Plan;
+use fret_core::run::{Silent, Simulation};
+use toml::{Table, Value};
+
+use crate::case_file::CaseFile;
+use crate::failure::Failure;
+use crate::sweep::key;
+
+/// Increments from rest to the first turn, and from one turn to the next; closer to each other near the turns.
+const FIRST: usize = 6;
+const HALF: usize = 24;
+
+/// What the loops are computed from.
+pub struct Model {
+    case_file: CaseFile,
+    case: Case,
+    /// A key of the case with its value there.
+    key: Option<(String, f64)>,
+}
+
+/// A computed loop, between the same two turns again and again.
+pub struct Loop {
+    pub normal_force: f64,
+    /// Displacement of the actuator, force and shift, on the way down and on the way up, each from the lowest displacement on.
+    pub branches: [Vec<[f64; 3]>; 2],
+    /// Stiffness of the contact directly after reversal [force/length].
+    pub contact_stiffness: f64,
+    /// Whether all of the contact slides before it turns.
+    pub slides: bool,
+    /// Whether any of it slips.
+    pub slips: bool,
+}
+
+impl Model {
+    /// The model of a case: its stages up to the first tangential one.
+    ///
+    /// # Errors
+    /// When the case is none of a single contact that is pressed, or has no such key.
+    pub fn new(case_file: CaseFile, key: Option<&str>) -> Result<Self, Failure> {
+        let key = match key {
+            None => None,
+            Some(key) => Some((key.to_owned(), value_of(&case_file, key)?)),
+        };
+        let mut model = Self { case: case_file.case(None)?, case_file, key };
+        model.case = reduced(model.case)?;
+        let plan = Plan::new(model.case.clone())?;
+        let size = plan.grid.size();
+        // The same cells for all values of the constants, so that nothing but these changes the loop.
+        model.case.size = GridSize::Given(size);
+        Ok(model)
+    }
+
+    /// The value that the case has for the key that is fitted.
+    pub fn key(&self) -> Option<(&str, f64)> {
+        self.key.as_ref().map(|(key, value)| (key.as_str(), *value))
+    }
+
+    /// Friction of the case, where it is one number.
+    pub fn friction(&self) -> Option<f64> {
+        (!self.case.friction.is_map())
+            .then(|| self.case.friction.largest())
+            .filter(|friction| *friction > 0.0)
+    }
+
+    /// The loop for a coefficient of friction, a tangential stiffness of the rig, an amplitude of the actuator and a value of the key.
+    ///
+    /// # Errors
+    /// When it cannot be solved.
+    pub fn loop_of(
+        &self,
+        friction: f64,
+        stiffness: f64,
+        amplitude: f64,
+        value: Option<f64>,
+    ) -> Result<Loop, Failure> {
+        let mut case = match (&self.key, value) {
+            (Some((key, _)), Some(value)) => {
+                let text = with_value(&self.case_file, key, value)?;
+                let mut changed = reduced(self.case_file_of(text).case(None)?)?;
+                changed.size = self.case.size;
+                changed
+            }
+            _ => self.case.clone(),
+        };
+        case.friction = CoulombFriction::uniform(friction)
+            .map_err(|error| Failure::Call(format!("friction {error}"), String::new()))?;
+        let compliance = 1.0 / stiffness;
+        case.rig = Some(Rig { normal: case.springs().normal, tangential: [compliance; 2] });
+        let pressing: usize = case.stages.iter().map(Stage::increments_in_all).sum();
+        let mut path: Vec<f64> = (1..=FIRST).map(|k| amplitude * k as f64 / FIRST as f64).collect();
+        let wave = |k: usize| (PI * k as f64 / HALF as f64).cos();
+        path.extend((1..=HALF).map(|k| amplitude * wave(k)));
+        path.extend((1..=HALF).map(|k| -amplitude * wave(k)));
+        case.stages.push(Stage {
+            name: "loop".to_owned(),
+            normal: None,
+            tangential: [Some(StageControl::FarEnd(Path::Through(path.clone()))), None],
+            twist: None,
+            tilt: [None, None],
+            bulk_stress: [[None, None], [None, None]],
+            increments: path.len(),
+            history_tolerance: None,
+            course: Course::Linear,
+            friction: None,
+        });
+        let plan = Plan::new(case)?;
+        let history = Simulation::new(&plan).run(&mut Silent).map_err(Failure::Unsolved)?;
+        let steps = &history.steps[pressing + FIRST - 1..];
+        let point = |step: &fret_core::history::StepRecord| {
+            [step.actuator[0], step.tangential_force[0], step.shift[0]]
+        };
+        let mut down: Vec<[f64; 3]> = steps[..=HALF].iter().map(point).collect();
+        let up: Vec<[f64; 3]> = steps[HALF..].iter().map(point).collect();
+        let own = |from: &[f64; 3], to: &[f64; 3]| (from[1] - to[1]) / (from[2] - to[2]);
+        let contact_stiffness = own(&down[0], &down[1]);
+        down.reverse();
+        Ok(Loop {
+            normal_force: steps[0].normal_force,
+            branches: [down, up],
+            contact_stiffness,
+            slides: steps.iter().any(|step| step.stick_cells == 0),
+            slips: steps.iter().any(|step| step.stick_cells < step.contact_cells),
+        })
+    }
+
+    fn case_file_of(&self, text: String) -> CaseFile {
+        let folder = self.case_file.beside.as_ref().map_or_else(
+            || self.case_file.path.parent().unwrap_or_else(|| std::path::Path::new("")).to_owned(),
+            |beside| beside.folder.clone(),
+        );
+        let contents =
+            self.case_file.beside.as_ref().map(|beside| beside.contents.clone()).unwrap_or_default();
+        CaseFile::of_text(&self.case_file.name(), text, crate::case_file::Beside { folder, contents })
+    }
+}
+
+impl Loop {
+    /// Force and its slope at a displacement of the actuator, on the way down or up; beyond the turns along the line there.
+    pub fn at(&self, falling: bool, displacement: f64) -> [f64; 2] {
+        let points = &self.branches[usize::from(!falling)];
+        let last = points.len() - 2;
+        let place = points.partition_point(|point| point[0] <= displacement).saturating_sub(1).min(last);
+        let slope = |k: usize| (points[k + 1][1] - points[k][1]) / (points[k + 1][0] - points[k][0]);
+        // Slopes at the points, by the parabola through three of them.
+        let tangent = |k: usize| {
+            if k == 0 {
+                return slope(0);
+            }
+            if k == last + 1 {
+                return slope(last);
+            }
+            let (before, after) = (points[k][0] - points[k - 1][0], points[k + 1][0] - points[k][0]);
+            (slope(k - 1) * after + slope(k) * before) / (before + after)
+        };
+        let width = points[place + 1][0] - points[place][0];
+        let share = (displacement - points[place][0]) / width;
+        let [from, to] = [tangent(place), tangent(place + 1)];
+        if share < 0.0 {
+            return [points[place][1] + from * share * width, from];
+        }
+        if share > 1.0 {
+            return [points[place + 1][1] + to * (share - 1.0) * width, to];
+        }
+        let chord = slope(place);
+        let [quadratic, cubic] = [3.0 * chord - 2.0 * from - to, from + to - 2.0 * chord];
+        let force = points[place][1] + width * share * (from + share * (quadratic + share * cubic));
+        [force, from + share * (2.0 * quadratic + 3.0 * share * cubic)]
+    }
+}
+
+/// The case up to its first tangential stage, without what a loop does not need.
+fn reduced(mut case: Case) -> Result<Case, Failure> {
+    let refuse = |what: &str, help: &str| Err(Failure::Call(format!("the case {what}"), help.to_owned()));
+    if case.periodic {
+        return refuse("is periodic: a rig presses one contact", "grid.periodic = false");
+    }
+    let stages: Vec<Stage> = case.stages.iter().take_while(|stage| !stage.is_tangential()).cloned().collect();
+    if stages.is_empty() {
+        return refuse(
+            "has no stage that presses the bodies before it loads them tangentially",
+            "[[load]] normal_force = ..., increments = ...; the loop itself comes from the log",
+        );
+    }
+    case.stages = stages;
+    case.wear = None;
+    case.stress = None;
+    case.output = Output { fields: Vec::new(), every: None };
+    Ok(case)
+}
+
+fn value_of(case_file: &CaseFile, key: &str) -> Result<f64, Failure> {
+    let table: Table = case_file.text.parse().map_err(|_| unknown(key))?;
+    let root = Value::Table(table);
+    let found = key.split('.').try_fold(&root, |here, part| {
+        part.parse::<usize>().map_or_else(|_| here.get(part), |index| here.get(index))
+    });
+    let value =
+        found.and_then(|value| value.as_float().or_else(|| value.as_integer().map(|value| value as f64)));
+    value.filter(|value| *value > 0.0).ok_or_else(|| unknown(key))
+}
+
+fn unknown(key: &str) -> Failure {
+    Failure::Call(
+        format!("--fit {key}: the case has no positive number there"),
+        "a key such as lower.substrate.young or lower.coatings.0.thickness".to_owned(),
+    )
+}
+
+fn with_value(case_file: &CaseFile, name: &str, value: f64) -> Result<String, Failure> {
+    let mut table: Table = case_file.text.parse().map_err(|_| unknown(name))?;
+    key::put(&mut table, name, &Value::Float(value)).map_err(|why| Failure::Call(why, String::new()))?;
+    toml::to_string(&table).map_err(|error| Failure::Defect(error.to_string()))
+}

@@ -1,0 +1,115 @@
+//! What is shown of one kept increment: values along a section, and images of maps; and what all of them share.
+
+use crate::drawing::raster::{Raster, pixels_for};
+use crate::failure::Failure;
+use crate::report::chapters::sections::shear_direction;
+use crate::report::chapters::zones::{cell, image};
+use crate::report::overview::Overview;
+use crate::report::window::{Section, Window};
+use crate::results::Field;
+
+/// What is shown of one increment.
+pub struct Moment {
+    pub increment: usize,
+    /// Along the section: pressure, shear, and the bound of shear where it is known.
+    pub pressure: Vec<f64>,
+    pub shear: Vec<f64>,
+    pub bound: Option<Vec<f64>>,
+    /// Images by the place of their map, each an address.
+    pub images: Vec<String>,
+}
+
+/// What holds for all moments.
+pub struct Ground<'a> {
+    pub view: &'a Overview<'a>,
+    pub section: Section,
+    direction: [f64; 2],
+    pub shear_name: &'static str,
+    pub has_shear: bool,
+    pub has_zones: bool,
+    pub window: Window,
+    /// Largest pressure and largest shear of a cell.
+    pub most: [f64; 2],
+}
+
+/// The largest magnitude.
+pub fn largest(values: &[f64]) -> f64 {
+    values.iter().fold(0.0, |most: f64, value| most.max(value.abs()))
+}
+
+impl<'a> Ground<'a> {
+    /// Looks at all increments that can be shown; no more than `most` of them.
+    pub fn of(view: &'a Overview<'a>, most: usize) -> Result<Self, Failure> {
+        let fields = &view.results.fields;
+        let section = Section::of(view);
+        let (direction, shear_name) = shear_direction(view, &section);
+        let has_shear = fields.has("shear_x") && !view.is_frictionless();
+        let has_zones = fields.has("zone") && !view.is_frictionless();
+        let mut ground = Self {
+            view,
+            section,
+            direction,
+            shear_name,
+            has_shear,
+            has_zones,
+            window: Window::new(fields.cells()),
+            most: [0.0; 2],
+        };
+        for position in view.telling(most) {
+            let pressure = fields.field("pressure", position)?;
+            ground.window.widen(&pressure);
+            ground.most[0] = ground.most[0].max(largest(&pressure.values));
+            if has_shear {
+                ground.most[1] = ground.most[1].max(largest(&ground.magnitude(position)?.values));
+            }
+        }
+        Ok(ground)
+    }
+
+    /// Magnitude of the shear.
+    fn magnitude(&self, position: usize) -> Result<Field, Failure> {
+        let fields = &self.view.results.fields;
+        let (mut x, y) = (fields.field("shear_x", position)?, fields.field("shear_y", position)?);
+        for (x, y) in x.values.iter_mut().zip(&y.values) {
+            *x = x.hypot(*y);
+        }
+        Ok(x)
+    }
+
+    /// The increment at a position among the kept ones.
+    pub fn moment(&self, position: usize) -> Result<Moment, Failure> {
+        let fields = &self.view.results.fields;
+        let increment = fields.steps[position];
+        let field = fields.field("pressure", position)?;
+        let pressure = self.section.values(&field);
+        let mut images = Vec::new();
+        if self.has_zones {
+            images.push(image(&fields.field("zone", position)?, &self.window)?);
+        }
+        images.push(self.image(&field, &field, self.most[0])?);
+        let mut shear = Vec::new();
+        if self.has_shear {
+            let parts = [fields.field("shear_x", position)?, fields.field("shear_y", position)?];
+            let [x, y] = parts.map(|part| self.section.values(&part));
+            shear = x.iter().zip(&y).map(|(x, y)| self.direction[0] * x + self.direction[1] * y).collect();
+            images.push(self.image(&self.magnitude(position)?, &field, self.most[1])?);
+        }
+        let bound =
+            self.view.friction_at(increment).filter(|_| self.has_shear).map(|(coefficient, strength)| {
+                let bound = |pressure: &f64| (coefficient * pressure).min(strength.unwrap_or(f64::INFINITY));
+                pressure.iter().map(bound).collect()
+            });
+        Ok(Moment { increment, pressure, shear, bound, images })
+    }
+
+    /// A field in false colours where there is contact.
+    fn image(&self, field: &Field, pressure: &Field, most: f64) -> Result<String, Failure> {
+        let (first, cells) = self.window.cells();
+        let size = cells.map(pixels_for);
+        let value = |column: usize, row: usize| {
+            let [i, j] = cell(first, cells, size, [column, row]);
+            if pressure.at(i, j) > 0.0 { field.at(i, j) } else { f64::NAN }
+        };
+        Raster::of_values(size, [0.0, most], value).address()
+    }
+}

@@ -1,0 +1,111 @@
+//! A common beginning of several histories, solved once: those whose first stages are alike go on from its checkpoint, with the bits that
+//! each of them would have alone.
+
+use std::ops::ControlFlow;
+
+use serde_json::json;
+
+use super::checkpoint::{Checkpoint, Waypoint};
+use super::run_error::RunError;
+use super::simulation::{Iteration, Observer, Simulation};
+use crate::history::{CycleRecord, History, KeptFields, StepRecord, setting, way_of_solving};
+use crate::model::ContactState;
+use crate::plan::Plan;
+
+/// The first stages of a history, solved.
+#[derive(Debug, Clone)]
+pub struct Beginning {
+    checkpoint: Checkpoint,
+    steps: Vec<StepRecord>,
+    cycles: Vec<CycleRecord>,
+}
+
+/// For each number of first stages, from one on, all that these depend on: histories that agree in it solve them alike, bit by bit.
+pub fn beginnings(plan: &Plan) -> Vec<String> {
+    let as_json = plan.to_json();
+    let case = &as_json["case"];
+    let rest = ["friction", "rig", "wear", "start"].map(|name| &case[name]);
+    let start = plan.start.as_ref().map(|start| start.digest().to_owned());
+    let all = json!([setting(&as_json), way_of_solving(&as_json), rest, start]).to_string();
+    let stages = case["stages"].as_array().map_or(&[][..], Vec::as_slice);
+    (1..=stages.len()).map(|count| format!("{all}{}", json!(stages[..count]))).collect()
+}
+
+impl Beginning {
+    /// Increments of it.
+    pub fn increments(&self) -> usize {
+        self.steps.len()
+    }
+
+    /// Solves what is left of a history after this beginning; the history holds all increments and cycles, and the fields kept after it.
+    ///
+    /// # Errors
+    /// As [`Simulation::resume`].
+    pub fn followed_by(
+        &self,
+        simulation: &Simulation<'_>,
+        observer: &mut dyn Observer,
+    ) -> Result<History, RunError> {
+        let mut history = simulation.resume(self.checkpoint.clone(), observer)?;
+        history.steps.splice(0..0, self.steps.iter().cloned());
+        history.cycles.splice(0..0, self.cycles.iter().cloned());
+        Ok(history)
+    }
+}
+
+impl Simulation<'_> {
+    /// Solves the first stages of the history, so many of them; `None` where surfaces are worn through in them.
+    ///
+    /// # Errors
+    /// As [`Simulation::run`].
+    pub fn beginning(
+        &self,
+        stages: usize,
+        observer: &mut dyn Observer,
+    ) -> Result<Option<Beginning>, RunError> {
+        let mut until = Until { stages, observer, checkpoint: None };
+        let (history, outcome) = self.follow(Checkpoint::start(self.plan()), &mut until);
+        let Some(checkpoint) = until.checkpoint else { return outcome.map(|()| None) };
+        let worn_through = checkpoint.place.worn_through.is_some();
+        Ok((!worn_through).then_some(Beginning { checkpoint, steps: history.steps, cycles: history.cycles }))
+    }
+}
+
+/// Stops a run when its first stages are over.
+struct Until<'a> {
+    stages: usize,
+    observer: &'a mut dyn Observer,
+    checkpoint: Option<Checkpoint>,
+}
+
+impl Observer for Until<'_> {
+    fn iterated(&mut self, iteration: &Iteration) -> ControlFlow<()> {
+        self.observer.iterated(iteration)
+    }
+
+    fn solved(
+        &mut self,
+        record: &StepRecord,
+        state: &ContactState,
+        kept: Option<&KeptFields>,
+    ) -> ControlFlow<()> {
+        self.observer.solved(record, state, kept)
+    }
+
+    fn leaves_fields(&self) -> bool {
+        false
+    }
+
+    fn cycled(&mut self, record: &CycleRecord) {
+        self.observer.cycled(record);
+    }
+
+    fn reached(&mut self, waypoint: &Waypoint<'_>) -> ControlFlow<()> {
+        self.observer.reached(waypoint)?;
+        if waypoint.place.stage < self.stages {
+            return ControlFlow::Continue(());
+        }
+        self.checkpoint = Some(waypoint.checkpoint());
+        ControlFlow::Break(())
+    }
+}

@@ -1,0 +1,168 @@
+"""Constants of a model from measured fretting loops."""
+
+import json
+from collections.abc import Mapping
+from dataclasses import dataclass
+from os import PathLike
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from fretting import _case, _core
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+
+@dataclass(frozen=True)
+class Constant:
+    """A fitted constant.
+
+    Attributes
+    ----------
+    value : float
+        Its value, in the units of the case.
+    interval : tuple of float
+        95 % confidence interval, linear about the solution; the error of the grid is not in it.
+    told : bool
+        Whether the loop determines it. Where it does not, value and interval mean nothing.
+    """
+
+    value: float
+    interval: tuple[float, float]
+    told: bool
+
+
+class Identification:
+    """What a measured log tells; returned by :func:`fretting.identify`.
+
+    Attributes
+    ----------
+    constants : dict of str to Constant
+        ``"friction coefficient"``, ``"rig stiffness"`` [force/length], ``"actuator amplitude"`` [length], and the fitted key.
+    cycles : dict of str to ndarray
+        Quantities of every cycle: ``cycle``, ``dissipated_energy``, ``force_amplitude``, ``displacement_amplitude``, ``opening``
+        (delta_0), ``energy_ratio`` (A), ``sliding_ratio`` (D), the same of the contact without the rig (``contact_energy_ratio``,
+        ``contact_sliding_ratio``), ``slope_after_reversal``, ``plateau_friction``, ``energy_friction``; NaN where there is none.
+    sliding_condition : str
+        Of the fitted cycle: ``"partial_slip"``, ``"mixed"`` or ``"gross_slip"``.
+    removed : dict
+        What was taken off the log: offset and drift of the displacement, offset of the force.
+    noise : float
+        Standard deviation of the points about the computed loop, relative to the amplitudes.
+    notes : list of str
+        What the data cannot tell, and what was assumed.
+    measured, computed : dict of str to ndarray
+        The fitted cycle as measured (``displacement``, ``force``), and the computed loop (``displacement`` of the actuator,
+        ``force``, ``shift`` of the contact).
+    """
+
+    def __init__(self, answer: Mapping[str, Any], page: str) -> None:
+        self._answer, self._page = answer, page
+        self.constants = {
+            entry["name"]: Constant(entry["value"], (entry["low"], entry["high"]), entry["told"])
+            for entry in answer["parameters"]
+        }
+        rows = answer["cycles"]
+        self.cycles = {
+            name: np.array([np.nan if row[name] is None else row[name] for row in rows], dtype=float)
+            for name in (rows[0] if rows else {})
+        }
+        self.sliding_condition: str = answer["sliding_condition"]
+        self.removed: dict[str, float | None] = dict(answer["removed"])
+        self.noise: float = answer["noise"]
+        self.normal_force: float = answer["normal_force"]
+        self.notes: list[str] = list(answer["notes"])
+        self.measured = {name: np.array(values) for name, values in answer["measured"].items()}
+        self.computed = {name: np.array(values) for name, values in answer["computed"].items()}
+
+    def __repr__(self) -> str:
+        told = ", ".join(f"{name} = {entry.value:.4g}" for name, entry in self.constants.items() if entry.told)
+        return f"Identification({told}; {self.sliding_condition})"
+
+    def to_json(self) -> str:
+        """Return all of it as ``fret identify`` writes it into ``identified.json``."""
+        return json.dumps(self._answer, indent=2)
+
+    def save(self, folder: str | PathLike[str]) -> None:
+        """Write ``identified.json`` and the page ``identified.html`` with its pictures into a folder."""
+        place = Path(folder)
+        place.mkdir(parents=True, exist_ok=True)
+        (place / "identified.json").write_text(self.to_json() + "\n", encoding="utf-8")
+        (place / "identified.html").write_text(self._page, encoding="utf-8")
+
+    def plot(self, axes: "Axes | None" = None) -> "Axes":
+        """Draw the measured points, freed from offset and drift, beside the computed loop."""
+        axes = self._axes(axes)
+        displacement, force = self.measured["displacement"], self.measured["force"]
+        time = (np.arange(len(force)) + 0.5) / len(force) - 0.5
+        drift = self.removed["displacement_offset"] + time * (self.removed["displacement_drift"] or 0.0)  # type: ignore[operator]
+        axes.plot(displacement - drift, force - (self.removed["force_offset"] or 0.0), ".", ms=3, label="measured")
+        axes.plot(self.computed["displacement"], self.computed["force"], label="computed, at the actuator")
+        axes.plot(self.computed["shift"], self.computed["force"], "--", label="computed, the contact's own")
+        axes.legend(frameon=False)
+        return axes
+
+    def _axes(self, axes: "Axes | None") -> "Axes":
+        if axes is None:
+            from matplotlib import pyplot
+
+            axes = pyplot.subplots()[1]
+        units = self._answer["units"]
+        axes.set(xlabel=f"displacement [{units['length']}]", ylabel=f"tangential force [{units['force']}]")
+        return axes
+
+
+def identify(
+    log: str | PathLike[str],
+    *,
+    case: _case.CaseLike,
+    columns: Mapping[str, str] | None = None,
+    units: Mapping[str, str] | None = None,
+    cycle: float | None = None,
+    fit: str | None = None,
+    threads: int | None = None,
+) -> Identification:
+    """Identify friction coefficient, stiffness of the rig and the quantities of every cycle from measured fretting loops.
+
+    The same as ``fret identify``: the loop of the solver, behind a spring, is fitted to one cycle by least squares; offsets and a
+    drift of the displacement are fitted with it.
+
+    Parameters
+    ----------
+    log : path
+        CSV file: displacement of the actuator and tangential force; any lines above the names of the columns, commas, semicolons or
+        tabs, decimal commas with the last two.
+    case : path, str or mapping
+        Bodies, profile, grid and the stages that press them.
+    columns : mapping, optional
+        Names of the columns of ``"displacement"``, ``"force"``, ``"cycle"``, ``"normal_force"``. Default: usual names.
+    units : mapping, optional
+        Units of ``"displacement"``, ``"force"``, ``"normal_force"``, such as ``"um"``. Default: those beside the names, or those of
+        the case.
+    cycle : float, optional
+        Number of the cycle that is fitted. Default: the last.
+    fit : str, optional
+        A key of the case that is fitted too, such as ``"lower.substrate.young"``.
+    threads : int, optional
+        Worker threads. Default: all cores.
+
+    Returns
+    -------
+    Identification
+        Constants with intervals, quantities of the cycles, what was removed, what the data cannot tell.
+
+    Raises
+    ------
+    CaseError
+        When the case is refused.
+    ValueError
+        When the log cannot be read as fretting loops of such a case; the message says where and what to do.
+    RunError
+        When a loop cannot be solved.
+    """
+    name = str(log)
+    asked = list((columns or {}).items()), list((units or {}).items()), cycle, fit
+    json_text, page = _core.identify((name, Path(log).read_bytes()), _case.read(case), asked, threads)
+    return Identification(json.loads(json_text), page)
