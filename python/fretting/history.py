@@ -81,7 +81,8 @@ class History:
         ``last_increment``, ``stands_for``, ``last_cycle`` (int); ``dissipated_energy`` (of this one cycle),
         ``total_dissipated_energy`` (since the start), ``direction``, ``force_amplitude``,
         ``displacement_amplitude``, ``opening``, ``energy_ratio``, ``sliding_ratio``, ``stiffness``, ``closure``,
-        ``worn_volume`` (since the start), ``max_worn_depth`` (float, NaN where a cycle has none); ``steady`` (bool); ``drive``,
+        ``worn_volume`` (since the start), ``max_worn_depth``, and of the loop at the actuator of a rig ``actuator_amplitude``, ``actuator_energy_ratio``,
+        ``actuator_sliding_ratio``, ``actuator_stiffness`` (float, NaN where a cycle has none); ``steady`` (bool); ``drive``,
         ``regime`` (str).
     running_conditions : list of str or None
         ``"partial"``, ``"mixed"`` or ``"gross"`` for each stage; None for one without cycles.
