@@ -52,8 +52,8 @@ def loop_energy(force: float, mu: float, fraction: float, modulus: float) -> flo
     curve = np.array([mindlin_shift(force, mu, float(part), modulus) for part in pull])
     area = float((weights * curve).sum()) * fraction / 2 * mu * force  # integral of shift dT on the first loading
     peak = mindlin_shift(force, mu, fraction, modulus) * fraction * mu * force
-    # Either branch of the loop is the first curve twice as large (Masing): between them lie 8 areas less 4 peaks.
-    return 8 * area - 4 * peak
+    # Either branch of the loop is the first curve twice as large (Masing): between them lie 4 peaks less 8 areas.
+    return 4 * peak - 8 * area
 
 
 def sliding_sphere_stress(place: tuple[float, float, float], p0: float, mu: float, poisson: float) -> dict[str, float]:
