@@ -2,6 +2,7 @@
 
 pub mod bulk;
 pub mod conduction;
+pub mod digest;
 pub mod friction;
 pub mod graded;
 pub mod grid;
@@ -20,6 +21,7 @@ pub mod wear;
 pub use crate::fields::TangentialField;
 pub use bulk::{BulkCompliance, bulk_stress_in_layer};
 pub use conduction::{ConductingLayer, Conduction, Conductor, ConductorError};
+pub use digest::digest;
 pub use friction::{CellValues, CoulombFriction, FrictionError};
 pub use graded::{GradedCoating, GradientError, Layer, YoungGradient};
 pub use grid::{GridError, SurfaceGrid};
