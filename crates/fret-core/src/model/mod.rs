@@ -27,7 +27,7 @@ pub use graded::{GradedCoating, GradientError, Layer, YoungGradient};
 pub use grid::{GridError, SurfaceGrid};
 pub use half_space::{Base, Body, Coating, ContactPair, ElasticMaterial, HalfSpace, MaterialError};
 pub use heights::{Detrend, Heights};
-pub use load::{Control, LoadStep};
+pub use load::{Control, LoadStep, Reached};
 pub use profile::{BEYOND_THE_BODY, Profile};
 pub use residual::{ResidualLayer, ResidualStress};
 pub use rig::Rig;
