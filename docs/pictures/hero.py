@@ -1,8 +1,9 @@
 """Partial slip of a coated contact, from the sketch to the zones.
 
-(a) A rigid ball, R = 10 mm, on a coated half-space: E_s = 210 GPa, nu = 0.3, coating thickness h = a_H = 73 um (Hertz radius of the uncoated
-substrate), mu = 0.3, P = 12 N. (b) Fretting loops (second cycle) of amplitude 0.9 mu P for three coatings; displacement relative to the onset of gross slip
-of the uncoated contact. (c) Stick and slip zones of E_c/E_s = 2 at the points 1 to 4 of the loop. 96 x 96 cells, 20 + 96 increments.
+(a) A rigid ball, R = 10 mm, on a coated half-space: E_s = 210 GPa, nu = 0.3, coating thickness h = a_H = 73 um (Hertz
+radius of the uncoated substrate), mu = 0.3, P = 12 N. (b) Fretting loops (second cycle) of amplitude 0.9 mu P for
+three coatings; displacement relative to the onset of gross slip of the uncoated contact. (c) Stick and slip zones of
+E_c/E_s = 2 at the points 1 to 4 of the loop. 96 x 96 cells, 20 + 96 increments.
 """
 
 import matplotlib.pyplot as plt

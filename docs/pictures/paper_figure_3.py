@@ -1,8 +1,9 @@
 """Shear traction through a fretting loop of a coated contact.
 
-Rigid sphere of radius 10 mm on a half-space (210 GPa) with a coating of thickness h = a_H = 0.1 mm, (a) E_c/E_s = 1/2, (b) E_c/E_s = 2,
-nu = 0.3, mu = 0.1, P = 30.8 N, tangential amplitude 0.754 mu P, 128 x 128 cells, 100 increments of indentation and 300 of the loop. Shear
-along x through the centre. Grey: the friction limit. Indentation alone causes shear, since the bodies are elastically dissimilar.
+Rigid sphere of radius 10 mm on a half-space (210 GPa) with a coating of thickness h = a_H = 0.1 mm, (a) E_c/E_s = 1/2,
+(b) E_c/E_s = 2, nu = 0.3, mu = 0.1, P = 30.8 N, tangential amplitude 0.754 mu P, 128 x 128 cells, 100 increments of
+indentation and 300 of the loop. Shear along x through the centre. Grey: the friction limit. Indentation alone causes
+shear, since the bodies are elastically dissimilar.
 """
 
 import copy

@@ -1,7 +1,7 @@
 """Figures of histories and sweeps; needs matplotlib (``pip install fretting[plot]``).
 
-Every function draws into `ax`, or into a figure of its own when none is given, and returns the axes; further keywords go to the
-artist (``color=``, ``label=``, ``cmap=``). Units are those
+Every function draws into `ax`, or into a figure of its own when none is given, and returns the axes; further keywords
+go to the artist (``color=``, ``label=``, ``cmap=``). Units are those
 of the case: labels say what ``[units]`` of the case declares, else length, force, pressure.
 """
 
@@ -37,13 +37,14 @@ REGIMES = (
 )  # fmt: skip
 """Names and colours of the sliding conditions, from less to more slip."""
 
+
 def loop(
     history: "History",
     *,
     along: Motion | None = None,
     stage: int | str | None = None,
     ax: "Axes | None" = None,
-    **line: Any,  # noqa: ANN401 - what matplotlib takes
+    **line: Any,
 ) -> "Axes":
     """Draw tangential force over relative displacement, or moment over twist.
 
@@ -80,7 +81,7 @@ def section(
     along: Direction = "x",
     at: float = 0.0,
     ax: "Axes | None" = None,
-    **line: Any,  # noqa: ANN401 - what matplotlib takes
+    **line: Any,
 ) -> "Axes":
     """Draw fields along a line through the grid.
 
@@ -120,7 +121,9 @@ def section(
     for name, course in values.items():
         axes.plot(here, course, **{"lw": 1.4, "label": label(name, history._units), **_long_names(line)})
     units = {in_units(unit(name), history._units) for name in names}
-    axes.set(xlabel=f"{along} [{in_units('length', history._units)}]", ylabel=f"[{units.pop()}]" if len(units) == 1 else "")
+    axes.set(
+        xlabel=f"{along} [{in_units('length', history._units)}]", ylabel=f"[{units.pop()}]" if len(units) == 1 else ""
+    )
     axes.ticklabel_format(scilimits=(-2, 3))
     axes.legend(frameon=False)
     return axes
@@ -132,7 +135,7 @@ def field(
     increment: int = -1,
     *,
     ax: "Axes | None" = None,
-    **image: Any,  # noqa: ANN401 - what matplotlib takes
+    **image: Any,
 ) -> "Axes":
     """Draw a kept field as a map, with a colour bar; of a line contact, as a line.
 
@@ -167,7 +170,7 @@ def zones(
     increment: int = -1,
     *,
     ax: "Axes | None" = None,
-    **image: Any,  # noqa: ANN401 - what matplotlib takes
+    **image: Any,
 ) -> "Axes":
     """Draw the zones: open, stick and slip.
 
@@ -255,7 +258,7 @@ def regime_map(
     *,
     variable: str = "cycle_regime",
     ax: "Axes | None" = None,
-    **mesh: Any,  # noqa: ANN401 - what matplotlib takes
+    **mesh: Any,
 ) -> "Axes":
     """Draw a fretting map: the sliding condition over two axes of a sweep.
 
@@ -282,7 +285,7 @@ def regime_map(
 
     colours = ListedColormap([colour for _, colour in REGIMES])
     edges = [_edges(np.asarray(dataset[name].values, dtype=np.float64), name) for name in (x, y)]
-    fixed = {"cmap": colours, "vmin": -0.5, "vmax": len(REGIMES) - 0.5}
+    fixed: dict[str, Any] = {"cmap": colours, "vmin": -0.5, "vmax": len(REGIMES) - 0.5}
     axes.pcolormesh(*edges, codes, **{"edgecolors": "white", "lw": 0.4, **mesh, **fixed})
     axes.set(xlabel=x, ylabel=y)
     _colour_legend(axes, [entry for number, entry in enumerate(REGIMES) if (codes == number).any()], "upper left")
@@ -299,7 +302,7 @@ def html_table(title: str, facts: Sequence[tuple[str, str]]) -> str:
     return f"<div><strong>{html.escape(title)}</strong><table>{rows}</table></div>"
 
 
-def _pyplot() -> Any:  # noqa: ANN401 - a module
+def _pyplot() -> Any:
     try:
         from matplotlib import pyplot as plt
     except ImportError as error:
@@ -313,10 +316,11 @@ def _long_names(line: dict[str, Any]) -> dict[str, Any]:
     return {short.get(name, name): value for name, value in line.items()}
 
 
-def _own_axes(axes: "Axes | None") -> Any:  # noqa: ANN401 - matplotlib's own stubs change with its version
+def _own_axes(axes: "Axes | None") -> "Axes":
     if axes is not None:
         return axes
-    return _pyplot().subplots(figsize=(5.2, 4.0), layout="constrained")[1]
+    own: Axes = _pyplot().subplots(figsize=(5.2, 4.0), layout="constrained")[1]
+    return own
 
 
 def _component(along: str) -> None:
@@ -401,7 +405,7 @@ def _along(values: Reals, along: Direction, across: Reals, at: float) -> Reals:
 def _image(
     history: "History",
     values: npt.NDArray[Any],
-    axes: Any,  # noqa: ANN401
+    axes: Any,
     keywords: dict[str, Any],
     words: Sequence[tuple[str, str]] | None = None,
     limits: tuple[float, float] | None = None,
@@ -448,7 +452,7 @@ def _edges(centres: Reals, name: str) -> Reals:
     return answer
 
 
-def _colour_legend(axes: Any, entries: Sequence[tuple[str, str]], place: str = "upper right") -> None:  # noqa: ANN401
+def _colour_legend(axes: Any, entries: Sequence[tuple[str, str]], place: str = "upper right") -> None:
     from matplotlib.patches import Patch
 
     patches = [Patch(facecolor=colour, edgecolor="0.6", label=word.replace("_", " ")) for word, colour in entries]

@@ -69,8 +69,8 @@ def cattaneo_line(
 ) -> CattaneoLine:
     """Push a Hertz line contact across its axis, while a strain grows in proportion.
 
-    ``c = a sqrt(1 - |Q|/(mu P))``, ``e = a E* strain/(2 mu p0)``; for bodies that do not couple, as long as all that slips
-    slips one way (``|e| + c <= a``).
+    ``c = a sqrt(1 - |Q|/(mu P))``, ``e = a E* strain/(2 mu p0)``; for bodies that do not couple, as long as all that
+    slips slips one way (``|e| + c <= a``).
 
     Parameters
     ----------
@@ -81,7 +81,8 @@ def cattaneo_line(
     tangential_force : float
         Tangential force per length [force/length], at most friction times normal force.
     strain : float
-        Strain of the lower surface less that of the upper one [-]: ``sigma (1 - nu^2)/E`` under a tension of the lower body.
+        Strain of the lower surface less that of the upper one [-]: ``sigma (1 - nu^2)/E`` under a tension of the lower
+        body.
 
     References
     ----------
@@ -135,8 +136,8 @@ def sliding_cylinder(
 ) -> SlidingCylinder:
     """Slide a cylinder across its axis on a half-space, with Dundurs' coupling beta [-].
 
-    ``p = (E*/2R) cos(pi g) (a + x)^(1/2 - g) (a - x)^(1/2 + g)``, ``tan(pi g) = beta mu``; friction is negative for shear on the
-    lower body along -x.
+    ``p = (E*/2R) cos(pi g) (a + x)^(1/2 - g) (a - x)^(1/2 + g)``, ``tan(pi g) = beta mu``; friction is negative for
+    shear on the lower body along -x.
 
     References
     ----------
