@@ -48,7 +48,8 @@ def on_page_content(content: str, page: Any, **_: object) -> str:
 
     def drawn(formula: re.Match[str]) -> str:
         display = "block" if formula[2] == "[" else "inline"
-        return convert(html.unescape(formula[3]).strip(), display=display)
+        written = convert(html.unescape(formula[3]).strip(), display=display)
+        return f'<div class="formula">{written}</div>' if display == "block" else written
 
     content = FORMULA.sub(drawn, content)
     if _is_tutorial(page.file.src_path) and "```python" in page.markdown:

@@ -7,6 +7,7 @@ of the case: labels say what ``[units]`` of the case declares, else length, forc
 
 import html
 from collections.abc import Sequence
+from contextlib import suppress
 from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
@@ -69,7 +70,9 @@ def loop(
     axes.plot(history.increments[motion][rows], history.increments[force][rows], **{"lw": 1.4, **_long_names(line)})
     axes.axhline(0.0, color="0.8", lw=0.8, zorder=0)
     axes.axvline(0.0, color="0.8", lw=0.8, zorder=0)
-    axes.set(xlabel=_loop_label(history, motion), ylabel=_loop_label(history, force))
+    axes.set_xlabel(_loop_label(history, motion), loc="left")
+    axes.set_ylabel(_loop_label(history, force))
+    _powers_of_ten(axes)
     return axes
 
 
@@ -119,12 +122,12 @@ def section(
     values = {name: _along(history.field(name, increment), along, across, at) for name in names}  # type: ignore[arg-type]
     axes = _own_axes(ax)
     for name, course in values.items():
-        axes.plot(here, course, **{"lw": 1.4, "label": label(name, history._units), **_long_names(line)})
+        axes.plot(here, course, **{"lw": 1.4, "label": name.replace("_", " "), **_long_names(line)})
     units = {in_units(unit(name), history._units) for name in names}
     axes.set(
         xlabel=f"{along} [{in_units('length', history._units)}]", ylabel=f"[{units.pop()}]" if len(units) == 1 else ""
     )
-    axes.ticklabel_format(scilimits=(-2, 3))
+    _powers_of_ten(axes)
     axes.legend(frameon=False)
     return axes
 
@@ -424,8 +427,15 @@ def _image(
     axes.set(xlabel=f"x [{length}]", ylabel="" if history.is_line else f"y [{length}]")
     if history.is_line:
         axes.set(aspect="auto", yticks=[])
-    axes.ticklabel_format(scilimits=(-2, 3), axis="x" if history.is_line else "both")
+    _powers_of_ten(axes, "x" if history.is_line else "both")
     return image
+
+
+def _powers_of_ten(axes: Any, axis: Literal["x", "y", "both"] = "both") -> None:
+    """Few ticks, with the power of ten beside the axis; an axis whose numbers the caller writes differently stays."""
+    with suppress(AttributeError):
+        axes.ticklabel_format(scilimits=(-2, 3), axis=axis, useMathText=True)
+        axes.locator_params(axis="x", nbins=5)
 
 
 def _limits(values: npt.NDArray[Any]) -> tuple[float, float]:
@@ -456,4 +466,6 @@ def _colour_legend(axes: Any, entries: Sequence[tuple[str, str]], place: str = "
     from matplotlib.patches import Patch
 
     patches = [Patch(facecolor=colour, edgecolor="0.6", label=word.replace("_", " ")) for word, colour in entries]
-    axes.legend(handles=patches, loc=place, fontsize="small", framealpha=0.9)
+    # Small, so that it fits into the corner beside a round contact.
+    small = {"fontsize": "x-small", "handlelength": 1.0, "borderpad": 0.3, "labelspacing": 0.25, "borderaxespad": 0.3}
+    axes.legend(handles=patches, loc=place, framealpha=0.9, **small)
