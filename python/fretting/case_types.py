@@ -367,7 +367,8 @@ class StrainLife(TypedDict):
 
 class Stress(TypedDict):
     """
-    Subsurface stresses of one body, and constants of the fatigue parameters for those of its layers that name none of their own.
+    Subsurface stresses of one body, and constants of the fatigue parameters for those of its layers that name none of
+    their own.
     """
 
     body: NotRequired[Side]
