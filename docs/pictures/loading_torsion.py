@@ -54,6 +54,6 @@ for cells, mark in ((24, "v"), (48, "s"), (96, "o")):
 left.set(xlabel="rotation [rad]", ylabel="$M_z$ / full-slip moment")
 left.legend()
 right.set(xlabel="increment", ylabel="error / max rotation", ylim=(3e-6, 3e-2), xticks=[4, 8, 12, 16])
-right.legend(ncols=3, fontsize=6)
+right.legend(loc="upper center", ncols=3, fontsize=6, handlelength=1.2, columnspacing=1.0)
 letters((left, right))
 save(drawn)
