@@ -141,8 +141,10 @@ fn what_the_program_computed_is_told_with_its_unit() {
     bench.file("moved.toml", &moved);
     let failed = bench.fret(&["run", "moved.toml", "--quiet"]);
     assert!(failed.err.contains("tangential force 2.5 N is above mu P = 0.098"), "{}", failed.err);
-    let kept = declared.replace("[\"pressure\", \"shear\", \"zone\"]", "[\"pressure\", \"shear\"]");
-    bench.file("kept.toml", &kept.replace("every = 5", "every = 2"));
+    let fields = "[\"pressure\", \"shear\", \"slip\"]";
+    let kept =
+        declared.replace("[\"pressure\", \"shear\", \"zone\"]", fields).replace("every = 5", "every = 2");
+    bench.file("kept.toml", &format!("{kept}\n[stress]\nyield_strength = 700e6\n"));
     assert_eq!(bench.fret(&["run", "kept.toml", "--out", "kept", "--quiet"]).code, Some(0));
     let stress = bench.fret(&["stress", "kept", "--depths", "0,1e-5"]);
     let row = stress.out.lines().find(|line| line.contains("smith watson topper")).unwrap();
