@@ -32,6 +32,8 @@ def band(
         The number, such as ``"cycle_energy_ratio"``.
     ax : matplotlib Axes, optional
         Where to draw.
+    **line
+        Keywords of matplotlib for the line, such as ``color`` or ``label``.
 
     Returns
     -------
@@ -70,6 +72,8 @@ def loop_band(
         Which motion.
     ax : matplotlib Axes, optional
         Where to draw.
+    **line
+        Keywords of matplotlib for the line, such as ``color`` or ``label``.
 
     Returns
     -------

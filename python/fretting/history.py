@@ -610,7 +610,7 @@ class History:
         ax: "Axes | None" = None,
         **line: Any,
     ) -> "Axes":
-        """Draw tangential force over shift, or moment over twist: see :func:`fretting.plot.loop`."""
+        """Draw force over displacement, or moment over twist; arguments and answer of :func:`fretting.plot.loop`."""
         return plot.loop(self, along=along, stage=stage, ax=ax, **line)
 
     def plot_section(
@@ -623,7 +623,7 @@ class History:
         ax: "Axes | None" = None,
         **line: Any,
     ) -> "Axes":
-        """Draw fields along a line through the grid: see :func:`fretting.plot.section`."""
+        """Draw fields along a line through the grid; arguments and answer of :func:`fretting.plot.section`."""
         return plot.section(self, fields, increment, along=along, at=at, ax=ax, **line)
 
     def plot_field(
@@ -634,7 +634,7 @@ class History:
         ax: "Axes | None" = None,
         **image: Any,
     ) -> "Axes":
-        """Draw a field as a map: see :func:`fretting.plot.field`."""
+        """Draw a field as a map; arguments and answer of :func:`fretting.plot.field`."""
         return plot.field(self, name, increment, ax=ax, **image)
 
     def plot_zones(
@@ -644,13 +644,13 @@ class History:
         ax: "Axes | None" = None,
         **image: Any,
     ) -> "Axes":
-        """Draw where the contact sticks and slips: see :func:`fretting.plot.zones`."""
+        """Draw where the contact sticks and slips; arguments and answer of :func:`fretting.plot.zones`."""
         return plot.zones(self, increment, ax=ax, **image)
 
     def animate_loop(
         self, field: FieldName = "zone", *, along: plot.Motion | None = None, stage: int | str | None = None
     ) -> "FuncAnimation":
-        """Animate the loop beside a field: see :func:`fretting.plot.animation`."""
+        """Animate the loop beside a field; arguments and answer of :func:`fretting.plot.animation`."""
         return plot.animation(self, field, along=along, stage=stage)
 
     def _facts(self) -> list[tuple[str, str]]:

@@ -59,6 +59,8 @@ def loop(
         Number or name of a stage. Without: from the first stage in cycles on, or everything when there is none.
     ax : matplotlib Axes, optional
         Where to draw.
+    **line
+        Keywords of matplotlib for the line, such as ``color`` or ``label``.
 
     Returns
     -------
@@ -103,6 +105,8 @@ def section(
         contact it does not matter.
     ax : matplotlib Axes, optional
         Where to draw.
+    **line
+        Keywords of matplotlib for the line, such as ``color`` or ``label``.
 
     Returns
     -------
@@ -152,6 +156,8 @@ def field(
         Number of the increment, from 0; negative from the end.
     ax : matplotlib Axes, optional
         Where to draw.
+    **image
+        Keywords of matplotlib for the image, such as ``cmap`` or ``norm``.
 
     Returns
     -------
@@ -185,6 +191,8 @@ def zones(
         Number of the increment, from 0; negative from the end.
     ax : matplotlib Axes, optional
         Where to draw.
+    **image
+        Keywords of matplotlib for the image, such as ``cmap`` or ``norm``.
 
     Returns
     -------

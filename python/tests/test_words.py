@@ -71,7 +71,8 @@ ALLOWED = {
 }
 """Expressions that hold a home-made word and are right."""
 
-PAGES = sorted([ROOT / "README.md", ROOT / "CHANGELOG.md", ROOT / "CONTRIBUTING.md", *(ROOT / "docs").rglob("*.md")])
+TEXTS = [ROOT / name for name in ("README.md", "CHANGELOG.md", "CONTRIBUTING.md", "python/README.md")]
+PAGES = sorted([*TEXTS, *ROOT.glob("crates/*/README.md"), *(ROOT / "docs").rglob("*.md")])
 DIARIES = {
     "performance-log.md",
     "2026-11-usability.md",
