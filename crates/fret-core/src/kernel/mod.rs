@@ -20,6 +20,7 @@ pub(crate) mod layer;
 pub(crate) mod layer_constants;
 pub(crate) mod line_depth;
 pub(crate) mod matrix;
+pub(crate) mod stack_layer;
 
 mod axis_waves;
 mod bessel;
@@ -38,6 +39,8 @@ mod line_kernels;
 mod panels;
 pub(crate) mod quadrature;
 mod radial;
+#[cfg(test)]
+mod third_party;
 #[cfg(test)]
 pub(crate) mod samples;
 
