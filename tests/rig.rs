@@ -130,12 +130,13 @@ fn the_limits_of_the_stiffness_are_prescribed_shift_and_prescribed_force() {
     let own = contact_stiffness(&sphere);
     let limit = FRICTION * sphere.force();
     let shift = 0.5 * limit / own;
-    // By the end points of slip: the rule of second order knows less of an increment whose control is of another kind than the last.
+    // The machine presses by a force and drives by its actuator: the second increment of the cycle goes on from the first as where both
+    // stages prescribe the same kind.
     let run = |control: &str, rig: &str| {
-        solved(&by_end_points(&format!(
+        solved(&format!(
             "{}[[load]]\n{control}\nincrements = 8\ncycles = 1\n{rig}",
             sphere.pressed(1.0, 2, "cubic")
-        )))
+        ))
     };
     let by_shift = run(&format!("shift = [{shift:e}, 0.0]"), "");
     let stiff = run(

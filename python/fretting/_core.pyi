@@ -9,6 +9,7 @@ __all__ = [
     "Case",
     "Convolution",
     "History",
+    "InCommon",
     "Solution",
     "Start",
     "__version__",
@@ -61,6 +62,19 @@ __all__ = [
 
 __version__: str
 
+# Pressure, shear, slip and bulk stress of every kept increment of a cycle; the residual stress, as JSON.
+_Loading = tuple[
+    list[
+        tuple[
+            npt.NDArray[np.float64],
+            tuple[npt.NDArray[np.float64], npt.NDArray[np.float64]] | None,
+            tuple[npt.NDArray[np.float64], npt.NDArray[np.float64]] | None,
+            tuple[float, float],
+        ]
+    ],
+    str,
+]
+
 @final
 class Case:
     @staticmethod
@@ -69,7 +83,13 @@ class Case:
     def from_json(
         text: str, name: str, folder: Path, arrays: list[npt.NDArray[np.float64]], start: Start | None = None
     ) -> Case: ...
+    def beginnings(self) -> list[str]: ...
     def __reduce__(self) -> tuple[Callable[..., Case], tuple[Any, ...]]: ...
+
+@final
+class InCommon:
+    def __new__(cls, histories: list[tuple[int, list[str]]]) -> InCommon: ...
+    def increments(self) -> int: ...
 
 def vocabulary() -> str: ...
 @final
@@ -117,6 +137,7 @@ def run(
     threads: int | None,
     on_step: Callable[[dict[str, Any], int, int], object] | None,
     estimate_error: bool,
+    point: tuple[InCommon, int] | None = None,
 ) -> tuple[History, BaseException | None]: ...
 def run_into(
     case: Case,
@@ -228,17 +249,7 @@ def torsion(sphere: tuple[float, float, float], friction: float, shear_modulus: 
 def fatigue(
     bodies: tuple[str, bool],
     setting: tuple[tuple[float, float], bool],
-    loading: tuple[
-        list[
-            tuple[
-                npt.NDArray[np.float64],
-                tuple[npt.NDArray[np.float64], npt.NDArray[np.float64]] | None,
-                tuple[npt.NDArray[np.float64], npt.NDArray[np.float64]] | None,
-                tuple[float, float],
-            ]
-        ],
-        str,
-    ],
+    loading: _Loading,
     depths: list[float],
     constants: str,
     threads: int | None,
@@ -246,17 +257,7 @@ def fatigue(
 def crack(
     bodies: tuple[str, bool],
     setting: tuple[tuple[float, float], bool],
-    loading: tuple[
-        list[
-            tuple[
-                npt.NDArray[np.float64],
-                tuple[npt.NDArray[np.float64], npt.NDArray[np.float64]] | None,
-                tuple[npt.NDArray[np.float64], npt.NDArray[np.float64]] | None,
-                tuple[float, float],
-            ]
-        ],
-        str,
-    ],
+    loading: _Loading,
     constants: str,
     threads: int | None,
 ) -> str: ...

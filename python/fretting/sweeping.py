@@ -1,10 +1,11 @@
 """Many cases: a base case, and axes along which it changes."""
 
+import contextlib
 import json
 import os
 import tomllib
 from collections.abc import Callable, Iterator, Mapping
-from concurrent.futures import BrokenExecutor, Executor, Future, as_completed
+from concurrent.futures import BrokenExecutor, Executor, Future, ThreadPoolExecutor, as_completed
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypeAlias
 
@@ -61,8 +62,9 @@ def sweep(
         from keys to values is a list of points, along one dimension ``point``. A :class:`Distribution` in place of values
         makes a key uncertain: all of them are drawn together, along one dimension ``sample``, beside the other axes.
     executor : concurrent.futures.Executor, optional
-        Where the points are solved: threads, processes, a dask client's ``get_executor()``, ``MPIPoolExecutor``. In
-        default: the calling thread, one after the other.
+        Where the points are solved: threads, processes, a dask client's ``get_executor()``, ``MPIPoolExecutor``.
+        Default: the calling thread, one after the other. What points begin with alike is solved once, in this thread and in
+        threads, unless `measure` is given; processes solve every point on its own. The answers are the same bits.
     keep : {"last", "stages", "all"}
         Which increments the result has: the last of the history, the last of every stage (dimension ``stage``), or all
         (dimension ``increment``).
@@ -94,7 +96,7 @@ def sweep(
         as ``cycle_dissipated_energy``, ``cycle_energy_ratio``, ``cycle_regime`` and so on (see :class:`History`); ``status``
         (``"solved"``, ``"refused"``, ``"failed"``) and ``error``, the message of a point that was not solved. Numbers
         of such points are NaN, counts -1, words empty. The attribute ``solved_before`` counts the solved
-        points found in `folder`.
+        points found in `folder`, ``increments_in_common`` the increments that points took from beginnings solved for others.
 
     Raises
     ------
@@ -144,8 +146,11 @@ def sweep(
     threads = threads or (None if executor is None else 1)
     open_points = [point for point in asked if point.place not in answers]
     _fits_memory(open_points, executor)
+    asked_of_all = _Asked(origin, threads, keep, measure)
     with _Teller(progress, len(asked), answers.values()) as tell:
-        for point, answer, lasting in _solved(open_points, executor, _Asked(origin, threads, keep, measure)):
+        tasks = [_Task(json.dumps(point.case), point.name, asked_of_all) for point in open_points]
+        in_common = _in_common(tasks, executor)
+        for point, answer, lasting in _solved(open_points, tasks, executor, in_common):
             if store and lasting:
                 store.keep(point.case, answer)
             answers[point.place] = answer
@@ -154,7 +159,8 @@ def sweep(
         first = answers[asked[0].place]
         raise CaseError(f"all {len(asked)} points of the sweep are refused; the first:\n{first['error']}",
                         [tuple(mistake) for mistake in first["mistakes"]])  # fmt: skip
-    attributes: dict[str, Any] = {"solved_before": solved_before}
+    increments = 0 if in_common is None else in_common.increments()
+    attributes: dict[str, Any] = {"solved_before": solved_before, "increments_in_common": increments}
     if samples is not None and isinstance(parameters, Mapping):
         uncertain = [str(key) for key, values in parameters.items() if is_uncertain(values)]
         attributes |= {"samples": samples, "seed": seed, "indices": int(indices), "uncertain": uncertain}
@@ -219,13 +225,30 @@ class _Task(NamedTuple):
     name: str
     asked: _Asked
 
+    def case(self) -> _core.Case:
+        return _core.Case.from_json(self.text, self.name, Path(), [], self.asked.origin)
 
-def _solve(task: _Task) -> Table:
+
+def _in_common(tasks: list[_Task], executor: Executor | None) -> _core.InCommon | None:
+    """Return what points that are solved in this process have in common.
+
+    The fields of a common beginning belong to none of them: where all of a history is measured, every point has its own.
+    """
+    if len(tasks) < 2 or not (executor is None or isinstance(executor, ThreadPoolExecutor)):
+        return None
+    histories = []
+    for number, task in enumerate(tasks):
+        if task.asked.measure is None:
+            with contextlib.suppress(CaseError, OutOfMemoryError):  # its own answer tells of it
+                histories.append((number, task.case().beginnings()))
+    return _core.InCommon(histories)
+
+
+def _solve(task: _Task, point: tuple[_core.InCommon, int] | None = None) -> Table:
     """Solve one point, wherever this is called; only what a person can do something about is caught."""
     nothing: Table = {"steps": {}, "cycle": {}, "measured": {}, "mistakes": []}
     try:
-        case = _core.Case.from_json(task.text, task.name, Path(), [], task.asked.origin)
-        history = ended(*_core.run(case, task.asked.threads, None, False), json.loads(task.text))
+        history = ended(*_core.run(task.case(), task.asked.threads, None, False, point), json.loads(task.text))
     except CaseError as error:
         return {**nothing, "status": "refused", "error": str(error), "mistakes": [list(m) for m in error.mistakes]}
     except OutOfMemoryError:
@@ -269,19 +292,20 @@ def _measured(name: str, value: object) -> Any:  # noqa: ANN401 - a number or ne
 
 
 def _solved(
-    points: list[Point], executor: Executor | None, asked: _Asked
+    points: list[Point], tasks: list[_Task], executor: Executor | None, in_common: _core.InCommon | None
 ) -> Iterator[tuple[Point, Table, bool]]:
     """Answers as they come, and whether each would be the same another time."""
-    tasks = [_Task(json.dumps(point.case), point.name, asked) for point in points]
+    shared = [None if in_common is None else (in_common, number) for number in range(len(tasks))]
     if executor is None:
-        for point, task in zip(points, tasks, strict=True):
+        for point, task, common in zip(points, tasks, shared, strict=True):
             try:
-                yield point, _solve(task), True
+                yield point, _solve(task, common), True
             except Exception as error:  # whatever it is belongs to this point alone
                 yield point, _surprise(error), False
         return
     futures: dict[Future[Table], Point] = {
-        executor.submit(_solve, task): point for point, task in zip(points, tasks, strict=True)
+        executor.submit(_solve, task, common): point
+        for point, task, common in zip(points, tasks, shared, strict=True)
     }
     try:
         for future in as_completed(futures):

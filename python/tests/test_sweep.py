@@ -69,8 +69,11 @@ def test_every_point_is_what_a_run_alone_gives(case: dict[str, Any], alone: np.n
     np.testing.assert_array_equal(answer[FORCE].values, AXES[FORCE])
     assert (answer["status"] == "solved").all()
     assert (answer["error"] == "").all()
-    # A cycle's work of friction is what the history gained in it: here all of it, pressing alone loses nothing.
+    # A cycle's dissipated energy is what the history gained in it: here all of it, pressing alone loses nothing.
     np.testing.assert_allclose(answer["cycle_dissipated_energy"].values, alone, rtol=1e-12)
+    # Three points of each friction begin with the same indentation: solved once, in this process.
+    pressing = case["load"][0]["increments"]
+    assert answer.attrs["increments_in_common"] == (0 if "processes" in kind else 6 * pressing)
     # Forces are held to the tolerance of the case, 1e-8.
     np.testing.assert_allclose(answer["cycle_force_amplitude"].values[0], AXES[FORCE], rtol=1e-7)
 

@@ -7,6 +7,7 @@ use fret_cli::embedded::{CaseText, Earlier};
 use fret_core::case::{self, Attachments, CaseError};
 use fret_core::history;
 use fret_core::plan::{LeaveOut, Plan};
+use fret_core::run;
 use ndarray::Array2;
 use numpy::{PyArray2, PyReadonlyArray2, ToPyArray};
 use pyo3::IntoPyObject;
@@ -165,6 +166,12 @@ impl Case {
         let arrays = Some(arrays);
         let source = Source { text: text.to_owned(), name: name.to_owned(), folder, arrays, start };
         Ok(Self(source.case()?, source))
+    }
+
+    /// For each number of its first stages a name of all that these depend on: cases that agree in it begin alike.
+    fn beginnings(&self, py: Python<'_>) -> PyResult<Vec<String>> {
+        let plan = py.detach(|| self.planned()).map_err(|error| refused(&error))?;
+        Ok(run::beginnings(&plan))
     }
 
     /// Pickled as what it was read from.

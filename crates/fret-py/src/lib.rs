@@ -12,6 +12,7 @@ mod error;
 mod fatigue;
 mod history;
 mod identify;
+mod in_common;
 mod kernels;
 mod plan;
 mod simulation;
@@ -46,6 +47,8 @@ mod _core {
     #[pymodule_export]
     use crate::identify::identify;
     #[pymodule_export]
+    use crate::in_common::InCommon;
+    #[pymodule_export]
     use crate::kernels::{Convolution, frequency_response, influence_coefficients};
     #[pymodule_export]
     use crate::plan::{expected, memory_needed, plan};
@@ -59,7 +62,6 @@ mod _core {
     use crate::subsurface::subsurface_stress;
     #[pymodule_export]
     use crate::threads::{check_memory, check_threads};
-
     #[pymodule_export]
     use crate::uncertainty::{quantile_fractions, sample_rows, sobol_indices, statistics};
 

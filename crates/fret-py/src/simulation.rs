@@ -21,6 +21,7 @@ use pyo3::prelude::{Py, PyAny, PyErr, PyResult, Python, pyfunction};
 use crate::case::{Case, earlier};
 use crate::error::{failed, refused, stopped};
 use crate::history::{History, step_items};
+use crate::in_common::InCommon;
 use crate::threads::{self, Threads};
 
 /// Python hears about signals at least so often.
@@ -102,14 +103,17 @@ impl Observer for Reporter<'_> {
 
 /// Runs a case on so many threads (all cores when `None`). `on_step(step, increments, passed)` is called after every
 /// increment with its numbers, the count of all planned increments and of those that are behind the run; what it raises ends the run.
-/// Gives the history so far, and the exception that ended it early, or `None`.
+/// Gives the history so far, and the exception that ended it early, or `None`. `point`: what it has in common with other points of a sweep,
+/// and its number; fields and quantities of a common beginning are missing then.
 #[pyfunction]
+#[pyo3(signature = (case, threads, on_step, estimate_error, point = None))]
 pub fn run(
     py: Python<'_>,
     case: &Case,
     threads: Threads,
     on_step: Option<Py<PyAny>>,
     estimate_error: bool,
+    point: Option<(Py<InCommon>, usize)>,
 ) -> PyResult<(History, Option<PyErr>)> {
     let pool = threads::pool(threads)?;
     let text = case.text()?;
@@ -117,7 +121,11 @@ pub fn run(
     let (answer, interruption) = py.detach(|| {
         listen(&plan, on_step.as_ref(), |reporter| {
             pool.install(|| {
-                let (history, result) = Simulation::new(&plan).follow(Checkpoint::start(&plan), reporter);
+                let simulation = Simulation::new(&plan);
+                let (history, result) = match &point {
+                    Some((in_common, number)) => in_common.get().solve(*number, simulation, reporter),
+                    None => simulation.follow(Checkpoint::start(&plan), reporter),
+                };
                 let bars = (result.is_ok() && estimate_error).then(|| {
                     let quantities = std::mem::take(&mut reporter.quantities);
                     let bars = embedded::error_bars(&plan, &quantities, &mut reporter.silently());

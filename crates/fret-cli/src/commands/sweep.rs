@@ -17,7 +17,7 @@ use crate::failure::{Failure, Told, Unwritten};
 use crate::figures::{counted, duration};
 use crate::interrupt::{self, Listener};
 use crate::origin::Origin;
-use crate::sweep::{Answer, CommonBeginnings, Point, Question, SweepFolder};
+use crate::sweep::{Answer, Planned, Point, Question, SweepFolder};
 use crate::terminal;
 use crate::threads;
 
@@ -32,7 +32,7 @@ pub fn sweep(arguments: &SweepArguments, as_json: bool) -> Result<(), Told> {
     interrupt::listen();
     let threads = threads::asked(arguments.threads);
     let known: Vec<Option<Answer>> = question.points.iter().map(|point| folder.finished(point)).collect();
-    let board = Board::new(&question, origin, known, arguments.quiet);
+    let board = threads::pool(threads)?.install(|| Board::new(&question, origin, known, arguments.quiet));
     board.announce(threads);
     let failure = board.work(&folder, threads);
     let summary = folder.summarise(&question, &board.answers());
@@ -110,8 +110,8 @@ struct Board<'a> {
     at_work: Mutex<usize>,
     /// One of them is over.
     freed: Condvar,
-    /// What points begin with alike.
-    common: CommonBeginnings,
+    /// The open points, planned.
+    planned: Planned,
     /// Points that were found finished.
     before: usize,
     /// Those of them that are solved.
@@ -134,9 +134,9 @@ impl Drop for AtWork<'_> {
 impl<'a> Board<'a> {
     fn new(question: &'a Question, origin: Option<Origin>, known: Vec<Option<Answer>>, quiet: bool) -> Self {
         let open: Vec<usize> = (0..known.len()).filter(|&number| known[number].is_none()).collect();
-        let common = CommonBeginnings::of(&question.points, &open, origin.as_ref());
+        let planned = Planned::of(&question.points, &open, origin.as_ref());
         Self {
-            common,
+            planned,
             question,
             origin,
             before: known.len() - open.len(),
@@ -160,7 +160,7 @@ impl<'a> Board<'a> {
                 String::new()
             };
             let points = counted(self.question.points.len(), "point");
-            let common = match self.common.count() {
+            let common = match self.planned.common.count() {
                 0 => String::new(),
                 count => format!(", {} solved once", counted(count, "common beginning")),
             };
@@ -190,20 +190,16 @@ impl<'a> Board<'a> {
         while let Some(&number) = self.open.get(self.next.fetch_add(1, Ordering::Relaxed)) {
             let point = &self.question.points[number];
             let solve = || -> Result<Answer, Failure> {
-                let known = self.common.plan_of(number);
-                let plan = known.map_or_else(|| self.planned(point), Ok)?;
+                let known = self.planned.plan_of(number);
+                let plan = known.map_or_else(|| self.plan(point), Ok)?;
                 let _at_work = self.memory_for(&plan)?;
                 let simulation = Simulation::new(&plan).in_claimed_memory();
-                let common = self.common.of_point(number, &plan, &simulation);
-                let run = match &common {
-                    Some(beginning) => beginning.followed_by(&simulation, &mut Listener),
-                    None => simulation.run(&mut Listener),
-                };
-                let history = run.map_err(|error| match error {
+                let (history, outcome, common) = self.planned.common.solve(number, simulation, &mut Listener);
+                outcome.map_err(|error| match error {
                     RunError::Interrupted { .. } => Failure::Interrupted(String::new()),
                     error => Failure::Unsolved(error),
                 })?;
-                Ok(Answer::solved(&history, common.map_or(0, |beginning| beginning.increments())))
+                Ok(Answer::solved(&history, common))
             };
             let answer = match catch_unwind(AssertUnwindSafe(|| pool.install(solve))) {
                 Ok(Ok(answer)) => answer,
@@ -227,7 +223,7 @@ impl<'a> Board<'a> {
     }
 
     /// The plan of a point; where there is no memory to plan it in, that of the points at work is waited for.
-    fn planned(&self, point: &Point) -> Result<Plan, CaseError> {
+    fn plan(&self, point: &Point) -> Result<Plan, CaseError> {
         let mut is_alone = false;
         loop {
             match point.case_file.planned_leaving_out(LeaveOut::ALL, self.origin.as_ref()) {

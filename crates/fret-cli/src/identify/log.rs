@@ -204,7 +204,7 @@ fn head(name: &str, text: &str, wanted: &[Option<String>; 4]) -> Result<Head, Fa
     Err(refused(
         name,
         &format!("no line names the columns {:?} and {:?}; {there}", missing[0], missing[1]),
-        "say which is which: --columns \"displacement=Weg,force=Kraft\"",
+        "say which is which: --columns \"displacement=stroke,force=load\"",
     ))
 }
 

@@ -34,7 +34,7 @@ use field_store::FieldStore;
 pub use history_table::HistoryTable;
 use history_table::Lines;
 pub use packed_file::{read_packed, write_packed};
-pub use run_record::{Ending, RunRecord, fnv1a64, question, resolved};
+pub use run_record::{Ending, RunRecord, question, resolved};
 use state_store::StateStore;
 pub use state_store::{start_below, state_below, states_below};
 pub use stress_kinds::{kind_of_stress, stress_called};

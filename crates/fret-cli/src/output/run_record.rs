@@ -4,6 +4,7 @@ use std::path::Path;
 use std::time::{SystemTime, UNIX_EPOCH};
 
 use fret_core::history::Warning;
+use fret_core::model::digest;
 use fret_core::plan::{LeaveOut, Plan};
 use fret_core::run::plausibility;
 use serde_json::{Value, json};
@@ -50,7 +51,7 @@ impl RunRecord {
             "tolerance": plan.case.tolerance,
             "case_file": {
                 "name": case_file.path.file_name().map(|name| name.to_string_lossy()),
-                "fnv1a64": fnv1a64(case_file.text.as_bytes()),
+                "fnv1a64": digest(case_file.text.bytes()),
                 "path_fnv1a64": place_hash(case_file),
             },
             "question_fnv1a64": question(plan),
@@ -131,7 +132,7 @@ pub fn question(plan: &Plan) -> String {
     if let Some(start) = &plan.start {
         asked["start"] = json!(start.digest());
     }
-    fnv1a64(asked.to_string().as_bytes())
+    digest(asked.to_string().bytes())
 }
 
 /// Whether a record was made from the file that `case_file` was read from.
@@ -142,31 +143,10 @@ pub fn is_of_case(record: &Value, case_file: &CaseFile) -> bool {
 /// A case file's place, told apart from others without telling a reader of the results where the user's files lie. A text that
 /// came from no file is its own place.
 fn place_hash(case_file: &CaseFile) -> String {
-    if case_file.beside.is_some() { fnv1a64(case_file.text.as_bytes()) } else { path_hash(&case_file.path) }
+    if case_file.beside.is_some() { digest(case_file.text.bytes()) } else { path_hash(&case_file.path) }
 }
 
 fn path_hash(path: &Path) -> String {
     let path = path.canonicalize().unwrap_or_else(|_| path.to_owned());
-    fnv1a64(path.as_os_str().as_encoded_bytes())
-}
-
-/// Fowler, Noll and Vo's hash FNV-1a of 64 bits, in hexadecimal digits: tells texts apart, is no protection.
-pub fn fnv1a64(bytes: &[u8]) -> String {
-    let hash = bytes.iter().fold(0xcbf2_9ce4_8422_2325_u64, |hash, &byte| {
-        (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3)
-    });
-    format!("{hash:016x}")
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_hash_is_fnv_1a() {
-        // Test vectors of the authors' list (isthe.com/chongo/tech/comp/fnv).
-        assert_eq!(fnv1a64(b""), "cbf29ce484222325");
-        assert_eq!(fnv1a64(b"a"), "af63dc4c8601ec8c");
-        assert_eq!(fnv1a64(b"foobar"), "85944171f73967e8");
-    }
+    digest(path.as_os_str().as_encoded_bytes().iter().copied())
 }

@@ -7,11 +7,12 @@ use std::path::{Path, PathBuf};
 
 use fret_core::case::Units;
 use fret_core::history::{CYCLE_COLUMNS, STEP_COLUMNS};
+use fret_core::model::digest;
 use serde_json::{Value, json};
 
 use crate::failure::{Failure, Unwritten};
 use crate::origin::Origin;
-use crate::output::{fnv1a64, write_whole};
+use crate::output::write_whole;
 use crate::sweep::{Answer, Point, Question, Spread};
 
 /// Version of the folder's format.
@@ -166,7 +167,7 @@ impl SweepFolder {
         for name in files_named(&point.case_file.text) {
             known_by.extend(fs::read(folder.join(name)).unwrap_or_default());
         }
-        self.path.join(POINTS).join(format!("{}.json", fnv1a64(&known_by)))
+        self.path.join(POINTS).join(format!("{}.json", digest(known_by)))
     }
 }
 

@@ -190,7 +190,7 @@ fn error_bars_of_a_fretting_loop_and_where_there_are_none() {
 }
 
 #[test]
-fn one_rung_without_a_closed_form_says_why_there_are_no_errors() {
+fn one_level_without_a_closed_form_says_why_there_are_no_errors() {
     let bench = Bench::new("study-one-level");
     bench.file("case.toml", &SPHERE.replace("cycles = 2", "cycles = 1"));
     let answer = bench.fret(&["study", "case.toml", "--cells", "24", "--against", "finest"]);

@@ -119,7 +119,7 @@ impl CattaneoMindlin {
         self.full_slip_shift() * (r / a).powi(2) / 2.0 * shape * self.sign()
     }
 
-    /// Work of friction since the tangential force was zero [force x length].
+    /// Energy dissipated by friction since the tangential force was zero [force x length].
     ///
     /// `3(μP)²/(80aG*) · (1 − c/a)³ (1 + 3c/a + c²/a²)`: a quarter of the loss in a cycle of this amplitude.
     pub fn dissipated_energy(&self) -> f64 {

@@ -90,7 +90,7 @@ impl MindlinDeresiewicz {
         }
     }
 
-    /// Work of friction in one cycle [force x length]: the area of the loop.
+    /// Energy dissipated by friction in one cycle [force x length]: the area of the loop.
     ///
     /// `(9/10)(μP)²/(aG*) · {1 − (1 − f)^(5/3) − (5f/6)[1 + (1 − f)^(2/3)]}`, `f = T0/μP`.
     pub fn dissipated_energy_per_cycle(&self) -> f64 {

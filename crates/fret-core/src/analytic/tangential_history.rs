@@ -77,7 +77,7 @@ impl TangentialHistory {
         self.turning_points.truncate(self.turning_points.len().saturating_sub(2));
     }
 
-    /// Work of friction from the start of the present branch to a force on it.
+    /// Energy dissipated by friction from the start of the present branch to a force on it.
     fn branch_energy(&self, force: f64) -> f64 {
         match self.turning_points.last() {
             None => self.contact.under(force).dissipated_energy(),
@@ -120,7 +120,7 @@ impl TangentialHistory {
         self.parts().map(|(weight, part)| weight * part.shear(r)).sum()
     }
 
-    /// Work of friction since the start [force x length].
+    /// Energy dissipated by friction since the start [force x length].
     pub fn dissipated_energy(&self) -> f64 {
         self.dissipated_energy
     }

@@ -3,7 +3,8 @@
 
 /// Cells of a portion.
 pub const PORTION: usize = 1 << 14;
-/// Portions that pay for waking a second thread. By trial: below, a pass over the cells takes as long as a thread takes to wake.
+/// Portions that pay for waking a second thread. Measured, a pass over three fields in single precision, one thread and two that are awake:
+/// 2.8 and 2.2 microseconds for two portions, 5.0 and 4.1 for three, 6.6 and 4.0 for four, 58 and 31 for 32.
 const FEWEST: usize = 3;
 
 /// Pieces worth making of so many portions: one outside of a pool, and where they are few.

@@ -46,9 +46,9 @@ pub struct CycleRecord {
     pub stands_for: usize,
     /// Number in its stage of the last cycle it stands for, from 1.
     pub last_cycle: usize,
-    /// Work of friction in this one computed cycle [force x length].
+    /// Energy dissipated by friction in this one computed cycle [force x length].
     pub dissipated_energy: f64,
-    /// Work of friction since the start of the history, over all cycles that computed ones stand for [force x length].
+    /// Energy dissipated by friction since the start of the history, over all cycles that computed ones stand for [force x length].
     pub total_dissipated_energy: f64,
     /// What drives it.
     pub drive: Drive,

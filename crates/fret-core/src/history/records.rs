@@ -57,7 +57,7 @@ pub struct StepRecord {
     pub stick_cells: usize,
     /// The contact as the cells see it.
     pub footprint: Footprint,
-    /// Work of friction since the start [force x length]. Where a computed cycle stands for several, its last increment has the
+    /// Energy dissipated by friction since the start [force x length]. Where a computed cycle stands for several, its last increment has the
     /// work of all of them.
     pub dissipated_energy: f64,
     /// Volume worn off since the start, by all cycles that computed ones stand for [length^3].

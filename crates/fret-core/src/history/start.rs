@@ -10,7 +10,7 @@ use serde_json::{Value, json};
 
 use super::records::History;
 use crate::case::Difference;
-use crate::model::SolvedState;
+use crate::model::{SolvedState, digest};
 use crate::solver::SolverMemory;
 
 /// Grids whose spacings agree to this are one grid: what rounding a printed side length leaves.
@@ -67,15 +67,9 @@ impl Start {
         if rest.is_empty() { start.sound() } else { None }
     }
 
-    /// Hash FNV-1a of its bytes, in hexadecimal digits: tells it from other states.
+    /// A hash of its bytes: tells it from other states.
     pub fn digest(&self) -> &str {
-        self.digest.get_or_init(|| {
-            let bytes = self.to_bytes().unwrap_or_default();
-            let hash = bytes.iter().fold(0xcbf2_9ce4_8422_2325_u64, |hash, byte| {
-                (hash ^ u64::from(*byte)).wrapping_mul(0x0100_0000_01b3)
-            });
-            format!("{hash:016x}")
-        })
+        self.digest.get_or_init(|| digest(self.to_bytes().unwrap_or_default()))
     }
 
     /// The same, when its fields are sound ones of its grid.

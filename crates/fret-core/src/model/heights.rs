@@ -5,6 +5,7 @@ use std::sync::Arc;
 use ndarray::Array2;
 use serde::{Serialize, Serializer};
 
+use super::digest::digest;
 use super::shape::ProfileError;
 
 /// What is taken off heights before they are used.
@@ -85,13 +86,9 @@ impl Serialize for Heights {
     }
 }
 
-/// Hash FNV-1a of the bits of an array, in hexadecimal digits: tells arrays apart, is no protection.
+/// Tells arrays apart: a hash of their bits.
 pub(super) fn fingerprint(array: &Array2<f64>) -> String {
-    let bytes = array.iter().flat_map(|value| value.to_bits().to_le_bytes());
-    let hash = bytes.fold(0xcbf2_9ce4_8422_2325_u64, |hash, byte| {
-        (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3)
-    });
-    format!("{hash:016x}")
+    digest(array.iter().flat_map(|value| value.to_bits().to_le_bytes()))
 }
 
 /// On a uniform grid centred on its middle, the normal equations of the plane are diagonal.

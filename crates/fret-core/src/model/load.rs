@@ -37,6 +37,28 @@ pub struct LoadStep {
     pub bulk_stress: [[f64; 2]; 2],
 }
 
+/// Where one rigid degree of freedom is: what each kind of control would have prescribed to bring it there.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Reached {
+    /// Resultant [force].
+    pub force: f64,
+    /// Rigid motion [length].
+    pub motion: f64,
+    /// Motion of the far end of the spring [length].
+    pub far_end: f64,
+}
+
+impl Reached {
+    /// The number of the same kind as a control's, as a control.
+    pub fn like(&self, control: Control) -> Control {
+        match control {
+            Control::Force(_) => Control::Force(self.force),
+            Control::Motion(_) => Control::Motion(self.motion),
+            Control::FarEnd(_) => Control::FarEnd(self.far_end),
+        }
+    }
+}
+
 impl LoadStep {
     /// Bodies that nothing holds or moves.
     pub const FREE: Self = Self {

@@ -2,6 +2,7 @@
 
 pub mod bulk;
 pub mod conduction;
+pub mod digest;
 pub mod friction;
 pub mod graded;
 pub mod grid;
@@ -21,13 +22,14 @@ pub mod wear;
 pub use crate::fields::TangentialField;
 pub use bulk::{BulkCompliance, bulk_stress_in_layer};
 pub use conduction::{ConductingLayer, Conduction, Conductor, ConductorError};
+pub use digest::digest;
 pub use friction::{CellValues, CoulombFriction, FrictionError};
 pub use graded::{GradedCoating, GradientError, Layer, YoungGradient};
 pub use grid::{GridError, SurfaceGrid};
 pub use half_space::{Base, Body, Coating, ContactPair, ElasticMaterial, HalfSpace, MaterialError};
 pub use heights::{Detrend, Heights};
 pub use interface::{Interface, InterfaceError};
-pub use load::{Control, LoadStep};
+pub use load::{Control, LoadStep, Reached};
 pub use profile::{BEYOND_THE_BODY, Profile};
 pub use residual::{ResidualLayer, ResidualStress};
 pub use rig::Rig;

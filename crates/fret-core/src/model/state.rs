@@ -60,7 +60,7 @@ pub struct ContactState {
     pub tilt: [f64; 2],
     /// Bulk stress of the lower and of the upper substrate along x and y [pressure].
     pub bulk_stress: [[f64; 2]; 2],
-    /// Work of friction since the start [force x length]; with wear that of all cycles that computed ones stand for.
+    /// Energy dissipated by friction since the start [force x length]; with wear that of all cycles that computed ones stand for.
     pub dissipated_energy: f64,
     /// Work that the bulk stresses have done on the contact since the start [force x length]: minus the mean shear times the change of
     /// the relative displacement by the strains; with wear that of all cycles that computed ones stand for.

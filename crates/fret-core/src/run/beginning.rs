@@ -3,14 +3,11 @@
 
 use std::ops::ControlFlow;
 
-use serde_json::json;
-
 use super::checkpoint::{Checkpoint, Waypoint};
 use super::run_error::RunError;
 use super::simulation::{Iteration, Observer, Simulation};
-use crate::history::{CycleRecord, History, KeptFields, StepRecord, setting, way_of_solving};
+use crate::history::{CycleRecord, History, KeptFields, StepRecord};
 use crate::model::ContactState;
-use crate::plan::Plan;
 
 /// The first stages of a history, solved.
 #[derive(Debug, Clone)]
@@ -20,36 +17,22 @@ pub struct Beginning {
     cycles: Vec<CycleRecord>,
 }
 
-/// For each number of first stages, from one on, all that these depend on: histories that agree in it solve them alike, bit by bit.
-pub fn beginnings(plan: &Plan) -> Vec<String> {
-    let as_json = plan.to_json();
-    let case = &as_json["case"];
-    let rest = ["friction", "rig", "wear", "start"].map(|name| &case[name]);
-    let start = plan.start.as_ref().map(|start| start.digest().to_owned());
-    let all = json!([setting(&as_json), way_of_solving(&as_json), rest, start]).to_string();
-    let stages = case["stages"].as_array().map_or(&[][..], Vec::as_slice);
-    (1..=stages.len()).map(|count| format!("{all}{}", json!(stages[..count]))).collect()
-}
-
 impl Beginning {
     /// Increments of it.
     pub fn increments(&self) -> usize {
         self.steps.len()
     }
 
-    /// Solves what is left of a history after this beginning; the history holds all increments and cycles, and the fields kept after it.
-    ///
-    /// # Errors
-    /// As [`Simulation::resume`].
+    /// Solves what is left of a history after this beginning. The history has all increments and cycles, and the fields kept after it.
     pub fn followed_by(
         &self,
         simulation: &Simulation<'_>,
         observer: &mut dyn Observer,
-    ) -> Result<History, RunError> {
-        let mut history = simulation.resume(self.checkpoint.clone(), observer)?;
+    ) -> (History, Result<(), RunError>) {
+        let (mut history, outcome) = simulation.follow(self.checkpoint.clone(), observer);
         history.steps.splice(0..0, self.steps.iter().cloned());
         history.cycles.splice(0..0, self.cycles.iter().cloned());
-        Ok(history)
+        (history, outcome)
     }
 }
 
@@ -58,7 +41,7 @@ impl Simulation<'_> {
     ///
     /// # Errors
     /// As [`Simulation::run`].
-    pub fn beginning(
+    pub(super) fn beginning(
         &self,
         stages: usize,
         observer: &mut dyn Observer,

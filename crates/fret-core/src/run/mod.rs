@@ -3,6 +3,8 @@
 mod beginning;
 mod checkpoint;
 mod fretting_loop;
+mod in_common;
+mod pair_compliance;
 pub mod plausibility;
 mod recording;
 mod refinement;
@@ -11,7 +13,7 @@ mod simulation;
 mod stepping;
 mod wear;
 
-pub use beginning::{Beginning, beginnings};
 pub use checkpoint::{Checkpoint, CheckpointError, Waypoint};
+pub use in_common::{InCommon, beginnings};
 pub use run_error::RunError;
 pub use simulation::{Iteration, Observer, Silent, Simulation};

@@ -1,14 +1,14 @@
 //! The journey of a run: stages, increments, cycles, records. The only room that knows all of it.
 
-use std::f64::consts::{PI, TAU};
 use std::ops::ControlFlow;
-
+use std::sync::Arc;
 use std::time::Instant;
 
 use ndarray::Array2;
 
 use super::checkpoint::{Checkpoint, Place, Waypoint, solved_state};
 use super::fretting_loop::{CycleEnd, FrettingLoop};
+use super::pair_compliance::PairCompliance;
 use super::plausibility::Gauge;
 use super::recording::{copied, kept, record};
 use super::refinement::{DivisionError, Refinement, Span, in_halves};
@@ -16,12 +16,7 @@ use super::run_error::{RunError, run_error};
 use super::stepping::StageSteps;
 use super::wear::{Collected, Wearing, worn};
 use crate::case::{Case, Stage};
-use crate::compliance::SurfaceResponse;
 use crate::history::{CycleRecord, History, KeptFields, StepRecord, WornThrough};
-use crate::kernel::{
-    Components, PairResponse, ResponseTable, coefficients_of, influence_coefficients, line_coefficients_of,
-    periodic_symbols, symbols_of,
-};
 use crate::machine::memory::{Claim, claim};
 use crate::model::{BulkCompliance, ContactState, CoulombFriction, LoadStep, SolvedState};
 use crate::plan::{Coupling, Plan, Simplification};
@@ -91,18 +86,25 @@ pub struct Simulation<'a> {
     plan: &'a Plan,
     /// Whether its memory has been claimed already.
     is_claimed: bool,
+    /// How the pair answers, where that is known already.
+    compliance: Option<Arc<PairCompliance>>,
 }
 
 impl<'a> Simulation<'a> {
     /// Simulation of a plan.
     pub fn new(plan: &'a Plan) -> Self {
-        Self { plan, is_claimed: false }
+        Self { plan, is_claimed: false, compliance: None }
     }
 
     /// The same in memory that has been claimed for it, by somebody who holds the claim meanwhile; else a run claims its own.
     #[must_use]
     pub fn in_claimed_memory(self) -> Self {
         Self { is_claimed: true, ..self }
+    }
+
+    /// The same with the compliance of its plan, which was made for another one.
+    pub(super) fn with_compliance(self, compliance: Option<Arc<PairCompliance>>) -> Self {
+        Self { compliance, ..self }
     }
 
     /// What it is a simulation of.
@@ -174,10 +176,13 @@ impl<'a> Simulation<'a> {
         let case = &plan.case;
         let Checkpoint { place, state, memory, cycle, wear } = from;
         let history = self.history_from(&place, state, wear.as_ref());
-        let response = self.response();
-        let own = response.own_normal(case.cells);
+        let compliance = match &self.compliance {
+            Some(compliance) => PairCompliance::clone(compliance),
+            None => PairCompliance::of(plan),
+        };
+        let own = compliance.response.own_normal(case.cells);
         let unworn = case.profile.gap(&plan.grid);
-        let mut solver = self.solver(response, unworn.clone());
+        let mut solver = self.solver(compliance, unworn.clone());
         if let Some(depth) = &history.state.worn_depth {
             solver.set_gap(&unworn + depth);
         }
@@ -193,50 +198,8 @@ impl<'a> Simulation<'a> {
         journey.through_all_stages()
     }
 
-    /// How the pair answers tractions.
-    fn response(&self) -> SurfaceResponse {
-        let plan = self.plan;
-        let case = &plan.case;
-        let wanted = match plan.coupling {
-            Coupling::Frictionless => Components::NORMAL,
-            Coupling::Uncoupled => Components { normal: true, tangential: true, coupling: false },
-            Coupling::Coupled => Components::ALL,
-        };
-        let spacing = plan.grid.spacing();
-        let plain = plan.leave_out.takes(Simplification::LayeredResponse);
-        let [width, depth] = plan.grid.size();
-        let layered = || PairResponse::all_layers(&case.bodies, width.max(depth));
-        if plan.grid.is_line() {
-            let datum = plan.datum.unwrap_or(width);
-            let response = if plain { PairResponse::new(&case.bodies) } else { layered() };
-            let strips = case.cells[0];
-            return SurfaceResponse::FreeSpace(line_coefficients_of(
-                &response,
-                &case.bodies,
-                strips,
-                spacing[0],
-                datum,
-                wanted,
-            ));
-        }
-        match (case.periodic, plain) {
-            (true, true) => {
-                SurfaceResponse::Periodic(periodic_symbols(&case.bodies, case.cells, spacing, wanted, 0))
-            }
-            (true, false) => SurfaceResponse::Periodic(
-                symbols_of(layered(), case.cells, spacing, wanted).with_uniform(&case.bodies),
-            ),
-            (false, true) => {
-                SurfaceResponse::FreeSpace(influence_coefficients(&case.bodies, case.cells, spacing, wanted))
-            }
-            (false, false) => {
-                SurfaceResponse::FreeSpace(coefficients_of(&layered(), case.cells, spacing, wanted))
-            }
-        }
-    }
-
     /// The solver with its operators.
-    fn solver(&self, response: SurfaceResponse, undeformed: Array2<f64>) -> ContactSolver<'a> {
+    fn solver(&self, compliance: PairCompliance, undeformed: Array2<f64>) -> ContactSolver<'a> {
         let plan = self.plan;
         let case = &plan.case;
         let solver = ContactSolver::new(
@@ -244,7 +207,7 @@ impl<'a> Simulation<'a> {
             undeformed,
             &case.friction,
             plan.coupling,
-            response,
+            compliance.response,
             SolverSettings {
                 scheme: case.scheme,
                 integration: case.integration,
@@ -259,11 +222,10 @@ impl<'a> Simulation<'a> {
         .with_bulk(BulkCompliance::of(&case.bodies, case.is_line()))
         .with_rig(case.springs())
         .with_symmetry(plan.symmetry);
-        if case.periodic {
-            return solver;
+        match compliance.table {
+            Some(table) => solver.with_response_table(table),
+            None => solver,
         }
-        let [longest, shortest] = [plan.grid.size(), plan.grid.spacing()].map(|[x, y]| (x.max(y), x.min(y)));
-        solver.with_response_table(ResponseTable::new(&case.bodies, TAU / longest.0, 5.0 * PI / shortest.1))
     }
 }
 

@@ -238,6 +238,7 @@ impl<'a> ContactSolver<'a> {
         if let Control::Force(normal) = load.normal {
             self.check_friction_carries(load, normal, 1e-12)?;
         }
+        self.take_last_load_as(load, state);
         let mut start = self.pressure_from_coarse_grids(state, load, work, callback)?;
         let mut region = match &start {
             Some(pressure) => self.region_around(pressure, state),

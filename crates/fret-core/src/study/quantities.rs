@@ -21,7 +21,7 @@ pub enum Quantity {
     StickArea,
     /// Rigid tangential displacement [length], x and y.
     Shift,
-    /// Work of friction since the start [force x length].
+    /// Energy dissipated by friction since the start [force x length].
     DissipatedEnergy,
 }
 
@@ -75,7 +75,7 @@ pub struct StageQuantities {
     pub stick_area: f64,
     /// Rigid tangential displacement of the upper body [length].
     pub shift: [f64; 2],
-    /// Work of friction since the start [force x length].
+    /// Energy dissipated by friction since the start [force x length].
     pub dissipated_energy: f64,
     /// The same from the cells alone.
     pub plain: Plain,

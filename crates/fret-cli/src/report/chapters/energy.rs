@@ -11,7 +11,7 @@ use crate::report::overview::Overview;
 /// Cycles listed one by one.
 const MOST_CYCLES: usize = 12;
 
-/// Work of friction.
+/// The energy dissipated by friction.
 pub fn energy(view: &Overview<'_>) -> Markup {
     let history = &view.results.table;
     let energy = history.column("dissipated_energy");
@@ -22,9 +22,9 @@ pub fn energy(view: &Overview<'_>) -> Markup {
         history.column("increment").iter().zip(values).map(|(x, y)| [*x, *y]).collect()
     };
     let mut curves = vec![Curve::line(points(energy), "computed", 0)];
-    let mut caption = "Work of friction since the start.".to_owned();
+    let mut caption = "Dissipated energy since the start.".to_owned();
     if view.results.cycles.iter().any(|cycle| cycle.stands_for > 1) {
-        caption += " The end of a computed cycle has the work of all cycles that it stands for.";
+        caption += " The end of a computed cycle has the energy of all cycles that it stands for.";
     }
     if let Some(form) = &view.tangential_form {
         let exact: Vec<f64> = (0..history.rows())

@@ -1,5 +1,7 @@
 //! What an increment starts from: tractions that go on as they did, and the region they will stay in.
 
+use std::mem::discriminant;
+
 use ndarray::Array2;
 
 use super::super::memory::Before;
@@ -7,7 +9,7 @@ use super::super::normal::coarse_grids::MARGIN;
 use super::super::region::Region;
 use super::super::{ContactSolver, Coupling};
 use super::self_similar::{SelfSimilarGrowth, sum_of};
-use crate::model::{ContactState, Control, LoadStep};
+use crate::model::{ContactState, Control, LoadStep, Reached};
 use fret_fft::good_length;
 
 /// Cells kept free around a contact: this fraction of its width, and no less than [`LEAST_MARGIN`].
@@ -162,6 +164,25 @@ impl ContactSolver<'_> {
     pub(in super::super) fn ratio_to_last(&self, load: &LoadStep) -> Option<f64> {
         let [old, both, new] = self.increments_to(load)?;
         (both > 0.5 * (old * new).sqrt()).then(|| (new / old).sqrt().min(3.0))
+    }
+
+    /// Takes the last load for what the controls of `load` would have prescribed to reach the same state: a stage that prescribes another
+    /// kind of control than the one before goes on from its end.
+    pub(in super::super) fn take_last_load_as(&mut self, load: &LoadStep, state: &ContactState) {
+        let Some(last) = &mut self.memory.last_load else { return };
+        let area = self.grid.cell_area();
+        let rig = self.rig.of_part(self.symmetry.copies());
+        let like = |last: &mut Control, wanted: Control, (sum, motion, spring): (&Array2<f64>, f64, f64)| {
+            if discriminant(last) != discriminant(&wanted) {
+                let force = area * sum_of(sum);
+                *last = Reached { force, motion, far_end: motion + spring * force }.like(wanted);
+            }
+        };
+        like(&mut last.normal, load.normal, (&state.pressure, state.approach, rig.normal));
+        for axis in [0, 1] {
+            let reached = (&state.shear[axis], state.shift[axis], rig.tangential[axis]);
+            like(&mut last.tangential[axis], load.tangential[axis], reached);
+        }
     }
 
     /// The last load increment and the one to `load`, see [`products`].

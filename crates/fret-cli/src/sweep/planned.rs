@@ -1,0 +1,46 @@
+//! The open points of a sweep, planned: what they have in common.
+
+use std::collections::HashMap;
+use std::sync::{Mutex, PoisonError};
+
+use fret_core::plan::{LeaveOut, Plan};
+use fret_core::run::{InCommon, beginnings};
+use rayon::prelude::*;
+
+use crate::interrupt;
+use crate::origin::Origin;
+use crate::sweep::Point;
+
+/// Points, planned once.
+pub struct Planned {
+    /// What they have in common.
+    pub common: InCommon,
+    /// The plans, of points without fields of their own.
+    plans: Mutex<HashMap<usize, Plan>>,
+}
+
+impl Planned {
+    /// The open points, on all threads of the pool. A point that is refused has nothing in common with others, nor has a sweep of one;
+    /// where somebody asks to stop, points are left out.
+    pub fn of(points: &[Point], open: &[usize], origin: Option<&Origin>) -> Self {
+        let plan = |number: &usize| {
+            if open.len() < 2 || interrupt::is_asked() {
+                return None;
+            }
+            let plan = points[*number].case_file.planned_leaving_out(LeaveOut::ALL, origin).ok()?;
+            let beginnings = beginnings(&plan);
+            let is_small = plan.case.profile.heights.is_empty() && !plan.case.friction.is_map();
+            Some(((*number, beginnings), is_small.then_some((*number, plan))))
+        };
+        let (histories, plans): (Vec<_>, Vec<_>) = open.par_iter().filter_map(plan).unzip();
+        Self {
+            common: InCommon::of(&histories),
+            plans: Mutex::new(plans.into_iter().flatten().collect()),
+        }
+    }
+
+    /// The plan of a point, where it was made and kept; once.
+    pub fn plan_of(&self, number: usize) -> Option<Plan> {
+        self.plans.lock().unwrap_or_else(PoisonError::into_inner).remove(&number)
+    }
+}
