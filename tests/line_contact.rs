@@ -459,10 +459,13 @@ fn the_tension_at_the_trailing_edge_under_shear_and_bulk_is_the_closed_form() {
             place / a
         );
         assert!((place / a + 1.0).abs() < 0.01);
-        errors.push([along, (rim.value / trailing - 1.0).abs()]);
+        let cell = history.grid.spacing()[0] / a;
+        // the rim is known to a fifth of a cell, and the tension falls from it with the root of the distance
+        assert!((rim.value / trailing - 1.0).abs() < 0.6 * cell.sqrt(), "{}", rim.value / trailing);
+        errors.push(along);
     }
-    // the edges of slip stand in cells; the rim is known to a fifth of a cell, with a root of the distance
-    assert!(errors[3][0] < 5e-3 && errors.iter().all(|error| error[1] < 0.02), "{errors:?}");
+    // first order: the edges of slip stand in cells
+    assert!(errors[3] < 2e-3 && errors[3] < errors[0] / 6.0, "{errors:?}");
 }
 
 /// The size of the grid is the depth that an approach is relative to: one of the two has to be said.

@@ -30,7 +30,7 @@ def displacements(layers, substrate):
         model.write_text("\n".join(rows) + "\n")
         found = pathlib.Path(folder) / "green.nc"
         pygrt.PyModel1D(modelpath=str(model), stgrn=str(found)).static_greenfn(
-            depsrc=0, deprcv=0, dists=DISTANCES, converg_method="DCM", use_kmax_ref=True, k0=200, Length=40
+            depsrc=0, deprcv=0, dists=DISTANCES, converg_method="DCM", use_kmax_ref=True, k0=200, Length=160
         )
         with Dataset(found) as data:
             return {name: np.array(data[name][:], dtype=float).ravel() for name in ("VFZ", "VFR", "HFR", "HFT")}

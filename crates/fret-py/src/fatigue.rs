@@ -8,9 +8,7 @@ use fret_core::subsurface::crack_path::{CrackStart, NoCrack, crack_path};
 use fret_core::subsurface::fatigue::{FatigueConstants, LayerConstants, Parameter};
 use fret_core::subsurface::film_stress::FilmStress;
 use fret_core::subsurface::severity::{constants_of, material_of};
-use fret_core::subsurface::{
-    DepthPoint, EvenStress, Judged, LoadedSurface, Severity, depth_points, survey,
-};
+use fret_core::subsurface::{DepthPoint, EvenStress, Judged, LoadedSurface, Severity, depth_points, survey};
 use ndarray::{Array2, Array3, Axis};
 use numpy::{IntoPyArray, PyReadonlyArray2};
 use pyo3::exceptions::PyValueError;
@@ -234,9 +232,8 @@ pub fn coating_fracture<'py>(
     let Some(film) = Film::outermost(&cycle.half_space) else {
         return Err(PyValueError::new_err("no coating that is bonded to something that deforms"));
     };
-    let depths: Vec<f64> = (0..=DEPTHS_OF_COATING)
-        .map(|n| film.thickness * n as f64 / DEPTHS_OF_COATING as f64)
-        .collect();
+    let depths: Vec<f64> =
+        (0..=DEPTHS_OF_COATING).map(|n| film.thickness * n as f64 / DEPTHS_OF_COATING as f64).collect();
     let points = depth_points(&cycle.half_space, &depths).map_err(bad_value)?;
     let constants = constants_of(&cycle.half_space, &cycle.constants, 0);
     let found = on_pool(py, threads, || {

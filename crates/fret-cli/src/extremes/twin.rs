@@ -192,8 +192,7 @@ mod tests {
     #[test]
     fn bonded_film_on_a_rigid_base_answers_long_waves_as_lubrication_theory_says() {
         // zz = k^2 h^3/(3 G), rr = h/G, rz = -k h^2/(2 G), tt = h/G; G = 1, h = 1; next order (k h)^2
-        let film =
-            Stack { coatings: vec![Layer::bonded(3.0, 0.5, 1.0)], substrate: None };
+        let film = Stack { coatings: vec![Layer::bonded(3.0, 0.5, 1.0)], substrate: None };
         let k = 1e-6;
         let exact = Response { zz: k * k * k / 3.0, rr: k, rz: -0.5 * k * k, tt: k };
         assert!(error(&film, k, exact) < 1e-11);

@@ -80,15 +80,19 @@ pub(super) fn sliding_coatings(
         };
         let free = coatings.iter().enumerate().find_map(|(index, coating)| {
             let interface = coating.get_ref().interface.as_ref()?;
-            slides(interface.get_ref()).then(|| (format!("{which}.coatings[{index}].interface"), interface.span()))
+            slides(interface.get_ref())
+                .then(|| (format!("{which}.coatings[{index}].interface"), interface.span()))
         });
         let Some((place, span)) = free else { continue };
-        let stretched = stages
-            .is_some_and(|stages| stages.iter().any(|stage| stage.bulk_stress[body].iter().any(Option::is_some)));
+        let stretched = stages.is_some_and(|stages| {
+            stages.iter().any(|stage| stage.bulk_stress[body].iter().any(Option::is_some))
+        });
         if !frictionless {
             judge.refuse::<()>(
                 span.clone(),
-                format!("{place}: no shear passes, so nothing holds the coating against friction on its surface"),
+                format!(
+                    "{place}: no shear passes, so nothing holds the coating against friction on its surface"
+                ),
                 "friction.coefficient = 0.0, or interface = { shear_stiffness = ... }",
             );
         }
@@ -148,7 +152,9 @@ mod tests {
             "poisson = 0.3, gradient = { young = [2.0, 1.0], law = \"linear\", layers = 5 }, interface = { shear_stiffness = 2.0 }",
         );
         let case = Case::from_toml(&graded, "case.toml").unwrap();
-        let Body::Elastic(half_space) = case.bodies.lower() else { unreachable!("the lower body is elastic") };
+        let Body::Elastic(half_space) = case.bodies.lower() else {
+            unreachable!("the lower body is elastic")
+        };
         let bonded: Vec<bool> = half_space.coatings().iter().map(|one| one.interface().is_bonded()).collect();
         assert_eq!(bonded, [true, true, true, true, false]);
     }
@@ -183,6 +189,12 @@ mod tests {
             assert!(found.contains("not stretched with its substrate"), "{found}");
             assert_eq!(stands, interface);
         }
-        assert!(Case::from_toml(&text("{ shear_stiffness = 0.1 }", "[friction]\ncoefficient = 0.1\n"), "case.toml").is_ok());
+        assert!(
+            Case::from_toml(
+                &text("{ shear_stiffness = 0.1 }", "[friction]\ncoefficient = 0.1\n"),
+                "case.toml"
+            )
+            .is_ok()
+        );
     }
 }

@@ -40,9 +40,9 @@ mod panels;
 pub(crate) mod quadrature;
 mod radial;
 #[cfg(test)]
-mod third_party;
-#[cfg(test)]
 pub(crate) mod samples;
+#[cfg(test)]
+mod third_party;
 
 pub use collocation::cells_too_coarse_for_incompressible_film;
 pub use frequency_response::{FrequencyResponse, Response};

@@ -35,8 +35,8 @@ fn three_layers_are_those_of_a_program_for_seismology() {
             for (lane, exact) in [&row.zz, &row.zr, &row.rr, &row.tt].into_iter().enumerate() {
                 let error = (found[lane] - last[lane] - exact[n]).abs() / row.zz[0].max(row.rr[0]);
                 worst = worst.max(error);
-                // its sum over discrete wavenumbers is good to about 1e-6
-                assert!(error < 2e-6, "{}, r = {r}, {lane}: {error:.1e}", row.case);
+                // its step in the wavenumber leaves 3e-7 in zr, a quarter of what twice the step does
+                assert!(error < 1e-6, "{}, r = {r}, {lane}: {error:.1e}", row.case);
             }
         }
     }

@@ -15,6 +15,8 @@ const FINER: f64 = 0.1;
 const SMALL: f64 = 1e-2;
 /// Longest first step, relative to the same.
 const LONGEST: f64 = 2.0;
+/// Farthest a search goes, relative to the same: a contact that is moved across the finest grid has tilted less.
+const FARTHEST: f64 = 1e5;
 /// By so much a step grows that did not reach the moment.
 const GROWTH: f64 = 4.0;
 /// A bracket narrower than this, relative to the tilt at its end, is closed.
@@ -114,7 +116,8 @@ impl ContactSolver<'_> {
     ) -> Result<Tried, SolveError> {
         let axes: Vec<usize> = (0..2).filter(|axis| matches!(load.tilt[*axis], Control::Force(_))).collect();
         let mut here = self.at_tilt((state, load), start, memory, work, callback)?;
-        let mut search = Search { axes, stiffness: memory.tilt_stiffness, tolerance, solutions: 1, stopped: None };
+        let mut search =
+            Search { axes, stiffness: memory.tilt_stiffness, tolerance, solutions: 1, stopped: None };
         while here.worst() > tolerance && here.arm != [0.0; 2] {
             // First along each axis alone; the memory of the last increment does where there is one.
             for axis in search.unknown_axes() {
@@ -127,7 +130,8 @@ impl ContactSolver<'_> {
                     search.stiffness[row][axis] = (there.off[row] - here.off[row]) / change;
                 }
             }
-            let mut at = |tilt: [f64; 2], work: &mut Work| self.at_tilt((state, load), tilt, memory, work, callback);
+            let mut at =
+                |tilt: [f64; 2], work: &mut Work| self.at_tilt((state, load), tilt, memory, work, callback);
             match search.along_newton(&here, work, &mut at)? {
                 Some(there) => here = there,
                 None => break,
@@ -140,7 +144,8 @@ impl ContactSolver<'_> {
         if let Some(error) = search.stopped {
             return Err(error);
         }
-        let worst = search.axes.iter().copied().max_by(|a, b| here.off[*a].abs().total_cmp(&here.off[*b].abs()));
+        let worst =
+            search.axes.iter().copied().max_by(|a, b| here.off[*a].abs().total_cmp(&here.off[*b].abs()));
         let axis = worst.unwrap_or(0);
         let Control::Force(asked) = load.tilt[axis] else { return Ok(here) };
         Err(SolveError::NoTilt { asked, reached: asked + here.off[axis] })
@@ -307,11 +312,13 @@ impl Search {
             };
             let width = (0..2).fold(0.0, |width: f64, axis| width.max(((high - low) * step[axis]).abs()));
             let end = (0..2).fold(0.0, |end: f64, axis| end.max((from[axis] + high * step[axis]).abs()));
-            if !fraction.is_finite() || !matches!(above, Above::Nothing) && width <= CLOSED * end {
+            let far =
+                self.axes.iter().any(|&axis| (fraction * step[axis]).abs() > FARTHEST * here.slope[axis]);
+            if far || !fraction.is_finite() || !matches!(above, Above::Nothing) && width <= CLOSED * end {
                 break;
             }
         }
-        Ok(best.filter(|best| best.worst() < here.worst() && self.axes.len() > 1))
+        Ok(best.filter(|best| best.worst() < 0.5 * here.worst()))
     }
 }
 

@@ -148,9 +148,7 @@ impl Pressed {
             Self::Rounded(form) => (None, Some(form.approach), disc(form.contact_radius)),
             Self::Flat(form) => (None, Some(form.approach), disc(form.contact_radius)),
             Self::Cone(form) => (None, Some(form.approach), disc(form.contact_radius)),
-            Self::Line(form) => {
-                (Some(form.hertz.max_pressure), form.approach, 2.0 * form.hertz.half_width)
-            }
+            Self::Line(form) => (Some(form.hertz.max_pressure), form.approach, 2.0 * form.hertz.half_width),
         };
         if let Some(peak) = peak {
             said.say(Quantity::MaxPressure, peak);

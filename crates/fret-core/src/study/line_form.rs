@@ -1,6 +1,6 @@
 //! Closed forms of line contacts: cylinders on homogeneous bodies, displacements relative to the datum.
 
-use std::f64::consts::{FRAC_1_PI, PI};
+use std::f64::consts::FRAC_1_PI;
 
 use crate::analytic::{HertzLine, LineHistory};
 use crate::model::{Body, Control, ElasticMaterial};
@@ -19,7 +19,8 @@ impl LinePressed {
     /// The contact of a plan of homogeneous bodies under a normal force per length, where it is one of cylinders.
     pub fn by(plan: &Plan, control: Control, modulus: f64) -> Option<Self> {
         let profile = &plan.case.profile;
-        let is_round = profile.heights.is_empty() && profile.shapes.iter().all(|shape| shape.curvatures().is_some());
+        let is_round =
+            profile.heights.is_empty() && profile.shapes.iter().all(|shape| shape.curvatures().is_some());
         let ([curvature, _], Control::Force(force), true) = (profile.curvatures(), control, is_round) else {
             return None;
         };
@@ -27,10 +28,7 @@ impl LinePressed {
             return None;
         }
         let hertz = HertzLine::cylinder(curvature.recip(), force, modulus).ok()?;
-        // 2 P/(pi E*) [ln(2 d/a) + 1/2] less P/pi sum 1/(2 G), by which the datum itself goes down (Johnson 1985, 5.57)
-        let above = |depth: f64| 2.0 / (PI * modulus) * (libm::log(2.0 * depth / hertz.half_width) + 0.5);
-        let below = FRAC_1_PI * shear_compliance(plan) / 2.0;
-        let approach = plan.datum.map(|depth| force * (above(depth) - below));
+        let approach = plan.datum.map(|depth| hertz.approach(depth, modulus, shear_compliance(plan)));
         Some(Self { hertz, approach })
     }
 

@@ -80,7 +80,7 @@ mod tests {
     /// .35. By von Mises the other components, which a residual stress can shift but not still, leave 4.56 k.
     #[test]
     fn a_rolling_sphere_shakes_down_a_little_below_what_its_orthogonal_shear_says() {
-        let path = || (-300..=300).map(|i| 0.02 * f64::from(i));
+        let path = || (-300..300).map(|i| 0.02 * (f64::from(i) + 0.5)); // not on the axis
         let cycle = |y: f64, z: f64| -> Vec<StressTensor> {
             path().map(|x| under_hertz_sphere(x, y, z, 0.3)).collect()
         };
