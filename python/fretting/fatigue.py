@@ -1,6 +1,7 @@
 """Fatigue of a history over a cycle: parameters under all cells, a short crack, and cracks of the coating, as Datasets."""
 
 import json
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
@@ -124,23 +125,35 @@ def coating_fracture(
     told = json.loads(_core.coating_fracture(*arguments, _constants(history, constants), threads))
     cracks = told["cracks"]
 
-    def column(values: list[float | None], words: str) -> tuple[tuple[str], npt.NDArray[np.float64], dict[str, str]]:
+    def column(
+        values: Sequence[float | None], words: str
+    ) -> tuple[tuple[str], npt.NDArray[np.float64], dict[str, str]]:
         numbers = np.array([np.nan if value is None else value for value in values], dtype=float)
         return ("sense",), numbers, described(words, history._units)
 
     released = [crack["released"] for crack in cracks]
     variables: dict[str, Any] = {
         "stress": column([crack["stress"] for crack in cracks], "mean stress over the thickness [pressure]"),
-        "direction": column([crack["direction"] for crack in cracks], "direction of that stress to the x axis [degrees]"),
-        "channelling": column([one["channelling"] for one in released], "energy released by channelling [force/length]"),
-        "delamination": column([one["delamination"] for one in released], "energy released by delamination [force/length]"),
+        "direction": column(
+            [crack["direction"] for crack in cracks], "direction of that stress to the x axis [degrees]"
+        ),
+        "channelling": column(
+            [one["channelling"] for one in released], "energy released by channelling [force/length]"
+        ),
+        "delamination": column(
+            [one["delamination"] for one in released], "energy released by delamination [force/length]"
+        ),
         "phase": column([one["phase"] for one in released], "phase angle of the delamination [degrees]"),
     }
     for kind, toughness in (("channelling", told["fracture_energy"]), ("delamination", told["interface_energy"])):
         if toughness is not None:
             energy = variables[kind][1]
             factor = np.sqrt(np.divide(toughness, energy, out=np.full_like(energy, np.inf), where=energy != 0))
-            variables[f"{kind}_factor_of_safety"] = ("sense",), factor, {"long_name": "factor on the stress that fractures"}
+            variables[f"{kind}_factor_of_safety"] = (
+                ("sense",),
+                factor,
+                {"long_name": "factor on the stress that fractures"},
+            )
     cells = [crack["cell"] for crack in cracks]
     centres = (history.x, history.y)
     for axis, name in enumerate("xy"):

@@ -12,7 +12,12 @@ import fretting
 pytest.importorskip("xarray")
 
 YOUNG, POISSON = 74e9, 0.33
-STRENGTH = {"strength_coefficient": 714e6, "strength_exponent": -0.078, "ductility_coefficient": 0.166, "ductility_exponent": -0.538}
+STRENGTH = {
+    "strength_coefficient": 714e6,
+    "strength_exponent": -0.078,
+    "ductility_coefficient": 0.166,
+    "ductility_exponent": -0.538,
+}
 CRACK = {"threshold": 1e6, "short_crack_length": 90e-6, "initial_length": 20e-6, "final_length": 0.2e-3}
 
 
@@ -131,7 +136,9 @@ def test_a_coating_pulled_with_its_substrate_channels_and_delaminates_as_a_film_
     assert abs(float(tension["channelling"]) / (np.pi / 2 * 1.25781 * energy) - 1) < 0.04
     assert abs(float(tension["delamination"]) / (0.5 * energy) - 1) < 0.04
     assert abs(float(tension["phase"]) - 52.07) < 0.01
-    assert abs(float(tension["channelling_factor_of_safety"]) / np.sqrt(2.0 / float(tension["channelling"])) - 1) < 1e-12
+    assert (
+        abs(float(tension["channelling_factor_of_safety"]) / np.sqrt(2.0 / float(tension["channelling"])) - 1) < 1e-12
+    )
     assert abs(float(tension["direction"])) < 1.0
     compression = found.sel(sense="compression")
     assert float(compression["channelling"]) == 0.0

@@ -63,7 +63,9 @@ def test_principal_stresses_have_the_invariants_of_the_tensor(sphere_case: dict[
     assert (second >= third).all()
     size = float(np.abs(stress["zz"]).max())
     # Trace and von Mises stress, both from the components: to rounding of the eigenvalues.
-    assert np.abs(first + second + third - (stress["xx"] + stress["yy"] + stress["zz"]).values).max() < 1e-13 * 30 * size
+    assert (
+        np.abs(first + second + third - (stress["xx"] + stress["yy"] + stress["zz"]).values).max() < 1e-13 * 30 * size
+    )
     mises = np.sqrt(0.5 * ((first - second) ** 2 + (second - third) ** 2 + (third - first) ** 2))
     assert np.abs(mises - stress["von_mises"].values).max() < 1e-13 * 30 * size
 
@@ -71,7 +73,12 @@ def test_principal_stresses_have_the_invariants_of_the_tensor(sphere_case: dict[
 def test_fatigue_parameters_are_those_of_the_command(fretting_case: dict[str, Any], tmp_path: Any) -> None:
     """Two ways to the same numbers; Ruiz's F1 is also the largest product of shear stress and slip range by hand."""
     fretting_case["output"] = {"fields": ["pressure", "shear", "slip"], "every": 2}
-    fretting_case["stress"] = {"depths": [0.0, 20e-6], "yield_strength": 1e9, "torsion_limit": 3e8, "tension_limit": 4e8}
+    fretting_case["stress"] = {
+        "depths": [0.0, 20e-6],
+        "yield_strength": 1e9,
+        "torsion_limit": 3e8,
+        "tension_limit": 4e8,
+    }
     history = fretting.run(fretting_case, folder=tmp_path / "run")
     fatigue = history.fatigue([0.0, 20e-6])
     given = history.fatigue([0.0, 20e-6], constants={"yield_strength": 1e9, "torsion_limit": 3e8, "tension_limit": 4e8})

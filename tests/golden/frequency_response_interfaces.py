@@ -1,6 +1,7 @@
 """Reference responses of seeded random stacks whose layers are bonded by springs, or slide freely: the solutions of the 4 x 4
 first-order system of frequency_response_random.py carried upward in mpmath, with a jump of displacement by traction over stiffness at
 every interface. Where no shear passes, two other solutions go on: free motion along the interface, and pressure without shear."""
+
 import json
 import pathlib
 import random
@@ -50,11 +51,16 @@ def response(wavenumber, layers, interfaces, substrate):
         y = (c * unit + s * m + (x * s / 2 * unit + (x * c - s) / 2 * m) * (m * m - unit)) * y
         v = mp.matrix([c * v[0] + s / mu * v[1], mu * s * v[0] + c * v[1]])
     w, t = y[0:2, 0:2], y[2:4, 0:2]
-    compliance = w * t ** -1
+    compliance = w * t**-1
     size = mp.sqrt(abs(compliance[0, 0] * compliance[1, 1]))
     assert abs(compliance[0, 1] - compliance[1, 0]) < mp.mpf(10) ** -40 * size
     digits = lambda z: mp.nstr(z / k, 20, strip_zeros=False)
-    return dict(zz=digits(compliance[1, 1]), rr=digits(compliance[0, 0]), rz=digits((compliance[0, 1] + compliance[1, 0]) / 2), tt=digits(v[0] / v[1]))
+    return dict(
+        zz=digits(compliance[1, 1]),
+        rr=digits(compliance[0, 0]),
+        rz=digits((compliance[0, 1] + compliance[1, 0]) / 2),
+        tt=digits(v[0] / v[1]),
+    )
 
 
 def main():
@@ -89,10 +95,21 @@ def main():
                     interfaces[chosen] = springs(kind, layers[chosen][0], layers[chosen][2])
                     substrate = None if rigid else [logu(1, 1e4), poisson()]
                     case = f"{count} layers, {kind}, {'rigid base' if rigid else 'half-space'}"
-                    rows.append(dict(case=case, layers=layers, interfaces=interfaces, substrate=substrate, k=k, **response(k, layers, interfaces, substrate)))
-    about = ("Surface compliance of seeded random layered half-spaces with springs [normal, shear stiffness] below layers (null: bonded; "
-             "shear 0: no shear passes), fields otherwise as in frequency_response_random.json. Made by frequency_response_interfaces.py: mpmath, transfer "
-             "matrices of the first-order system with 150 digits and 3 more per unit of k h, jumps of displacement between them.")
+                    rows.append(
+                        dict(
+                            case=case,
+                            layers=layers,
+                            interfaces=interfaces,
+                            substrate=substrate,
+                            k=k,
+                            **response(k, layers, interfaces, substrate),
+                        )
+                    )
+    about = (
+        "Surface compliance of seeded random layered half-spaces with springs [normal, shear stiffness] below layers (null: bonded; "
+        "shear 0: no shear passes), fields otherwise as in frequency_response_random.json. Made by frequency_response_interfaces.py: mpmath, transfer "
+        "matrices of the first-order system with 150 digits and 3 more per unit of k h, jumps of displacement between them."
+    )
     with open(pathlib.Path(__file__).with_suffix(".json"), "w") as file:
         file.write('{"about": ' + json.dumps(about) + ',\n"rows": [\n')
         file.write(",\n".join(json.dumps(row) for row in rows) + "\n]}\n")

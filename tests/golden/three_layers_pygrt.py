@@ -2,6 +2,7 @@
 transmission matrices for seismology; `pip install pygrt-kit netCDF4`), a third party. Its discrete wavenumbers leave constants in some of
 the components, so the table holds differences to the last distance. Units: force 1; PyGRT's are converted by the half-space's closed form,
 which is also the check of the settings."""
+
 import json
 import pathlib
 import tempfile
@@ -39,7 +40,12 @@ def displacements(layers, substrate):
 def main():
     # a half-space: u_z = (1 - nu)/(2 pi mu r), u_r from the vertical force -(1 - 2 nu)/(4 pi mu r); horizontally 1/(2 pi mu r), (1 - nu)/(2 pi mu r)
     nu, mu, r = 0.3, 1.0 / 2.6, np.array(DISTANCES)
-    exact = {"VFZ": (1 - nu) / (2 * np.pi * mu * r), "VFR": -(1 - 2 * nu) / (4 * np.pi * mu * r), "HFR": 1 / (2 * np.pi * mu * r), "HFT": -(1 - nu) / (2 * np.pi * mu * r)}
+    exact = {
+        "VFZ": (1 - nu) / (2 * np.pi * mu * r),
+        "VFR": -(1 - 2 * nu) / (4 * np.pi * mu * r),
+        "HFR": 1 / (2 * np.pi * mu * r),
+        "HFT": (1 - nu) / (2 * np.pi * mu * r),
+    }
     plain = displacements([(1.0, nu, 1.0)] * 3, (1.0, nu))
     factors = {}
     for name, values in plain.items():
@@ -50,8 +56,21 @@ def main():
     rows = []
     for name, layers, substrate in STACKS:
         found = displacements(layers, substrate)
-        values = {key: [float(f"{value:.12g}") for value in (one - one[-1]) * factors[key]] for key, one in found.items()}
-        rows.append(dict(case=name, layers=layers, substrate=substrate, distances=DISTANCES, zz=values["VFZ"], zr=values["VFR"], rr=values["HFR"], tt=values["HFT"]))
+        values = {
+            key: [float(f"{value:.12g}") for value in (one - one[-1]) * factors[key]] for key, one in found.items()
+        }
+        rows.append(
+            dict(
+                case=name,
+                layers=layers,
+                substrate=substrate,
+                distances=DISTANCES,
+                zz=values["VFZ"],
+                zr=values["VFR"],
+                rr=values["HFR"],
+                tt=values["HFT"],
+            )
+        )
     about = (
         "Displacement of the surface of layered half-spaces, layers = [E, nu, thickness] from the surface down, substrate = [E, nu], by a unit point force "
         "on it, less that at the last distance: zz, zr normal and radial displacement by a normal force; rr, tt displacement along a tangential force, "

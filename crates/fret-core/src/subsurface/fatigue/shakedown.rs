@@ -76,10 +76,10 @@ mod tests {
         StressTensor([xx, yy, -down, (radial - hoop) * c * d, shear * c, shear * d])
     }
 
-    /// A sphere that rolls: Johnson (1985), sec. 9.2, has p0 = 4.68 k from the orthogonal shear alone, whose amplitude is .2139 p0 at a depth of
-    /// .35. By von Mises the other components, which a residual stress can shift but not still, leave 4.56 k.
+    /// A sphere that rolls: p0 = 4.68 k (Johnson 1985, sec. 9.2), from the orthogonal shear, whose amplitude is .2139 p0 at a depth of .35: a
+    /// residual stress can still all other components.
     #[test]
-    fn a_rolling_sphere_shakes_down_a_little_below_what_its_orthogonal_shear_says() {
+    fn a_rolling_sphere_shakes_down_up_to_what_its_orthogonal_shear_says() {
         let path = || (-300..300).map(|i| 0.02 * (f64::from(i) + 0.5)); // not on the axis
         let cycle = |y: f64, z: f64| -> Vec<StressTensor> {
             path().map(|x| under_hertz_sphere(x, y, z, 0.3)).collect()
@@ -97,8 +97,8 @@ mod tests {
             }
         }
         let pressure = 3.0_f64.sqrt() / most.0;
-        // 4.558 by a plain program with another way to the smallest ball
-        assert!((pressure - 4.558).abs() < 0.005 && most.1 == 0.0, "{pressure}");
+        // the digits of the book; steps of 0.01 in depth
+        assert!((pressure - 4.68).abs() < 0.01 && most.1 == 0.0, "{pressure}");
     }
 
     /// First yield under a cylinder and a sphere: Johnson (1985), sec. 6.2: by von Mises p0 = 3.1 k, nu = 0.3; and 1.60 Y.
