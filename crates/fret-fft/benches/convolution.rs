@@ -145,7 +145,8 @@ fn measure(
     let coarse: Vec<_> = coarse.iter().map(Vec::as_slice).collect();
     let mut rounded = vec![vec![0.0_f32; cells]; fields];
     let mut rounded: Vec<_> = rounded.iter_mut().map(Vec::as_mut_slice).collect();
-    let mut single = products[0].1.in_single_precision().ok_or("no engine for single precision")?;
+    let single = products[0].1.in_single_precision().ok_or("no engine for single precision")?;
+    let mut single_workspace = Workspace::default();
     let mut single_time = Duration::MAX;
 
     let rounds = (4_000_000 / (n * n)).clamp(5, 200);
@@ -155,8 +156,8 @@ fn measure(
             product.apply(workspace, &input, &mut output);
             *time = best(*time, || product.apply(workspace, &input, &mut output));
         }
-        single.apply(&coarse, &mut rounded);
-        single_time = best(single_time, || single.apply(&coarse, &mut rounded));
+        single.apply(&mut single_workspace, &coarse, &mut rounded);
+        single_time = best(single_time, || single.apply(&mut single_workspace, &coarse, &mut rounded));
     }
     let pool = rayon::ThreadPoolBuilder::new().num_threads(2).build()?;
     let two_threads = pool.install(|| {

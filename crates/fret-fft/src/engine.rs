@@ -105,7 +105,10 @@ impl PlannedProduct {
 
     pub fn apply(&self, workspace: &mut Workspace, input: &[&[f64]], output: &mut [&mut [f64]]) {
         match self {
-            Self::Lanes(product) => product.apply(workspace.lanes(product.work_len(1)), input, output),
+            Self::Lanes(product) => {
+                let count = product.work_len(rayon::current_num_threads());
+                product.apply(workspace.lanes(count), input, output);
+            },
             Self::Lines(product) => product.apply(workspace.lines(product.scratch_len()), input, output),
             Self::Unfolded(product, terms) => unfolded_product(product, terms, workspace, input, output),
         }

@@ -93,7 +93,7 @@ mod tests {
     use ndarray::Array2;
 
     use super::super::tests::{PARITIES, full_blocks};
-    use super::super::{Convolution, Engine, PeriodicProduct, SingleProduct, Symbol};
+    use super::super::{Convolution, Engine, PeriodicProduct, SingleProduct, Symbol, Workspace};
     use super::*;
 
     const AXES: [[bool; 2]; 4] = [[false, false], [true, false], [false, true], [true, true]];
@@ -104,14 +104,14 @@ mod tests {
     /// some times that.
     const SINGLE: f64 = 4e-6;
 
-    fn apply_single(mut product: SingleProduct, input: &[&[f64]], output: &mut [&mut [f64]]) {
+    fn apply_single(product: SingleProduct, input: &[&[f64]], output: &mut [&mut [f64]]) {
         #[expect(clippy::cast_possible_truncation, reason = "single precision is what is tested")]
         let rounded = |field: &&[f64]| field.iter().map(|value| *value as f32).collect::<Vec<f32>>();
         let fields: Vec<Vec<f32>> = input.iter().map(rounded).collect();
         let mut results: Vec<Vec<f32>> = output.iter().map(|field| vec![f32::NAN; field.len()]).collect();
         let from: Vec<&[f32]> = fields.iter().map(Vec::as_slice).collect();
         let mut to: Vec<&mut [f32]> = results.iter_mut().map(Vec::as_mut_slice).collect();
-        product.apply(&from, &mut to);
+        product.apply(&mut Workspace::default(), &from, &mut to);
         for (field, result) in output.iter_mut().zip(&results) {
             for (value, result) in field.iter_mut().zip(result) {
                 *value = product.unit() * f64::from(*result);

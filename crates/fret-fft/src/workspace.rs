@@ -1,13 +1,14 @@
 //! The memory a product works in.
 
+use pulp::bytemuck;
 use rustfft::num_complex::Complex;
 
 use super::lanes::AlignedNumbers;
 
 /// Scratch memory of a [`Convolution`](super::Convolution) or [`PeriodicProduct`](super::PeriodicProduct).
 ///
-/// Made once by `workspace()`, passed to every `apply`; its content after a call is nobody's. It serves as many threads as
-/// the pool has in which it was made. One made for another product works too: it grows, once, to what is needed.
+/// Made once by `workspace()`, passed to every `apply`; its content after a call is nobody's. One serves any number of products, one after
+/// the other, in either precision: where it is too small for a product or for the threads of the pool it grows, once.
 #[derive(Debug, Clone, Default)]
 pub struct Workspace {
     lanes: AlignedNumbers<f64>,
@@ -21,6 +22,11 @@ impl Workspace {
             self.lanes = AlignedNumbers::zeros(count);
         }
         self.lanes.as_mut_slice()
+    }
+
+    /// As [`lanes`](Self::lanes), in single precision.
+    pub(super) fn single_lanes(&mut self, count: usize) -> &mut [f32] {
+        bytemuck::cast_slice_mut(self.lanes(count.div_ceil(2)))
     }
 
     /// `count` complex numbers of unknown content.

@@ -13,6 +13,7 @@ mod surface_response;
 pub use cell_response::CellResponse;
 pub use direct::DirectCompliance;
 pub use operator::{OperatorSet, SelfInfluence, SinglePrecisionOperator, SurfaceCompliance};
+pub use product::SharedWorkspace;
 pub use spectral::SpectralCompliance;
 pub use surface_response::SurfaceResponse;
 pub(crate) use surface_response::mirrors;

@@ -1,5 +1,6 @@
 //! What an elastic operator is: displacements of the cells of a region by the tractions on them.
 
+use super::product::SharedWorkspace;
 use crate::model::Symmetry;
 use fret_fft::SingleProduct;
 
@@ -29,7 +30,8 @@ pub trait SurfaceCompliance {
 
 /// An elastic response in single precision.
 pub struct SinglePrecisionOperator<'a> {
-    pub(super) product: &'a mut SingleProduct,
+    pub(super) product: &'a SingleProduct,
+    pub(super) workspace: &'a SharedWorkspace,
     pub(super) shear_axis: Option<usize>,
     pub(super) applications: &'a mut usize,
 }
@@ -43,7 +45,9 @@ impl SinglePrecisionOperator<'_> {
     /// The displacements, divided by [`unit`](Self::unit), of tractions.
     pub fn apply(&mut self, tractions: &[&[f32]], displacements: &mut [&mut [f32]]) {
         *self.applications += 1;
-        along_one(self.shear_axis, tractions, displacements, |from, to| self.product.apply(from, to));
+        along_one(self.shear_axis, tractions, displacements, |from, to| {
+            self.workspace.lend(|workspace| self.product.apply(workspace, from, to));
+        });
     }
 }
 

@@ -1,7 +1,7 @@
 //! The elastic response by fast products in Fourier space.
 
 use super::operator::{OperatorSet, SelfInfluence, SinglePrecisionOperator, SurfaceCompliance, along_one};
-use super::product::Product;
+use super::product::{Product, SharedWorkspace};
 use super::surface_response::{
     FULL_BLOCKS, SurfaceResponse, block, mirrors, own_in_period, own_of, signed_kernels, signed_symbols,
 };
@@ -18,6 +18,8 @@ pub struct SpectralCompliance {
     normal_from_all: Option<Product>,
     /// The same in single precision, made when first asked for.
     single: Singles,
+    /// Where all of them work.
+    workspace: SharedWorkspace,
     /// The one axis along which shear acts.
     shear_axis: Option<usize>,
     /// Applications so far.
@@ -37,11 +39,11 @@ fn made<'a>(
     single: &'a mut Option<SingleProduct>,
     product: Option<&Product>,
     wanted: bool,
-) -> Option<&'a mut SingleProduct> {
+) -> Option<&'a SingleProduct> {
     if single.is_none() && wanted {
         *single = product.and_then(Product::in_single_precision);
     }
-    single.as_mut()
+    single.as_ref()
 }
 
 const NORMAL_BLOCKS: [Block; 1] = [block(0, 0, 0, 1.0)];
@@ -82,7 +84,7 @@ impl SpectralCompliance {
                 SurfaceResponse::FreeSpace(_) => {
                     let kernels: Vec<Kernel<'_>> =
                         there.map(|(values, parity)| Kernel { values: values.view(), parity }).collect();
-                    Product::free_space(Convolution::mirrored(
+                    Product::FreeSpace(Convolution::mirrored(
                         shape,
                         &kernels,
                         blocks,
@@ -92,7 +94,7 @@ impl SpectralCompliance {
                 SurfaceResponse::Periodic(_) => {
                     let symbols: Vec<Symbol<'_>> =
                         there.map(|(values, parity)| Symbol { values: values.view(), parity }).collect();
-                    Product::periodic(PeriodicProduct::mirrored(
+                    Product::Periodic(PeriodicProduct::mirrored(
                         shape,
                         &symbols,
                         blocks,
@@ -130,28 +132,38 @@ impl SpectralCompliance {
             full: build(operators.full, full.0, all, full.1)?,
             normal_from_all: build(operators.normal_from_all, normal_from_all.0, all, normal_from_all.1)?,
             single: Singles { wanted: operators.single, ..Singles::default() },
+            workspace: SharedWorkspace::default(),
             shear_axis: operators.shear_axis,
             applications: 0,
         })
     }
 
+    /// The same operators, at work in a given memory.
+    #[must_use]
+    pub fn working_in(self, workspace: &SharedWorkspace) -> Self {
+        Self { workspace: workspace.clone(), ..self }
+    }
+
     /// `u_z` from pressure and shear; needs the operator of that name.
     pub fn normal_from_all(&mut self, pressure: &[f64], shear: &TangentialField, normal: &mut [f64]) {
-        if let Some(product) = &mut self.normal_from_all {
+        if let Some(product) = &self.normal_from_all {
             self.applications += 1;
             match self.shear_axis {
-                Some(axis) => product.apply(&[pressure, shear.parts()[axis]], &mut [normal]),
-                None => product.apply(&[pressure, &shear.x, &shear.y], &mut [normal]),
+                Some(axis) => {
+                    product.apply(&self.workspace, &[pressure, shear.parts()[axis]], &mut [normal]);
+                }
+                None => product.apply(&self.workspace, &[pressure, &shear.x, &shear.y], &mut [normal]),
             }
         }
     }
 
-    /// Memory of the operators [bytes].
+    /// Memory of the operators and of the work space [bytes].
     pub fn memory_bytes(&self) -> usize {
         let products = [&self.normal, &self.tangential, &self.full, &self.normal_from_all];
         let singles = [&self.single.tangential, &self.single.full];
         products.into_iter().flatten().map(Product::memory_bytes).sum::<usize>()
             + singles.into_iter().flatten().map(SingleProduct::memory_bytes).sum::<usize>()
+            + self.workspace.memory_bytes()
     }
 }
 
@@ -165,9 +177,9 @@ impl SurfaceCompliance for SpectralCompliance {
     }
 
     fn normal(&mut self, pressure: &[f64], normal: &mut [f64]) {
-        if let Some(product) = &mut self.normal {
+        if let Some(product) = &self.normal {
             self.applications += 1;
-            product.apply(&[pressure], &mut [normal]);
+            product.apply(&self.workspace, &[pressure], &mut [normal]);
         } else {
             let zero = vec![0.0; pressure.len()];
             let [mut x, mut y] = [zero.clone(), zero.clone()];
@@ -176,9 +188,10 @@ impl SurfaceCompliance for SpectralCompliance {
     }
 
     fn tangential(&mut self, shear: [&[f64]; 2], mut tangential: [&mut [f64]; 2]) {
-        if let Some(product) = &mut self.tangential {
+        if let Some(product) = &self.tangential {
             self.applications += 1;
-            along_one(self.shear_axis, &shear, &mut tangential, |from, to| product.apply(from, to));
+            let workspace = &self.workspace;
+            along_one(self.shear_axis, &shear, &mut tangential, |from, to| product.apply(workspace, from, to));
         } else {
             let zero = vec![0.0; shear[0].len()];
             let mut aside = zero.clone();
@@ -188,9 +201,12 @@ impl SurfaceCompliance for SpectralCompliance {
     }
 
     fn full(&mut self, tractions: [&[f64]; 3], mut displacements: [&mut [f64]; 3]) {
-        if let Some(product) = &mut self.full {
+        if let Some(product) = &self.full {
             self.applications += 1;
-            along_one(self.shear_axis, &tractions, &mut displacements, |from, to| product.apply(from, to));
+            let workspace = &self.workspace;
+            along_one(self.shear_axis, &tractions, &mut displacements, |from, to| {
+                product.apply(workspace, from, to);
+            });
         } else {
             debug_assert!(self.normal.is_some() && self.tangential.is_some(), "no operator was asked for");
             let ([pressure, from_x, from_y], [normal, to_x, to_y]) = (tractions, displacements);
@@ -200,14 +216,14 @@ impl SurfaceCompliance for SpectralCompliance {
     }
 
     fn tangential_single(&mut self) -> Option<SinglePrecisionOperator<'_>> {
-        let Self { single: Singles { wanted, tangential, .. }, shear_axis, applications, .. } = self;
+        let Self { single: Singles { wanted, tangential, .. }, workspace, shear_axis, applications, .. } = self;
         let product = made(tangential, self.tangential.as_ref(), *wanted)?;
-        Some(SinglePrecisionOperator { product, shear_axis: *shear_axis, applications })
+        Some(SinglePrecisionOperator { product, workspace, shear_axis: *shear_axis, applications })
     }
 
     fn full_single(&mut self) -> Option<SinglePrecisionOperator<'_>> {
-        let Self { single: Singles { wanted, full, .. }, shear_axis, applications, .. } = self;
+        let Self { single: Singles { wanted, full, .. }, workspace, shear_axis, applications, .. } = self;
         let product = made(full, self.full.as_ref(), *wanted)?;
-        Some(SinglePrecisionOperator { product, shear_axis: *shear_axis, applications })
+        Some(SinglePrecisionOperator { product, workspace, shear_axis: *shear_axis, applications })
     }
 }

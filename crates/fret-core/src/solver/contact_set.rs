@@ -45,8 +45,8 @@ impl ContactSet {
 
     /// A packed copy of a field of the region.
     pub fn packed(&self, field: &[f64]) -> Vec<f64> {
-        let mut packed = Vec::with_capacity(self.len);
-        self.pack(field, &mut packed);
+        let mut packed = vec![0.0; self.len];
+        self.gather(field, 1.0, &mut packed);
         packed
     }
 
@@ -57,10 +57,8 @@ impl ContactSet {
 
     /// Packs a field of the region into one of any length, keeping the memory.
     pub fn pack(&self, field: &[f64], packed: &mut Vec<f64>) {
-        packed.clear();
-        for run in &self.runs {
-            packed.extend_from_slice(&field[run.clone()]);
-        }
+        packed.resize(self.len, 0.0);
+        self.gather(field, 1.0, packed);
     }
 
     /// Packs a tangential field of the region into one of any length, keeping the memory.

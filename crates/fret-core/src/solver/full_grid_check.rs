@@ -40,7 +40,8 @@ impl ContactSolver<'_> {
                     symmetry: self.symmetry,
                     ..OperatorSet::default()
                 };
-                none.insert(SpectralCompliance::new(&self.response, cells, operators)?)
+                let operator = SpectralCompliance::new(&self.response, cells, operators)?;
+                none.insert(operator.working_in(&self.workspace))
             }
         };
         let mut normal = vec![0.0; whole.len()];

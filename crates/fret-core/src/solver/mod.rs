@@ -32,7 +32,7 @@ use std::borrow::Cow;
 
 use ndarray::Array2;
 
-use crate::compliance::{CellResponse, OperatorSet, SpectralCompliance, SurfaceResponse};
+use crate::compliance::{CellResponse, SharedWorkspace, OperatorSet, SpectralCompliance, SurfaceResponse};
 use crate::kernel::ResponseTable;
 use crate::model::{
     BulkCompliance, ContactState, Control, CoulombFriction, Integration, LoadStep, Rig, Scheme, SurfaceGrid,
@@ -69,6 +69,8 @@ pub struct ContactSolver<'a> {
     operators: Option<RegionOperators>,
     /// Normal displacement of the whole grid, to check what lies outside the region.
     full_grid: Option<SpectralCompliance>,
+    /// Where all operators work.
+    workspace: SharedWorkspace,
     /// Frequency response of the pair, for the preconditioner of pressure.
     table: Option<ResponseTable>,
     /// Made when they are first asked for.
@@ -111,6 +113,7 @@ impl<'a> ContactSolver<'a> {
             settings,
             operators: None,
             full_grid: None,
+            workspace: SharedWorkspace::default(),
             table: None,
             coarse: None,
             memory: SolverMemory::default(),
@@ -396,7 +399,8 @@ impl<'a> ContactSolver<'a> {
         let tangential = self.coupling != Coupling::Frictionless;
         Ok(RegionOperators {
             region,
-            compliance: SpectralCompliance::new(&self.response, region.shape, operators)?,
+            compliance: SpectralCompliance::new(&self.response, region.shape, operators)?
+                .working_in(&self.workspace),
             preconditioner: Preconditioner::new(
                 &self.response,
                 waves,
@@ -405,7 +409,8 @@ impl<'a> ContactSolver<'a> {
                 self.shear_axis,
                 self.symmetry,
                 single,
-            )?,
+            )?
+            .working_in(&self.workspace),
             linear: LinearSolver::default(),
             direct_solves: 0,
         })

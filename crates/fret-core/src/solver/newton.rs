@@ -389,8 +389,9 @@ impl<'a> Iterate<'a> {
             law.find_bound(pressure, bound);
         }
         self.project_shear();
-        self.last.clone_from(self.tractions);
-        let Self { contact, packed, tractions, .. } = self;
+        let Self { contact, packed, tractions, last, .. } = self;
+        std::mem::swap(last, *tractions);
+        tractions.resize(last.pressure.len());
         contact.scatter(&packed.pressure, &mut tractions.pressure);
         contact.scatter_tangential(&packed.shear, &mut tractions.shear);
         true

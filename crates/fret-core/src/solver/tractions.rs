@@ -30,6 +30,13 @@ impl Tractions {
         Self { pressure: vec![0.0; len], shear: TangentialField::zeros(len) }
     }
 
+    /// Makes room for so many cells.
+    pub fn resize(&mut self, len: usize) {
+        for field in [&mut self.pressure, &mut self.shear.x, &mut self.shear.y] {
+            field.resize(len, 0.0);
+        }
+    }
+
     /// Pressure and both components of shear.
     pub fn parts(&self) -> [&[f64]; 3] {
         [&self.pressure, &self.shear.x, &self.shear.y]

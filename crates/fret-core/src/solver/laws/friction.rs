@@ -5,7 +5,7 @@
 //! Coulomb: `|q| <= b(p)`; where `|q| = b` the surfaces may slip, along `q`, the shear on the lower body; elsewhere they stick.
 //! `b = min(mu p, tau)` with the shear strength `tau` of the interface, where it has one.
 
-use crate::fields::Reals;
+use crate::fields::{CellRule, Reals, each_cell};
 use crate::model::{CellValues, CoulombFriction};
 
 use super::super::contact_set::ContactSet;
@@ -54,11 +54,10 @@ impl FrictionLaw {
 
     /// Bound [pressure] and its slope [-] of one cell under a pressure that is not negative.
     pub fn at(&self, cell: usize, pressure: f64) -> (f64, f64) {
-        let mu = self.coefficient[cell];
-        match self.max_shear.get(cell) {
-            Some(&tau) if tau < mu * pressure => (tau, 0.0),
-            _ => (mu * pressure, mu),
-        }
+        let (mut bound, mut slope) = ([0.0], [0.0]);
+        let strength = self.max_shear.get(cell..=cell).unwrap_or_default();
+        bounds_under(&[pressure], (&self.coefficient[cell..=cell], strength), [&mut bound, &mut slope]);
+        (bound[0], slope[0])
     }
 
     /// The bounds under `pressure` [pressure], which is not negative.
@@ -71,13 +70,43 @@ impl FrictionLaw {
     /// The same, keeping the memory.
     pub fn find_bound(&self, pressure: &[f64], found: &mut FrictionBound) {
         let FrictionBound { bound, slope } = found;
-        bound.clear();
-        slope.clear();
-        for (cell, pressure) in pressure.iter().enumerate() {
-            let (here, its_slope) = self.at(cell, *pressure);
-            bound.push(here);
-            slope.push(its_slope);
-        }
+        bound.resize(pressure.len(), 0.0);
+        slope.resize(pressure.len(), 0.0);
+        bounds_under(pressure, (&self.coefficient, &self.max_shear), [bound, slope]);
+    }
+}
+
+/// Bounds and their slopes; a `strength` that is empty bounds nothing.
+fn bounds_under(pressure: &[f64], (coefficient, strength): (&[f64], &[f64]), to: [&mut [f64]; 2]) {
+    if strength.is_empty() {
+        each_cell(&Coulomb, [pressure, coefficient], to);
+    } else {
+        each_cell(&CoulombToStrength, [pressure, coefficient, strength], to);
+    }
+}
+
+/// The bound `mu p`.
+struct Coulomb;
+
+impl CellRule<2, 2, 0> for Coulomb {
+    #[inline(always)]
+    fn at<R: Reals>(&self, [pressure, coefficient]: [R; 2], [bound, slope]: &mut [R; 2]) -> [R; 0] {
+        *bound = coefficient * pressure;
+        *slope = coefficient;
+        []
+    }
+}
+
+/// The bound `min(mu p, tau)`.
+struct CoulombToStrength;
+
+impl CellRule<3, 2, 0> for CoulombToStrength {
+    #[inline(always)]
+    fn at<R: Reals>(&self, [pressure, coefficient, strength]: [R; 3], [bound, slope]: &mut [R; 2]) -> [R; 0] {
+        let coulomb = coefficient * pressure;
+        *bound = coulomb.if_at_most(strength, coulomb, strength);
+        *slope = coulomb.if_at_most(strength, coefficient, pressure.all(0.0));
+        []
     }
 }
 
@@ -183,7 +212,6 @@ mod tests {
     use ndarray::Array2;
 
     use super::*;
-    use crate::fields::{CellRule, each_cell};
 
     /// A map whose numbers say where they stand, and a uniform shear strength: in a region they are those of its cells, row by row, and
     /// packed those of the contact.

@@ -1,13 +1,14 @@
 //! One approximate inverse on the cells of a region, by unpadded transforms, in double or single precision.
 
 use super::super::contact_set::ContactSet;
+use crate::compliance::SharedWorkspace;
 use crate::fields::{Number, convert, dot, norm};
-use fret_fft::{PeriodicProduct, SingleProduct, Workspace};
+use fret_fft::{PeriodicProduct, SingleProduct};
 
 /// A product of one or two fields that approximates the inverse of an operator.
 pub enum Inverse {
     /// In double precision.
-    Double(PeriodicProduct, Workspace),
+    Double(PeriodicProduct),
     /// In single precision.
     Single(SingleProduct),
 }
@@ -71,45 +72,53 @@ impl Inverse {
         if single && let Some(product) = product.in_single_precision() {
             return Self::Single(product);
         }
-        let workspace = product.workspace();
-        Self::Double(product, workspace)
+        Self::Double(product)
     }
 
     /// Forgets in `fields` what an earlier contact left, in a region of so many cells.
     pub fn clear(&self, fields: &mut InverseFields, cells: usize) {
         match self {
-            Self::Double(..) => fields.double.clear(cells),
+            Self::Double(_) => fields.double.clear(cells),
             Self::Single(_) => fields.single.clear(cells),
         }
     }
 
     /// `factor` times what would remove `right`, before any restriction; one or two fields packed over a contact.
     pub fn apply<N: Number>(
-        &mut self,
+        &self,
         contact: &ContactSet,
         right: &[&[N]],
         left: &mut [&mut [N]],
         factor: f64,
-        fields: &mut InverseFields,
+        (fields, workspace): (&mut InverseFields, &SharedWorkspace),
     ) {
         match self {
-            Self::Double(product, workspace) => {
-                let apply = |from: &[&[f64]], to: &mut [&mut [f64]]| product.apply(workspace, from, to);
+            Self::Double(product) => {
+                let apply = |from: &[&[f64]], to: &mut [&mut [f64]]| {
+                    workspace.lend(|workspace| product.apply(workspace, from, to));
+                };
                 fields.double.through(contact, right, left, [1.0, factor], apply);
             }
             Self::Single(product) => {
                 let unit = unit_of(right.iter().map(|part| dot(part, part)).sum::<f64>().sqrt());
                 let factors = [unit, factor * unit * product.unit()];
-                let apply = |from: &[&[f32]], to: &mut [&mut [f32]]| product.apply(from, to);
+                let apply = |from: &[&[f32]], to: &mut [&mut [f32]]| {
+                    workspace.lend(|workspace| product.apply(workspace, from, to));
+                };
                 fields.single.through(contact, right, left, factors, apply);
             }
         }
     }
 
     /// What would remove a field of the whole region.
-    pub fn apply_to_region(&mut self, right: &[f64], left: &mut [f64], fields: &mut InverseFields) {
+    pub fn apply_to_region(
+        &self,
+        right: &[f64],
+        left: &mut [f64],
+        (fields, workspace): (&mut InverseFields, &SharedWorkspace),
+    ) {
         match self {
-            Self::Double(product, workspace) => product.apply(workspace, &[right], &mut [left]),
+            Self::Double(product) => workspace.lend(|work| product.apply(work, &[right], &mut [left])),
             Self::Single(product) => {
                 let Sides { before: [before, _], after: [after, _] } = &mut fields.single;
                 for field in [&mut *before, &mut *after] {
@@ -117,7 +126,7 @@ impl Inverse {
                 }
                 let unit = unit_of(norm(right));
                 convert(right, 1.0 / unit, before);
-                product.apply(&[before], &mut [after]);
+                workspace.lend(|workspace| product.apply(workspace, &[before], &mut [after]));
                 convert(after, unit * product.unit(), left);
             }
         }

@@ -6,7 +6,7 @@ use ndarray::{Array2, s};
 
 use super::super::contact_set::ContactSet;
 use super::inverse::{Inverse, InverseFields};
-use crate::compliance::{SurfaceResponse, mirrors};
+use crate::compliance::{SharedWorkspace, SurfaceResponse, mirrors};
 use crate::fields::{CellRule, Number, Reals, each_cell};
 use crate::kernel::ResponseTable;
 use crate::model::Symmetry;
@@ -33,6 +33,7 @@ pub struct Preconditioner {
     /// The one axis along which shear acts.
     shear_axis: Option<usize>,
     fields: InverseFields,
+    workspace: SharedWorkspace,
     cells: usize,
     /// The contact that fields were last spread from.
     contact: ContactSet,
@@ -139,10 +140,17 @@ impl Preconditioner {
             shear_axis,
             stiff: waves.is_some_and(|waves| waves.are_stiff(shape)),
             fields: InverseFields::default(),
+            workspace: SharedWorkspace::default(),
             contact: ContactSet::default(),
             cells: part[0] * part[1],
             passes: 0,
         })
+    }
+
+    /// The same, at work in a given memory.
+    #[must_use]
+    pub fn working_in(self, workspace: &SharedWorkspace) -> Self {
+        Self { workspace: workspace.clone(), ..self }
     }
 
     /// Whether short waves on the region meet a response much stiffer than long ones do.
@@ -152,10 +160,10 @@ impl Preconditioner {
 
     /// Pressures that would remove normal displacements `right`, before any restriction to a set.
     pub fn normal(&mut self, right: &[f64], pressure: &mut [f64]) {
-        if let Some(inverse) = &mut self.normal {
+        if let Some(inverse) = &self.normal {
             self.passes += 1;
             self.contact = ContactSet::default(); // its fields are overwritten
-            inverse.apply_to_region(right, pressure, &mut self.fields);
+            inverse.apply_to_region(right, pressure, (&mut self.fields, &self.workspace));
         }
     }
 
@@ -188,15 +196,15 @@ impl Preconditioner {
 
     /// Pressures that would remove normal displacements `right`, packed over the contact prepared last.
     pub fn pressure<N: Number>(&mut self, right: &[N], pressure: &mut [N], weights: &SlipWeights<N>) {
-        let Self { normal: Some(inverse), fields, contact, .. } = self else { return };
+        let Self { normal: Some(inverse), fields, workspace, contact, .. } = self else { return };
         self.passes += 1;
-        inverse.apply(contact, &[right], &mut [pressure], weights.compliance, fields);
+        inverse.apply(contact, &[right], &mut [pressure], weights.compliance, (fields, workspace));
     }
 
     /// Shears that would remove tangential displacements `right`, before any restriction to what the active sets leave free; packed
     /// over the contact prepared last.
     pub fn shear<N: Number>(&mut self, right: [&[N]; 2], shear: [&mut [N]; 2], weights: &mut SlipWeights<N>) {
-        let Self { shear: Some(inverse), shear_axis, fields, contact, .. } = self else { return };
+        let Self { shear: Some(inverse), shear_axis, fields, workspace, contact, .. } = self else { return };
         let SlipWeights { elastic, slip, compliance, weighted, part } = weights;
         let [weighted_x, weighted_y] = &mut *weighted;
         each_cell(&Weighted, [right[0], right[1], elastic], [weighted_x, weighted_y]);
@@ -205,7 +213,7 @@ impl Preconditioner {
         let axes = shear_axis.map_or(0..2, |axis| axis..axis + 1);
         let from = weighted.each_ref().map(Vec::as_slice);
         let mut to = part.each_mut().map(Vec::as_mut_slice);
-        inverse.apply(contact, &from[axes.clone()], &mut to[axes], *compliance, fields);
+        inverse.apply(contact, &from[axes.clone()], &mut to[axes], *compliance, (fields, workspace));
         let [part_x, part_y] = part;
         each_cell(&Sum, [part_x, part_y, right[0], right[1], elastic, slip], shear);
     }

@@ -55,12 +55,15 @@ pub struct LinearSolver {
 impl LinearSolver {
     /// Makes ready for an increment.
     pub fn begin(&mut self) {
-        self.double_only = false;
+        if std::mem::take(&mut self.double_only) {
+            self.double = Krylov::default();
+        }
     }
 
     /// From now on everything in double precision.
     pub fn avoid_single_precision(&mut self) {
         self.double_only = true;
+        self.single = Krylov::default();
     }
 
     /// Finds the `step` of the tractions.
