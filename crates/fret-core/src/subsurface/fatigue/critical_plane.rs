@@ -4,7 +4,6 @@ use std::sync::LazyLock;
 
 use serde::Serialize;
 
-use super::invariants::deviator_point;
 use crate::model::ElasticMaterial;
 use crate::subsurface::tensor::StressTensor;
 
@@ -29,13 +28,11 @@ pub fn smith_watson_topper(cycle: &[StressTensor], material: &ElasticMaterial) -
     // a free surface has no stress across it but for rounding, which is no tension
     let rounding =
         1e-12 * cycle.iter().flat_map(|stress| stress.0).fold(0.0, |most, part| part.abs().max(most));
-    let even: Vec<f64> = cycle.iter().map(|stress| per_young * 3.0 * nu * stress.hydrostatic()).collect();
     largest_over_planes(|n, _| {
         let (mut least, mut most, mut stress_most) = (f64::INFINITY, f64::NEG_INFINITY, 0.0_f64);
-        let weights = normal_weights(n);
-        for (stress, even) in cycle.iter().zip(&even) {
-            let normal = normal_stress(stress, weights);
-            let strain = per_young * (1.0 + nu) * normal - even;
+        for stress in cycle {
+            let normal = normal_stress(stress, n);
+            let strain = per_young * ((1.0 + nu) * normal - 3.0 * nu * stress.hydrostatic());
             least = least.min(strain);
             most = most.max(strain);
             stress_most = stress_most.max(normal);
@@ -57,33 +54,21 @@ pub fn fatemi_socie(
 ) -> CriticalPlane {
     let per_shear = 1.0 / material.shear_modulus();
     let mut path = Vec::with_capacity(cycle.len());
-    // no chord in any plane is longer than that of the deviator over the root of two, nor that than the diagonal of the box around it
-    let mut deviator = [[f64::INFINITY, f64::NEG_INFINITY]; 5];
-    for stress in cycle {
-        for (range, value) in deviator.iter_mut().zip(deviator_point(stress)) {
-            *range = [range[0].min(value), range[1].max(value)];
-        }
-    }
-    let square: f64 = deviator.iter().map(|[low, high]| (high - low) * (high - low)).sum();
-    let longest = (0.5 * square).sqrt() * (1.0 + 1e-12);
     largest_over_planes(|n, best| {
         path.clear();
-        let weights = normal_weights(n);
-        let stress_most = cycle.iter().fold(0.0_f64, |most, stress| most.max(normal_stress(stress, weights)));
-        let factor = 0.5 * per_shear * (1.0 + sensitivity * stress_most / yield_strength);
-        if factor * longest * (1.0 + 1e-12) < best {
-            return f64::NEG_INFINITY;
-        }
+        let mut stress_most = 0.0_f64;
         let mut bounds = [[f64::INFINITY, f64::NEG_INFINITY]; 3];
         for stress in cycle {
             let traction = stress.on_plane(n);
             let normal = traction[0] * n[0] + traction[1] * n[1] + traction[2] * n[2];
+            stress_most = stress_most.max(normal);
             let shear: [f64; 3] = std::array::from_fn(|axis| traction[axis] - normal * n[axis]);
             for axis in 0..3 {
                 bounds[axis] = [bounds[axis][0].min(shear[axis]), bounds[axis][1].max(shear[axis])];
             }
             path.push(shear);
         }
+        let factor = 0.5 * per_shear * (1.0 + sensitivity * stress_most / yield_strength);
         // no chord is longer than the diagonal of the box around the path
         let box_square: f64 = bounds.iter().map(|[low, high]| (high - low) * (high - low)).sum();
         if factor * box_square.sqrt() <= best {
@@ -100,13 +85,9 @@ pub fn fatemi_socie(
     })
 }
 
-/// What the components of the stress count in the normal stress on a plane.
-fn normal_weights([x, y, z]: [f64; 3]) -> [f64; 6] {
-    [x * x, y * y, z * z, 2.0 * x * y, 2.0 * x * z, 2.0 * y * z]
-}
-
-fn normal_stress(stress: &StressTensor, weights: [f64; 6]) -> f64 {
-    stress.0.iter().zip(weights).map(|(part, weight)| part * weight).sum()
+fn normal_stress(stress: &StressTensor, n: [f64; 3]) -> f64 {
+    let traction = stress.on_plane(n);
+    traction[0] * n[0] + traction[1] * n[1] + traction[2] * n[2]
 }
 
 /// Normals over half the sphere, every ten degrees.
