@@ -774,7 +774,7 @@ class Coating(TypedDict):
     interface: NotRequired[Interface]
     """
     How it is bonded to what lies below it: "bonded" (default), "frictionless" (no shear passes; only without friction on the
-    surface), or springs of no thickness, { normal_stiffness, shear_stiffness }. Linear: an interface does not open.
+    surface), or springs of no thickness, `{ normal_stiffness, shear_stiffness }`. Linear: an interface does not open.
     """
     poisson: float
     """

@@ -253,7 +253,7 @@ pub(super) struct CoatingFile {
     #[schemars(with = "f64")]
     pub poisson: Spanned<f64>,
     /// How it is bonded to what lies below it: "bonded" (default), "frictionless" (no shear passes; only without friction on the
-    /// surface), or springs of no thickness, { normal_stiffness, shear_stiffness }. Linear: an interface does not open.
+    /// surface), or springs of no thickness, `{ normal_stiffness, shear_stiffness }`. Linear: an interface does not open.
     #[schemars(with = "Option<InterfaceSchema>")]
     pub interface: Option<Spanned<InterfaceFile>>,
     /// Residual stress [pressure], tension positive: the same along x and y, or one along each; or rows of depth below the upper

@@ -201,6 +201,9 @@ impl ContactSolver<'_> {
     }
 }
 
+/// Solves the increment at a tilt.
+type Attempt<'a> = &'a mut dyn FnMut([f64; 2], &mut Work) -> Result<Tried, SolveError>;
+
 /// The way to the tilts of prescribed moments.
 struct Search {
     /// Axes along which a moment is prescribed.
@@ -249,7 +252,7 @@ impl Search {
         &mut self,
         here: &Tried,
         work: &mut Work,
-        at: &mut dyn FnMut([f64; 2], &mut Work) -> Result<Tried, SolveError>,
+        at: Attempt<'_>,
     ) -> Result<Option<Tried>, SolveError> {
         let step = self.direction(here);
         let from = here.increment.state.tilt;

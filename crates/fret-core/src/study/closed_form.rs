@@ -71,9 +71,12 @@ impl ClosedForm {
         }
         let moduli = moduli(plan)?;
         let at_ends = loads_at_ends(&case.stages);
-        let pressed_by = |load: &LoadStep| match case.is_line() {
-            true => LinePressed::by(plan, load.normal, moduli.normal).map(Pressed::Line),
-            false => pressed_by(plan, load.normal, moduli.normal),
+        let pressed_by = |load: &LoadStep| {
+            if case.is_line() {
+                LinePressed::by(plan, load.normal, moduli.normal).map(Pressed::Line)
+            } else {
+                pressed_by(plan, load.normal, moduli.normal)
+            }
         };
         let pressed: Vec<Pressed> = at_ends.iter().map(pressed_by).collect::<Option<_>>()?;
         let mut ends: Vec<Said> = pressed.iter().map(Pressed::says).collect();
@@ -85,12 +88,11 @@ impl ClosedForm {
         };
         let name = match (&pressed.last()?, shear.is_some()) {
             (Pressed::Sphere(_), true) => "Hertz; Cattaneo and Mindlin",
-            (Pressed::Sphere(_) | Pressed::Ellipsoid(_), _) => "Hertz",
+            (Pressed::Line(_), true) => "Hertz; Cattaneo",
+            (Pressed::Sphere(_) | Pressed::Ellipsoid(_) | Pressed::Line(_), _) => "Hertz",
             (Pressed::Rounded(_), _) => "rounded punch",
             (Pressed::Flat(_), _) => "flat punch",
             (Pressed::Cone(_), _) => "cone",
-            (Pressed::Line(_), true) => "Hertz; Cattaneo",
-            (Pressed::Line(_), false) => "Hertz",
         };
         Some(Self { name, ends, last: pressed.last().copied(), shear })
     }
