@@ -260,6 +260,23 @@ def crack(
     constants: str,
     threads: int | None,
 ) -> str: ...
+def coating_fracture(
+    bodies: tuple[str, bool],
+    setting: tuple[tuple[float, float], bool],
+    loading: tuple[
+        list[
+            tuple[
+                npt.NDArray[np.float64],
+                tuple[npt.NDArray[np.float64], npt.NDArray[np.float64]] | None,
+                tuple[npt.NDArray[np.float64], npt.NDArray[np.float64]] | None,
+                tuple[float, float],
+            ]
+        ],
+        str,
+    ],
+    constants: str,
+    threads: int | None,
+) -> str: ...
 def rounded_punch(flat_radius: float, edge_radius: float, force: float, modulus: float) -> Solution: ...
 def no_slip_punch(radius: float, force: float, modulus: float, coupling: float) -> Solution: ...
 def no_slip_sphere(radius: float, force: float, modulus: float, coupling: float) -> Solution: ...

@@ -150,6 +150,9 @@ How slip is integrated over an increment.
 """
 
 
+Interface: TypeAlias = Literal["bonded", "frictionless"]
+
+
 Law: TypeAlias = Literal["exponential", "linear"]
 """
 How Young's modulus runs over the depth.
@@ -324,6 +327,21 @@ class Sphere(TypedDict):
     radius: float
     """
     Radius [length], positive; in a body's own profile negative for a hollow.
+    """
+
+
+class Springs(TypedDict):
+    """
+    Springs of no thickness between a coating and what lies below it: displacement jumps by traction over stiffness.
+    """
+
+    normal_stiffness: NotRequired[float]
+    """
+    Normal stiffness [pressure/length], positive. Default: bonded along the normal.
+    """
+    shear_stiffness: NotRequired[float]
+    """
+    Shear stiffness [pressure/length], the same in all directions; 0: no shear passes. Default: bonded against shear.
     """
 
 
@@ -629,6 +647,9 @@ class Heights(TypedDict):
     """
 
 
+Interface: TypeAlias = Interface | Springs
+
+
 class Material(TypedDict):
     """
     An isotropic elastic material.
@@ -735,7 +756,7 @@ Along: TypeAlias = Sequence[Component] | float
 
 class Coating(TypedDict):
     """
-    A bonded layer: uniform (`young`), or of a stiffness that changes with depth (`gradient`).
+    A layer: uniform (`young`), or of a stiffness that changes with depth (`gradient`).
     """
 
     electrical_resistivity: NotRequired[float]
@@ -749,6 +770,11 @@ class Coating(TypedDict):
     gradient: NotRequired[Gradient]
     """
     Young's modulus over the depth; instead of `young`.
+    """
+    interface: NotRequired[Interface]
+    """
+    How it is bonded to what lies below it: "bonded" (default), "frictionless" (no shear passes; only without friction on the
+    surface), or springs of no thickness, `{ normal_stiffness, shear_stiffness }`. Linear: an interface does not open.
     """
     poisson: float
     """
@@ -888,11 +914,11 @@ class Body(TypedDict):
 
     base: NotRequired[Base]
     """
-    What the coatings are bonded to when there is no substrate: "rigid".
+    What the coatings lie on when there is no substrate: "rigid".
     """
     coatings: NotRequired[Sequence[Coating]]
     """
-    Bonded coatings, outermost first.
+    Coatings, outermost first.
     """
     electrical_resistivity: NotRequired[float]
     """

@@ -123,3 +123,37 @@ def test_a_crack_beside_a_light_contact_is_that_of_the_pull_alone(tmp_path: Any)
     strong: Any = {"crack": {**CRACK, "threshold": 1e8}}
     weak = history.crack(constants=strong)
     assert weak.attrs["fate"] == "does_not_grow"
+
+
+def test_a_coating_pulled_with_its_substrate_channels_and_delaminates_as_a_film_does() -> None:
+    """(pi/2) 1.2578 s^2 h (1 - nu^2)/E by Beuth, s^2 h (1 - nu^2)/(2 E) by Hutchinson and Suo, of a film as stiff as its substrate."""
+    case = line_case(1e3, 150e6)
+    thickness = 5e-6
+    case["lower"]["coatings"] = [
+        {
+            "thickness": thickness,
+            "young": YOUNG,
+            "poisson": POISSON,
+            "residual_stress": [-50e6, 20e6],
+            "fatigue": {"fracture_energy": 2.0, "interface_energy": 1.0},
+        }
+    ]
+    found = fretting.run(case).coating_fracture()
+    tension = found.sel(sense="tension")
+    stress = 150e6 - 50e6
+    energy = stress**2 * thickness * (1 - POISSON**2) / YOUNG
+    # p0 is 1 % of the pull; the energies go with its square
+    assert abs(float(tension["stress"]) / stress - 1) < 0.02
+    assert abs(float(tension["channelling"]) / (np.pi / 2 * 1.25781 * energy) - 1) < 0.04
+    assert abs(float(tension["delamination"]) / (0.5 * energy) - 1) < 0.04
+    assert abs(float(tension["phase"]) - 52.07) < 0.01
+    assert (
+        abs(float(tension["channelling_factor_of_safety"]) / np.sqrt(2.0 / float(tension["channelling"])) - 1) < 1e-12
+    )
+    assert abs(float(tension["direction"])) < 1.0
+    compression = found.sel(sense="compression")
+    assert float(compression["channelling"]) == 0.0
+    assert float(compression["phase"]) == 90.0
+    del case["lower"]["coatings"]
+    with pytest.raises(ValueError, match="no coating that is bonded"):
+        fretting.run(case).coating_fracture()

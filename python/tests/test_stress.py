@@ -102,3 +102,39 @@ def test_fatigue_parameters_are_those_of_the_command(fretting_case: dict[str, An
         history.crack()
     with pytest.raises(IndexError, match="1 computed cycles"):
         history.fatigue([0.0], cycle=1)
+
+
+def test_springs_below_a_coating_pass_tractions_and_are_those_of_the_response(fretting_case: dict[str, Any]) -> None:
+    springs = {"normal_stiffness": 4e15, "shear_stiffness": 1e15}
+    coating = {"thickness": 50e-6, "young": 400e9, "poisson": 0.2}
+    bonded = fretting.run(fretting_case | {"lower": fretting_case["lower"] | {"coatings": [coating]}})
+    fretting_case["lower"]["coatings"] = [coating | {"interface": springs}]
+    history = fretting.run(fretting_case)
+    # more compliant at every wavenumber: the same force sinks deeper, over a larger area
+    assert history.increments["approach"][-1] > 1.01 * bonded.increments["approach"][-1]
+    assert history.increments["contact_area"][-1] > bonded.increments["contact_area"][-1]
+    stress = history.subsurface([50e-6], increment=4)
+    size = float(np.abs(stress["zz"]).max())
+    for name in ("zz", "xz", "yz"):
+        assert np.abs(stress[name].values[0] - stress[name].values[1]).max() < 1e-12 * size
+    # a layer on springs over a rigid base, long waves: 1/k_n + h/E_oed, 1/k_t + h/G; next order (k h)^2
+    body = {"coatings": [coating | {"interface": springs}], "base": "rigid"}
+    k = 1e-3 / 50e-6
+    found = fretting.frequency_response(k, body)
+    oedometric = 400e9 * 0.8 / (1.2 * 0.6)
+    # normal and tangential spring are coupled through the layer's height: (k h)^2 k_n/k_t at the most
+    assert abs(float(found["zz"]) / (1 / 4e15 + 50e-6 / oedometric) - 1) < 1e-4
+    assert abs(float(found["tt"]) / (1 / 1e15 + 50e-6 * 2.4 / 400e9) - 1) < 1e-4
+
+
+def test_an_interface_that_holds_nothing_is_refused_with_its_place(fretting_case: dict[str, Any]) -> None:
+    coating = {"thickness": 50e-6, "young": 400e9, "poisson": 0.2}
+    for interface, message in [
+        ("frictionless", "nothing holds the coating against friction"),
+        ({"normal_stiffness": 0.0}, "nothing carries the layer"),
+        ({"shear_stiffness": -1.0}, "shear stiffness -1.0"),
+    ]:
+        fretting_case["lower"]["coatings"] = [coating | {"interface": interface}]
+        with pytest.raises(fretting.CaseError, match=message) as refused:
+            fretting.plan(fretting_case)
+        assert "lower.coatings[0].interface" in str(refused.value)

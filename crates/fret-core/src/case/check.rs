@@ -9,6 +9,7 @@ use super::course::Stage;
 use super::definition::{Case, GridSize, Origin};
 use super::file::{CaseFile, CellsFile, OutputFile, SizeFile};
 use super::friction::{friction, of_stages};
+use super::interface::sliding_coatings;
 use super::judge::Judge;
 use super::line::{datum, line, motion_without_datum};
 use super::output::{FIELD_NAMES, Output};
@@ -86,6 +87,8 @@ pub(super) fn case(
         );
     }
     let frictionless = laws.as_ref().is_some_and(|laws| laws.iter().all(|law| law.is_frictionless()));
+    let files = [("lower", file.lower.get_ref()), ("upper", file.upper.get_ref())];
+    sliding_coatings(&mut judge, files, frictionless || laws.is_none(), stages.as_deref());
     if let (true, Some(laws), Some(stages)) = (is_whole, &laws, &stages) {
         sliding(&mut judge, laws, &file.load, stages);
     }
@@ -96,7 +99,7 @@ pub(super) fn case(
     let stress = stress(&mut judge, file.stress.as_ref(), bodies.as_ref(), output.as_ref(), frictionless);
     let conduction = conduction(
         &mut judge,
-        [("lower", file.lower.get_ref()), ("upper", file.upper.get_ref())],
+        files,
         file.thermal.as_ref(),
         (stages.as_deref(), output.as_ref()),
         (frictionless, is_line, periodic),
