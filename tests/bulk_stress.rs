@@ -480,3 +480,30 @@ fn stress_below_is_that_of_the_contact_and_of_bulk_and_residual_stress() {
         .unwrap();
     }
 }
+
+/// Cycles that a computed one stands for do its work of the bulk stress, too: with wear too small to matter all cycles are alike.
+#[test]
+fn the_work_of_the_bulk_stress_counts_the_cycles_of_a_jump() {
+    let scene = Scene { cells: 128, ..Scene::LINE };
+    let bulk = 4.0 * scene.friction * scene.contact()[1] * 0.2;
+    let pull = 0.3 * scene.friction * scene.force;
+    let worked = |every: usize| {
+        let cycle = |count: usize| {
+            format!(
+                "[[load]]\ntangential_force = [{pull:e}, 0.0]\nbulk_stress = {bulk:e}\nphase = {{ bulk_stress = 60.0 }}\n\
+                 cycles = {count}\nincrements = 8\nwaveform = \"sine\"\n"
+            )
+        };
+        // the first cycle, on fresh surfaces, stands for itself
+        let loads = format!("[wear]\ncoefficient = 1e-9\nevery = {every}\n{}{}", cycle(1), cycle(20));
+        let history = scene.run(&loads);
+        let last = history.steps.last().unwrap();
+        (last.bulk_work, last.dissipated_energy, history.cycles.len())
+    };
+    let ((all, energy, computed), (jumped, other, few)) = (worked(1), worked(10));
+    assert!(computed == 21 && few < 6, "{computed} {few}");
+    // steady from the second cycle on but for the first increments of a stage, a few in ten thousand; the wear of 21 cycles is 1e-9 of the
+    // pressure over the modulus
+    assert!((other / energy - 1.0).abs() < 1e-3, "{other} {energy}");
+    assert!((jumped / all - 1.0).abs() < 1e-3 && all != 0.0, "{jumped} {all}");
+}

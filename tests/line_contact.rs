@@ -4,7 +4,10 @@ use fret_core::analytic::{CattaneoLine, EffectiveModuli, HertzLine, SlidingCylin
 use fret_core::case::Case;
 use fret_core::history::{History, KeptFields};
 use fret_core::model::{ElasticMaterial, HalfSpace};
-use fret_core::subsurface::{EvenStress, LoadedSurface, depth_points, survey};
+use fret_core::plan::Plan;
+use fret_core::study::{ClosedForm, Quantity};
+use fret_core::subsurface::largest::look;
+use fret_core::subsurface::{EvenStress, LoadedSurface, Measure, depth_points, survey};
 use fret_validation::run;
 
 /// A cylinder of radius 1 on a half-space of modulus 1.
@@ -358,6 +361,111 @@ fn stress_under_a_sliding_cylinder_follows_muskhelishvili() {
     })
     .unwrap();
     assert!(worst[0] < 5e-3 && worst[1..].iter().all(|error| *error < 1e-4), "{worst:?}");
+}
+
+/// Hertz and Cattaneo with Masing's memory as a study knows them: approach, displacement and energy too, relative to the datum.
+#[test]
+fn the_closed_form_of_a_study_is_met_by_a_cylinder_that_goes_to_and_fro() {
+    for axis in 0..2 {
+        let cylinder = like_bodies(512);
+        let along = |fraction: f64| {
+            let mut force = [0.0; 2];
+            force[axis] = fraction * cylinder.friction * cylinder.force;
+            format!("[[load]]\ntangential_force = [{:e}, {:e}]\nincrements = 4\n", force[0], force[1])
+        };
+        let loads = cylinder.pressed(1) + &along(0.7) + &along(-0.3);
+        let grid = format!("cells = {}\nsize = {:e}\ndatum = 0.3", cylinder.cells, cylinder.size);
+        let text = cylinder.text(&grid, &loads);
+        let plan = Plan::new(Case::from_toml(&text, "case.toml").unwrap()).unwrap();
+        let form = ClosedForm::of(&plan).unwrap();
+        assert_eq!(form.name(), "Hertz; Cattaneo");
+        let history = run(&text).unwrap();
+        for (said, step) in form.ends().iter().zip([0, 4, 8].map(|step| &history.steps[step])) {
+            let of = |quantity: Quantity| said.of(quantity).unwrap();
+            let near = |found: f64, exact: f64, bound: f64| {
+                assert!((found - exact).abs() <= bound * exact.abs(), "axis {axis}: {found} {exact}");
+            };
+            // the grid's error at 213 cells in the half-width
+            near(step.approach, of(Quantity::Approach)[0], 2e-6);
+            near(step.max_pressure, of(Quantity::MaxPressure)[0], 1e-4);
+            near(step.contact_area, of(Quantity::ContactArea)[0], 5e-3);
+            if step.increment > 0 {
+                near(step.shift[axis], of(Quantity::Shift)[axis], 1e-4);
+                near(step.dissipated_energy, of(Quantity::DissipatedEnergy)[0], 1e-2);
+                near(step.stick_area, of(Quantity::StickArea)[0], 1e-2);
+            }
+        }
+    }
+}
+
+/// Shear `q` of Cattaneo under a tension of the lower body: along the surface `-p + S(x; mu p0, a) - S(x - e; mu p0 c/a, c) + sigma` with
+/// `S(x; q0, b) = (2 q0/b) (sign(x) sqrt(x^2 - b^2) - x)`, the root outside only (Johnson 1985, 7.2; Nowell & Hills 1987). Behind the trailing
+/// edge, `2 mu p0 {1 - [(a + e) - sqrt((a + e)^2 - c^2)]/a} + sigma` is where cracks start.
+#[test]
+fn the_tension_at_the_trailing_edge_under_shear_and_bulk_is_the_closed_form() {
+    let mut errors = Vec::new();
+    for cells in [128, 256, 512, 1024] {
+        let cylinder = like_bodies(cells);
+        let (mu, hertz) = (0.5, cylinder.hertz());
+        let (a, p0) = (hertz.half_width, hertz.max_pressure);
+        let pull = 0.36 * mu * cylinder.force;
+        let bulk = 4.0 * mu * p0 * 0.1;
+        let loads = format!(
+            "{}[[load]]\ntangential_force = [{pull:e}, 0.0]\nbulk_stress = {bulk:e}\nincrements = 1\n",
+            cylinder.pressed(1)
+        );
+        let history = cylinder.run(&loads);
+        let kept = last(&history);
+        let strain = bulk * (1.0 - 0.09);
+        let exact = CattaneoLine::new(&hertz, mu, cylinder.moduli().normal, pull, strain).unwrap();
+        let (c, e) = (exact.stick_half_width, exact.stick_offset);
+        assert!((e / a - 0.1).abs() < 1e-12 && (c / a - 0.8).abs() < 1e-12);
+        let semi = |x: f64, peak: f64, half: f64| {
+            2.0 * peak / half * (x.signum() * (x * x - half * half).max(0.0).sqrt() - x)
+        };
+        let half_space = HalfSpace::homogeneous(ElasticMaterial::new(1.0, 0.3).unwrap());
+        let points = depth_points(&half_space, &[0.0]).unwrap();
+        let pressure = kept.pressure.clone().unwrap();
+        let surface = LoadedSurface {
+            even: EvenStress { bulk: [bulk, 0.0], ..EvenStress::default() },
+            increment: 0,
+            pressure: pressure.clone(),
+            shear: kept.shear.clone(),
+            slip: None,
+        };
+        let trailing = 2.0 * mu * p0 * (1.0 - ((a + e) - ((a + e).powi(2) - c * c).sqrt()) / a) + bulk;
+        let (mut along, mut rim) = (0.0_f64, None);
+        survey(&half_space, &history.grid, false, &points, &[surface], |_, _, field| {
+            for (i, x) in cylinder.places().into_iter().enumerate() {
+                let edges = [-a, a, e - c, e + c];
+                if edges.iter().any(|edge| ((x - edge) / a).abs() < 0.05) {
+                    continue;
+                }
+                let shear = semi(x, mu * p0, a) - semi(x - e, mu * p0 * c / a, c);
+                let expected = shear - hertz.pressure(x) + bulk;
+                along = along.max((field.components[0][[i, 0]] - expected).abs() / p0);
+            }
+            let mut found = Vec::new();
+            look(&mut found, field, points[0], false, 0, Some(&pressure));
+            rim = found.into_iter().find(|largest| largest.measure == Measure::Tension);
+            true
+        })
+        .unwrap();
+        let rim = rim.unwrap();
+        let place = history.grid.centre(0, rim.cell[0]) + rim.off[0] * history.grid.spacing()[0];
+        println!(
+            "{cells} cells: along the surface {along:.1e} p0; trailing edge {:+.4} at x = {:.4} a",
+            rim.value / trailing - 1.0,
+            place / a
+        );
+        assert!((place / a + 1.0).abs() < 0.01);
+        let cell = history.grid.spacing()[0] / a;
+        // the rim is known to a fifth of a cell, and the tension falls from it with the root of the distance
+        assert!((rim.value / trailing - 1.0).abs() < 0.6 * cell.sqrt(), "{}", rim.value / trailing);
+        errors.push(along);
+    }
+    // first order: the edges of slip stand in cells
+    assert!(errors[3] < 2e-3 && errors[3] < errors[0] / 6.0, "{errors:?}");
 }
 
 /// The size of the grid is the depth that an approach is relative to: one of the two has to be said.

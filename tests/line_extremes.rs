@@ -3,6 +3,10 @@
 
 use std::fmt::Write as _;
 
+use fret_core::case::Case;
+use fret_core::history::History;
+use fret_core::plan::Plan;
+use fret_core::run::{RunError, Silent, Simulation};
 use fret_validation::certifier::run_certified;
 use fret_validation::random::Random;
 
@@ -34,7 +38,55 @@ fn extreme_line_contacts_are_certified_or_refused() {
     assert!(certified > 400 && unsolved <= MOST_UNSOLVED, "{certified} {refused} {unsolved}");
 }
 
-fn case(random: &mut Random) -> String {
+/// A tilt far beyond what keeps the contact in the middle has a moment; prescribed, that moment has to find the tilt again.
+#[test]
+fn the_tilt_of_any_moment_that_one_has_is_found() {
+    let (mut found, mut at_edge) = (0, 0);
+    for seed in 0..300 {
+        let random = &mut Random::seeded(90_000 + seed);
+        let Scene { length, radius, force, head, .. } = scene(random);
+        let tilt = length / radius * random.between(-2.5, 2.5);
+        let increments = random.whole(1, 2);
+        let text = |control: &str| {
+            format!("{head}[[load]]\nnormal_force = {force:e}\n{control}\nincrements = {increments}\n")
+        };
+        let Some(Ok(there)) = ended(&text(&format!("tilt = {tilt:e}"))) else {
+            at_edge += 1;
+            continue;
+        };
+        let step = there.steps.last().unwrap();
+        let moment = step.tilt_moment[0];
+        let by_moment = text(&format!("tilt_moment = {moment:e}"));
+        let again = ended(&by_moment).unwrap();
+        let again = again.unwrap_or_else(|error| panic!("seed {seed}, tilt {tilt:e}: {error}\n{by_moment}"));
+        let step = again.steps.last().unwrap();
+        // to the tolerance of 1e-8 times the radius of gyration, which is less than the grid
+        assert!((step.tilt_moment[0] - moment).abs() <= 1e-8 * force * 20.0 * length, "seed {seed}");
+        found += 1;
+    }
+    println!("{found} tilts found by their moments, {at_edge} without a contact on the grid");
+    assert!(found > 150, "{found} {at_edge}");
+}
+
+/// A run; `None` of a case that is refused.
+fn ended(text: &str) -> Option<Result<History, RunError>> {
+    let plan = Plan::new(Case::from_toml(text, "case.toml").ok()?).ok()?;
+    Some(Simulation::new(&plan).run(&mut Silent))
+}
+
+/// The bodies and grid of a case.
+struct Scene {
+    length: f64,
+    radius: f64,
+    friction: f64,
+    force: f64,
+    /// Whether the upper body is.
+    rigid: bool,
+    /// Grid, bodies, profile.
+    head: String,
+}
+
+fn scene(random: &mut Random) -> Scene {
     let length = random.log_uniform(1e-9, 1e3);
     let modulus = random.log_uniform(1e-3, 1e12);
     let cells = random.whole(16, 72);
@@ -63,11 +115,19 @@ fn case(random: &mut Random) -> String {
     let friction = random.log_uniform(1e-3, 1.5);
     // About the force of a half-width of `length` without coatings.
     let force = 0.4 * modulus * length * length / radius * random.between(0.2, 1.0);
+    let head = format!(
+        "[grid]\ncells = {cells}\nsize = {:e}\n[upper]\n{upper}[lower]\n{lower}[profile.cylinder]\nradius = {radius:e}\naxis = \"y\"\n",
+        length * random.between(6.0, 20.0)
+    );
+    Scene { length, radius, friction, force, rigid, head }
+}
+
+fn case(random: &mut Random) -> String {
+    let Scene { length, radius, friction, force, rigid, head } = scene(random);
     let stress = friction * force / length;
     let mut text = format!(
-        "[grid]\ncells = {cells}\nsize = {:e}\n[upper]\n{upper}[lower]\n{lower}[profile.cylinder]\nradius = {radius:e}\naxis = \"y\"\n\
-         [friction]\ncoefficient = {friction:e}\n[solver]\nintegration = \"end_point\"\n[[load]]\nnormal_force = {force:e}\nincrements = 2\n",
-        length * random.between(6.0, 20.0)
+        "{head}[friction]\ncoefficient = {friction:e}\n[solver]\nintegration = \"end_point\"\n[[load]]\nnormal_force = {force:e}\n\
+         increments = 2\n"
     );
     for _ in 0..random.whole(1, 2) {
         let mut stage = "[[load]]\nincrements = 3\n".to_owned();

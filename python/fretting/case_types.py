@@ -2,7 +2,6 @@
 
 Generated from examples/fret.schema.json by docs/site/case_types.py; a test compares the two.
 """
-# ruff: noqa: D101, D204, D205, D400, D401, D415, E501, A003
 
 from collections.abc import Sequence
 from typing import Any, Literal, NotRequired, TypeAlias, TypedDict
@@ -149,6 +148,9 @@ Integration: TypeAlias = Literal["second_order", "end_point"]
 """
 How slip is integrated over an increment.
 """
+
+
+Interface: TypeAlias = Literal["bonded", "frictionless"]
 
 
 Law: TypeAlias = Literal["exponential", "linear"]
@@ -328,6 +330,21 @@ class Sphere(TypedDict):
     """
 
 
+class Springs(TypedDict):
+    """
+    Springs of no thickness between a coating and what lies below it: displacement jumps by traction over stiffness.
+    """
+
+    normal_stiffness: NotRequired[float]
+    """
+    Normal stiffness [pressure/length], positive. Default: bonded along the normal.
+    """
+    shear_stiffness: NotRequired[float]
+    """
+    Shear stiffness [pressure/length], the same in all directions; 0: no shear passes. Default: bonded against shear.
+    """
+
+
 class Steady(TypedDict):
     """
     When the cycle counts as steady.
@@ -368,7 +385,8 @@ class StrainLife(TypedDict):
 
 class Stress(TypedDict):
     """
-    Subsurface stresses of one body, and constants of the fatigue parameters for those of its layers that name none of their own.
+    Subsurface stresses of one body, and constants of the fatigue parameters for those of its layers that name none of
+    their own.
     """
 
     body: NotRequired[Side]
@@ -629,6 +647,9 @@ class Heights(TypedDict):
     """
 
 
+Interface: TypeAlias = Interface | Springs
+
+
 class Material(TypedDict):
     """
     An isotropic elastic material.
@@ -735,7 +756,7 @@ Along: TypeAlias = Sequence[Component] | float
 
 class Coating(TypedDict):
     """
-    A bonded layer: uniform (`young`), or of a stiffness that changes with depth (`gradient`).
+    A layer: uniform (`young`), or of a stiffness that changes with depth (`gradient`).
     """
 
     electrical_resistivity: NotRequired[float]
@@ -749,6 +770,11 @@ class Coating(TypedDict):
     gradient: NotRequired[Gradient]
     """
     Young's modulus over the depth; instead of `young`.
+    """
+    interface: NotRequired[Interface]
+    """
+    How it is bonded to what lies below it: "bonded" (default), "frictionless" (no shear passes; only without friction on the
+    surface), or springs of no thickness, `{ normal_stiffness, shear_stiffness }`. Linear: an interface does not open.
     """
     poisson: float
     """
@@ -888,11 +914,11 @@ class Body(TypedDict):
 
     base: NotRequired[Base]
     """
-    What the coatings are bonded to when there is no substrate: "rigid".
+    What the coatings lie on when there is no substrate: "rigid".
     """
     coatings: NotRequired[Sequence[Coating]]
     """
-    Bonded coatings, outermost first.
+    Coatings, outermost first.
     """
     electrical_resistivity: NotRequired[float]
     """

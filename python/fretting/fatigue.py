@@ -1,6 +1,7 @@
-"""Fatigue of a history over a cycle: parameters under all cells, and a short crack, as Datasets."""
+"""Fatigue of a history over a cycle: parameters under all cells, a short crack, and cracks of the coating, as Datasets."""
 
 import json
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
@@ -111,6 +112,60 @@ def crack(
     return dataset
 
 
+def coating_fracture(
+    history: "History",
+    cycle: int,
+    body: Literal["lower", "upper"],
+    constants: "FatigueConstants | None",
+    threads: int | None,
+) -> "xarray.Dataset":
+    """Return the cracks of the coating: see :meth:`fretting.History.coating_fracture`."""
+    module = _dataset.module("coating_fracture")
+    chosen, arguments = _cycle(history, cycle, body)
+    told = json.loads(_core.coating_fracture(*arguments, _constants(history, constants), threads))
+    cracks = told["cracks"]
+
+    def column(
+        values: Sequence[float | None], words: str
+    ) -> tuple[tuple[str], npt.NDArray[np.float64], dict[str, str]]:
+        numbers = np.array([np.nan if value is None else value for value in values], dtype=float)
+        return ("sense",), numbers, described(words, history._units)
+
+    released = [crack["released"] for crack in cracks]
+    variables: dict[str, Any] = {
+        "stress": column([crack["stress"] for crack in cracks], "mean stress over the thickness [pressure]"),
+        "direction": column(
+            [crack["direction"] for crack in cracks], "direction of that stress to the x axis [degrees]"
+        ),
+        "channelling": column(
+            [one["channelling"] for one in released], "energy released by channelling [force/length]"
+        ),
+        "delamination": column(
+            [one["delamination"] for one in released], "energy released by delamination [force/length]"
+        ),
+        "phase": column([one["phase"] for one in released], "phase angle of the delamination [degrees]"),
+    }
+    for kind, toughness in (("channelling", told["fracture_energy"]), ("delamination", told["interface_energy"])):
+        if toughness is not None:
+            energy = variables[kind][1]
+            factor = np.sqrt(np.divide(toughness, energy, out=np.full_like(energy, np.inf), where=energy != 0))
+            variables[f"{kind}_factor_of_safety"] = (
+                ("sense",),
+                factor,
+                {"long_name": "factor on the stress that fractures"},
+            )
+    cells = [crack["cell"] for crack in cracks]
+    centres = (history.x, history.y)
+    for axis, name in enumerate("xy"):
+        places = [float(centres[axis][cell[axis]]) if len(centres[axis]) > 1 else 0.0 for cell in cells]
+        variables[name] = column(places, f"place along {name} [length]")
+    variables["increment"] = (("sense",), np.array([chosen[crack["surface"]] for crack in cracks], dtype=int))
+    senses = ["tension" if crack["stress"] > 0 else "compression" for crack in cracks]
+    attributes = {"body": body, "increments": chosen}
+    dataset: xarray.Dataset = module.Dataset(variables, coords={"sense": senses}, attrs=attributes)
+    return dataset
+
+
 def _cycle(history: "History", cycle: int, body: Literal["lower", "upper"]) -> tuple[list[int], tuple[Any, Any, Any]]:
     """Return the kept increments of a cycle, and bodies, setting and loading for the core."""
     count = len(history.cycles["cycle"])
@@ -120,7 +175,8 @@ def _cycle(history: "History", cycle: int, body: Literal["lower", "upper"]) -> t
     chosen = [number for number in history.kept_increments if first - 1 <= number <= last]
     if len(chosen) < 3:
         raise ValueError(
-            f"fields of {len(chosen)} increments of the cycle are kept: three are needed ([output] every = ... keeps more)"
+            f"fields of {len(chosen)} increments of the cycle are kept: three are needed "
+            "([output] every = ... keeps more)"
         )
     increments = [(*_fields(history, number), bulk_stress(history, number, body)) for number in chosen]
     setting = history._spacing, history._periodic

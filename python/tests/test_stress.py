@@ -63,7 +63,9 @@ def test_principal_stresses_have_the_invariants_of_the_tensor(sphere_case: dict[
     assert (second >= third).all()
     size = float(np.abs(stress["zz"]).max())
     # Trace and von Mises stress, both from the components: to rounding of the eigenvalues.
-    assert np.abs(first + second + third - (stress["xx"] + stress["yy"] + stress["zz"]).values).max() < 1e-13 * 30 * size
+    assert (
+        np.abs(first + second + third - (stress["xx"] + stress["yy"] + stress["zz"]).values).max() < 1e-13 * 30 * size
+    )
     mises = np.sqrt(0.5 * ((first - second) ** 2 + (second - third) ** 2 + (third - first) ** 2))
     assert np.abs(mises - stress["von_mises"].values).max() < 1e-13 * 30 * size
 
@@ -71,7 +73,12 @@ def test_principal_stresses_have_the_invariants_of_the_tensor(sphere_case: dict[
 def test_fatigue_parameters_are_those_of_the_command(fretting_case: dict[str, Any], tmp_path: Any) -> None:
     """Two ways to the same numbers; Ruiz's F1 is also the largest product of shear stress and slip range by hand."""
     fretting_case["output"] = {"fields": ["pressure", "shear", "slip"], "every": 2}
-    fretting_case["stress"] = {"depths": [0.0, 20e-6], "yield_strength": 1e9, "torsion_limit": 3e8, "tension_limit": 4e8}
+    fretting_case["stress"] = {
+        "depths": [0.0, 20e-6],
+        "yield_strength": 1e9,
+        "torsion_limit": 3e8,
+        "tension_limit": 4e8,
+    }
     history = fretting.run(fretting_case, folder=tmp_path / "run")
     fatigue = history.fatigue([0.0, 20e-6])
     given = history.fatigue([0.0, 20e-6], constants={"yield_strength": 1e9, "torsion_limit": 3e8, "tension_limit": 4e8})
@@ -95,3 +102,39 @@ def test_fatigue_parameters_are_those_of_the_command(fretting_case: dict[str, An
         history.crack()
     with pytest.raises(IndexError, match="1 computed cycles"):
         history.fatigue([0.0], cycle=1)
+
+
+def test_springs_below_a_coating_pass_tractions_and_are_those_of_the_response(fretting_case: dict[str, Any]) -> None:
+    springs = {"normal_stiffness": 4e15, "shear_stiffness": 1e15}
+    coating = {"thickness": 50e-6, "young": 400e9, "poisson": 0.2}
+    bonded = fretting.run(fretting_case | {"lower": fretting_case["lower"] | {"coatings": [coating]}})
+    fretting_case["lower"]["coatings"] = [coating | {"interface": springs}]
+    history = fretting.run(fretting_case)
+    # more compliant at every wavenumber: the same force sinks deeper, over a larger area
+    assert history.increments["approach"][-1] > 1.01 * bonded.increments["approach"][-1]
+    assert history.increments["contact_area"][-1] > bonded.increments["contact_area"][-1]
+    stress = history.subsurface([50e-6], increment=4)
+    size = float(np.abs(stress["zz"]).max())
+    for name in ("zz", "xz", "yz"):
+        assert np.abs(stress[name].values[0] - stress[name].values[1]).max() < 1e-12 * size
+    # a layer on springs over a rigid base, long waves: 1/k_n + h/E_oed, 1/k_t + h/G; next order (k h)^2
+    body = {"coatings": [coating | {"interface": springs}], "base": "rigid"}
+    k = 1e-3 / 50e-6
+    found = fretting.frequency_response(k, body)
+    oedometric = 400e9 * 0.8 / (1.2 * 0.6)
+    # normal and tangential spring are coupled through the layer's height: (k h)^2 k_n/k_t at the most
+    assert abs(float(found["zz"]) / (1 / 4e15 + 50e-6 / oedometric) - 1) < 1e-4
+    assert abs(float(found["tt"]) / (1 / 1e15 + 50e-6 * 2.4 / 400e9) - 1) < 1e-4
+
+
+def test_an_interface_that_holds_nothing_is_refused_with_its_place(fretting_case: dict[str, Any]) -> None:
+    coating = {"thickness": 50e-6, "young": 400e9, "poisson": 0.2}
+    for interface, message in [
+        ("frictionless", "nothing holds the coating against friction"),
+        ({"normal_stiffness": 0.0}, "nothing carries the layer"),
+        ({"shear_stiffness": -1.0}, "shear stiffness -1.0"),
+    ]:
+        fretting_case["lower"]["coatings"] = [coating | {"interface": interface}]
+        with pytest.raises(fretting.CaseError, match=message) as refused:
+            fretting.plan(fretting_case)
+        assert "lower.coatings[0].interface" in str(refused.value)

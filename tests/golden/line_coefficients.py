@@ -1,6 +1,8 @@
 """Influence coefficients of line contacts (plane strain, antiplane): strips of unit width on layered half-spaces, relative to a
 datum below the load. mpmath alone (with gmpy2 a few minutes, without a quarter of an hour).
 
+Layers lie bonded on what is below them, or on springs (line_coefficients_interfaces.json, written by `line_coefficients.py interfaces`).
+
 1.  Response. Airy's function of a layer is (a + b s) exp(-s) + (c + d s) exp(s - H), s = k z from its top, H = k h; of the base,
     (a + b s) exp(-s). Tractions and displacements at the surface, on both sides of every interface and at the base are one system of
     linear equations for all amplitudes, solved densely with DIGITS digits at complex k. The layer that holds the datum is cut there, so
@@ -16,6 +18,7 @@ datum below the load. mpmath alone (with gmpy2 a few minutes, without a quarter 
 import json
 import math
 import pathlib
+import sys
 
 import mpmath as mp
 
@@ -37,6 +40,15 @@ FAMILIES = [
     ("two layers", ([(4.0, 0.25, 0.25), (0.2, 0.45, 0.75)], (1.0, 0.3)), None),
     ("both coated", ([(4.0, 0.25, 1.0)], (1.0, 0.3)), ([(0.5, 0.4, 0.5)], (2.0, 0.2))),
     ("coated on a layer with a rigid base", ([(4.0, 0.25, 1.0)], (1.0, 0.3)), ([(0.5, 0.4, 0.5)], None)),
+]
+# the same with springs [normal, shear stiffness] below every layer of the lower body; 0: no shear passes, and zz alone has a meaning
+ON_SPRINGS = [
+    ("stiff on springs", ([(10.0, 0.25, 1.0)], (1.0, 0.3)), None, [(3.0, 0.2)]),
+    ("soft on weak springs", ([(0.1, 0.5, 1.0)], (1.0, 0.25)), None, [(1e-3, 1e-4)]),
+    ("rigid base on springs", ([(1.0, 0.3, 1.0)], None), None, [(0.5, 2.0)]),
+    ("two layers, both on springs", ([(4.0, 0.25, 0.25), (0.2, 0.45, 0.75)], (1.0, 0.3)), None, [(1.0, 1e-2), (None, 0.3)]),
+    ("both coated, one on springs", ([(4.0, 0.25, 1.0)], (1.0, 0.3)), ([(0.5, 0.4, 0.5)], (2.0, 0.2)), [(None, 0.05)]),
+    ("slides freely", ([(4.0, 0.3, 1.0)], (1.0, 0.3)), None, [(None, 0)]),
 ]
 THICKNESSES = [1e-3, 0.125, 1.0, 30.0, 1e4]
 DATUMS = [512.0, 3.0]
@@ -82,7 +94,9 @@ def solve(rows, sides):
 
 def response(k, layers, base, at):
     """k C_zz, k C_rr, k C_tt, k C_rz at the top of layer `at` (the number of layers: of the base) per unit load at the surface."""
-    stack = [(material, k * h) for material, h in layers]
+    stack = [(material, k * h) for material, h, _ in layers]
+    # jump of displacement times k per traction at the springs below every layer
+    jumps = [(k * shear, k * normal) for _, _, (normal, shear) in layers]
     count = 4 * len(stack) + (2 if base else 0)
     half = [(terms(base, mp.mpf(0), mp.mpf(0))[n]) for n in range(2)] if base else []
     rows = []
@@ -108,6 +122,10 @@ def response(k, layers, base, at):
         for which in range(4) if below else (2, 3):
             here = column(bottoms[n], which)
             there = [-value for value in column(below, which)] if below else []
+            if which > 1:
+                # k U less its jump by Q, k W less its jump by P
+                traction = column(bottoms[n], 1 if which == 2 else 0)
+                here = [value - jumps[n][which - 2] * one for value, one in zip(here, traction)]
             rows.append(row([(4 * n, here), (4 * n + 4, there)]))
             sides.append([mp.mpf(0), mp.mpf(0)])
     amplitudes = solve(rows, sides)
@@ -130,8 +148,11 @@ def response(k, layers, base, at):
     for n in range(len(stack)):
         below = tops[n + 1] if n + 1 < len(stack) else half
         for which in range(2) if below else (1,):
+            here = column(bottoms[n], which)
             there = [-value for value in column(below, which)] if below else []
-            rows.append(row([(2 * n, column(bottoms[n], which)), (2 * n + 2, there)]))
+            if which == 1:
+                here = [value - jumps[n][0] * one for value, one in zip(here, column(bottoms[n], 0))]
+            rows.append(row([(2 * n, here), (2 * n + 2, there)]))
             sides.append([mp.mpf(0)])
     amplitudes_tt = solve(rows, sides)
     seen_tt = tops[at] if at < len(stack) else half
@@ -141,7 +162,7 @@ def response(k, layers, base, at):
 
 def opaque(layers, base, k):
     """Without what no wave reaches: 60 digits."""
-    for n, (material, h) in enumerate(layers):
+    for n, (material, h, _) in enumerate(layers):
         if mp.re(k) * h > 140:
             return layers[:n], material
     return layers, base
@@ -158,17 +179,15 @@ def datum_response(k, body, depth):
     if base is None:
         return [mp.mpf(0)] * 3
     cut, rest, at = [], depth, None
-    for n, (material, h) in enumerate(layers):
-        if at is None and rest <= h:
-            cut.append((material, rest))
-            at = len(cut)
-            if rest < h:
-                cut.append((material, h - rest))
+    for n, (material, h, jump) in enumerate(layers):
+        if at is None and rest < h:
+            cut += [(material, rest, BONDED), (material, h - rest, jump)]
+            at = len(cut) - 1
         else:
-            cut.append((material, h))
+            cut.append((material, h, jump))
             rest -= h if at is None else 0
     if at is None:
-        cut.append((base, rest))
+        cut.append((base, rest, BONDED))
         at = len(cut)
     if k * depth > 150:
         return [mp.mpf(0)] * 3
@@ -181,16 +200,28 @@ def datum_response(k, body, depth):
     return response(k, cut, base, at)[:3]
 
 
+BONDED = (mp.mpf(0), mp.mpf(0))
+FREE = mp.mpf(10) ** 40
+
+
+def compliances(springs):
+    """Normal and shear jump of displacement per traction."""
+    normal, shear = springs
+    return (1 / mp.mpf(normal) if normal is not None else mp.mpf(0), mp.mpf(0) if shear is None else 1 / mp.mpf(shear) if shear else FREE)
+
+
 def material(young, nu):
     return mp.mpf(nu), mp.mpf(young) / (2 * (1 + mp.mpf(nu)))
 
 
 def bodies_of(family, thickness):
     found = []
-    for body, sign in zip(family[1:], (1, -1)):
+    for body, sign in zip(family[1:3], (1, -1)):
         if body:
             layers, base = body
-            found.append(([(material(e, nu), mp.mpf(share * thickness)) for e, nu, share in layers], material(*base) if base else None, sign))
+            jumps = [compliances(springs) for springs in family[3]] if sign == 1 and len(family) > 3 else [BONDED] * len(layers)
+            stack = [(material(e, nu), mp.mpf(share * thickness), jump) for (e, nu, share), jump in zip(layers, jumps)]
+            found.append((stack, material(*base) if base else None, sign))
     return found
 
 
@@ -204,8 +235,11 @@ def both(bodies, of):
 
 
 def lengths(bodies):
-    found = [h for layers, _, _ in bodies for _, h in layers]
-    return min(found), max(found)
+    found = [h for layers, _, _ in bodies for _, h, _ in layers]
+    # what springs make with the stiffest material; a layer that slides freely adds none to zz
+    stiffest = max(m[1] for layers, base, _ in bodies for m in [entry[0] for entry in layers] + ([base] if base else []))
+    springs = [stiffest * jump for layers, _, _ in bodies for _, _, jumps in layers for jump in jumps if jump < FREE]
+    return min(found), max(found + springs)
 
 
 class Ray:
@@ -334,27 +368,35 @@ def check():
 
 def main():
     mp.mp.dps = DIGITS
+    on_springs = sys.argv[1:] == ["interfaces"]
     check()
     found = []
-    for number, family in enumerate(FAMILIES):
+    for family in ON_SPRINGS if on_springs else FAMILIES:
+        # jumps of FREE take 40 digits
+        mp.mp.dps = DIGITS + (60 if family[0] == "slides freely" else 0)
         for thickness in THICKNESSES:
             bodies = bodies_of(family, thickness)
             depth = [mp.mpf(d) for d in DATUMS]
             one, two = [table(bodies, depth, *setting) for setting in SETTINGS]
             for d, datum in zip(depth, DATUMS):
-                own = max(abs(value) for value in one[d][0])
+                # the other coefficients of a layer that slides freely are those of its motion as a whole
+                count = 1 if family[0] == "slides freely" else 4
+                own = max(abs(value) for value in one[d][0][:count])
                 rows = []
                 for i, a, b in zip(OFFSETS, one[d], two[d]):
+                    a, b = a[:count], b[:count]
                     error = max(abs(p - q) for p, q in zip(a, b)) / own
                     assert error < mp.mpf(10) ** -16, (family[0], thickness, datum, i, error)
                     rows.append([i] + [mp.nstr(value, 18) for value in a] + [mp.nstr(error, 2)])
                 written = []
-                for body in family[1:]:
+                for body in family[1:3]:
                     if body:
                         layers, base = body
                         written.append(dict(layers=[[e, nu, share * thickness] for e, nu, share in layers], substrate=base))
                     else:
                         written.append(None)
+                if on_springs:
+                    written[0]["interfaces"] = family[3]
                 found.append(dict(family=family[0], lower=written[0], upper=written[1], datum=datum, rows=rows))
             print(family[0], thickness, "error", max(row[-1] for body in found[-2:] for row in body["rows"]), flush=True)
     about = (
@@ -363,7 +405,10 @@ def main():
         "row: i, then zz, xx, yy, zx with 18 digits of the binary inputs, then the difference of two settings of the script over the largest own coefficient. "
         "Made by line_coefficients.py."
     )
-    with open(pathlib.Path(__file__).with_suffix(".json"), "w") as file:
+    name = "line_coefficients_interfaces.json" if on_springs else "line_coefficients.json"
+    if on_springs:
+        about += " interfaces: normal and shear stiffness below each layer of the lower body (null: bonded); where no shear passes (0), rows hold zz alone."
+    with open(pathlib.Path(__file__).with_name(name), "w") as file:
         file.write('{"about": ' + json.dumps(about) + ',\n"bodies": [\n')
         texts = []
         for body in found:

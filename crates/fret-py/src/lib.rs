@@ -41,7 +41,7 @@ mod _core {
     #[pymodule_export]
     use crate::conduction::{contact_resistance, surface_temperature};
     #[pymodule_export]
-    use crate::fatigue::{crack, fatigue};
+    use crate::fatigue::{coating_fracture, crack, fatigue};
     #[pymodule_export]
     use crate::history::{History, vocabulary};
     #[pymodule_export]

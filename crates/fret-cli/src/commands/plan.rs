@@ -144,7 +144,11 @@ fn layers(plan: &Plan) -> String {
         .into_iter()
         .filter_map(|(name, body)| match body {
             Body::Elastic(half_space) if !half_space.coatings().is_empty() => {
-                Some(format!("{} on the {name} body", counted(half_space.coatings().len(), "uniform layer")))
+                let coatings = half_space.coatings();
+                let springs = coatings.iter().filter(|coating| !coating.interface().is_bonded()).count();
+                let springs =
+                    if springs > 0 { format!(", {springs} of them not bonded") } else { String::new() };
+                Some(format!("{} on the {name} body{springs}", counted(coatings.len(), "uniform layer")))
             }
             _ => None,
         })

@@ -11,6 +11,15 @@ pub struct Layer {
     pub poisson: f64,
     /// Thickness.
     pub thickness: f64,
+    /// Normal and shear stiffness of the springs below it; none: bonded.
+    pub springs: Option<[f64; 2]>,
+}
+
+impl Layer {
+    /// A bonded one.
+    pub const fn bonded(young: f64, poisson: f64, thickness: f64) -> Self {
+        Self { young, poisson, thickness, springs: None }
+    }
 }
 
 /// The lower body.
@@ -33,7 +42,7 @@ impl Stack {
 
     /// One coating on the plain substrate.
     pub fn coated(young: f64, poisson: f64, thickness: f64) -> Self {
-        Self { coatings: vec![Layer { young, poisson, thickness }], substrate: Some(PLAIN) }
+        Self { coatings: vec![Layer::bonded(young, poisson, thickness)], substrate: Some(PLAIN) }
     }
 
     /// The same, every length and every modulus times a number.
@@ -45,6 +54,7 @@ impl Stack {
                 young: layer.young * modulus,
                 poisson: layer.poisson,
                 thickness: layer.thickness * length,
+                springs: layer.springs.map(|springs| springs.map(|stiffness| stiffness * modulus / length)),
             })
             .collect();
         Self { coatings, substrate: self.substrate.map(|[young, poisson]| [young * modulus, poisson]) }
@@ -53,9 +63,14 @@ impl Stack {
     /// As the text of a case.
     pub fn text(&self) -> String {
         let mut text = "coatings = [".to_owned();
-        for Layer { young, poisson, thickness } in &self.coatings {
-            let _ =
-                write!(text, "{{ thickness = {thickness:e}, young = {young:e}, poisson = {poisson:e} }}, ");
+        for Layer { young, poisson, thickness, springs } in &self.coatings {
+            let interface = springs.map_or(String::new(), |[normal, shear]| {
+                format!(", interface = {{ normal_stiffness = {normal:e}, shear_stiffness = {shear:e} }}")
+            });
+            let _ = write!(
+                text,
+                "{{ thickness = {thickness:e}, young = {young:e}, poisson = {poisson:e}{interface} }}, "
+            );
         }
         let base = self.substrate.map_or("base = \"rigid\"".to_owned(), |[young, poisson]| {
             format!("substrate = {{ young = {young:e}, poisson = {poisson:e} }}")

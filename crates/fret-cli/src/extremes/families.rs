@@ -33,6 +33,7 @@ pub fn families(quick: bool) -> Vec<Family> {
         loads(quick, cells),
         increments(quick),
         layers(quick, cells),
+        springs(quick, cells),
         single_cell(),
         full_contact(cells),
     ];
@@ -92,7 +93,7 @@ fn rigid_bases(quick: bool, cells: usize) -> Family {
     let thicknesses: &[f64] = if quick { &[0.1, 10.0] } else { &[1e-2, 0.1, 1.0, 10.0, 1e3] };
     let scenes = ratios.iter().flat_map(|poisson| {
         thicknesses.iter().map(move |thickness| {
-            let film = Layer { young: 1.0, poisson: *poisson, thickness: *thickness };
+            let film = Layer::bonded(1.0, *poisson, *thickness);
             // Thin incompressible films spread the contact to twice its nominal radius.
             let scene =
                 Scene { size: [5.4; 2], ..benign(format!("nu = {poisson}, h/a = {thickness}"), cells) };
@@ -167,15 +168,29 @@ fn increments(quick: bool) -> Family {
 fn layers(quick: bool, cells: usize) -> Family {
     let contrasts: &[f64] = if quick { &[10.0] } else { &[1.0 + 1e-9, 10.0, 1e6] };
     let scenes = contrasts.iter().map(|&contrast| {
-        let layer = |index: usize| Layer {
-            young: if index.is_multiple_of(2) { contrast } else { 1.0 },
-            poisson: if index.is_multiple_of(2) { 0.25 } else { 0.4 },
-            thickness: 1e-3,
+        let layer = |index: usize| {
+            let (young, poisson) = if index.is_multiple_of(2) { (contrast, 0.25) } else { (1.0, 0.4) };
+            Layer::bonded(young, poisson, 1e-3)
         };
         let stack = Stack { coatings: (0..1000).map(layer).collect(), ..Stack::plain() };
         benign(format!("moduli {contrast} : 1 in turn"), cells).on(stack)
     });
     family("thousand layers", "1000 of h = 0.001 a, alternating", scenes.collect())
+}
+
+fn springs(quick: bool, cells: usize) -> Family {
+    let step = if quick { 6 } else { 2 };
+    let contrasts: &[f64] = if quick { &[10.0] } else { &[0.1, 10.0] };
+    let scenes = contrasts.iter().flat_map(|contrast| {
+        decades(-6, 6, step).map(move |(power, factor)| {
+            // Springs in units of the coating's own stiffness, modulus over thickness; softer against shear.
+            let own = factor * contrast / 0.5;
+            let coating = Layer { springs: Some([own, 0.1 * own]), ..Layer::bonded(*contrast, 0.3, 0.5) };
+            benign(format!("k h/E_c = 1e{power}, E_c/E_s = {contrast}"), cells)
+                .on(Stack { coatings: vec![coating], ..Stack::plain() })
+        })
+    });
+    family("springs below the coating", "k_n h/E_c 1e-6 .. 1e6, k_t = 0.1 k_n, h = 0.5 a", scenes.collect())
 }
 
 fn single_cell() -> Family {

@@ -66,7 +66,8 @@ fn compliance(stack: &Stack, felt: &[&Layer], k: f64, bits: usize) -> Compliance
         Compliance { plane: [[zero(), zero()], [zero(), zero()]], tt: zero() }
     };
     for layer in felt.iter().rev() {
-        carried = above(layer, &carried, k, bits);
+        let below = sprung(layer, carried, k, bits);
+        carried = above(layer, &below, k, bits);
     }
     carried
 }
@@ -86,6 +87,17 @@ fn half_space(young: f64, poisson: f64, bits: usize) -> Compliance {
     let own = (&one - &nu) / &mu;
     let aside = (&one - &two * &nu) / (&two * &mu);
     Compliance { plane: [[own.clone(), aside.clone()], [aside, own]], tt: one / mu }
+}
+
+/// What springs show of what lies below them: displacement jumps by traction over stiffness.
+fn sprung(layer: &Layer, mut below: Compliance, k: f64, bits: usize) -> Compliance {
+    if let Some(springs) = layer.springs {
+        let [normal, shear] = springs.map(|stiffness| number(k, bits) / number(stiffness, bits));
+        below.plane[0][0] += &shear;
+        below.plane[1][1] += normal;
+        below.tt += shear;
+    }
+    below
 }
 
 /// What the surface of a layer shows of what lies below it: displacements and tractions below, carried to its top.
@@ -180,8 +192,7 @@ mod tests {
     #[test]
     fn bonded_film_on_a_rigid_base_answers_long_waves_as_lubrication_theory_says() {
         // zz = k^2 h^3/(3 G), rr = h/G, rz = -k h^2/(2 G), tt = h/G; G = 1, h = 1; next order (k h)^2
-        let film =
-            Stack { coatings: vec![Layer { young: 3.0, poisson: 0.5, thickness: 1.0 }], substrate: None };
+        let film = Stack { coatings: vec![Layer::bonded(3.0, 0.5, 1.0)], substrate: None };
         let k = 1e-6;
         let exact = Response { zz: k * k * k / 3.0, rr: k, rz: -0.5 * k * k, tt: k };
         assert!(error(&film, k, exact) < 1e-11);

@@ -1,8 +1,9 @@
-//! Which closed forms speak about a run, and what they say. They need a sphere or an ellipsoid on homogeneous bodies; those of
+//! Which closed forms speak about a run, and what they say. They need a sphere, an ellipsoid, or a cylinder in a line contact, on
+//! homogeneous bodies; those of
 //! friction a sphere, one coefficient for all stages, one line of force, a normal force that stays, bodies whose pressure and shear
 //! do not act on each other, and a contact that sticks somewhere.
 
-use fret_core::analytic::{EffectiveModuli, Hertz, HertzEllipse, TangentialHistory};
+use fret_core::analytic::{EffectiveModuli, Hertz, HertzEllipse, HertzLine, TangentialHistory};
 use fret_core::model::{Body, ContactPair};
 use serde_json::Value;
 
@@ -16,6 +17,8 @@ const STEADY: f64 = 1e-4;
 enum Shape {
     Sphere(f64),
     Ellipsoid([f64; 2]),
+    /// In a line contact.
+    Cylinder(f64),
 }
 
 /// The frictionless contact in closed form.
@@ -24,6 +27,10 @@ pub struct NormalForm {
     shape: Shape,
     /// Moduli of the pair.
     pub moduli: EffectiveModuli,
+    /// Depth of the datum of a line contact [length].
+    datum: Option<f64>,
+    /// Sum of `1/G` of the bodies that deform [1/pressure].
+    shear_compliance: f64,
 }
 
 /// One load of the frictionless contact.
@@ -33,6 +40,8 @@ pub enum Pressed {
     Sphere(Hertz),
     /// An ellipsoid.
     Ellipsoid(HertzEllipse),
+    /// A cylinder in a line contact, and its approach where it has a datum.
+    Line(HertzLine, Option<f64>),
 }
 
 impl NormalForm {
@@ -47,7 +56,10 @@ impl NormalForm {
             Body::Rigid => Some(None),
             Body::Elastic(half_space) => half_space.single_material().map(|material| Some(*material)),
         };
-        let moduli = match (material(bodies.upper())?, material(bodies.lower())?) {
+        let materials = [material(bodies.upper())?, material(bodies.lower())?];
+        let shear_compliance =
+            materials.iter().flatten().map(|material| 1.0 / material.shear_modulus()).sum();
+        let moduli = match materials.into() {
             (None, Some(lower)) => EffectiveModuli::rigid_on(&lower),
             // Seen from below the coupling has the other sign; nothing here asks for its sign.
             (Some(upper), None) => EffectiveModuli::rigid_on(&upper),
@@ -57,8 +69,12 @@ impl NormalForm {
         let radius = |name: &str| lone_shape(results)?.pointer(name)?.as_f64();
         let ellipsoid =
             || Some(Shape::Ellipsoid([radius("/ellipsoid/radius_x")?, radius("/ellipsoid/radius_y")?]));
-        let shape = radius("/sphere/radius").map(Shape::Sphere).or_else(ellipsoid)?;
-        Some(Self { shape, moduli })
+        let shape = if results.fields.is_line() {
+            Shape::Cylinder(radius("/cylinder/radius")?)
+        } else {
+            radius("/sphere/radius").map(Shape::Sphere).or_else(ellipsoid)?
+        };
+        Some(Self { shape, moduli, datum: results.planned("/datum"), shear_compliance })
     }
 
     /// The contact under a normal force.
@@ -68,6 +84,11 @@ impl NormalForm {
             Shape::Sphere(radius) => Hertz::sphere(radius, force, modulus).ok().map(Pressed::Sphere),
             Shape::Ellipsoid(radii) => {
                 HertzEllipse::ellipsoid(radii, force, modulus).ok().map(Pressed::Ellipsoid)
+            }
+            Shape::Cylinder(radius) => {
+                let line = HertzLine::cylinder(radius, force, modulus).ok()?;
+                let approach = |depth: f64| line.approach(depth, modulus, self.shear_compliance);
+                Some(Pressed::Line(line, self.datum.map(approach)))
             }
         }
     }
@@ -79,6 +100,7 @@ impl Pressed {
         match self {
             Self::Sphere(hertz) => hertz.pressure(x.hypot(y)),
             Self::Ellipsoid(hertz) => hertz.pressure(x, y),
+            Self::Line(hertz, _) => hertz.pressure(x),
         }
     }
 
@@ -87,22 +109,25 @@ impl Pressed {
         match self {
             Self::Sphere(hertz) => hertz.max_pressure,
             Self::Ellipsoid(hertz) => hertz.max_pressure,
+            Self::Line(hertz, _) => hertz.max_pressure,
         }
     }
 
-    /// Approach of distant points.
-    pub fn approach(&self) -> f64 {
+    /// Approach of distant points, of a line contact relative to its datum.
+    pub fn approach(&self) -> Option<f64> {
         match self {
-            Self::Sphere(hertz) => hertz.approach,
-            Self::Ellipsoid(hertz) => hertz.approach,
+            Self::Sphere(hertz) => Some(hertz.approach),
+            Self::Ellipsoid(hertz) => Some(hertz.approach),
+            Self::Line(_, approach) => *approach,
         }
     }
 
-    /// Area of contact.
+    /// Area of contact, of a line contact per unit length.
     pub fn area(&self) -> f64 {
         let [a, b] = match self {
             Self::Sphere(hertz) => [hertz.contact_radius; 2],
             Self::Ellipsoid(hertz) => hertz.semi_axes,
+            Self::Line(hertz, _) => return 2.0 * hertz.half_width,
         };
         std::f64::consts::PI * a * b
     }

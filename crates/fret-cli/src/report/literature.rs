@@ -44,7 +44,7 @@ pub fn chapter(view: &Overview<'_>) -> Markup {
         (!periodic, CONVOLUTION),
         (true, GRADIENTS),
         (view.direction.is_some(), FRETTING),
-        (matches!(pressed, Some(Pressed::Sphere(_) | Pressed::Ellipsoid(_))), HERTZ),
+        (matches!(pressed, Some(Pressed::Sphere(_) | Pressed::Ellipsoid(_) | Pressed::Line(..))), HERTZ),
         (partial_slip, CATTANEO),
         (partial_slip, MINDLIN),
         (partial_slip && !view.cycles().is_empty(), DERESIEWICZ),

@@ -10,7 +10,7 @@ use super::moduli::effective_modulus;
 /// Frictionless line contact of cylinders, gap `x² / 2R`.
 ///
 /// `a² = 4P'R/(πE*)`, `p0 = 2P'/(πa)`. Source: Hertz (1881); Johnson (1985), *Contact Mechanics*, §4.2(c).
-/// The approach does not exist: in two dimensions displacement grows with the logarithm of the distance.
+/// An approach exists relative to a point at a depth alone: in two dimensions displacement grows with the logarithm of the distance.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct HertzLine {
@@ -31,6 +31,13 @@ impl HertzLine {
         let (radius, line_force) = (positive("radius", radius)?, positive("line force", line_force)?);
         let half_width = (4.0 * line_force * radius / (PI * effective_modulus(modulus)?)).sqrt();
         Ok(Self { line_force, half_width, max_pressure: 2.0 * line_force / (PI * half_width) })
+    }
+
+    /// Approach relative to points at a `depth` below the surfaces [length], with E* [pressure] and the sum of `1/G` of the bodies that
+    /// deform [1/pressure]: `2P'/(πE*) [ln(2d/a) + 1/2] − P'/(2π) Σ 1/G`, for depths far greater than a. Source: Johnson, eq. 5.57.
+    pub fn approach(&self, depth: f64, modulus: f64, shear_compliance: f64) -> f64 {
+        let above = 2.0 / (PI * modulus) * (libm::log(2.0 * depth / self.half_width) + 0.5);
+        self.line_force * (above - shear_compliance / (2.0 * PI))
     }
 
     /// Pressure at `x` from the middle [pressure]; zero outside the contact.

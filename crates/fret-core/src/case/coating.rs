@@ -3,6 +3,7 @@
 use toml::Spanned;
 
 use super::file::{CoatingFile, GradientFile, LawFile};
+use super::interface::interface;
 use super::judge::Judge;
 use crate::kernel::sublayers::MOST_SUBLAYERS;
 use crate::model::{
@@ -35,7 +36,8 @@ pub(super) fn layer(judge: &mut Judge, place: &str, entry: &Spanned<CoatingFile>
         let message = format!("{place}.thickness: {}", MaterialError::Thickness(thickness));
         return judge.refuse(given.thickness.span(), message, "");
     }
-    layer
+    let interface = interface(judge, place, given, layer.as_ref())?;
+    layer.map(|layer| layer.on(interface))
 }
 
 /// The material of a modulus and a ratio; `None` when one of them was refused.

@@ -6,6 +6,7 @@ use serde::de::{self, SeqAccess, Visitor};
 use toml::Spanned;
 
 use super::along::{AlongFile, AlongPhaseSchema};
+use super::interface_file::{InterfaceFile, InterfaceSchema};
 use super::pair::Pair;
 use super::residual_file::{ResidualFile, ResidualSchema};
 use super::stage_file::{AutoWord, StageFile, WearFile};
@@ -207,13 +208,13 @@ pub(super) struct BodyFile {
     /// A body that does not deform.
     #[schemars(with = "Option<bool>")]
     pub rigid: Option<Spanned<bool>>,
-    /// Bonded coatings, outermost first.
+    /// Coatings, outermost first.
     #[schemars(with = "Option<Vec<CoatingFile>>")]
     pub coatings: Option<Spanned<Vec<Spanned<CoatingFile>>>>,
     /// The elastic half-space under the coatings.
     #[schemars(with = "Option<MaterialFile>")]
     pub substrate: Option<Spanned<MaterialFile>>,
-    /// What the coatings are bonded to when there is no substrate: "rigid".
+    /// What the coatings lie on when there is no substrate: "rigid".
     #[schemars(with = "Option<BaseFile>")]
     pub base: Option<Spanned<BaseFile>>,
     /// Thermal conductivity [power/(length temperature)], positive; of what is rigid: the body, or the base of its coatings.
@@ -235,7 +236,7 @@ pub(super) enum BaseFile {
     Rigid,
 }
 
-/// A bonded layer: uniform (`young`), or of a stiffness that changes with depth (`gradient`).
+/// A layer: uniform (`young`), or of a stiffness that changes with depth (`gradient`).
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(super) struct CoatingFile {
@@ -251,6 +252,10 @@ pub(super) struct CoatingFile {
     /// Poisson's ratio, above -1, at most 0.5; the same at every depth.
     #[schemars(with = "f64")]
     pub poisson: Spanned<f64>,
+    /// How it is bonded to what lies below it: "bonded" (default), "frictionless" (no shear passes; only without friction on the
+    /// surface), or springs of no thickness, `{ normal_stiffness, shear_stiffness }`. Linear: an interface does not open.
+    #[schemars(with = "Option<InterfaceSchema>")]
+    pub interface: Option<Spanned<InterfaceFile>>,
     /// Residual stress [pressure], tension positive: the same along x and y, or one along each; or rows of depth below the upper
     /// face [length] and stress (one, or along x and y), linear between them. It adds to the stresses below, and to nothing else.
     #[schemars(with = "Option<ResidualSchema>")]

@@ -14,6 +14,8 @@ mod definition;
 mod fatigue;
 mod file;
 mod friction;
+mod interface;
+mod interface_file;
 mod judge;
 mod line;
 mod numbers;

@@ -177,7 +177,7 @@ pub static STEP_COLUMNS: &[Column<StepRecord>] = &[
     }),
     real(
         "bulk_work",
-        "work of the bulk stresses on the contact since the start, of the computed increments",
+        "work of the bulk stresses on the contact since the start, including the cycles represented by cycle jumps",
         WORK,
         |step| step.bulk_work,
     ),

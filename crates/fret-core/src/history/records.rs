@@ -41,7 +41,7 @@ pub struct StepRecord {
     pub tilt_moment: [f64; 2],
     /// Bulk stress of the lower and of the upper substrate, each along x and y [pressure].
     pub bulk_stress: [[f64; 2]; 2],
-    /// Work of the bulk stresses on the contact since the start [force x length], of the computed increments.
+    /// Work of the bulk stresses on the contact since the start [force x length], with cycle jumps.
     pub bulk_work: f64,
     /// Largest pressure of a cell [pressure].
     pub max_pressure: f64,

@@ -28,6 +28,10 @@ pub fn cells_too_coarse_for_incompressible_film(half_space: &HalfSpace, spacing:
             (None, Base::Elastic(material)) => material.shear_modulus(),
             (None, Base::Rigid) => f64::INFINITY,
         };
+        // on a soft shear spring the film moves as a whole, and its centre with it
+        if coating.interface().shear_compliance() * stiffest > thickness {
+            return false;
+        }
         let ratio = thickness / cell;
         if below > 1e3 * stiffest && ratio < 0.2 && volume_change < 10.0 * ratio * ratio {
             return true;

@@ -6,27 +6,22 @@
 
 use super::complex::Wavenumber;
 use super::compliance_below::{Compliance, Descent};
-use super::layer::{Carry, LayerMatrices, OPAQUE};
+use super::layer::Carry;
 use super::layer_constants::LayerConstants;
+use super::stack_layer::{StackLayer, longest_length};
 use crate::model::{Base, HalfSpace};
 
 /// Relative distance from an interface that is rounding of a sum of thicknesses.
 const ROUNDING: f64 = 1e-9;
-
-#[derive(Clone, Copy, Debug)]
-struct Layer {
-    constants: LayerConstants,
-    thickness: f64,
-}
 
 /// A layered half-space cut at a depth, seen from one layer.
 #[derive(Clone, Debug)]
 pub(crate) struct DepthResponse {
     depth: f64,
     /// From the surface down to the depth.
-    above: Vec<Layer>,
+    above: Vec<StackLayer>,
     /// From the depth down.
-    below: Vec<Layer>,
+    below: Vec<StackLayer>,
     base: Option<LayerConstants>,
     /// Of the layer the point lies in.
     constants: LayerConstants,
@@ -56,14 +51,7 @@ impl DepthResponse {
     /// Cuts a half-space at `depth` \[length\] and looks from layer `layer` (0 at the surface; the number of coatings: the
     /// substrate), in or at the faces of which the depth must lie.
     pub(crate) fn new(half_space: &HalfSpace, layer: usize, depth: f64) -> Self {
-        let layers: Vec<Layer> = half_space
-            .coatings()
-            .iter()
-            .map(|coating| Layer {
-                constants: LayerConstants::new(coating.material()),
-                thickness: coating.thickness(),
-            })
-            .collect();
+        let layers: Vec<StackLayer> = half_space.coatings().iter().map(StackLayer::of).collect();
         let base = match half_space.base() {
             Base::Elastic(material) => Some(LayerConstants::new(material)),
             Base::Rigid => None,
@@ -82,23 +70,22 @@ impl DepthResponse {
         let mut below = Vec::new();
         let constants = match (layers.get(layer), base) {
             (Some(own), _) => {
-                below.push(Layer { thickness: (own.thickness - within).max(0.0), ..*own });
+                let [over, under] = own.cut(within);
+                above.push(over);
+                below.push(under);
                 below.extend_from_slice(&layers[layer + 1..]);
                 own.constants
             }
-            (None, Some(substrate)) => substrate,
+            (None, Some(substrate)) => {
+                above.push(StackLayer::bonded(substrate, within));
+                substrate
+            }
             (None, None) => unreachable!("a rigid base always carries a coating"),
         };
-        above.push(Layer { constants, thickness: within });
-        above.retain(|layer| layer.thickness > 0.0);
-        below.retain(|layer| layer.thickness > 0.0);
-        let moduli = || {
-            let layers = layers.iter().map(|layer| layer.constants.shear_modulus());
-            layers.chain(base.iter().map(LayerConstants::shear_modulus))
-        };
-        let contrast = moduli().fold(0.0, f64::max) / moduli().fold(f64::INFINITY, f64::min);
-        let thickness: f64 = layers.iter().map(|layer| layer.thickness).sum();
-        Self { depth, above, below, base, constants, longest: depth.max(thickness * contrast) }
+        above.retain(|layer| !layer.is_empty());
+        below.retain(|layer| !layer.is_empty());
+        let longest = depth.max(longest_length(&layers, base.as_ref()));
+        Self { depth, above, below, base, constants, longest }
     }
 
     /// Depth of the point \[length\].
@@ -118,8 +105,7 @@ impl DepthResponse {
 
     /// Response at a real or complex wavenumber.
     pub(crate) fn at<T: Wavenumber>(&self, k: T) -> DepthTransfer<T> {
-        let is_opaque = |layer: &Layer| (k * layer.thickness).real_part() > OPAQUE;
-        let opaque = self.below.iter().position(is_opaque);
+        let opaque = self.below.iter().position(|layer| layer.is_opaque(k));
         let (mut compliance, below) = match (opaque, &self.base) {
             (Some(index), _) => (self.below[index].constants.half_space(), &self.below[..index]),
             (None, Some(base)) => (base.half_space(), &self.below[..]),
@@ -127,19 +113,18 @@ impl DepthResponse {
         };
         let mut carry = Carry::none();
         for layer in below.iter().rev() {
-            compliance =
-                LayerMatrices::new(&layer.constants, k * layer.thickness).lift(&compliance, &mut carry);
+            compliance = layer.lift(k, compliance, &mut carry);
         }
         let at_depth = compliance;
         let mut descent = Descent::none();
         for layer in self.above.iter().rev() {
-            if is_opaque(layer) {
+            if layer.is_opaque(k) {
                 descent = Descent::opaque();
                 break;
             }
-            let matrices = LayerMatrices::new(&layer.constants, k * layer.thickness);
-            descent = descent.after(matrices.descend(&compliance));
-            compliance = matrices.lift(&compliance, &mut carry);
+            let (lifted, through) = layer.lift_and_descend(k, compliance, &mut carry);
+            descent = descent.after(through);
+            compliance = lifted;
         }
         self.transfer(&at_depth, &descent)
     }
@@ -173,7 +158,7 @@ impl DepthResponse {
 #[cfg(test)]
 mod tests {
     use super::super::frequency_response::FrequencyResponse;
-    use super::super::samples::{Random, stack};
+    use super::super::samples::{Random, on_springs, stack};
     use super::*;
 
     /// What both sides of an interface share: tractions and displacements.
@@ -270,6 +255,53 @@ mod tests {
                     }
                 }
             }
+        }
+    }
+
+    #[test]
+    fn displacement_jumps_at_springs_by_traction_over_stiffness() {
+        let mut random = Random::seeded(24);
+        for case in 0..200 {
+            let bonded = random.half_space(3, 1e4, case % 3 == 0);
+            let half_space = random.on_springs(&bonded, 1e3);
+            let k = random.log_uniform(1e-4, 20.0);
+            let mut depth = 0.0;
+            let sides = half_space.coatings().len() - usize::from(case % 3 == 0);
+            for (layer, coating) in half_space.coatings()[..sides].iter().enumerate() {
+                depth += coating.thickness();
+                let upper = DepthResponse::new(&half_space, layer, depth).at(k);
+                let lower = DepthResponse::new(&half_space, layer + 1, depth).at(k);
+                let [normal, shear] =
+                    [coating.interface().normal_compliance(), coating.interface().shear_compliance()];
+                for load in 0..2 {
+                    let traction = lower.normal[load].abs().max(lower.shear[load].abs());
+                    assert!((upper.normal[load] - lower.normal[load]).abs() <= 1e-12 * traction + 1e-300);
+                    assert!((upper.shear[load] - lower.shear[load]).abs() <= 1e-12 * traction + 1e-300);
+                    let size = upper.depthwise[load].abs().max(upper.tangential[load].abs());
+                    let jump = upper.depthwise[load] - lower.depthwise[load];
+                    assert!((jump - k * normal * lower.normal[load]).abs() <= 1e-12 * size + 1e-300);
+                    let jump = upper.tangential[load] - lower.tangential[load];
+                    assert!((jump - k * shear * lower.shear[load]).abs() <= 1e-12 * size + 1e-300);
+                }
+                let jump = upper.sideways - lower.sideways;
+                let expected = k * shear * lower.twist_shear;
+                assert!((jump - expected).abs() <= 1e-12 * upper.sideways + 1e-300);
+            }
+        }
+    }
+
+    #[test]
+    fn no_shear_passes_a_frictionless_interface_and_none_stands_above_it() {
+        let film = |base| on_springs(&stack(&[(3.0, 0.3, 1.0)], base), &[Some((None, Some(0.0)))]);
+        for k in [1e-4, 0.1, 1.0, 5.0] {
+            for layer in 0..2 {
+                let found = DepthResponse::new(&film(Some((1.0, 0.3))), layer, 1.0).at(k);
+                assert!(found.shear[1].abs() < 1e-20 && found.normal[1] > 0.0, "k {k}: {}", found.shear[1]);
+            }
+            // on a rigid base the surface sees the closed form; at the base nothing moves along the normal
+            let found = DepthResponse::new(&film(None), 0, 1.0).at(k);
+            assert!(found.depthwise[1] == 0.0 && found.shear[1].abs() < 1e-20);
+            assert!(found.tangential[1].is_finite() && found.along[1].is_finite());
         }
     }
 

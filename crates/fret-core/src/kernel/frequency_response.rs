@@ -3,8 +3,9 @@
 
 use super::complex::Wavenumber;
 use super::compliance_below::Compliance;
-use super::layer::{Carry, LayerMatrices, OPAQUE};
+use super::layer::Carry;
 use super::layer_constants::LayerConstants;
+use super::stack_layer::{StackLayer, longest_length};
 use crate::model::{Base, ConductingLayer, Conductor, HalfSpace};
 
 /// Surface displacement per traction at one wavenumber.
@@ -39,13 +40,7 @@ pub(crate) struct ResponseTimesK<T> {
     pub tt: T,
 }
 
-#[derive(Clone, Copy, Debug)]
-struct Layer {
-    constants: LayerConstants,
-    thickness: f64,
-}
-
-/// Frequency response of a half-space under any number of bonded coatings, on an elastic or a rigid base.
+/// Frequency response of a half-space under any number of coatings, bonded or on springs, on an elastic or a rigid base.
 ///
 /// Upward recursion of the surface compliance in hybrid layer matrices; for one coating the same function as the closed form
 /// of O'Sullivan & King (1988), J. Tribol. 110, 235. Relative error about 2e-15 in `zz`, `rr`, `tt` for any contrast to 1e6,
@@ -53,7 +48,7 @@ struct Layer {
 #[derive(Clone, Debug)]
 pub struct FrequencyResponse {
     /// From the surface down.
-    layers: Vec<Layer>,
+    layers: Vec<StackLayer>,
     base: Option<LayerConstants>,
     /// Whether `tt` is all there is, and stands for the others.
     conducts: bool,
@@ -70,20 +65,13 @@ impl FrequencyResponse {
     pub fn all_layers(half_space: &HalfSpace, thickness: f64) -> Self {
         let mut response = Self::as_given(half_space);
         if let (true, Some(constants)) = (response.layers.is_empty(), response.base) {
-            response.layers.push(Layer { constants, thickness });
+            response.layers.push(StackLayer::bonded(constants, thickness));
         }
         response
     }
 
     fn as_given(half_space: &HalfSpace) -> Self {
-        let layers = half_space
-            .coatings()
-            .iter()
-            .map(|coating| Layer {
-                constants: LayerConstants::new(coating.material()),
-                thickness: coating.thickness(),
-            })
-            .collect();
+        let layers = half_space.coatings().iter().map(StackLayer::of).collect();
         let base = match half_space.base() {
             Base::Elastic(material) => Some(LayerConstants::new(material)),
             Base::Rigid => None,
@@ -96,9 +84,8 @@ impl FrequencyResponse {
     /// Conduction is antiplane shear with the conductivity for the shear modulus; of one layer on a half-space
     /// `1/(k1 k) (1 + lam e)/(1 - lam e)`, `e = exp(-2 k h)`, `lam = (k1 - k2)/(k1 + k2)`.
     pub fn conduction(conductor: &Conductor) -> Self {
-        let layer = |layer: ConductingLayer| Layer {
-            constants: LayerConstants::conducting(layer.conductivity),
-            thickness: layer.thickness,
+        let layer = |layer: ConductingLayer| {
+            StackLayer::bonded(LayerConstants::conducting(layer.conductivity), layer.thickness)
         };
         let layers = conductor.layers().into_iter().map(layer).collect();
         Self { layers, base: Some(LayerConstants::conducting(conductor.base())), conducts: true }
@@ -127,7 +114,7 @@ impl FrequencyResponse {
     /// Compliance at the surface. Nothing is felt through a layer so thick that it is a half-space to the last bit, so the
     /// recursion starts there.
     fn compliance<T: Wavenumber>(&self, k: T) -> Compliance<T> {
-        let opaque = self.layers.iter().position(|layer| (k * layer.thickness).real_part() > OPAQUE);
+        let opaque = self.layers.iter().position(|layer| layer.is_opaque(k));
         let (mut compliance, above) = match (opaque, &self.base) {
             (Some(index), _) => (self.layers[index].constants.half_space(), &self.layers[..index]),
             (None, Some(base)) => (base.half_space(), &self.layers[..]),
@@ -135,8 +122,7 @@ impl FrequencyResponse {
         };
         let mut carry = Carry::none();
         for layer in above.iter().rev() {
-            let matrices = LayerMatrices::new(&layer.constants, k * layer.thickness);
-            compliance = matrices.lift(&compliance, &mut carry);
+            compliance = layer.lift(k, compliance, &mut carry);
         }
         compliance
     }
@@ -146,17 +132,9 @@ impl FrequencyResponse {
         self.layers.is_empty().then(|| self.times_k(1.0))
     }
 
-    /// The longest length in the half-space: total thickness of the coatings times the largest ratio of shear moduli (a stiff
-    /// film spreads shear so far; plates bend over less). Zero without coatings.
+    /// The longest length in the half-space, see [`longest_length`].
     pub(crate) fn longest_length(&self) -> f64 {
-        let moduli = || {
-            let layers = self.layers.iter().map(|layer| layer.constants.shear_modulus());
-            layers.chain(self.base.iter().map(LayerConstants::shear_modulus))
-        };
-        let stiffest = moduli().fold(0.0, f64::max);
-        let softest = moduli().fold(f64::INFINITY, f64::min);
-        let thickness: f64 = self.layers.iter().map(|layer| layer.thickness).sum();
-        thickness * (stiffest / softest)
+        longest_length(&self.layers, self.base.as_ref())
     }
 
     /// The thinnest coating's thickness \[length\]; none without coatings.
@@ -204,9 +182,8 @@ mod tests {
 
     /// A response made of layers as they are given, equal neighbours not joined.
     fn unjoined(layers: &[(f64, f64, f64)], substrate: Option<(f64, f64)>) -> FrequencyResponse {
-        let layer = |&(e, nu, thickness): &(f64, f64, f64)| Layer {
-            constants: LayerConstants::new(&material((e, nu))),
-            thickness,
+        let layer = |&(e, nu, thickness): &(f64, f64, f64)| {
+            StackLayer::bonded(LayerConstants::new(&material((e, nu))), thickness)
         };
         FrequencyResponse {
             layers: layers.iter().map(layer).collect(),

@@ -20,6 +20,7 @@ pub(crate) mod layer;
 pub(crate) mod layer_constants;
 pub(crate) mod line_depth;
 pub(crate) mod matrix;
+pub(crate) mod stack_layer;
 
 mod axis_waves;
 mod bessel;
@@ -40,6 +41,8 @@ pub(crate) mod quadrature;
 mod radial;
 #[cfg(test)]
 pub(crate) mod samples;
+#[cfg(test)]
+mod third_party;
 
 pub use collocation::cells_too_coarse_for_incompressible_film;
 pub use frequency_response::{FrequencyResponse, Response};

@@ -53,8 +53,8 @@ pub fn periodic_symbols(
 }
 
 /// Displacement by a uniform unit traction [length/pressure], normal and tangential: `sum h/E_oed` with
-/// `E_oed = E (1 - nu) / ((1 + nu) (1 - 2 nu))`, and `sum h/G`, over the layers of both bodies. `None` where a body is a
-/// half-space: a uniform traction moves it without bound.
+/// `E_oed = E (1 - nu) / ((1 + nu) (1 - 2 nu))`, and `sum h/G`, over the layers of both bodies, each with the jump at the springs below
+/// it. `None` where a body is a half-space: a uniform traction moves it without bound; tangentially infinite where a layer slides freely.
 pub fn uniform_response(pair: &ContactPair) -> Option<[f64; 2]> {
     let mut sum = [0.0; 2];
     for body in [pair.upper(), pair.lower()] {
@@ -66,6 +66,8 @@ pub fn uniform_response(pair: &ContactPair) -> Option<[f64; 2]> {
             let (material, nu) = (layer.material(), layer.material().poisson());
             sum[0] += layer.thickness() * (1.0 + nu) * (1.0 - 2.0 * nu) / (material.young() * (1.0 - nu));
             sum[1] += layer.thickness() / material.shear_modulus();
+            sum[0] += layer.interface().normal_compliance();
+            sum[1] += layer.interface().shear_compliance();
         }
     }
     Some(sum)
@@ -79,7 +81,7 @@ impl PeriodicSymbols {
             for (symbol, value) in
                 [(&mut self.zz, normal), (&mut self.xx, tangential), (&mut self.yy, tangential)]
             {
-                if let Some(symbol) = symbol {
+                if let Some(symbol) = symbol.as_mut().filter(|_| value.is_finite()) {
                     symbol[[0, 0]] = value;
                 }
             }

@@ -2,7 +2,7 @@
 
 use serde::Deserialize;
 
-use crate::model::{Base, Body, Coating, ContactPair, ElasticMaterial, HalfSpace};
+use crate::model::{Base, Body, Coating, ContactPair, ElasticMaterial, HalfSpace, Interface};
 pub(crate) use crate::random::Random;
 
 /// `(Young's modulus, Poisson's ratio)`
@@ -17,6 +17,19 @@ pub(crate) fn stack(layers: &[(f64, f64, f64)], substrate: Option<Elasticity>) -
     let coatings = layers.iter().map(|&(e, nu, h)| Coating::new(material((e, nu)), h).unwrap()).collect();
     HalfSpace::new(coatings, substrate.map_or(Base::Rigid, |elasticity| Base::Elastic(material(elasticity))))
         .unwrap()
+}
+
+/// Normal and shear stiffness of the springs below each coating, `None` where it is bonded; shear stiffness 0: no shear passes.
+pub(crate) type Springs = Option<(Option<f64>, Option<f64>)>;
+
+/// The same half-space on springs, from the surface down.
+pub(crate) fn on_springs(half_space: &HalfSpace, springs: &[Springs]) -> HalfSpace {
+    let interface = |springs: &Springs| {
+        springs.map_or(Interface::BONDED, |(normal, shear)| Interface::springs(normal, shear).unwrap())
+    };
+    let coatings = half_space.coatings().iter().zip(springs);
+    let coatings = coatings.map(|(coating, springs)| coating.on(interface(springs))).collect();
+    HalfSpace::new(coatings, *half_space.base()).unwrap()
 }
 
 /// A half-space under a rigid body.
@@ -50,6 +63,20 @@ impl Random {
             u if u < 0.46 => 0.25,
             _ => -0.9 + 1.4 * self.uniform(),
         }
+    }
+
+    /// The same half-space, each layer on springs as stiff as itself within a factor of `contrast`.
+    pub(crate) fn on_springs(&mut self, half_space: &HalfSpace, contrast: f64) -> HalfSpace {
+        let mut stiffness = |coating: &Coating| {
+            let own = coating.material().young() / coating.thickness();
+            Some(own * self.log_uniform(1.0 / contrast, contrast))
+        };
+        let springs: Vec<Springs> = half_space
+            .coatings()
+            .iter()
+            .map(|coating| Some((stiffness(coating), stiffness(coating))))
+            .collect();
+        on_springs(half_space, &springs)
     }
 
     /// One to `most` coatings of total thickness one, moduli within `contrast`, thicknesses within three decades.

@@ -1,7 +1,7 @@
 //! Coatings whose stiffness changes with depth, and how they are cut into uniform sublayers. How many sublayers are enough is
 //! for the kernels to say, which know what a surface feels of them.
 
-use super::{Coating, ElasticMaterial, MaterialError};
+use super::{Coating, ElasticMaterial, Interface, MaterialError};
 
 /// Relative difference of a table's last depth and the thickness that counts as rounding of decimal numbers.
 const SAME_DEPTH: f64 = 1e-9;
@@ -57,12 +57,13 @@ pub enum YoungGradient {
     Table(Vec<[f64; 2]>),
 }
 
-/// A bonded layer of uniform thickness and Poisson's ratio whose Young's modulus changes with depth.
+/// A layer of uniform thickness and Poisson's ratio whose Young's modulus changes with depth.
 #[derive(Debug, Clone, PartialEq)]
 pub struct GradedCoating {
     young: YoungGradient,
     poisson: f64,
     thickness: f64,
+    interface: Interface,
 }
 
 impl GradedCoating {
@@ -88,7 +89,13 @@ impl GradedCoating {
                 }
             }
         }
-        Ok(Self { young, poisson, thickness })
+        Ok(Self { young, poisson, thickness, interface: Interface::BONDED })
+    }
+
+    /// The same coating on another interface.
+    #[must_use]
+    pub fn on(self, interface: Interface) -> Self {
+        Self { interface, ..self }
     }
 
     /// Thickness [length].
@@ -127,25 +134,30 @@ impl GradedCoating {
 
     /// The coating as about `count` uniform sublayers, outermost first, each with the modulus at its middle.
     ///
-    /// Interfaces lie at depths `h (i/count)^2`: thin sublayers at the surface, where short waves live, so that the surface's
+    /// Faces lie at depths `h (i/count)^2`: thin sublayers at the surface, where short waves live, so that the surface's
     /// response errs by order `1/count^2` at every wavenumber; equal sublayers would err by `k h/count^2`. In a table every row
-    /// is an interface, and what lies between two rows gets its share of sublayers (at least one) by its extent in the square
+    /// is a face, and what lies between two rows gets its share of sublayers (at least one) by its extent in the square
     /// root of depth and by its change of stiffness. A uniform coating is one layer, whatever the count.
     ///
     /// # Errors
     /// When a sublayer has no thickness that a floating-point number could hold.
     pub fn sublayers(&self, count: usize) -> Result<Vec<Coating>, MaterialError> {
-        let ends = if self.is_uniform() { vec![0.0, self.thickness] } else { self.interfaces(count.max(1)) };
-        ends.windows(2)
+        let ends = if self.is_uniform() { vec![0.0, self.thickness] } else { self.faces(count.max(1)) };
+        let mut sublayers: Vec<Coating> = ends
+            .windows(2)
             .map(|ends| {
                 let young = self.young_at(0.5 * (ends[0] + ends[1]));
                 Coating::new(ElasticMaterial::new(young, self.poisson)?, ends[1] - ends[0])
             })
-            .collect()
+            .collect::<Result<_, _>>()?;
+        if let Some(lowest) = sublayers.last_mut() {
+            *lowest = lowest.on(self.interface);
+        }
+        Ok(sublayers)
     }
 
     /// Depths of the sublayers' faces, from 0 to the thickness.
-    fn interfaces(&self, count: usize) -> Vec<f64> {
+    fn faces(&self, count: usize) -> Vec<f64> {
         let rows: &[[f64; 2]] = match &self.young {
             YoungGradient::Exponential { .. } | YoungGradient::Linear { .. } => &[],
             YoungGradient::Table(rows) => rows,
@@ -205,6 +217,25 @@ pub enum Layer {
         /// Number of sublayers; `None`: as many as an error bound asks for.
         sublayers: Option<usize>,
     },
+}
+
+impl Layer {
+    /// Young's modulus, of a graded layer in its middle, over the thickness [pressure/length].
+    pub fn stiffness(&self) -> f64 {
+        match self {
+            Self::Uniform(coating) => coating.material().young() / coating.thickness(),
+            Self::Graded { coating, .. } => coating.young_at(0.5 * coating.thickness()) / coating.thickness(),
+        }
+    }
+
+    /// The same layer on another interface.
+    #[must_use]
+    pub fn on(self, interface: Interface) -> Self {
+        match self {
+            Self::Uniform(coating) => Self::Uniform(coating.on(interface)),
+            Self::Graded { coating, sublayers } => Self::Graded { coating: coating.on(interface), sublayers },
+        }
+    }
 }
 
 #[cfg(test)]

@@ -2,6 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::interface::Interface;
+
 /// Why a material or a coating was refused.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 pub enum MaterialError {
@@ -65,11 +67,13 @@ impl ElasticMaterial {
     }
 }
 
-/// A bonded layer of uniform thickness.
+/// A layer of uniform thickness, and how it is bonded to what lies below it.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Coating {
     material: ElasticMaterial,
     thickness: f64,
+    #[serde(default)]
+    interface: Interface,
 }
 
 impl Coating {
@@ -78,7 +82,7 @@ impl Coating {
         is_within_reach(thickness)
     }
 
-    /// Coating of a material with its thickness [length].
+    /// Coating of a material with its thickness [length], bonded to what lies below it.
     ///
     /// # Errors
     /// When the thickness is not a positive length between 1e-100 and 1e100.
@@ -86,7 +90,13 @@ impl Coating {
         if !Self::can_be(thickness) {
             return Err(MaterialError::Thickness(thickness));
         }
-        Ok(Self { material, thickness })
+        Ok(Self { material, thickness, interface: Interface::BONDED })
+    }
+
+    /// The same coating on another interface.
+    #[must_use]
+    pub fn on(self, interface: Interface) -> Self {
+        Self { interface, ..self }
     }
 
     /// The coating's material.
@@ -98,9 +108,14 @@ impl Coating {
     pub fn thickness(&self) -> f64 {
         self.thickness
     }
+
+    /// How it is bonded to what lies below it.
+    pub fn interface(&self) -> &Interface {
+        &self.interface
+    }
 }
 
-/// What the lowest coating is bonded to.
+/// What the lowest coating lies on.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Base {
@@ -110,7 +125,7 @@ pub enum Base {
     Rigid,
 }
 
-/// A half-space under any number of bonded coatings.
+/// A half-space under any number of coatings.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct HalfSpace {
     coatings: Vec<Coating>,
@@ -139,7 +154,7 @@ impl HalfSpace {
         &self.coatings
     }
 
-    /// What the lowest coating is bonded to.
+    /// What the lowest coating lies on.
     pub fn base(&self) -> &Base {
         &self.base
     }
@@ -158,29 +173,40 @@ impl HalfSpace {
         }
     }
 
-    /// The single material of a half-space that is homogeneous: without coatings, or with coatings of the base's own material.
+    /// Whether a layer slides freely on what lies below it, so that it resists no tangential force.
+    pub fn slides_freely(&self) -> bool {
+        self.coatings.iter().any(|coating| coating.interface.is_frictionless())
+    }
+
+    /// The single material of a half-space that is homogeneous: without coatings, or with coatings of the base's own material, bonded.
     pub fn single_material(&self) -> Option<&ElasticMaterial> {
         match &self.base {
             Base::Elastic(material) => {
-                self.coatings.iter().all(|coating| coating.material() == material).then_some(material)
+                let is_the_same =
+                    |coating: &Coating| coating.material() == material && coating.interface.is_bonded();
+                self.coatings.iter().all(is_the_same).then_some(material)
             }
             Base::Rigid => None,
         }
     }
 
-    /// The same half-space without the layer work it does not need: neighbouring coatings of one material joined,
+    /// The same half-space without the layer work it does not need: neighbouring coatings of one material joined where they are bonded,
     /// coatings of the base's own material dropped.
     #[must_use]
     pub fn simplified(&self) -> Self {
         let mut coatings: Vec<Coating> = Vec::with_capacity(self.coatings.len());
         for coating in &self.coatings {
             match coatings.last_mut() {
-                Some(last) if last.material == coating.material => last.thickness += coating.thickness,
+                Some(last) if last.material == coating.material && last.interface.is_bonded() => {
+                    last.thickness += coating.thickness;
+                    last.interface = coating.interface;
+                }
                 _ => coatings.push(*coating),
             }
         }
         if let (Some(last), Base::Elastic(material)) = (coatings.last(), &self.base)
             && last.material == *material
+            && last.interface.is_bonded()
         {
             coatings.pop();
         }

@@ -63,7 +63,7 @@ pub struct ContactState {
     /// Energy dissipated by friction since the start [force x length]; with wear that of all cycles that computed ones stand for.
     pub dissipated_energy: f64,
     /// Work that the bulk stresses have done on the contact since the start [force x length]: minus the mean shear times the change of
-    /// the relative displacement by the strains; of computed increments alone.
+    /// the relative displacement by the strains; with wear that of all cycles that computed ones stand for.
     pub bulk_work: f64,
 }
 

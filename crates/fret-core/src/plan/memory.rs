@@ -1,6 +1,6 @@
 //! How much memory a run takes: the one place of these numbers. `benches/expected_cost.py` sets them beside what runs took.
 
-use crate::case::Case;
+use crate::case::{Case, StageControl};
 use crate::model::{SurfaceGrid, Symmetry};
 use crate::solver::Coupling;
 
@@ -11,6 +11,10 @@ pub const PLANNING: usize = 48;
 
 /// Bytes a cell of the fields that wear collects.
 const WEAR: usize = 50;
+/// Bytes a cell of a gap that is tilted, and of the solutions on the way to the tilt of a prescribed moment: three increments with what the
+/// solver remembers of them, and the memory before.
+const TILTED: usize = 16;
+const BY_MOMENT: usize = 560;
 /// Bytes a cell of the tractions and slips of an increment whose stresses are looked at.
 const TRACTIONS: usize = 5 * 8;
 /// Bytes a cell of what fatigue and the fracture of a coating collect of an increment: the stress at the depth at work, sums over depths.
@@ -28,9 +32,9 @@ const EACH_CELL: usize = 16;
 fn bytes_per_cell(coupling: Coupling, periodic: bool) -> [usize; 2] {
     match (coupling, periodic) {
         (Coupling::Frictionless, _) => [120, 190],
-        (Coupling::Uncoupled, false) => [296, 460],
+        (Coupling::Uncoupled, false) => [300, 600],
         (Coupling::Uncoupled, true) => [296, 320],
-        (Coupling::Coupled, false) => [380, 1020],
+        (Coupling::Coupled, false) => [490, 700],
         (Coupling::Coupled, true) => [330, 320],
     }
 }
@@ -45,11 +49,24 @@ pub fn of_run(case: &Case, grid: &SurfaceGrid, coupling: Coupling, symmetry: Sym
     let worn = if case.wear.is_some() { WEAR } else { 0 };
     let frictions = case.stages.iter().filter_map(|stage| stage.friction.as_ref()).chain([&case.friction]);
     let maps = frictions.filter(|friction| friction.is_map()).count() + case.profile.heights.len();
+    let in_front = in_front + tilt(case);
     let solving = grid.len() * (whole + worn + EACH_CELL * maps + in_front / symmetry.copies());
     let stressed = case.stress.as_ref().map_or(0, |stress| {
         of_stress(grid.len(), case.kept_increments().len().div_ceil(stress.every.max(1)))
     });
     PROCESS + solving.max(stressed)
+}
+
+/// Bytes a cell of what tilts in front of the mirrors.
+fn tilt(case: &Case) -> usize {
+    let by_moment = |control: &StageControl| matches!(control, StageControl::Force(_));
+    if case.stages.iter().any(|stage| stage.tilt.iter().flatten().any(by_moment)) {
+        BY_MOMENT
+    } else if case.tilts(0) || case.tilts(1) {
+        TILTED
+    } else {
+        0
+    }
 }
 
 /// Memory to compute stresses under the surface from the tractions of so many increments [bytes], one depth after the other.

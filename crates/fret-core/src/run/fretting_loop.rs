@@ -25,6 +25,7 @@ struct Start {
     shear: [Array2<f64>; 2],
     approach: f64,
     dissipated_energy: f64,
+    bulk_work: f64,
 }
 
 /// Follows one cycle.
@@ -73,6 +74,7 @@ impl FrettingLoop {
                 shear: state.shear.clone(),
                 approach: state.approach,
                 dissipated_energy: state.dissipated_energy,
+                bulk_work: state.bulk_work,
             },
             points: vec![first],
             regimes: Vec::new(),
@@ -98,6 +100,11 @@ impl FrettingLoop {
         });
         self.regimes.push(record.regime);
         self.contact_area = record.contact_area;
+    }
+
+    /// Work of the bulk stress since the start of the history, with that of the cycles that this one, which ends in `state`, stands for.
+    pub fn total_bulk_work(&self, state: &ContactState, stands_for: usize) -> f64 {
+        state.bulk_work + stands_for.saturating_sub(1) as f64 * (state.bulk_work - self.start.bulk_work)
     }
 
     /// The record of the cycle that ends in `state`.

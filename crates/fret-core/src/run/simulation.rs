@@ -329,6 +329,7 @@ impl<'a> Journey<'a> {
         let ended =
             if stage.ends_cycle(k) || k == all { self.cycle_over(stage, record.increment)? } else { None };
         record.dissipated_energy = self.history.state.dissipated_energy;
+        record.bulk_work = self.history.state.bulk_work;
         [record.worn_volume, record.max_worn_depth] = worn(&self.history.state, &self.plan.grid);
         let steady = ended.as_ref().is_some_and(|cycle| cycle.steady);
         let enough = stage.cycles().is_some_and(|course| self.place.cycles >= course.most);
@@ -403,7 +404,7 @@ impl<'a> Journey<'a> {
         let refinement = self.refinement();
         let started = Instant::now();
         let observer = &mut *self.observer;
-        let failed = |error| run_error(&error, increment, &case.stages[stage], case.tolerance);
+        let failed = |error| run_error(&error, increment, case, stage);
         let mut watch = |iteration: usize, residual: f64| {
             let tolerance = case.tolerance;
             observer.iterated(&Iteration { increment, stage, iteration, residual, tolerance })
@@ -459,6 +460,7 @@ impl<'a> Journey<'a> {
             worn: worn(&self.history.state, &self.plan.grid),
         };
         let record = cycle.close(&self.history.state, self.friction(), end);
+        self.history.state.bulk_work = cycle.total_bulk_work(&self.history.state, stands_for);
         self.history.state.dissipated_energy = record.total_dissipated_energy;
         Ok(Some(record))
     }

@@ -1,20 +1,28 @@
-//! Tilt of the upper body: a plane taken off the gap; and the tilt that a prescribed moment asks for, found by Broyden's method around
-//! the increment, whose moment rises with the tilt.
+//! Tilt of the upper body: a plane taken off the gap; and the tilt that a prescribed moment asks for.
+//!
+//! Of a given normal load the moments of the pressure are the gradient of a convex function of the tilts. So along any direction the moment
+//! about it only rises, and a bracket closes: Newton steps by Broyden's stiffness give the direction, a search along it the length.
 
 use super::settings::{IterationCallback, SolveError};
 use super::{ContactSolver, Increment, SolverMemory, Work};
 use crate::model::{ContactState, Control, LoadStep};
 
 /// Solutions of one increment on the way to its tilt, at the most.
-const MOST_SOLUTIONS: usize = 60;
+const MOST_SOLUTIONS: usize = 240;
 /// The increments on the way are solved to this fraction of the tolerance.
 const FINER: f64 = 0.1;
 /// Change of the tilt by which its stiffness is found first, relative to that which moves an edge by the displacement under the load.
 const SMALL: f64 = 1e-2;
-/// Longest step, relative to the same.
+/// Longest first step, relative to the same.
 const LONGEST: f64 = 2.0;
-/// Shortest one, relative to the same: below it there is no such tilt.
-const SHORTEST: f64 = 1e-14;
+/// Farthest a search goes, relative to the same: a contact that is moved across the finest grid has tilted less.
+const FARTHEST: f64 = 1e5;
+/// By so much a step grows that did not reach the moment.
+const GROWTH: f64 = 4.0;
+/// A bracket narrower than this, relative to the tilt at its end, is closed.
+const CLOSED: f64 = 4.0 * f64::EPSILON;
+/// With two moments a search along a direction ends where what is off along it fell to this fraction.
+const ENOUGH: f64 = 0.3;
 
 /// A solution at a tilt.
 struct Tried {
@@ -107,59 +115,37 @@ impl ContactSolver<'_> {
         callback: IterationCallback<'_>,
     ) -> Result<Tried, SolveError> {
         let axes: Vec<usize> = (0..2).filter(|axis| matches!(load.tilt[*axis], Control::Force(_))).collect();
-        let mut tilt = start;
-        let mut here = self.at_tilt((state, load), tilt, memory, work, callback)?;
-        let mut solutions = 1;
-        let mut stiffness = memory.tilt_stiffness;
-        while here.worst() > tolerance {
-            if here.arm == [0.0; 2] {
-                break; // bodies apart carry no moment
-            }
+        let mut here = self.at_tilt((state, load), start, memory, work, callback)?;
+        let mut search =
+            Search { axes, stiffness: memory.tilt_stiffness, tolerance, solutions: 1, stopped: None };
+        while here.worst() > tolerance && here.arm != [0.0; 2] {
             // First along each axis alone; the memory of the last increment does where there is one.
-            for &axis in &axes {
-                if stiffness[axis][axis] > 0.0 {
-                    continue;
-                }
+            for axis in search.unknown_axes() {
                 let change = SMALL * here.slope[axis] * if here.off[axis] > 0.0 { -1.0 } else { 1.0 };
-                let mut beside = tilt;
+                let mut beside = here.increment.state.tilt;
                 beside[axis] += change;
                 let there = self.at_tilt((state, load), beside, memory, work, callback)?;
-                solutions += 1;
-                for &row in &axes {
-                    stiffness[row][axis] = (there.off[row] - here.off[row]) / change;
+                search.solutions += 1;
+                for row in 0..2 {
+                    search.stiffness[row][axis] = (there.off[row] - here.off[row]) / change;
                 }
             }
-            let Some(step) = newton_step(&stiffness, &axes, &here) else { break };
-            let mut fraction = 1.0;
-            let next = loop {
-                let change = step.map(|step| step * fraction);
-                let to = [tilt[0] + change[0], tilt[1] + change[1]];
-                let there = self.at_tilt((state, load), to, memory, work, callback);
-                solutions += 1;
-                match there {
-                    Ok(there) if there.arm != [0.0; 2] => {
-                        learn(&mut stiffness, &axes, change, &here, &there);
-                        if there.worst() < here.worst() {
-                            break Some((to, there));
-                        }
-                    }
-                    Ok(_) | Err(SolveError::NotConverged { .. } | SolveError::ContactAtEdge) => {}
-                    Err(error) => return Err(error),
-                }
-                let small = axes.iter().all(|axis| change[*axis].abs() < SHORTEST * here.slope[*axis]);
-                if small || solutions >= MOST_SOLUTIONS {
-                    break None;
-                }
-                fraction *= 0.3;
-            };
-            let Some((to, there)) = next else { break };
-            (tilt, here) = (to, there);
+            let mut at =
+                |tilt: [f64; 2], work: &mut Work| self.at_tilt((state, load), tilt, memory, work, callback);
+            match search.along_newton(&here, work, &mut at)? {
+                Some(there) => here = there,
+                None => break,
+            }
         }
         if here.worst() <= tolerance {
-            here.memory.tilt_stiffness = stiffness;
+            here.memory.tilt_stiffness = search.stiffness;
             return Ok(here);
         }
-        let worst = axes.iter().copied().max_by(|a, b| here.off[*a].abs().total_cmp(&here.off[*b].abs()));
+        if let Some(error) = search.stopped {
+            return Err(error);
+        }
+        let worst =
+            search.axes.iter().copied().max_by(|a, b| here.off[*a].abs().total_cmp(&here.off[*b].abs()));
         let axis = worst.unwrap_or(0);
         let Control::Force(asked) = load.tilt[axis] else { return Ok(here) };
         Err(SolveError::NoTilt { asked, reached: asked + here.off[axis] })
@@ -212,6 +198,130 @@ impl ContactSolver<'_> {
             increment,
             memory,
         }
+    }
+}
+
+/// Solves the increment at a tilt.
+type Attempt<'a> = &'a mut dyn FnMut([f64; 2], &mut Work) -> Result<Tried, SolveError>;
+
+/// The way to the tilts of prescribed moments.
+struct Search {
+    /// Axes along which a moment is prescribed.
+    axes: Vec<usize>,
+    /// Moment by tilt, as far as it is known.
+    stiffness: [[f64; 2]; 2],
+    tolerance: f64,
+    /// Increments solved so far.
+    solutions: usize,
+    /// Why the last search along a direction got no further, where that was not its moments.
+    stopped: Option<SolveError>,
+}
+
+/// What bounds a search along a direction from above.
+enum Above {
+    /// Nothing so far.
+    Nothing,
+    /// Moment along the direction, beyond the prescribed one.
+    Moment(f64),
+    /// No contact, or no solution.
+    Barrier,
+}
+
+impl Search {
+    /// Axes whose stiffness is not known.
+    fn unknown_axes(&self) -> Vec<usize> {
+        self.axes.iter().copied().filter(|&axis| !(self.stiffness[axis][axis] > 0.0)).collect()
+    }
+
+    /// The direction of Newton's step, no longer than a stiff contact allows; straight against the moments where the stiffness is of no
+    /// use.
+    fn direction(&self, here: &Tried) -> [f64; 2] {
+        let newton = newton_step(&self.stiffness, &self.axes, here);
+        let falls = |step: &[f64; 2]| step[0] * here.off[0] + step[1] * here.off[1] < 0.0;
+        newton.filter(falls).unwrap_or_else(|| {
+            let steepest = |axis: usize| {
+                if here.arm[axis] > 0.0 { -here.slope[axis] * (here.off[axis] / here.arm[axis]) } else { 0.0 }
+            };
+            [steepest(0), steepest(1)]
+        })
+    }
+
+    /// A solution nearer to the moments along Newton's step. With one moment the bracket is closed until it is met; with two, until what is
+    /// off along the step is a fraction of what it was, which lowers the convex function whose gradient the moments are.
+    fn along_newton(
+        &mut self,
+        here: &Tried,
+        work: &mut Work,
+        at: Attempt<'_>,
+    ) -> Result<Option<Tried>, SolveError> {
+        let step = self.direction(here);
+        let from = here.increment.state.tilt;
+        let along = |tried: &Tried| step[0] * tried.off[0] + step[1] * tried.off[1];
+        let first = along(here);
+        if !(first < 0.0) {
+            return Ok(None);
+        }
+        self.stopped = None;
+        let enough = if self.axes.len() == 1 { 0.0 } else { ENOUGH * -first };
+        let (mut low, mut at_low, mut high, mut above) = (0.0, first, 0.0, Above::Nothing);
+        let mut best: Option<Tried> = None;
+        let mut fraction = 1.0;
+        let mut sides = 0_i32;
+        while self.solutions < MOST_SOLUTIONS {
+            let to = [0, 1].map(|axis| from[axis] + fraction * step[axis]);
+            self.solutions += 1;
+            match at(to, work) {
+                Ok(there) if there.arm != [0.0; 2] => {
+                    let before = best.as_ref().unwrap_or(here);
+                    let change = [0, 1].map(|axis| to[axis] - before.increment.state.tilt[axis]);
+                    learn(&mut self.stiffness, &self.axes, change, before, &there);
+                    let moment = along(&there);
+                    if there.worst() <= self.tolerance || moment.abs() <= enough {
+                        return Ok(Some(there));
+                    }
+                    // Illinois: an end that stays twice counts half, so that both ends move
+                    if moment < 0.0 {
+                        (low, at_low) = (fraction, moment);
+                        sides = sides.min(0) - 1;
+                        if let (Above::Moment(value), true) = (&mut above, sides < -1) {
+                            *value *= 0.5;
+                        }
+                    } else {
+                        (high, above) = (fraction, Above::Moment(moment));
+                        sides = sides.max(0) + 1;
+                        if sides > 1 {
+                            at_low *= 0.5;
+                        }
+                    }
+                    if best.as_ref().is_none_or(|best| there.worst() < best.worst()) {
+                        best = Some(there);
+                    }
+                }
+                Ok(_) => (high, above) = (fraction, Above::Barrier),
+                Err(error @ (SolveError::NotConverged { .. } | SolveError::ContactAtEdge)) => {
+                    (high, above) = (fraction, Above::Barrier);
+                    self.stopped = Some(error);
+                }
+                Err(error) => return Err(error),
+            }
+            fraction = match above {
+                Above::Nothing => GROWTH * fraction,
+                Above::Barrier => low + 0.3 * (high - low),
+                Above::Moment(value) => {
+                    self.stopped = None;
+                    let ratio = at_low / (at_low - value);
+                    low + (high - low) * if ratio.is_finite() { ratio.clamp(0.02, 0.98) } else { 0.5 }
+                }
+            };
+            let width = (0..2).fold(0.0, |width: f64, axis| width.max(((high - low) * step[axis]).abs()));
+            let end = (0..2).fold(0.0, |end: f64, axis| end.max((from[axis] + high * step[axis]).abs()));
+            let far =
+                self.axes.iter().any(|&axis| (fraction * step[axis]).abs() > FARTHEST * here.slope[axis]);
+            if far || !fraction.is_finite() || !matches!(above, Above::Nothing) && width <= CLOSED * end {
+                break;
+            }
+        }
+        Ok(best.filter(|best| best.worst() < 0.5 * here.worst()))
     }
 }
 

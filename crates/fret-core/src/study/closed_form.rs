@@ -1,15 +1,17 @@
 //! Which closed form speaks about a scene, recognised from its plan, and what it says at the end of each stage.
 //!
 //! Normal: spheres, ellipsoids, rounded and flat punches, cones on homogeneous bodies that are frictionless or do not couple.
+//! Cylinders in line contacts likewise, with Cattaneo for forces along one axis and any Poisson's ratio.
 //! Tangential: Cattaneo and Mindlin with Masing's memory, for spheres under a steady normal force, one coefficient of friction, forces along one line, and like bodies with a
 //! Poisson's ratio of zero: with any other the form neglects the slip across the force, and is no measure of a hundredth of a
 //! percent.
 
 use std::f64::consts::PI;
 
+use super::line_form::{LinePressed, at_datum};
 use super::quantities::Quantity;
 use crate::analytic::{
-    Cone, EffectiveModuli, FlatPunch, Hertz, HertzEllipse, RoundedPunch, TangentialHistory,
+    Cone, EffectiveModuli, FlatPunch, Hertz, HertzEllipse, LineHistory, RoundedPunch, TangentialHistory,
 };
 use crate::case::Stage;
 use crate::model::{Body, CellValues, Control, ElasticMaterial, LoadStep, Shape};
@@ -38,6 +40,7 @@ enum Pressed {
     Rounded(RoundedPunch),
     Flat(FlatPunch),
     Cone(Cone),
+    Line(LinePressed),
 }
 
 /// Exact answers to a scene.
@@ -47,7 +50,14 @@ pub struct ClosedForm {
     ends: Vec<Said>,
     last: Option<Pressed>,
     /// Shear at the end: the history and the direction of the force.
-    shear: Option<(TangentialHistory, [f64; 2])>,
+    shear: Option<(Slipped, [f64; 2])>,
+}
+
+/// Partial slip at the end of a history.
+#[derive(Debug, Clone)]
+enum Slipped {
+    Sphere(TangentialHistory),
+    Line(LineHistory),
 }
 
 impl ClosedForm {
@@ -56,23 +66,30 @@ impl ClosedForm {
         let case = &plan.case;
         let tilts = case.tilts(0) || case.tilts(1);
         let changes = case.wear.is_some() || case.is_open_ended() || tilts;
-        if case.periodic || case.is_line() || changes || plan.coupling == Coupling::Coupled {
+        if case.periodic || changes || plan.coupling == Coupling::Coupled {
             return None;
         }
         let moduli = moduli(plan)?;
         let at_ends = loads_at_ends(&case.stages);
-        let pressed: Vec<Pressed> =
-            at_ends.iter().map(|load| pressed_by(plan, load.normal, moduli.normal)).collect::<Option<_>>()?;
+        let pressed_by = |load: &LoadStep| {
+            if case.is_line() {
+                LinePressed::by(plan, load.normal, moduli.normal).map(Pressed::Line)
+            } else {
+                pressed_by(plan, load.normal, moduli.normal)
+            }
+        };
+        let pressed: Vec<Pressed> = at_ends.iter().map(pressed_by).collect::<Option<_>>()?;
         let mut ends: Vec<Said> = pressed.iter().map(Pressed::says).collect();
         let shear = if case.is_frictionless() || !has_tangential(&case.stages) {
             none_tangential(&mut ends);
             None
         } else {
-            tangential(plan, &pressed, moduli.shear, &mut ends)
+            tangential(plan, &pressed, &moduli, &mut ends)
         };
         let name = match (&pressed.last()?, shear.is_some()) {
             (Pressed::Sphere(_), true) => "Hertz; Cattaneo and Mindlin",
-            (Pressed::Sphere(_) | Pressed::Ellipsoid(_), _) => "Hertz",
+            (Pressed::Line(_), true) => "Hertz; Cattaneo",
+            (Pressed::Sphere(_) | Pressed::Ellipsoid(_) | Pressed::Line(_), _) => "Hertz",
             (Pressed::Rounded(_), _) => "rounded punch",
             (Pressed::Flat(_), _) => "flat punch",
             (Pressed::Cone(_), _) => "cone",
@@ -99,6 +116,7 @@ impl ClosedForm {
             Some(Pressed::Rounded(punch)) => punch.pressure(r),
             Some(Pressed::Flat(punch)) => punch.pressure(r),
             Some(Pressed::Cone(cone)) => cone.pressure(r),
+            Some(Pressed::Line(line)) => line.hertz.pressure(x),
             None => 0.0,
         }
     }
@@ -111,7 +129,10 @@ impl ClosedForm {
     /// Shear at a point at the end of the history, x and y [pressure]; zero where it does not know it.
     pub fn shear(&self, x: f64, y: f64) -> [f64; 2] {
         self.shear.as_ref().map_or([0.0; 2], |(history, direction)| {
-            let along = history.shear(x.hypot(y));
+            let along = match history {
+                Slipped::Sphere(history) => history.shear(x.hypot(y)),
+                Slipped::Line(history) => history.shear(x),
+            };
             direction.map(|part| part * along)
         })
     }
@@ -121,19 +142,22 @@ impl Pressed {
     fn says(&self) -> Said {
         let mut said = Said::default();
         let (peak, approach, area) = match self {
-            Self::Sphere(form) => (Some(form.max_pressure), form.approach, disc(form.contact_radius)),
+            Self::Sphere(form) => (Some(form.max_pressure), Some(form.approach), disc(form.contact_radius)),
             Self::Ellipsoid(form) => {
-                (Some(form.max_pressure), form.approach, PI * form.semi_axes[0] * form.semi_axes[1])
+                (Some(form.max_pressure), Some(form.approach), PI * form.semi_axes[0] * form.semi_axes[1])
             }
             // The largest pressure of a rounded punch lies near its edge, in no closed form; those of an edge and a tip are infinite.
-            Self::Rounded(form) => (None, form.approach, disc(form.contact_radius)),
-            Self::Flat(form) => (None, form.approach, disc(form.contact_radius)),
-            Self::Cone(form) => (None, form.approach, disc(form.contact_radius)),
+            Self::Rounded(form) => (None, Some(form.approach), disc(form.contact_radius)),
+            Self::Flat(form) => (None, Some(form.approach), disc(form.contact_radius)),
+            Self::Cone(form) => (None, Some(form.approach), disc(form.contact_radius)),
+            Self::Line(form) => (Some(form.hertz.max_pressure), form.approach, 2.0 * form.hertz.half_width),
         };
         if let Some(peak) = peak {
             said.say(Quantity::MaxPressure, peak);
         }
-        said.say(Quantity::Approach, approach);
+        if let Some(approach) = approach {
+            said.say(Quantity::Approach, approach);
+        }
         said.say(Quantity::ContactArea, area);
         said
     }
@@ -207,9 +231,9 @@ fn none_tangential(ends: &mut [Said]) {
 fn tangential(
     plan: &Plan,
     pressed: &[Pressed],
-    shear_modulus: f64,
+    moduli: &EffectiveModuli,
     ends: &mut [Said],
-) -> Option<(TangentialHistory, [f64; 2])> {
+) -> Option<(Slipped, [f64; 2])> {
     let case = &plan.case;
     let CellValues::Uniform(friction) = *case.friction.coefficient() else { return None };
     if case.friction.max_shear().is_some() {
@@ -220,10 +244,14 @@ fn tangential(
     let steady = stages[first..].iter().all(|stage| stage.normal.is_none());
     let changes =
         stages.iter().any(|stage| stage.friction.is_some() || stage.twist.is_some() || stage.stretches());
-    if !steady || changes || !without_poisson(plan) {
+    if !steady || changes {
         return None;
     }
-    let Some(Pressed::Sphere(hertz)) = pressed.get(first) else { return None };
+    let bound = match pressed.get(first)? {
+        Pressed::Sphere(hertz) if without_poisson(plan) => friction * hertz.force,
+        Pressed::Line(line) => friction * line.hertz.line_force,
+        _ => return None,
+    };
     let mut forces = Vec::new();
     for_every_load(stages, |number, load| forces.push((number, load.tangential)));
     let forces: Vec<(usize, [f64; 2])> = forces
@@ -239,20 +267,39 @@ fn tangential(
         return None;
     }
     let direction = largest.map(|part| part / size(&largest));
-    let mut history = TangentialHistory::new(hertz, friction, shear_modulus).ok()?;
+    let mut history = match pressed.get(first)? {
+        Pressed::Sphere(hertz) => {
+            Slipped::Sphere(TangentialHistory::new(hertz, friction, moduli.shear).ok()?)
+        }
+        Pressed::Line(line) => Slipped::Line(line.at_rest(plan, friction, moduli.normal, direction)?),
+        _ => return None,
+    };
     let mut said = ends.to_vec();
     for (number, force) in &forces {
         let across = force[0] * direction[1] - force[1] * direction[0];
         // Where all of the contact slides the shift is no matter of the force.
-        if across.abs() > 1e-12 * size(&largest) || size(force) >= friction * hertz.force * (1.0 - 1e-9) {
+        if across.abs() > 1e-12 * size(&largest) || size(force) >= bound * (1.0 - 1e-9) {
             return None;
         }
+        let along = force[0] * direction[0] + force[1] * direction[1];
+        let (shift, energy, stuck) = match &mut history {
+            Slipped::Sphere(history) => {
+                history.push(along).ok()?;
+                (Some(history.shift()), history.dissipated_energy(), disc(history.stick_radius()))
+            }
+            Slipped::Line(history) => {
+                history.push(along).ok()?;
+                let shift = plan.datum.map(|depth| history.shift(depth, at_datum(plan, direction)));
+                (shift, history.dissipated_energy(), 2.0 * history.stick_half_width())
+            }
+        };
         if *number >= first {
-            history.push(force[0] * direction[0] + force[1] * direction[1]).ok()?;
-            said[*number].say(Quantity::StickArea, disc(history.stick_radius()));
+            said[*number].say(Quantity::StickArea, stuck);
         }
-        said[*number].0[Quantity::Shift as usize] = Some(direction.map(|part| part * history.shift()));
-        said[*number].say(Quantity::DissipatedEnergy, history.dissipated_energy());
+        if let Some(shift) = shift {
+            said[*number].0[Quantity::Shift as usize] = Some(direction.map(|part| part * shift));
+        }
+        said[*number].say(Quantity::DissipatedEnergy, energy);
     }
     ends.copy_from_slice(&said);
     Some((history, direction))

@@ -11,6 +11,7 @@ mod estimate;
 mod expectation;
 mod level;
 mod limit;
+mod line_form;
 mod means;
 mod peak;
 mod quantities;

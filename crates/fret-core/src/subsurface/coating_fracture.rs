@@ -35,9 +35,10 @@ pub struct Released {
 }
 
 impl Film {
-    /// The outermost coating; `None` without a coating, or where the base below it is rigid.
+    /// The outermost coating; `None` without a coating, where the base below it is rigid, or where springs bond it: the energies below are
+    /// those of a bonded film.
     pub fn outermost(half_space: &HalfSpace) -> Option<Self> {
-        let coating = half_space.coatings().first()?;
+        let coating = half_space.coatings().first().filter(|coating| coating.interface().is_bonded())?;
         let below = match (half_space.coatings().get(1), half_space.base()) {
             (Some(next), _) => next.material(),
             (None, Base::Elastic(material)) => material,

@@ -9,6 +9,7 @@ use crate::report::overview::Overview;
 pub fn comparison(view: &Overview<'_>) -> Markup {
     let Some(form) = &view.normal_form else { return html! {} };
     let history = &view.results.table;
+    let is_line = view.results.fields.is_line();
     let mut rows = Vec::new();
     let mut add = |place: String, what: &str, kind: &str, computed: f64, exact: f64| {
         let numbers = [view.number(computed, kind), view.number(exact, kind), deviation(computed, exact)];
@@ -19,8 +20,11 @@ pub fn comparison(view: &Overview<'_>) -> Markup {
         if let Some(pressed) = form.under(history.at("normal_force", row)) {
             let name = || view.stage_name(stage);
             add(name(), "max pressure", "pressure", history.at("max_pressure", row), pressed.peak());
-            add(name(), "contact area", "length^2", history.at("contact_area", row), pressed.area());
-            add(name(), "approach", "length", history.at("approach", row), pressed.approach());
+            let area = if is_line { "contact width" } else { "contact area" };
+            add(name(), area, "length^2", history.at("contact_area", row), pressed.area());
+            if let Some(approach) = pressed.approach() {
+                add(name(), "approach", "length", history.at("approach", row), approach);
+            }
         }
     }
     if let Some(form) = &view.tangential_form {
@@ -54,7 +58,9 @@ fn words(view: &Overview<'_>, coupling: f64) -> Markup {
     let history = &view.results.table;
     let [dx, _] = view.results.fields.spacing();
     let last = history.rows().saturating_sub(1);
-    let cells = 2.0 * (history.at("contact_area", last) / std::f64::consts::PI).sqrt() / dx;
+    let area = history.at("contact_area", last);
+    let width = if view.results.fields.is_line() { area } else { 2.0 * (area / std::f64::consts::PI).sqrt() };
+    let cells = width / dx;
     html! {
         (format!("The contact is {cells:.0} cells wide at the end; its edge is known to about half a cell."))
         @if view.tangential_form.is_some() { " The closed form of partial slip neglects the slip across the force." }

@@ -24,7 +24,7 @@ pub fn loading(view: &Overview<'_>) -> Markup {
         let most = force.iter().copied().fold(0.0, f64::max);
         let curve = (1..=100).filter_map(|part| {
             let force = most * (f64::from(part) / 100.0).powi(3);
-            form.under(force).map(|pressed| [pressed.approach(), force])
+            form.under(force).and_then(|pressed| Some([pressed.approach()?, force]))
         });
         curves.insert(0, Curve::dashed(std::iter::once([0.0; 2]).chain(curve).collect(), "Hertz", 1));
         caption += " Dashed: Hertz, without friction.";

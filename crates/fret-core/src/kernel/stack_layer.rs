@@ -1,0 +1,283 @@
+//! One layer of a stack with the springs below it, and the step through both. No stacks, no bodies.
+
+use super::complex::Wavenumber;
+use super::compliance_below::{Compliance, Descent};
+use super::layer::{Carry, LayerMatrices, OPAQUE};
+use super::layer_constants::LayerConstants;
+use super::matrix::Symmetric;
+use crate::model::{Coating, Interface};
+
+/// A frictionless interface is a shear spring with a compliance of so many times the layer's thickness over its shear modulus: exact to
+/// the last bit for `k h` down to 1e-20 and more, since every number made of it is a sum or a ratio of positive terms.
+const FREE: f64 = (1_u128 << 127) as f64;
+
+/// Springs between a layer and what lies below it: jump of displacement per traction [length/pressure].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Springs {
+    normal: f64,
+    shear: f64,
+}
+
+impl Springs {
+    /// Bonded.
+    pub(crate) const NONE: Self = Self { normal: 0.0, shear: 0.0 };
+
+    fn of(interface: &Interface, free: f64) -> Self {
+        Self {
+            normal: interface.normal_compliance().min(free),
+            shear: interface.shear_compliance().min(free),
+        }
+    }
+
+    fn are_none(self) -> bool {
+        self == Self::NONE
+    }
+
+    /// Compliance above the springs, times k, from the one below: each spring adds its own, `k` times jump per traction.
+    fn over<T: Wavenumber>(self, k: T, below: Compliance<T>) -> Compliance<T> {
+        if self.are_none() {
+            return below;
+        }
+        let (normal, shear) = (k * self.normal, k * self.shear);
+        let Symmetric { rr, zz, rz } = below.in_plane;
+        Compliance {
+            in_plane: Symmetric { rr: rr + shear, zz: zz + normal, rz },
+            determinant: below.determinant + rr * normal + zz * shear + normal * shear,
+            tt: below.tt + shear,
+        }
+    }
+}
+
+/// A layer and the springs below it.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct StackLayer {
+    pub(super) constants: LayerConstants,
+    pub(super) thickness: f64,
+    springs: Springs,
+}
+
+impl StackLayer {
+    /// A bonded layer.
+    pub(crate) fn bonded(constants: LayerConstants, thickness: f64) -> Self {
+        Self { constants, thickness, springs: Springs::NONE }
+    }
+
+    /// That of a coating.
+    pub(crate) fn of(coating: &Coating) -> Self {
+        let constants = LayerConstants::new(coating.material());
+        let thickness = coating.thickness();
+        let free = FREE * (thickness / constants.shear_modulus());
+        Self { constants, thickness, springs: Springs::of(coating.interface(), free) }
+    }
+
+    /// The part of the layer above a cut, and the part below it with the springs.
+    pub(crate) fn cut(self, within: f64) -> [Self; 2] {
+        let below = Self { thickness: (self.thickness - within).max(0.0), ..self };
+        [Self::bonded(self.constants, within), below]
+    }
+
+    /// Whether there is nothing of it, springs included.
+    pub(crate) fn is_empty(&self) -> bool {
+        self.thickness == 0.0 && self.springs.are_none()
+    }
+
+    /// Whether a wave so short is not felt through the layer, to the last bit.
+    pub(crate) fn is_opaque<T: Wavenumber>(&self, k: T) -> bool {
+        (k * self.thickness).real_part() > OPAQUE
+    }
+
+    /// Compliance at the top of the layer from the one of what lies below its springs.
+    pub(crate) fn lift<T: Wavenumber>(
+        &self,
+        k: T,
+        below: Compliance<T>,
+        carry: &mut Carry<T>,
+    ) -> Compliance<T> {
+        LayerMatrices::new(&self.constants, k * self.thickness).lift(&self.springs.over(k, below), carry)
+    }
+
+    /// The same, and the traction below the layer per traction at its top.
+    pub(crate) fn lift_and_descend<T: Wavenumber>(
+        &self,
+        k: T,
+        below: Compliance<T>,
+        carry: &mut Carry<T>,
+    ) -> (Compliance<T>, Descent<T>) {
+        let matrices = LayerMatrices::new(&self.constants, k * self.thickness);
+        let below = self.springs.over(k, below);
+        (matrices.lift(&below, carry), matrices.descend(&below))
+    }
+
+    /// The longest length that springs make with a body of this shear modulus \[length\]: modulus times jump per traction. A frictionless
+    /// interface makes none in what pressure does.
+    pub(crate) fn length_of_springs(&self, modulus: f64) -> f64 {
+        let free = FREE * (self.thickness / self.constants.shear_modulus());
+        let of = |compliance: f64| if compliance < free { modulus * compliance } else { 0.0 };
+        of(self.springs.normal) + of(self.springs.shear)
+    }
+}
+
+/// The longest length of a stack \[length\]: total thickness of its layers times the largest ratio of shear moduli (a stiff film spreads
+/// shear so far; plates bend over less), and what springs make with the stiffest material. Zero without layers.
+pub(crate) fn longest_length(layers: &[StackLayer], base: Option<&LayerConstants>) -> f64 {
+    let moduli = || {
+        let layers = layers.iter().map(|layer| layer.constants.shear_modulus());
+        layers.chain(base.map(LayerConstants::shear_modulus))
+    };
+    let stiffest = moduli().fold(0.0, f64::max);
+    let softest = moduli().fold(f64::INFINITY, f64::min);
+    let thickness: f64 = layers.iter().map(|layer| layer.thickness).sum();
+    let springs: f64 = layers.iter().map(|layer| layer.length_of_springs(stiffest)).sum();
+    thickness * (stiffest / softest) + springs
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::frequency_response::{FrequencyResponse, Response};
+    use super::super::samples::{Random, Springs as Given, golden, on_springs, stack};
+    use crate::model::{HalfSpace, Interface};
+    use serde::Deserialize;
+
+    #[derive(Deserialize)]
+    struct Row {
+        case: String,
+        layers: Vec<(f64, f64, f64)>,
+        interfaces: Vec<Given>,
+        substrate: Option<(f64, f64)>,
+        k: f64,
+        zz: String,
+        rr: String,
+        rz: String,
+        tt: String,
+    }
+
+    /// Largest relative difference; of rz relative to sqrt(rr zz), for it changes sign.
+    fn difference(found: Response, exact: Response) -> f64 {
+        let errors = [
+            (found.zz - exact.zz) / exact.zz,
+            (found.rr - exact.rr) / exact.rr,
+            (found.rz - exact.rz) / (exact.rr * exact.zz).sqrt(),
+            (found.tt - exact.tt) / exact.tt,
+        ];
+        errors.iter().fold(0.0, |worst, error| error.abs().max(worst))
+    }
+
+    fn response(half_space: &HalfSpace, k: f64) -> Response {
+        FrequencyResponse::new(half_space).times_k(k)
+    }
+
+    #[test]
+    fn golden_rows_of_springs_are_met() {
+        let rows = golden::<Row>("frequency_response_interfaces.json");
+        assert_eq!(rows.len(), 120);
+        for row in rows {
+            let half_space = on_springs(&stack(&row.layers, row.substrate), &row.interfaces);
+            let found = FrequencyResponse::new(&half_space).at(row.k);
+            let [zz, rr, rz, tt] = [&row.zz, &row.rr, &row.rz, &row.tt].map(|text| text.parse().unwrap());
+            let error = difference(found, Response { zz, rr, rz, tt });
+            assert!(error < 1e-14, "{} k = {:e}: {error:.1e}", row.case, row.k); // a few roundings, as of bonded layers
+        }
+    }
+
+    #[test]
+    fn stiff_springs_bond_and_soft_shear_springs_let_slide() {
+        let mut random = Random::seeded(31);
+        for case in 0..200 {
+            let bonded = random.half_space(3, 1e3, case % 2 == 0);
+            let count = bonded.coatings().len();
+            let k = random.log_uniform(1e-3, 10.0);
+            let stiff = on_springs(&bonded, &vec![Some((Some(1e40), Some(1e40))); count]);
+            assert_eq!(response(&stiff, k), response(&bonded, k)); // 1e-40 is nothing beside rounding
+            let free = on_springs(&bonded, &vec![Some((None, Some(0.0))); count]);
+            let soft = on_springs(&bonded, &vec![Some((None, Some(1e-25))); count]);
+            // what is left of a spring so soft is 1e-25 over the layers' own stiffness, 1e-6 k h at the least
+            let error = difference(response(&soft, k), response(&free, k));
+            assert!(error < 1e-14, "{bonded:?} k = {k}: {error:.1e}");
+        }
+    }
+
+    #[test]
+    fn a_layer_that_slides_on_a_rigid_base_is_the_closed_form() {
+        // k C_zz = 2 (1 - nu^2)/E sinh^2 x/(x + sinh x cosh x), x = k h (Johnson 1985, Contact Mechanics, 5.8);
+        // across: coth x over the shear modulus, a sheet that nothing holds
+        for nu in [0.0, 0.3, 0.5] {
+            let layer = on_springs(&stack(&[(2.6, nu, 1.0)], None), &[Some((None, Some(0.0)))]);
+            for x in [1e-5, 0.01, 0.3, 1.0, 4.0, 30.0] {
+                let found = response(&layer, x);
+                let (s, c) = (libm::sinh(x), libm::cosh(x));
+                let exact = 2.0 * (1.0 - nu * nu) / 2.6 * s * s / (x + s * c);
+                assert!((found.zz - exact).abs() < 1e-14 * exact, "nu {nu}, x {x}: {} {exact}", found.zz);
+                let across = 2.0 * (1.0 + nu) / 2.6 * c / s;
+                assert!((found.tt - across).abs() < 1e-14 * across, "nu {nu}, x {x}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_stiff_thin_plate_on_springs_bends_as_one_on_a_winkler_foundation() {
+        // 1/C = kn + D k^4, D = E h^3/(12 (1 - nu^2)); next order (k h)^2. A rigid one is the springs alone.
+        let (young, nu, h, spring) = (1e6, 0.3, 0.01, 2.0);
+        let plate = on_springs(&stack(&[(young, nu, h)], None), &[Some((Some(spring), None))]);
+        let bending = young * h * h * h / (12.0 * (1.0 - nu * nu));
+        for k in [0.1, 0.5, 1.0, 2.0, 4.0] {
+            let found = FrequencyResponse::new(&plate).at(k);
+            // bonded against shear: the plate's lower face does not stretch, which makes it four times stiffer
+            let expected = 1.0 / (spring + 4.0 * bending * k * k * k * k);
+            assert!((found.zz / expected - 1.0).abs() < 3e-3, "k {k}: {} {expected}", found.zz);
+        }
+        let free = on_springs(&stack(&[(young, nu, h)], None), &[Some((Some(spring), Some(0.0)))]);
+        for k in [0.1, 0.5, 1.0, 2.0, 4.0] {
+            let found = FrequencyResponse::new(&free).at(k);
+            let expected = 1.0 / (spring + bending * k * k * k * k);
+            assert!((found.zz / expected - 1.0).abs() < 3e-3, "k {k}: {} {expected}", found.zz);
+        }
+    }
+
+    #[test]
+    fn compliance_on_springs_is_positive_definite_and_more_than_bonded() {
+        let mut random = Random::seeded(32);
+        for case in 0..1000 {
+            let bonded = random.half_space(5, 1e4, case % 2 == 0);
+            let springs = random.on_springs(&bonded, 1e6);
+            let k = random.log_uniform(1e-6, 1e2);
+            let (softer, stiffer) = (response(&springs, k), response(&bonded, k));
+            let Response { zz, rr, rz, tt } = softer;
+            assert!(zz > 0.0 && rr > 0.0 && tt > 0.0 && rr * zz > rz * rz, "{springs:?} k = {k}");
+            // one rounding, where the springs are not felt
+            assert!(zz >= stiffer.zz * (1.0 - 1e-14) && rr >= stiffer.rr * (1.0 - 1e-14));
+            assert!(tt >= stiffer.tt * (1.0 - 1e-14));
+        }
+    }
+
+    #[test]
+    fn scaling_lengths_and_moduli_by_powers_of_two_changes_no_bit() {
+        let (length, modulus) = (2.0_f64.powi(-20), 2.0_f64.powi(37));
+        for springs in [(Some(3.0), Some(0.7)), (None, Some(0.0)), (Some(0.1), None)] {
+            let scaled = |stiffness: f64| stiffness * (modulus / length);
+            let one = on_springs(&stack(&[(4.0, 0.2, 0.3)], Some((1.0, 0.3))), &[Some(springs)]);
+            let other = on_springs(
+                &stack(&[(4.0 * modulus, 0.2, 0.3 * length)], Some((modulus, 0.3))),
+                &[Some((springs.0.map(scaled), springs.1.map(scaled)))],
+            );
+            for k in [1e-4, 0.3, 2.0, 70.0] {
+                assert_eq!(response(&one, k), response(&other, k / length).over(1.0 / modulus));
+            }
+        }
+    }
+
+    #[test]
+    fn layers_on_springs_are_not_joined_and_bonded_ones_are() {
+        let equal = stack(&[(1.0, 0.3, 0.2), (1.0, 0.3, 0.3)], Some((1.0, 0.3)));
+        assert!(equal.single_material().is_some() && equal.simplified().coatings().is_empty());
+        let spring = Some((Some(1.0), None));
+        let lower = on_springs(&equal, &[None, spring]);
+        assert!(lower.single_material().is_none());
+        let joined = lower.simplified();
+        assert_eq!(joined.coatings().len(), 1);
+        assert_eq!(joined.coatings()[0].thickness(), 0.5);
+        assert_eq!(joined.coatings()[0].interface(), &Interface::springs(Some(1.0), None).unwrap());
+        let upper = on_springs(&equal, &[spring, None]);
+        assert_eq!(upper.simplified().coatings().len(), 1);
+        assert_eq!(upper.simplified().coatings()[0].thickness(), 0.2);
+    }
+}
