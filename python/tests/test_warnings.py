@@ -70,3 +70,52 @@ def test_totals_of_wear_count_every_cycle(fretting_case: dict[str, Any]) -> None
     assert steps["dissipated_energy"][-1] == pytest.approx(total, rel=1e-12)
     assert steps["worn_volume"][-1] == pytest.approx(1e-13 * total, rel=1e-12)
     np.testing.assert_array_equal(steps["worn_volume"][cycles["last_increment"]], cycles["worn_volume"])
+
+
+def test_a_film_pressed_by_a_good_part_of_its_thickness_is_told_of() -> None:
+    thickness = 0.1
+    for fraction, told in [(0.3, True), (0.01, False)]:
+        history = _quiet(
+            {
+                "grid": {"cells": [48, 48], "size": "auto"},
+                "upper": {"rigid": True},
+                "lower": {"coatings": [{"thickness": thickness, "young": 1.0, "poisson": 0.3}], "base": "rigid"},
+                "profile": {"sphere": {"radius": 100.0}},
+                "load": [{"approach": fraction * thickness, "increments": 1}],
+            }
+        )
+        facts = [fact for fact in history.warnings if fact["name"] == "approach_over_layer_thickness"]
+        assert [fact["value"] for fact in facts] == [pytest.approx(fraction, rel=1e-12)] * told
+
+
+def test_a_scar_as_deep_as_a_good_part_of_the_coating_is_told_of() -> None:
+    def worn(wear: float) -> fretting.History:
+        body = {"young": 1.0, "poisson": 0.0}
+        return _quiet(
+            {
+                "grid": {"cells": [32, 32], "size": [3.2, 3.2]},
+                "upper": {"substrate": body},
+                "lower": {"coatings": [{"thickness": 4e-3, **body}], "substrate": {"young": 1.1, "poisson": 0.0}},
+                "profile": {"sphere": {"radius": 100.0}},
+                "friction": {"coefficient": 0.3},
+                "wear": {"coefficient": wear},
+                "load": [
+                    {"normal_force": 4 * 0.5 / 300, "increments": 1},
+                    {"shift": [0.05, 0.0], "increments": 4, "cycles": 5},
+                ],
+                "output": {"fields": ["worn_depth"]},
+            }
+        )
+
+    slight, deep = worn(0.1), worn(1.0)
+    assert "wear_depth_over_coating_thickness" not in _names(slight.warnings)
+    fact = next(fact for fact in deep.warnings if fact["name"] == "wear_depth_over_coating_thickness")
+    # The deepest place of the kept field, by the thickness.
+    assert fact["value"] == pytest.approx(float(deep.field("worn_depth").max()) / 4e-3, rel=1e-12)
+    assert fact["value"] > fact["bound"]
+
+
+def _quiet(case: dict[str, Any]) -> fretting.History:
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", fretting.FrettingWarning)
+        return fretting.run(case)
