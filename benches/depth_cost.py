@@ -1,6 +1,6 @@
 """Processor time of a depth of subsurface stress over that of eight convolutions by scipy, both in one run.
 
-    python benches/depth_cost.py $(cargo bench -p fret-core --bench subsurface --no-run 2>&1 | grep -o '/[^)]*subsurface-[^)]*')
+    python benches/depth_cost.py $(cargo bench -p fretting --bench subsurface --no-run 2>&1 | grep -o '/[^)]*subsurface-[^)]*')
 
 One thread each; the two take turns, and the median of the ratios is told, so that other work on the machine weighs on both.
 """

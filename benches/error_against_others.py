@@ -2,7 +2,7 @@
 frequency response of most of the literature, and tamaas and aspher where they can do the scene.
 
     pip install tamaas numpy matplotlib                          # aspher: see README.md
-    cargo bench -p fret-core --bench error_time --no-run         # prints the path of the binary
+    cargo bench -p fretting --bench error_time --no-run         # prints the path of the binary
     python benches/error_against_others.py PATH_OF_THE_BINARY error_against_others.png
 
 Side four contact radii, solved to residuals at which the grid alone makes the error. Time of the first two includes the

@@ -1,7 +1,7 @@
 """CPU seconds of a Hertz contact, side four contact radii, against other open solvers, in one run on one thread.
 
     pip install tamaas numpy                                     # aspher: see README.md
-    cargo bench -p fret-core --bench normal_contact --no-run     # prints the path of the binary
+    cargo bench -p fretting --bench normal_contact --no-run     # prints the path of the binary
     python benches/normal_against_others.py PATH_OF_THE_BINARY
 
 The gap is given to all. Ours is the benchmark binary (`time`): influence coefficients, coarse grids and the final check on the

@@ -28,6 +28,8 @@ x = np.linspace(-0.5, 0.5, 48)[:, None] + np.zeros((1, 48))
 np.save(HERE / "friction/stripe.npy", (0.35 + 0.25 * np.tanh((np.abs(x) - 0.2) / 0.03)).astype(np.float32))
 # A film worn through in a disc: bare metal 0.8, film 0.1.
 worn = np.where(np.hypot(x, x.T) < 0.18, 0.8, 0.1)
-np.savetxt(HERE / "friction/worn_disc.txt", worn, fmt="%.1f", header="coefficient of friction, 48 x 48; a line is one x")
+np.savetxt(
+    HERE / "friction/worn_disc.txt", worn, fmt="%.1f", header="coefficient of friction, 48 x 48; a line is one x"
+)
 # No friction on the half x < 0.
 np.savetxt(HERE / "friction/half.txt", np.where(x < 0, 0.0, 0.5), fmt="%.1f", header="coefficient of friction, 48 x 48")

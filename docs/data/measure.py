@@ -2,8 +2,9 @@
 
     python docs/data/measure.py [NAME ...]
 
-writes ``docs/data/NAME.json`` for each name (all of them when none is given), with the date, the commit, the version of the
-program and the machine. `render.py` then writes the tables of the pages from these files; a test fails when they differ.
+writes ``docs/data/NAME.json`` for each name (all of them when none is given), with the date, the commit, the version
+of the program and the machine. `render.py` then writes the tables of the pages from these files; a test fails when
+they differ.
 """
 
 import datetime
@@ -129,7 +130,7 @@ def _coated_spheres() -> dict[str, float]:
 def _toml(case: dict[str, Any]) -> str:
     """Return a case as TOML with inline tables."""
 
-    def value(node: Any) -> str:  # noqa: ANN401
+    def value(node: Any) -> str:
         if isinstance(node, dict):
             return "{ " + ", ".join(f"{key} = {value(item)}" for key, item in node.items()) + " }"
         if isinstance(node, list):
@@ -188,7 +189,10 @@ def _torsion() -> dict[str, float]:
     full = 3 * np.pi * MU * FORCE / 16
     history = _similar(96, [{"twist_moment": 0.9 * full, "increments": 9}])
     sphere = analytic.hertz(radius=RADIUS, force=FORCE, modulus=MODULUS)
-    exact = [analytic.torsion(sphere, friction_coefficient=MU, shear_modulus=0.25, moment=moment).twist for moment in history.increments["twist_moment"][1:]]
+    exact = [
+        analytic.torsion(sphere, friction_coefficient=MU, shear_modulus=0.25, moment=moment).twist
+        for moment in history.increments["twist_moment"][1:]
+    ]
     found = history.increments["twist"][1:]
     return {"twist": float(np.max(np.abs(found - exact)) / max(exact))}
 
@@ -258,7 +262,9 @@ def spence() -> dict[str, Any]:
 
 def _sliding() -> dict[str, float]:
     """Find the tangential force at which the last stick cell of a coated contact vanishes, over mu P."""
-    hertz = analytic.hertz(radius=10e-3, force=12.0, modulus=analytic.effective_moduli(lower={"young": 210e9, "poisson": 0.3}).normal)
+    hertz = analytic.hertz(
+        radius=10e-3, force=12.0, modulus=analytic.effective_moduli(lower={"young": 210e9, "poisson": 0.3}).normal
+    )
     answers = {}
     for ratio in (0.5, 2.0):
         coating = {"thickness": hertz.contact_radius, "young": ratio * 210e9, "poisson": 0.3}

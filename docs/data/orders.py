@@ -99,7 +99,7 @@ def orders() -> dict[str, Any]:
     rows = []
     for name, (case, column) in HISTORIES.items():
 
-        def value(count: int, integration: str) -> tuple[float, int]:
+        def value(count: int, integration: str, case: Any = case, column: str = column) -> tuple[float, int]:
             question = case(count)
             history = fretting.run({**question, "solver": {"integration": integration}})
             steps = history.increments

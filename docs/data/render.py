@@ -2,9 +2,9 @@
 
     python docs/data/render.py
 
-A page holds places such as ``<!-- table cost -->...<!-- end -->``: what stands between is written by this script, tables and numbers from
-``docs/data/*.json`` and from pages that other commands write, figures with the caption that their script carries. A test fails when a page
-differs from what this script would write.
+A page holds places such as ``<!-- table cost -->...<!-- end -->``: what stands between is written by this script,
+tables and numbers from ``docs/data/*.json`` and from pages that other commands write, figures with the caption that
+their script carries. A test fails when a page differs from what this script would write.
 """
 
 import ast
@@ -22,7 +22,7 @@ PLACE = re.compile(r"<!-- (figure|table|number) ([\w-]+) -->(.*?)<!-- end -->", 
 PAGES = sorted([ROOT / "README.md", *DOCS.rglob("*.md")])
 
 
-def data(name: str) -> Any:  # noqa: ANN401
+def data(name: str) -> Any:
     """Return a file of measurements."""
     return json.loads((HERE / f"{name}.json").read_text(encoding="utf-8"))
 
@@ -133,7 +133,9 @@ def orders() -> str:
         errors = [", ".join(f"{error:.1e}" for error in rule["errors"]) for rule in rules]
         at = of["counts"].index(32)
         counts = ", ".join(str(rule["convolutions"][at]) for rule in rules)
-        rows.append([row["history"], row["quantity"].replace("_", " "), *errors, f"{row['second_order']['order']:.1f}", counts])
+        rows.append(
+            [row["history"], row["quantity"].replace("_", " "), *errors, f"{row['second_order']['order']:.1f}", counts]
+        )
     counts = ", ".join(str(count) for count in of["counts"])
     head = ["cycle", "quantity", f"end point, {counts}", "second order", "order shown", "applications at 32"]
     return _table(head, rows, of)
@@ -206,7 +208,13 @@ def _slowest() -> str:
     return found[1] if found else "1"
 
 
-TABLES: dict[str, Callable[[], str]] = {"verification": verification, "spence": spence, "orders": orders, "cost": cost, "others": others}
+TABLES: dict[str, Callable[[], str]] = {
+    "verification": verification,
+    "spence": spence,
+    "orders": orders,
+    "cost": cost,
+    "others": others,
+}
 NUMBERS: dict[str, Callable[[], str]] = {
     "random_cases": _random(1),
     "random_unsolved": _random(4),

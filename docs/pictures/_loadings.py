@@ -45,7 +45,9 @@ def indentation(fraction: float = 1.0, **more: Any) -> dict[str, Any]:
 
 
 class Springs:
-    """The sphere as a row of independent springs (Popov & Hess): exact for these bodies and any history along one line."""
+    """The sphere as a row of independent springs (Popov & Hess): exact for these bodies and any history along one
+    line.
+    """
 
     def __init__(self, count: int = 4000, widest: float = 1.2) -> None:
         """Set the springs at rest."""
@@ -58,7 +60,10 @@ class Springs:
         """Go to a normal and a tangential force, and return the relative displacement."""
         approach = (0.75 * normal / (MODULUS * RADIUS**0.5)) ** (2 / 3)
         bound = MU * MODULUS * np.maximum(approach - self.x**2 / RADIUS, 0) / (4 * SHEAR)
-        force = lambda move: 2 * 4 * SHEAR * self.step * np.clip(self.pulled + move, -bound, bound).sum()
+
+        def force(move: float) -> float:
+            return float(2 * 4 * SHEAR * self.step * np.clip(self.pulled + move, -bound, bound).sum())
+
         low, high = -20 * ONSET, 20 * ONSET
         for _ in range(100):
             middle = (low + high) / 2

@@ -2,9 +2,9 @@
 
     python docs/pictures/draw.py [NAME ...]
 
-runs the scripts ``docs/pictures/NAME.py`` (all of them without a name; ``--stale`` those that have changed since they were run) and
-notes in ``drawn.json`` the hash of what drew each picture, the date, the version and the commit. A test compares the hashes:
-no picture is older than its script. Needs fretting, numpy, scipy and matplotlib; some minutes.
+runs the scripts ``docs/pictures/NAME.py`` (all of them without a name; ``--stale`` those that have changed since they
+were run) and notes in ``drawn.json`` the hash of what drew each picture, the date, the version and the commit. A test
+compares the hashes: no picture is older than its script. Needs fretting, numpy, scipy and matplotlib; some minutes.
 """
 
 import datetime
@@ -31,7 +31,10 @@ def picture(name: str) -> Path:
 
 
 def fingerprint(script: Path) -> str:
-    """Return the hash of a script, of what it imports from this folder, of the cases and data it names, and of the style."""
+    """Return the hash of a script, of what it imports from this folder, of the cases and data it names, of the style.
+
+    Of scripts the words count, not how they are laid out.
+    """
     seen = {HERE / "style.mplstyle"}
     todo = [script]
     while todo:
@@ -44,7 +47,8 @@ def fingerprint(script: Path) -> str:
         seen |= {p for n in re.findall(r'"([\w/]+\.(?:toml|json))"', text) for p in _named(n)}
     digest = hashlib.sha256()
     for path in sorted(seen):
-        digest.update(path.read_bytes())
+        text = path.read_text(encoding="utf-8")
+        digest.update((re.sub(r"[\s,()]+", "", text) if path.suffix == ".py" else text).encode())
     return digest.hexdigest()[:16]
 
 
@@ -71,7 +75,11 @@ def draw(name: str) -> None:
     script = scripts()[name]
     subprocess.run([sys.executable, script], check=True, cwd=HERE, env={**os.environ, "PYTHONWARNINGS": "ignore"})
     commit = subprocess.run(
-        ["git", "log", "-1", "--format=%h", "--", "crates"], capture_output=True, text=True, check=False, cwd=HERE
+        ["git", "log", "-1", "--format=%h", "--", "crates"],
+        capture_output=True,
+        text=True,
+        check=False,
+        cwd=HERE.parents[1],
     )
     record = json.loads(RECORD.read_text(encoding="utf-8")) if RECORD.exists() else {}
     record[name] = {

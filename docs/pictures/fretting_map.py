@@ -1,8 +1,8 @@
 """Running-condition fretting map of three coatings.
 
-Rigid ball, R = 10 mm, on steel (210 GPa, nu = 0.3), coating 50 um thick with E_c/E_s = 1/2, 1 and 2, mu = 0.3; sliding condition of the first
-cycle over displacement amplitude and normal force, 14 x 14 points per map, 32 x 32 cells, 16 increments per cycle. Dashed: onset of gross
-slip of the uncoated contact (Cattaneo, Mindlin).
+Rigid ball, R = 10 mm, on steel (210 GPa, nu = 0.3), coating 50 um thick with E_c/E_s = 1/2, 1 and 2, mu = 0.3; sliding
+condition of the first cycle over displacement amplitude and normal force, 14 x 14 points per map, 32 x 32 cells, 16
+increments per cycle. Dashed: onset of gross slip of the uncoated contact (Cattaneo, Mindlin).
 """
 
 import concurrent.futures

@@ -1,8 +1,9 @@
 """Friction that varies over the surface.
 
-Rigid sphere, R = 100, on a half-space, nu = 0.3, friction 0.5 and 0.05 by quarters, prescribed approach, then displaced along x and y (coupled),
-20 x 20 cells. (a) Coefficient of friction. (b) Shear traction over the maximum contact pressure, arrows: direction. (c) Difference from
-a dense direct solution without FFT (tests/golden/two_patches.py), logarithmic; the solver tolerance is 1e-10.
+Rigid sphere, R = 100, on a half-space, nu = 0.3, friction 0.5 and 0.05 by quarters, prescribed approach, then
+displaced along x and y (coupled), 20 x 20 cells. (a) Coefficient of friction. (b) Shear traction over the maximum
+contact pressure, arrows: direction. (c) Difference from a dense direct solution without FFT
+(tests/golden/two_patches.py), logarithmic; the solver tolerance is 1e-10.
 """
 
 import json
@@ -35,12 +36,12 @@ last = shown["steps"][-1]
 expected = [np.array(last[key]).reshape(n, n) for key in ("shear_x", "shear_y")]
 largest = max(last["pressure"])
 drawn, panels = figure(3, height=60)
+off = np.maximum(np.hypot(qx - expected[0], qy - expected[1]) / largest, 1e-14)
 fields = [
     (friction, "$\\mu$", {"cmap": "cividis"}),
     (np.where(p > 0, np.hypot(qx, qy) / largest, np.nan), "$|q| / p_{max}$", {"cmap": "viridis"}),
-    (np.where(p > 0, np.maximum(np.hypot(qx - expected[0], qy - expected[1]) / largest, 1e-14), np.nan), "difference / $p_{max}$",
-     {"cmap": "magma", "norm": LogNorm(1e-14, 1e-9)}),
-]  # fmt: skip
+    (np.where(p > 0, off, np.nan), "difference / $p_{max}$", {"cmap": "magma", "norm": LogNorm(1e-14, 1e-9)}),
+]
 for axes, (values, label, more) in zip(panels, fields, strict=True):
     image = map_of(axes, history, values, 1.0, **more)
     drawn.colorbar(image, ax=axes, label=label, location="bottom", shrink=0.85)

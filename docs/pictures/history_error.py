@@ -1,8 +1,8 @@
 """Error of the history while a contact grows.
 
-Rigid sphere indenting a half-space with friction, nu = 0.3 (Spence's problem), 64 x 64 cells, linear and cubic ramps of the force. Errors against 640
-linear increments on the same grid: (a) shear traction, L2; (b) dissipated energy; (c) stick radius over contact radius minus Spence's
-value, grey: half a cell. Numbers: docs/data/spence.json.
+Rigid sphere indenting a half-space with friction, nu = 0.3 (Spence's problem), 64 x 64 cells, linear and cubic ramps
+of the force. Errors against 640 linear increments on the same grid: (a) shear traction, L2; (b) dissipated energy; (c)
+stick radius over contact radius minus Spence's value, grey: half a cell. Numbers: docs/data/spence.json.
 """
 
 import json

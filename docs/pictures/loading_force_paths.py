@@ -1,8 +1,8 @@
 """Normal and tangential force changed together.
 
-Identical bodies with nu = 0, mu = 0.3, 48 x 48 cells; proportional paths after Mindlin and Deresiewicz (1953), 8 increments each. (a) Lines:
-exact (method of dimensionality reduction, 4000 springs), dots: computed. (b) Error of the displacement relative to its maximum; below 1e-5 not
-shown.
+Identical bodies with nu = 0, mu = 0.3, 48 x 48 cells; proportional paths after Mindlin and Deresiewicz (1953), 8
+increments each. (a) Lines: exact (method of dimensionality reduction, 4000 springs), dots: computed. (b) Error of the
+displacement relative to its maximum; below 1e-5 not shown.
 """
 
 from _figures import figure, letters, save

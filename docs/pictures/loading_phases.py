@@ -1,7 +1,8 @@
 """Normal and tangential cycles with a phase between them.
 
-Identical bodies with nu = 0, mu = 0.3, 48 x 48 cells, P = 0.7 + 0.2 sin(wt + phase), Q = 0.4 mu P_max sin(wt), 24 increments per cycle, second
-cycle. (a) Lines: exact (method of dimensionality reduction), dots: computed. (b) Error of the displacement relative to its maximum.
+Identical bodies with nu = 0, mu = 0.3, 48 x 48 cells, P = 0.7 + 0.2 sin(wt + phase), Q = 0.4 mu P_max sin(wt), 24
+increments per cycle, second cycle. (a) Lines: exact (method of dimensionality reduction), dots: computed. (b) Error of
+the displacement relative to its maximum.
 """
 
 from _figures import figure, letters, save

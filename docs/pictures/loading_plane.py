@@ -1,9 +1,9 @@
 """Plane contact of a wavy surface, loaded and unloaded.
 
-Periodic contact of identical bodies, nu = 0.3, mu = 0.3, amplitude of the wave 0.01 of the wavelength, mean pressure 0.4 of full contact,
-tangential load 0.7 mu P and back to -0.14 mu P. (a) Shear traction after unloading, line: superposition of Jaeger and Ciavarella, dots: 256
-cells per wavelength. (b) RMS error of the shear traction relative to the RMS of mu p; it scatters, since the borders of stick
-fall differently relative to cell centres.
+Periodic contact of identical bodies, nu = 0.3, mu = 0.3, amplitude of the wave 0.01 of the wavelength, mean pressure
+0.4 of full contact, tangential load 0.7 mu P and back to -0.14 mu P. (a) Shear traction after unloading, line:
+superposition of Jaeger and Ciavarella, dots: 256 cells per wavelength. (b) RMS error of the shear traction relative to
+the RMS of mu p; it scatters, since the borders of stick fall differently relative to cell centres.
 """
 
 import numpy as np
@@ -37,9 +37,11 @@ for cells in counts:
         }
     )
 
-    def at(pressure: float) -> np.ndarray:
+    def at(pressure: float, x: np.ndarray = history.x) -> np.ndarray:
         """Pressure of Westergaard's contact at a mean pressure."""
-        return analytic.westergaard(amplitude=amplitude, wavelength=1.0, mean_pressure=pressure, modulus=modulus).pressure(history.x)
+        return analytic.westergaard(
+            amplitude=amplitude, wavelength=1.0, mean_pressure=pressure, modulus=modulus
+        ).pressure(x)
 
     whole = at(mean)
     exact = MU * (whole - at(mean - load / MU)) - 2 * MU * (whole - at(mean - 1.2 * load / (2 * MU)))

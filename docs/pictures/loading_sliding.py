@@ -1,8 +1,9 @@
 """From partial slip to gross slip.
 
-Identical bodies with nu = 0, mu = 0.3, prescribed displacement amplitude, 48 x 48 cells, 60 increments per cycle, second cycle. (a) Loops for
-amplitudes of 0.6, 1.1 and 2 times the onset of gross slip. (b) Energy ratio A = W_d/(4 Q* delta*); line: closed form (Mindlin and Deresiewicz,
-with rigid sliding beyond the onset), dots: computed, dotted: criterion A = 0.2.
+Identical bodies with nu = 0, mu = 0.3, prescribed displacement amplitude, 48 x 48 cells, 60 increments per cycle,
+second cycle. (a) Loops for amplitudes of 0.6, 1.1 and 2 times the onset of gross slip. (b) Energy ratio A = W_d/(4 Q*
+delta*); line: closed form (Mindlin and Deresiewicz, with rigid sliding beyond the onset), dots: computed, dotted:
+criterion A = 0.2.
 """
 
 import numpy as np

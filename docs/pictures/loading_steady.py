@@ -1,9 +1,9 @@
 """Approach to the steady state of a coupled contact.
 
-Rigid sphere on a coated half-space, h = a, nu = 0.3, and identical bodies; mu = 0.3, amplitude 0.7 mu P, 32 x 32 cells, 12 increments per cycle. (a)
-First ten loops of the coated contacts. (b) Cycle-to-cycle change (largest relative change of tractions and motions over a cycle). Elastically
-similar bodies repeat from the second cycle on (below 1e-9, not shown); coupled ones approach the steady state slowly and do not reach 1e-5
-in 30 cycles.
+Rigid sphere on a coated half-space, h = a, nu = 0.3, and identical bodies; mu = 0.3, amplitude 0.7 mu P, 32 x 32
+cells, 12 increments per cycle. (a) First ten loops of the coated contacts. (b) Cycle-to-cycle change (largest relative
+change of tractions and motions over a cycle). Elastically similar bodies repeat from the second cycle on (below 1e-9,
+not shown); coupled ones approach the steady state slowly and do not reach 1e-5 in 30 cycles.
 """
 
 import numpy as np

@@ -1,8 +1,8 @@
 """Torsional fretting.
 
-Identical bodies with nu = 0, mu = 0.3, constant P, torsional moment +-0.9 of that of full slip, 16 increments per cycle. (a) Line: Lubkin (1951)
-for the first loading and Masing's doubling for the reversals; dots: computed with 96 x 96 cells. The loop starts on the virgin curve. (b)
-Error of the rotation relative to its maximum for three grids.
+Identical bodies with nu = 0, mu = 0.3, constant P, torsional moment +-0.9 of that of full slip, 16 increments per
+cycle. (a) Line: Lubkin (1951) for the first loading and Masing's doubling for the reversals; dots: computed with 96 x
+96 cells. The loop starts on the virgin curve. (b) Error of the rotation relative to its maximum for three grids.
 """
 
 import numpy as np
@@ -17,7 +17,14 @@ full = 3 * np.pi * MU * FORCE / 16
 
 def first(moments: np.ndarray) -> np.ndarray:
     """Rotation of a first loading."""
-    return np.array([analytic.torsion(sphere_contact(), friction_coefficient=MU, shear_modulus=0.25, moment=m).twist if m > 0 else 0.0 for m in moments])
+    return np.array(
+        [
+            analytic.torsion(sphere_contact(), friction_coefficient=MU, shear_modulus=0.25, moment=m).twist
+            if m > 0
+            else 0.0
+            for m in moments
+        ]
+    )
 
 
 drawn, (left, right) = figure(2, height=62)
@@ -47,6 +54,6 @@ for cells, mark in ((24, "v"), (48, "s"), (96, "o")):
 left.set(xlabel="rotation [rad]", ylabel="$M_z$ / full-slip moment")
 left.legend()
 right.set(xlabel="increment", ylabel="error / max rotation", ylim=(3e-6, 3e-2), xticks=[4, 8, 12, 16])
-right.legend(ncols=3, fontsize=6)
+right.legend(loc="upper center", ncols=3, fontsize=6, handlelength=1.2, columnspacing=1.0)
 letters((left, right))
 save(drawn)

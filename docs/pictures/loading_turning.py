@@ -1,8 +1,10 @@
 """Rotating tangential force.
 
-Identical bodies with nu = 0, mu = 0.3, |Q| = 0.7 mu P, 32 x 32 cells, 24 increments per turn, three turns. (a) Path of the upper body for constant
-|Q| and for a force that grows linearly from zero. (b) Check by symmetry: the shear traction a quarter of a turn later must be the shear traction
-rotated by 90 degrees; largest difference relative to mu p_0 (the transient of the first turn decays).
+Identical bodies with nu = 0, mu = 0.3, |Q| = 0.7 mu P, 32 x 32 cells, 24 increments per turn, three turns. (a) Path of
+the upper body for constant
+|Q| and for a force that grows linearly from zero. (b) Check by symmetry: the shear traction a quarter of a turn later
+must be the shear traction rotated by 90 degrees; largest difference relative to mu p_0 (the transient of the first
+turn decays).
 """
 
 import numpy as np
@@ -22,7 +24,9 @@ spiral = [indentation(), {**wave, "increments": 24, "cycles": 3, "envelope": [0,
 drawn, (left, right) = figure(2, height=66)
 for label, stages in {"constant |Q|": circle, "growing |Q|": spiral}.items():
     history = fretting.run(problem(32, stages))
-    left.plot(history.increments["shift_x"] / ONSET, history.increments["shift_y"] / ONSET, ".-", ms=3, lw=0.8, label=label)
+    left.plot(
+        history.increments["shift_x"] / ONSET, history.increments["shift_y"] / ONSET, ".-", ms=3, lw=0.8, label=label
+    )
     if label == "constant |Q|":
         turned = []
         for step in range(5, len(history) - 6):

@@ -1,8 +1,8 @@
 """Line contact as a row of parallel cylinders.
 
-Rigid cylinders, R = 50 a, half-width a of the contact, on a half-space, nu = 0.3, frictionless, periodic along x with two periods. (a) Pressure:
-lines, closed form for the row; dots, 512 cells per period (every eighth); dashed, a single cylinder (Hertz). (b) RMS error of the
-pressure relative to its RMS.
+Rigid cylinders, R = 50 a, half-width a of the contact, on a half-space, nu = 0.3, frictionless, periodic along x with
+two periods. (a) Pressure: lines, closed form for the row; dots, 512 cells per period (every eighth); dashed, a single
+cylinder (Hertz). (b) RMS error of the pressure relative to its RMS.
 """
 
 import numpy as np
@@ -47,9 +47,7 @@ for period, mark in ((4.0, "o"), (16.0, "s")):
     (line,) = left.plot(x, row(x, period), lw=0.9)
     left.plot(history.x[::8], p[::8], mark, color=line.get_color(), ms=2.5, label=f"period {period:g} a")
     right.loglog(counts, errors, mark + "-", lw=0.8, label=f"period {period:g} a")
-hertz = fretting.analytic.hertz_line(
-    radius=RADIUS, line_force=np.pi * A**2 * MODULUS / (4 * RADIUS), modulus=MODULUS
-)
+hertz = fretting.analytic.hertz_line(radius=RADIUS, line_force=np.pi * A**2 * MODULUS / (4 * RADIUS), modulus=MODULUS)
 x = np.linspace(-A, A, 300)
 left.plot(x, hertz.max_pressure * np.sqrt(1 - x**2), "k--", lw=0.8, label="single cylinder")
 left.set(xlabel="$x / a$", ylabel="$p / E$", xlim=(-1.3, 1.3), ylim=(0, None))

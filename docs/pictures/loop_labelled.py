@@ -1,8 +1,8 @@
 """A fretting loop and the quantities that are read from it.
 
-Identical bodies with nu = 0, mu = 0.3, constant normal force, tangential amplitude Q* = 0.85 mu P, 48 x 48 cells, two cycles; loop of the
-second cycle (solid) and first loading (dotted). W_d is the area of the loop; the energy ratio A relates it to the rectangle (dashed); delta_0
-is the half-width at zero force.
+Identical bodies with nu = 0, mu = 0.3, constant normal force, tangential amplitude Q* = 0.85 mu P, 48 x 48 cells, two
+cycles; loop of the second cycle (solid) and first loading (dotted). W_d is the area of the loop; the energy ratio A
+relates it to the rectangle (dashed); delta_0 is the half-width at zero force.
 """
 
 from _figures import BLACK, BLUE, ORANGE, figure, save

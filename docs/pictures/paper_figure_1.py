@@ -1,8 +1,9 @@
 """Maximum contact pressure and contact radius of a coated half-space.
 
-Rigid sphere of radius 10 mm on a coated half-space, frictionless. E_s = 210 GPa (substrate), nu = 0.3 everywhere, coating thickness
-h = a_H, 128 x 128 cells. Pressure along x through the centre, relative to the Hertz values a_H = 0.1 mm and p_H of the uncoated
-substrate under the same force of 30.8 N. Dots: edge of contact of an axisymmetric solution of the integral equation.
+Rigid sphere of radius 10 mm on a coated half-space, frictionless. E_s = 210 GPa (substrate), nu = 0.3 everywhere,
+coating thickness h = a_H, 128 x 128 cells. Pressure along x through the centre, relative to the Hertz values a_H = 0.1
+mm and p_H of the uncoated substrate under the same force of 30.8 N. Dots: edge of contact of an axisymmetric solution
+of the integral equation.
 """
 
 import json

@@ -1,8 +1,9 @@
 """Shear traction through a fretting loop of elastically similar bodies.
 
-Identical half-spaces in contact with a sphere, nu = 0 (for which the closed form is exact), mu = 0.1, constant normal force P,
-amplitude of the tangential force 0.92 mu P, 128 x 128 cells. Thin lines: computed, along x through the centre; thick grey lines: Cattaneo,
-Mindlin and Deresiewicz. Shown between the second zero of Q and the next peak and back; a_H and p_H are the Hertz values.
+Identical half-spaces in contact with a sphere, nu = 0 (for which the closed form is exact), mu = 0.1, constant normal
+force P, amplitude of the tangential force 0.92 mu P, 128 x 128 cells. Thin lines: computed, along x through the
+centre; thick grey lines: Cattaneo, Mindlin and Deresiewicz. Shown between the second zero of Q and the next peak and
+back; a_H and p_H are the Hertz values.
 """
 
 import numpy as np

@@ -1,7 +1,7 @@
 """Loop and zones of the quick start.
 
-Rigid ball, R = 10 mm, on steel (210 GPa, nu = 0.3), mu = 0.2, P = 12 N, Q* = 1.5 N (0.63 mu P), 48 x 48 cells, 30 + 24 increments. (a) Tangential
-force over relative displacement, first cycle. (b) Zones at the first peak.
+Rigid ball, R = 10 mm, on steel (210 GPa, nu = 0.3), mu = 0.2, P = 12 N, Q* = 1.5 N (0.63 mu P), 48 x 48 cells, 30 + 24
+increments. (a) Tangential force over relative displacement, first cycle. (b) Zones at the first peak.
 """
 
 from _figures import figure, letters, save, zone_legend, zones

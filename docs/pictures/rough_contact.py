@@ -1,8 +1,9 @@
 """Rough contact.
 
-Rigid flat on a self-affine rough half-space, periodic, nu = 0.3, frictionless, 256 x 256 cells; Hurst exponent 0.8, wavelengths from the period to
-8 cells, RMS slope h' = 0.05, mean pressure 0.05 E* h'. (a) Topography relative to its RMS height. (b) Contact pressure relative to E* h',
-logarithmic; white: out of contact. (c) Distribution of the contact pressure.
+Rigid flat on a self-affine rough half-space, periodic, nu = 0.3, frictionless, 256 x 256 cells; Hurst exponent 0.8,
+wavelengths from the period to 8 cells, RMS slope h' = 0.05, mean pressure 0.05 E* h'. (a) Topography relative to its
+RMS height. (b) Contact pressure relative to E* h', logarithmic; white: out of contact. (c) Distribution of the contact
+pressure.
 """
 
 import matplotlib.pyplot as plt

@@ -1,9 +1,10 @@
 """Influence coefficients by sampling the frequency response, and their error.
 
-Normal displacement of a cell by unit pressure on the origin cell, coated half-space, E_c/E_s = 2, coating 10 cells thick, nu = 0.3, 256 x 256 cells.
-Sampled: response at the wavenumbers of a zero-padded grid (twice the domain) that is further extended 1, 2, 4 and 8 times, value at k = 0 from
-the mean of 1/k over the frequency cell. Error
-relative to the coefficient itself against 62-digit arithmetic (tests/golden/normal_coefficients.json). Dashed: this program.
+Normal displacement of a cell by unit pressure on the origin cell, coated half-space, E_c/E_s = 2, coating 10 cells
+thick, nu = 0.3, 256 x 256 cells. Sampled: response at the wavenumbers of a zero-padded grid (twice the domain) that is
+further extended 1, 2, 4 and 8 times, value at k = 0 from the mean of 1/k over the frequency cell. Error
+relative to the coefficient itself against 62-digit arithmetic (tests/golden/normal_coefficients.json). Dashed: this
+program.
 """
 
 import json

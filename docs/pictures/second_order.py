@@ -1,9 +1,10 @@
 """Error of the dissipated energy over the cost of a history.
 
-End-point rule and rule of second order with 8, 16, 32, 64 and 128 increments, against 512 of the second order on the same grid; operator applications of the
-whole history. (a) Loop of a rigid sphere on a coated body, E_c/E_s = 2, h = a_H, nu = 0.3, mu = 0.3, Q = 0.7 mu P, 32 x 32 cells, after 40 cubic
-increments of indentation. (b) Indentation by a rigid sphere, nu = 0.3, mu = 0.3 (Spence's problem), cubic ramp, 128 x 128 cells. (c) Rotating force
-of 0.7 mu P, identical bodies with nu = 0, 32 x 32 cells, one turn.
+End-point rule and rule of second order with 8, 16, 32, 64 and 128 increments, against 512 of the second order on the
+same grid; operator applications of the whole history. (a) Loop of a rigid sphere on a coated body, E_c/E_s = 2, h =
+a_H, nu = 0.3, mu = 0.3, Q = 0.7 mu P, 32 x 32 cells, after 40 cubic increments of indentation. (b) Indentation by a
+rigid sphere, nu = 0.3, mu = 0.3 (Spence's problem), cubic ramp, 128 x 128 cells. (c) Rotating force of 0.7 mu P,
+identical bodies with nu = 0, 32 x 32 cells, one turn.
 """
 
 from typing import Any

@@ -1,8 +1,8 @@
 """Von Mises stress under a coating through a fretting loop.
 
-Rigid ball, R = 10 mm, on a half-space with E_s = 210 GPa, nu = 0.3, coating E_c/E_s = 2 of thickness h = a_H = 73 um (dashed), mu = 0.3,
-P = 12 N, amplitude 0.9 mu P, 97 x 97 cells, section y = 0. Stress relative to the Hertz pressure p_H of the uncoated contact; one colour scale.
-Bars on top: contact (black) and stick zone (blue).
+Rigid ball, R = 10 mm, on a half-space with E_s = 210 GPa, nu = 0.3, coating E_c/E_s = 2 of thickness h = a_H = 73 um
+(dashed), mu = 0.3, P = 12 N, amplitude 0.9 mu P, 97 x 97 cells, section y = 0. Stress relative to the Hertz pressure
+p_H of the uncoated contact; one colour scale. Bars on top: contact (black) and stick zone (blue).
 """
 
 import numpy as np

@@ -1,7 +1,8 @@
 """Refinement study of a coated contact through a fretting loop, as drawn by fret study.
 
-Silicon nitride ball on alumina-coated steel, examples/coated_sphere.toml, mu = 0.2, 16 to 64 cells per side and 8 to 32 increments per stage or
-cycle, errors against the Richardson extrapolation of the study over the run time of one thread.
+Silicon nitride ball on alumina-coated steel, examples/coated_sphere.toml, mu = 0.2, 16 to 64 cells per side and 8 to
+32 increments per stage or cycle, errors against the Richardson extrapolation of the study over the run time of one
+thread.
 """
 
 import shutil

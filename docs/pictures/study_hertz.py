@@ -1,7 +1,8 @@
 """Refinement study of a Hertz contact, as drawn by fret study.
 
-Steel ball of 10 mm radius on steel, frictionless, examples/hertz.toml, 16 to 256 cells per side, errors against the closed form over the
-run time of one thread. Left: largest error of the quantities of interest. Right: three ways to evaluate them.
+Steel ball of 10 mm radius on steel, frictionless, examples/hertz.toml, 16 to 256 cells per side, errors against the
+closed form over the run time of one thread. Left: largest error of the quantities of interest. Right: three ways to
+evaluate them.
 """
 
 import shutil

@@ -1,9 +1,9 @@
 """Profiles with closed-form solutions.
 
-Rigid profile on a half-space, nu = 0.3, frictionless, prescribed force; contact radius a = 1 (flat punch: its radius), grid of 2.4 a. (a) Pressure
-along x with 48 x 48 cells (dots) and closed forms (lines): rounded punch with a flat of 0.6 a (Sneddon), cone (Love), flat punch
-(Boussinesq). (b) Error of the approach over the number of cells per side; the circle of the flat punch is a staircase of cells, its error has
-no order. Ellipsoid: R_x = 220 a, R_y = 70 a.
+Rigid profile on a half-space, nu = 0.3, frictionless, prescribed force; contact radius a = 1 (flat punch: its radius),
+grid of 2.4 a. (a) Pressure along x with 48 x 48 cells (dots) and closed forms (lines): rounded punch with a flat of
+0.6 a (Sneddon), cone (Love), flat punch (Boussinesq). (b) Error of the approach over the number of cells per side; the
+circle of the flat punch is a staircase of cells, its error has no order. Ellipsoid: R_x = 220 a, R_y = 70 a.
 """
 
 import numpy as np

@@ -1,8 +1,8 @@
 """Pressure, shear and slip of a coated contact at the tangential peak.
 
-Rigid ball, R = 10 mm, on a half-space with E_s = 210 GPa, nu = 0.3, coating E_c/E_s = 2 of thickness h = a_H = 73 um, mu = 0.3, P = 12 N, first
-peak Q = 0.9 mu P, 128 x 128 cells. p_H is the Hertz pressure of the uncoated contact, a_H its radius. Arrows: direction of the shear
-traction on the lower body. White line: border of stick.
+Rigid ball, R = 10 mm, on a half-space with E_s = 210 GPa, nu = 0.3, coating E_c/E_s = 2 of thickness h = a_H = 73 um,
+mu = 0.3, P = 12 N, first peak Q = 0.9 mu P, 128 x 128 cells. p_H is the Hertz pressure of the uncoated contact, a_H
+its radius. Arrows: direction of the shear traction on the lower body. White line: border of stick.
 """
 
 import numpy as np

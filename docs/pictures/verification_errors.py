@@ -1,8 +1,9 @@
 """Discretisation error over the number of cells.
 
-(a) Approach: Hertz, coated spheres (E_c/E_s = 1/4 and 4, h = a_H) against an axisymmetric integral equation. (b) Partial slip of identical
-bodies, nu = 0, mu = 0.3, Q = 0.75 mu P, against Cattaneo and Mindlin: displacement, dissipated energy, stick area. Grids of 2.4 contact radii;
-dotted: first and second order. The stick area is counted by cells and scatters.
+(a) Approach: Hertz, coated spheres (E_c/E_s = 1/4 and 4, h = a_H) against an axisymmetric integral equation. (b)
+Partial slip of identical bodies, nu = 0, mu = 0.3, Q = 0.75 mu P, against Cattaneo and Mindlin: displacement,
+dissipated energy, stick area. Grids of 2.4 contact radii; dotted: first and second order. The stick area is counted by
+cells and scatters.
 """
 
 import json

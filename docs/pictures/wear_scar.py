@@ -1,8 +1,8 @@
 """Partial-slip wear towards the limiting shape.
 
-Identical bodies with nu = 0, mu = 0.3, fixed approach, displacement amplitude such that the stick radius is 0.6 a, energy wear law, 240 cycles of
-8 increments, 48 x 48 cells. (a) Pressure along x; grey: limiting shape (Popov 2014), a punch of the stick radius. (b) Gap opened by wear. (c)
-Normal force above its limit, relative to the start.
+Identical bodies with nu = 0, mu = 0.3, fixed approach, displacement amplitude such that the stick radius is 0.6 a,
+energy wear law, 240 cycles of 8 increments, 48 x 48 cells. (a) Pressure along x; grey: limiting shape (Popov 2014), a
+punch of the stick radius. (b) Gap opened by wear. (c) Normal force above its limit, relative to the start.
 """
 
 import matplotlib.pyplot as plt

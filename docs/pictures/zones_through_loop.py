@@ -1,8 +1,8 @@
 """Stick and slip zones through a fretting loop.
 
-Rigid ball, R = 10 mm, on a half-space with E_s = 210 GPa, nu = 0.3, coating E_c/E_s = 2 of thickness h = a_H = 73 um, mu = 0.3, P = 12 N,
-amplitude 0.9 mu P, 96 x 96 cells. Second cycle; above each map Q/(mu P). At each reversal the whole contact sticks at first; slip then
-grows inward from the edge.
+Rigid ball, R = 10 mm, on a half-space with E_s = 210 GPa, nu = 0.3, coating E_c/E_s = 2 of thickness h = a_H = 73 um,
+mu = 0.3, P = 12 N, amplitude 0.9 mu P, 96 x 96 cells. Second cycle; above each map Q/(mu P). At each reversal the
+whole contact sticks at first; slip then grows inward from the edge.
 """
 
 from _coated import HERTZ, along, coated, cycle

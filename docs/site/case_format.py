@@ -68,7 +68,7 @@ def _table(title: str, text: str, node: dict[str, Any], definitions: dict[str, A
     return "\n".join(lines) + "\n"
 
 
-def _dict(value: Any) -> dict[str, Any]:  # noqa: ANN401 - `true` in a schema: anything goes
+def _dict(value: Any) -> dict[str, Any]:
     return value if isinstance(value, dict) else {}
 
 
@@ -79,7 +79,7 @@ def _description(value: dict[str, Any], definitions: dict[str, Any]) -> str:
     return str(definitions[names[0]].get("description", "")) if len(names) == 1 else ""
 
 
-def _references(value: Any) -> list[str]:  # noqa: ANN401
+def _references(value: Any) -> list[str]:
     if isinstance(value, dict):
         here = [value["$ref"].rsplit("/", 1)[1]] if "$ref" in value else []
         return here + [n for key, item in value.items() if key not in ("$ref", "properties") for n in _references(item)]

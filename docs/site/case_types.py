@@ -2,7 +2,8 @@
 
     python docs/site/case_types.py        (pip install datamodel-code-generator)
 
-The generator is `datamodel-code-generator`; afterwards the names lose their endings, and arrays of NumPy are let in where rows of numbers are.
+The generator is `datamodel-code-generator`; afterwards the names lose their endings, and arrays of NumPy are let in
+where rows of numbers are.
 """
 
 import re
@@ -16,7 +17,6 @@ HEAD = '''"""The case as typed dictionaries, for completion and static checks: `
 
 Generated from examples/fret.schema.json by docs/site/case_types.py; a test compares the two.
 """
-# ruff: noqa: D101, D204, D205, D400, D401, D415, E501, A003
 
 '''
 
@@ -40,7 +40,10 @@ def generated() -> str:
                         "from typing import Any, Literal, NotRequired, TypeAlias, TypedDict\n\nimport numpy.typing as npt\n")  # fmt: skip
     text = re.sub(r"\(TypedDict, closed=True\)", "(TypedDict)", text)
     text = re.sub(r"\b([A-Z]\w+?)(?:File|Schema|Word)(Item)?\b", r"\1\2", text)
-    text = text.replace("Array: TypeAlias = Sequence[Sequence[float]]", "Array: TypeAlias = Sequence[Sequence[float]] | npt.NDArray[Any]")
+    text = text.replace(
+        "Array: TypeAlias = Sequence[Sequence[float]]",
+        "Array: TypeAlias = Sequence[Sequence[float]] | npt.NDArray[Any]",
+    )
     text = text.replace("str | Sequence[Sequence[float]]", "str | Sequence[Sequence[float]] | npt.NDArray[Any]")
     text = re.sub(r"'([a-z_]*)'", r'"\1"', text)
     return HEAD + "from collections.abc import Sequence\n" + text.replace(" | None]", "]")

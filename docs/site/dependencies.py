@@ -1,10 +1,12 @@
-"""Write what is known of the dependencies: the table of ``docs/developers/dependencies.md`` and the licences that go into the wheel.
+"""Write what is known of the dependencies: the table of ``docs/developers/dependencies.md`` and the licences that go
+into the wheel.
 
     python docs/site/dependencies.py
 
-Reads ``cargo metadata`` and the local copy of the registry: no network. Purposes stand in the page, one line per crate; licences and
-dates of the newest release come from the registry. ``LICENSES-THIRD-PARTY`` holds the licence texts of every crate that is compiled
-into the wheel; ``pyproject.toml`` puts it there. A test compares the crates in it with ``Cargo.lock``.
+Reads ``cargo metadata`` and the local copy of the registry: no network. Purposes stand in the page, one line per
+crate; licences and dates of the newest release come from the registry. ``LICENSES-THIRD-PARTY`` holds the licence
+texts of every crate that is compiled into the wheel; ``pyproject.toml`` puts it there. A test compares the crates in
+it with ``Cargo.lock``.
 """
 
 import json
@@ -21,7 +23,9 @@ WORDS = re.compile(r"(?i)^(licen[cs]e|copying|copyright|notice|unlicense)")
 
 def metadata() -> dict[str, object]:
     """Return what cargo knows of the workspace, for the platform of this machine."""
-    host = re.search(r"host: (\S+)", subprocess.run(["rustc", "-vV"], check=True, capture_output=True, text=True).stdout)
+    host = re.search(
+        r"host: (\S+)", subprocess.run(["rustc", "-vV"], check=True, capture_output=True, text=True).stdout
+    )
     call = ["cargo", "metadata", "--format-version=1", "--locked", "--offline", f"--filter-platform={host and host[1]}"]
     return dict(json.loads(subprocess.run(call, check=True, capture_output=True, text=True, cwd=ROOT).stdout))
 
@@ -63,10 +67,16 @@ def licence_texts() -> str:
 
 def newest_release(name: str) -> str:
     """Return version and month of the newest release in the local copy of the registry's index."""
-    letters = {1: f"1/{name}", 2: f"2/{name}", 3: f"3/{name[:1]}/{name}"}.get(len(name), f"{name[:2]}/{name[2:4]}/{name}")
+    letters = {1: f"1/{name}", 2: f"2/{name}", 3: f"3/{name[:1]}/{name}"}.get(
+        len(name), f"{name[:2]}/{name[2:4]}/{name}"
+    )
     home = Path(os.environ.get("CARGO_HOME", Path.home() / ".cargo"))
     places = [place for place in home.glob(f"registry/index/*/.cache/{letters}") if place.is_file()]
-    found = [json.loads(part) for place in places for part in re.findall(rb'\{"name".*?\}(?=\x00|$)', place.read_bytes(), re.S)]
+    found = [
+        json.loads(part)
+        for place in places
+        for part in re.findall(rb'\{"name".*?\}(?=\x00|$)', place.read_bytes(), re.S)
+    ]
     plain = [entry | {"vers": entry["vers"].partition("+")[0]} for entry in found if not entry.get("yanked")]
     dated = [entry for entry in plain if entry.get("pubtime") and "-" not in entry["vers"]]
     if not dated:

@@ -1,4 +1,6 @@
-"""What the site does beyond mkdocs: unlisted pages, links out of the pages, formulas without a network, tutorials as notebooks."""
+"""What the site does beyond mkdocs: unlisted pages, links out of the pages, formulas without a network, tutorials as
+notebooks.
+"""
 
 import html
 import json
@@ -13,7 +15,7 @@ LINK = re.compile(r"(!?)\[([^\]]*)\]\((\.\./[^)#\s]*)(#[^)]*)?\)")
 FORMULA = re.compile(r'<(span|div) class="arithmatex">\\([(\[])(.*?)\\[)\]]</\1>', re.DOTALL)
 
 
-def on_config(config: Any) -> Any:  # noqa: ANN401
+def on_config(config: Any) -> Any:
     """Put pages that stand nowhere in the navigation under "More"."""
     docs = Path(config["docs_dir"])
     listed = set(_pages(config["nav"]))
@@ -25,7 +27,7 @@ def on_config(config: Any) -> Any:  # noqa: ANN401
     return config
 
 
-def on_page_markdown(markdown: str, page: Any, **_: object) -> str:  # noqa: ANN401
+def on_page_markdown(markdown: str, page: Any, **_: object) -> str:
     """Name files outside the pages instead of linking them; they must be there."""
     here = Path(page.file.abs_src_path).parent
 
@@ -41,12 +43,13 @@ def on_page_markdown(markdown: str, page: Any, **_: object) -> str:  # noqa: ANN
     return LINK.sub(name, markdown)
 
 
-def on_page_content(content: str, page: Any, **_: object) -> str:  # noqa: ANN401
+def on_page_content(content: str, page: Any, **_: object) -> str:
     """Write formulas as MathML, which browsers draw themselves; offer tutorials as notebooks."""
 
     def drawn(formula: re.Match[str]) -> str:
         display = "block" if formula[2] == "[" else "inline"
-        return convert(html.unescape(formula[3]).strip(), display=display)
+        written = convert(html.unescape(formula[3]).strip(), display=display)
+        return f'<div class="formula">{written}</div>' if display == "block" else written
 
     content = FORMULA.sub(drawn, content)
     if _is_tutorial(page.file.src_path) and "```python" in page.markdown:
@@ -55,7 +58,7 @@ def on_page_content(content: str, page: Any, **_: object) -> str:  # noqa: ANN40
     return content
 
 
-def on_post_build(config: Any) -> None:  # noqa: ANN401
+def on_post_build(config: Any) -> None:
     """Write the tutorials as notebooks beside their pages; the tests run the same snippets."""
     for source in sorted((Path(config["docs_dir"]) / "learn").glob("*.md")):
         text = source.read_text(encoding="utf-8")
@@ -72,7 +75,11 @@ def notebook(markdown: str) -> dict[str, Any]:
     for number, part in enumerate(re.split(r"^```python\n(.*?)^```$", text, flags=re.MULTILINE | re.DOTALL)):
         if not part.strip():
             continue
-        cell: dict[str, Any] = {"id": f"cell-{number}", "metadata": {}, "source": part.strip().splitlines(keepends=True)}
+        cell: dict[str, Any] = {
+            "id": f"cell-{number}",
+            "metadata": {},
+            "source": part.strip().splitlines(keepends=True),
+        }
         if number % 2:
             cells.append({**cell, "cell_type": "code", "execution_count": None, "outputs": []})
         else:
@@ -85,7 +92,7 @@ def _is_tutorial(path: str) -> bool:
     return path.startswith("learn/")
 
 
-def _pages(nav: Any) -> list[str]:  # noqa: ANN401
+def _pages(nav: Any) -> list[str]:
     if isinstance(nav, str):
         return [nav]
     items = nav.values() if isinstance(nav, dict) else nav

@@ -2,8 +2,8 @@
 
     python docs/site/reference.py
 
-from the help texts of the command, the vocabulary of the results and the docstrings of the package. A test compares the pages with what
-this would write now.
+from the help texts of the command, the vocabulary of the results and the docstrings of the package. A test compares
+the pages with what this would write now.
 """
 
 import inspect

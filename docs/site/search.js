@@ -1,23 +1,38 @@
-// What the search of the site finds: node search.js LUNR INDEX QUERY... prints the page of the best hit of each query.
-// Ranked like Material for MkDocs: titles count a thousand times, all words must occur, the last may be unfinished.
+// What the search of the built site finds: node search.js SITE QUERY... prints the pages of the best hits of each query.
+// The site's own search worker answers, the one that the browser runs, with the queries it would get letter by letter.
 const fs = require("fs");
-const lunr = require(fs.realpathSync(process.argv[2]));
-const { docs } = JSON.parse(fs.readFileSync(process.argv[3], "utf8"));
+const path = require("path");
+const vm = require("vm");
 
-const index = lunr(function () {
-  this.ref("location");
-  this.field("title", { boost: 1000 });
-  this.field("text");
-  for (const doc of docs) this.add({ ...doc, text: doc.text.replace(/<[^>]*>/g, " ") }, { boost: doc.boost || 1 });
-});
+const site = process.argv[2];
+const workers = path.join(site, "assets", "javascripts", "workers");
+const worker = fs.readdirSync(workers).find((name) => /^search\..*\.js$/.test(name));
+let answer;
+let hears;
+const room = {
+  console,
+  postMessage: (message) => answer(message),
+  addEventListener: (_, listener) => (hears = listener),
+  importScripts: () => {},
+  location: { href: "http://site/", pathname: "/" },
+};
+room.self = room;
+vm.runInNewContext(fs.readFileSync(path.join(workers, worker), "utf8"), room);
 
-const pages = (hits) => [...new Set(hits.map((hit) => hit.ref.split("#")[0]))];
-const answer = {};
-for (const query of process.argv.slice(4)) {
-  const words = query.toLowerCase().split(/\s+/);
-  const all = words.map((word) => `+${word}`).join(" ");
-  let hits = index.search(all);
-  if (!hits.length) hits = index.search(query);
-  answer[query] = pages(hits).slice(0, 5);
-}
-console.log(JSON.stringify(answer));
+const asked = (type, data) =>
+  new Promise((resolve) => {
+    answer = resolve;
+    hears({ data: { type, data } });
+  });
+
+(async () => {
+  const index = JSON.parse(fs.readFileSync(path.join(site, "search", "search_index.json"), "utf8"));
+  await asked(0, { ...index, options: { suggest: false } });
+  const found = {};
+  for (const query of process.argv.slice(3)) {
+    const { data } = await asked(2, query);
+    const hits = data.items.flat().map((hit) => hit.location.split("#")[0]);
+    found[query] = [...new Set(hits)].slice(0, 5);
+  }
+  console.log(JSON.stringify(found));
+})();

@@ -1,7 +1,7 @@
 """Write test_12.csv: what a rig would export of the case ball_on_ball.toml.
 
-Mindlin and Deresiewicz's loop (mu = 0.6) in series with a rig of 30 kN/mm, driven to 8 um; 1 % of noise, offsets, a drift. An example
-made by a formula, not a measurement. Needs numpy.
+Mindlin and Deresiewicz's loop (mu = 0.6) in series with a rig of 30 kN/mm, driven to 8 um; 1 % of noise, offsets, a
+drift. An example made by a formula, not a measurement. Needs numpy.
 """
 
 from pathlib import Path

@@ -17,7 +17,6 @@ Any consistent system of units. Fields have shape (nx, ny), index ``[i, j]`` at 
 lower body, compression is positive.
 """
 
-
 from fretting import analytic, plot
 from fretting._core import __version__
 from fretting._points import Parameter

@@ -1,5 +1,6 @@
 """Figures of sweeps with uncertain parameters: bands between quantiles."""
 
+from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -17,9 +18,11 @@ def band(
     name: str,
     *,
     ax: "Axes | None" = None,
-    **line: Any,  # noqa: ANN401 - what matplotlib takes
+    **line: Any,
 ) -> "Axes":
-    """Draw a number of a sweep over its one certain axis: the median of the samples, and the band that holds 95 % of them.
+    """Draw a number of a sweep over its one certain axis.
+
+    The median of the samples, and the band that holds 95 % of them.
 
     Parameters
     ----------
@@ -29,6 +32,8 @@ def band(
         The number, such as ``"cycle_energy_ratio"``.
     ax : matplotlib Axes, optional
         Where to draw.
+    **line
+        Keywords of matplotlib for the line, such as ``color`` or ``label``.
 
     Returns
     -------
@@ -37,7 +42,9 @@ def band(
     values = _own_samples(dataset, name)
     others = [dimension for dimension in values.dims if dimension != "sample"]
     if len(others) != 1:
-        raise ValueError(f"band: {name} needs one axis beside the samples, and has {', '.join(map(str, others)) or 'none'}")
+        raise ValueError(
+            f"band: {name} needs one axis beside the samples, and has {', '.join(map(str, others)) or 'none'}"
+        )
     low, middle, high = np.nanquantile(values.transpose("sample", ...).values, QUANTILES, axis=0)
     here = values[others[0]].values
     axes = _own_axes(ax)
@@ -53,7 +60,7 @@ def loop_band(
     *,
     along: str = "x",
     ax: "Axes | None" = None,
-    **line: Any,  # noqa: ANN401 - what matplotlib takes
+    **line: Any,
 ) -> "Axes":
     """Draw the loop of the median, and the band that holds the loops of 95 % of the samples, increment by increment.
 
@@ -65,6 +72,8 @@ def loop_band(
         Which motion.
     ax : matplotlib Axes, optional
         Where to draw.
+    **line
+        Keywords of matplotlib for the line, such as ``color`` or ``label``.
 
     Returns
     -------
@@ -75,14 +84,17 @@ def loop_band(
     shift, force = (_own_samples(dataset, f"{name}_{along}") for name in ("shift", "tangential_force"))
     if set(shift.dims) != {"sample", "increment"}:
         raise ValueError('loop_band: needs the samples of a sweep with keep="all", and no other axis')
-    shifts, forces = (np.nanquantile(part.transpose("sample", ...).values, QUANTILES, axis=0) for part in (shift, force))
+    shifts, forces = (
+        np.nanquantile(part.transpose("sample", ...).values, QUANTILES, axis=0) for part in (shift, force)
+    )
     axes = _own_axes(ax)
     drawn = axes.plot(shifts[1], forces[1], **{"lw": 1.4, "label": "median", **line})
     # What is prescribed is the same in all samples: the band lies across it, branch by branch.
-    by_force = np.ptp(forces, axis=0).max() / max(np.ptp(forces), 1e-300) <= np.ptp(shifts, axis=0).max() / max(np.ptp(shifts), 1e-300)
+    spread = [np.ptp(part, axis=0).max() / max(np.ptp(part), 1e-300) for part in (forces, shifts)]
+    by_force = spread[0] <= spread[1]
     course, low, high = (forces[1], shifts[0], shifts[2]) if by_force else (shifts[1], forces[0], forces[2])
     fill = axes.fill_betweenx if by_force else axes.fill_between
-    style = {"color": drawn[0].get_color(), "alpha": 0.25, "lw": 0}
+    style: dict[str, Any] = {"color": drawn[0].get_color(), "alpha": 0.25, "lw": 0}
     for number, (start, end) in enumerate(_branches(course)):
         part = slice(start, end + 1)
         fill(course[part], low[part], high[part], label="95 % of the samples" if number == 0 else None, **style)
@@ -97,7 +109,7 @@ def _branches(course: npt.NDArray[np.float64]) -> list[tuple[int, int]]:
     steps = np.sign(np.diff(course))
     turns = [place + 1 for place in range(len(steps) - 1) if steps[place] * steps[place + 1] < 0.0]
     ends = [0, *turns, len(course) - 1]
-    return list(zip(ends[:-1], ends[1:], strict=True))
+    return list(pairwise(ends))
 
 
 def _own_samples(dataset: "xarray.Dataset", name: str) -> "xarray.DataArray":

@@ -17,12 +17,12 @@ from fretting._arrays import Reals
 from fretting.errors import CaseError, MissingFileError, UnreadableError
 
 CaseLike: TypeAlias = str | os.PathLike[str] | Mapping[str, object]
-"""A case: path of a TOML file, TOML text, or a mapping of the same structure. A ``str`` with a line break is TOML text, any other a
-path.
+"""A case: path of a TOML file, TOML text, or a mapping of the same structure.
 
-In a mapping, NumPy arrays stand where heights or coefficients of friction are wanted for every cell:
-``{"heights": {"values": array}}``, ``{"friction": {"map": array}}``, and ``friction`` of a stage. Relative names of files
-start at the folder of the case file; at the current folder for a text or a mapping.
+A ``str`` with a line break is TOML text, any other a path. In a mapping, NumPy arrays stand where heights or
+coefficients of friction are wanted for every cell: ``{"heights": {"values": array}}``,
+``{"friction": {"map": array}}``, and ``friction`` of a stage. Relative names of files start at the folder of the case
+file; at the current folder for a text or a mapping.
 """
 
 Json: TypeAlias = bool | int | float | str | list["Json"] | dict[str, "Json"] | None
@@ -58,7 +58,7 @@ def table_of(case: CaseLike) -> dict[str, Any]:
 
 
 def text_of(case: str | os.PathLike[str]) -> tuple[str, str, Path]:
-    """Return the TOML text of a case that is no mapping, the name that stands in messages, and the folder of its files."""
+    """Return the TOML text of a case that is no mapping, its name in messages, and the folder of its files."""
     if isinstance(case, str) and "\n" in case:
         return case, "case", Path()
     if isinstance(case, str | os.PathLike):
@@ -81,8 +81,8 @@ _DEEPEST = 16
 def plain(value: object, place: str, arrays: list[Reals] | None = None, depth: int = 0) -> Json:
     """Turn a value of a case into what JSON can say.
 
-    NumPy scalars and arrays become numbers and lists; with a list `arrays`, those for every cell are put aside into it, and
-    their number stands in their place.
+    NumPy scalars and arrays become numbers and lists; with a list `arrays`, those for every cell are put aside into
+    it, and their number stands in their place.
     """
     if (
         arrays is not None
@@ -108,9 +108,7 @@ def plain(value: object, place: str, arrays: list[Reals] | None = None, depth: i
         for key in value:
             if not isinstance(key, str):
                 raise _refusal("case", f"{place or 'the case'} has the key {key!r}: keys are words")
-        return {
-            key: plain(item, f"{place}.{key}" if place else key, arrays, depth + 1) for key, item in value.items()
-        }
+        return {key: plain(item, f"{place}.{key}" if place else key, arrays, depth + 1) for key, item in value.items()}
     if isinstance(value, Sequence) and not isinstance(value, bytes | bytearray):
         return [plain(item, f"{place}[{index}]", arrays, depth + 1) for index, item in enumerate(value)]
     raise _refusal("case", f"{place}: {type(value).__name__} is not a number, a word, a list or a table")
@@ -119,7 +117,7 @@ def plain(value: object, place: str, arrays: list[Reals] | None = None, depth: i
 def _field(values: npt.NDArray[Any], place: str) -> Reals:
     """Turn an array with a number for every cell into doubles; whether they are of use is the core's to say."""
     if np.ma.is_masked(values):
-        count = int(np.ma.count_masked(values))
+        count = int(np.count_nonzero(np.ma.getmaskarray(values)))
         raise _refusal("case", f"{place}: {count} masked values: cells without a measurement must be filled in before")
     if values.dtype.kind not in "fiu":
         raise _refusal("case", f"{place}: an array of {values.dtype}: must be real numbers")

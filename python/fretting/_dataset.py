@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from fretting.history import History
 
 
-def module(what: str) -> Any:  # noqa: ANN401 - a module
+def module(what: str) -> Any:
     """Return xarray, or say what needs it."""
     try:
         import xarray
@@ -46,7 +46,11 @@ def of_history(history: "History", every: bool) -> "xarray.Dataset":
     }
     fields = {name: stack for name in FIELD_NAMES if (stack := _stack(history, name)) is not None}
     if fields and every:
-        coordinates["kept_increment"] = ("kept_increment", kept, {"long_name": "number of an increment whose fields are kept"})
+        coordinates["kept_increment"] = (
+            "kept_increment",
+            kept,
+            {"long_name": "number of an increment whose fields are kept"},
+        )
     for name, stack in fields.items():
         attributes: dict[str, Any] = described(MEANING[name], history._units)
         if name == "zone":

@@ -18,9 +18,7 @@ _KINDS: dict[str, type] = {"int": int, "float": float, "bool": bool, "str": str}
 
 
 def _meanings(entries: list[dict[str, str]]) -> dict[str, str]:
-    return {
-        entry["name"]: entry["meaning"] + (f" [{entry['unit']}]" if entry["unit"] else "") for entry in entries
-    }
+    return {entry["name"]: entry["meaning"] + (f" [{entry['unit']}]" if entry["unit"] else "") for entry in entries}
 
 
 def _kinds(entries: list[dict[str, str]]) -> dict[str, type]:
@@ -44,7 +42,7 @@ ZONE_NAMES: tuple[str, ...] = tuple(_VOCABULARY["zones"])
 
 
 Units = Mapping[str, str]
-"""Units of ``length``, ``force`` and ``pressure``, as a case declares them, with ``line`` in a line contact; empty without."""
+"""Units of ``length``, ``force`` and ``pressure`` as declared, with ``line`` in a line contact; empty without."""
 
 
 _PER_LENGTH = {
@@ -57,9 +55,10 @@ _PER_LENGTH = {
 
 
 def in_units(kind: str, units: Units) -> str:
-    """Return the unit of a kind of quantity, such as ``"force x length"``; the kind itself where the case declares no units.
+    """Return the unit of a kind of quantity, such as ``"force x length"``.
 
-    Loads of a line contact, of whose units ``line`` is one, are those of a unit of length.
+    The kind itself where the case declares no units. Loads of a line contact, of whose units ``line`` is one, are
+    those of a unit of length.
     """
     if not units:
         return kind

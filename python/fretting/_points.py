@@ -38,7 +38,7 @@ class Parameter:
     values: Sequence[Any] | Distribution
     """The values, one per point of the axis; or a distribution that they are drawn from."""
     apply: str | Callable[[Table, Any], object]
-    """A dotted key of the case; or a function, called with a copy of the case (a dict, the caller's to change) and a value."""
+    """A dotted key of the case; or a function of a copy of the case (a dict, the caller's to change) and a value."""
 
 
 Values: TypeAlias = Sequence[Any] | npt.NDArray[Any] | Parameter | Distribution
@@ -149,11 +149,13 @@ def _samples(uncertain: Mapping[Any, Any], draw: Draw) -> list[Dimension]:
             raise ValueError("samples: no parameter has a distribution, such as fretting.Normal(0.6, 0.05)")
         return []
     if draw.samples is None:
-        raise ValueError(f"parameter {next(iter(uncertain))!r} has a distribution: give samples=..., how many are drawn")
+        raise ValueError(
+            f"parameter {next(iter(uncertain))!r} has a distribution: give samples=..., how many are drawn"
+        )
     keys = list(uncertain)
     if not all(isinstance(key, str) for key in keys):
         raise TypeError("a distribution belongs to one key of the case")
-    distributions = [given.values if isinstance(given, Parameter) else given for given in uncertain.values()]
+    distributions: list[Any] = [given.values if isinstance(given, Parameter) else given for given in uncertain.values()]
     rows = drawn(distributions, draw.samples, draw.seed, draw.indices)
     columns = {key: [row[number] for row in rows] for number, key in enumerate(keys)}
     one = [_applied(key, given) for key, given in uncertain.items()]
@@ -183,7 +185,9 @@ def _list_of_points(rows: Sequence[Mapping[str, Any]]) -> Dimension:
     keys = list(rows[0])
     for index, row in enumerate(rows):
         if set(row) != set(keys) or not keys:
-            raise ValueError(f"parameters: point {index} has the keys {sorted(row)}: must have those of point 0, {keys}")
+            raise ValueError(
+                f"parameters: point {index} has the keys {sorted(row)}: must have those of point 0, {keys}"
+            )
     plain = [[_plain(key, row[key]) for key in keys] for row in rows]
     columns = {key: [row[number] for row in plain] for number, key in enumerate(keys)}
     return Dimension("point", columns, [_by_keys(keys, row) for row in plain])
@@ -197,7 +201,7 @@ def _values(name: str, given: object) -> list[Any]:
     return [_plain(f"{name}[{index}]", value) for index, value in enumerate(given)]
 
 
-def _plain(name: str, value: object) -> Any:  # noqa: ANN401 - whatever a case may hold
+def _plain(name: str, value: object) -> Any:
     return _case.plain(value, name)
 
 

@@ -58,7 +58,9 @@ class ProgressLine(_Line):
         left = self.due(passed, increments)
         if left is not None:
             regime = step["regime"].replace("_", " ")
-            solved = f"{done} of {increments} solved" if passed == done else f"{done} solved for {passed} of {increments}"
+            solved = (
+                f"{done} of {increments} solved" if passed == done else f"{done} solved for {passed} of {increments}"
+            )
             number, residual = step["increment"], f"residual {step['residual']:.1e}"
             self.write(f"increment {number}  {regime}  {residual}  {solved}, {left:.0f} s left")
 

@@ -12,8 +12,11 @@ if TYPE_CHECKING:
 
 _Source = Union[str, os.PathLike[str], "History"]
 StartLike: TypeAlias = _Source | tuple[_Source, int]
-"""A solved state: the last one of the results in a folder, or of a history; of another increment as a pair of either and the
-increment's number, from 0 (negative from the end of a history), or as ``"folder:19"``."""
+"""A solved state: the last one of the results in a folder, or of a history.
+
+Of another increment as a pair of either and the increment's number, from 0 (negative from the end of a history), or as
+``"folder:19"``.
+"""
 
 
 def read(start: StartLike | _core.Start | None) -> _core.Start | None:

@@ -108,7 +108,7 @@ def with_files_in(case: Table, folder: Path) -> Table:
     return {key: _moved(value, key, folder) for key, value in case.items()}
 
 
-def _moved(value: Any, key: str, folder: Path) -> Any:  # noqa: ANN401 - whatever a case may hold
+def _moved(value: Any, key: str, folder: Path) -> Any:
     if isinstance(value, dict):
         return {name: _moved(item, name, folder) for name, item in value.items()}
     if isinstance(value, list):

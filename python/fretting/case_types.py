@@ -2,7 +2,6 @@
 
 Generated from examples/fret.schema.json by docs/site/case_types.py; a test compares the two.
 """
-# ruff: noqa: D101, D204, D205, D400, D401, D415, E501, A003
 
 from collections.abc import Sequence
 from typing import Any, Literal, NotRequired, TypeAlias, TypedDict
@@ -386,7 +385,8 @@ class StrainLife(TypedDict):
 
 class Stress(TypedDict):
     """
-    Subsurface stresses of one body, and constants of the fatigue parameters for those of its layers that name none of their own.
+    Subsurface stresses of one body, and constants of the fatigue parameters for those of its layers that name none of
+    their own.
     """
 
     body: NotRequired[Side]

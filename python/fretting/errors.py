@@ -71,13 +71,18 @@ class MissingFileError(UnreadableError, FileNotFoundError):
 
 
 class FrettingWarning(UserWarning):
-    """A fact about a run that may mislead: see ``History.warnings``. ``warnings.simplefilter`` silences or raises it."""
+    """A fact about a run that may mislead: see ``History.warnings``.
+
+    ``warnings.simplefilter`` silences or raises it.
+    """
 
     __module__ = "fretting"
 
 
 class RunError(FrettingError, RuntimeError):
-    """Raised when an increment did not converge, or the run ended before its last increment. No unconverged field is returned.
+    """Raised when an increment did not converge, or the run ended before its last increment.
+
+    No unconverged field is returned.
 
     Attributes
     ----------
@@ -100,8 +105,9 @@ class RunError(FrettingError, RuntimeError):
 
 
 class OutOfMemoryError(RunError, MemoryError):
-    """A run needs more memory than the machine, a container, a batch job or ``ulimit -v`` leaves; nothing was begun that could
-    not be ended.
+    """A run needs more memory than the machine, a container, a batch job or ``ulimit -v`` leaves.
+
+    Nothing was begun that could not be ended.
     """
 
     __module__ = "fretting"

@@ -175,7 +175,8 @@ def _cycle(history: "History", cycle: int, body: Literal["lower", "upper"]) -> t
     chosen = [number for number in history.kept_increments if first - 1 <= number <= last]
     if len(chosen) < 3:
         raise ValueError(
-            f"fields of {len(chosen)} increments of the cycle are kept: three are needed ([output] every = ... keeps more)"
+            f"fields of {len(chosen)} increments of the cycle are kept: three are needed "
+            "([output] every = ... keeps more)"
         )
     increments = [(*_fields(history, number), bulk_stress(history, number, body)) for number in chosen]
     setting = history._spacing, history._periodic

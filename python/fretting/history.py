@@ -23,6 +23,7 @@ if TYPE_CHECKING:
 
     from fretting.case_types import FatigueConstants
 
+
 class Table(dict[str, npt.NDArray[Any]]):
     """Columns by name; an unknown name raises a KeyError that lists the known ones."""
 
@@ -30,7 +31,9 @@ class Table(dict[str, npt.NDArray[Any]]):
         """Refuse a name."""
         if name in FIELD_NAMES:
             raise KeyError(f"{name!r} is a field, a number per cell: history.field({name!r}, increment) has it")
-        raise KeyError(f"no column {name!r}; columns are: {', '.join(self)}; fields (history.field): {', '.join(FIELD_NAMES)}")
+        raise KeyError(
+            f"no column {name!r}; columns are: {', '.join(self)}; fields (history.field): {', '.join(FIELD_NAMES)}"
+        )
 
 
 class _Kept(Protocol):
@@ -60,8 +63,8 @@ class _Copied:
 class History:
     """All of a run: numbers of every increment, fields of those that were kept.
 
-    Values are in the units of the case. Fields have shape (nx, ny), index ``[i, j]`` at ``(x[i], y[j])``; of a line contact
-    (``cells`` a single number) shape (nx,), and forces, areas and energies are those of a unit of its length.
+    Values are in the units of the case. Fields have shape (nx, ny), index ``[i, j]`` at ``(x[i], y[j])``; of a line
+    contact (``cells`` a single number) shape (nx,), and forces, areas and energies are those of a unit of its length.
 
     Attributes
     ----------
@@ -69,9 +72,11 @@ class History:
         One entry per increment: ``normal_force``, ``approach``, ``tangential_force_x``, ``tangential_force_y``,
         ``shift_x``, ``shift_y``, ``twist_moment``, ``twist``, ``max_pressure``, ``max_shear``, ``contact_area``,
         ``stick_area``, ``dissipated_energy``, ``worn_volume`` (both since the start, over all cycles that computed ones
-        stand for), ``max_worn_depth``, ``residual``, ``wall_s`` (float); ``increment``, ``stage``, ``contact_cells``, ``stick_cells``, ``convolutions``, ``preconditioner_passes``, ``outer_iterations``, ``parts``
-        (int); ``full_grid_convolutions``, ``tilt_x``, ``tilt_y``, ``tilt_moment_x``, ``tilt_moment_y``, ``bulk_stress_x``, ``bulk_stress_y`` (of the lower body),
-        ``upper_bulk_stress_x``, ``upper_bulk_stress_y``, ``bulk_work``, ``actuator_x``, ``actuator_y``, ``actuator_approach`` (float); ``regime`` (str).
+        stand for), ``max_worn_depth``, ``residual``, ``wall_s`` (float); ``increment``, ``stage``, ``contact_cells``,
+        ``stick_cells``, ``convolutions``, ``preconditioner_passes``, ``outer_iterations``, ``parts`` (int);
+        ``full_grid_convolutions``, ``tilt_x``, ``tilt_y``, ``tilt_moment_x``, ``tilt_moment_y``, ``bulk_stress_x``,
+        ``bulk_stress_y`` (of the lower body), ``upper_bulk_stress_x``, ``upper_bulk_stress_y``, ``bulk_work``,
+        ``actuator_x``, ``actuator_y``, ``actuator_approach`` (float); ``regime`` (str).
     x, y : ndarray
         Coordinates of the cell centres [length], shapes (nx,) and (ny,); of a line contact `y` is one zero.
     stages : list of str
@@ -81,9 +86,9 @@ class History:
         ``last_increment``, ``stands_for``, ``last_cycle`` (int); ``dissipated_energy`` (of this one cycle),
         ``total_dissipated_energy`` (since the start), ``direction``, ``force_amplitude``,
         ``displacement_amplitude``, ``opening``, ``energy_ratio``, ``sliding_ratio``, ``stiffness``, ``closure``,
-        ``worn_volume`` (since the start), ``max_worn_depth``, and of the loop at the actuator of a rig ``actuator_amplitude``, ``actuator_energy_ratio``,
-        ``actuator_sliding_ratio``, ``actuator_stiffness`` (float, NaN where a cycle has none); ``steady`` (bool); ``drive``,
-        ``regime`` (str).
+        ``worn_volume`` (since the start), ``max_worn_depth``, and of the loop at the actuator of a rig
+        ``actuator_amplitude``, ``actuator_energy_ratio``, ``actuator_sliding_ratio``, ``actuator_stiffness`` (float,
+        NaN where a cycle has none); ``steady`` (bool); ``drive``, ``regime`` (str).
     running_conditions : list of str or None
         ``"partial"``, ``"mixed"`` or ``"gross"`` for each stage; None for one without cycles.
     worn_through : dict or None
@@ -100,10 +105,12 @@ class History:
     version : str
         Version of the program that solved it.
     error_bars : dict or None
-        Value and error bar of every quantity of interest at the end of each stage, where ``estimate_error`` asked for them.
+        Value and error bar of every quantity of interest at the end of each stage, where ``estimate_error`` asked for
+        them.
     warnings : list of dict
-        What about these numbers may mislead: ``name`` (stable, such as ``"few_cells"``), ``value``, ``bound``, ``stage``,
-        ``message``, ``help``. Empty where nothing does. :func:`run` also passes them to Python's ``warnings``.
+        What about these numbers may mislead: ``name`` (stable, such as ``"few_cells"``), ``value``, ``bound``,
+        ``stage``, ``message``, ``help``. Empty where nothing does. :func:`run` also passes them to Python's
+        ``warnings``.
 
     Notes
     -----
@@ -210,16 +217,17 @@ class History:
         Parameters
         ----------
         name : {"pressure", "shear_x", "shear_y", "slip_x", "slip_y", "gap", "zone", "worn_depth", "shear", "slip"}
-            ``slip_x``, ``slip_y``: relative slip since the start of the history, signed (the sum of the slip increments, not the
-            slip distance); ``zone``: 0 open, 1 stick, 2 slip; ``shear``, ``slip``: both components, along the first axis.
+            ``slip_x``, ``slip_y``: relative slip since the start of the history, signed (the sum of the slip
+            increments, not the slip distance); ``zone``: 0 open, 1 stick, 2 slip; ``shear``, ``slip``: both
+            components, along the first axis.
         increment : int
             Number of the increment in the whole history, from 0; negative from the end.
 
         Returns
         -------
         ndarray
-            Shape (nx, ny), of a line contact (nx,), of ``shear`` and ``slip`` with a 2 before; float64 [pressure or length],
-            ``zone`` uint8. The caller's own copy.
+            Shape (nx, ny), of a line contact (nx,), of ``shear`` and ``slip`` with a 2 before; float64 [pressure or
+            length], ``zone`` uint8. The caller's own copy.
 
         Raises
         ------
@@ -267,8 +275,8 @@ class History:
         Parameters
         ----------
         point : {"start", "end", "maximum", "minimum"}
-            First or last increment of the stage or cycle, or where the tangential force (the torsional moment, of a torsional
-            cycle) along its main axis is largest or smallest.
+            First or last increment of the stage or cycle, or where the tangential force (the torsional moment, of a
+            torsional cycle) along its main axis is largest or smallest.
         stage : int or str, optional
             Number or name of a stage. Default: the whole history; with `cycle`, the last stage that has cycles.
         cycle : int, optional
@@ -305,23 +313,23 @@ class History:
     def to_xarray(self, *, increments: Literal["all", "kept"] = "all") -> "xarray.Dataset":
         """Return everything as a Dataset: numbers of the increments and cycles, fields of the kept increments.
 
-        Fields have the dimensions ``(..., y, x)``, so that ``dataset.pressure.isel(kept_increment=-1).plot()`` draws x to the
-        right; :meth:`field` has the shape (nx, ny). ``zone`` has the attributes ``flag_values`` and ``flag_meanings`` of
-        the CF conventions. Variables have ``long_name`` and ``units``: those that ``[units]`` of the case declares, else the
-        kind of quantity in brackets.
+        Fields have the dimensions ``(..., y, x)``, so that ``dataset.pressure.isel(kept_increment=-1).plot()`` draws x
+        to the right; :meth:`field` has the shape (nx, ny). ``zone`` has the attributes ``flag_values`` and
+        ``flag_meanings`` of the CF conventions. Variables have ``long_name`` and ``units``: those that ``[units]`` of
+        the case declares, else the kind of quantity in brackets.
 
         Parameters
         ----------
         increments : {"all", "kept"}
-            ``"all"``: numbers of all increments along ``increment``, fields along ``kept_increment``; both are numbers of
-            increments. ``"kept"``: numbers and fields of the kept increments alone, all along ``increment``.
+            ``"all"``: numbers of all increments along ``increment``, fields along ``kept_increment``; both are numbers
+            of increments. ``"kept"``: numbers and fields of the kept increments alone, all along ``increment``.
 
         Returns
         -------
         xarray.Dataset
-            Stages stand beside ``increment`` as ``stage`` and ``stage_name``. Cycles lie along ``cycle`` (from 0 over the whole
-            history) as ``cycle_energy_ratio`` and so on, beside ``cycle_number`` (in its stage, from 1), ``cycle_stage``
-            and ``cycle_stage_name``.
+            Stages stand beside ``increment`` as ``stage`` and ``stage_name``. Cycles lie along ``cycle`` (from 0 over
+            the whole history) as ``cycle_energy_ratio`` and so on, beside ``cycle_number`` (in its stage, from 1),
+            ``cycle_stage`` and ``cycle_stage_name``.
 
         Raises
         ------
@@ -333,7 +341,9 @@ class History:
         return _dataset.of_history(self, every=increments == "all")
 
     def save(self, folder: str | os.PathLike[str], *, replace: bool = False) -> Path:
-        """Write the history into a folder, as ``fret run --out FOLDER`` would have done; :func:`open_results` opens it again.
+        """Write the history into a folder, as ``fret run --out FOLDER`` would have done.
+
+        :func:`open_results` opens it again.
 
         Parameters
         ----------
@@ -361,7 +371,8 @@ class History:
             return path
         if self._folder is None:
             raise ValueError(
-                "save: a history that went through another process or a file holds no states; save it where it was solved"
+                "save: a history that went through another process or a file holds no states; "
+                "save it where it was solved"
             )
         if path.exists() and (not path.is_dir() or any(path.iterdir())) and not replace:
             raise ValueError(f"{path}: holds something already\n  = help: choose another folder, or replace=True")
@@ -380,15 +391,16 @@ class History:
         """Return the subsurface stress of one body, from the kept tractions of an increment.
 
         Bulk stress and residual stress are included, layer by layer. Axes x and y of the contact, z into the body in
-        question, from its own surface; tension is positive. Under the centres of the cells, exact for tractions that are uniform over each cell.
+        question, from its own surface; tension is positive. Under the centres of the cells, exact for tractions that
+        are uniform over each cell.
 
         Parameters
         ----------
         depths : array_like
             Depths under the surface [length], not negative, in or at the faces of the coatings where the base is rigid.
         increment : int
-            Number of the increment, from 0; negative from the end. Its ``pressure`` must be kept, and ``shear`` if there is
-            friction.
+            Number of the increment, from 0; negative from the end. Its ``pressure`` must be kept, and ``shear`` if
+            there is friction.
         body : {"lower", "upper"}
             The body.
         threads : int, optional
@@ -397,10 +409,10 @@ class History:
         Returns
         -------
         xarray.Dataset
-            ``xx``, ``yy``, ``zz``, ``xy``, ``xz``, ``yz``, ``von_mises`` [pressure] with the dimensions (depth, y, x), of a line
-            contact (depth, x); ``principal`` with (order, depth, y, x), the largest first. Beside ``depth`` stands ``layer``: 0 in
-            the outermost coating, the number of coatings in the substrate. A depth at an interface appears twice, first as
-            seen from above, then from below.
+            ``xx``, ``yy``, ``zz``, ``xy``, ``xz``, ``yz``, ``von_mises`` [pressure] with the dimensions (depth, y, x),
+            of a line contact (depth, x); ``principal`` with (order, depth, y, x), the largest first. Beside ``depth``
+            stands ``layer``: 0 in the outermost coating, the number of coatings in the substrate. A depth at an
+            interface appears twice, first as seen from above, then from below.
 
         Raises
         ------
@@ -442,27 +454,30 @@ class History:
         depths : array_like
             Depths under the surface of the body [length].
         cycle : int
-            Computed cycle of the history, from 0; negative from the end. At least three of its increments, with the one it starts from,
-            need their ``pressure``, ``shear`` and ``slip`` kept (``[output] every``).
+            Computed cycle of the history, from 0; negative from the end. At least three of its increments, with the
+            one it starts from, need their ``pressure``, ``shear`` and ``slip`` kept (``[output] every``).
         body : {"lower", "upper"}
             The body.
         constants : dict, optional
-            Constants of fatigue for all layers, with the keys of a layer's ``fatigue`` in the case. Default: those of the case.
+            Constants of fatigue for all layers, with the keys of a layer's ``fatigue`` in the case. Default: those of
+            the case.
         threads : int, optional
             Worker threads. Default: all cores.
 
         Returns
         -------
         xarray.Dataset
-            ``smith_watson_topper``, ``shakedown_strength``, and where all layers at the depths have their constants ``fatemi_socie``,
-            ``crossland``, ``dang_van``, ``smith_watson_topper_cycles``, ``fatemi_socie_cycles``, with the dimensions (depth, y, x), of a
-            line contact (depth, x); ``ruiz_f1``, ``ruiz_f2`` at the surface, where 0 is among the depths. Formulas and sources:
+            ``smith_watson_topper``, ``shakedown_strength``, and where all layers at the depths have their constants
+            ``fatemi_socie``, ``crossland``, ``dang_van``, ``smith_watson_topper_cycles``, ``fatemi_socie_cycles``,
+            with the dimensions (depth, y, x), of a line contact (depth, x); ``ruiz_f1``, ``ruiz_f2`` at the surface,
+            where 0 is among the depths. Formulas and sources:
             *Subsurface stress and fatigue* of the site.
 
         Raises
         ------
         ValueError
-            When a depth or a constant is out of its range, the body is rigid, or too few increments of the cycle are kept.
+            When a depth or a constant is out of its range, the body is rigid, or too few increments of the cycle are
+            kept.
         """
         return fatigue.fatigue(self, depths, _whole("cycle", cycle), body, constants, threads)
 
@@ -476,13 +491,14 @@ class History:
     ) -> "xarray.Dataset":
         """Return the course of a short crack through a cycle.
 
-        It starts where the Smith-Watson-Topper parameter of the surface is largest and lies in its critical plane. Stress intensities
-        by the weight function of an edge crack in one material, from the stresses below the contact.
+        It starts where the Smith-Watson-Topper parameter of the surface is largest and lies in its critical plane.
+        Stress intensities by the weight function of an edge crack in one material, from the stresses below the contact.
 
         Parameters
         ----------
         cycle : int
-            Computed cycle of the history, from 0; negative from the end. Three of its increments need their fields kept.
+            Computed cycle of the history, from 0; negative from the end. Three of its increments need their fields
+            kept.
         body : {"lower", "upper"}
             The body.
         constants : dict, optional
@@ -493,14 +509,16 @@ class History:
         Returns
         -------
         xarray.Dataset
-            ``k1_max``, ``k1_range``, ``k2_range``, ``threshold`` [pressure x sqrt(length)], and with constants of growth ``cycles``, over
-            ``length``. Attributes: ``fate`` ("does_not_grow", "stops", "grows", "fractures"; "none" with a ``reason``), ``x``, ``y``,
-            ``angle`` from the normal of the surface [degrees] ``towards`` a horizontal direction, ``length`` and ``cycles`` at its end.
+            ``k1_max``, ``k1_range``, ``k2_range``, ``threshold`` [pressure x sqrt(length)], and with constants of
+            growth ``cycles``, over ``length``. Attributes: ``fate`` ("does_not_grow", "stops", "grows", "fractures";
+            "none" with a ``reason``), ``x``, ``y``, ``angle`` from the normal of the surface [degrees] ``towards`` a
+            horizontal direction, ``length`` and ``cycles`` at its end.
 
         Raises
         ------
         ValueError
-            When there are no constants of cracks, one is out of its range, the body is rigid, or too few increments are kept.
+            When there are no constants of cracks, one is out of its range, the body is rigid, or too few increments
+            are kept.
         """
         return fatigue.crack(self, _whole("cycle", cycle), body, constants, threads)
 
@@ -549,14 +567,15 @@ class History:
     ) -> "xarray.Dataset":
         """Return the steady temperature rise of both surfaces by the friction of a cycle.
 
-        The dissipated energy of every cell times the frequency is the heat; it is shared so that both surfaces have one temperature in the
-        contact, with the conductivities of all layers (``thermal_conductivity`` in the case). A body without takes no heat.
+        The dissipated energy of every cell times the frequency is the heat; it is shared so that both surfaces have
+        one temperature in the contact, with the conductivities of all layers (``thermal_conductivity`` in the case). A
+        body without takes no heat.
 
         Parameters
         ----------
         cycle : int
-            Computed cycle of the history, from 0; negative from the end. Pressure, shear and slip of all its increments must be
-            kept (``[output] every = 1``).
+            Computed cycle of the history, from 0; negative from the end. Pressure, shear and slip of all its
+            increments must be kept (``[output] every = 1``).
         frequency : float, optional
             Cycles per unit of time. Default: ``[thermal] frequency`` of the case.
         threads : int, optional
@@ -565,9 +584,9 @@ class History:
         Returns
         -------
         xarray.Dataset
-            ``heat``, ``heat_into_lower`` [power/area], ``rise_lower``, ``rise_upper`` [temperature, above the bodies far from the
-            contact] with the dimensions (y, x). The attribute ``kept_fields_account_for`` is the dissipated energy of the fields over that of
-            the run, to which they are scaled.
+            ``heat``, ``heat_into_lower`` [power/area], ``rise_lower``, ``rise_upper`` [temperature, above the bodies
+            far from the contact] with the dimensions (y, x). The attribute ``kept_fields_account_for`` is the
+            dissipated energy of the fields over that of the run, to which they are scaled.
 
         Raises
         ------
@@ -587,8 +606,9 @@ class History:
     ) -> float:
         """Return the resistance of the contact, between points far inside both bodies.
 
-        Of all cells in contact, with all layers; both bodies need ``electrical_resistivity``, or ``thermal_conductivity``. In a periodic
-        case what the contact of one period adds to that of bodies in full contact.
+        Of all cells in contact, with all layers; both bodies need ``electrical_resistivity``, or
+        ``thermal_conductivity``. In a periodic case what the contact of one period adds to that of bodies in full
+        contact.
 
         Parameters
         ----------
@@ -628,9 +648,9 @@ class History:
         along: plot.Motion | None = None,
         stage: int | str | None = None,
         ax: "Axes | None" = None,
-        **line: Any,  # noqa: ANN401 - what matplotlib takes
+        **line: Any,
     ) -> "Axes":
-        """Draw tangential force over shift, or moment over twist: see :func:`fretting.plot.loop`."""
+        """Draw force over displacement, or moment over twist; arguments and answer of :func:`fretting.plot.loop`."""
         return plot.loop(self, along=along, stage=stage, ax=ax, **line)
 
     def plot_section(
@@ -641,9 +661,9 @@ class History:
         along: Literal["x", "y"] = "x",
         at: float = 0.0,
         ax: "Axes | None" = None,
-        **line: Any,  # noqa: ANN401 - what matplotlib takes
+        **line: Any,
     ) -> "Axes":
-        """Draw fields along a line through the grid: see :func:`fretting.plot.section`."""
+        """Draw fields along a line through the grid; arguments and answer of :func:`fretting.plot.section`."""
         return plot.section(self, fields, increment, along=along, at=at, ax=ax, **line)
 
     def plot_field(
@@ -652,9 +672,9 @@ class History:
         increment: int = -1,
         *,
         ax: "Axes | None" = None,
-        **image: Any,  # noqa: ANN401 - what matplotlib takes
+        **image: Any,
     ) -> "Axes":
-        """Draw a field as a map: see :func:`fretting.plot.field`."""
+        """Draw a field as a map; arguments and answer of :func:`fretting.plot.field`."""
         return plot.field(self, name, increment, ax=ax, **image)
 
     def plot_zones(
@@ -662,15 +682,15 @@ class History:
         increment: int = -1,
         *,
         ax: "Axes | None" = None,
-        **image: Any,  # noqa: ANN401 - what matplotlib takes
+        **image: Any,
     ) -> "Axes":
-        """Draw where the contact sticks and slips: see :func:`fretting.plot.zones`."""
+        """Draw where the contact sticks and slips; arguments and answer of :func:`fretting.plot.zones`."""
         return plot.zones(self, increment, ax=ax, **image)
 
     def animate_loop(
         self, field: FieldName = "zone", *, along: plot.Motion | None = None, stage: int | str | None = None
     ) -> "FuncAnimation":
-        """Animate the loop beside a field: see :func:`fretting.plot.animation`."""
+        """Animate the loop beside a field; arguments and answer of :func:`fretting.plot.animation`."""
         return plot.animation(self, field, along=along, stage=stage)
 
     def _facts(self) -> list[tuple[str, str]]:

@@ -40,11 +40,13 @@ class Identification:
     Attributes
     ----------
     constants : dict of str to Constant
-        ``"friction coefficient"``, ``"rig stiffness"`` [force/length], ``"actuator amplitude"`` [length], and the fitted key.
+        ``"friction coefficient"``, ``"rig stiffness"`` [force/length], ``"actuator amplitude"`` [length], and the
+        fitted key.
     cycles : dict of str to ndarray
-        Quantities of every cycle: ``cycle``, ``dissipated_energy``, ``force_amplitude``, ``displacement_amplitude``, ``opening``
-        (delta_0), ``energy_ratio`` (A), ``sliding_ratio`` (D), the same of the contact without the rig (``contact_energy_ratio``,
-        ``contact_sliding_ratio``), ``slope_after_reversal``, ``plateau_friction``, ``energy_friction``; NaN where there is none.
+        Quantities of every cycle: ``cycle``, ``dissipated_energy``, ``force_amplitude``, ``displacement_amplitude``,
+        ``opening`` (delta_0), ``energy_ratio`` (A), ``sliding_ratio`` (D), the same of the contact without the rig
+        (``contact_energy_ratio``, ``contact_sliding_ratio``), ``slope_after_reversal``, ``plateau_friction``,
+        ``energy_friction``; NaN where there is none.
     sliding_condition : str
         Of the fitted cycle: ``"partial_slip"``, ``"mixed"`` or ``"gross_slip"``.
     removed : dict
@@ -54,8 +56,8 @@ class Identification:
     notes : list of str
         What the data cannot tell, and what was assumed.
     measured, computed : dict of str to ndarray
-        The fitted cycle as measured (``displacement``, ``force``), and the computed loop (``displacement`` of the actuator,
-        ``force``, ``shift`` of the contact).
+        The fitted cycle as measured (``displacement``, ``force``), and the computed loop (``displacement`` of the
+        actuator, ``force``, ``shift`` of the contact).
     """
 
     def __init__(self, answer: Mapping[str, Any], page: str) -> None:
@@ -78,6 +80,7 @@ class Identification:
         self.computed = {name: np.array(values) for name, values in answer["computed"].items()}
 
     def __repr__(self) -> str:
+        """Return the constants and the sliding condition in one line."""
         told = ", ".join(f"{name} = {entry.value:.4g}" for name, entry in self.constants.items() if entry.told)
         return f"Identification({told}; {self.sliding_condition})"
 
@@ -92,9 +95,9 @@ class Identification:
         (place / "identified.json").write_text(self.to_json() + "\n", encoding="utf-8")
         (place / "identified.html").write_text(self._page, encoding="utf-8")
 
-    def plot(self, axes: "Axes | None" = None) -> "Axes":
+    def plot(self, ax: "Axes | None" = None) -> "Axes":
         """Draw the measured points, freed from offset and drift, beside the computed loop."""
-        axes = self._axes(axes)
+        axes = self._axes(ax)
         displacement, force = self.measured["displacement"], self.measured["force"]
         time = (np.arange(len(force)) + 0.5) / len(force) - 0.5
         drift = self.removed["displacement_offset"] + time * (self.removed["displacement_drift"] or 0.0)  # type: ignore[operator]
@@ -106,9 +109,9 @@ class Identification:
 
     def _axes(self, axes: "Axes | None") -> "Axes":
         if axes is None:
-            from matplotlib import pyplot
+            from matplotlib import pyplot as plt
 
-            axes = pyplot.subplots()[1]
+            axes = plt.subplots()[1]
         units = self._answer["units"]
         axes.set(xlabel=f"displacement [{units['length']}]", ylabel=f"tangential force [{units['force']}]")
         return axes
@@ -124,23 +127,23 @@ def identify(
     fit: str | None = None,
     threads: int | None = None,
 ) -> Identification:
-    """Identify friction coefficient, stiffness of the rig and the quantities of every cycle from measured fretting loops.
+    """Identify friction coefficient and stiffness of the rig from measured fretting loops.
 
-    The same as ``fret identify``: the loop of the solver, behind a spring, is fitted to one cycle by least squares; offsets and a
-    drift of the displacement are fitted with it.
+    Gives the quantities of every cycle, too. The same as ``fret identify``: the loop of the solver, behind a spring,
+    is fitted to one cycle by least squares; offsets and a drift of the displacement are fitted with it.
 
     Parameters
     ----------
     log : path
-        CSV file: displacement of the actuator and tangential force; any lines above the names of the columns, commas, semicolons or
-        tabs, decimal commas with the last two.
+        CSV file: displacement of the actuator and tangential force; any lines above the names of the columns, commas,
+        semicolons or tabs, decimal commas with the last two.
     case : path, str or mapping
         Bodies, profile, grid and the stages that press them.
     columns : mapping, optional
         Names of the columns of ``"displacement"``, ``"force"``, ``"cycle"``, ``"normal_force"``. Default: usual names.
     units : mapping, optional
-        Units of ``"displacement"``, ``"force"``, ``"normal_force"``, such as ``"um"``. Default: those beside the names, or those of
-        the case.
+        Units of ``"displacement"``, ``"force"``, ``"normal_force"``, such as ``"um"``. Default: those beside the
+        names, or those of the case.
     cycle : float, optional
         Number of the cycle that is fitted. Default: the last.
     fit : str, optional

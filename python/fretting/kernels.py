@@ -28,8 +28,8 @@ def frequency_response(
     k : array_like
         Wavenumbers [rad/length], positive, any shape.
     body : mapping
-        The body as in a case: ``{"coatings": [{"thickness": ..., "young": ..., "poisson": ...}], "substrate": {"young": ...,
-        "poisson": ...}}``, ``"base": "rigid"`` in place of a substrate, graded coatings too.
+        The body as in a case: ``{"coatings": [{"thickness": ..., "young": ..., "poisson": ...}], "substrate":
+        {"young": ..., "poisson": ...}}``, ``"base": "rigid"`` in place of a substrate, graded coatings too.
 
     Returns
     -------
@@ -73,8 +73,8 @@ def influence_coefficients(
     Parameters
     ----------
     body : mapping
-        The body as in a case: ``{"coatings": [{"thickness": ..., "young": ..., "poisson": ...}], "substrate": {"young": ...,
-        "poisson": ...}}``, ``"base": "rigid"`` in place of a substrate, graded coatings too.
+        The body as in a case: ``{"coatings": [{"thickness": ..., "young": ..., "poisson": ...}], "substrate":
+        {"young": ..., "poisson": ...}}``, ``"base": "rigid"`` in place of a substrate, graded coatings too.
     cells : (int, int)
         Number of offsets along x and y.
     spacing : (float, float)
@@ -151,7 +151,8 @@ def _case_of(body: Body) -> _core.Case:
     """Return a case whose lower body is this one: it is read and checked as in a case."""
     if not isinstance(body, Mapping):
         raise TypeError(
-            f"body: expected a mapping as in a case, {{'coatings': [...], 'substrate': {{...}}}}, found {type(body).__name__}"
+            "body: expected a mapping as in a case, {'coatings': [...], 'substrate': {...}}, "
+            f"found {type(body).__name__}"
         )
     return _case.read(
         {

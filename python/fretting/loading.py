@@ -24,15 +24,15 @@ def open_results(folder: str | os.PathLike[str]) -> History:
     Parameters
     ----------
     folder : path
-        What ``fret run CASE --out FOLDER`` has written (``results/CASE`` where no ``--out`` was given), :func:`run` with
-        ``folder=``, or :meth:`History.save`.
+        What ``fret run CASE --out FOLDER`` has written (``results/CASE`` where no ``--out`` was given), :func:`run`
+        with ``folder=``, or :meth:`History.save`.
 
     Returns
     -------
     History
         As :func:`run` returns it, to the bit: numbers are stored exactly. Fields are read when they are asked for, so
-        the folder has to stay where it is; a pickled history holds them itself. Of a run that was interrupted, failed or
-        still goes it holds the increments solved so far; ``history.finished`` is False, ``history.status`` and
+        the folder has to stay where it is; a pickled history holds them itself. Of a run that was interrupted, failed
+        or still goes it holds the increments solved so far; ``history.finished`` is False, ``history.status`` and
         ``history.message`` say why.
 
     Raises
@@ -227,7 +227,10 @@ def _running_condition(cycles: dict[str, npt.NDArray[Any]], stage: int) -> str |
 
 
 def _lines(path: Path, whole: bool) -> list[str]:
-    """Return the lines of a table; of one that is not whole the last may be torn, by a kill or since it is being written."""
+    """Return the lines of a table.
+
+    Of one that is not whole the last may be torn, by a kill or since it is being written.
+    """
     text = _read(path).decode("utf-8", "replace")
     if not text.endswith("\n"):
         if whole or "\n" not in text:

@@ -23,15 +23,16 @@ class Plan(Mapping[str, Any]):
     """A case made numerical: a read-only mapping, whose entries are attributes too (``plan.grid["cells"]``).
 
     Keys are ``case``, ``grid`` (``cells``, ``spacing``), ``coupling`` (``"frictionless"``, ``"uncoupled"`` or
-    ``"coupled"``), ``increments``, ``memory_bytes`` (without the kept fields), ``kept_bytes`` (those), ``left_out``, ``expected``
-    (``half_widths`` and ``approach`` of the contact under the heaviest load, or None), ``warnings``; and what the run is expected to take: ``increments_expected``, ``convolutions_expected``, both None where ``memory_lacking`` says that this
-    machine has not the memory for it.
+    ``"coupled"``), ``increments``, ``memory_bytes`` (without the kept fields), ``kept_bytes`` (those), ``left_out``,
+    ``expected`` (``half_widths`` and ``approach`` of the contact under the heaviest load, or None), ``warnings``; and
+    what the run is expected to take: ``increments_expected``, ``convolutions_expected``, both None where
+    ``memory_lacking`` says that this machine has not the memory for it.
 
     Attributes
     ----------
     seconds_expected : float or None
-        Time that the run will take on all cores of this machine [s], as measured just now: no part of the mapping, since it is
-        never twice the same.
+        Time that the run will take on all cores of this machine [s], as measured just now: no part of the mapping,
+        since it is never twice the same.
     """
 
     seconds_expected: float | None
@@ -50,14 +51,14 @@ class Plan(Mapping[str, Any]):
         """What about the case may mislead, as far as the case alone tells: see ``History.warnings``."""
         return list(self._entries["warnings"])
 
-    def __getattr__(self, key: str) -> Any:  # noqa: ANN401 - entries are of many kinds
+    def __getattr__(self, key: str) -> Any:
         """Entry of that name: ``plan.increments`` is ``plan["increments"]``."""
         entries = self.__dict__.get("_entries", {})
         if key not in entries:
             raise AttributeError(f"a plan has no {key!r}; it has: {', '.join(entries)}")
         return entries[key]
 
-    def __getitem__(self, key: str) -> Any:  # noqa: ANN401 - entries are of many kinds
+    def __getitem__(self, key: str) -> Any:
         """Entry of that name."""
         return self._entries[key]
 

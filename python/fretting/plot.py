@@ -1,12 +1,13 @@
 """Figures of histories and sweeps; needs matplotlib (``pip install fretting[plot]``).
 
-Every function draws into `ax`, or into a figure of its own when none is given, and returns the axes; further keywords go to the
-artist (``color=``, ``label=``, ``cmap=``). Units are those
+Every function draws into `ax`, or into a figure of its own when none is given, and returns the axes; further keywords
+go to the artist (``color=``, ``label=``, ``cmap=``). Units are those
 of the case: labels say what ``[units]`` of the case declares, else length, force, pressure.
 """
 
 import html
 from collections.abc import Sequence
+from contextlib import suppress
 from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
@@ -37,13 +38,14 @@ REGIMES = (
 )  # fmt: skip
 """Names and colours of the sliding conditions, from less to more slip."""
 
+
 def loop(
     history: "History",
     *,
     along: Motion | None = None,
     stage: int | str | None = None,
     ax: "Axes | None" = None,
-    **line: Any,  # noqa: ANN401 - what matplotlib takes
+    **line: Any,
 ) -> "Axes":
     """Draw tangential force over relative displacement, or moment over twist.
 
@@ -57,6 +59,8 @@ def loop(
         Number or name of a stage. Without: from the first stage in cycles on, or everything when there is none.
     ax : matplotlib Axes, optional
         Where to draw.
+    **line
+        Keywords of matplotlib for the line, such as ``color`` or ``label``.
 
     Returns
     -------
@@ -68,7 +72,9 @@ def loop(
     axes.plot(history.increments[motion][rows], history.increments[force][rows], **{"lw": 1.4, **_long_names(line)})
     axes.axhline(0.0, color="0.8", lw=0.8, zorder=0)
     axes.axvline(0.0, color="0.8", lw=0.8, zorder=0)
-    axes.set(xlabel=_loop_label(history, motion), ylabel=_loop_label(history, force))
+    axes.set_xlabel(_loop_label(history, motion), loc="left")
+    axes.set_ylabel(_loop_label(history, force))
+    _powers_of_ten(axes)
     return axes
 
 
@@ -80,7 +86,7 @@ def section(
     along: Direction = "x",
     at: float = 0.0,
     ax: "Axes | None" = None,
-    **line: Any,  # noqa: ANN401 - what matplotlib takes
+    **line: Any,
 ) -> "Axes":
     """Draw fields along a line through the grid.
 
@@ -99,6 +105,8 @@ def section(
         contact it does not matter.
     ax : matplotlib Axes, optional
         Where to draw.
+    **line
+        Keywords of matplotlib for the line, such as ``color`` or ``label``.
 
     Returns
     -------
@@ -118,10 +126,12 @@ def section(
     values = {name: _along(history.field(name, increment), along, across, at) for name in names}  # type: ignore[arg-type]
     axes = _own_axes(ax)
     for name, course in values.items():
-        axes.plot(here, course, **{"lw": 1.4, "label": label(name, history._units), **_long_names(line)})
+        axes.plot(here, course, **{"lw": 1.4, "label": name.replace("_", " "), **_long_names(line)})
     units = {in_units(unit(name), history._units) for name in names}
-    axes.set(xlabel=f"{along} [{in_units('length', history._units)}]", ylabel=f"[{units.pop()}]" if len(units) == 1 else "")
-    axes.ticklabel_format(scilimits=(-2, 3))
+    axes.set(
+        xlabel=f"{along} [{in_units('length', history._units)}]", ylabel=f"[{units.pop()}]" if len(units) == 1 else ""
+    )
+    _powers_of_ten(axes)
     axes.legend(frameon=False)
     return axes
 
@@ -132,7 +142,7 @@ def field(
     increment: int = -1,
     *,
     ax: "Axes | None" = None,
-    **image: Any,  # noqa: ANN401 - what matplotlib takes
+    **image: Any,
 ) -> "Axes":
     """Draw a kept field as a map, with a colour bar; of a line contact, as a line.
 
@@ -146,6 +156,8 @@ def field(
         Number of the increment, from 0; negative from the end.
     ax : matplotlib Axes, optional
         Where to draw.
+    **image
+        Keywords of matplotlib for the image, such as ``cmap`` or ``norm``.
 
     Returns
     -------
@@ -167,7 +179,7 @@ def zones(
     increment: int = -1,
     *,
     ax: "Axes | None" = None,
-    **image: Any,  # noqa: ANN401 - what matplotlib takes
+    **image: Any,
 ) -> "Axes":
     """Draw the zones: open, stick and slip.
 
@@ -179,6 +191,8 @@ def zones(
         Number of the increment, from 0; negative from the end.
     ax : matplotlib Axes, optional
         Where to draw.
+    **image
+        Keywords of matplotlib for the image, such as ``cmap`` or ``norm``.
 
     Returns
     -------
@@ -255,7 +269,7 @@ def regime_map(
     *,
     variable: str = "cycle_regime",
     ax: "Axes | None" = None,
-    **mesh: Any,  # noqa: ANN401 - what matplotlib takes
+    **mesh: Any,
 ) -> "Axes":
     """Draw a fretting map: the sliding condition over two axes of a sweep.
 
@@ -282,7 +296,7 @@ def regime_map(
 
     colours = ListedColormap([colour for _, colour in REGIMES])
     edges = [_edges(np.asarray(dataset[name].values, dtype=np.float64), name) for name in (x, y)]
-    fixed = {"cmap": colours, "vmin": -0.5, "vmax": len(REGIMES) - 0.5}
+    fixed: dict[str, Any] = {"cmap": colours, "vmin": -0.5, "vmax": len(REGIMES) - 0.5}
     axes.pcolormesh(*edges, codes, **{"edgecolors": "white", "lw": 0.4, **mesh, **fixed})
     axes.set(xlabel=x, ylabel=y)
     _colour_legend(axes, [entry for number, entry in enumerate(REGIMES) if (codes == number).any()], "upper left")
@@ -299,7 +313,7 @@ def html_table(title: str, facts: Sequence[tuple[str, str]]) -> str:
     return f"<div><strong>{html.escape(title)}</strong><table>{rows}</table></div>"
 
 
-def _pyplot() -> Any:  # noqa: ANN401 - a module
+def _pyplot() -> Any:
     try:
         from matplotlib import pyplot as plt
     except ImportError as error:
@@ -313,10 +327,11 @@ def _long_names(line: dict[str, Any]) -> dict[str, Any]:
     return {short.get(name, name): value for name, value in line.items()}
 
 
-def _own_axes(axes: "Axes | None") -> Any:  # noqa: ANN401 - matplotlib's own stubs change with its version
+def _own_axes(axes: "Axes | None") -> "Axes":
     if axes is not None:
         return axes
-    return _pyplot().subplots(figsize=(5.2, 4.0), layout="constrained")[1]
+    own: Axes = _pyplot().subplots(figsize=(5.2, 4.0), layout="constrained")[1]
+    return own
 
 
 def _component(along: str) -> None:
@@ -401,7 +416,7 @@ def _along(values: Reals, along: Direction, across: Reals, at: float) -> Reals:
 def _image(
     history: "History",
     values: npt.NDArray[Any],
-    axes: Any,  # noqa: ANN401
+    axes: Any,
     keywords: dict[str, Any],
     words: Sequence[tuple[str, str]] | None = None,
     limits: tuple[float, float] | None = None,
@@ -420,8 +435,15 @@ def _image(
     axes.set(xlabel=f"x [{length}]", ylabel="" if history.is_line else f"y [{length}]")
     if history.is_line:
         axes.set(aspect="auto", yticks=[])
-    axes.ticklabel_format(scilimits=(-2, 3), axis="x" if history.is_line else "both")
+    _powers_of_ten(axes, "x" if history.is_line else "both")
     return image
+
+
+def _powers_of_ten(axes: Any, axis: Literal["x", "y", "both"] = "both") -> None:
+    """Few ticks, with the power of ten beside the axis; an axis whose numbers the caller writes differently stays."""
+    with suppress(AttributeError):
+        axes.ticklabel_format(scilimits=(-2, 3), axis=axis, useMathText=True)
+        axes.locator_params(axis="x", nbins=5)
 
 
 def _limits(values: npt.NDArray[Any]) -> tuple[float, float]:
@@ -448,8 +470,10 @@ def _edges(centres: Reals, name: str) -> Reals:
     return answer
 
 
-def _colour_legend(axes: Any, entries: Sequence[tuple[str, str]], place: str = "upper right") -> None:  # noqa: ANN401
+def _colour_legend(axes: Any, entries: Sequence[tuple[str, str]], place: str = "upper right") -> None:
     from matplotlib.patches import Patch
 
     patches = [Patch(facecolor=colour, edgecolor="0.6", label=word.replace("_", " ")) for word, colour in entries]
-    axes.legend(handles=patches, loc=place, fontsize="small", framealpha=0.9)
+    # Small, so that it fits into the corner beside a round contact.
+    small = {"fontsize": "x-small", "handlelength": 1.0, "borderpad": 0.3, "labelspacing": 0.25, "borderaxespad": 0.3}
+    axes.legend(handles=patches, loc=place, framealpha=0.9, **small)

@@ -33,30 +33,31 @@ def run(
     Parameters
     ----------
     case : path, str or mapping
-        Path of a TOML file, TOML text, or a mapping of the same structure. A ``str`` with a line break is TOML text, any other
-        a path.
+        Path of a TOML file, TOML text, or a mapping of the same structure. A ``str`` with a line break is TOML text,
+        any other a path.
     threads : int, optional
         Worker threads, from 1 to 1024; default: all cores. The result is the same for any number.
     progress : bool or callable
-        ``True`` writes the progress to stderr. A callable is called after every increment with a dict of its numbers (the
-        names of ``History.increments``), ``increments``, the number of all that are planned, and ``passed``, how many of these
-        are behind the run: cycles that a computed one stands for count. What it raises ends the run, and carries the history so
-        far as its attribute ``history``.
+        ``True`` writes the progress to stderr. A callable is called after every increment with a dict of its numbers
+        (the names of ``History.increments``), ``increments``, the number of all that are planned, and ``passed``, how
+        many of these are behind the run: cycles that a computed one stands for count. What it raises ends the run, and
+        carries the history so far as its attribute ``history``.
     start : path, History or pair, optional
-        A solved state from which the stages of the case continue: the last one of a folder of results or of a history; of
-        another increment as ``(folder or history, increment)`` or ``"folder:increment"``, counted from 0. Tractions,
+        A solved state from which the stages of the case continue: the last one of a folder of results or of a history;
+        of another increment as ``(folder or history, increment)`` or ``"folder:increment"``, counted from 0. Tractions,
         motions, slip, wear and dissipated energy continue; what is prescribed there stays until a stage changes it.
-        Grid, bodies and profile must be those of the state (``size = "auto"`` takes its grid); loads, friction, wear and
-        tolerances are the case's own. Increments count from 0 again. Without: bodies that have not touched yet.
+        Grid, bodies and profile must be those of the state (``size = "auto"`` takes its grid); loads, friction, wear
+        and tolerances are the case's own. Increments count from 0 again. Without: bodies that have not touched yet.
     folder : path, optional
-        Where results are written while the run goes, as ``fret run --out`` does; the history then reads its fields from there. A
-        run that is killed can be resumed. Default: in memory, and :meth:`History.save` afterwards.
+        Where results are written while the run goes, as ``fret run --out`` does; the history then reads its fields
+        from there. A run that is killed can be resumed. Default: in memory, and :meth:`History.save` afterwards.
     resume : bool
         With `folder`: continue an interrupted run; start if there is none; do nothing if it is solved.
     replace : bool
         With `folder`: replace the results of another case.
     estimate_error : bool
-        Also solve an auxiliary coarse case: ``history.error_bars`` then has an error bar for every quantity of interest.
+        Also solve an auxiliary coarse case: ``history.error_bars`` then has an error bar for every quantity of
+        interest.
 
     Returns
     -------
@@ -108,7 +109,9 @@ def run(
     if folder is None and (resume or replace):
         raise ValueError("resume, replace: of a run with a folder")
     if estimate_error and start is not None:
-        raise ValueError("estimate_error: an auxiliary coarse case cannot start from a state; solve the whole history as one case")
+        raise ValueError(
+            "estimate_error: an auxiliary coarse case cannot start from a state; solve the whole history as one case"
+        )
     question = _case.read(case, _start.read(start))
     table = _case.table_of(case)
     with _told(progress) as on_step:
@@ -141,11 +144,10 @@ def _ended_in(folder: Path, error: BaseException | None, stacklevel: int) -> His
     return _or_raised(history, error)
 
 
-def ended(
-    answer: _core.History, error: BaseException | None, case: dict[str, Any], stacklevel: int = 2
-) -> History:
-    """Return a history that is whole; raise what ended it early, with what there is of it. What about it may mislead goes to
-    Python's warnings, `stacklevel` calls up.
+def ended(answer: _core.History, error: BaseException | None, case: dict[str, Any], stacklevel: int = 2) -> History:
+    """Return a history that is whole; raise what ended it early, with what there is of it.
+
+    What about it may mislead goes to Python's warnings, `stacklevel` calls up.
     """
     history = History(answer, case)
     warn(history.warnings, stacklevel=stacklevel)

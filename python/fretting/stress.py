@@ -53,7 +53,10 @@ def subsurface(
         principal,
         described("principal stress, tension positive [pressure]", history._units),
     )
-    axes = {**coordinates(history, answer), "order": ("order", np.arange(1, 4), {"long_name": "1: the largest principal stress"})}
+    axes = {
+        **coordinates(history, answer),
+        "order": ("order", np.arange(1, 4), {"long_name": "1: the largest principal stress"}),
+    }
     attributes = {"body": body, "increment": history._number(increment)}
     dataset: xarray.Dataset = module.Dataset(variables, coords=axes, attrs=attributes)
     return dataset

@@ -33,7 +33,7 @@ def study(
     cells: Iterable[int] = (),
     increments: Iterable[int] = (),
     tolerances: Iterable[float] = (),
-    against: Literal["analytic", "finest"] | str | None = None,  # noqa: PYI051 - a file too
+    against: Literal["analytic", "finest"] | str | None = None,
     threads: int | None = None,
     progress: bool = False,
 ) -> "xarray.Dataset":
@@ -44,15 +44,15 @@ def study(
     case : path, str or mapping
         As for :func:`fretting.run`.
     cells : iterable of int
-        Numbers of cells along x; the grid keeps its size and shape. Default, without any list: the case's value, a half, a
-        quarter.
+        Numbers of cells along x; the grid keeps its size and shape. Default, without any list: the case's value, a
+        half, a quarter.
     increments : iterable of int
         Numbers of increments per stage, or per cycle. Default: as for the cells.
     tolerances : iterable of float
         Tolerances of the solver. Default: that of the case.
     against : {"analytic", "finest"} or path, optional
-        Reference: a closed form, the finest level, or a TOML file of numbers. Default: a closed form where the case has one,
-        otherwise Richardson extrapolation.
+        Reference: a closed form, the finest level, or a TOML file of numbers. Default: a closed form where the case
+        has one, otherwise Richardson extrapolation.
     threads : int, optional
         Worker threads. Default: all cores.
     progress : bool
@@ -61,11 +61,12 @@ def study(
     Returns
     -------
     xarray.Dataset
-        ``error``, ``error_plain``, ``error_extrapolated`` and ``order`` with the dimensions (level, quantity), NaN where nothing is
-        known; ``error_of_pressure``, ``error_of_shear``, ``wall_s``, ``convolutions``, ``is_efficient`` along ``level``. Beside
-        ``level`` stand ``refined`` (``"cells"``, ``"increments"``, ``"together"``, ``"tolerance"``), ``nx``, ``ny``, ``increments``
-        (of all stages, as text) and ``tolerance``; beside ``quantity``, ``measured_by``. The attribute ``choice`` says in words what
-        to choose for 1 %, 0.1 % and 0.01 %.
+        ``error``, ``error_plain``, ``error_extrapolated`` and ``order`` with the dimensions (level, quantity), NaN
+        where nothing is known; ``error_of_pressure``, ``error_of_shear``, ``wall_s``, ``convolutions``,
+        ``is_efficient`` along ``level``. Beside ``level`` stand ``refined`` (``"cells"``, ``"increments"``,
+        ``"together"``, ``"tolerance"``), ``nx``, ``ny``, ``increments`` (of all stages, as text) and ``tolerance``;
+        beside ``quantity``, ``measured_by``. The attribute ``choice`` says in words what to choose for 1 %, 0.1 % and
+        0.01 %.
 
     Raises
     ------

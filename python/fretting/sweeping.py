@@ -59,12 +59,14 @@ def sweep(
         ``"load.indent.normal_force"``, ``"load.1.tangential_force.0"``). A tuple of keys with tuples of values makes
         several keys change together; a name with a :class:`Parameter` stands for a key of the
         case, or changes the case by a function. A list of mappings
-        from keys to values is a list of points, along one dimension ``point``. A :class:`Distribution` in place of values
-        makes a key uncertain: all of them are drawn together, along one dimension ``sample``, beside the other axes.
+        from keys to values is a list of points, along one dimension ``point``. A :class:`Distribution` in place of
+        values makes a key uncertain: all of them are drawn together, along one dimension ``sample``, beside the other
+        axes.
     executor : concurrent.futures.Executor, optional
         Where the points are solved: threads, processes, a dask client's ``get_executor()``, ``MPIPoolExecutor``.
-        Default: the calling thread, one after the other. What points begin with alike is solved once, in this thread and in
-        threads, unless `measure` is given; processes solve every point on its own. The answers are the same bits.
+        Default: the calling thread, one after the other. What points begin with alike is solved once, in this thread
+        and in threads, unless `measure` is given; processes solve every point on its own. The answers are the same
+        bits.
     keep : {"last", "stages", "all"}
         Which increments the result has: the last of the history, the last of every stage (dimension ``stage``), or all
         (dimension ``increment``).
@@ -77,8 +79,8 @@ def sweep(
     threads : int, optional
         Threads of one solve. Without: 1 with an executor, all cores without one. Results do not depend on it.
     progress : bool or callable
-        ``True`` writes the progress to stderr. A callable is called after every point with a dict: ``done``, ``points``,
-        ``failed``, ``name`` and ``status`` of the point.
+        ``True`` writes the progress to stderr. A callable is called after every point with a dict: ``done``,
+        ``points``, ``failed``, ``name`` and ``status`` of the point.
     start : path, History or pair, optional
         A solved state that every point starts from, as for :func:`fretting.run`: press once, branch into many loads.
     samples : int, optional
@@ -86,17 +88,19 @@ def sweep(
     seed : int
         Chooses one set of samples of many; the same seed, the same samples.
     indices : bool
-        Also solve the points that Sobol' indices need: ``samples * (uncertain keys + 2)`` in all. :func:`uncertainty` then has them.
+        Also solve the points that Sobol' indices need: ``samples * (uncertain keys + 2)`` in all. :func:`uncertainty`
+        then has them.
 
     Returns
     -------
     xarray.Dataset
-        One dimension per parameter, named by its key or name; parameters whose values are no plain numbers or words count from 0, their
-        values stand as text in ``NAME_values``. Variables: the names of ``History.increments``; those of the last cycle
-        as ``cycle_dissipated_energy``, ``cycle_energy_ratio``, ``cycle_regime`` and so on (see :class:`History`); ``status``
-        (``"solved"``, ``"refused"``, ``"failed"``) and ``error``, the message of a point that was not solved. Numbers
-        of such points are NaN, counts -1, words empty. The attribute ``solved_before`` counts the solved
-        points found in `folder`, ``increments_in_common`` the increments that points took from beginnings solved for others.
+        One dimension per parameter, named by its key or name; parameters whose values are no plain numbers or words
+        count from 0, their values stand as text in ``NAME_values``. Variables: the names of ``History.increments``;
+        those of the last cycle as ``cycle_dissipated_energy``, ``cycle_energy_ratio``, ``cycle_regime`` and so on (see
+        :class:`History`); ``status`` (``"solved"``, ``"refused"``, ``"failed"``) and ``error``, the message of a point
+        that was not solved. Numbers of such points are NaN, counts -1, words empty. The attribute ``solved_before``
+        counts the solved points found in `folder`, ``increments_in_common`` the increments that points took from
+        beginnings solved for others.
 
     Raises
     ------
@@ -168,8 +172,9 @@ def sweep(
 
 
 def _fits_memory(asked: list[Point], executor: Executor | None) -> None:
-    """Refuse points beside each other that need more memory than there is; where the number of workers is not told, each
-    point finds out by itself.
+    """Refuse points beside each other that need more memory than there is.
+
+    Where the number of workers is not told, each point finds out by itself.
     """
     beside = min(getattr(executor, "_max_workers", 1), len(asked))
     if beside < 2:
@@ -232,7 +237,8 @@ class _Task(NamedTuple):
 def _in_common(tasks: list[_Task], executor: Executor | None) -> _core.InCommon | None:
     """Return what points that are solved in this process have in common.
 
-    The fields of a common beginning belong to none of them: where all of a history is measured, every point has its own.
+    The fields of a common beginning belong to none of them: where all of a history is measured, every point has its
+    own.
     """
     if len(tasks) < 2 or not (executor is None or isinstance(executor, ThreadPoolExecutor)):
         return None
@@ -280,7 +286,7 @@ def _rows(history: History, keep: Keep) -> npt.NDArray[np.int64]:
     return np.flatnonzero(np.append(stage[1:] != stage[:-1], True))
 
 
-def _measured(name: str, value: object) -> Any:  # noqa: ANN401 - a number or nested lists
+def _measured(name: str, value: object) -> Any:
     if name in MEANING or name.startswith("cycle_") or name in RESERVED:
         raise ValueError(f"measure: the name {name!r} is taken")
     array = np.asarray(value)
@@ -304,8 +310,7 @@ def _solved(
                 yield point, _surprise(error), False
         return
     futures: dict[Future[Table], Point] = {
-        executor.submit(_solve, task, common): point
-        for point, task, common in zip(points, tasks, shared, strict=True)
+        executor.submit(_solve, task, common): point for point, task, common in zip(points, tasks, shared, strict=True)
     }
     try:
         for future in as_completed(futures):
@@ -328,7 +333,7 @@ def _surprise(error: Exception) -> Table:
 class _Teller:
     """Tells about every point."""
 
-    def __init__(self, progress: bool | Told, count: int, before: Any) -> None:  # noqa: ANN401 - a view
+    def __init__(self, progress: bool | Told, count: int, before: Any) -> None:
         if not isinstance(progress, bool) and not callable(progress):
             raise TypeError(f"progress: expected a bool or a callable, found {type(progress).__name__}")
         self._line = PointLine() if progress is True else None
@@ -404,7 +409,7 @@ def _all_names(answers: dict[tuple[int, ...], Table], part: str) -> list[str]:
     return list(dict.fromkeys(name for answer in answers.values() for name in answer[part]))
 
 
-def _sample(answers: dict[tuple[int, ...], Table], part: str, name: str) -> Any:  # noqa: ANN401
+def _sample(answers: dict[tuple[int, ...], Table], part: str, name: str) -> Any:
     value = next(answer[part][name] for answer in answers.values() if name in answer[part])
     return value[0] if isinstance(value, list) else value
 
@@ -420,7 +425,7 @@ def _filled(shape: tuple[int, ...], sample: object) -> npt.NDArray[Any]:
 
 def _measured_variable(
     name: str, names: tuple[str, ...], shape: tuple[int, ...], answers: dict[tuple[int, ...], Table]
-) -> Any:  # noqa: ANN401
+) -> Any:
     if name in names:
         raise ValueError(f"measure: the name {name!r} is taken by a parameter")
     values = {place: np.asarray(a["measured"][name]) for place, a in answers.items() if name in a["measured"]}
@@ -434,7 +439,7 @@ def _measured_variable(
     return (*names, *(f"{name}_{number}" for number in range(len(inner)))), table
 
 
-def _import_xarray() -> Any:  # noqa: ANN401 - a module
+def _import_xarray() -> Any:
     try:
         import xarray
     except ImportError as error:

@@ -99,10 +99,11 @@ def uncertainty(dataset: "xarray.Dataset") -> "xarray.Dataset":
     Returns
     -------
     xarray.Dataset
-        Of every number of the sweep that varies: ``NAME`` with the dimension ``statistic`` (mean, deviation, min, max), ``NAME_quantile`` with
-        ``quantile`` (0.025, 0.25, 0.5, 0.75, 0.975), and with ``indices=True`` ``NAME_first`` and ``NAME_total`` with ``uncertain``, the
-        uncertain keys: Sobol' indices of first order (Saltelli's estimator) and total (Jansen's). All other dimensions are kept. Points that
-        were not solved do not count.
+        Of every number of the sweep that varies: ``NAME`` with the dimension ``statistic`` (mean, deviation, min,
+        max), ``NAME_quantile`` with ``quantile`` (0.025, 0.25, 0.5, 0.75, 0.975), and with ``indices=True``
+        ``NAME_first`` and ``NAME_total`` with ``uncertain``, the uncertain keys: Sobol' indices of first order
+        (Saltelli's estimator) and total (Jansen's). All other dimensions are kept. Points that were not solved do not
+        count.
 
     Raises
     ------
@@ -121,11 +122,14 @@ def uncertainty(dataset: "xarray.Dataset") -> "xarray.Dataset":
     ... }
     >>> answer = fretting.sweep(case, {"load.0.normal_force": fretting.Normal(10.0, 0.5)}, samples=16)
     >>> told = fretting.uncertainty(answer)
-    >>> print(f"{float(told['max_pressure'].sel(statistic='deviation') / told['max_pressure'].sel(statistic='mean')):.3f}")
+    >>> print(f"{float(told['max_pressure'].sel(statistic='deviation') /
+    told['max_pressure'].sel(statistic='mean')):.3f}")
     0.017
     """
     if "sample" not in dataset.dims:
-        raise ValueError("uncertainty: the sweep has no samples; give it distributions, such as fretting.Normal(0.6, 0.05)")
+        raise ValueError(
+            "uncertainty: the sweep has no samples; give it distributions, such as fretting.Normal(0.6, 0.05)"
+        )
     import xarray
 
     count, indices = int(dataset.attrs["samples"]), bool(dataset.attrs["indices"])
@@ -154,7 +158,7 @@ def uncertainty(dataset: "xarray.Dataset") -> "xarray.Dataset":
     return xarray.Dataset(variables, coords={**coordinates, **kept}, attrs={"samples": count})
 
 
-def _along_samples(of: Any, values: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:  # noqa: ANN401 - of a column
+def _along_samples(of: Any, values: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
     flat = np.ascontiguousarray(values.reshape(len(values), -1).T)
     columns = np.stack([of(column) for column in flat], axis=-1)
     return columns.reshape(len(columns), *values.shape[1:])

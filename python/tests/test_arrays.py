@@ -14,8 +14,8 @@ from fretting._meaning import FieldName
 REALS = {
     "normal_force", "approach", "tangential_force_x", "tangential_force_y", "shift_x", "shift_y", "twist_moment",
     "twist", "tilt_x", "tilt_y", "tilt_moment_x", "tilt_moment_y", "bulk_stress_x", "bulk_stress_y",
-    "upper_bulk_stress_x", "upper_bulk_stress_y", "bulk_work", "max_pressure", "max_shear", "contact_area", "stick_area", "dissipated_energy", "worn_volume",
-    "max_worn_depth", "residual", "wall_s",
+    "upper_bulk_stress_x", "upper_bulk_stress_y", "bulk_work", "max_pressure", "max_shear",
+    "contact_area", "stick_area", "dissipated_energy", "worn_volume", "max_worn_depth", "residual", "wall_s",
     "full_grid_convolutions",
 }  # fmt: skip
 COUNTS = {
@@ -94,10 +94,18 @@ def test_repr_tells_sizes_and_what_is_kept(history: fretting.History) -> None:
 def test_dataset_has_all_increments_the_kept_fields_and_the_cycles(history: fretting.History) -> None:
     pytest.importorskip("xarray")
     data = history.to_xarray()
-    assert dict(data.sizes) == {"increment": 17, "kept_increment": len(history.kept_increments), "x": 32, "y": 24, "cycle": 1}
+    assert dict(data.sizes) == {
+        "increment": 17,
+        "kept_increment": len(history.kept_increments),
+        "x": 32,
+        "y": 24,
+        "cycle": 1,
+    }
     np.testing.assert_array_equal(data["normal_force"].values, history.increments["normal_force"])
     assert list(data["kept_increment"].values) == history.kept_increments
-    np.testing.assert_array_equal(data["pressure"].sel(kept_increment=16).transpose("x", "y").values, history.field("pressure"))
+    np.testing.assert_array_equal(
+        data["pressure"].sel(kept_increment=16).transpose("x", "y").values, history.field("pressure")
+    )
     assert data["stage_name"].values.tolist() == ["indent"] + 16 * ["fretting"]
     assert data["stage"].values.tolist() == history.increments["stage"].tolist()
     assert data["cycle_energy_ratio"].values.tolist() == history.cycles["energy_ratio"].tolist()
@@ -192,7 +200,9 @@ def test_a_run_may_be_started_while_another_tells_its_progress(sphere_case: dict
     inner = []
 
     def run_another(step: dict[str, Any]) -> None:
-        inner.append(fretting.run(sphere_case, threads=1).increments["approach"][-1] + 0.0 * product(np.ones((4, 4))).sum())
+        inner.append(
+            fretting.run(sphere_case, threads=1).increments["approach"][-1] + 0.0 * product(np.ones((4, 4))).sum()
+        )
 
     outer = fretting.run(sphere_case, threads=1, progress=run_another)
     assert inner == [outer.increments["approach"][-1]]

@@ -17,10 +17,18 @@ import pytest
 import fretting
 
 ROOT = Path(__file__).resolve().parents[2]
-PAGES = sorted([ROOT / "README.md", *(ROOT / "docs").rglob("*.md")])
+PAGES = sorted([ROOT / "README.md", ROOT / "python" / "README.md", *(ROOT / "docs").rglob("*.md")])
 BLOCK = re.compile(r"^```(\w+)[^\n]*\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 
-NOT_RUN = ("pip ", "cargo install", "cargo xtask", "cargo run --release -p ", "cargo +nightly fuzz", "python docs/site", "mpiexec")
+NOT_RUN = (
+    "pip ",
+    "cargo install",
+    "cargo xtask",
+    "cargo run --release -p ",
+    "cargo +nightly fuzz",
+    "python docs/site",
+    "mpiexec",
+)
 """Beginnings of shell lines that are for a person: they install, or are run by other tests."""
 
 
@@ -33,7 +41,8 @@ def whole_case(shown: str) -> dict[str, Any]:
     rest = tomllib.loads("""
         grid = { cells = [24, 24], size = [240e-6, 240e-6] }
         upper = { rigid = true }
-        lower = { coatings = [{ thickness = 5e-6, young = 400e9, poisson = 0.2 }], substrate = { young = 210e9, poisson = 0.3 } }
+        lower.coatings = [{ thickness = 5e-6, young = 400e9, poisson = 0.2 }]
+        lower.substrate = { young = 210e9, poisson = 0.3 }
         profile = { sphere = { radius = 10e-3 } }
         friction = { coefficient = 0.2 }
         load = [{ normal_force = 1.0, increments = 1 }]
@@ -120,7 +129,7 @@ def test_links_lead_somewhere(page: Path) -> None:
             assert (page.parent / target).exists(), target
 
 
-def module(path: Path) -> Any:  # noqa: ANN401
+def module(path: Path) -> Any:
     """Load a script of the documentation."""
     spec = importlib.util.spec_from_file_location(path.stem, path)
     assert spec is not None
@@ -187,7 +196,9 @@ def test_the_site_builds_without_a_warning(tmp_path: Path) -> None:
         if snippets:
             written = json.loads((tmp_path / "site" / "learn" / f"{tutorial.stem}.ipynb").read_text(encoding="utf-8"))
             code = ["".join(cell["source"]) for cell in written["cells"] if cell["cell_type"] == "code"]
-            assert [text for text in code if "%%writefile" not in text] == [text.strip() for text in snippets], tutorial.name
+            assert [text for text in code if "%%writefile" not in text] == [text.strip() for text in snippets], (
+                tutorial.name
+            )
     for page in (tmp_path / "site").rglob("*.html"):
         for formula in re.findall(r"<math.*?</math>", page.read_text(encoding="utf-8"), re.DOTALL):
             assert "\\" not in re.sub(r"<[^>]+>", "", formula), (

@@ -41,7 +41,7 @@ def command() -> str:
 
 
 @pytest.fixture(scope="module")
-def results(tmp_path_factory):
+def results(tmp_path_factory: pytest.TempPathFactory) -> Path:
     folder = tmp_path_factory.mktemp("exchange")
     (folder / "case.toml").write_text(CASE)
     fret = command()
@@ -50,7 +50,7 @@ def results(tmp_path_factory):
     return folder / "run"
 
 
-def test_numpy_opens_the_npz(results):
+def test_numpy_opens_the_npz(results: Path) -> None:
     arrays = np.load(results / "export.npz")
     assert arrays["pressure"].shape == (4, 16, 20)
     assert arrays["kept_increment"].tolist() == [1, 2, 4, 6]
@@ -60,7 +60,7 @@ def test_numpy_opens_the_npz(results):
     np.testing.assert_allclose(force, arrays["normal_force"][arrays["kept_increment"]], rtol=1e-7)
 
 
-def test_xarray_opens_the_store_itself(results):
+def test_xarray_opens_the_store_itself(results: Path) -> None:
     xarray = pytest.importorskip("xarray")
     pytest.importorskip("zarr")
     arrays = np.load(results / "export.npz")
@@ -74,7 +74,7 @@ def test_xarray_opens_the_store_itself(results):
     assert (data["zone"].dtype, data["zone"].attrs["flag_meanings"]) == (np.uint8, "open stick slip")
 
 
-def test_zarr_opens_the_store_of_a_history_whose_length_was_not_known(tmp_path):
+def test_zarr_opens_the_store_of_a_history_whose_length_was_not_known(tmp_path: Path) -> None:
     zarr = pytest.importorskip("zarr")
     case = CASE.replace("increments = 4", "cycles = 9\nincrements = 8") + "[wear]\ncoefficient = 1e-12\nevery = 4\n"
     (tmp_path / "case.toml").write_text(case.replace("every = 2\n[wear]", "every = 8\n[wear]"))
@@ -85,7 +85,7 @@ def test_zarr_opens_the_store_of_a_history_whose_length_was_not_known(tmp_path):
     assert np.isfinite(group["pressure"][:]).all()
 
 
-def test_pyvista_opens_the_images(results):
+def test_pyvista_opens_the_images(results: Path) -> None:
     pyvista = pytest.importorskip("pyvista")
     arrays = np.load(results / "export.npz")
     reader = pyvista.get_reader(str(results / "vtk" / "history.pvd"))

@@ -12,17 +12,19 @@ import fretting
 pytest.importorskip("xarray")
 
 YOUNG, POISSON = 74e9, 0.33
-STRENGTH = {
+STRENGTH: Any = {
     "strength_coefficient": 714e6,
     "strength_exponent": -0.078,
     "ductility_coefficient": 0.166,
     "ductility_exponent": -0.538,
 }
-CRACK = {"threshold": 1e6, "short_crack_length": 90e-6, "initial_length": 20e-6, "final_length": 0.2e-3}
+CRACK: Any = {"threshold": 1e6, "short_crack_length": 90e-6, "initial_length": 20e-6, "final_length": 0.2e-3}
 
 
 def line_case(line_force: float, bulk: float) -> dict[str, Any]:
-    """Return a frictionless cylinder on a flat that is pulled back and forth, with a residual stress of (-50, 20) MPa."""
+    """Return a frictionless cylinder on a flat that is pulled back and forth, with a residual stress of (-50, 20)
+    MPa.
+    """
     substrate = {"young": YOUNG, "poisson": POISSON}
     return {
         "grid": {"cells": 512, "size": 0.96e-3},
@@ -38,7 +40,9 @@ def line_case(line_force: float, bulk: float) -> dict[str, Any]:
 
 
 def under_hertz_line(x: npt.NDArray[Any], z: float) -> dict[str, npt.NDArray[Any]]:
-    """Return the stress under a Hertz line contact of half-width 1 and pressure 1: McEwen 1949; Johnson 1985, eq. 4.49."""
+    """Return the stress under a Hertz line contact of half-width 1 and pressure 1: McEwen 1949; Johnson 1985, eq.
+    4.49.
+    """
     s = 1 - x**2 + z**2
     root = np.sqrt(s**2 + 4 * x**2 * z**2)
     m, n = np.sqrt((root + s) / 2), np.sign(x) * np.sqrt(np.maximum(root - s, 0) / 2)
@@ -51,7 +55,9 @@ def under_hertz_line(x: npt.NDArray[Any], z: float) -> dict[str, npt.NDArray[Any
 
 
 def test_stress_with_bulk_and_residual_stress_is_the_sum_of_the_closed_forms() -> None:
-    """Johnson's stress below a cylinder, the bulk in plane strain and the residual stress add: at the peak of the pull, at depths."""
+    """Johnson's stress below a cylinder, the bulk in plane strain and the residual stress add: at the peak of the
+    pull, at depths.
+    """
     history = fretting.run(line_case(9.327e4, 92.7e6))
     hertz = fretting.analytic.hertz_line(radius=50e-3, line_force=9.327e4, modulus=YOUNG / (2 * (1 - POISSON**2)))
     a, p0 = hertz.half_width, hertz.max_pressure
@@ -68,7 +74,9 @@ def test_stress_with_bulk_and_residual_stress_is_the_sum_of_the_closed_forms() -
 
 
 def test_smith_watson_topper_of_the_cycle_is_that_of_the_closed_form() -> None:
-    """The contact stands still while the bulk stress swings: the parameter over all planes by a fine table in Python."""
+    """The contact stands still while the bulk stress swings: the parameter over all planes by a fine table in
+    Python.
+    """
     history = fretting.run(line_case(9.327e4, 92.7e6))
     hertz = fretting.analytic.hertz_line(radius=50e-3, line_force=9.327e4, modulus=YOUNG / (2 * (1 - POISSON**2)))
     a, p0, depth = hertz.half_width, hertz.max_pressure, 1.5
@@ -94,7 +102,9 @@ def test_smith_watson_topper_of_the_cycle_is_that_of_the_closed_form() -> None:
 
 
 def test_a_crack_beside_a_light_contact_is_that_of_the_pull_alone(tmp_path: Any) -> None:
-    """K = 1.1215 s sqrt(pi l) of an edge crack in tension: the pull less the residual stress; the command says the same as Python."""
+    """K = 1.1215 s sqrt(pi l) of an edge crack in tension: the pull less the residual stress; the command says the
+    same as Python.
+    """
     case = line_case(10.0, 150e6)
     case["lower"]["substrate"]["fatigue"] = {"crack": CRACK, "strain_life": STRENGTH}
     case["stress"] = {"depths": [0.0, 10e-6]}
@@ -110,7 +120,8 @@ def test_a_crack_beside_a_light_contact_is_that_of_the_pull_alone(tmp_path: Any)
         name: crack.attrs[name] for name in ("fate", "x", "angle", "length")
     }
     assert crack.attrs["fate"] == "grows"
-    weak = history.crack(constants={"crack": {**CRACK, "threshold": 1e8}})
+    strong: Any = {"crack": {**CRACK, "threshold": 1e8}}
+    weak = history.crack(constants=strong)
     assert weak.attrs["fate"] == "does_not_grow"
 
 

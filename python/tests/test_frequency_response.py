@@ -12,10 +12,17 @@ import fretting
 
 
 def body(coatings: Any, substrate: Any) -> dict[str, Any]:
-    """Return a body as in a case: coatings (young, poisson, thickness), substrate (young, poisson) or None for a rigid base."""
+    """Return a body as in a case: coatings (young, poisson, thickness), substrate (young, poisson) or None for a rigid
+    base.
+    """
     layers = [dict(zip(("young", "poisson", "thickness"), coating, strict=True)) for coating in coatings]
-    base = {"base": "rigid"} if substrate is None else {"substrate": dict(zip(("young", "poisson"), substrate, strict=True))}
+    base = (
+        {"base": "rigid"}
+        if substrate is None
+        else {"substrate": dict(zip(("young", "poisson"), substrate, strict=True))}
+    )
     return {"coatings": layers, **base}
+
 
 def test_agrees_with_numbers_of_120_digit_arithmetic(root: Path) -> None:
     golden = root / "tests" / "golden" / "frequency_response.json"
@@ -83,7 +90,7 @@ def test_answers_have_the_shape_of_the_wavenumbers(shape: tuple[int, ...]) -> No
         (1.0, [], None, "rigid"),
     ],
 )
-def test_bad_arguments_are_refused_with_their_value(k, coatings, substrate, said) -> None:  # type: ignore[no-untyped-def]  # noqa: ANN001
+def test_bad_arguments_are_refused_with_their_value(k: Any, coatings: Any, substrate: Any, said: str) -> None:
     with pytest.raises(ValueError, match=said):
         fretting.frequency_response(k, body(coatings, substrate))
 

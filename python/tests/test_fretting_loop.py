@@ -127,5 +127,5 @@ def test_closed_forms_of_the_library_are_those_written_here() -> None:
     assert area == pytest.approx(loop.dissipated_energy_per_cycle, rel=1e-6)
     with pytest.raises(ValueError, match="friction holds at most"):
         fretting.analytic.cattaneo_mindlin(
-        sphere, friction_coefficient=FRICTION, shear_modulus=SHEAR_MODULUS, tangential_force=1.01 * FRICTION * FORCE
-    )
+            sphere, friction_coefficient=FRICTION, shear_modulus=SHEAR_MODULUS, tangential_force=1.01 * FRICTION * FORCE
+        )

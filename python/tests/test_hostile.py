@@ -14,10 +14,17 @@ from fretting import analytic
 
 
 def body(coatings: Any, substrate: Any) -> dict[str, Any]:
-    """Return a body as in a case: coatings (young, poisson, thickness), substrate (young, poisson) or None for a rigid base."""
+    """Return a body as in a case: coatings (young, poisson, thickness), substrate (young, poisson) or None for a rigid
+    base.
+    """
     layers = [dict(zip(("young", "poisson", "thickness"), coating, strict=True)) for coating in coatings]
-    base = {"base": "rigid"} if substrate is None else {"substrate": dict(zip(("young", "poisson"), substrate, strict=True))}
+    base = (
+        {"base": "rigid"}
+        if substrate is None
+        else {"substrate": dict(zip(("young", "poisson"), substrate, strict=True))}
+    )
     return {"coatings": layers, **base}
+
 
 K = np.linspace(1.0, 4.0, 12)
 FIELD = np.random.default_rng(7).normal(size=(6, 8))
@@ -30,11 +37,20 @@ CALLS: dict[str, tuple[Callable[[Any], Any], np.ndarray[Any, Any]]] = {
     "Convolution values": (lambda values: fretting.Convolution(values)(FIELD), KERNEL),
     "Convolution field": (lambda field: fretting.Convolution(KERNEL)(field), FIELD),
     "Hertz.pressure": (lambda r: SPHERE.pressure(r), K * SPHERE.contact_radius / 5),
-    "ellipse": (lambda x: analytic.hertz_ellipse(radius_x=1.0, radius_y=2.0, force=1e-3, modulus=1.0).pressure(x, 0.01), K / 100),
-    "westergaard": (lambda x: analytic.westergaard(amplitude=0.01, wavelength=1.0, mean_pressure=1e-3, modulus=1.0).pressure(x), K),
-    "cattaneo": (lambda r: analytic.cattaneo_mindlin(
+    "ellipse": (
+        lambda x: analytic.hertz_ellipse(radius_x=1.0, radius_y=2.0, force=1e-3, modulus=1.0).pressure(x, 0.01),
+        K / 100,
+    ),
+    "westergaard": (
+        lambda x: analytic.westergaard(amplitude=0.01, wavelength=1.0, mean_pressure=1e-3, modulus=1.0).pressure(x),
+        K,
+    ),
+    "cattaneo": (
+        lambda r: analytic.cattaneo_mindlin(
             SPHERE, friction_coefficient=0.1, shear_modulus=MODULI.shear, tangential_force=5e-5
-        ).shear(r), K * 0.02),
+        ).shear(r),
+        K * 0.02,
+    ),
 }
 LAYOUTS: dict[str, Callable[[np.ndarray[Any, Any]], Any]] = {
     "fortran": lambda a: np.asfortranarray(a),
@@ -123,10 +139,16 @@ def test_arrays_far_larger_than_memory_are_refused_before_memory_is_asked_for() 
         lambda: fretting.influence_coefficients(body([], (1.0, 0.3)), cells=(4, 4), spacing=(0.0, 1.0)),
         lambda: fretting.influence_coefficients(body([], (1.0, 0.3)), cells=(4, 4), spacing=(np.nan, 1.0)),
         lambda: fretting.influence_coefficients(body([], (1.0, 0.3)), cells=(-1, 4), spacing=(1.0, 1.0)),
-        lambda: fretting.influence_coefficients(body([(1.0, 0.3, np.inf)], (1.0, 0.3)), cells=(4, 4), spacing=(1.0, 1.0)),
-        lambda: fretting.influence_coefficients(body([(np.nan, 0.3, 1.0)], (1.0, 0.3)), cells=(4, 4), spacing=(1.0, 1.0)),
+        lambda: fretting.influence_coefficients(
+            body([(1.0, 0.3, np.inf)], (1.0, 0.3)), cells=(4, 4), spacing=(1.0, 1.0)
+        ),
+        lambda: fretting.influence_coefficients(
+            body([(np.nan, 0.3, 1.0)], (1.0, 0.3)), cells=(4, 4), spacing=(1.0, 1.0)
+        ),
         lambda: fretting.influence_coefficients(body([], None), cells=(4, 4), spacing=(1.0, 1.0)),
-        lambda: fretting.frequency_response([1.0], {**body([], (1.0, 0.3)), "coatings": [{"young": 1.0, "poisson": 0.3}]}),
+        lambda: fretting.frequency_response(
+            [1.0], {**body([], (1.0, 0.3)), "coatings": [{"young": 1.0, "poisson": 0.3}]}
+        ),
         lambda: fretting.frequency_response([1.0], body([], (1.0, 0.6))),
         lambda: fretting.frequency_response([-1.0], body([], (1.0, 0.3))),
         lambda: fretting.Convolution(KERNEL, parity="even"),  # type: ignore[arg-type]
@@ -186,7 +208,7 @@ def test_cases_plans_and_histories_can_be_copied_and_pickled(fretting_case: dict
 @pytest.mark.parametrize("increment", [14.7, 14.0, "14", None, True, np.float64(1.0)])
 def test_a_step_is_a_whole_number(sphere_case: dict[str, Any], increment: Any) -> None:
     history = fretting.run(sphere_case)
-    with pytest.raises(TypeError, match="increment = .*must be a whole number"):
+    with pytest.raises(TypeError, match=r"increment = .*must be a whole number"):
         history.field("pressure", increment=increment)
     last: Any = np.int32(-1)
     assert (history.field("pressure", increment=last) == history.field("pressure")).all()

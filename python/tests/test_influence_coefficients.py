@@ -12,10 +12,17 @@ import fretting
 
 
 def body(coatings: Any, substrate: Any) -> dict[str, Any]:
-    """Return a body as in a case: coatings (young, poisson, thickness), substrate (young, poisson) or None for a rigid base."""
+    """Return a body as in a case: coatings (young, poisson, thickness), substrate (young, poisson) or None for a rigid
+    base.
+    """
     layers = [dict(zip(("young", "poisson", "thickness"), coating, strict=True)) for coating in coatings]
-    base = {"base": "rigid"} if substrate is None else {"substrate": dict(zip(("young", "poisson"), substrate, strict=True))}
+    base = (
+        {"base": "rigid"}
+        if substrate is None
+        else {"substrate": dict(zip(("young", "poisson"), substrate, strict=True))}
+    )
     return {"coatings": layers, **base}
+
 
 CELLS = (17, 12)
 SPACING = (1.5, 1.0)
@@ -64,7 +71,9 @@ def test_agrees_with_numbers_made_by_other_means(root: Path) -> None:
     for row in json.loads(golden.read_text())["rows"]:
         i, j = row["i"], row["j"]
         layers = [(young, poisson, thickness) for young, poisson, thickness in row["layers"]]
-        found = fretting.influence_coefficients(body(layers, tuple(row["substrate"])), cells=(i + 1, j + 1), spacing=(1.0, 1.0))
+        found = fretting.influence_coefficients(
+            body(layers, tuple(row["substrate"])), cells=(i + 1, j + 1), spacing=(1.0, 1.0)
+        )
         for name in ("zz", "xx", "yy", "xy", "zx", "zy"):  # the numbers are good to about 1e-11 of zz
             assert abs(found[name][i, j] - row[name]) < 5e-11 * abs(row["zz"]), (row["layers"], i, j, name)
 

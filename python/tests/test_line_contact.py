@@ -1,4 +1,6 @@
-"""Line contacts: fields of one axis, from the run and from its folder, and the closed forms of lines and of stretched contacts."""
+"""Line contacts: fields of one axis, from the run and from its folder, and the closed forms of lines and of stretched
+contacts.
+"""
 
 from pathlib import Path
 
@@ -50,11 +52,25 @@ def test_pressed_contact_is_wider_than_hertz_by_its_friction(history: fretting.H
 
 
 def test_a_folder_gives_back_what_the_run_gave(tmp_path: Path) -> None:
-    case = "\n".join([
-        "[grid]", "cells = 128", "size = 0.05", "[upper]", "rigid = true", "[lower]",
-        "substrate = { young = 1.0, poisson = 0.3 }", "[profile.cylinder]", "radius = 1.0", 'axis = "y"',
-        "[friction]", "coefficient = 0.3", "[[load]]", "normal_force = 1e-4", "increments = 4",
-    ])
+    case = "\n".join(
+        [
+            "[grid]",
+            "cells = 128",
+            "size = 0.05",
+            "[upper]",
+            "rigid = true",
+            "[lower]",
+            "substrate = { young = 1.0, poisson = 0.3 }",
+            "[profile.cylinder]",
+            "radius = 1.0",
+            'axis = "y"',
+            "[friction]",
+            "coefficient = 0.3",
+            "[[load]]",
+            "normal_force = 1e-4",
+            "increments = 4",
+        ]
+    )
     (tmp_path / "line.toml").write_text(case)
     fretting._core.command_line(["fret", "run", str(tmp_path / "line.toml"), "--out", str(tmp_path / "out"), "--quiet"])
     loaded = fretting.open_results(tmp_path / "out")
@@ -85,6 +101,8 @@ def test_closed_forms_have_their_numbers() -> None:
     )
     assert sliding.offset / sliding.half_width == pytest.approx(-0.155958, abs=1e-6)
     assert analytic.tilted_punch(radius=1.0, force=1.0, modulus=1.0, tilt=0.1).moment == pytest.approx(4.0 / 3.0 * 0.1)
-    assert analytic.tilted_line_punch(half_width=1.0, line_force=1.0, modulus=1.0, tilt=0.1).moment == pytest.approx(np.pi / 40.0)
+    assert analytic.tilted_line_punch(half_width=1.0, line_force=1.0, modulus=1.0, tilt=0.1).moment == pytest.approx(
+        np.pi / 40.0
+    )
     with pytest.raises(ValueError, match="friction holds at most"):
         analytic.cattaneo_line(line, friction_coefficient=0.4, tangential_force=1e-4)

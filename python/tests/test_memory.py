@@ -73,7 +73,7 @@ def test_points_beside_each_other_are_counted_together(sphere_case: dict[str, An
     from concurrent.futures import ThreadPoolExecutor
 
     sphere_case["grid"] = {"cells": [4096, 4096], "size": [1e-3, 1e-3]}
-    with ThreadPoolExecutor(60) as executor, pytest.raises(MemoryError, match="60 points of .* beside each other"):
+    with ThreadPoolExecutor(60) as executor, pytest.raises(MemoryError, match=r"60 points of .* beside each other"):
         fretting.sweep(sphere_case, {"load.0.normal_force": np.linspace(1.0, 2.0, 60).tolist()}, executor=executor)
 
 
@@ -83,7 +83,10 @@ def test_numbers_of_threads_are_bounded_as_in_the_command(sphere_case: dict[str,
     with pytest.raises(ValueError, match=words):
         fretting.run(sphere_case, threads=threads)
     told = subprocess.run(
-        [sys.executable, "-m", "fretting", "run", "case.toml", f"--threads={threads}"], capture_output=True, text=True, check=False
+        [sys.executable, "-m", "fretting", "run", "case.toml", f"--threads={threads}"],
+        capture_output=True,
+        text=True,
+        check=False,
     )
     assert told.returncode == 1 and "must be a whole number from 1 to 1024" in told.stderr
 

@@ -45,7 +45,9 @@ PRESS = {"name": "press", "normal_force": 1.0, "increments": 4}
 def assert_goes_on(whole: fretting.History, part: fretting.History) -> None:
     for name in ("normal_force", "approach", "shift_x", "shift_y", "max_pressure", "max_shear", "dissipated_energy"):
         expected = whole.increments[name][-len(part) :]
-        np.testing.assert_allclose(part.increments[name], expected, rtol=0, atol=SAME * np.abs(whole.increments[name]).max())
+        np.testing.assert_allclose(
+            part.increments[name], expected, rtol=0, atol=SAME * np.abs(whole.increments[name]).max()
+        )
     for field in ("pressure", "shear_x", "slip_y"):
         expected = whole.field(field)
         np.testing.assert_allclose(part.field(field), expected, rtol=0, atol=SAME * np.abs(expected).max())
@@ -127,7 +129,7 @@ def failing(case: dict[str, Any]) -> dict[str, Any]:
 
 def test_what_was_solved_before_a_failure_is_in_the_exception(case: dict[str, Any]) -> None:
     whole = fretting.run(with_load(case, {"approach": 70e-9, "increments": 4}, RUB))
-    with pytest.raises(fretting.RunError, match="increment 4 .*above mu P") as raised:
+    with pytest.raises(fretting.RunError, match=r"increment 4 .*above mu P") as raised:
         fretting.run(failing(case))
     error = raised.value
     history = error.history

@@ -71,7 +71,7 @@ def test_a_map_in_a_stage_holds_from_there_on() -> None:
     ],
 )
 def test_bad_heights_are_refused_in_one_message(profile: dict[str, Any], said: str) -> None:
-    with pytest.raises(fretting.CaseError, match="profile.heights") as caught:
+    with pytest.raises(fretting.CaseError, match=r"profile\.heights") as caught:
         fretting.plan(case(profile))
     assert len(caught.value.mistakes) == 1
     assert said in str(caught.value)

@@ -184,7 +184,7 @@ def test_a_sweep_of_refused_points_only_is_refused(case: dict[str, Any]) -> None
         ("friction", "expected a mapping or a list of mappings, found str"),
     ],
 )
-def test_mistaken_axes_are_refused_before_any_work(case: dict[str, Any], axes: Any, message: str) -> None:  # noqa: ANN401
+def test_mistaken_axes_are_refused_before_any_work(case: dict[str, Any], axes: Any, message: str) -> None:
     with pytest.raises((ValueError, TypeError)) as refused:
         fretting.sweep(case, axes)
     assert message in str(refused.value)

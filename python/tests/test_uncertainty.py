@@ -22,8 +22,8 @@ def hertz_case() -> dict[str, Any]:
 
 
 def test_power_laws_of_uncertain_numbers_have_their_moments_and_indices() -> None:
-    # Hertz: p0 ~ P^(1/3) E^(2/3); of lognormal numbers the logarithms add, var ln p0 = s_P^2/9 + 4 s_E^2/9. An automatic grid keeps the contact
-    # the same in cells, so that the power law is exact on it.
+    # Hertz: p0 ~ P^(1/3) E^(2/3); of lognormal numbers the logarithms add, var ln p0 = s_P^2/9 + 4 s_E^2/9. An
+    # automatic grid keeps the contact the same in cells, so that the power law is exact on it.
     parameters = {
         "load.press.normal_force": fretting.Lognormal(10.0, 1.0),
         "lower.substrate.young": fretting.Lognormal(210e9, 10.5e9),
@@ -78,12 +78,14 @@ def test_energy_of_mindlin_and_deresiewicz_with_uncertain_friction(fretting_case
 
 
 def closed_form(friction: float) -> float:
-    """Mindlin & Deresiewicz (1953), J. Appl. Mech. 20, 327: energy of a cycle, identical spheres with nu = 0, E = 200 GPa."""
+    """Mindlin & Deresiewicz (1953), J. Appl. Mech. 20, 327: energy of a cycle, identical spheres with nu = 0, E = 200
+    GPa.
+    """
     force, amplitude, modulus, shear = 20.0, 2.4, 200e9, 100e9
     radius = (3 * force * 10e-3 / (4 * modulus / 2)) ** (1 / 3)
     part = amplitude / (friction * force)
     brackets = 1 - (1 - part) ** (5 / 3) - 5 / 6 * part * (1 + (1 - part) ** (2 / 3))
-    return 9 * friction**2 * force**2 * (2 / shear + 2 / shear) / (10 * radius) * brackets
+    return float(9 * friction**2 * force**2 * (2 / shear + 2 / shear) / (10 * radius) * brackets)
 
 
 def test_mistakes_are_told() -> None:

@@ -1,4 +1,6 @@
-"""What may mislead is told of: by the plan, by the history, through Python's own warnings, and by a folder read back."""
+"""What may mislead is told of: by the plan, by the history, through Python's own warnings, and by a folder read
+back.
+"""
 
 import pickle
 import subprocess

@@ -1,4 +1,6 @@
-"""Stiff wavy films with friction, periodic, pressed until patches merge and the contact is full: the increments that were hardest to solve."""
+"""Stiff wavy films with friction, periodic, pressed until patches merge and the contact is full: the increments that
+were hardest to solve.
+"""
 
 import numpy as np
 import pytest

@@ -1,8 +1,8 @@
 """Pages, help texts, examples and docstrings use the terms of the field: no home-made words.
 
-The glossary (docs/reference/glossary.md) has one term per thing. Each entry below is a word that users would not know, or would
-misunderstand, with the term to use. Public names that are older (``closure``, ``opening``, ``worn_depth``, ``shift``, ``left_out``) stand in
-code quotes, which are not searched.
+The glossary (docs/reference/glossary.md) has one term per thing. Each entry below is a word that users would not know,
+or would misunderstand, with the term to use. Public names that are older (``closure``, ``opening``, ``worn_depth``,
+``shift``, ``left_out``) stand in code quotes, which are not searched.
 """
 
 import ast
@@ -42,7 +42,8 @@ HOME_MADE = {
     r"fronts? (of slip )?(are |is )?carried": "extrapolation of the stick-slip boundary",
     r"mended": "fixed",
     r"judged?|judges?|verdicts?": "check, residual, reference",
-    r"a line an|a line a|an increment of its own|a row a|a file a|cells a (side|wave|period)|points? a|one an increment": "per",
+    r"a line an|a line a|an increment of its own|a row a|a file a": "per",
+    r"cells a (side|wave|period)|points? a|one an increment": "per",
     r"not given": "default",
     r"rooms?|floors?|house": "module, layer, architecture",
     r"at the most|at the least": "at most, at least",
@@ -70,7 +71,8 @@ ALLOWED = {
 }
 """Expressions that hold a home-made word and are right."""
 
-PAGES = sorted([ROOT / "README.md", ROOT / "CHANGELOG.md", ROOT / "CONTRIBUTING.md", *(ROOT / "docs").rglob("*.md")])
+TEXTS = [ROOT / name for name in ("README.md", "CHANGELOG.md", "CONTRIBUTING.md", "python/README.md")]
+PAGES = sorted([*TEXTS, *ROOT.glob("crates/*/README.md"), *(ROOT / "docs").rglob("*.md")])
 DIARIES = {
     "performance-log.md",
     "2026-11-usability.md",
@@ -78,7 +80,10 @@ DIARIES = {
     "2026-11-refinement-studies.md",
     "simplifications-measured.md",
 }
-"""Developers' notes of a day: kept as they were written, and say so. The last is printed by a program whose cases have short names."""
+"""Developers' notes of a day: kept as they were written, and say so.
+
+The last is printed by a program whose cases have short names.
+"""
 
 
 def plain(markdown: str) -> str:
@@ -143,13 +148,9 @@ def docstrings() -> list[tuple[str, str]]:
     all_of_them = []
     for path in sorted((ROOT / "python" / "fretting").glob("*.py")):
         tree = ast.parse(path.read_text(encoding="utf-8"))
-        for node in ast.walk(tree):
-            if (
-                isinstance(node, ast.Expr)
-                and isinstance(node.value, ast.Constant)
-                and isinstance(node.value.value, str)
-            ):
-                all_of_them.append((f"{path.name}:{node.lineno}", node.value.value))
+        alone = (node.value for node in ast.walk(tree) if isinstance(node, ast.Expr))
+        texts = (value for value in alone if isinstance(value, ast.Constant) and isinstance(value.value, str))
+        all_of_them += [(f"{path.name}:{value.lineno}", str(value.value)) for value in texts]
     return all_of_them
 
 

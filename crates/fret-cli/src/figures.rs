@@ -1,5 +1,7 @@
 //! How numbers, counts and names are shown to a person. Files and JSON carry numbers in full and do not pass here.
 
+use fret_core::case::Units;
+
 /// A number to five significant figures, in plain digits where that is short.
 pub fn figure(value: f64) -> String {
     let rounded = format!("{value:.4e}");
@@ -9,6 +11,11 @@ pub fn figure(value: f64) -> String {
         Some(exponent @ -2..=4) => format!("{value:.*}", (4 - exponent) as usize),
         _ => rounded,
     }
+}
+
+/// The same with its unit, where the case declares units; `kind` as in `force x length`.
+pub fn figure_in(units: Option<&Units>, value: f64, kind: &str) -> String {
+    figure(value) + &Units::after(units, kind, false)
 }
 
 /// The same for a number that only matters beside another: what vanishes in the rounding of `scale` is shown as zero.

@@ -1,5 +1,5 @@
 //! Error against CPU time of a Hertz contact and of a coated sphere, by exact influence coefficients and by the sampled
-//! frequency response that most of the literature uses. `cargo bench -p fret-core --bench error_time -- [CELLS,...]`; for
+//! frequency response that most of the literature uses. `cargo bench -p fretting --bench error_time -- [CELLS,...]`; for
 //! `benches/error_against_others.py`.
 //!
 //! A line a run: method, scene, cells a side, CPU seconds with the coefficients, relative errors of the largest pressure (cell
@@ -12,15 +12,15 @@ use std::ops::ControlFlow;
 use std::sync::OnceLock;
 use std::time::Instant;
 
-use fret_core::analytic::Hertz;
-use fret_core::compliance::SurfaceResponse;
-use fret_core::kernel::{Components, influence_coefficients, sampled_coefficients};
-use fret_core::model::{
+use fretting::analytic::Hertz;
+use fretting::compliance::SurfaceResponse;
+use fretting::kernel::{Components, influence_coefficients, sampled_coefficients};
+use fretting::model::{
     Base, Body, Coating, ContactPair, ContactState, Control, CoulombFriction, ElasticMaterial, HalfSpace,
     LoadStep, SurfaceGrid, Symmetry,
 };
-use fret_core::solver::{ContactSolver, Coupling, Increment, SolverSettings};
-use fret_core::study::peak_pressure;
+use fretting::solver::{ContactSolver, Coupling, Increment, SolverSettings};
+use fretting::study::peak_pressure;
 use ndarray::Array2;
 
 type Answer<T> = Result<T, Box<dyn Error>>;

@@ -1,5 +1,5 @@
 //! Influence coefficients: what they cost beside a convolution, and error against time of the exact conversion and of the
-//! sampled one. `cargo bench -p fret-core --bench influence_coefficients -- [TABLE.csv]`; the table is for
+//! sampled one. `cargo bench -p fretting --bench influence_coefficients -- [TABLE.csv]`; the table is for
 //! `docs/pictures/sampled_coefficients.py`.
 
 #![expect(clippy::print_stdout, reason = "a benchmark answers on the terminal")]
@@ -9,12 +9,12 @@ use std::error::Error;
 use std::fmt::Write;
 use std::time::Instant;
 
-use fret_core::compliance::{OperatorSet, SpectralCompliance, SurfaceCompliance, SurfaceResponse};
-use fret_core::kernel::sublayers::RESPONSE_BOUND;
-use fret_core::kernel::{
+use fretting::compliance::{OperatorSet, SpectralCompliance, SurfaceCompliance, SurfaceResponse};
+use fretting::kernel::sublayers::RESPONSE_BOUND;
+use fretting::kernel::{
     Components, InfluenceCoefficients, influence_coefficients, layered_half_space, sampled_coefficients,
 };
-use fret_core::model::{
+use fretting::model::{
     Base, Body, Coating, ContactPair, ElasticMaterial, GradedCoating, HalfSpace, Layer, YoungGradient,
 };
 

@@ -1,5 +1,5 @@
 //! What the normal problem costs: operator applications on the finest grid, on all levels weighted by cells, time, scene by
-//! scene. `cargo bench -p fret-core --bench normal_contact -- [CELLS,CELLS,...] [FILTER]`.
+//! scene. `cargo bench -p fretting --bench normal_contact -- [CELLS,CELLS,...] [FILTER]`.
 //!
 //! With the argument `time` it prints CPU seconds of Hertz contacts, the gap given, influence coefficients included, in front of
 //! their mirrors and on the whole grid, for `benches/normal_against_others.py`.
@@ -12,14 +12,14 @@ use std::fmt::Write;
 use std::ops::ControlFlow;
 use std::time::Instant;
 
-use fret_core::compliance::SurfaceResponse;
-use fret_core::history::Work;
-use fret_core::kernel::{Components, ResponseTable, influence_coefficients, periodic_symbols};
-use fret_core::model::{
+use fretting::compliance::SurfaceResponse;
+use fretting::history::Work;
+use fretting::kernel::{Components, ResponseTable, influence_coefficients, periodic_symbols};
+use fretting::model::{
     Base, Body, Coating, ContactPair, ContactState, Control, CoulombFriction, ElasticMaterial, HalfSpace,
     LoadStep, SurfaceGrid, Symmetry,
 };
-use fret_core::solver::{ContactSolver, Coupling, SolveError, SolverSettings};
+use fretting::solver::{ContactSolver, Coupling, SolveError, SolverSettings};
 use ndarray::Array2;
 
 type Answer<T> = Result<T, Box<dyn Error>>;

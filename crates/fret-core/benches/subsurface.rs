@@ -5,8 +5,8 @@
 
 use std::time::Instant;
 
-use fret_core::model::{Base, Coating, ElasticMaterial, HalfSpace, SurfaceGrid};
-use fret_core::subsurface::{DepthOperator, StressField, Tractions, automatic_depths};
+use fretting::model::{Base, Coating, ElasticMaterial, HalfSpace, SurfaceGrid};
+use fretting::subsurface::{DepthOperator, StressField, Tractions, automatic_depths};
 use ndarray::Array2;
 
 fn main() {

@@ -3,17 +3,17 @@
 //! Expected: a closed loop; the dissipated energy of the cycle is the area that the loop encloses, to the rounding of its corners.
 //!
 //! ```sh
-//! cargo run --release -p fret-core --example fretting_loop
+//! cargo run --release -p fretting --example fretting_loop
 //! ```
 
 use std::error::Error;
 use std::ops::ControlFlow;
 
-use fret_core::case::Case;
-use fret_core::history::{KeptFields, StepRecord};
-use fret_core::model::ContactState;
-use fret_core::plan::Plan;
-use fret_core::run::{Observer, Simulation};
+use fretting::case::Case;
+use fretting::history::{KeptFields, StepRecord};
+use fretting::model::ContactState;
+use fretting::plan::Plan;
+use fretting::run::{Observer, Simulation};
 
 const CASE: &str = r#"
 grid = { cells = [32, 32], size = "auto" }

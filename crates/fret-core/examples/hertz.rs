@@ -3,16 +3,16 @@
 //! Expected: both within 0.2 % of the closed form on 48 x 48 cells.
 //!
 //! ```sh
-//! cargo run --release -p fret-core --example hertz
+//! cargo run --release -p fretting --example hertz
 //! ```
 
 use std::error::Error;
 
-use fret_core::analytic::{EffectiveModuli, Hertz};
-use fret_core::case::Case;
-use fret_core::model::ElasticMaterial;
-use fret_core::plan::Plan;
-use fret_core::run::{Silent, Simulation};
+use fretting::analytic::{EffectiveModuli, Hertz};
+use fretting::case::Case;
+use fretting::model::ElasticMaterial;
+use fretting::plan::Plan;
+use fretting::run::{Silent, Simulation};
 
 const CASE: &str = r#"
 grid = { cells = [48, 48], size = "auto" }

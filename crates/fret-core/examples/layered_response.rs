@@ -3,13 +3,13 @@
 //! Expected: short waves see the coating, long waves the substrate.
 //!
 //! ```sh
-//! cargo run --release -p fret-core --example layered_response
+//! cargo run --release -p fretting --example layered_response
 //! ```
 
 use std::error::Error;
 
-use fret_core::kernel::{Components, FrequencyResponse, influence_coefficients};
-use fret_core::model::{Base, Body, Coating, ContactPair, ElasticMaterial, HalfSpace};
+use fretting::kernel::{Components, FrequencyResponse, influence_coefficients};
+use fretting::model::{Base, Body, Coating, ContactPair, ElasticMaterial, HalfSpace};
 
 #[expect(clippy::print_stdout, reason = "an example tells what it found")]
 fn main() -> Result<(), Box<dyn Error>> {

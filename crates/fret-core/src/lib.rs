@@ -9,7 +9,7 @@
 //! [`Simulation`] solves it, increment by increment, and a [`History`] is what it leaves behind.
 //!
 //! ```
-//! use fret_core::{Case, Plan, Silent, Simulation};
+//! use fretting::{Case, Plan, Silent, Simulation};
 //!
 //! let text = r#"
 //! [grid]
@@ -58,7 +58,7 @@
 //! A case is refused as a whole, with the place of every mistake; a run that fails says in which increment.
 //!
 //! ```
-//! use fret_core::Case;
+//! use fretting::Case;
 //!
 //! let refused = Case::from_toml("[profile.sphere]\nraduis = 10e-3", "case.toml").unwrap_err();
 //! assert!(refused.to_string().contains("did you mean `radius`?"));
@@ -72,12 +72,12 @@
 //! ```
 //! use std::ops::ControlFlow;
 //!
-//! use fret_core::analytic::Hertz;
-//! use fret_core::compliance::SurfaceResponse;
-//! use fret_core::kernel::{Components, influence_coefficients};
-//! use fret_core::model::{Control, Shape};
-//! use fret_core::solver::{Coupling, SolverSettings};
-//! use fret_core::{
+//! use fretting::analytic::Hertz;
+//! use fretting::compliance::SurfaceResponse;
+//! use fretting::kernel::{Components, influence_coefficients};
+//! use fretting::model::{Control, Shape};
+//! use fretting::solver::{Coupling, SolverSettings};
+//! use fretting::{
 //!     Body, ContactPair, ContactSolver, ContactState, CoulombFriction, ElasticMaterial, HalfSpace, LoadStep, Profile, SurfaceGrid,
 //! };
 //!
@@ -120,7 +120,6 @@ pub mod model;
 pub mod plan;
 #[cfg(test)]
 #[path = "../../../tests/random.rs"]
-#[expect(dead_code, reason = "the tests of the whole use all of it")]
 mod random;
 pub mod run;
 pub mod solver;

@@ -13,7 +13,7 @@
 use std::hint::black_box;
 use std::time::{Duration, Instant};
 
-use fret_fft::{
+use fretting_fft::{
     Block, Convolution, Engine, Kernel, Mirrors, Parity, PeriodicProduct, SingleProduct, Symbol, Workspace,
 };
 use ndarray::Array2;

@@ -12,7 +12,7 @@ use super::{Block, ConvolutionError, Engine, Kernel, Mirrors, SingleProduct, Wor
 /// in is a [`Workspace`].
 ///
 /// ```
-/// # use fret_fft::{Block, Convolution, Kernel, Parity};
+/// # use fretting_fft::{Block, Convolution, Kernel, Parity};
 /// let values = ndarray::array![[4.0, 2.0], [1.0, 0.5]]; // offsets (0, 0), (0, 1); (1, 0), (1, 1)
 /// let kernel = Kernel { values: values.view(), parity: Parity::EvenEven };
 /// let block = Block { output: 0, input: 0, kernel: 0, sign: 1.0 };
@@ -23,7 +23,7 @@ use super::{Block, ConvolutionError, Engine, Kernel, Mirrors, SingleProduct, Wor
 /// for (found, expected) in output.iter().zip([0.5, 1.0, 2.0, 4.0]) {
 ///     assert!((found - expected).abs() < 1e-14);
 /// }
-/// # Ok::<(), fret_fft::ConvolutionError>(())
+/// # Ok::<(), fretting_fft::ConvolutionError>(())
 /// ```
 pub struct Convolution {
     terms: Terms,

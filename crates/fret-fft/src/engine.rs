@@ -108,7 +108,7 @@ impl PlannedProduct {
             Self::Lanes(product) => {
                 let count = product.work_len(rayon::current_num_threads());
                 product.apply(workspace.lanes(count), input, output);
-            },
+            }
             Self::Lines(product) => product.apply(workspace.lines(product.scratch_len()), input, output),
             Self::Unfolded(product, terms) => unfolded_product(product, terms, workspace, input, output),
         }

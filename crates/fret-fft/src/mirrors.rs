@@ -104,7 +104,7 @@ mod tests {
     /// some times that.
     const SINGLE: f64 = 4e-6;
 
-    fn apply_single(product: SingleProduct, input: &[&[f64]], output: &mut [&mut [f64]]) {
+    fn apply_single(product: &SingleProduct, input: &[&[f64]], output: &mut [&mut [f64]]) {
         #[expect(clippy::cast_possible_truncation, reason = "single precision is what is tested")]
         let rounded = |field: &&[f64]| field.iter().map(|value| *value as f32).collect::<Vec<f32>>();
         let fields: Vec<Vec<f32>> = input.iter().map(rounded).collect();
@@ -220,7 +220,7 @@ mod tests {
         check(shape, (axes, inputs), blocks, SINGLE, |engine, mirrors, from, to| {
             let product = product(engine, mirrors);
             match product.in_single_precision() {
-                Some(single) => apply_single(single, from, to),
+                Some(single) => apply_single(&single, from, to),
                 None => product.apply(&mut product.workspace(), from, to),
             }
         });
@@ -246,7 +246,7 @@ mod tests {
         check(shape, (axes, inputs), blocks, SINGLE, |engine, mirrors, from, to| {
             let product = product(engine, mirrors);
             match product.in_single_precision() {
-                Some(single) => apply_single(single, from, to),
+                Some(single) => apply_single(&single, from, to),
                 None => product.apply(&mut product.workspace(), from, to),
             }
         });

@@ -3,7 +3,7 @@
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use fret_fft::{Block, Convolution, Engine, Kernel, Mirrors, Parity, PeriodicProduct, Symbol};
+use fretting_fft::{Block, Convolution, Engine, Kernel, Mirrors, Parity, PeriodicProduct, Symbol};
 use ndarray::Array2;
 
 struct Counting;

@@ -10,7 +10,7 @@ usage: cargo xtask CHORE
 
   test      the tests: Rust in release mode, then the Python package, built and installed into target/venv;
             with --long all of them, also those that take long
-  check     format, clippy, documentation: warnings are errors
+  check     format, clippy, documentation, and ruff for Python: warnings are errors
   bench     the benchmarks
   extremes  five thousand random cases, each certified, and their page docs/trust/random-cases.md; half an hour at the most
   docs      the site, into target/site, and the Rust documentation, into target/doc: warnings are errors
@@ -152,11 +152,16 @@ fn test(which: Tests) -> Vec<Step> {
 }
 
 fn check() -> Vec<Step> {
-    vec![
-        cargo(&["fmt", "--all", "--check"]),
-        cargo(&["clippy", "--workspace", "--all-targets", "--locked", "--", "--deny", "warnings"]),
+    let mut steps = vec![cargo(&["fmt", "--all", "--check"])];
+    steps.extend(venv());
+    steps.push(python("ruff, installed", &["-m", "pip", "install", "--quiet", "ruff==0.17.*"]));
+    steps.push(python("Python rules", &["-m", "ruff", "check"]));
+    steps.push(python("Python format", &["-m", "ruff", "format", "--check"]));
+    steps.push(cargo(&["clippy", "--workspace", "--all-targets", "--locked", "--", "--deny", "warnings"]));
+    steps.push(
         cargo(&["doc", "--workspace", "--no-deps", "--locked"]).with("RUSTDOCFLAGS", "--deny warnings"),
-    ]
+    );
+    steps
 }
 
 fn extremes() -> Step {
@@ -187,7 +192,7 @@ fn wheel() -> Vec<Step> {
 fn coverage() -> Step {
     let words = "tarpaulin --engine llvm --release --locked --follow-exec --skip-clean --timeout 1800 \
                  --target-dir target/coverage --output-dir target/coverage --out Stdout --out Json \
-                 --packages fret-core --packages fret-cli --packages fret-validation";
+                 --packages fretting --packages fretting-cli --packages fret-validation";
     cargo(&words.split_whitespace().collect::<Vec<_>>()).called("coverage")
 }
 

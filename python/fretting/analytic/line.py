@@ -33,6 +33,15 @@ class HertzLine:
 def hertz_line(*, radius: float, line_force: float, modulus: float) -> HertzLine:
     """Press a cylinder on a half-space without friction, under a force per length [force/length].
 
+    Parameters
+    ----------
+    radius : float
+        Relative radius of curvature [length].
+    line_force : float
+        Normal force per unit of length [force/length].
+    modulus : float
+        Effective modulus E* [pressure]: ``effective_moduli(...).normal``.
+
     References
     ----------
     Hertz (1881); Johnson (1985), *Contact Mechanics*, section 4.2(c).
@@ -69,8 +78,8 @@ def cattaneo_line(
 ) -> CattaneoLine:
     """Push a Hertz line contact across its axis, while a strain grows in proportion.
 
-    ``c = a sqrt(1 - |Q|/(mu P))``, ``e = a E* strain/(2 mu p0)``; for bodies that do not couple, as long as all that slips
-    slips one way (``|e| + c <= a``).
+    ``c = a sqrt(1 - |Q|/(mu P))``, ``e = a E* strain/(2 mu p0)``; for bodies that do not couple, as long as all that
+    slips slips one way (``|e| + c <= a``).
 
     Parameters
     ----------
@@ -81,7 +90,8 @@ def cattaneo_line(
     tangential_force : float
         Tangential force per length [force/length], at most friction times normal force.
     strain : float
-        Strain of the lower surface less that of the upper one [-]: ``sigma (1 - nu^2)/E`` under a tension of the lower body.
+        Strain of the lower surface less that of the upper one [-]: ``sigma (1 - nu^2)/E`` under a tension of the lower
+        body.
 
     References
     ----------
@@ -105,6 +115,15 @@ def stretched_line(cylinder: HertzLine, *, friction_coefficient: float, strain: 
     """Stretch a Hertz line contact without a tangential force: both edges slip, in opposite senses.
 
     ``E* strain/(2 mu p0) = (2/pi) [K(k) - E(k)]``, ``k^2 = 1 - c^2/a^2``, for bodies that do not couple.
+
+    Parameters
+    ----------
+    cylinder : HertzLine
+        The contact that is stretched, of :func:`hertz_line`.
+    friction_coefficient : float
+        Coefficient of friction [-].
+    strain : float
+        Strain of the lower surface less that of the upper one [-].
     """
     return StretchedLine(**numbers_of(_core.stretched_line(_line_numbers(cylinder), friction_coefficient, strain)))
 
@@ -135,8 +154,21 @@ def sliding_cylinder(
 ) -> SlidingCylinder:
     """Slide a cylinder across its axis on a half-space, with Dundurs' coupling beta [-].
 
-    ``p = (E*/2R) cos(pi g) (a + x)^(1/2 - g) (a - x)^(1/2 + g)``, ``tan(pi g) = beta mu``; friction is negative for shear on the
-    lower body along -x.
+    ``p = (E*/2R) cos(pi g) (a + x)^(1/2 - g) (a - x)^(1/2 + g)``, ``tan(pi g) = beta mu``; friction is negative for
+    shear on the lower body along -x.
+
+    Parameters
+    ----------
+    radius : float
+        Relative radius of curvature [length].
+    line_force : float
+        Normal force per unit of length [force/length].
+    modulus : float
+        Effective modulus E* [pressure]: ``effective_moduli(...).normal``.
+    coupling : float
+        Dundurs' beta [-]: ``effective_moduli(...).coupling``.
+    friction_coefficient : float
+        Coefficient of friction [-].
 
     References
     ----------
@@ -169,6 +201,17 @@ class TiltedLinePunch:
 
 def tilted_line_punch(*, half_width: float, line_force: float, modulus: float, tilt: float) -> TiltedLinePunch:
     """Press a flat punch of infinite length that is tilted by a slope, all of it in contact.
+
+    Parameters
+    ----------
+    half_width : float
+        Half the width of the punch [length].
+    line_force : float
+        Normal force per unit of length [force/length].
+    modulus : float
+        Effective modulus E* [pressure]: ``effective_moduli(...).normal``.
+    tilt : float
+        Slope of the punch against the surface [-].
 
     References
     ----------

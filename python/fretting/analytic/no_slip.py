@@ -26,6 +26,17 @@ def no_slip_punch(*, radius: float, force: float, modulus: float, coupling: floa
 
     ``P = 2 E* a delta ln((1 + beta)/(1 - beta)) / (2 beta)``.
 
+    Parameters
+    ----------
+    radius : float
+        Radius of the punch [length].
+    force : float
+        Normal force, positive in compression [force].
+    modulus : float
+        Effective modulus E* [pressure]: ``effective_moduli(...).normal``.
+    coupling : float
+        Dundurs' beta [-]: ``effective_moduli(...).coupling``.
+
     References
     ----------
     Mossakovskii (1954), PMM 18, 187; Spence (1968), Proc. R. Soc. A 305, 55.
@@ -51,6 +62,17 @@ class NoSlipSphere:
 
 def no_slip_sphere(*, radius: float, force: float, modulus: float, coupling: float) -> NoSlipSphere:
     """Press a sphere that sticks as it touches; `coupling` is Dundurs' beta [-], 0 gives the Hertz contact.
+
+    Parameters
+    ----------
+    radius : float
+        Relative radius of curvature [length].
+    force : float
+        Normal force, positive in compression [force].
+    modulus : float
+        Effective modulus E* [pressure]: ``effective_moduli(...).normal``.
+    coupling : float
+        Dundurs' beta [-]: ``effective_moduli(...).coupling``.
 
     References
     ----------

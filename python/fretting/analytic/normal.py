@@ -25,7 +25,15 @@ class EffectiveModuli:
 
 
 def effective_moduli(*, lower: Material, upper: Material | None = None) -> EffectiveModuli:
-    """Effective moduli of two bodies, each ``{"young": ..., "poisson": ...}``; default: a rigid upper body."""
+    """Effective moduli of two bodies, each ``{"young": ..., "poisson": ...}``; default: a rigid upper body.
+
+    Parameters
+    ----------
+    lower : mapping
+        ``{"young": ..., "poisson": ...}`` of the lower body [pressure, -].
+    upper : mapping, optional
+        The same of the upper body. Default: rigid.
+    """
     first, second = material_numbers("lower", lower), None if upper is None else material_numbers("upper", upper)
     return EffectiveModuli(**numbers_of(_core.effective_moduli(first, second)))
 
@@ -106,6 +114,17 @@ class HertzEllipse:
 def hertz_ellipse(*, radius_x: float, radius_y: float, force: float, modulus: float) -> HertzEllipse:
     """Press an ellipsoid on a half-space without friction; relative radii of curvature [length].
 
+    Parameters
+    ----------
+    radius_x : float
+        Relative radius of curvature along x [length].
+    radius_y : float
+        Relative radius of curvature along y [length].
+    force : float
+        Normal force, positive in compression [force].
+    modulus : float
+        Effective modulus E* [pressure]: ``effective_moduli(...).normal``.
+
     References
     ----------
     Hertz (1881); Johnson (1985), *Contact Mechanics*, section 4.2.
@@ -135,6 +154,15 @@ class FlatPunch:
 def flat_punch(*, radius: float, force: float, modulus: float) -> FlatPunch:
     """Press a flat circular punch on a half-space without friction.
 
+    Parameters
+    ----------
+    radius : float
+        Radius of the punch [length].
+    force : float
+        Normal force, positive in compression [force].
+    modulus : float
+        Effective modulus E* [pressure]: ``effective_moduli(...).normal``.
+
     References
     ----------
     Boussinesq (1885); Johnson (1985), *Contact Mechanics*, section 3.4.
@@ -162,6 +190,17 @@ class RoundedPunch:
 
 def rounded_punch(*, flat_radius: float, edge_radius: float, force: float, modulus: float) -> RoundedPunch:
     """Press a flat punch with a rounded edge on a half-space without friction.
+
+    Parameters
+    ----------
+    flat_radius : float
+        Radius b of the flat part [length].
+    edge_radius : float
+        Radius R of curvature of the edge [length].
+    force : float
+        Normal force, positive in compression [force].
+    modulus : float
+        Effective modulus E* [pressure]: ``effective_moduli(...).normal``.
 
     References
     ----------
@@ -196,6 +235,17 @@ class TiltedPunch:
 def tilted_punch(*, radius: float, force: float, modulus: float, tilt: float) -> TiltedPunch:
     """Press a flat circular punch that is tilted by a slope, all of it in contact.
 
+    Parameters
+    ----------
+    radius : float
+        Radius of the punch [length].
+    force : float
+        Normal force, positive in compression [force].
+    modulus : float
+        Effective modulus E* [pressure]: ``effective_moduli(...).normal``.
+    tilt : float
+        Slope of the punch against the surface [-].
+
     References
     ----------
     Johnson (1985), *Contact Mechanics*, sections 3.4 and 5.5(c).
@@ -226,6 +276,15 @@ class Cone:
 def cone(*, slope: float, force: float, modulus: float) -> Cone:
     """Press a blunt cone, of the `slope` [-] of its side against the surface, on a half-space without friction.
 
+    Parameters
+    ----------
+    slope : float
+        Slope of the side against the surface [-]: the gap is the slope times the distance from the tip.
+    force : float
+        Normal force, positive in compression [force].
+    modulus : float
+        Effective modulus E* [pressure]: ``effective_moduli(...).normal``.
+
     References
     ----------
     Love (1939); Sneddon (1965), Int. J. Engng Sci. 3, 47.
@@ -255,6 +314,17 @@ class Westergaard:
 
 def westergaard(*, amplitude: float, wavelength: float, mean_pressure: float, modulus: float) -> Westergaard:
     """Press a sinusoidal surface on a flat half-space without friction.
+
+    Parameters
+    ----------
+    amplitude : float
+        Amplitude of the wave, half its height [length].
+    wavelength : float
+        Wavelength [length].
+    mean_pressure : float
+        Mean pressure over a wavelength [pressure].
+    modulus : float
+        Effective modulus E* [pressure]: ``effective_moduli(...).normal``.
 
     References
     ----------
@@ -290,6 +360,15 @@ def thin_layer(*, radius: float, force: float, layer: Layer) -> ThinLayer:
 
     The force is 2.5 % low at ``a = 20 h`` and 10 % at ``a = 5 h`` for Poisson's ratio 0.3; by factors for 0.5.
 
+    Parameters
+    ----------
+    radius : float
+        Radius of the sphere [length].
+    force : float
+        Normal force, positive in compression [force].
+    layer : mapping
+        ``{"young": ..., "poisson": ..., "thickness": ...}`` of the layer [pressure, -, length].
+
     References
     ----------
     Johnson (1985), *Contact Mechanics*, section 5.8; Jaffar (1989); Barber (1990).
@@ -313,6 +392,15 @@ class ThickLayer:
 def thick_layer(*, radius: float, contact_radius: float, layer: Layer) -> ThickLayer:
     """Press a rigid sphere on a thick bonded layer until it touches over a disc of `contact_radius`, at most 0.4 h.
 
+    Parameters
+    ----------
+    radius : float
+        Radius of the sphere [length].
+    contact_radius : float
+        Radius of the contact, at most 0.4 of the thickness [length].
+    layer : mapping
+        ``{"young": ..., "poisson": ..., "thickness": ...}`` of the layer [pressure, -, length].
+
     References
     ----------
     Vorovich, Aleksandrov & Babeshko (1974); Argatov (2001); Li et al. (2020), Proc. IMechE J 234, 73.
@@ -321,5 +409,11 @@ def thick_layer(*, radius: float, contact_radius: float, layer: Layer) -> ThickL
 
 
 def hertz_numbers(sphere: Hertz) -> tuple[float, float, float]:
-    """Return what tells a contact apart: radius, force and modulus."""
+    """Return what tells a contact apart: radius, force and modulus.
+
+    Parameters
+    ----------
+    sphere : Hertz
+        The contact that is stretched, of :func:`hertz`.
+    """
     return sphere.radius, sphere.force, sphere.modulus

@@ -231,6 +231,19 @@ def stretched_sphere(
     """Push a Hertz contact along x while a strain along x grows in proportion; Poisson's ratio 0.
 
     ``c = a (1 - |T|/(mu P))^(1/3)``, ``e = 8 a G* strain/(pi mu p0)``, as long as ``|e| + c <= a``.
+
+    Parameters
+    ----------
+    sphere : Hertz
+        The contact that is stretched, of :func:`hertz`.
+    friction_coefficient : float
+        Coefficient of friction [-].
+    shear_modulus : float
+        Effective shear modulus G* [pressure]: ``effective_moduli(...).shear``.
+    tangential_force : float
+        Tangential force on the upper body along x [force].
+    strain : float
+        Strain of the lower surface less that of the upper one [-].
     """
     solution = _core.stretched_sphere(
         hertz_numbers(sphere), friction_coefficient, shear_modulus, tangential_force, strain
@@ -249,7 +262,17 @@ class EquibiaxialSphere:
 
 
 def equibiaxial_sphere(sphere: Hertz, *, friction_coefficient: float, strain: float) -> EquibiaxialSphere:
-    """Stretch a Hertz contact alike in all directions: ``E* strain/(mu p0) = K(k) - E(k)``, ``k^2 = 1 - c^2/a^2``."""
+    """Stretch a Hertz contact alike in all directions: ``E* strain/(mu p0) = K(k) - E(k)``, ``k^2 = 1 - c^2/a^2``.
+
+    Parameters
+    ----------
+    sphere : Hertz
+        The contact that is stretched, of :func:`hertz`.
+    friction_coefficient : float
+        Coefficient of friction [-].
+    strain : float
+        Strain of the lower surface less that of the upper one [-].
+    """
     return EquibiaxialSphere(
         **numbers_of(_core.equibiaxial_sphere(hertz_numbers(sphere), friction_coefficient, strain))
     )

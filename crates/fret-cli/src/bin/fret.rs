@@ -3,5 +3,5 @@
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
-    ExitCode::from(fret_cli::command_line(std::env::args_os()))
+    ExitCode::from(fretting_cli::command_line(std::env::args_os()))
 }

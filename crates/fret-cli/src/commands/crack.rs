@@ -2,6 +2,7 @@
 
 use std::fmt::Write as _;
 
+use fret_core::case::Units;
 use fret_core::model::HalfSpace;
 use fret_core::subsurface::crack::{CrackCourse, CrackFate, crack_course};
 use fret_core::subsurface::crack_path::{CrackStart, NoCrack, crack_path};
@@ -11,7 +12,7 @@ use fret_core::subsurface::{LoadedSurface, MostSevere};
 use serde_json::{Value, json};
 
 use crate::failure::Failure;
-use crate::figures::figure;
+use crate::figures::{figure, figure_in};
 use crate::interrupt;
 use crate::output::kept_run::KeptRun;
 
@@ -73,7 +74,8 @@ impl Crack<'_> {
             "fate": course.fate, "x": x, "y": y, "angle": degrees, "towards": start.horizontal,
             "length": course.length, "cycles": course.cycles,
         });
-        let length = figure(course.length);
+        let units = self.run.units.as_ref();
+        let length = figure_in(units, course.length, "length");
         let end = match course.fate {
             CrackFate::DoesNotGrow => format!("does not grow: below the threshold at {length}"),
             CrackFate::Stops => format!("stops at length {length}"),
@@ -84,11 +86,15 @@ impl Crack<'_> {
             course.cycles.map_or(String::new(), |cycles| format!(" after {} cycles", figure(cycles)));
         let table = format!(
             "  crack from x {} y {}, {} degrees from the normal: {end}{cycles}\n",
-            figure(x),
-            figure(y),
+            figure_in(units, x, "length"),
+            figure_in(units, y, "length"),
             figure(degrees)
         );
-        let mut csv = "length,k1_max,k1_range,k2_range,threshold,cycles\n".to_owned();
+        let intensity = |name: &str| Units::heading(units, name, "pressure length^1/2", false);
+        let [k1_max, k1_range, k2_range, threshold] =
+            ["k1_max", "k1_range", "k2_range", "threshold"].map(intensity);
+        let length = Units::heading(units, "length", "length", false);
+        let mut csv = format!("{length},{k1_max},{k1_range},{k2_range},{threshold},cycles\n");
         for at in &course.lengths {
             let cycles = at.cycles.map_or(String::new(), |cycles| format!("{cycles:e}"));
             let _ = writeln!(

@@ -2,6 +2,7 @@
 
 use std::fmt::Write as _;
 
+use fret_core::case::Units;
 use fret_core::model::HalfSpace;
 use fret_core::subsurface::coating_fracture::Film;
 use fret_core::subsurface::fatigue::{LayerConstants, Parameter};
@@ -12,8 +13,9 @@ use serde_json::{Value, json};
 
 use super::crack::{Crack, CrackAnswer};
 use crate::failure::Failure;
-use crate::figures::figure;
+use crate::figures::{figure, figure_in};
 use crate::output::kept_run::KeptRun;
+use crate::output::kind_of_stress;
 
 /// Collects what fatigue is judged by, one depth at a time.
 pub struct Fatigue<'a> {
@@ -83,6 +85,10 @@ impl<'a> Fatigue<'a> {
         Ok(finished)
     }
 
+    fn told(&self, value: f64, kind: &str) -> String {
+        figure_in(self.run.units.as_ref(), value, kind)
+    }
+
     fn place(&self, cell: [usize; 2], off: [f64; 2]) -> [f64; 2] {
         let grid = &self.run.grid;
         [0, 1].map(|axis| grid.centre(axis, cell[axis]) + off[axis] * grid.spacing()[axis])
@@ -123,14 +129,14 @@ impl<'a> Fatigue<'a> {
                 let in_words = |value: f64| {
                     let cycles =
                         cycles(value).map_or(String::new(), |cycles| format!(" ({} cycles)", worded(cycles)));
-                    figure(value) + &cycles
+                    self.told(value, kind_of_stress(parameter.name())) + &cycles
                 };
                 entry["critical_distance"] =
                     json!({ "distance": at.distance, "point": told(at.point), "line": told(at.line) });
                 let _ = writeln!(
                     finished.table,
                     "    at the critical distance {}: {} by the point method, {} by the line method",
-                    figure(at.distance),
+                    self.told(at.distance, "length"),
                     in_words(at.point.0),
                     in_words(at.line.0)
                 );
@@ -146,12 +152,12 @@ impl<'a> Fatigue<'a> {
                 });
                 let [x, y] = self.place(cell, [0.0; 2]);
                 parameters.insert(name.to_owned(), json!({ "largest": value, "x": x, "y": y, "depth": 0.0 }));
-                let name = name.replace('_', " ");
                 let _ = writeln!(
                     finished.table,
-                    "  {name:<20} {:<12} at x {:<12} surface",
-                    figure(value),
-                    figure(x)
+                    "  {:<20} {:<12} at x {:<12} surface",
+                    name.replace('_', " "),
+                    self.told(value, kind_of_stress(name)),
+                    self.told(x, "length")
                 );
             }
         }
@@ -197,10 +203,10 @@ impl<'a> Fatigue<'a> {
             table,
             "  {:<20} {:<12} at x {:<12} y {:<12} depth {:<12}",
             found.parameter.name().replace('_', " "),
-            figure(found.value),
-            figure(x),
-            figure(y),
-            figure(found.point.depth)
+            self.told(found.value, kind_of_stress(found.parameter.name())),
+            self.told(x, "length"),
+            self.told(y, "length"),
+            self.told(found.point.depth, "length")
         );
         if let Some(cycles) = found.cycles {
             let _ = write!(table, " cycles to initiation {}", worded(cycles));
@@ -214,7 +220,9 @@ impl<'a> Fatigue<'a> {
 
     /// Lines of `fatigue.csv`: the largest value of every parameter in every layer.
     fn by_layer(&self, judged: &Judged) -> String {
-        let mut text = "parameter,layer,largest,x,y,depth,cycles,factor_of_safety\n".to_owned();
+        let head = |name: &str| Units::heading(self.run.units.as_ref(), name, "length", false);
+        let [x, y, depth] = ["x", "y", "depth"].map(head);
+        let mut text = format!("parameter,layer,largest,{x},{y},{depth},cycles,factor_of_safety\n");
         for found in &judged.found {
             let [x, y] = self.place(found.cell, found.off);
             let optional = |value: Option<f64>| value.map_or(String::new(), |value| format!("{value:e}"));
@@ -258,16 +266,16 @@ impl<'a> Fatigue<'a> {
             }
             let sense = if stress > 0.0 { "tension" } else { "compression" };
             let channelling = match released.channelling {
-                Some(energy) => figure(energy),
+                Some(energy) => self.told(energy, "pressure x length"),
                 None => "not known: the coating's fatigue.channelling_factor".to_owned(),
             };
             let _ = writeln!(
                 finished.table,
                 "  coating, mean {sense:<11} {:<12} at x {:<12} y {:<12} energy released: channelling {channelling}, delamination {}",
-                figure(stress),
-                figure(x),
-                figure(y),
-                figure(released.delamination)
+                self.told(stress, "pressure"),
+                self.told(x, "length"),
+                self.told(y, "length"),
+                self.told(released.delamination, "pressure x length")
             );
             records.push(record);
         }

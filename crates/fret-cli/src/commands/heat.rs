@@ -23,7 +23,7 @@ use crate::arguments::HeatArguments;
 use crate::case_file::CaseFile;
 use crate::export::npz;
 use crate::failure::{Failure, Unwritten};
-use crate::figures::{duration, figure};
+use crate::figures::{duration, figure, figure_in};
 use crate::interrupt;
 use crate::output::kept_run::KeptRun;
 use crate::output::write_whole;
@@ -171,9 +171,10 @@ fn told(
     let [x, y] = [0, 1].map(|axis| run.grid.centre(axis, cell[axis]));
     let power = found.heat.sum() * run.grid.cell_area();
     let mean = mean_where_heated(found);
+    let length = |value: f64| figure_in(run.units.as_ref(), value, "length");
     for (name, value) in [
         ("friction power", figure(power)),
-        ("max temperature rise", format!("{} at x {}, y {}", figure(largest), figure(x), figure(y))),
+        ("max temperature rise", format!("{} at x {}, y {}", figure(largest), length(x), length(y))),
         ("mean temperature rise", format!("{} where heat is made", figure(mean))),
         ("heat into the lower body", found.lower_fraction().map_or("-".to_owned(), figure)),
     ] {

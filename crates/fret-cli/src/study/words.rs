@@ -53,17 +53,18 @@ pub fn choice(advice: &[Advice], cells: bool, increments: bool, ny_over_nx: f64)
             if ny == 1 { format!("{nx} cells") } else { format!("{nx} x {ny} cells") }
         });
         let steps = advice.increments.map(|count| format!("{count} increments per stage or cycle"));
-        let mut chosen: Vec<String> = [(cells, grid), (increments, steps)]
+        let chosen: Vec<String> = [(cells, grid, "cells"), (increments, steps, "increments")]
             .into_iter()
-            .filter(|(varied, _)| *varied)
-            .map(|(_, choice)| choice.unwrap_or_else(|| "not determined by this study".to_owned()))
+            .filter(|(varied, ..)| *varied)
+            .map(|(_, choice, what)| choice.unwrap_or_else(|| format!("{what} not determined by this study")))
             .collect();
-        chosen.dedup();
         let beyond = if advice.concluded { " (extrapolated, not computed)" } else { "" };
         format!("{percent}{}{beyond}", chosen.join(" and "))
     });
     if cells || increments {
-        format!("Choose {}.", each.collect::<Vec<_>>().join("; "))
+        let open = advice.iter().any(|advice| cells && advice.cells.is_none());
+        let more = if open { " Finer grids determine the cells: --cells with larger numbers." } else { "" };
+        format!("Choose {}.{more}", each.collect::<Vec<_>>().join("; "))
     } else {
         "Nothing to choose: the study has neither two grids nor two numbers of increments.".to_owned()
     }

@@ -33,10 +33,7 @@ impl Planned {
             Some(((*number, beginnings), is_small.then_some((*number, plan))))
         };
         let (histories, plans): (Vec<_>, Vec<_>) = open.par_iter().filter_map(plan).unzip();
-        Self {
-            common: InCommon::of(&histories),
-            plans: Mutex::new(plans.into_iter().flatten().collect()),
-        }
+        Self { common: InCommon::of(&histories), plans: Mutex::new(plans.into_iter().flatten().collect()) }
     }
 
     /// The plan of a point, where it was made and kept; once.

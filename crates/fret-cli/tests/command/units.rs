@@ -125,3 +125,32 @@ fn results_with_units_are_read_back() {
         "the stresses are not in the page"
     );
 }
+
+/// Numbers that the program computed carry their unit in refusals and beside the fatigue of the last cycle.
+#[test]
+fn what_the_program_computed_is_told_with_its_unit() {
+    let bench = Bench::new("unit-messages");
+    let declared = SPHERE.replace("[grid]", UNITS);
+    bench.file("slides.toml", &declared.replace("[0.05, 0.0]", "[0.15, 0.0]"));
+    let refused = bench.fret(&["check", "slides.toml"]);
+    assert_eq!(refused.code, Some(1));
+    let words = "the tangential force reaches 0.15 N, where friction carries at most mu P = 0.1 N";
+    assert!(refused.err.contains(words), "{}", refused.err);
+    let moved =
+        declared.replace("normal_force = 1.0", "approach = 1e-7").replace("[0.05, 0.0]", "[5.0, 0.0]");
+    bench.file("moved.toml", &moved);
+    let failed = bench.fret(&["run", "moved.toml", "--quiet"]);
+    assert!(failed.err.contains("tangential force 2.5 N is above mu P = 0.098"), "{}", failed.err);
+    let fields = "[\"pressure\", \"shear\", \"slip\"]";
+    let kept =
+        declared.replace("[\"pressure\", \"shear\", \"zone\"]", fields).replace("every = 5", "every = 2");
+    bench.file("kept.toml", &format!("{kept}\n[stress]\nyield_strength = 700e6\n"));
+    assert_eq!(bench.fret(&["run", "kept.toml", "--out", "kept", "--quiet"]).code, Some(0));
+    let stress = bench.fret(&["stress", "kept", "--depths", "0,1e-5"]);
+    let row = stress.out.lines().find(|line| line.contains("smith watson topper")).unwrap();
+    assert!(row.contains(" Pa ") && row.contains(" m ") && row.ends_with(" m"), "{row}");
+    let row = stress.out.lines().find(|line| line.contains("fatemi socie")).unwrap();
+    assert!(!row.contains(" Pa"), "a ratio has no unit: {row}");
+    let heads = bench.text("kept/stress/fatigue.csv");
+    assert!(heads.starts_with("parameter,layer,largest,x [m],y [m],depth [m],cycles,"), "{heads}");
+}

@@ -21,6 +21,7 @@ use super::shape::profile;
 use super::stages::{sliding, stages};
 use super::stress::stress;
 use super::substrates::bulk_and_tilt;
+use super::units::Units;
 use super::wearing::wear;
 use crate::model::{CoulombFriction, Integration, Scheme};
 
@@ -46,7 +47,10 @@ pub(super) fn case(
     attachments: Attachments<'_>,
     is_whole: bool,
 ) -> Result<Case, Vec<Mistake>> {
-    let mut judge = Judge { mistakes: Vec::new(), attachments };
+    let mut judge = Judge { mistakes: Vec::new(), attachments, force_unit: String::new() };
+    let units = file.units.as_ref().and_then(|file| super::units::units(&mut judge, file));
+    let is_line = matches!(file.grid.cells.get_ref(), CellsFile::Line(_));
+    judge.force_unit = Units::after(units.as_ref(), "force", is_line);
     let cells = cells(&mut judge, &file.grid.cells);
     let size = size(&mut judge, &file.grid.size, cells);
     let bodies = bodies(&mut judge, &file.upper, &file.lower);
@@ -65,7 +69,6 @@ pub(super) fn case(
     let stages = stages(&mut judge, &file.load, (laws.as_deref(), rig_file), history_tolerance);
     let stages = stages.zip(changes.as_ref()).map(|(stages, changes)| with_friction(stages, changes));
     let loading = (&file.load, stages.as_deref());
-    let is_line = matches!(file.grid.cells.get_ref(), CellsFile::Line(_));
     let datum = datum(&mut judge, &file.grid, (is_line, size), bodies.as_ref());
     if is_line {
         line(&mut judge, &file.grid, loading, profile.as_ref());
@@ -92,7 +95,6 @@ pub(super) fn case(
     let wear = wear(&mut judge, file.wear.as_ref(), bodies.as_ref(), stages.as_deref(), frictionless);
     let solver = file.solver.as_ref();
     let tolerance = tolerance(&mut judge, solver.and_then(|solver| solver.tolerance.as_ref()));
-    let units = file.units.as_ref().and_then(|file| super::units::units(&mut judge, file));
     let output = output(&mut judge, file.output.as_ref());
     let stress = stress(&mut judge, file.stress.as_ref(), bodies.as_ref(), output.as_ref(), frictionless);
     let conduction = conduction(

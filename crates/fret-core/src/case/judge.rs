@@ -11,6 +11,8 @@ use super::refusal::Mistake;
 pub(super) struct Judge<'a> {
     pub(super) mistakes: Vec<Mistake>,
     pub(super) attachments: Attachments<'a>,
+    /// A space and the unit of a force, in which loads are told that the case does not write down; empty without units.
+    pub(super) force_unit: String,
 }
 
 impl Judge<'_> {

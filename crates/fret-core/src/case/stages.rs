@@ -329,11 +329,12 @@ pub(super) fn sliding(
         let file = file.get_ref();
         let name = &stage.name;
         let table = file.table.as_ref().map(Spanned::span);
+        let unit = judge.force_unit.clone();
         if stage.normal.is_some() && lowest[index] < 0.0 {
             judge.refuse::<()>(
                 file.normal_force.as_ref().map(Spanned::span).or(table.clone()).unwrap_or_default(),
                 format!(
-                    "load[{index}] ({name}).normal_force reaches {:?}: compression is positive, and the surfaces do not adhere",
+                    "load[{index}] ({name}).normal_force reaches {:?}{unit}: compression is positive, and the surfaces do not adhere",
                     lowest[index]
                 ),
                 "",
@@ -349,7 +350,7 @@ pub(super) fn sliding(
             judge.refuse::<()>(
                 span,
                 format!(
-                    "load[{index}] ({name}).{key}: the tangential force reaches {asked}, where friction carries at most mu P = {bound}"
+                    "load[{index}] ({name}).{key}: the tangential force reaches {asked}{unit}, where friction carries at most mu P = {bound}{unit}"
                 ),
                 "a force above mu P has no equilibrium; prescribe the shift to slide",
             );

@@ -42,12 +42,21 @@ impl Units {
 impl Units {
     /// The head of a column: its name, with its unit in brackets where the case declares units and the quantity has one of them.
     pub fn heading(units: Option<&Self>, name: &str, kind: &str, is_line: bool) -> String {
+        match Self::unit(units, kind, is_line) {
+            Some(unit) => format!("{name} [{unit}]"),
+            None => name.to_owned(),
+        }
+    }
+
+    /// What follows a number in a sentence: a space and its unit; nothing where the case declares no units or the quantity has none.
+    pub fn after(units: Option<&Self>, kind: &str, is_line: bool) -> String {
+        Self::unit(units, kind, is_line).map_or_else(String::new, |unit| format!(" {unit}"))
+    }
+
+    fn unit(units: Option<&Self>, kind: &str, is_line: bool) -> Option<String> {
         let kind = if is_line { Self::per_length(kind) } else { kind };
         let depends = ["length", "force", "pressure"].iter().any(|word| kind.contains(word));
-        match units {
-            Some(units) if depends => format!("{name} [{}]", units.of(kind)),
-            _ => name.to_owned(),
-        }
+        units.filter(|_| depends).map(|units| units.of(kind))
     }
 
     /// The name of a column, whose head may have a unit.
@@ -148,5 +157,8 @@ mod tests {
         assert_eq!(head("wall_s", "s", false), "wall_s");
         assert_eq!(Units::heading(None, "approach", "length", false), "approach");
         assert_eq!(Units::name_of("normal_force [N/mm]"), "normal_force");
+        assert_eq!(Units::after(Some(&units), "force", true), " N/mm");
+        assert_eq!(Units::after(Some(&units), "-", false), "");
+        assert_eq!(Units::after(None, "force", false), "");
     }
 }

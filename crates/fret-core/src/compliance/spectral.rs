@@ -191,7 +191,9 @@ impl SurfaceCompliance for SpectralCompliance {
         if let Some(product) = &self.tangential {
             self.applications += 1;
             let workspace = &self.workspace;
-            along_one(self.shear_axis, &shear, &mut tangential, |from, to| product.apply(workspace, from, to));
+            along_one(self.shear_axis, &shear, &mut tangential, |from, to| {
+                product.apply(workspace, from, to);
+            });
         } else {
             let zero = vec![0.0; shear[0].len()];
             let mut aside = zero.clone();
@@ -216,7 +218,8 @@ impl SurfaceCompliance for SpectralCompliance {
     }
 
     fn tangential_single(&mut self) -> Option<SinglePrecisionOperator<'_>> {
-        let Self { single: Singles { wanted, tangential, .. }, workspace, shear_axis, applications, .. } = self;
+        let Self { single: Singles { wanted, tangential, .. }, workspace, shear_axis, applications, .. } =
+            self;
         let product = made(tangential, self.tangential.as_ref(), *wanted)?;
         Some(SinglePrecisionOperator { product, workspace, shear_axis: *shear_axis, applications })
     }

@@ -151,7 +151,9 @@ impl Concern {
             Self::CoatingThinnerThanCell => "more cells or a smaller grid, where such stresses matter",
             Self::WearDepthOverCoatingThickness => "wear.limit = ... ends the run sooner",
             Self::ContactNearEdge => "a larger grid",
-            Self::PressingInFewIncrements => "more increments of that stage, or increments = \"auto\"",
+            Self::PressingInFewIncrements => {
+                "more increments of that stage, or increments = \"auto\"; where it is \"auto\", a smaller solver.history_tolerance"
+            }
         }
     }
 }

@@ -32,9 +32,9 @@ const EACH_CELL: usize = 16;
 fn bytes_per_cell(coupling: Coupling, periodic: bool) -> [usize; 2] {
     match (coupling, periodic) {
         (Coupling::Frictionless, _) => [120, 190],
-        (Coupling::Uncoupled, false) => [296, 460],
+        (Coupling::Uncoupled, false) => [300, 600],
         (Coupling::Uncoupled, true) => [296, 320],
-        (Coupling::Coupled, false) => [380, 1020],
+        (Coupling::Coupled, false) => [490, 700],
         (Coupling::Coupled, true) => [330, 320],
     }
 }

@@ -120,7 +120,9 @@ impl InCommon {
             let mut latest = self.compliance.lock().unwrap_or_else(PoisonError::into_inner);
             match &*latest {
                 Some(common) if common.depends_on == depends_on => Arc::clone(common),
-                _ => Arc::clone(latest.insert(Arc::new(CommonCompliance { depends_on, made: OnceLock::new() }))),
+                _ => Arc::clone(
+                    latest.insert(Arc::new(CommonCompliance { depends_on, made: OnceLock::new() })),
+                ),
             }
         };
         once(&common.made, PairCompliance::bytes(plan), || Some(PairCompliance::of(plan)))

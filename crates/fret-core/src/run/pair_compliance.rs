@@ -73,7 +73,9 @@ fn response(plan: &Plan) -> SurfaceResponse {
         (false, true) => {
             SurfaceResponse::FreeSpace(influence_coefficients(&case.bodies, case.cells, spacing, wanted))
         }
-        (false, false) => SurfaceResponse::FreeSpace(coefficients_of(&layered(), case.cells, spacing, wanted)),
+        (false, false) => {
+            SurfaceResponse::FreeSpace(coefficients_of(&layered(), case.cells, spacing, wanted))
+        }
     }
 }
 

@@ -1,6 +1,6 @@
 //! Why a run ends without its answer.
 
-use crate::case::{Stage, apart};
+use crate::case::{Case, Units, apart};
 use crate::machine::memory::MemoryError;
 use crate::solver::SolveError;
 
@@ -37,7 +37,7 @@ pub enum RunError {
     },
     /// A tangential load above what friction carries.
     #[error(
-        "increment {increment} ({stage}): tangential force {} is above mu P = {}: no equilibrium; prescribe the shift to slide",
+        "increment {increment} ({stage}): tangential force {}{unit} is above mu P = {}{unit}: no equilibrium; prescribe the shift to slide",
         apart(*asked, *bound)[0], apart(*asked, *bound)[1]
     )]
     AboveSliding {
@@ -49,6 +49,8 @@ pub enum RunError {
         asked: f64,
         /// mu P.
         bound: f64,
+        /// A space and the unit of both; empty where the case declares no units.
+        unit: String,
     },
     /// Tangential force and moment together above what friction carries.
     #[error(
@@ -65,7 +67,7 @@ pub enum RunError {
     },
     /// No tilt gives the prescribed moment of the pressure.
     #[error(
-        "increment {increment} ({stage}): no tilt was found for the prescribed tilt_moment {}, {} was reached: the normal force may not be \
+        "increment {increment} ({stage}): no tilt was found for the prescribed tilt_moment {}{unit}, {}{unit} was reached: the normal force may not be \
          able to act so far from the middle; prescribe the tilt, or a smaller moment",
         apart(*asked, *reached)[0], apart(*asked, *reached)[1]
     )]
@@ -78,6 +80,8 @@ pub enum RunError {
         asked: f64,
         /// Moment reached [force x length].
         reached: f64,
+        /// A space and the unit of both; empty where the case declares no units.
+        unit: String,
     },
     /// Even small parts of an increment leave too large an error in its history.
     #[error(
@@ -141,9 +145,10 @@ impl RunError {
     }
 }
 
-/// What a solver's error means for increment `increment` of `stage`.
-pub fn run_error(error: &SolveError, increment: usize, stage: &Stage, tolerance: f64) -> RunError {
-    let stage = stage.name.clone();
+/// What a solver's error means for increment `increment` of stage `stage` of a case.
+pub fn run_error(error: &SolveError, increment: usize, case: &Case, stage: usize) -> RunError {
+    let (stage, tolerance) = (case.stages[stage].name.clone(), case.tolerance);
+    let unit = |kind: &str| Units::after(case.units.as_ref(), kind, case.is_line());
     match error.clone() {
         SolveError::NotConverged { reached, iterations } => RunError::NotConverged {
             increment,
@@ -154,10 +159,12 @@ pub fn run_error(error: &SolveError, increment: usize, stage: &Stage, tolerance:
             advice: "try more increments in this stage, or a larger solver.tolerance".to_owned(),
         },
         SolveError::AboveSliding { asked, bound } => {
-            RunError::AboveSliding { increment, stage, asked, bound }
+            RunError::AboveSliding { increment, stage, asked, bound, unit: unit("force") }
         }
         SolveError::AboveFullSlip { fraction } => RunError::AboveFullSlip { increment, stage, fraction },
-        SolveError::NoTilt { asked, reached } => RunError::NoTilt { increment, stage, asked, reached },
+        SolveError::NoTilt { asked, reached } => {
+            RunError::NoTilt { increment, stage, asked, reached, unit: unit("force x length") }
+        }
         SolveError::ContactAtEdge => RunError::ContactAtEdge { increment, stage },
         SolveError::OperatorsMissing(error) => RunError::NotConverged {
             increment,

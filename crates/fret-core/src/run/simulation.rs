@@ -404,7 +404,7 @@ impl<'a> Journey<'a> {
         let refinement = self.refinement();
         let started = Instant::now();
         let observer = &mut *self.observer;
-        let failed = |error| run_error(&error, increment, &case.stages[stage], case.tolerance);
+        let failed = |error| run_error(&error, increment, case, stage);
         let mut watch = |iteration: usize, residual: f64| {
             let tolerance = case.tolerance;
             observer.iterated(&Iteration { increment, stage, iteration, residual, tolerance })

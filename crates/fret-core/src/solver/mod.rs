@@ -32,7 +32,7 @@ use std::borrow::Cow;
 
 use ndarray::Array2;
 
-use crate::compliance::{CellResponse, SharedWorkspace, OperatorSet, SpectralCompliance, SurfaceResponse};
+use crate::compliance::{CellResponse, OperatorSet, SharedWorkspace, SpectralCompliance, SurfaceResponse};
 use crate::kernel::ResponseTable;
 use crate::model::{
     BulkCompliance, ContactState, Control, CoulombFriction, Integration, LoadStep, Rig, Scheme, SurfaceGrid,

@@ -82,3 +82,23 @@ impl CellRule<1, 1, 0> for Average {
         []
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn tractions_go_halfway_to_others() {
+        let mut one =
+            Tractions { pressure: vec![4.0], shear: TangentialField { x: vec![-2.0], y: vec![1.0] } };
+        let other = Tractions { pressure: vec![2.0], shear: TangentialField { x: vec![0.0], y: vec![-7.0] } };
+        one.average_with(&other);
+        assert_eq!(one.parts(), [&[3.0][..], &[-1.0], &[-3.0]]);
+        one.average_with(&Tractions::zeros(1));
+        assert_eq!(one.parts(), [&[1.5][..], &[-0.5], &[-1.5]]);
+        let mut moved = Displacements { normal: vec![1.0], tangential: one.shear.clone() };
+        assert_eq!(moved.parts(), [&[1.0][..], &[-0.5], &[-1.5]]);
+        moved.parts_mut().into_iter().for_each(|part| part.fill(0.0));
+        assert_eq!(moved, Displacements::zeros(1));
+    }
+}

@@ -16,11 +16,8 @@ use super::plan::LinePlan;
 use super::reflection::{Reflection, tables};
 use super::rows::{Layout, RowsForward, RowsInverse, Side};
 use super::simd::{Lanes, Number};
-use super::threads::{Scratch, divide, pieces};
+use super::threads::{MAX_FIELDS, Scratch, divide, pieces};
 use kernels::KernelTransform;
-
-/// Most fields that go through the column stage together.
-const MAX_FIELDS: usize = 3;
 
 /// Shortest line: an outermost and an innermost pass.
 const SHORTEST: usize = 8;
@@ -289,58 +286,49 @@ impl<N: Number> LaneProduct<N> {
         let piece_len = self.scratch_len();
         let pieces = pieces(self.layout.shape, numbers.len() / piece_len);
         let sides = self.reflection.as_ref().map(|reflection| reflection.rows);
-        let side = |sides: Option<[Side; 3]>, index: usize| {
-            sides.and_then(|sides| sides.get(index).copied()).unwrap_or(Side::Plain)
+        let side = |sides: Option<[Side; 3]>| {
+            move |index: usize| sides.and_then(|sides| sides.get(index).copied()).unwrap_or(Side::Plain)
         };
-        for (index, (field, spectrum)) in
-            input.iter().zip(spectra.chunks_exact_mut(self.input_len())).enumerate()
-        {
-            let side = side(sides.map(|sides| sides.inputs), index);
-            self.rows_forward(field, side, spectrum, Scratch { numbers, piece_len }, pieces);
-        }
+        let inputs = side(sides.map(|sides| sides.inputs));
+        self.rows_forward(input, &inputs, spectra, Scratch { numbers, piece_len }, pieces);
         let scratch = Scratch { numbers, piece_len };
         match self.boundary {
             Boundary::FreeSpace => self.columns::<F, 2>(spectra, strips, scratch, pieces),
             Boundary::Periodic { .. } => self.columns::<F, 1>(spectra, strips, scratch, pieces),
         }
-        let output_len = self.layout.column_len * 2 * self.set.width::<N>();
-        for (index, field) in output.iter_mut().enumerate() {
-            let side = side(sides.map(|sides| sides.outputs), index);
-            self.rows_inverse(
-                &strips[index * output_len..],
-                side,
-                field,
-                Scratch { numbers, piece_len },
-                pieces,
-            );
-        }
+        let outputs = side(sides.map(|sides| sides.outputs));
+        self.rows_inverse(strips, &outputs, output, Scratch { numbers, piece_len }, pieces);
     }
 
     fn rows_forward(
         &self,
-        field: &[N],
-        side: Side,
-        spectrum: &mut [N],
+        input: &[&[N]],
+        sides: &(impl Fn(usize) -> Side + Sync),
+        spectra: &mut [N],
         scratch: Scratch<'_, N>,
         pieces: usize,
     ) {
         let Self { layout, along_y: plan, .. } = self;
         let chunk = self.paired() * layout.group_stride;
-        divide(spectrum, chunk, scratch, pieces, &|first, groups: &mut [N], scratch: &mut [N]| match &self
-            .boundary
-        {
-            Boundary::FreeSpace => {
-                enter!(self.set, N, RowsForward { layout, plan, side, field, first, groups, scratch });
+        let mut spectra = spectra.chunks_exact_mut(self.input_len());
+        let spectra = [(); MAX_FIELDS].map(|()| spectra.next().unwrap_or_default());
+        let rows = |index: usize, first, groups: &mut [N], scratch: &mut [N]| {
+            let (field, side) = (input[index], sides(index));
+            match &self.boundary {
+                Boundary::FreeSpace => {
+                    enter!(self.set, N, RowsForward { layout, plan, side, field, first, groups, scratch });
+                }
+                Boundary::Periodic { places } => {
+                    let pairs = groups;
+                    enter!(
+                        self.set,
+                        N,
+                        PairsForward { layout, plan, side, places, field, first, pairs, scratch }
+                    );
+                }
             }
-            Boundary::Periodic { places } => {
-                let pairs = groups;
-                enter!(
-                    self.set,
-                    N,
-                    PairsForward { layout, plan, side, places, field, first, pairs, scratch }
-                );
-            }
-        });
+        };
+        divide(spectra, chunk, scratch, pieces, &rows);
     }
 
     fn columns<const F: usize, const P: usize>(
@@ -351,7 +339,8 @@ impl<N: Number> LaneProduct<N> {
         pieces: usize,
     ) {
         let chunk = self.layout.strip_stride;
-        divide(strips, chunk, scratch, pieces, &|first, strips: &mut [N], scratch: &mut [N]| {
+        let strips = [strips, &mut [], &mut []];
+        divide(strips, chunk, scratch, pieces, &|_, first, strips: &mut [N], scratch: &mut [N]| {
             if let Some(reflection) = &self.reflection {
                 let columns = MirroredColumns::<N, F, P> {
                     layout: &self.layout,
@@ -388,20 +377,20 @@ impl<N: Number> LaneProduct<N> {
 
     fn rows_inverse(
         &self,
-        spectrum: &[N],
-        side: Side,
-        field: &mut [N],
+        strips: &[N],
+        sides: &(impl Fn(usize) -> Side + Sync),
+        output: &mut [&mut [N]],
         scratch: Scratch<'_, N>,
         pieces: usize,
     ) {
         let Self { layout, along_y: plan, .. } = self;
         let chunk = self.paired() * self.set.width::<N>() * layout.shape[1];
-        divide(
-            field,
-            chunk,
-            scratch,
-            pieces,
-            &|first, rows: &mut [N], scratch: &mut [N]| match &self.boundary {
+        let spectrum_len = layout.column_len * 2 * self.set.width::<N>();
+        let mut fields = output.iter_mut().map(|field| &mut **field);
+        let fields = [(); MAX_FIELDS].map(|()| fields.next().unwrap_or_default());
+        let rows = |index: usize, first, rows: &mut [N], scratch: &mut [N]| {
+            let (spectrum, side) = (&strips[index * spectrum_len..], sides(index));
+            match &self.boundary {
                 Boundary::FreeSpace => {
                     enter!(self.set, N, RowsInverse { layout, plan, side, spectrum, first, rows, scratch });
                 }
@@ -412,7 +401,8 @@ impl<N: Number> LaneProduct<N> {
                         PairsInverse { layout, plan, side, places, spectrum, first, rows, scratch }
                     );
                 }
-            },
-        );
+            }
+        };
+        divide(fields, chunk, scratch, pieces, &rows);
     }
 }

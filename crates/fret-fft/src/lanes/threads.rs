@@ -2,6 +2,9 @@
 
 use super::simd::Number;
 
+/// Most fields that are worked on together.
+pub const MAX_FIELDS: usize = 3;
+
 /// Pieces worth making on a grid of `shape`, at most `most`: one, unless the caller already is inside a pool with more
 /// threads and the grid is large enough to pay for waking them.
 pub fn pieces(shape: [usize; 2], most: usize) -> usize {
@@ -18,42 +21,62 @@ pub struct Scratch<'a, N> {
     pub piece_len: usize,
 }
 
-/// Divides `data` into `pieces` runs of whole chunks of `chunk_len` (the last chunk may be shorter), and calls
-/// `work(index of the first chunk, run, scratch)` for each, in parallel.
+/// Divides whole chunks of `chunk_len` of several fields (the last chunk of one may be shorter) into `pieces`, and calls
+/// `work(field, index of its first chunk, run, scratch)` for each run of chunks of a field, pieces in parallel: all fields at once, since
+/// waking a thread takes as long as the rows of a small one.
 ///
 /// What is computed for a chunk must not depend on the run it is in; then nothing depends on the number of pieces.
-pub fn divide<N, W>(data: &mut [N], chunk_len: usize, scratch: Scratch<'_, N>, pieces: usize, work: &W)
-where
-    N: Number,
-    W: Fn(usize, &mut [N], &mut [N]) + Sync,
-{
-    divide_from(0, data, chunk_len, scratch, pieces, work);
-}
-
-fn divide_from<N, W>(
-    first: usize,
-    data: &mut [N],
+pub fn divide<N, W>(
+    fields: [&mut [N]; MAX_FIELDS],
     chunk_len: usize,
     scratch: Scratch<'_, N>,
     pieces: usize,
     work: &W,
 ) where
     N: Number,
-    W: Fn(usize, &mut [N], &mut [N]) + Sync,
+    W: Fn(usize, usize, &mut [N], &mut [N]) + Sync,
+{
+    divide_from(fields.map(|data| (0, data)), chunk_len, scratch, pieces, work);
+}
+
+/// Of each field a run, after the index of its first chunk.
+fn divide_from<N, W>(
+    fields: [(usize, &mut [N]); MAX_FIELDS],
+    chunk_len: usize,
+    scratch: Scratch<'_, N>,
+    pieces: usize,
+    work: &W,
+) where
+    N: Number,
+    W: Fn(usize, usize, &mut [N], &mut [N]) + Sync,
 {
     let Scratch { numbers, piece_len } = scratch;
     if pieces <= 1 {
-        work(first, data, &mut numbers[..piece_len]);
+        for (field, (first, data)) in fields.into_iter().enumerate().filter(|(_, (_, data))| !data.is_empty())
+        {
+            work(field, first, data, &mut numbers[..piece_len]);
+        }
         return;
     }
     let left_pieces = pieces / 2;
-    let left_chunks = data.len().div_ceil(chunk_len) * left_pieces / pieces;
-    let (left, right) = data.split_at_mut((left_chunks * chunk_len).min(data.len()));
+    let chunks: usize = fields.iter().map(|(_, data)| data.len().div_ceil(chunk_len)).sum();
+    let mut left_chunks = chunks * left_pieces / pieces;
+    let mut right: [(usize, &mut [N]); MAX_FIELDS] = Default::default();
+    let mut right_of = right.iter_mut();
+    let left = fields.map(|(first, data)| {
+        let taken = left_chunks.min(data.len().div_ceil(chunk_len));
+        left_chunks -= taken;
+        let (before, behind) = data.split_at_mut((taken * chunk_len).min(data.len()));
+        if let Some(right) = right_of.next() {
+            *right = (first + taken, behind);
+        }
+        (first, before)
+    });
     let (numbers, right_numbers) = numbers.split_at_mut(left_pieces * piece_len);
     let right_scratch = Scratch { numbers: right_numbers, piece_len };
     let left_scratch = Scratch { numbers, piece_len };
     rayon::join(
-        || divide_from(first, left, chunk_len, left_scratch, left_pieces, work),
-        || divide_from(first + left_chunks, right, chunk_len, right_scratch, pieces - left_pieces, work),
+        || divide_from(left, chunk_len, left_scratch, left_pieces, work),
+        || divide_from(right, chunk_len, right_scratch, pieces - left_pieces, work),
     );
 }

@@ -104,4 +104,17 @@ mod tests {
         // 1 / sqrt(1 + 0.15 / 0.05)
         assert!((sets.slip_weight[1] - 0.5).abs() < 1e-15);
     }
+
+    /// A cell whose bound is next to nothing is as stiff as one of a millionth of the largest bound.
+    #[test]
+    fn stiffness_grows_no_more_below_a_millionth_of_the_largest_bound() {
+        let q = TangentialField { x: vec![4.0, 4e-9, 8e-6], y: vec![0.0; 3] };
+        let slip = TangentialField { x: vec![0.2; 3], y: vec![0.0; 3] };
+        let bound = FrictionBound { bound: q.x.clone(), slope: vec![0.1; 3] };
+        let sets = ActiveSets::of(&q, &slip, &bound, 1.0);
+        let expected = [0.2 / 4.0, 0.2 / 4e-6, 0.2 / 8e-6];
+        for (found, expected) in sets.stiffness.iter().zip(expected) {
+            assert!((found / expected - 1.0).abs() < 1e-14, "{:?}", sets.stiffness);
+        }
+    }
 }

@@ -92,5 +92,15 @@ mod tests {
         assert_eq!(normal_residual(&[0.0; 2], &mut gap, &[1.0, 2.0], 1.0, Some(0.5)).residual, 0.0);
         assert_eq!(gap, [0.5, 1.5]);
         assert_eq!(normal_residual(&[0.0; 2], &mut [1.0, 2.0], &[1.0, 2.0], 1.0, Some(1.5)).residual, 1.0);
+        // Without a prescribed approach bodies apart just touch.
+        let touching = normal_residual(&[0.0; 2], &mut [1.0, 2.0], &[1.0, 2.0], 1.0, None);
+        assert_eq!(touching, NormalResidual { approach: 1.0, residual: 0.0 });
+    }
+
+    /// A load that displaces nothing leaves no length to measure by: it is never called solved.
+    #[test]
+    fn a_load_that_moves_nothing_is_not_solved() {
+        let found = normal_residual(&[1.0, 1.0], &mut [0.0; 2], &[0.0; 2], 1.0, Some(0.0));
+        assert_eq!(found.residual, f64::INFINITY);
     }
 }

@@ -75,4 +75,38 @@ mod tests {
         let with_force = carried_fraction(&bound, &motions, [bound.len() as f64, 0.0, 4.0 * arms]);
         assert!(with_force < 0.5 && with_force > 0.3, "{with_force}");
     }
+
+    /// Sliding with any rigid motion `m`, shear has the resultants `sum b m / |m|`: more than these, in their ratio, is carried by no
+    /// shear, and less by some. Bounds differ from cell to cell, and all three motions act.
+    #[test]
+    fn resultants_of_a_sliding_contact_are_just_carried() {
+        let (mut bound, motions, _) = square([true, true, true]);
+        for (cell, bound) in bound.iter_mut().enumerate() {
+            *bound = 1.0 + (cell % 11) as f64 / 5.0;
+        }
+        for motion in [[1.0, 0.4, 0.6], [-0.2, 0.3, 1.0], [0.1, -1.0, -0.4]] {
+            let mut resultant = [0.0; 3];
+            for (cell, bound) in bound.iter().enumerate() {
+                let ([x, y], [a, b]) = (motions.at(motion, cell), motions.rotation.at(cell));
+                let share = bound / x.hypot(y);
+                resultant = [
+                    resultant[0] + share * x,
+                    resultant[1] + share * y,
+                    resultant[2] + share * (x * a + y * b),
+                ];
+            }
+            let fraction = carried_fraction(&bound, &motions, resultant.map(|part| 2.5 * part));
+            // A bound from above; sixty iterations of a method of first order leave less than this.
+            assert!(fraction > 0.4 - 1e-12 && fraction < 0.4 + 1e-7, "{motion:?}: {:e}", fraction - 0.4);
+        }
+    }
+
+    /// A cell in the centre of rotation carries nothing of a moment and does no harm.
+    #[test]
+    fn a_cell_at_the_centre_of_rotation_carries_no_moment() {
+        let positions = CellPositions::new(vec![-1.0, 0.0, 1.0], vec![0.0], true, [true; 3]);
+        let motions = positions.motions_of(&ContactSet::of(3, |_| true));
+        let fraction = carried_fraction(&[2.0, 7.0, 2.0], &motions, [0.0, 0.0, 8.0]);
+        assert!((fraction - 0.5).abs() < 1e-12, "{fraction}");
+    }
 }

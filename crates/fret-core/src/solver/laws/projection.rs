@@ -218,6 +218,7 @@ mod tests {
     use super::super::rigid_motions::CellPositions;
     use super::super::slip_path::SlipPath;
     use super::*;
+    use crate::random::Random;
 
     #[test]
     fn tension_is_cut_off_and_the_load_stays() {
@@ -295,7 +296,7 @@ mod tests {
         }
     }
 
-    fn shear(at: impl Fn(usize) -> [f64; 2]) -> TangentialField {
+    fn shear(mut at: impl FnMut(usize) -> [f64; 2]) -> TangentialField {
         let mut field = TangentialField::zeros(CELLS);
         (0..CELLS).for_each(|cell| field.set(cell, at(cell)));
         field
@@ -345,6 +346,116 @@ mod tests {
                     assert!((size - 1.0).abs() < 1e-14, "{cell}: {size}");
                 }
             }
+        }
+    }
+
+    /// Slipping cells without shear, which just came into contact, go onto their circles along their slip, whatever its direction.
+    #[test]
+    fn a_slipping_cell_without_shear_goes_along_its_slip() {
+        let (bound, stick, along) = ([2.0], [0.0], [[0.6], [-0.8]]);
+        let (mut x, mut y, mut on) = ([0.0], [0.0], [0.0]);
+        let read: [&[f64]; 6] = [&bound, &stick, &along[0], &along[1], &[], &[]];
+        let sums = each_cell(&ToDiscs, read, [&mut x[..], &mut y, &mut on]);
+        assert!((x[0] - 1.2).abs() < 1e-15 && (y[0] + 1.6).abs() < 1e-15 && on[0] == 1.0);
+        assert_eq!([sums[0], sums[1]], [x[0], y[0]]);
+    }
+
+    /// Cells inside their discs and on their circles, at oblique places and under oblique shear: `(bound, shear, on, rotation)`.
+    const SAMPLES: [(f64, [f64; 2], f64, [f64; 2]); 4] = [
+        (2.0, [1.2, 1.6], 1.0, [-0.3, 0.7]),
+        (0.5, [0.3, -0.4], 1.0, [0.9, 0.2]),
+        (3.0, [0.5, -0.7], 0.0, [0.4, -0.6]),
+        (1.5, [-0.2, 0.1], 0.0, [-0.8, -0.5]),
+    ];
+
+    fn pushed(sample: (f64, [f64; 2], f64, [f64; 2]), amounts: [f64; 3]) -> ([f64; 3], [f64; 9]) {
+        let (bound, [x, y], on, [a, b]) = sample;
+        let (mut to_x, mut to_y, mut to_on) = ([0.0], [0.0], [0.0]);
+        let read: [&[f64]; 6] = [&[bound], &[x], &[y], &[on], &[a], &[b]];
+        let sums = each_cell(&Push(amounts), read, [&mut to_x[..], &mut to_y, &mut to_on]);
+        ([to_x[0], to_y[0], to_on[0]], sums)
+    }
+
+    /// What a cell adds to the system for the amounts of a push is the derivative of its resultants by them.
+    #[test]
+    fn the_answer_to_a_push_is_the_derivative_of_the_resultants() {
+        for sample in SAMPLES {
+            let [_, _, _, xx, yy, rr, xy, xr, yr] = pushed(sample, [0.0; 3]).1;
+            let matrix = [[xx, xy, xr], [xy, yy, yr], [xr, yr, rr]];
+            let step = 1e-5;
+            for motion in 0..3 {
+                let resultants = [step, -step].map(|step| {
+                    let mut amounts = [0.0; 3];
+                    amounts[motion] = step;
+                    pushed(sample, amounts).1
+                });
+                for mode in 0..3 {
+                    let slope = (resultants[0][mode] - resultants[1][mode]) / (2.0 * step);
+                    // Third derivative times step^2, and rounding over the step.
+                    assert!((slope - matrix[mode][motion]).abs() < 1e-9, "{sample:?} {motion} {mode}");
+                }
+            }
+        }
+    }
+
+    /// A push far along: cells inside are moved by it up to their circles, cells on their circles along the tangent and back to them.
+    #[test]
+    fn pushes_leave_every_cell_in_its_disc() {
+        for sample in SAMPLES {
+            let (bound, [x, y], on, [a, b]) = sample;
+            for amounts in [[0.3, -0.2, 0.4], [-2.0, 1.0, 3.0], [0.01, 0.02, -0.01]] {
+                let push = [bound * (amounts[0] + amounts[2] * a), bound * (amounts[1] + amounts[2] * b)];
+                let (along, out) = if on > 0.0 {
+                    let along = [x / bound, y / bound];
+                    (along, push[0] * along[0] + push[1] * along[1])
+                } else {
+                    ([0.0; 2], 0.0)
+                };
+                let moved = [x + push[0] - out * along[0], y + push[1] - out * along[1]];
+                let size = moved[0].hypot(moved[1]);
+                let cut = on > 0.0 || size > bound;
+                let scale = if cut { bound / size } else { 1.0 };
+                let ([to_x, to_y, to_on], sums) = pushed(sample, amounts);
+                assert!((to_x - moved[0] * scale).abs() < 1e-14 && (to_y - moved[1] * scale).abs() < 1e-14);
+                assert_eq!(to_on, f64::from(u8::from(cut)));
+                assert!((sums[2] - (to_x * a + to_y * b)).abs() < 1e-14);
+            }
+        }
+    }
+
+    /// Any resultants that some shear within its bounds has are held, whatever shear and active sets it starts from; cells never leave
+    /// their discs. In other units the same bits.
+    #[test]
+    fn resultants_that_friction_carries_are_held_from_any_start() {
+        let mut random = Random::seeded(17);
+        for number in 0..300 {
+            let mut scene = Scene::new([true, number % 3 > 0, number % 2 > 0], [0.0; 3]);
+            for bound in &mut scene.bound {
+                *bound = random.log_uniform(0.05, 2.0);
+            }
+            let mut any = |most: f64| {
+                shear(|cell| {
+                    let (size, angle) = (most * random.uniform().sqrt(), random.between(0.0, 6.3));
+                    [size * scene.bound[cell] * angle.cos(), size * scene.bound[cell] * angle.sin()]
+                })
+            };
+            let (carried, given) = (any(0.9), any(1.5));
+            let slipping: Vec<bool> = (0..CELLS).map(|_| random.chance(0.4)).collect();
+            scene.resultant = scene.motions.only_by_force(scene.found(&carried));
+            let found = scene.project(&given, |cell| slipping[cell]);
+            let total: f64 = scene.bound.iter().sum();
+            for mode in (0..3).filter(|&mode| scene.motions.by_force[mode]) {
+                let off = (scene.found(&found)[mode] - scene.resultant[mode]) / total;
+                // Rounding of the sums.
+                assert!(off.abs() < 1e-14, "{number}, {mode}: {off:e}");
+            }
+            assert!((0..CELLS).all(|cell| scene.size(&found, cell) < 1.0 + 1e-14), "{number}");
+            let unit = 2.0_f64.powi(-40);
+            scene.bound.iter_mut().for_each(|bound| *bound *= unit);
+            scene.resultant = scene.resultant.map(|part| part * unit);
+            let scaled = |field: &TangentialField| shear(|cell| field.at(cell).map(|part| part * unit));
+            let small = scene.project(&scaled(&given), |cell| slipping[cell]);
+            assert!((0..CELLS).all(|cell| small.at(cell) == scaled(&found).at(cell)), "{number}");
         }
     }
 

@@ -203,4 +203,31 @@ mod tests {
         // x + y = 2 to the part in 1e-13 that makes it solvable.
         assert!((found[0] + found[1] - 2.0).abs() < 1e-9 && found[0].abs() < 10.0, "{found:?}");
     }
+
+    /// A motion whose resultant falls with it follows from a force but is not held at one; without springs all that follow from a
+    /// force are held.
+    #[test]
+    fn springs_take_motions_from_those_that_are_held() {
+        let positions = CellPositions::new(vec![-3.0, 3.0], vec![-1.0, 1.0], true, [false; 3]);
+        let free = positions.motions_of(&ContactSet::of(4, |_| true));
+        assert!(positions.held() == [false; 3] && free.held() == [false; 3] && !free.any_spring());
+        let positions = positions.with_springs([true, true, false], [0.0, 2.5, 0.0]);
+        let motions = positions.motions_of(&ContactSet::of(4, |_| true));
+        assert!(positions.held() == [true, false, false] && motions.held() == [true, false, false]);
+        assert_eq!((motions.by_force, motions.spring), ([true, true, false], [0.0, 2.5, 0.0]));
+        assert!(motions.any_spring() && positions.length == 3.0);
+    }
+
+    /// What makes a singular matrix solvable is added to its diagonal, not taken off: the amounts of a force that it makes stay on its
+    /// side, and of two equal motions each takes half.
+    #[test]
+    fn two_motions_that_are_one_share_the_amount() {
+        let found =
+            RigidMotions::solve_of([true, true, false], [1.0, 1.0, 0.0, 1.0, 0.0, 0.0], [2.0, 2.0, 0.0]);
+        // 1 / (1 + 1e-13 trace / 4), rounded on a diagonal of 1 that lost its digits down to 1e-13.
+        assert!((found[0] - 1.0).abs() < 1e-2 && (found[1] - 1.0).abs() < 1e-2, "{found:?}");
+        let against =
+            RigidMotions::solve_of([true, true, false], [1.0, 1.0, 0.0, 1.0, 0.0, 0.0], [1.0, 0.0, 0.0]);
+        assert!(against[0] > 1e11 && against[1] < -1e11, "{against:?}");
+    }
 }

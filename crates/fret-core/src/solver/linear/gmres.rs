@@ -120,6 +120,7 @@ impl CellRule<4, 1, 0> for WithoutFour {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::random::Random;
 
     /// A matrix that is neither symmetric nor definite, on 6 unknowns: solved in 6 applications, to rounding; and in fewer as far as is
     /// possible, the residual never growing.
@@ -154,5 +155,102 @@ mod tests {
             before = left;
         }
         assert!(before < 1e-13, "{before}");
+    }
+
+    /// Twenty-one unknowns of a matrix that is neither symmetric nor definite, beyond several groups of four directions: the residual of
+    /// each number of applications is the least over the Krylov space, found by normal equations on an orthonormal basis that is made
+    /// one direction at a time; a target ends the search as soon as it is reached.
+    #[test]
+    fn every_step_has_the_least_residual_of_its_krylov_space() {
+        const N: usize = 21;
+        let mut random = Random::seeded(8);
+        let matrix: Vec<Vec<f64>> = (0..N)
+            .map(|row| {
+                let entry = |column: usize| if row == column { 1.5 } else { 0.0 };
+                (0..N).map(|column| entry(column) + random.between(-0.3, 0.3)).collect()
+            })
+            .collect();
+        let product = |from: &[f64]| -> Vec<f64> {
+            matrix.iter().map(|row| row.iter().zip(from).map(|(a, b)| a * b).sum()).collect()
+        };
+        let vector = |values: &[f64]| {
+            let mut vector = ContactVector::default();
+            vector.reset(3, N / 3);
+            vector.values_mut().copy_from_slice(values);
+            vector
+        };
+        let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+        let mut right: Vec<f64> = (0..N).map(|_| random.between(-1.0, 1.0)).collect();
+        let size = dot(&right, &right).sqrt();
+        for value in &mut right {
+            *value /= size;
+        }
+        // Images of the Krylov directions, orthonormal: what they have of the right side can be removed.
+        let mut images: Vec<Vec<f64>> = Vec::new();
+        let mut least = vec![1.0];
+        let mut power = right.clone();
+        for _ in 0..12 {
+            power = product(&power);
+            let mut image = power.clone();
+            for _ in 0..2 {
+                for other in &images {
+                    let part = dot(&image, other);
+                    image.iter_mut().zip(other).for_each(|(value, other)| *value -= part * other);
+                }
+            }
+            let size = dot(&image, &image).sqrt();
+            for value in &mut image {
+                *value /= size;
+            }
+            power.clone_from(&image);
+            images.push(image);
+            let removed: f64 = images.iter().map(|image| dot(image, &right).powi(2)).sum();
+            least.push((1.0 - removed).max(0.0).sqrt());
+        }
+        let mut solver = Gmres::default();
+        let mut solve = |target: f64, most: usize| {
+            let (mut found, mut count) = (ContactVector::default(), 0);
+            let apply = |from: &ContactVector<f64>, to: &mut ContactVector<f64>| {
+                count += 1;
+                *to = vector(&product(from.values()));
+            };
+            solver.solve(&vector(&right), apply, (target, most), &mut found);
+            let image = product(found.values());
+            let left: f64 = image.iter().zip(&right).map(|(a, b)| (a - b).powi(2)).sum::<f64>().sqrt();
+            (left, count)
+        };
+        for most in 1..=12 {
+            let (left, count) = solve(0.0, most);
+            assert_eq!(count, most);
+            // Krylov powers lose digits: the reference is good to this.
+            assert!((left - least[most]).abs() < 1e-9, "{most}: {left} {}", least[most]);
+            // A target between two steps is reached by the later one, in no more applications.
+            let target = 0.5 * (least[most - 1] + least[most]);
+            assert_eq!(solve(target, 100).1, most, "{target}");
+        }
+    }
+
+    /// Where the right side is an eigenvector one application is the solution, and no more are made.
+    #[test]
+    fn a_krylov_space_that_is_exhausted_ends_the_search() {
+        let mut right = ContactVector::<f64>::default();
+        right.clear(2, 3);
+        right.values_mut()[4] = 1.0;
+        let (mut found, mut count) = (ContactVector::default(), 0);
+        let apply = |from: &ContactVector<f64>, to: &mut ContactVector<f64>| {
+            count += 1;
+            to.clone_from(from);
+            to.scale(-4.0);
+        };
+        Gmres::default().solve(&right, apply, (0.0, 10), &mut found);
+        assert_eq!((count, found.values()), (1, &[0.0, 0.0, 0.0, 0.0, -0.25, 0.0][..]));
+        // An operator that makes nothing of it leaves nothing to combine.
+        Gmres::default().solve(
+            &right,
+            |from, to: &mut ContactVector<f64>| to.clear_like(from),
+            (0.0, 10),
+            &mut found,
+        );
+        assert_eq!(found.values(), [0.0; 6]);
     }
 }
