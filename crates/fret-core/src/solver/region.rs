@@ -225,6 +225,10 @@ mod tests {
         assert_eq!(around([false; 2], [7.0, 92.0]), Region { origin: [0, 76], shape: [24, 24] });
         // From a mirror on there is one side: 7 cells, 4 more.
         assert_eq!(around([true, false], [0.0, 20.0]), Region { origin: [0, 8], shape: [16, 24] });
+        // Where every length is good: the margin once on each side that is no mirror.
+        let bare = |mirrored, at| Region::around([100, 100], mirrored, 4, |length| length, disc(at));
+        assert_eq!(bare([false; 2], [30.0, 20.0]), Region { origin: [20, 10], shape: [21, 21] });
+        assert_eq!(bare([true, false], [0.0, 20.0]), Region { origin: [0, 10], shape: [11, 21] });
         // Hardly smaller than the grid, or nothing wanted: the whole.
         assert_eq!(
             Region::around([25, 25], [false; 2], 4, good, disc([12.0, 12.0])),
