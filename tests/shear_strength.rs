@@ -17,9 +17,10 @@ fn with_strength(sphere: &Sphere, strength: f64, loads: &str) -> String {
     text.replacen("[friction]\n", &format!("[friction]\nmax_shear = {tau:e}\n"), 1)
 }
 
-/// Slides far beyond what partial slip bears.
+/// Slides far beyond what partial slip bears. Cells stick in a small part of the first increment, across which their slip then turns: the
+/// third is the first one that goes on from two that only slide.
 fn slid(sphere: &Sphere) -> String {
-    format!("[[load]]\nshift = [{:e}, 0.0]\nincrements = 2\n", 40.0 * sphere.friction * sphere.approach())
+    format!("[[load]]\nshift = [{:e}, 0.0]\nincrements = 4\n", 40.0 * sphere.friction * sphere.approach())
 }
 
 /// `sum min(mu p, tau)` over a Hertz contact, over mu P: the disc inside which tau bounds has the radius `a sqrt(1 - s^2)`, s the strength

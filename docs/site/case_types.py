@@ -35,7 +35,8 @@ def generated() -> str:
         subprocess.run(call, check=True)
         text = output.read_text(encoding="utf-8")
     text = text[text.index("from typing import Any") :]
-    text = text.replace("AxisSchema", "ComponentFile").replace("list[", "Sequence[")
+    text = text.replace("AxisSchema", "ComponentFile").replace("InterfaceWord", "NamedInterface")
+    text = text.replace("list[", "Sequence[")
     text = text.replace("from typing import Any, Literal, NotRequired, TypeAlias\n\nfrom typing_extensions import TypedDict\n",
                         "from typing import Any, Literal, NotRequired, TypeAlias, TypedDict\n\nimport numpy.typing as npt\n")  # fmt: skip
     text = re.sub(r"\(TypedDict, closed=True\)", "(TypedDict)", text)

@@ -150,7 +150,7 @@ How slip is integrated over an increment.
 """
 
 
-Interface: TypeAlias = Literal["bonded", "frictionless"]
+NamedInterface: TypeAlias = Literal["bonded", "frictionless"]
 
 
 Law: TypeAlias = Literal["exponential", "linear"]
@@ -385,8 +385,7 @@ class StrainLife(TypedDict):
 
 class Stress(TypedDict):
     """
-    Subsurface stresses of one body, and constants of the fatigue parameters for those of its layers that name none of
-    their own.
+    Subsurface stresses of one body, and constants of the fatigue parameters for those of its layers that name none of their own.
     """
 
     body: NotRequired[Side]
@@ -647,7 +646,7 @@ class Heights(TypedDict):
     """
 
 
-Interface: TypeAlias = Interface | Springs
+Interface: TypeAlias = NamedInterface | Springs
 
 
 class Material(TypedDict):

@@ -1,4 +1,4 @@
-"""Fatigue of a history over a cycle: parameters under all cells, a short crack, and cracks of the coating, as Datasets."""
+"""Fatigue of a history over a cycle, as datasets: parameters under all cells, a short crack, cracks of the coating."""
 
 import json
 from collections.abc import Sequence

@@ -532,28 +532,30 @@ class History:
     ) -> "xarray.Dataset":
         """Return the energy that channelling and delamination of the outermost coating release in a cycle.
 
-        From the largest tension and the largest compression of the cycle, averaged over the thickness of the coating, of contact, bulk and
-        residual stress; of a film under stress that is uniform over several thicknesses.
+        From the largest tension and the largest compression of the cycle, averaged over the thickness of the coating,
+        of contact, bulk and residual stress; of a film under stress that is uniform over several thicknesses.
 
         Parameters
         ----------
         cycle : int
-            Computed cycle of the history, from 0; negative from the end. Three of its increments need their fields kept.
+            Computed cycle of the history, from 0; negative from the end. Three of its increments need their fields
+            kept.
         body : {"lower", "upper"}
             The body.
         constants : dict, optional
-            Constants of fatigue of the coating, as in the case (``fracture_energy``, ``interface_energy``, ``channelling_factor``,
-            ``interface_phase``). Default: those of the case.
+            Constants of fatigue of the coating, as in the case (``fracture_energy``, ``interface_energy``,
+            ``channelling_factor``, ``interface_phase``). Default: those of the case.
         threads : int, optional
             Worker threads. Default: all cores.
 
         Returns
         -------
         xarray.Dataset
-            Over ``sense`` ("tension", "compression", where there is such a stress): ``stress`` and its ``direction`` to the x axis, the
-            energies ``channelling`` (0 in compression) and ``delamination`` [force/length], its ``phase`` [degrees], ``x``, ``y`` and
-            ``increment``, and where the constants have the energies of fracture ``channelling_factor_of_safety`` and
-            ``delamination_factor_of_safety``, factors on the stress. NaN: the case does not name a constant that it needs.
+            Over ``sense`` ("tension", "compression", where there is such a stress): ``stress`` and its ``direction``
+            to the x axis, the energies ``channelling`` (0 in compression) and ``delamination`` [force/length], its
+            ``phase`` [degrees], ``x``, ``y`` and ``increment``, and where the constants have the energies of fracture
+            ``channelling_factor_of_safety`` and ``delamination_factor_of_safety``, factors on the stress. NaN: the
+            case does not name a constant that it needs.
 
         Raises
         ------

@@ -126,7 +126,9 @@ def test_a_crack_beside_a_light_contact_is_that_of_the_pull_alone(tmp_path: Any)
 
 
 def test_a_coating_pulled_with_its_substrate_channels_and_delaminates_as_a_film_does() -> None:
-    """(pi/2) 1.2578 s^2 h (1 - nu^2)/E by Beuth, s^2 h (1 - nu^2)/(2 E) by Hutchinson and Suo, of a film as stiff as its substrate."""
+    """(pi/2) 1.2578 s^2 h (1 - nu^2)/E by Beuth, s^2 h (1 - nu^2)/(2 E) by Hutchinson and Suo, of a film as stiff as
+    its substrate.
+    """
     case = line_case(1e3, 150e6)
     thickness = 5e-6
     case["lower"]["coatings"] = [

@@ -154,7 +154,7 @@ def _poison(path: Path) -> None:
 )  # fmt: skip
 def test_a_damaged_folder_is_refused_never_half_read(copy: Path, name: str, spoil: Any) -> None:
     spoil(copy / name)
-    with pytest.raises(fretting.UnreadableError, match="error: ") as refused:  # noqa: PT012, on opening or on reading
+    with pytest.raises(fretting.UnreadableError, match="error: ") as refused:  # noqa: PT012  on opening or on reading
         history = fretting.open_results(copy)
         history.field("pressure", history.kept_increments[0])
         history.field("zone", history.kept_increments[0])

@@ -78,6 +78,7 @@ DIARIES = {
     "2026-11-usability.md",
     "2026-11-checks.md",
     "2026-11-refinement-studies.md",
+    "2026-11-reviews-again.md",
     "simplifications-measured.md",
 }
 """Developers' notes of a day: kept as they were written, and say so.

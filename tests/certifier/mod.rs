@@ -237,6 +237,9 @@ impl<'a> Certifier<'a> {
             });
             let bulk_stress = held.bulk_stress;
             before.found = LoadStep { normal, tangential: [x, y], twist, tilt, bulk_stress };
+            if let Some(last) = self.past.loads.last_mut() {
+                (last.normal, last.tangential) = (normal, [x, y]);
+            }
             (before.stage, before.k) = (record.stage, 0);
         }
         before.k += 1;

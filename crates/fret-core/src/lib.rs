@@ -120,7 +120,6 @@ pub mod model;
 pub mod plan;
 #[cfg(test)]
 #[path = "../../../tests/random.rs"]
-#[expect(dead_code, reason = "the tests of the whole use all of it")]
 mod random;
 pub mod run;
 pub mod solver;

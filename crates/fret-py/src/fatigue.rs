@@ -6,7 +6,7 @@ use fret_core::subsurface::coating_fracture::Film;
 use fret_core::subsurface::crack::crack_course;
 use fret_core::subsurface::crack_path::{CrackStart, NoCrack, crack_path};
 use fret_core::subsurface::fatigue::{FatigueConstants, LayerConstants, Parameter};
-use fret_core::subsurface::film_stress::FilmStress;
+use fret_core::subsurface::film_stress::{FilmCrack, FilmStress};
 use fret_core::subsurface::severity::{constants_of, material_of};
 use fret_core::subsurface::{DepthPoint, EvenStress, Judged, LoadedSurface, Severity, depth_points, survey};
 use ndarray::{Array2, Array3, Axis};
@@ -236,16 +236,22 @@ pub fn coating_fracture<'py>(
         (0..=DEPTHS_OF_COATING).map(|n| film.thickness * n as f64 / DEPTHS_OF_COATING as f64).collect();
     let points = depth_points(&cycle.half_space, &depths).map_err(bad_value)?;
     let constants = constants_of(&cycle.half_space, &cycle.constants, 0);
-    let found = on_pool(py, threads, || {
+    let fractured = || -> Result<Vec<FilmCrack>, fret_fft::ConvolutionError> {
         let mut stress = FilmStress::new(film);
-        let take = |point: usize, surface: usize, field: &_| {
-            stress.look(points[point], surface, field);
-            true
-        };
-        survey(&cycle.half_space, &cycle.grid, cycle.periodic, &points, &cycle.surfaces, take)?;
+        survey(
+            &cycle.half_space,
+            &cycle.grid,
+            cycle.periodic,
+            &points,
+            &cycle.surfaces,
+            |point, surface, field| {
+                stress.look(points[point], surface, field);
+                true
+            },
+        )?;
         Ok(stress.most_severe(&constants))
-    })?;
-    let cracks = found.map_err(|error: fret_fft::ConvolutionError| bad_value(error))?;
+    };
+    let cracks = on_pool(py, threads, fractured)?.map_err(bad_value)?;
     let told = serde_json::json!({
         "cracks": cracks,
         "fracture_energy": constants.fracture_energy,

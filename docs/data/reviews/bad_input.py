@@ -1,8 +1,10 @@
-"""Feed bad case files to `fret run`: each must be refused with exit code 1, quickly, without a crash and before anything is written.
+"""Feed bad case files to `fret run`: each must be refused with exit code 1, quickly, without a crash and before
+anything is written.
 
     python docs/data/reviews/bad_input.py
 
-with `fret` on the path; prints how many were refused, and those that were not. Every file is a good case with one thing spoilt.
+with `fret` on the path; prints how many were refused, and those that were not. Every file is a good case with one
+thing spoilt.
 """
 
 import subprocess
@@ -33,7 +35,20 @@ cycles = 1
 increments = 8
 """
 
-NUMBERS = ["nan", "inf", "-inf", "-1.0", "1e-320", "1e400", '"12 N"', "true", "[]", "{}", "[1.0, 2.0, 3.0]", "1979-05-27"]
+NUMBERS = [
+    "nan",
+    "inf",
+    "-inf",
+    "-1.0",
+    "1e-320",
+    "1e400",
+    '"12 N"',
+    "true",
+    "[]",
+    "{}",
+    "[1.0, 2.0, 3.0]",
+    "1979-05-27",
+]
 PLACES = {
     "young = 210e9": "young = {}",
     "poisson = 0.3 }\n[profile": "poisson = {} }}\n[profile",
@@ -50,7 +65,13 @@ PLACES = {
 """What is spoilt, and how it is written with another number."""
 
 # A force that wears zero, a cycle of no number and the like may have a meaning: these pairs are left out.
-ALLOWED = {("[2.5, 0.0]", "-1.0"), ("[2.5, 0.0]", "1e-320"), ("normal_force = 12.0", "1e-320"), ("coefficient = 0.3", "1e-320"), ("poisson = 0.3 }\n[profile", "1e-320")}
+ALLOWED = {
+    ("[2.5, 0.0]", "-1.0"),
+    ("[2.5, 0.0]", "1e-320"),
+    ("normal_force = 12.0", "1e-320"),
+    ("coefficient = 0.3", "1e-320"),
+    ("poisson = 0.3 }\n[profile", "1e-320"),
+}
 
 
 def spoilt() -> Iterator[tuple[str, bytes]]:
@@ -69,10 +90,13 @@ def spoilt() -> Iterator[tuple[str, bytes]]:
     yield "cut in the middle of a table", good[: len(good) // 2 - 3]
     yield "a doubled key", good.replace(b"radius = 10e-3", b"radius = 10e-3\nradius = 11e-3")
     yield "a misspelt key", good.replace(b"radius", b"raduis")
-    yield "an unknown key in Greek", good.replace(b"[friction]", b"[friction]\n\"\xce\xbc\" = 0.3")
+    yield "an unknown key in Greek", good.replace(b"[friction]", b'[friction]\n"\xce\xbc" = 0.3')
     yield "no load", good[: good.index(b"[[load]]")]
     yield "an empty stage", good + b"[[load]]\n"
-    yield "both bodies rigid", good.replace(b"coatings = [{ thickness = 7e-5, young = 420e9, poisson = 0.3 }]\nsubstrate", b"rigid = true #")
+    yield (
+        "both bodies rigid",
+        good.replace(b"coatings = [{ thickness = 7e-5, young = 420e9, poisson = 0.3 }]\nsubstrate", b"rigid = true #"),
+    )
     yield "two controls of one motion", good.replace(b"normal_force = 12.0", b"normal_force = 12.0\napproach = 1e-6")
     yield "more force than friction carries", good.replace(b"[2.5, 0.0]", b"[3.7, 0.0]")
     yield "a contact beyond the grid", good.replace(b'"auto"', b"[4e-5, 4e-5]")
@@ -81,11 +105,28 @@ def spoilt() -> Iterator[tuple[str, bytes]]:
     yield "a million by a million cells", good.replace(b"[48, 48]", b"[1000000, 1000000]")
     yield "10^18 increments", good.replace(b"increments = 8", b"increments = 1000000000000000000")
     yield "10^12 cycles", good.replace(b"cycles = 1", b"cycles = 1000000000000")
-    yield "a table that is not there", good.replace(b"cycles = 1\nincrements = 8", b'table = "nowhere.csv"\nincrements = 1').replace(b"tangential_force = [2.5, 0.0]\n", b"")
-    yield "heights that are not there", good.replace(b"[profile.sphere]\nradius = 10e-3", b'[profile.heights]\nfile = "nowhere.npy"')
-    yield "heights from a device", good.replace(b"[profile.sphere]\nradius = 10e-3", b'[profile.heights]\nfile = "/dev/zero"')
-    yield "heights from a folder", good.replace(b"[profile.sphere]\nradius = 10e-3", b'[profile.heights]\nfile = "/tmp"')
-    yield "heights from pickled code", good.replace(b"[profile.sphere]\nradius = 10e-3", b'[profile.heights]\nfile = "pickle.npy"')
+    yield (
+        "a table that is not there",
+        good.replace(b"cycles = 1\nincrements = 8", b'table = "nowhere.csv"\nincrements = 1').replace(
+            b"tangential_force = [2.5, 0.0]\n", b""
+        ),
+    )
+    yield (
+        "heights that are not there",
+        good.replace(b"[profile.sphere]\nradius = 10e-3", b'[profile.heights]\nfile = "nowhere.npy"'),
+    )
+    yield (
+        "heights from a device",
+        good.replace(b"[profile.sphere]\nradius = 10e-3", b'[profile.heights]\nfile = "/dev/zero"'),
+    )
+    yield (
+        "heights from a folder",
+        good.replace(b"[profile.sphere]\nradius = 10e-3", b'[profile.heights]\nfile = "/tmp"'),
+    )
+    yield (
+        "heights from pickled code",
+        good.replace(b"[profile.sphere]\nradius = 10e-3", b'[profile.heights]\nfile = "pickle.npy"'),
+    )
     yield "a map of another shape", good.replace(b"coefficient = 0.3", b"map = [[0.1, 0.2], [0.3, 0.4]]")
 
 

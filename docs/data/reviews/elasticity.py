@@ -40,7 +40,9 @@ def film_modulus(young: float, poisson: float) -> float:
 
 
 def mindlin_shift(force: float, mu: float, fraction: float, modulus: float) -> float:
-    """Return the shift of two equal bodies of nu = 0, contact radius 1, pulled by this fraction of mu P (Cattaneo 1938)."""
+    """Return the shift of two equal bodies of nu = 0, contact radius 1, pulled by this fraction of mu P (Cattaneo
+    1938).
+    """
     # tangential over normal compliance of nu = 0: 1; shift at full slip mu a^2/R = mu 3 P / (4 E* a)
     return 0.75 * mu * force / modulus * (1 - (1 - fraction) ** (2 / 3))
 
@@ -59,8 +61,8 @@ def loop_energy(force: float, mu: float, fraction: float, modulus: float) -> flo
 def sliding_sphere_stress(place: tuple[float, float, float], p0: float, mu: float, poisson: float) -> dict[str, float]:
     """Return the stresses under p0 sqrt(1 - r^2) and mu times it along x on the unit disc, tension positive.
 
-    Point forces on a half-space (Boussinesq, Cerruti; Johnson 1985, 3.19 and 3.75), integrated over the disc with nodes that are dense
-    below the place.
+    Point forces on a half-space (Boussinesq, Cerruti; Johnson 1985, 3.19 and 3.75), integrated over the disc with
+    nodes that are dense below the place.
     """
     x, y, z = place
     nodes, weights = np.polynomial.legendre.leggauss(160)
@@ -87,10 +89,13 @@ def sliding_sphere_stress(place: tuple[float, float, float], p0: float, mu: floa
     # Cerruti, force Q along x
     third = 1 / rho**3
     shear = {
-        "xx": -3 * dx**3 / rho**5 + s * (dx * third - 3 * dx / (rho * far**2) + dx**3 * third / far**2 + 2 * dx**3 / (rho**2 * far**3)),
-        "yy": -3 * dx * dy**2 / rho**5 + s * (dx * third - dx / (rho * far**2) + dx * dy**2 * third / far**2 + 2 * dx * dy**2 / (rho**2 * far**3)),
+        "xx": -3 * dx**3 / rho**5
+        + s * (dx * third - 3 * dx / (rho * far**2) + dx**3 * third / far**2 + 2 * dx**3 / (rho**2 * far**3)),
+        "yy": -3 * dx * dy**2 / rho**5
+        + s * (dx * third - dx / (rho * far**2) + dx * dy**2 * third / far**2 + 2 * dx * dy**2 / (rho**2 * far**3)),
         "zz": -3 * dx * z**2 / rho**5,
-        "xy": -3 * dx**2 * dy / rho**5 + s * (-dy / (rho * far**2) + dx**2 * dy * third / far**2 + 2 * dx**2 * dy / (rho**2 * far**3)),
+        "xy": -3 * dx**2 * dy / rho**5
+        + s * (-dy / (rho * far**2) + dx**2 * dy * third / far**2 + 2 * dx**2 * dy / (rho**2 * far**3)),
         "yz": -3 * dx * dy * z / rho**5,
         "xz": -3 * dx**2 * z / rho**5,
     }

@@ -44,9 +44,13 @@ def row(radius_in_cells: float) -> str:
     parts = []
     for name, key in names.items():
         # The quantity of interest that a bar belongs to, where there is one; else the largest cell.
-        found, bar = (bars[name]["value"], bars[name]["error_bar"]) if bars else (float(history.increments[name][-1]), None)
+        found, bar = (
+            (bars[name]["value"], bars[name]["error_bar"]) if bars else (float(history.increments[name][-1]), None)
+        )
         error = found / exact()[key] - 1
-        parts.append(f"no bar ({error:+.2g})" if bar is None else f"{abs(error) * exact()[key] / bar:.2f} ({error:+.1g})")
+        parts.append(
+            f"no bar ({error:+.2g})" if bar is None else f"{abs(error) * exact()[key] / bar:.2f} ({error:+.1g})"
+        )
     told = ", ".join(warning["name"] for warning in history.warnings) or "nothing"
     return f"| {radius_in_cells:g} | {' | '.join(parts)} | {told} |"
 

@@ -2,8 +2,9 @@
 
     python docs/data/reviews/kills.py [KILLS]
 
-With `fret` on the path. A coated contact with wear in blocks of cycles, increments left to the program, all fields kept; up to six kills (SIGKILL) a run, then
-`--resume` with one or two threads at random. Files are compared byte by byte, `history.csv` and `run.json` without the times on the clock.
+With `fret` on the path. A coated contact with wear in blocks of cycles, increments left to the program, all fields
+kept; up to six kills (SIGKILL) a run, then `--resume` with one or two threads at random. Files are compared byte by
+byte, `history.csv` and `run.json` without the times on the clock.
 """
 
 import csv
@@ -51,7 +52,7 @@ def started(folder: Path, *words: str) -> "subprocess.Popen[bytes]":
     return subprocess.Popen(call, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
 
 
-def without_times(node: Any) -> Any:  # noqa: ANN401
+def without_times(node: Any) -> Any:
     """Drop what a clock says, and how many threads there were."""
     if isinstance(node, dict):
         clock = ("wall", "time", "started", "ended", "threads", "seconds", "finished", "resumed")
@@ -68,7 +69,9 @@ def contents(folder: Path) -> dict[str, Any]:
             continue
         if name == "history.csv":
             with path.open(encoding="utf-8") as file:
-                found[name] = [{k: v for k, v in row.items() if "wall_s" not in (k or "")} for row in csv.DictReader(file)]
+                found[name] = [
+                    {k: v for k, v in row.items() if "wall_s" not in (k or "")} for row in csv.DictReader(file)
+                ]
         elif name == "run.json":
             found[name] = without_times(json.loads(path.read_text(encoding="utf-8")))
         else:

@@ -2,7 +2,8 @@
 
     python docs/data/reviews/references.py [NAME ...]
 
-prints a table of the errors found, a line per number; with names, of these groups alone (see ``GROUPS``). Five minutes on one core.
+prints a table of the errors found, a line per number; with names, of these groups alone (see ``GROUPS``). Five minutes
+on one core.
 """
 
 import math
@@ -21,14 +22,14 @@ STEEL = {"young": 1.0, "poisson": 0.3}
 SMOOTH = {"young": 1.0, "poisson": 0.0}
 
 
-def solved(**tables: Any) -> fretting.History:  # noqa: ANN401
+def solved(**tables: Any) -> fretting.History:
     """Run a case whose warnings are what is measured."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", fretting.FrettingWarning)
         return fretting.run(dict(tables))
 
 
-def sphere(cells: int, body: dict[str, Any], load: list[dict[str, Any]], **more: Any) -> fretting.History:  # noqa: ANN401
+def sphere(cells: int, body: dict[str, Any], load: list[dict[str, Any]], **more: Any) -> fretting.History:
     """Run a sphere of radius 100; two bodies of SMOOTH or a rigid sphere on a coated or bare one."""
     size = more.pop("size", 2.4)
     upper = more.pop("upper", {"rigid": True})
@@ -123,7 +124,12 @@ def ray() -> Iterator[Row]:
     shifts, energies = [], []
     for increments in (8, 32, 128):
         force, mu = force_of(1.0, 0.5), 0.3
-        stage = {"normal_force": force, "tangential_force": [0.6 * mu * force, 0.0], "increments": increments, "ramp": "cubic"}
+        stage = {
+            "normal_force": force,
+            "tangential_force": [0.6 * mu * force, 0.0],
+            "increments": increments,
+            "ramp": "cubic",
+        }
         history = sphere(64, {"substrate": SMOOTH}, [stage], upper={"substrate": SMOOTH}, friction={"coefficient": mu})
         last = {name: float(history.increments[name][-1]) for name in ("shift_x", "approach", "dissipated_energy")}
         shifts.append(last["shift_x"] / (0.6 * mu * last["approach"]) - 1)
@@ -179,7 +185,9 @@ def no_slip() -> Iterator[Row]:
 
 
 def films() -> Iterator[Row]:
-    """Thin compressible films on a rigid base: pressure and approach of a foundation, and the area between the cells (D4)."""
+    """Thin compressible films on a rigid base: pressure and approach of a foundation, and the area between the cells
+    (D4).
+    """
     approaches, areas = [], []
     for thickness in (0.1, 0.03, 0.01, 0.003):
         modulus = film_modulus(1.0, 0.3) / thickness
@@ -188,7 +196,10 @@ def films() -> Iterator[Row]:
         history = sphere(96, body, [{"normal_force": force, "increments": 1}])
         approaches.append(float(history.increments["approach"][-1]) * 200 - 1)
         areas.append((math.sqrt(float(history.increments["contact_area"][-1]) / math.pi) - 1) * 96 / 2.4)
-    yield "compressible film on a rigid base, h/a = .1 / .03 / .01 / .003: approach against a foundation", signed(approaches)
+    yield (
+        "compressible film on a rigid base, h/a = .1 / .03 / .01 / .003: approach against a foundation",
+        signed(approaches),
+    )
     yield "the same: radius against a foundation, in cells", signed(areas)
     errors = []
     for thickness in (30.0, 300.0):
@@ -197,7 +208,10 @@ def films() -> Iterator[Row]:
         body = {"coatings": [coating], "substrate": STEEL}
         history = sphere(64, body, [{"normal_force": force, "increments": 1}])
         errors.append(float(history.increments["approach"][-1]) * 100 - 1)
-    yield "coating of the substrate's own material, 30 and 300 a thick: approach against Hertz (64 cells)", signed(errors)
+    yield (
+        "coating of the substrate's own material, 30 and 300 a thick: approach against Hertz (64 cells)",
+        signed(errors),
+    )
 
 
 def wear() -> Iterator[Row]:
@@ -242,10 +256,15 @@ def uniform() -> Iterator[Row]:
     flat = {"wave": {"amplitude": 1e-6, "wavelength_x": 1.0, "wavelength_y": 1.0}}
     grid = {"cells": [32, 32], "size": [1.0, 1.0], "periodic": True}
     stages = [{"normal_force": 1e-2, "increments": 1}, {"tangential_force": [1e-3, 0.0], "increments": 1}]
-    history = solved(grid=grid, upper={"rigid": True}, lower=film, profile=flat, friction={"coefficient": 0.9}, load=stages)
+    history = solved(
+        grid=grid, upper={"rigid": True}, lower=film, profile=flat, friction={"coefficient": 0.9}, load=stages
+    )
     approach = float(history.increments["approach"][-1]) - 1e-6
     shift = float(history.increments["shift_x"][-1])
-    yield "periodic film on a rigid base: approach by mean pressure, h/E_oed", f"{approach / (1e-2 * 0.1 / film_modulus(1.0, 0.3)) - 1:+.1e}"
+    yield (
+        "periodic film on a rigid base: approach by mean pressure, h/E_oed",
+        f"{approach / (1e-2 * 0.1 / film_modulus(1.0, 0.3)) - 1:+.1e}",
+    )
     yield "the same: shift by mean shear, h/G", f"{shift / (1e-3 * 0.1 * 2.6) - 1:+.1e}"
 
 
@@ -268,12 +287,21 @@ def similar() -> Iterator[Row]:
             "friction": {"coefficient": mu},
             "solver": {"tolerance": 1e-11},
         }
-        rubbed = solved(load=[{"normal_force": force, "increments": 1}, {"tangential_force": [pull * mu * force, 0.0], "increments": 1}], **tables)
+        rubbed = solved(
+            load=[
+                {"normal_force": force, "increments": 1},
+                {"tangential_force": [pull * mu * force, 0.0], "increments": 1},
+            ],
+            **tables,
+        )
         less = solved(load=[{"normal_force": force * (1 - pull), "increments": 1}], **tables)
         pressure = rubbed.field("pressure", 0 if len(rubbed) == 2 else 1)
         expected = mu * (pressure - less.field("pressure"))
         error = float(np.abs(rubbed.field("shear_x") - expected).max() / (mu * pressure.max()))
-        yield f"rough {'periodic' if periodic else 'free'} contact, nu = 0: shear against mu (p(P) - p(P - T/mu))", f"{error:.1e} mu p_max"
+        yield (
+            f"rough {'periodic' if periodic else 'free'} contact, nu = 0: shear against mu (p(P) - p(P - T/mu))",
+            f"{error:.1e} mu p_max",
+        )
 
 
 GROUPS: dict[str, Callable[[], Iterator[Row]]] = {

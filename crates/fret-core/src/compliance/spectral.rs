@@ -192,7 +192,7 @@ impl SurfaceCompliance for SpectralCompliance {
             self.applications += 1;
             let workspace = &self.workspace;
             along_one(self.shear_axis, &shear, &mut tangential, |from, to| {
-                product.apply(workspace, from, to)
+                product.apply(workspace, from, to);
             });
         } else {
             let zero = vec![0.0; shear[0].len()];

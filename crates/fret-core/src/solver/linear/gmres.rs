@@ -182,7 +182,9 @@ mod tests {
         let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
         let mut right: Vec<f64> = (0..N).map(|_| random.between(-1.0, 1.0)).collect();
         let size = dot(&right, &right).sqrt();
-        right.iter_mut().for_each(|value| *value /= size);
+        for value in &mut right {
+            *value /= size;
+        }
         // Images of the Krylov directions, orthonormal: what they have of the right side can be removed.
         let mut images: Vec<Vec<f64>> = Vec::new();
         let mut least = vec![1.0];
@@ -197,7 +199,9 @@ mod tests {
                 }
             }
             let size = dot(&image, &image).sqrt();
-            image.iter_mut().for_each(|value| *value /= size);
+            for value in &mut image {
+                *value /= size;
+            }
             power.clone_from(&image);
             images.push(image);
             let removed: f64 = images.iter().map(|image| dot(image, &right).powi(2)).sum();

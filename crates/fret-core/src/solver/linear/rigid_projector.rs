@@ -166,8 +166,8 @@ mod tests {
             let unweighted: Vec<f64> = slip.iter().map(|slip| f64::from(u8::from(*slip > 0.0))).collect();
             let plain: SetFields<'_, f64> = [&stick, &unweighted, &along_x, &along_y, around_x, around_y];
             let projector = RigidProjector::new(&motions, plain);
-            let mut x: Vec<f64> = (0..12).map(|cell| (1.3 * cell as f64).sin()).collect();
-            let mut y: Vec<f64> = (0..12).map(|cell| (0.4 * cell as f64).cos()).collect();
+            let mut x: Vec<f64> = (0..12).map(|cell| (1.3 * f64::from(cell)).sin()).collect();
+            let mut y: Vec<f64> = (0..12).map(|cell| (0.4 * f64::from(cell)).cos()).collect();
             let given = (x.clone(), y.clone());
             projector.keep_free([&mut x, &mut y]);
             let mut sums = [0.0; 3];
