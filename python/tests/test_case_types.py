@@ -33,7 +33,8 @@ def test_choices_are_those_of_the_schema(root: Path) -> None:
     for name, entry in schema(root)["$defs"].items():
         words = entry.get("enum") or [part["const"] for part in entry.get("oneOf", ()) if "const" in part]
         if words:
-            alias = getattr(case_types, name.removesuffix("File").removesuffix("Schema").removesuffix("Word"))
+            plain = name.removesuffix("File").removesuffix("Schema")
+            alias = getattr(case_types, {"InterfaceWord": "NamedInterface"}.get(plain, plain.removesuffix("Word")))
             assert set(typing.get_args(alias)) == set(words), name
 
 

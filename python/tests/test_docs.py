@@ -27,6 +27,7 @@ NOT_RUN = (
     "cargo run --release -p ",
     "cargo +nightly fuzz",
     "python docs/site",
+    "python docs/data/reviews",
     "mpiexec",
 )
 """Beginnings of shell lines that are for a person: they install, or are run by other tests."""
