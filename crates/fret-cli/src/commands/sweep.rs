@@ -32,7 +32,7 @@ pub fn sweep(arguments: &SweepArguments, as_json: bool) -> Result<(), Told> {
     interrupt::listen();
     let threads = threads::asked(arguments.threads);
     let known: Vec<Option<Answer>> = question.points.iter().map(|point| folder.finished(point)).collect();
-    let board = threads::pool(threads)?.install(|| Board::new(&question, origin, known, arguments.quiet));
+    let board = Board::new(&question, origin, known, arguments.quiet);
     board.announce(threads);
     let failure = board.work(&folder, threads);
     let summary = folder.summarise(&question, &board.answers());

@@ -5,7 +5,6 @@ use std::sync::{Mutex, PoisonError};
 
 use fret_core::plan::{LeaveOut, Plan};
 use fret_core::run::{InCommon, beginnings};
-use rayon::prelude::*;
 
 use crate::interrupt;
 use crate::origin::Origin;
@@ -20,8 +19,8 @@ pub struct Planned {
 }
 
 impl Planned {
-    /// The open points, on all threads of the pool. A point that is refused has nothing in common with others, nor has a sweep of one;
-    /// where somebody asks to stop, points are left out.
+    /// The open points, one after the other: threads of their own would take address space from those that solve. A point that is refused has
+    /// nothing in common with others, nor has a sweep of one; where somebody asks to stop, points are left out.
     pub fn of(points: &[Point], open: &[usize], origin: Option<&Origin>) -> Self {
         let plan = |number: &usize| {
             if open.len() < 2 || interrupt::is_asked() {
@@ -32,7 +31,7 @@ impl Planned {
             let is_small = plan.case.profile.heights.is_empty() && !plan.case.friction.is_map();
             Some(((*number, beginnings), is_small.then_some((*number, plan))))
         };
-        let (histories, plans): (Vec<_>, Vec<_>) = open.par_iter().filter_map(plan).unzip();
+        let (histories, plans): (Vec<_>, Vec<_>) = open.iter().filter_map(plan).unzip();
         Self { common: InCommon::of(&histories), plans: Mutex::new(plans.into_iter().flatten().collect()) }
     }
 
