@@ -7,6 +7,7 @@ use super::bodies::bodies;
 use super::conduction::conduction;
 use super::course::Stage;
 use super::definition::{Case, GridSize, Origin};
+use super::evolution::evolution;
 use super::file::{CaseFile, CellsFile, OutputFile, SizeFile};
 use super::friction::{friction, of_stages};
 use super::interface::sliding_coatings;
@@ -63,11 +64,14 @@ pub(super) fn case(
     let changes = of_stages(&mut judge, file.load.get_ref(), cells);
     let changes = friction.as_ref().zip(changes).map(|(first, changes)| of_one_interface(first, changes));
     let laws = friction.as_ref().zip(changes.as_ref()).map(|(first, changes)| in_force(first, changes));
+    let evolution_file = file.friction.as_ref().and_then(|friction| friction.evolution.as_ref());
     let history_tolerance = file.solver.as_ref().and_then(|solver| solver.history_tolerance.as_ref());
     let rig_file = file.rig.as_ref();
     let rig = rig(&mut judge, rig_file);
     let stages = stages(&mut judge, &file.load, (laws.as_deref(), rig_file), history_tolerance);
     let stages = stages.zip(changes.as_ref()).map(|(stages, changes)| with_friction(stages, changes));
+    let evolving = (file.load.get_ref().as_slice(), stages.as_deref());
+    let friction_evolution = evolution(&mut judge, evolution_file, friction.as_ref(), evolving);
     let loading = (&file.load, stages.as_deref());
     let datum = datum(&mut judge, &file.grid, (is_line, size), bodies.as_ref());
     if is_line {
@@ -90,7 +94,11 @@ pub(super) fn case(
     let files = [("lower", file.lower.get_ref()), ("upper", file.upper.get_ref())];
     sliding_coatings(&mut judge, files, frictionless || laws.is_none(), stages.as_deref());
     if let (true, Some(laws), Some(stages)) = (is_whole, &laws, &stages) {
-        sliding(&mut judge, laws, &file.load, stages);
+        // Of friction that evolves nobody knows beforehand what it carries in a stage, only what it never does.
+        let strongest = friction.as_ref().zip(friction_evolution.as_ref());
+        let strongest = strongest.map(|(first, evolution)| evolution.strongest(first));
+        let laws = strongest.as_ref().map_or_else(|| laws.clone(), |law| vec![law; laws.len()]);
+        sliding(&mut judge, &laws, &file.load, stages);
     }
     let wear = wear(&mut judge, file.wear.as_ref(), bodies.as_ref(), stages.as_deref(), frictionless);
     let solver = file.solver.as_ref();
@@ -127,6 +135,7 @@ pub(super) fn case(
             conduction,
             profile,
             friction,
+            friction_evolution,
             rig,
             start: judge.attachments.start,
             stages,

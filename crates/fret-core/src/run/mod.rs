@@ -2,8 +2,10 @@
 
 mod beginning;
 mod checkpoint;
+mod evolving;
 mod fretting_loop;
 mod in_common;
+mod journey;
 mod pair_compliance;
 pub mod plausibility;
 mod recording;
@@ -11,6 +13,7 @@ mod refinement;
 mod run_error;
 mod simulation;
 mod stepping;
+mod surfaces;
 mod wear;
 
 pub use checkpoint::{Checkpoint, CheckpointError, Waypoint};
