@@ -100,11 +100,21 @@ pub(super) fn case(
         let laws = strongest.as_ref().map_or_else(|| laws.clone(), |law| vec![law; laws.len()]);
         sliding(&mut judge, &laws, &file.load, stages);
     }
-    let wear = wear(&mut judge, file.wear.as_ref(), bodies.as_ref(), stages.as_deref(), frictionless);
+    let wear =
+        wear(&mut judge, file.wear.as_ref(), (bodies.as_ref(), files), stages.as_deref(), frictionless);
     let solver = file.solver.as_ref();
     let tolerance = tolerance(&mut judge, solver.and_then(|solver| solver.tolerance.as_ref()));
     let output = output(&mut judge, file.output.as_ref());
     let stress = stress(&mut judge, file.stress.as_ref(), bodies.as_ref(), output.as_ref(), frictionless);
+    if let (Some(table), true) =
+        (&file.stress, wear.as_ref().is_some_and(|wear| wear.thinning_tolerance.is_some()))
+    {
+        judge.refuse::<()>(
+            table.span(),
+            "stress and wear.thinning_tolerance: stresses below are those of the unworn layers",
+            "leave out one of the two",
+        );
+    }
     let conduction = conduction(
         &mut judge,
         files,
