@@ -227,7 +227,9 @@ fn partial_slip_ends_as_with_the_last_coefficient() {
 fn energies_of_the_cells_add_up() {
     let sphere = sphere();
     let scale = 0.3 * sphere.max_pressure() * sphere.approach();
-    let evolution = format!("evolution = {{ by = \"energy\", last = 0.6, scale = {scale:e}, every = 5, tolerance = 0.3 }}\n");
+    let evolution = format!(
+        "evolution = {{ by = \"energy\", last = 0.6, scale = {scale:e}, every = 5, tolerance = 0.3 }}\n"
+    );
     let wear = "[wear]\ncoefficient = 2.0\nevery = 3\n";
     for (text, most) in
         [(fretted(&sphere, &evolution, 24), 5), (fretted(&sphere, &format!("{evolution}{wear}"), 24), 3)]
