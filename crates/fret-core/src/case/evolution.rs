@@ -7,6 +7,7 @@ use super::evolution_file::{DriverFile, EvolutionFile};
 use super::judge::Judge;
 use super::pair::Pair;
 use super::stage_file::StageFile;
+use super::surface_file::FrictionFile;
 use super::wearing::MOST_EVERY;
 use crate::model::{CellValues, CoulombFriction, EvolutionDriver, EvolutionLaw, FrictionEvolution};
 
@@ -16,11 +17,11 @@ const TOLERANCE: f64 = 0.01;
 /// The evolution of the friction law that the history starts with; `None` when it does not evolve, or was refused.
 pub(super) fn evolution(
     judge: &mut Judge,
-    given: Option<&Spanned<EvolutionFile>>,
+    given: Option<&FrictionFile>,
     first: Option<&CoulombFriction>,
     (files, stages): (&[Spanned<StageFile>], Option<&[Stage]>),
 ) -> Option<FrictionEvolution> {
-    let place = given?;
+    let place = given?.evolution.as_ref()?;
     let file = place.get_ref();
     let before = judge.mistakes.len();
     let by = match file.by {
@@ -104,7 +105,7 @@ fn law(
             let scale = positive(judge, "scale", scale);
             last.zip(scale).map(|(last, scale)| EvolutionLaw::Exponential { last, scale })
         }
-        (None, None, None) | (Some(_), None, None) | (None, Some(_), None) => judge.refuse(
+        (None | Some(_), None, None) | (None, Some(_), None) => judge.refuse(
             place.span(),
             "friction.evolution: without its law",
             "last = ... and scale = ..., or table = [[0, ...], ...]",

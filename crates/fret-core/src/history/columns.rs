@@ -201,91 +201,12 @@ pub static STEP_COLUMNS: &[Column<StepRecord>] = &[
     ),
 ];
 
-fn regime_word(regime: Regime) -> &'static str {
+pub(super) fn regime_word(regime: Regime) -> &'static str {
     match regime {
         Regime::Apart => "apart",
         Regime::FullStick => "full_stick",
         Regime::PartialSlip => "partial_slip",
         Regime::GrossSlip => "gross_slip",
         Regime::Frictionless => "frictionless",
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use std::collections::BTreeSet;
-
-    use serde_json::json;
-
-    use super::super::cycle::{CycleRecord, CycleRegime, Drive};
-    use super::super::cycle_columns::{CYCLE_COLUMNS, cycle_regime_word, drive_word};
-    use super::*;
-
-    fn names<R>(columns: &[Column<R>]) -> BTreeSet<&'static str> {
-        let names: BTreeSet<_> = columns.iter().map(|column| column.name).collect();
-        assert_eq!(names.len(), columns.len(), "a name stands twice");
-        names
-    }
-
-    /// A cycle as JSON, as it goes to Python; each number is another one.
-    fn cycle() -> CycleRecord {
-        let all = json!({
-            "stage": 1, "cycle": 2, "first_increment": 3, "last_increment": 4, "stands_for": 5, "last_cycle": 6,
-            "dissipated_energy": 7.5, "total_dissipated_energy": 8.5, "drive": "torsional", "direction": 9.5,
-            "force_amplitude": 10.5, "displacement_amplitude": 11.5, "opening": 12.5, "energy_ratio": 13.5,
-            "sliding_ratio": 14.5, "stiffness": 15.5, "regime": "mixed", "closure": 16.5, "steady": true,
-            "worn_volume": 17.5, "max_worn_depth": 18.5, "actuator_amplitude": 19.5,
-            "actuator_energy_ratio": 20.5, "actuator_sliding_ratio": 21.5, "actuator_stiffness": 22.5,
-            "friction_coefficient": 23.5, "friction_change": 24.5, "jump_error": 25.5, "lower_worn_depth": 26.5,
-            "upper_worn_depth": 27.5, "compliance_spread": 28.5, "wear_jump_error": 29.5,
-        });
-        serde_json::from_value(all).unwrap()
-    }
-
-    #[test]
-    fn columns_of_cycles_are_the_entries_of_their_record() {
-        let record = cycle();
-        let entries = serde_json::to_value(&record).unwrap();
-        assert_eq!(names(CYCLE_COLUMNS), entries.as_object().unwrap().keys().map(String::as_str).collect());
-        for column in CYCLE_COLUMNS {
-            let value = match column.value {
-                Value::Count(of) => json!(of(&record)),
-                Value::Real(of) => json!(of(&record)),
-                Value::RealOrNone(of) => json!(of(&record)),
-                Value::Truth(of) => json!(of(&record)),
-                Value::Word(of) => json!(of(&record)),
-            };
-            assert_eq!(value, entries[column.name], "{}", column.name);
-        }
-    }
-
-    #[test]
-    fn words_are_those_that_are_stored() {
-        for regime in
-            [CycleRegime::FullStick, CycleRegime::PartialSlip, CycleRegime::Mixed, CycleRegime::GrossSlip]
-        {
-            assert_eq!(json!(cycle_regime_word(regime)), json!(regime));
-        }
-        for regime in
-            [Regime::Apart, Regime::FullStick, Regime::PartialSlip, Regime::GrossSlip, Regime::Frictionless]
-        {
-            assert_eq!(json!(regime_word(regime)), json!(regime));
-        }
-        for drive in [Drive::Tangential, Drive::Torsional] {
-            assert_eq!(json!(drive_word(drive)), json!(drive));
-        }
-    }
-
-    #[test]
-    fn names_and_meanings_go_into_a_table_of_commas() {
-        names(STEP_COLUMNS);
-        let told = STEP_COLUMNS.iter().map(|column| (column.name, column.meaning, column.unit));
-        for (name, meaning, unit) in
-            told.chain(CYCLE_COLUMNS.iter().map(|column| (column.name, column.meaning, column.unit)))
-        {
-            assert!(name.chars().all(|letter| letter.is_ascii_lowercase() || letter == '_'), "{name}");
-            assert!(!meaning.is_empty() && !meaning.contains('['), "{name}: the unit stands by itself");
-            assert!(!unit.contains(['[', ']']), "{name}");
-        }
     }
 }

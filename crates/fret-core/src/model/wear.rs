@@ -3,8 +3,8 @@
 use ndarray::{Array2, Zip};
 use serde::{Deserialize, Serialize};
 
-use super::accumulated::add_dissipation;
 use super::friction::CoulombFriction;
+use super::slip_increment::add_dissipation;
 use super::state::ContactState;
 use super::wear_layers::WearLayers;
 

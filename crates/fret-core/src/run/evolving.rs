@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::model::slip_increment::add_slip;
 use crate::model::{AccumulatedSlip, ContactState, CoulombFriction, FrictionEvolution};
 
 /// What a run knows of the cycle at work and of the cycle jump before it.
@@ -75,7 +76,7 @@ impl Evolving {
 
     /// Adds the slip between two states that follow each other.
     pub fn add(&mut self, before: &ContactState, after: &ContactState) {
-        self.collected.of_cycle.add(before, after, &self.now);
+        add_slip(before, after, &self.now, &mut self.collected.of_cycle);
     }
 
     /// Another stage: its cycles tell nothing of the jumps before.

@@ -8,9 +8,10 @@ use serde_json::json;
 
 use super::beginning::Beginning;
 use super::checkpoint::Checkpoint;
+use super::observer::Observer;
 use super::pair_compliance::PairCompliance;
 use super::run_error::RunError;
-use super::simulation::{Observer, Simulation};
+use super::simulation::Simulation;
 use crate::history::{History, setting, way_of_solving};
 use crate::machine::memory::{Claim, claim};
 use crate::model::digest;

@@ -6,6 +6,7 @@ mod evolving;
 mod fretting_loop;
 mod in_common;
 mod journey;
+mod observer;
 mod pair_compliance;
 pub mod plausibility;
 mod recording;
@@ -19,5 +20,6 @@ mod wear;
 
 pub use checkpoint::{Checkpoint, CheckpointError, Waypoint};
 pub use in_common::{InCommon, beginnings};
+pub use observer::{Iteration, Observer, Silent};
 pub use run_error::RunError;
-pub use simulation::{Iteration, Observer, Silent, Simulation};
+pub use simulation::Simulation;

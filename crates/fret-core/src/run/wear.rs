@@ -4,7 +4,7 @@ use ndarray::{Array2, Zip};
 use serde::{Deserialize, Serialize};
 
 use crate::fields::stored;
-use crate::model::accumulated::add_path;
+use crate::model::slip_increment::add_path;
 use crate::model::{ContactState, CoulombFriction, SurfaceGrid, WearLaw, WearLayers, WearRule};
 
 /// Share of a cell's pressure that a block may take off at the most, as far as the cell's own compliance tells. Above 0.8
