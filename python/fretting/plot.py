@@ -101,7 +101,7 @@ def loop_stack(
     stage : int or str, optional
         Number or name of a stage with cycles. Without: all stages with cycles, one behind the other.
     most : int
-        Number of loops drawn at the most, evenly over the computed cycles, the first and the last among them.
+        Number of loops drawn, at most, evenly over the computed cycles, the first and the last among them.
     cmap : str
         Colours from the first cycle to the last.
     ax : matplotlib Axes, optional
