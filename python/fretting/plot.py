@@ -90,7 +90,7 @@ def loop_stack(
 ) -> "Axes":
     """Draw the fretting log: the loops of force and displacement over the cycles.
 
-    Each loop stands at the number of its cycle, in a box seen from above: cycles go to the right and backwards.
+    Each loop stands at the number of its cycle, in axes of three dimensions.
 
     Parameters
     ----------
@@ -101,7 +101,7 @@ def loop_stack(
     stage : int or str, optional
         Number or name of a stage with cycles. Without: all stages with cycles, one behind the other.
     most : int
-        Number of loops drawn at the most, evenly over the computed cycles, the first and the last among them.
+        Number of loops drawn, at most, evenly over the computed cycles, the first and the last among them.
     cmap : str
         Colours from the first cycle to the last.
     ax : matplotlib Axes, optional
@@ -446,9 +446,7 @@ def _loop_rows(history: "History", stage: int | str | None) -> npt.NDArray[np.in
     return np.concatenate([rows[:1] - 1, rows]) if rows[0] > 0 else rows
 
 
-def _loops(
-    history: "History", stage: int | str | None
-) -> tuple[npt.NDArray[np.int64], list[npt.NDArray[np.int64]]]:
+def _loops(history: "History", stage: int | str | None) -> tuple[npt.NDArray[np.int64], list[npt.NDArray[np.int64]]]:
     """Numbers of the computed cycles, over all stages drawn, and the rows of each with the state it starts from."""
     cycles = history.cycles
     chosen = np.ones(len(cycles["cycle"]), dtype=bool)

@@ -161,6 +161,7 @@ fn every_example_of_a_loading_runs() {
         ("until_steady", ",true,"),
         ("wear_partial_slip", ",20,"),
         ("coating_worn_through", "\"cell\""),
+        ("friction/evolving", "\"friction_evolution\""),
     ] {
         let path = examples.join(format!("{name}.toml"));
         let out = format!("results/{name}");
