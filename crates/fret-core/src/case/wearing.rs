@@ -3,7 +3,7 @@
 use toml::Spanned;
 
 use super::course::{Course, Stage};
-use super::file::BodyFile;
+use super::file::{BodyFile, StressFile};
 use super::judge::Judge;
 use super::stage_file::{WearFile, WearLawFile, WornBodyFile};
 use crate::model::{Body, ContactPair, WearLaw, WearLayers, WearRule, WornLayer};
@@ -16,7 +16,7 @@ const MOST_THINNING: f64 = 0.5;
 /// The wear of a case; `None` when nothing wears or it was refused.
 pub(super) fn wear(
     judge: &mut Judge,
-    file: Option<&WearFile>,
+    (file, stress): (Option<&WearFile>, Option<&Spanned<StressFile>>),
     (bodies, files): (Option<&ContactPair>, [(&str, &BodyFile); 2]),
     stages: Option<&[Stage]>,
     frictionless: bool,
@@ -86,6 +86,13 @@ pub(super) fn wear(
             given.span(),
             "wear.thinning_tolerance: nothing says which body wears, and how its layers do",
             "wear_coefficient = ... in all layers of the body that wears, in place of wear.coefficient",
+        );
+    }
+    if let (Some(table), Some(_)) = (stress, thinning) {
+        judge.refuse::<()>(
+            table.span(),
+            "stress and wear.thinning_tolerance: stresses below are those of the unworn layers",
+            "leave out one of the two",
         );
     }
     for (index, stage) in stages.unwrap_or_default().iter().enumerate() {
