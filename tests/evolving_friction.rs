@@ -63,7 +63,6 @@ fn assert_same(found: &[[f64; 2]], expected: &[[f64; 2]], words: &str) {
     for (found, expected) in found.iter().zip(expected) {
         worst = worst.max((found[0] / expected[0] - 1.0).abs()).max((found[1] / expected[1] - 1.0).abs());
     }
-    println!("{words}: coefficient and energy of {} cycles within {worst:.1e}", found.len());
     // Residual of the solver, 1e-8, over 20 cycles.
     assert!(worst < 1e-6, "{words}: {worst:e}");
 }

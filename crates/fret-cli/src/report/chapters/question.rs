@@ -206,16 +206,12 @@ fn evolution(view: &Overview<'_>) -> Option<String> {
     };
     let exponential = &evolution["law"]["exponential"];
     let driver = |value: f64| if kind.is_empty() { given(value) } else { view.given(value, kind) };
-    let law = match (exponential["last"].as_f64(), exponential["scale"].as_f64()) {
-        (Some(last), Some(scale)) => {
-            format!("tends to {} over a scale of {}", given(last), driver(scale))
-        }
-        _ => {
-            let rows = evolution["law"]["table"].as_array()?;
-            let row =
-                |row: &Value| Some(format!("{} at {}", given(row[1].as_f64()?), driver(row[0].as_f64()?)));
-            rows.iter().map(row).collect::<Option<Vec<_>>>()?.join(", ")
-        }
+    let law = if let Some((last, scale)) = exponential["last"].as_f64().zip(exponential["scale"].as_f64()) {
+        format!("tends to {} over a scale of {}", given(last), driver(scale))
+    } else {
+        let row = |row: &Value| Some(format!("{} at {}", given(row[1].as_f64()?), driver(row[0].as_f64()?)));
+        let rows = evolution["law"]["table"].as_array()?;
+        rows.iter().map(row).collect::<Option<Vec<_>>>()?.join(", ")
     };
     let every = evolution["every"].as_u64().filter(|every| *every > 1);
     let jumps = every.map_or(String::new(), |every| format!("; a computed cycle stands for at most {every}"));
