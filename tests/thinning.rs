@@ -50,8 +50,8 @@ fn each_layer_of_both_bodies_loses_its_coefficient_times_the_energy() {
     for wear in ["law = \"energy\"", "law = \"energy\"\nevery = 7\nlargest_step = 1.0"] {
         let history = solved(&flat([&lower, &upper], wear, 40));
         let energy = history.steps.last().unwrap().dissipated_energy / 2.0;
-        // The cycles of a jump are equal, but for the first one, which starts without shear.
-        assert!((energy / work - 1.0).abs() < 1e-3, "{energy:e} {work:e}");
+        // The first cycle starts without shear; a jump counts it for seven.
+        assert!((energy / work - 1.0).abs() < 0.01, "{energy:e} {work:e}");
         let expected = [film + hard * (energy - film / soft), rigid * energy];
         let last = history.cycles.last().unwrap();
         let found = [last.lower_worn_depth.unwrap(), last.upper_worn_depth.unwrap()];
@@ -140,7 +140,7 @@ fn a_coating_worn_away_leaves_the_substrate() {
         )
     };
     let coating = "coatings = [{ thickness = 2e-3, young = 0.3, poisson = 0.3, wear_coefficient = 0.2 }]\n";
-    let loads = "[[load]]\nnormal_force = 1.2e-2\nincrements = 4\n[[load]]\nshift = [0.05, 0.0]\nincrements = 8\ncycles = 100\n";
+    let loads = "[[load]]\nnormal_force = 1.2e-2\nincrements = 4\n[[load]]\nshift = [0.05, 0.0]\nincrements = 8\ncycles = 160\n";
     let wear = "[wear]\nlaw = \"energy\"\nthinning_tolerance = 0.05\nlargest_step = 1.0\n";
     let history = solved(&format!(
         "{}{wear}{loads}{}",
@@ -173,7 +173,7 @@ fn a_thin_layer_wears_as_its_differential_equations_say() {
     let modulus = 0.8 / (1.2 * 0.6); // M of E = 1, nu = 0.2
     let force = 4e-2;
     let text = format!(
-        "[grid]\ncells = [48, 48]\nsize = [1.6, 1.6]\n[upper]\nrigid = true\n[lower]\n\
+        "[grid]\ncells = [48, 48]\nsize = [2.4, 2.4]\n[upper]\nrigid = true\n[lower]\n\
          coatings = [{{ thickness = {thickness}, young = 1.0, poisson = 0.2, wear_coefficient = K }}]\nbase = \"rigid\"\n\
          [profile.sphere]\nradius = {radius}\n[friction]\ncoefficient = 0.1\n[wear]\nlaw = \"archard\"\nthinning_tolerance = 1e-3\n\
          every = 1\nlargest_step = 1.0\n[[load]]\nnormal_force = {force}\nincrements = 1\n[[load]]\nshift = [0.02, 0.0]\nincrements = 4\n\
@@ -195,14 +195,14 @@ fn a_thin_layer_wears_as_its_differential_equations_say() {
 /// Largest depth after the cycles of a history, by springs: the slip of each cycle from the run, all else from the equations.
 fn winkler(history: &History, [thickness, radius, modulus, force, k]: [f64; 5], thins: bool) -> f64 {
     let cells = 400;
-    let side = 1.6;
+    let side = 2.4;
     let step = side / f64::from(cells);
     let squares: Vec<f64> = (0..cells * cells)
         .map(|cell| {
             let at = |index: i32| (f64::from(index) + 0.5) * step - 0.5 * side;
             at(cell / cells).powi(2) + at(cell % cells).powi(2)
         })
-        .filter(|square| *square < 0.64)
+        .filter(|square| *square < 1.44)
         .collect();
     let mut worn = vec![0.0; squares.len()];
     for cycle in &history.cycles {
@@ -243,7 +243,7 @@ fn halving_the_tolerance_of_a_wear_jump_halves_its_error() {
         0.9 * 0.3 * sphere.effective_modulus() * sphere.approach() / (4.0 * sphere.effective_shear_modulus());
     let volume = |wear: &str| {
         let text = format!(
-            "{}[wear]\ncoefficient = 0.2\nlargest_step = 1.0\n{wear}\n[[load]]\napproach = {:e}\nincrements = 1\n[[load]]\n\
+            "{}[wear]\ncoefficient = 0.1\nlargest_step = 1.0\n{wear}\n[[load]]\napproach = {:e}\nincrements = 1\n[[load]]\n\
              shift = [{shift:e}, 0.0]\nincrements = 8\ncycles = 400\n",
             sphere.head(),
             sphere.approach()
@@ -254,7 +254,7 @@ fn halving_the_tolerance_of_a_wear_jump_halves_its_error() {
         (history.cycles.len(), last.worn_volume, history)
     };
     let (_, exact, _) = volume("every = 1");
-    let [coarse, fine, finer] = [0.08, 0.04, 0.02].map(|tolerance| {
+    let [coarse, fine, finer] = [4e-3, 2e-3, 1e-3].map(|tolerance| {
         let (cycles, volume, history) = volume(&format!("tolerance = {tolerance}"));
         let told = history.cycles.iter().filter_map(|cycle| cycle.wear_jump_error).fold(0.0, f64::max);
         let off = volume / exact - 1.0;
@@ -273,10 +273,10 @@ fn halving_the_tolerance_of_a_wear_jump_halves_its_error() {
 /// A rigid base has no response of its own: the run says so, and where a film gets too thin for the cells.
 #[test]
 fn a_film_worn_to_its_rigid_base_ends_the_run_with_words() {
-    let coefficient = 0.015 / work_of(1, SHEAR_MODULUS);
-    let wear = "law = \"energy\"\nthinning_tolerance = 0.05\nlargest_step = 1.0";
+    let coefficient = 4e-3 / work_of(1, SHEAR_MODULUS);
+    let wear = "law = \"energy\"\nthinning_tolerance = 0.2\nlargest_step = 1.0\nevery = 10";
     let failed =
-        run(&flat([&on_rigid(1.0, coefficient), "rigid = true"], wear, 100)).unwrap_err().to_string();
+        run(&flat([&on_rigid(1.0, coefficient), "rigid = true"], wear, 400)).unwrap_err().to_string();
     assert!(failed.contains("worn down to what is rigid") && failed.contains("wear.limit"), "{failed}");
     let text = format!(
         "[grid]\ncells = [16, 16]\nsize = [1.6, 1.6]\n[upper]\nrigid = true\n[lower]\n\

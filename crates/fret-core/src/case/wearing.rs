@@ -95,18 +95,8 @@ pub(super) fn wear(
             "leave out one of the two",
         );
     }
-    for (index, stage) in stages.unwrap_or_default().iter().enumerate() {
-        let Course::Cycles(cycles) = stage.course else { continue };
-        let words = if cycles.until_steady.is_some() {
-            "until_steady of a contact that wears: it changes with every cycle"
-        } else if every > 1 && cycles.envelope[0] != cycles.envelope[1] {
-            "amplitudes that change from cycle to cycle: none of them can stand for others"
-        } else {
-            continue;
-        };
-        let span = file.every.as_ref().map_or_else(|| span.clone(), Spanned::span);
-        judge.refuse::<()>(span, format!("wear and load[{index}]: {words}"), "cycles = ..., wear.every = 1");
-    }
+    let jumping = file.every.as_ref().map_or_else(|| span.clone(), Spanned::span);
+    cycles_that_wear(judge, jumping, every, stages.unwrap_or_default());
     let layers = own.is_some().then(|| WearLayers::new(layers.map(Option::unwrap_or_default)));
     let limit = limit(judge, file, (bodies, files), layers.as_ref());
     (judge.mistakes.len() == before).then_some(WearRule {
@@ -122,6 +112,22 @@ pub(super) fn wear(
         tolerance,
         thinning_tolerance: thinning,
     })
+}
+
+/// Refuses cycles that wear has no place for.
+fn cycles_that_wear(judge: &mut Judge, span: std::ops::Range<usize>, every: usize, stages: &[Stage]) {
+    for (index, stage) in stages.iter().enumerate() {
+        let Course::Cycles(cycles) = stage.course else { continue };
+        let words = if cycles.until_steady.is_some() {
+            "until_steady of a contact that wears: it changes with every cycle"
+        } else if every > 1 && cycles.envelope[0] != cycles.envelope[1] {
+            "amplitudes that change from cycle to cycle: none of them can stand for others"
+        } else {
+            continue;
+        };
+        let message = format!("wear and load[{index}]: {words}");
+        judge.refuse::<()>(span.clone(), message, "cycles = ..., wear.every = 1");
+    }
 }
 
 /// A part of a body that may wear: a coating, a substrate or what is rigid.
@@ -258,6 +264,65 @@ fn limit(
                     "a positive wear_coefficient of this coating",
                 ),
             }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::case::Case;
+
+    fn read([upper, coating, substrate, wear]: [&str; 4]) -> Result<Case, String> {
+        let text = format!(
+            "[grid]\ncells = [16, 16]\nsize = [3.0, 3.0]\n[upper]\nrigid = true\n{upper}\n[lower]\n\
+             coatings = [{{ thickness = 0.5, young = 2.0, poisson = 0.3{coating} }}]\n\
+             substrate = {{ young = 1.0, poisson = 0.3{substrate} }}\n[profile.sphere]\nradius = 100.0\n\
+             [friction]\ncoefficient = 0.3\n{wear}\n[[load]]\nnormal_force = 0.01\nincrements = 1\n\
+             [[load]]\ntangential_force = [1e-3, 0.0]\nincrements = 8\ncycles = 1\n"
+        );
+        Case::from_toml(&text, "case.toml").map_err(|error| error.to_string())
+    }
+
+    const FILM: &str = ", wear_coefficient = 2.0";
+    const BASE: &str = ", wear_coefficient = 0.5";
+
+    #[test]
+    fn coefficients_of_layers_are_read() {
+        let wear = "[wear]\ntolerance = 0.1\nthinning_tolerance = 0.2\nthrough_coating_of = \"lower\"";
+        let rule = read(["wear_coefficient = 1.0", FILM, BASE, wear]).unwrap().wear.unwrap();
+        let [lower, upper] = rule.layers.as_ref().unwrap().bodies();
+        assert_eq!((lower[0].thickness, lower[0].coefficient, lower[1].coefficient), (0.5, 2.0, 0.5));
+        assert!(lower[1].thickness.is_infinite() && upper[0].coefficient == 1.0);
+        assert_eq!((rule.coefficient, rule.every, rule.largest_rate()), (None, 1_000_000, 3.0));
+        assert_eq!((rule.tolerance, rule.thinning_tolerance), (Some(0.1), Some(0.2)));
+        // Through 0.5 of the coating the other body has lost half as much.
+        assert!((rule.limit.unwrap() - 0.75).abs() < 1e-15);
+        let both = read(["", "", "", "[wear]\ncoefficient = 3.0"]).unwrap().wear.unwrap();
+        assert_eq!((both.coefficient, both.every, both.layers), (Some(3.0), 1, None));
+    }
+
+    #[test]
+    fn what_cannot_wear_is_refused_with_words() {
+        for (words, message) in [
+            (["", FILM, "", "[wear]"], "lower.substrate: no wear_coefficient"),
+            (["", FILM, BASE, ""], "without a table [wear]"),
+            (["", "", "", "[wear]\nevery = 2"], "nothing says how much wears off"),
+            (["", FILM, BASE, "[wear]\ncoefficient = 1.0"], "both at once"),
+            (["wear_coefficient = -1.0", "", "", "[wear]"], "must be zero or positive"),
+            (["", "", "", "[wear]\ncoefficient = 1.0\nthinning_tolerance = 0.1"], "which body wears"),
+            (["", FILM, BASE, "[wear]\ntolerance = 0.0"], "must lie above 0"),
+            (["", FILM, BASE, "[wear]\nthinning_tolerance = 0.9"], "at 0.5 at the most"),
+            (
+                ["", ", wear_coefficient = 0.0", BASE, "[wear]\nthrough_coating_of = \"lower\""],
+                "does not wear",
+            ),
+            (
+                ["", FILM, BASE, "[wear]\nthinning_tolerance = 0.1\n[stress]\ndepths = [0.1]"],
+                "stress and wear",
+            ),
+        ] {
+            let error = read(words).unwrap_err();
+            assert!(error.contains(message), "{words:?}: {error}");
         }
     }
 }
