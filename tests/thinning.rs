@@ -278,12 +278,10 @@ fn a_film_worn_to_its_rigid_base_ends_the_run_with_words() {
     let failed =
         run(&flat([&on_rigid(1.0, coefficient), "rigid = true"], wear, 400)).unwrap_err().to_string();
     assert!(failed.contains("worn down to what is rigid") && failed.contains("wear.limit"), "{failed}");
-    let text = format!(
-        "[grid]\ncells = [16, 16]\nsize = [1.6, 1.6]\n[upper]\nrigid = true\n[lower]\n\
-         coatings = [{{ thickness = 0.021, young = 1.0, poisson = 0.5, wear_coefficient = 0.05 }}]\nbase = \"rigid\"\n\
+    let text = "[grid]\ncells = [16, 16]\nsize = [1.6, 1.6]\n[upper]\nrigid = true\n[lower]\n\
+         coatings = [{ thickness = 0.021, young = 1.0, poisson = 0.5, wear_coefficient = 0.05 }]\nbase = \"rigid\"\n\
          [profile.sphere]\nradius = 100.0\n[friction]\ncoefficient = 0.3\n[wear]\nthinning_tolerance = 0.05\nlargest_step = 1.0\n\
-         [[load]]\nnormal_force = 1e-2\nincrements = 4\n[[load]]\nshift = [0.05, 0.0]\nincrements = 8\ncycles = 60\n"
-    );
+         [[load]]\nnormal_force = 1e-2\nincrements = 4\n[[load]]\nshift = [0.05, 0.0]\nincrements = 8\ncycles = 60\n";
     let failed = run(&text).unwrap_err().to_string();
     assert!(failed.contains("nearly incompressible film"), "{failed}");
 }
