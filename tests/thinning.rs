@@ -186,7 +186,7 @@ fn a_thin_layer_wears_as_its_differential_equations_say() {
     let last = history.cycles.last().unwrap();
     let found = [last.max_worn_depth, history.steps.last().unwrap().approach];
     println!(
-        "Winkler layer: depth and approach {found:.4e?}, by its equations {by_hand:.4e?}, not thinning {unthinned:.4e?}"
+        "Winkler layer: depth and approach {found:?}, by its equations {by_hand:?}, not thinning {unthinned:?}"
     );
     // The layer is a thirtieth of the contact radius thick: 1 % of the load is carried otherwise.
     for (found, by_hand) in found.into_iter().zip(by_hand) {
