@@ -224,8 +224,9 @@ class History:
 
         Parameters
         ----------
-        name : {"pressure", "shear_x", "shear_y", "slip_x", "slip_y", "gap", "zone", "worn_depth",
-            "friction", "shear", "slip"}
+        name : str
+            ``"pressure"``, ``"shear_x"``, ``"shear_y"``, ``"slip_x"``, ``"slip_y"``, ``"gap"``, ``"zone"``,
+            ``"worn_depth"``, ``"friction"``, ``"shear"`` or ``"slip"``.
             ``slip_x``, ``slip_y``: relative slip since the start of the history, signed (the sum of the slip
             increments, not the slip distance); ``zone``: 0 open, 1 stick, 2 slip; ``shear``, ``slip``: both
             components, along the first axis.
