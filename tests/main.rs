@@ -19,6 +19,7 @@ mod error_bars;
 mod fretting_cycles;
 mod friction_on_patches;
 mod frictional_counts;
+mod hard_increments;
 mod interfaces;
 mod invariants;
 mod layers;
