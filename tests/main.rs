@@ -16,6 +16,7 @@ mod coefficient_tables;
 mod conduction;
 mod coupled_friction;
 mod error_bars;
+mod evolving_friction;
 mod fretting_cycles;
 mod friction_on_patches;
 mod frictional_counts;

@@ -133,6 +133,25 @@ fn with_wear_in_blocks_of_cycles() {
     }
 }
 
+/// Friction that follows the energy of each cell in cycle jumps, with wear and without.
+#[test]
+fn with_friction_that_evolves() {
+    let evolution = "coefficient = 0.2\nevolution = { by = \"energy\", last = 0.6, scale = 5.0, every = 3, tolerance = 0.2 }";
+    for head in [HEAD.to_owned(), coated()] {
+        let head = head
+            .replace("coefficient = 0.2", evolution)
+            .replace("\"worn_depth\"", "\"worn_depth\", \"friction\"");
+        let unworn = WORN.split("[wear]").next().unwrap();
+        for loads in [WORN, unworn] {
+            let whole = taken_up_anywhere(&(head.clone() + loads));
+            let blocks: Vec<usize> = whole.cycles.iter().map(|cycle| cycle.stands_for).collect();
+            assert!(blocks.iter().any(|block| *block > 1), "{blocks:?}");
+            let friction: Vec<f64> = whole.cycles.iter().map(|cycle| cycle.friction_coefficient).collect();
+            assert!(friction.windows(2).all(|pair| pair[0] < pair[1]), "{friction:?}");
+        }
+    }
+}
+
 #[test]
 fn with_a_stage_that_ends_when_it_is_steady() {
     for head in [HEAD.to_owned(), coated()] {
@@ -233,8 +252,8 @@ fn bytes_that_are_no_checkpoint_of_the_case_are_refused() {
         assert!(matches!(read, Err(CheckpointError::Damaged(_))), "{length} bytes");
     }
     let mut newer = bytes.clone();
-    newer[0] = 9;
-    assert_eq!(Checkpoint::read(&newer, &plan(&case)), Err(CheckpointError::Format { found: 9 }));
+    newer[0] = 99;
+    assert_eq!(Checkpoint::read(&newer, &plan(&case)), Err(CheckpointError::Format { found: 99 }));
     for other in [case.replace("[16, 14]", "[14, 16]"), case.replacen("increments = 3", "increments = 2", 1)]
     {
         assert_eq!(Checkpoint::read(bytes, &plan(&other)), Err(CheckpointError::Foreign));

@@ -112,6 +112,12 @@ What is subtracted from heights.
 """
 
 
+Driver: TypeAlias = Literal["energy", "slip_distance", "cycles"]
+"""
+What the friction coefficient follows.
+"""
+
+
 class Ellipsoid(TypedDict):
     """
     An ellipsoid.
@@ -124,6 +130,40 @@ class Ellipsoid(TypedDict):
     radius_y: float
     """
     Radius of curvature in the y-z plane [length], positive; in a body's own profile negative for a hollow.
+    """
+
+
+class Evolution(TypedDict):
+    """
+    Friction that evolves: the coefficient of each cell follows what slip has done to it, from `coefficient` or `map` on. It changes after
+    each simulated cycle, and at the end of a stage without cycles.
+    """
+
+    by: Driver
+    """
+    What the coefficient follows: the energy dissipated in the cell by area [pressure x length], the slip distance of the cell
+    [length], or the number of cycles.
+    """
+    every: NotRequired[int]
+    """
+    Maximum cycle jump: number of cycles one simulated cycle may represent. Default: 1.
+    """
+    last: NotRequired[float]
+    """
+    Coefficient it tends to, positive: coefficient = last + (first - last) exp(-driver / scale).
+    """
+    scale: NotRequired[float]
+    """
+    Scale of the exponential, positive, in the unit of what the coefficient follows.
+    """
+    table: NotRequired[Sequence[Sequence[float]]]
+    """
+    Instead of `last` and `scale`: rows of driver and coefficient, the first at 0 with `friction.coefficient`; linear between them,
+    constant beyond the last.
+    """
+    tolerance: NotRequired[float]
+    """
+    Maximum change of the coefficient of a cell per cycle jump. Default: 0.01.
     """
 
 
@@ -179,7 +219,7 @@ class Output(TypedDict):
     """
     fields: NotRequired[Sequence[str]]
     """
-    Fields to keep: "pressure", "shear", "slip", "gap", "zone", "`worn_depth`". Default: pressure, shear, slip, zone.
+    Fields to keep: "pressure", "shear", "slip", "gap", "zone", "`worn_depth`", "friction". Default: pressure, shear, slip, zone.
     """
 
 
@@ -556,6 +596,10 @@ class Friction(TypedDict):
     coefficient: NotRequired[float]
     """
     Coefficient, zero or positive.
+    """
+    evolution: NotRequired[Evolution]
+    """
+    Friction that evolves: how the coefficient of each cell follows what slip has done to it. Default: it stays.
     """
     map: NotRequired[Map]
     """

@@ -76,7 +76,8 @@ class History:
         ``stick_cells``, ``convolutions``, ``preconditioner_passes``, ``outer_iterations``, ``parts`` (int);
         ``full_grid_convolutions``, ``tilt_x``, ``tilt_y``, ``tilt_moment_x``, ``tilt_moment_y``, ``bulk_stress_x``,
         ``bulk_stress_y`` (of the lower body), ``upper_bulk_stress_x``, ``upper_bulk_stress_y``, ``bulk_work``,
-        ``actuator_x``, ``actuator_y``, ``actuator_approach`` (float); ``regime`` (str).
+        ``actuator_x``, ``actuator_y``, ``actuator_approach``, ``friction_coefficient`` (mean over the contact, weighted
+        with the pressure) (float); ``regime`` (str).
     x, y : ndarray
         Coordinates of the cell centres [length], shapes (nx,) and (ny,); of a line contact `y` is one zero.
     stages : list of str
@@ -87,7 +88,8 @@ class History:
         ``total_dissipated_energy`` (since the start), ``direction``, ``force_amplitude``,
         ``displacement_amplitude``, ``opening``, ``energy_ratio``, ``sliding_ratio``, ``stiffness``, ``closure``,
         ``worn_volume`` (since the start), ``max_worn_depth``, and of the loop at the actuator of a rig
-        ``actuator_amplitude``, ``actuator_energy_ratio``, ``actuator_sliding_ratio``, ``actuator_stiffness`` (float,
+        ``actuator_amplitude``, ``actuator_energy_ratio``, ``actuator_sliding_ratio``, ``actuator_stiffness``,
+        ``friction_coefficient`` (mean), and where friction evolves ``friction_change``, ``jump_error`` (float,
         NaN where a cycle has none); ``steady`` (bool); ``drive``, ``regime`` (str).
     running_conditions : list of str or None
         ``"partial"``, ``"mixed"`` or ``"gross"`` for each stage; None for one without cycles.
@@ -216,7 +218,9 @@ class History:
 
         Parameters
         ----------
-        name : {"pressure", "shear_x", "shear_y", "slip_x", "slip_y", "gap", "zone", "worn_depth", "shear", "slip"}
+        name : str
+            ``"pressure"``, ``"shear_x"``, ``"shear_y"``, ``"slip_x"``, ``"slip_y"``, ``"gap"``, ``"zone"``,
+            ``"worn_depth"``, ``"friction"``, ``"shear"`` or ``"slip"``.
             ``slip_x``, ``slip_y``: relative slip since the start of the history, signed (the sum of the slip
             increments, not the slip distance); ``zone``: 0 open, 1 stick, 2 slip; ``shear``, ``slip``: both
             components, along the first axis.
@@ -654,6 +658,19 @@ class History:
     ) -> "Axes":
         """Draw force over displacement, or moment over twist; arguments and answer of :func:`fretting.plot.loop`."""
         return plot.loop(self, along=along, stage=stage, ax=ax, **line)
+
+    def plot_loop_stack(
+        self,
+        *,
+        along: plot.Motion | None = None,
+        stage: int | str | None = None,
+        most: int = 40,
+        cmap: str = "viridis",
+        ax: "Axes | None" = None,
+        **line: Any,
+    ) -> "Axes":
+        """Draw the loops over the cycles; arguments and answer of :func:`fretting.plot.loop_stack`."""
+        return plot.loop_stack(self, along=along, stage=stage, most=most, cmap=cmap, ax=ax, **line)
 
     def plot_section(
         self,

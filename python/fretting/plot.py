@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 
     from fretting.history import History
 
-__all__ = ["animation", "band", "field", "loop", "loop_band", "regime_map", "section", "zones"]
+__all__ = ["animation", "band", "field", "loop", "loop_band", "loop_stack", "regime_map", "section", "zones"]
 
 Direction = Literal["x", "y"]
 Motion = Literal["x", "y", "twist"]
@@ -76,6 +76,65 @@ def loop(
     axes.set_ylabel(_loop_label(history, force))
     _powers_of_ten(axes)
     return axes
+
+
+def loop_stack(
+    history: "History",
+    *,
+    along: Motion | None = None,
+    stage: int | str | None = None,
+    most: int = 40,
+    cmap: str = "viridis",
+    ax: "Axes | None" = None,
+    **line: Any,
+) -> "Axes":
+    """Draw the fretting log: the loops of force and displacement over the cycles.
+
+    Each loop stands at the number of its cycle, in axes of three dimensions.
+
+    Parameters
+    ----------
+    history : History
+        A history with cycles.
+    along : {"x", "y", "twist"}, optional
+        Which motion. Default: the one whose loop is the largest, range of force times range of motion.
+    stage : int or str, optional
+        Number or name of a stage with cycles. Without: all stages with cycles, one behind the other.
+    most : int
+        Number of loops drawn, at most, evenly over the computed cycles, the first and the last among them.
+    cmap : str
+        Colours from the first cycle to the last.
+    ax : matplotlib Axes, optional
+        Where to draw; with ``projection="3d"``.
+    **line
+        Keywords of matplotlib for the lines, such as ``lw``.
+
+    Returns
+    -------
+    matplotlib Axes
+        Axes in three dimensions: number of the cycle, motion, force.
+    """
+    motion, force = _loop_columns(history, along, stage)
+    numbers, rows = _loops(history, stage)
+    if not rows:
+        raise ValueError("no cycles: a stack of loops needs a stage with cycles = ...")
+    if most < 2:
+        raise ValueError(f"most = {most}: must be at least 2")
+    shown = np.unique(np.linspace(0, len(rows) - 1, min(most, len(rows))).round().astype(int))
+    axes: Any = ax
+    if axes is None:
+        axes = _pyplot().figure(figsize=(6.4, 4.4), layout="constrained").add_subplot(projection="3d")
+    from matplotlib import colormaps
+
+    for one in shown:
+        colour = colormaps[cmap](one / max(len(rows) - 1, 1))
+        across, up = (history.increments[name][rows[one]] for name in (motion, force))
+        height = np.full(len(across), numbers[one])
+        axes.plot(height, across, up, **{"lw": 1.0, "color": colour, **_long_names(line)})
+    axes.set(xlabel="cycle", ylabel=_loop_label(history, motion), zlabel=_loop_label(history, force))
+    axes.view_init(elev=22.0, azim=-60.0)
+    drawn: Axes = axes
+    return drawn
 
 
 def section(
@@ -385,6 +444,25 @@ def _loop_rows(history: "History", stage: int | str | None) -> npt.NDArray[np.in
     else:
         rows = np.flatnonzero(column == stage_number(history, stage))
     return np.concatenate([rows[:1] - 1, rows]) if rows[0] > 0 else rows
+
+
+def _loops(history: "History", stage: int | str | None) -> tuple[npt.NDArray[np.int64], list[npt.NDArray[np.int64]]]:
+    """Numbers of the computed cycles, over all stages drawn, and the rows of each with the state it starts from."""
+    cycles = history.cycles
+    chosen = np.ones(len(cycles["cycle"]), dtype=bool)
+    if stage is not None:
+        chosen = cycles["stage"] == stage_number(history, stage)
+    numbers, rows = [], []
+    before, last = 0, (-1, 0)
+    for index in np.flatnonzero(chosen):
+        number = (int(cycles["stage"][index]), int(cycles["last_cycle"][index]))
+        if number[0] != last[0]:
+            before, last = before + last[1], (number[0], 0)
+        first, end = int(cycles["first_increment"][index]), int(cycles["last_increment"][index])
+        numbers.append(before + last[1] + 1)
+        last = number
+        rows.append(np.arange(max(first - 1, 0), end + 1))
+    return np.asarray(numbers, dtype=np.int64), rows
 
 
 def stage_number(history: "History", stage: int | str) -> int:

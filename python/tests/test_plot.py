@@ -92,7 +92,7 @@ def test_a_scar_is_drawn_as_map_section_and_animation(scar: fretting.History, tm
 def test_every_field_has_words_for_its_picture(name: str) -> None:
     words = label(name)
     assert words
-    assert name == "zone" or words.endswith(("[pressure]", "[length]"))
+    assert name == "zone" or words.endswith(("[pressure]", "[length]", "[-]"))
 
 
 def test_an_animation_has_a_picture_of_every_kept_increment(history: fretting.History, tmp_path: Path) -> None:
@@ -141,3 +141,30 @@ def test_a_loop_of_torsion_is_moment_over_twist(fretting_case: dict[str, Any]) -
     assert axes.get_xlabel() == "twist [rad]"
     np.testing.assert_array_equal(history.plot_loop(along="x").lines[0].get_xdata(), history.increments["shift_x"])
     matplotlib.pyplot.close("all")
+
+
+def test_loops_over_the_cycles_are_those_of_the_history(fretting_case: dict[str, Any]) -> None:
+    fretting_case["friction"]["evolution"] = {"by": "cycles", "last": 0.9, "scale": 4.0, "every": 3, "tolerance": 0.5}
+    fretting_case["load"][-1]["cycles"] = 9
+    history = fretting.run(fretting_case)
+    cycles = history.cycles
+    axes: Any = history.plot_loop_stack(lw=0.5)
+    assert len(axes.lines) == len(cycles["cycle"]) < 9
+    starts = [1, *(cycles["last_cycle"][:-1] + 1)]
+    for line, start, first, last in zip(
+        axes.lines, starts, cycles["first_increment"], cycles["last_increment"], strict=True
+    ):
+        across, motion, force = line.get_data_3d()
+        assert set(across) == {start}
+        assert line.get_linewidth() == 0.5
+        np.testing.assert_array_equal(motion[1:], history.increments["shift_x"][first : last + 1])
+        np.testing.assert_array_equal(force[1:], history.increments["tangential_force_x"][first : last + 1])
+        assert motion[0] == history.increments["shift_x"][first - 1]
+    assert len(history.plot_loop_stack(most=2).lines) == 2
+    with pytest.raises(ValueError, match="at least 2"):
+        history.plot_loop_stack(most=1)
+
+
+def test_a_stack_of_loops_needs_cycles(sphere_case: dict[str, Any]) -> None:
+    with pytest.raises(ValueError, match="needs a stage with cycles"):
+        fretting.run(sphere_case).plot_loop_stack()

@@ -14,7 +14,7 @@ VOCABULARY = json.loads(_core.vocabulary())
 def test_fields_of_the_type_hint_are_those_of_the_core() -> None:
     names = tuple(entry["name"] for entry in VOCABULARY["fields"])
     assert get_args(FieldName) == names == FIELD_NAMES
-    documented = re.search(r"name : \{(.*?)\}", fretting.History.field.__doc__ or "", re.DOTALL)
+    documented = re.search(r"name : str\n(.*?)\.\n", fretting.History.field.__doc__ or "", re.DOTALL)
     assert documented is not None
     assert tuple(re.findall(r'"(\w+)"', documented[1])) == (*names, *VECTORS)
 

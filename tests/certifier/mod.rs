@@ -13,7 +13,7 @@ mod slip_path;
 
 use fret_core::case::Stage;
 use fret_core::history::{KeptFields, StepRecord};
-use fret_core::model::{Base, Body, ContactPair, Control, Integration, LoadStep, Zone};
+use fret_core::model::{Base, Body, ContactPair, Control, CoulombFriction, Integration, LoadStep, Zone};
 use fret_core::plan::Plan;
 use increment::{Fields, Increment};
 use influence::Influence;
@@ -138,6 +138,7 @@ impl<'a> Certifier<'a> {
             slip: Some(slip),
             gap: Some(gap),
             zone: Some(zone),
+            friction,
             ..
         } = fields
         else {
@@ -146,7 +147,10 @@ impl<'a> Certifier<'a> {
         let load = self.prescribed(record);
         let case = &self.plan.case;
         let law = case.stages[..=record.stage].iter().rev().find_map(|stage| stage.friction.as_ref());
-        let law = law.unwrap_or(&case.friction);
+        let evolved = friction.clone().filter(|_| case.friction_evolution.is_some());
+        let evolved = evolved.and_then(|map| CoulombFriction::map(map).ok());
+        let evolved = evolved.map(|law| law.with_max_shear_of(&case.friction));
+        let law = evolved.as_ref().or(law).unwrap_or(&case.friction);
         let displacements = self.influence.displacements(p, q);
         let ratio = self.past.ratio_to(&load).filter(|_| {
             case.integration == Integration::SecondOrder && record.work.end_point_increments == 0
@@ -159,7 +163,7 @@ impl<'a> Certifier<'a> {
             before: &self.before,
             record,
             slides: !case.is_frictionless(),
-            jumps: case.wear.is_some(),
+            jumps: case.wear.is_some() || case.friction_evolution.is_some(),
             law,
             load,
             fields: Fields { p, q, slip, gap, zone },

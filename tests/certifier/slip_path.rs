@@ -152,8 +152,37 @@ impl Past {
                     steepest = steepest.max(gap.get(next).map_or(0.0, |gap| (distance(*gap) - now).abs()));
                 }
                 let touch = (2.0 * way / steepest - 1.0).clamp(0.0, 1.0) * f64::min(1.0, now / way);
-                CellPath { ahead: last.map(|part| part * 0.85 * touch * ratio), ..open }
+                let steps = touch * ratio;
+                let beside = edge_beside(at, gap, zone);
+                let slid = match zone[beside] {
+                    Zone::Slip => [drift[0][beside], drift[1][beside]],
+                    _ => [0.0; 2],
+                };
+                let lag = steps.powf(1.5) / ((1.0 + steps).powf(1.5) - steps.powf(1.5));
+                CellPath {
+                    ahead: [0, 1].map(|axis| 0.7 * steps * slid[axis] + lag * (last[axis] - slid[axis])),
+                    ..open
+                }
             }
         }
+    }
+}
+
+/// The first cell in contact down the gap from an open one.
+fn edge_beside(at: [usize; 2], gap: &Array2<f64>, zone: &Array2<Zone>) -> [usize; 2] {
+    let mut here = at;
+    loop {
+        let mut lowest = here;
+        for (axis, step) in [(0, usize::MAX), (0, 1), (1, usize::MAX), (1, 1)] {
+            let mut next = here;
+            next[axis] = here[axis].wrapping_add(step);
+            if gap.get(next).is_some_and(|gap_there| *gap_there < gap[lowest]) {
+                lowest = next;
+            }
+        }
+        if lowest == here || zone[lowest] != Zone::Open {
+            return lowest;
+        }
+        here = lowest;
     }
 }

@@ -57,7 +57,7 @@ impl Summary<'_> {
         for (name, reading) in self.readings() {
             row(&mut table, &self.heading(name), shown.iter().map(reading));
         }
-        if self.plan.case.wear.is_some() {
+        if self.plan.case.wear.is_some() || self.plan.case.friction_evolution.is_some() {
             row(&mut table, "cycles", shown.iter().map(|record| self.cycles_of(record.stage)));
         }
         if shown.len() < ends.len() {
@@ -135,6 +135,9 @@ impl Summary<'_> {
                 }),
                 ("dissipated energy so far", |record| figure(record.dissipated_energy)),
             ]);
+        }
+        if self.plan.case.friction_evolution.is_some() {
+            readings.push(("mean friction coefficient", |record| figure(record.friction_coefficient)));
         }
         if self.plan.case.wear.is_some() {
             readings.push(("worn volume so far", |record| figure(record.worn_volume)));

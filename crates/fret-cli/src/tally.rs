@@ -102,6 +102,7 @@ impl Tally {
     pub fn add_cycle(&mut self, record: &CycleRecord) {
         self.cycles.push(record.clone());
         self.advance.cycled(record);
+        self.gauge.add_cycle(record);
     }
 
     /// How far the run has come, in words.

@@ -1,6 +1,6 @@
 //! Threads of a command: as many as asked for, or all that the machine has.
 
-use fret_core::machine::threads;
+use fret_core::machine::threads::{self, ThreadsError};
 use rayon::ThreadPool;
 
 use crate::failure::Failure;
@@ -12,8 +12,17 @@ pub fn asked(number: Option<u16>) -> usize {
 
 /// A pool of so many threads.
 pub fn pool(number: usize) -> Result<ThreadPool, Failure> {
-    threads::pool(number)
-        .map_err(|error| Failure::Call(error.to_string(), "--threads with a smaller number".to_owned()))
+    threads::pool(number).map_err(refused)
+}
+
+/// Refuses more threads, in pools yet to come, than can be started.
+pub fn check(number: usize) -> Result<(), Failure> {
+    threads::check(number).map_err(refused)
+}
+
+#[expect(clippy::needless_pass_by_value, reason = "for `map_err`")]
+fn refused(error: ThreadsError) -> Failure {
+    Failure::Call(error.to_string(), "--threads with a smaller number".to_owned())
 }
 
 /// A number of threads on the command line.

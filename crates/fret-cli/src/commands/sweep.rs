@@ -172,6 +172,9 @@ impl<'a> Board<'a> {
     fn work(&self, folder: &SweepFolder, threads: usize) -> Option<Failure> {
         let workers = threads.min(self.open.len()).max(1);
         let each = threads / workers;
+        if let Err(failure) = threads::check(workers * each) {
+            return Some(failure);
+        }
         std::thread::scope(|scope| {
             for _ in 0..workers {
                 scope.spawn(|| {

@@ -189,6 +189,7 @@ fn reduced(mut case: Case) -> Result<Case, Failure> {
     }
     case.stages = stages;
     case.wear = None;
+    case.friction_evolution = None;
     case.stress = None;
     case.output = Output { fields: Vec::new(), every: None };
     Ok(case)

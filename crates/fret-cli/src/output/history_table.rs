@@ -202,6 +202,9 @@ mod tests {
             actuator_energy_ratio: None,
             actuator_sliding_ratio: Some(0.1),
             actuator_stiffness: None,
+            friction_coefficient: 0.3,
+            friction_change: Some(1e-4),
+            jump_error: None,
         };
         let other = CycleRecord { regime: None, steady: false, ..one.clone() };
         for record in [one, other] {

@@ -12,7 +12,7 @@ use crate::failure::{Failure, Unwritten};
 
 const STATES: &str = "states";
 const START: &str = "start.state";
-const FIRST_LINE: &str = "fretting state 1\n";
+const FIRST_LINE: &str = "fretting state 2\n";
 
 /// The states while a run goes.
 #[derive(Debug)]

@@ -8,7 +8,8 @@ const COLUMNS: &str = "increment,stage,normal_force,approach,tangential_force_x,
                        twist_moment,twist,max_pressure,max_shear,contact_area,stick_area,dissipated_energy,residual,\
                        convolutions,preconditioner_passes,outer_iterations,wall_s,contact_cells,stick_cells,regime,\
                        full_grid_convolutions,parts,worn_volume,max_worn_depth,tilt_x,tilt_y,tilt_moment_x,tilt_moment_y,bulk_stress_x,\
-                       bulk_stress_y,upper_bulk_stress_x,upper_bulk_stress_y,bulk_work,actuator_x,actuator_y,actuator_approach";
+                       bulk_stress_y,upper_bulk_stress_x,upper_bulk_stress_y,bulk_work,actuator_x,actuator_y,actuator_approach,\
+                       friction_coefficient";
 
 /// Increments of the small case: 3 of the indentation, 2 cycles of 8.
 const INCREMENTS: usize = 19;
@@ -160,6 +161,7 @@ fn every_example_of_a_loading_runs() {
         ("until_steady", ",true,"),
         ("wear_partial_slip", ",20,"),
         ("coating_worn_through", "\"cell\""),
+        ("friction/evolving", "\"friction_evolution\""),
     ] {
         let path = examples.join(format!("{name}.toml"));
         let out = format!("results/{name}");

@@ -11,7 +11,7 @@ use super::hertz_line::HertzLine;
 ///
 /// A first loading to Q' leaves `c = a √f`, `f = 1 − |Q'|/μP'`, shear `μp0 [√(1 − x²/a²) − (c/a) √(1 − x²/c²)]`, and displaces the bodies by
 /// `D/(2π) μP' f ln f` besides what is proportional to Q' (Cattaneo 1938; Mindlin 1949), with the compliance D of the pair, see
-/// [`LineHistory::new`]. Masing's memory as in [`TangentialHistory`](super::TangentialHistory); the work of friction is then
+/// [`LineHistory::new`]. Masing's memory as in [`TangentialHistory`](super::TangentialHistory); the energy dissipated by friction is then
 /// `Q' φ − 2 ∫ φ dQ'` of a first loading and twice that of half the change on a branch (Jäger 1993). For bodies that do not couple.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct LineHistory {
@@ -84,7 +84,7 @@ impl LineHistory {
         (1.0 - force.abs() / self.sliding_force).max(0.0)
     }
 
-    /// Work of friction of a first loading: `Q φ − 2 ∫ φ dQ` with `φ = D/(2π) μP f ln f`.
+    /// Energy dissipated by friction in a first loading: `Q φ − 2 ∫ φ dQ` with `φ = D/(2π) μP f ln f`.
     fn first_energy(&self, force: f64) -> f64 {
         let f = self.left(force);
         let logarithm = if f > 0.0 { f * libm::log(f) } else { 0.0 };
@@ -138,7 +138,7 @@ impl LineHistory {
         self.parts().map(|(weight, force)| weight * first(force)).sum()
     }
 
-    /// Work of friction per length since the start [force].
+    /// Energy dissipated by friction per length since the start [force].
     pub fn dissipated_energy(&self) -> f64 {
         self.dissipated_energy
     }

@@ -7,6 +7,7 @@ use super::bodies::bodies;
 use super::conduction::conduction;
 use super::course::Stage;
 use super::definition::{Case, GridSize, Origin};
+use super::evolution::evolution;
 use super::file::{CaseFile, CellsFile, OutputFile, SizeFile};
 use super::friction::{friction, of_stages};
 use super::interface::sliding_coatings;
@@ -68,6 +69,8 @@ pub(super) fn case(
     let rig = rig(&mut judge, rig_file);
     let stages = stages(&mut judge, &file.load, (laws.as_deref(), rig_file), history_tolerance);
     let stages = stages.zip(changes.as_ref()).map(|(stages, changes)| with_friction(stages, changes));
+    let evolving = (file.load.get_ref().as_slice(), stages.as_deref());
+    let friction_evolution = evolution(&mut judge, file.friction.as_ref(), friction.as_ref(), evolving);
     let loading = (&file.load, stages.as_deref());
     let datum = datum(&mut judge, &file.grid, (is_line, size), bodies.as_ref());
     if is_line {
@@ -80,17 +83,15 @@ pub(super) fn case(
     let mapped = friction.iter().chain(changes.iter().flatten().flatten()).any(CoulombFriction::is_map);
     let has_arrays = mapped || profile.as_ref().is_some_and(|profile| !profile.heights.is_empty());
     if let (true, Some(GridSize::Auto), false) = (has_arrays, size, periodic) {
-        judge.refuse::<()>(
-            file.grid.size.span(),
-            "grid.size = \"auto\" with heights or a friction map: the size of their cells must be given",
-            "size = [x, y]",
-        );
+        refuse_auto(&mut judge, &file.grid.size);
     }
     let frictionless = laws.as_ref().is_some_and(|laws| laws.iter().all(|law| law.is_frictionless()));
     let files = [("lower", file.lower.get_ref()), ("upper", file.upper.get_ref())];
     sliding_coatings(&mut judge, files, frictionless || laws.is_none(), stages.as_deref());
     if let (true, Some(laws), Some(stages)) = (is_whole, &laws, &stages) {
-        sliding(&mut judge, laws, &file.load, stages);
+        let strongest = friction_evolution.as_ref().zip(friction.as_ref());
+        let strongest = strongest.map(|(evolution, first)| evolution.strongest(first));
+        sliding(&mut judge, (laws, strongest.as_ref()), &file.load, stages);
     }
     let wear = wear(&mut judge, file.wear.as_ref(), bodies.as_ref(), stages.as_deref(), frictionless);
     let solver = file.solver.as_ref();
@@ -127,6 +128,7 @@ pub(super) fn case(
             conduction,
             profile,
             friction,
+            friction_evolution,
             rig,
             start: judge.attachments.start,
             stages,
@@ -234,6 +236,15 @@ fn size(judge: &mut Judge, given: &Spanned<SizeFile>, cells: Option<[usize; 2]>)
             "choose units in which the numbers are nearer to 1: their squares must be numbers too",
         ),
     }
+}
+
+/// Refuses a size left to the program where there are arrays over cells.
+fn refuse_auto(judge: &mut Judge, size: &Spanned<SizeFile>) {
+    judge.refuse::<()>(
+        size.span(),
+        "grid.size = \"auto\" with heights or a friction map: the size of their cells must be given",
+        "size = [x, y]",
+    );
 }
 
 /// Whether cells are too long to compute with.

@@ -8,8 +8,8 @@ use super::refusal::{CaseError, Difference, Mistake};
 use super::stress::StressRequest;
 use super::units::Units;
 use crate::model::{
-    Conduction, ContactPair, CoulombFriction, Integration, LoadStep, Profile, ResidualStress, Rig, Scheme,
-    WearRule,
+    Conduction, ContactPair, CoulombFriction, FrictionEvolution, Integration, LoadStep, Profile,
+    ResidualStress, Rig, Scheme, WearRule,
 };
 use crate::subsurface::fatigue::LayerConstants;
 
@@ -45,6 +45,9 @@ pub struct Case {
     pub profile: Profile,
     /// Friction law at the start; stages may change it.
     pub friction: CoulombFriction,
+    /// How the friction coefficient evolves, where it does.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub friction_evolution: Option<FrictionEvolution>,
     /// The machine between the upper body and what is driven, where it gives.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub rig: Option<Rig>,
@@ -164,11 +167,12 @@ impl Case {
         kept
     }
 
-    /// Whether the history may end before all its increments: a stage that stops when it is steady, or wear in blocks of
-    /// cycles or up to a limit.
+    /// Whether the history may end before all its increments: a stage that stops when it is steady, cycle jumps, or wear up to a
+    /// limit.
     pub fn is_open_ended(&self) -> bool {
         let steady = |stage: &Stage| stage.cycles().is_some_and(|cycles| cycles.until_steady.is_some());
         self.stages.iter().any(steady)
+            || self.friction_evolution.as_ref().is_some_and(|evolution| evolution.every > 1)
             || self.wear.as_ref().is_some_and(|wear| wear.every > 1 || wear.limit.is_some())
     }
 

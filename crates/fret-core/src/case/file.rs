@@ -348,7 +348,7 @@ pub(super) struct SolverFile {
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(super) struct OutputFile {
-    /// Fields to keep: "pressure", "shear", "slip", "gap", "zone", "`worn_depth`". Default: pressure, shear, slip, zone.
+    /// Fields to keep: "pressure", "shear", "slip", "gap", "zone", "`worn_depth`", "friction". Default: pressure, shear, slip, zone.
     #[schemars(with = "Option<Vec<String>>")]
     pub fields: Option<Vec<Spanned<String>>>,
     /// Keep fields of every n-th increment, and of the last of each stage. Default: only of the last of each stage.

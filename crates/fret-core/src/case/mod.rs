@@ -11,6 +11,8 @@ mod conduction;
 mod controls;
 mod course;
 mod definition;
+mod evolution;
+mod evolution_file;
 mod fatigue;
 mod file;
 mod friction;

@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 /// Fields that can be kept, by the names of the case file.
-pub const FIELD_NAMES: [&str; 6] = ["pressure", "shear", "slip", "gap", "zone", "worn_depth"];
+pub const FIELD_NAMES: [&str; 7] = ["pressure", "shear", "slip", "gap", "zone", "worn_depth", "friction"];
 
 /// What of the solution is kept.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]

@@ -303,13 +303,15 @@ fn waveform(judge: &mut Judge, place: &str, file: &StageFile) -> Option<Waveform
 }
 
 /// Forces without equilibrium are refused before anything is computed, as far as the case fixes them: tangential ones that
-/// Coulomb's law, which is given for each stage, cannot carry, and normal ones that pull.
+/// Coulomb's law, which is given for each stage, cannot carry, and normal ones that pull. Of friction that evolves nobody knows what it
+/// carries in a stage, but that it is at most what the `strongest` law does.
 pub(super) fn sliding(
     judge: &mut Judge,
-    friction: &[&CoulombFriction],
+    (laws, strongest): (&[&CoulombFriction], Option<&CoulombFriction>),
     list: &Spanned<Vec<Spanned<StageFile>>>,
     stages: &[Stage],
 ) {
+    let friction: Vec<&CoulombFriction> = laws.iter().map(|law| strongest.unwrap_or(law)).collect();
     let mut worst: Vec<(f64, f64)> = vec![(0.0, f64::INFINITY); stages.len()];
     let mut lowest = vec![f64::INFINITY; stages.len()];
     walk(judge.attachments.start.as_ref(), stages, |number, loads| {

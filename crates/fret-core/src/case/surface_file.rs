@@ -8,6 +8,8 @@ use serde::Deserialize;
 use serde::de::{self, MapAccess, SeqAccess, Visitor};
 use toml::Spanned;
 
+use super::evolution_file::EvolutionFile;
+
 /// Shape of the undeformed gap, or of one body; the sum when several are given.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -186,6 +188,9 @@ pub(super) struct FrictionFile {
     /// and the coefficient times the pressure. Default: none.
     #[schemars(with = "Option<CoefficientFile>")]
     pub max_shear: Option<Spanned<CoefficientFile>>,
+    /// Friction that evolves: how the coefficient of each cell follows what slip has done to it. Default: it stays.
+    #[schemars(with = "Option<EvolutionFile>")]
+    pub evolution: Option<Spanned<EvolutionFile>>,
 }
 
 /// An array: rows of numbers, or the number of an array handed over beside the case.

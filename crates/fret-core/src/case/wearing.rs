@@ -6,7 +6,7 @@ use super::stage_file::{WearFile, WearLawFile, WornBodyFile};
 use crate::model::{Body, ContactPair, WearLaw, WearRule};
 
 /// Cycles a computed one may stand for.
-const MOST_EVERY: usize = 1_000_000;
+pub(super) const MOST_EVERY: usize = 1_000_000;
 
 /// The wear of a case; `None` when nothing wears or it was refused.
 pub(super) fn wear(

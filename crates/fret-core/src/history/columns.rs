@@ -194,6 +194,12 @@ pub static STEP_COLUMNS: &[Column<StepRecord>] = &[
         LENGTH,
         |step| step.actuator_approach,
     ),
+    real(
+        "friction_coefficient",
+        "mean friction coefficient over the contact, weighted with the pressure; over all cells where nothing touches",
+        RATIO,
+        |step| step.friction_coefficient,
+    ),
 ];
 
 /// Columns of the table of cycles, in its order: `cycles.csv`, and `history.cycles` in Python. Names are those of the record.
@@ -265,6 +271,24 @@ pub static CYCLE_COLUMNS: &[Column<CycleRecord>] = &[
         NO_UNIT,
         |cycle| cycle.actuator_stiffness,
     ),
+    real(
+        "friction_coefficient",
+        "mean friction coefficient of the cycle over the contact at its end, weighted with the pressure",
+        RATIO,
+        |cycle| cycle.friction_coefficient,
+    ),
+    real_or_none(
+        "friction_change",
+        "largest change of the friction coefficient of a cell by this cycle and those it represents",
+        RATIO,
+        |cycle| cycle.friction_change,
+    ),
+    real_or_none(
+        "jump_error",
+        "estimated error of the friction coefficient of a cell by the cycle jump before this cycle, the largest",
+        RATIO,
+        |cycle| cycle.jump_error,
+    ),
 ];
 
 fn regime_word(regime: Regime) -> &'static str {
@@ -316,6 +340,7 @@ mod tests {
             "sliding_ratio": 14.5, "stiffness": 15.5, "regime": "mixed", "closure": 16.5, "steady": true,
             "worn_volume": 17.5, "max_worn_depth": 18.5, "actuator_amplitude": 19.5,
             "actuator_energy_ratio": 20.5, "actuator_sliding_ratio": 21.5, "actuator_stiffness": 22.5,
+            "friction_coefficient": 23.5, "friction_change": 24.5, "jump_error": 25.5,
         });
         serde_json::from_value(all).unwrap()
     }

@@ -78,6 +78,12 @@ pub struct CycleRecord {
     pub worn_volume: f64,
     /// Largest worn depth after them [length].
     pub max_worn_depth: f64,
+    /// Mean coefficient of friction over the contact at its end, weighted with the pressure [-]. It is constant within a cycle.
+    pub friction_coefficient: f64,
+    /// Largest change of the coefficient of a cell by this cycle and those that it stands for [-]; `None` where friction does not evolve.
+    pub friction_change: Option<f64>,
+    /// Estimated error of the coefficient of a cell by the cycle jump before this cycle, the largest [-].
+    pub jump_error: Option<f64>,
     /// Half of the range of the actuator's displacement along the direction of the force [length]; of a case with a machine that
     /// gives and a cycle driven tangentially, as what follows.
     pub actuator_amplitude: Option<f64>,

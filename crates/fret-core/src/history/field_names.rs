@@ -89,6 +89,13 @@ pub static FIELDS: &[Field] = &[
         unit: "length",
         values: |kept| kept.worn_depth.as_ref().map(Reals),
     },
+    Field {
+        name: "friction",
+        asked_as: "friction",
+        meaning: "coefficient of friction",
+        unit: "-",
+        values: |kept| kept.friction.as_ref().map(Reals),
+    },
 ];
 
 /// Words of the zones 0, 1, 2.

@@ -64,6 +64,8 @@ pub struct StepRecord {
     pub worn_volume: f64,
     /// Largest worn depth [length].
     pub max_worn_depth: f64,
+    /// Mean coefficient of friction over the contact, weighted with the pressure [-].
+    pub friction_coefficient: f64,
     /// What the contact does.
     pub regime: Regime,
     /// How well the equations hold.
@@ -91,6 +93,8 @@ pub struct KeptFields {
     pub zone: Option<Array2<Zone>>,
     /// Worn depth [length].
     pub worn_depth: Option<Array2<f64>>,
+    /// Coefficient of friction in force [-].
+    pub friction: Option<Array2<f64>>,
     /// What another history needs besides these fields to start here; of every last increment of a stage, and where the fields
     /// are enough.
     pub rest: Option<Box<SolvedState>>,

@@ -27,6 +27,10 @@ pub const FREE_CELLS: usize = 2;
 /// ring in the shear. Rings of a cell and less are below what the grid shows; at 2.5 cells they are teeth of 4 % of the peak.
 pub const RING_CELLS: f64 = 1.0;
 
+/// Change of the friction coefficient of a cell in a single cycle over the mean one. Within a cycle it is constant; a tenth more friction
+/// in the next one is a tenth more dissipated energy.
+pub const FRICTION_CHANGE: f64 = 0.1;
+
 /// What a warning is about; its name in files is stable.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
@@ -47,6 +51,8 @@ pub enum Concern {
     CoatingThinnerThanCell,
     /// Wear has taken a good part of the coating.
     WearDepthOverCoatingThickness,
+    /// Friction changes much from one cycle to the next.
+    FrictionChangesInOneCycle,
     /// The contact comes close to the edge of the grid.
     ContactNearEdge,
     /// Increments of pressing are too large for the cells.
@@ -65,6 +71,7 @@ impl Concern {
             Self::SteepTopography => "steep_topography",
             Self::CoatingThinnerThanCell => "coating_thinner_than_cell",
             Self::WearDepthOverCoatingThickness => "wear_depth_over_coating_thickness",
+            Self::FrictionChangesInOneCycle => "friction_changes_in_one_cycle",
             Self::ContactNearEdge => "contact_near_edge",
             Self::PressingInFewIncrements => "pressing_in_few_increments",
         }
@@ -83,6 +90,9 @@ impl Concern {
             Self::SteepTopography => "root mean square slope of the topography",
             Self::CoatingThinnerThanCell => "coating thickness over the side of a cell",
             Self::WearDepthOverCoatingThickness => "wear depth over coating thickness",
+            Self::FrictionChangesInOneCycle => {
+                "change of the friction coefficient of a cell in one cycle over the mean one"
+            }
             Self::ContactNearEdge => "open cells between the contact and the edge of the grid",
             Self::PressingInFewIncrements => "cells by which the contact radius grows in an increment",
         }
@@ -104,6 +114,7 @@ impl Concern {
             Self::SteepTopography => SLOPE,
             Self::CoatingThinnerThanCell => COATING_CELLS,
             Self::WearDepthOverCoatingThickness => WORN,
+            Self::FrictionChangesInOneCycle => FRICTION_CHANGE,
             Self::ContactNearEdge => FREE_CELLS as f64,
             Self::PressingInFewIncrements => RING_CELLS,
         }
@@ -128,6 +139,7 @@ impl Concern {
                 "displacements are accurate, but stresses inside the coating are affected by the cell-wise constant tractions"
             }
             Self::WearDepthOverCoatingThickness => "the elastic response stays that of the unworn coating",
+            Self::FrictionChangesInOneCycle => "the coefficient is constant within each cycle",
             Self::ContactNearEdge => "the contact edge and area cannot be evaluated there",
             Self::PressingInFewIncrements => {
                 "each increment leaves a ring in the shear traction, and the slip is resolved in few steps"
@@ -150,6 +162,9 @@ impl Concern {
             Self::SteepTopography => "check the unit of the heights and the size of the grid",
             Self::CoatingThinnerThanCell => "more cells or a smaller grid, where such stresses matter",
             Self::WearDepthOverCoatingThickness => "wear.limit = ... ends the run sooner",
+            Self::FrictionChangesInOneCycle => {
+                "check the unit of friction.evolution.scale or of its table, which are energy by area, a length or cycles"
+            }
             Self::ContactNearEdge => "a larger grid",
             Self::PressingInFewIncrements => {
                 "more increments of that stage, or increments = \"auto\"; where it is \"auto\", a smaller solver.history_tolerance"

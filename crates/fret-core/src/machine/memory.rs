@@ -10,15 +10,14 @@ use std::hint::black_box;
 use std::sync::{Mutex, MutexGuard, TryLockError};
 use std::time::{Duration, Instant};
 
-use sysinfo::{MemoryRefreshKind, Pid, ProcessRefreshKind, ProcessesToUpdate, System};
+use sysinfo::{MemoryRefreshKind, System};
 
 use super::control_group;
+use super::process::{ADDRESSES_OF_A_THREAD, addresses_left, resident};
 use super::threads::available_threads;
 
 /// Address space is taken in larger pieces than memory: this share more than a claim must be left of it.
 const ADDRESSES: f64 = 0.1;
-/// And so many bytes more for each thread: the GNU allocator maps as much, and uses little of it.
-const ADDRESSES_OF_A_THREAD: u64 = 64 << 20;
 
 /// What sets the limit.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -201,32 +200,6 @@ fn machine_left() -> Option<u64> {
     let mut system = System::new();
     system.refresh_memory_specifics(MemoryRefreshKind::nothing().with_ram());
     Some(system.available_memory()).filter(|bytes| *bytes > 0)
-}
-
-/// What this process holds: `[resident, virtual]` [bytes].
-fn held() -> Option<[u64; 2]> {
-    let own = Pid::from_u32(std::process::id());
-    let mut system = System::new();
-    let what = ProcessRefreshKind::nothing().with_memory();
-    system.refresh_processes_specifics(ProcessesToUpdate::Some(&[own]), false, what);
-    system.process(own).map(|process| [process.memory(), process.virtual_memory()])
-}
-
-fn resident() -> u64 {
-    held().map_or(0, |[resident, _]| resident)
-}
-
-/// Address space that the process's limit leaves [bytes]; `None` without a limit.
-#[cfg(unix)]
-fn addresses_left() -> Option<u64> {
-    use rustix::process::{Resource, getrlimit};
-    let limit = getrlimit(Resource::As).current?;
-    held().map(|[_, taken]| limit.saturating_sub(taken))
-}
-
-#[cfg(not(unix))]
-fn addresses_left() -> Option<u64> {
-    None
 }
 
 #[cfg(test)]

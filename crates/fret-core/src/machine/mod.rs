@@ -2,4 +2,5 @@
 
 pub mod control_group;
 pub mod memory;
+mod process;
 pub mod threads;

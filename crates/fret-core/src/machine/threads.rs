@@ -4,6 +4,8 @@ use std::num::NonZero;
 
 use rayon::{ThreadPool, ThreadPoolBuilder};
 
+use super::process::{ADDRESSES_OF_A_THREAD, addresses_left};
+
 /// Threads that may be asked for, at the most: more than any machine has cores for one contact, and few enough to start.
 pub const MOST_THREADS: usize = 1024;
 
@@ -13,24 +15,49 @@ pub enum ThreadsError {
     /// A number that nobody can mean.
     #[error("threads = {0}: must be a whole number from 1 to {MOST_THREADS}")]
     OutOfRange(String),
+    /// More than the limit on the address space lets start: so many were asked for, so many fit.
+    #[error(
+        "threads = {0}: the limit on the address space (ulimit -v) leaves room for {1}; fewer threads give the same numbers, \
+         or ulimit -v unlimited"
+    )]
+    NoAddresses(usize, usize),
     /// The system does not start them.
     #[error("threads = {0}: not started: {1}")]
     NotStarted(usize, String),
 }
 
-/// Cores of this machine that the process may use.
+/// Cores of this machine that the process may use; no more than threads for which its limit on the address space has room.
 pub fn available_threads() -> usize {
-    std::thread::available_parallelism().map_or(1, NonZero::get)
+    let cores = std::thread::available_parallelism().map_or(1, NonZero::get);
+    room_for().map_or(cores, |most| cores.min(most))
+}
+
+/// Threads for which the address space has room when half of it is left to their work; `None` without a limit.
+fn room_for() -> Option<usize> {
+    let most = addresses_left()? / (2 * ADDRESSES_OF_A_THREAD);
+    Some(usize::try_from(most).unwrap_or(usize::MAX).max(1))
+}
+
+/// Whether so many threads can be started beside those that run. One always may try.
+///
+/// # Errors
+/// When the limit on the address space has no room for them: a process that runs out of it while threads start is ended by the system.
+pub fn check(threads: usize) -> Result<(), ThreadsError> {
+    match room_for() {
+        Some(most) if threads > most => Err(ThreadsError::NoAddresses(threads, most)),
+        _ => Ok(()),
+    }
 }
 
 /// A pool of so many threads.
 ///
 /// # Errors
-/// When the number is not from 1 to [`MOST_THREADS`], or the system does not start them.
+/// When the number is not from 1 to [`MOST_THREADS`], the address space has no room for them, or the system does not start them.
 pub fn pool(threads: usize) -> Result<ThreadPool, ThreadsError> {
     if !(1..=MOST_THREADS).contains(&threads) {
         return Err(ThreadsError::OutOfRange(threads.to_string()));
     }
+    check(threads)?;
     ThreadPoolBuilder::new()
         .num_threads(threads)
         .thread_name(|index| format!("fretting-{index}"))

@@ -128,6 +128,13 @@ impl CoulombFriction {
         Self { max_shear: other.max_shear.clone(), ..self }
     }
 
+    /// The same with other coefficients, zero or positive and finite.
+    #[must_use]
+    pub(crate) fn with_coefficient(&self, coefficient: CellValues) -> Self {
+        debug_assert_eq!(coefficient.fault(), None);
+        Self { coefficient, max_shear: self.max_shear.clone() }
+    }
+
     /// The law with every map replaced.
     #[must_use]
     pub fn with_maps(&self, replaced: impl Fn(&Array2<f64>) -> Array2<f64>) -> Self {

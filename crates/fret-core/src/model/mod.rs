@@ -1,8 +1,10 @@
 //! The nouns of a contact: grid, bodies, profile, friction, loads, state. No numerics live here.
 
+pub mod accumulated;
 pub mod bulk;
 pub mod conduction;
 pub mod digest;
+pub mod evolution;
 pub mod friction;
 pub mod graded;
 pub mod grid;
@@ -15,14 +17,17 @@ pub mod residual;
 pub mod rig;
 pub mod scheme;
 pub mod shape;
+pub mod slip_increment;
 pub mod state;
 pub mod symmetry;
 pub mod wear;
 
 pub use crate::fields::TangentialField;
+pub use accumulated::AccumulatedSlip;
 pub use bulk::{BulkCompliance, bulk_stress_in_layer};
 pub use conduction::{ConductingLayer, Conduction, Conductor, ConductorError};
 pub use digest::digest;
+pub use evolution::{Driver, EvolutionDriver, EvolutionLaw, FrictionEvolution};
 pub use friction::{CellValues, CoulombFriction, FrictionError};
 pub use graded::{GradedCoating, GradientError, Layer, YoungGradient};
 pub use grid::{GridError, SurfaceGrid};

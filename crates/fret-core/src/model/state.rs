@@ -5,6 +5,7 @@ use std::borrow::Cow;
 use ndarray::Array2;
 use serde::{Deserialize, Serialize};
 
+use super::accumulated::AccumulatedSlip;
 use super::load::LoadStep;
 use crate::fields::stored::{self, Number};
 
@@ -50,6 +51,8 @@ pub struct ContactState {
     /// Depth worn off both bodies together [length]; `None` where nothing wears.
     #[serde(with = "stored")]
     pub worn_depth: Option<Array2<f64>>,
+    /// What slip has done to each cell since the start; `None` where nothing follows it.
+    pub accumulated: Option<AccumulatedSlip>,
     /// Rigid normal approach [length].
     pub approach: f64,
     /// Rigid tangential displacement of the upper body relative to the lower [length].
@@ -78,6 +81,7 @@ impl ContactState {
             slip: [zero(), zero()],
             zone: Array2::from_elem(cells, Zone::Open),
             worn_depth: None,
+            accumulated: None,
             approach: 0.0,
             shift: [0.0; 2],
             twist: 0.0,
@@ -109,7 +113,8 @@ impl ContactState {
         let numbers = motions.into_iter().chain(self.bulk_stress.into_iter().flatten());
         let mut numbers = numbers.chain([self.dissipated_energy, self.bulk_work]);
         let field = |field: &Array2<f64>| field.dim() == cells.into() && field.iter().all(|v| v.is_finite());
-        [&self.pressure, qx, qy, sx, sy].into_iter().chain(&self.worn_depth).all(field)
+        let accumulated = self.accumulated.iter().flat_map(AccumulatedSlip::fields);
+        [&self.pressure, qx, qy, sx, sy].into_iter().chain(&self.worn_depth).chain(accumulated).all(field)
             && self.zone.dim() == cells.into()
             && numbers.all(f64::is_finite)
     }

@@ -133,6 +133,7 @@ impl Symmetry {
             slip: [0, 1].map(|axis| self.part(&state.slip[axis])),
             zone: self.part(&state.zone),
             worn_depth: state.worn_depth.as_ref().map(|depth| self.part(depth)),
+            accumulated: state.accumulated.as_ref().map(|slip| slip.with_fields(|field| self.part(field))),
             dissipated_energy: state.dissipated_energy / self.copies() as f64,
             bulk_work: state.bulk_work / self.copies() as f64,
             ..*state
@@ -152,6 +153,10 @@ impl Symmetry {
                 made_whole(&part.zone, open, |zone, _| zone)
             },
             worn_depth: part.worn_depth.as_ref().map(|depth| self.whole(depth, [false; 2])),
+            accumulated: part
+                .accumulated
+                .as_ref()
+                .map(|slip| slip.with_fields(|field| self.whole(field, [false; 2]))),
             dissipated_energy: part.dissipated_energy * self.copies() as f64,
             bulk_work: part.bulk_work * self.copies() as f64,
             ..*part

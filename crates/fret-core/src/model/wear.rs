@@ -4,6 +4,7 @@ use ndarray::{Array2, Zip};
 use serde::{Deserialize, Serialize};
 
 use super::friction::CoulombFriction;
+use super::slip_increment::add_dissipation;
 use super::state::ContactState;
 
 /// What the worn depth follows.
@@ -45,19 +46,7 @@ impl WearRule {
         }
         let k = self.coefficient;
         match self.law {
-            WearLaw::Energy => {
-                let slip_y = &after.slip[1] - &before.slip[1];
-                let mut bound = before.pressure.clone();
-                Zip::indexed(&mut bound).and(&after.pressure).for_each(|(i, j), bound, now| {
-                    *bound = 0.5 * (friction.bound(i, j, *bound) + friction.bound(i, j, *now));
-                });
-                Zip::from(depth)
-                    .and(&bound)
-                    .and(&after.slip[0])
-                    .and(&before.slip[0])
-                    .and(&slip_y)
-                    .for_each(|depth, bound, now, then, y| *depth += k * bound * (now - then).hypot(*y));
-            }
+            WearLaw::Energy => add_dissipation(before, after, friction, k, depth),
             WearLaw::Archard => {
                 let slip_y = &after.slip[1] - &before.slip[1];
                 let pressure = &before.pressure + &after.pressure;

@@ -8,7 +8,7 @@ use super::simplification::{LeaveOut, Simplification};
 use super::symmetry::{is_loaded, is_stretched, is_twisted};
 use crate::case::{Case, Stage};
 use crate::kernel::PairResponse;
-use crate::model::{Body, ContactState, SurfaceGrid, Symmetry};
+use crate::model::{AccumulatedSlip, Body, ContactState, SurfaceGrid, Symmetry};
 use crate::solver::Coupling;
 
 /// An automatic simplification.
@@ -201,7 +201,9 @@ fn is_endless(case: &Case, grid: &SurfaceGrid, axis: usize) -> bool {
 /// Whether nothing in a state changes along one of the axes.
 fn is_the_same_along_a_line(state: &ContactState) -> bool {
     let [shear_x, shear_y] = &state.shear;
-    let fields = || [&state.pressure, shear_x, shear_y].into_iter().chain(&state.worn_depth);
+    let accumulated = || state.accumulated.iter().flat_map(AccumulatedSlip::fields);
+    let fields =
+        || [&state.pressure, shear_x, shear_y].into_iter().chain(&state.worn_depth).chain(accumulated());
     (0..2).any(|axis| {
         fields()
             .all(|field| field.lanes(Axis(axis)).into_iter().all(|line| line.iter().all(|q| *q == line[0])))

@@ -11,6 +11,9 @@ pub const PLANNING: usize = 48;
 
 /// Bytes a cell of the fields that wear collects.
 const WEAR: usize = 50;
+/// Bytes a cell of friction that evolves: what is accumulated in two states, collected in a cycle and kept of the last one, the law twice
+/// and its part in front of the mirrors.
+const EVOLVING: usize = 110;
 /// Bytes a cell of a gap that is tilted, and of the solutions on the way to the tilt of a prescribed moment: three increments with what the
 /// solver remembers of them, and the memory before.
 const TILTED: usize = 16;
@@ -47,10 +50,11 @@ fn bytes_per_cell(coupling: Coupling, periodic: bool) -> [usize; 2] {
 pub fn of_run(case: &Case, grid: &SurfaceGrid, coupling: Coupling, symmetry: Symmetry) -> usize {
     let [whole, in_front] = bytes_per_cell(coupling, case.periodic);
     let worn = if case.wear.is_some() { WEAR } else { 0 };
+    let evolving = if case.friction_evolution.is_some() { EVOLVING } else { 0 };
     let frictions = case.stages.iter().filter_map(|stage| stage.friction.as_ref()).chain([&case.friction]);
     let maps = frictions.filter(|friction| friction.is_map()).count() + case.profile.heights.len();
     let in_front = in_front + tilt(case);
-    let solving = grid.len() * (whole + worn + EACH_CELL * maps + in_front / symmetry.copies());
+    let solving = grid.len() * (whole + worn + evolving + EACH_CELL * maps + in_front / symmetry.copies());
     let stressed = case.stress.as_ref().map_or(0, |stress| {
         of_stress(grid.len(), case.kept_increments().len().div_ceil(stress.every.max(1)))
     });

@@ -4,8 +4,9 @@
 use std::ops::ControlFlow;
 
 use super::checkpoint::{Checkpoint, Waypoint};
+use super::observer::{Iteration, Observer};
 use super::run_error::RunError;
-use super::simulation::{Iteration, Observer, Simulation};
+use super::simulation::Simulation;
 use crate::history::{CycleRecord, History, KeptFields, StepRecord};
 use crate::model::ContactState;
 

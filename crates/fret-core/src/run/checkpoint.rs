@@ -6,16 +6,17 @@ use postcard::ser_flavors::Flavor;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
+use super::evolving::CollectedSlip;
 use super::fretting_loop::FrettingLoop;
 use super::wear::Collected;
 use crate::case::{Case, Stage};
 use crate::history::{Start, WornThrough};
-use crate::model::{ContactState, Control, LoadStep, SolvedState};
+use crate::model::{AccumulatedSlip, ContactState, Control, LoadStep, SolvedState};
 use crate::plan::Plan;
 use crate::solver::{Resultants, SolverMemory};
 
 /// Version of the bytes; another layout of what is stored gets another one.
-const FORMAT: u32 = 7;
+const FORMAT: u32 = 8;
 
 /// How far a run has come in its stages.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -48,6 +49,7 @@ pub struct Waypoint<'a> {
     pub(crate) memory: &'a SolverMemory,
     pub(crate) cycle: Option<&'a FrettingLoop>,
     pub(crate) wear: Option<&'a Collected>,
+    pub(crate) slip: Option<&'a CollectedSlip>,
 }
 
 /// A stored waypoint, from which a run goes on.
@@ -60,6 +62,8 @@ pub struct Checkpoint {
     pub(crate) cycle: Option<FrettingLoop>,
     /// What has worn since the gap was opened last.
     pub(crate) wear: Option<Collected>,
+    /// What slip has done since friction changed last.
+    pub(crate) slip: Option<CollectedSlip>,
 }
 
 /// Why stored bytes are no checkpoint of a plan.
@@ -114,6 +118,7 @@ impl Waypoint<'_> {
             memory: self.memory.clone(),
             cycle: self.cycle.cloned(),
             wear: self.wear.cloned(),
+            slip: self.slip.cloned(),
         }
     }
 
@@ -164,7 +169,12 @@ impl Checkpoint {
             state.worn_depth.get_or_insert_with(|| Array2::zeros(cells));
         }
         let wear = wears.then(|| Collected::nothing(cells));
-        Self { place, state, memory: memory.unwrap_or_default(), cycle: None, wear }
+        let evolves = plan.case.friction_evolution.is_some();
+        if evolves {
+            state.accumulated.get_or_insert_with(|| AccumulatedSlip::none(cells));
+        }
+        let slip = evolves.then(|| CollectedSlip::nothing(cells));
+        Self { place, state, memory: memory.unwrap_or_default(), cycle: None, wear, slip }
     }
 
     /// The checkpoint in bytes written by [`Waypoint::write`], for a run of `plan`.
@@ -199,8 +209,8 @@ impl Checkpoint {
     /// # Errors
     /// As [`Checkpoint::read`].
     pub fn start_of(bytes: &[u8], plan: &Value) -> Result<Start, CheckpointError> {
-        let Self { place, state, memory, wear, .. } = Self::decoded(bytes)?;
-        let solved = solved_state(&place, &state, wear.as_ref());
+        let Self { place, state, memory, wear, slip, .. } = Self::decoded(bytes)?;
+        let solved = solved_state(&place, &state, wear.as_ref(), slip.as_ref());
         // What an unfinished cycle has worn opens the gap, and the solver remembers another one.
         let same_gap = wear.is_none_or(|wear| wear.depth().iter().all(|depth| *depth == 0.0));
         Start::new(plan, solved, same_gap.then_some(memory)).ok_or(CheckpointError::Foreign)
@@ -209,11 +219,17 @@ impl Checkpoint {
     fn belongs_to(&self, plan: &Plan) -> bool {
         let cells = plan.grid.cells();
         let wears = plan.case.wear.is_some();
-        let starts_worn = plan.start.as_ref().is_some_and(|start| start.solved.state.worn_depth.is_some());
+        let evolves = plan.case.friction_evolution.is_some();
+        let start = plan.start.as_ref().map(|start| &start.solved.state);
+        let starts_worn = start.is_some_and(|state| state.worn_depth.is_some());
+        let starts_rubbed = start.is_some_and(|state| state.accumulated.is_some());
         self.is_within(&plan.case)
             && self.state.is_sound(cells)
             && self.memory.fits(plan.symmetry.part_of(cells))
             && self.state.worn_depth.is_some() == (wears || starts_worn)
+            && self.state.accumulated.is_some() == (evolves || starts_rubbed)
+            && self.slip.is_some() == evolves
+            && self.slip.as_ref().is_none_or(|slip| slip.fits(cells))
             && self.wear.is_some() == wears
             && self.wear.as_ref().is_none_or(|wear| wear.fits(cells))
             && self.cycle.as_ref().is_none_or(|cycle| cycle.fits(self.place.stage, cells))
@@ -237,12 +253,21 @@ impl Checkpoint {
     }
 }
 
-/// What another history needs to start where a run stands: what an unfinished cycle has worn so far is taken off once.
-pub(crate) fn solved_state(place: &Place, state: &ContactState, wear: Option<&Collected>) -> SolvedState {
+/// What another history needs to start where a run stands: what an unfinished cycle has worn so far is taken off once, and what it has
+/// slipped is counted once.
+pub(crate) fn solved_state(
+    place: &Place,
+    state: &ContactState,
+    wear: Option<&Collected>,
+    slip: Option<&CollectedSlip>,
+) -> SolvedState {
     let Resultants { normal, tangential, moment, tilt_moment } = place.resultants;
     let mut state = state.clone();
     if let (Some(depth), Some(wear)) = (&mut state.worn_depth, wear) {
         *depth += wear.depth();
+    }
+    if let (Some(accumulated), Some(slip)) = (&mut state.accumulated, slip) {
+        accumulated.add_times(slip.of_cycle(), 1);
     }
     // An actuator belongs to its machine, and another history may have another one: it holds the body where it is.
     let held = |control: Control, motion: f64| match control {

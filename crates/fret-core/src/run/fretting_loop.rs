@@ -3,6 +3,8 @@
 use ndarray::Array2;
 use serde::{Deserialize, Serialize};
 
+use super::evolving::Evolved;
+use super::recording::mean_coefficient;
 use crate::fields::stored;
 use crate::history::{CycleRecord, CycleRegime, Drive, Regime, SLIDING_ENERGY_RATIO, StepRecord};
 use crate::model::{ContactState, CoulombFriction, Rig};
@@ -51,6 +53,8 @@ pub struct CycleEnd {
     pub tolerance: Option<f64>,
     /// Volume worn off so far, and largest worn depth.
     pub worn: [f64; 2],
+    /// What became of friction, where it evolves.
+    pub evolved: Option<Evolved>,
     /// The machine, where it gives.
     pub rig: Option<Rig>,
 }
@@ -156,6 +160,9 @@ impl FrettingLoop {
             steady: end.tolerance.is_some_and(|tolerance| closure <= tolerance),
             worn_volume: end.worn[0],
             max_worn_depth: end.worn[1],
+            friction_coefficient: mean_coefficient(friction, &state.pressure),
+            friction_change: end.evolved.map(|evolved| evolved.change),
+            jump_error: end.evolved.map(|evolved| evolved.jump_error),
             actuator_amplitude: at_actuator.as_ref().map(|far| far.displacement_amplitude),
             actuator_energy_ratio: moving.map(|far| dissipated_energy / (4.0 * far.work_scale())),
             actuator_sliding_ratio: moving.map(|far| far.opening / far.displacement_amplitude),

@@ -8,9 +8,10 @@ use serde_json::json;
 
 use super::beginning::Beginning;
 use super::checkpoint::Checkpoint;
+use super::observer::Observer;
 use super::pair_compliance::PairCompliance;
 use super::run_error::RunError;
-use super::simulation::{Observer, Simulation};
+use super::simulation::Simulation;
 use crate::history::{History, setting, way_of_solving};
 use crate::machine::memory::{Claim, claim};
 use crate::model::digest;
@@ -47,7 +48,7 @@ struct CommonCompliance {
 pub fn beginnings(plan: &Plan) -> Vec<String> {
     let as_json = plan.to_json();
     let case = &as_json["case"];
-    let rest = ["friction", "rig", "wear", "start"].map(|name| &case[name]);
+    let rest = ["friction", "friction_evolution", "rig", "wear", "start"].map(|name| &case[name]);
     let start = plan.start.as_ref().map(|start| start.digest().to_owned());
     let all = json!([setting(&as_json), way_of_solving(&as_json), rest, start]).to_string();
     let stages = case["stages"].as_array().map_or(&[][..], Vec::as_slice);

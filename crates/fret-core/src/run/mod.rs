@@ -2,8 +2,11 @@
 
 mod beginning;
 mod checkpoint;
+mod evolving;
 mod fretting_loop;
 mod in_common;
+mod journey;
+mod observer;
 mod pair_compliance;
 pub mod plausibility;
 mod recording;
@@ -11,9 +14,11 @@ mod refinement;
 mod run_error;
 mod simulation;
 mod stepping;
+mod surfaces;
 mod wear;
 
 pub use checkpoint::{Checkpoint, CheckpointError, Waypoint};
 pub use in_common::{InCommon, beginnings};
+pub use observer::{Iteration, Observer, Silent};
 pub use run_error::RunError;
-pub use simulation::{Iteration, Observer, Silent, Simulation};
+pub use simulation::Simulation;

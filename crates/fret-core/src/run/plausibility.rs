@@ -3,7 +3,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::history::{Concern, StepRecord, Warning};
+use crate::history::{Concern, CycleRecord, StepRecord, Warning};
 use crate::model::{Base, Body, Control};
 use crate::plan::{Coupling, Plan};
 
@@ -108,6 +108,8 @@ pub struct Gauge {
     radius: Option<f64>,
     largest_radius: f64,
     worn_depth: f64,
+    /// Largest relative change of friction in a single cycle, and its stage.
+    friction_change: Option<(f64, usize)>,
 }
 
 /// The end of a stage.
@@ -158,6 +160,15 @@ impl Gauge {
         self.largest_radius = self.largest_radius.max(radius);
     }
 
+    /// Reads a cycle.
+    pub fn add_cycle(&mut self, record: &CycleRecord) {
+        let Some(change) = record.friction_change.filter(|_| record.stands_for == 1) else { return };
+        let change = change / record.friction_coefficient;
+        if change.is_finite() && self.friction_change.is_none_or(|(most, _)| change > most) {
+            self.friction_change = Some((change, record.stage));
+        }
+    }
+
     /// What the run's numbers tell: a concern once, with its worst number.
     pub fn warnings(&self, plan: &Plan) -> Vec<Warning> {
         let stage = |number: usize| plan.case.stages.get(number).map(|stage| stage.name.clone());
@@ -196,6 +207,7 @@ impl Gauge {
         );
         let last = self.ends.last().map_or(usize::MAX, |end| end.stage);
         look(Concern::WearDepthOverCoatingThickness, &mut std::iter::once((self.worn_depth / coating, last)));
+        look(Concern::FrictionChangesInOneCycle, &mut self.friction_change.into_iter());
         if !plan.case.periodic {
             look(Concern::ContactNearEdge, &mut touching().map(|end| (end.free as f64, end.stage)));
         }

@@ -5,13 +5,13 @@ use ndarray::Array2;
 use crate::fields::largest;
 use crate::history::{Footprint, KeptFields, Residual, StepRecord};
 use crate::machine::memory::MemoryError;
-use crate::model::Rig;
+use crate::model::{CellValues, CoulombFriction, Rig};
 use crate::solver::Increment;
 
 /// The record of a solved increment; what it has worn is not yet known.
 pub fn record(
     solved: &Increment,
-    rig: Rig,
+    (rig, friction): (Rig, &CoulombFriction),
     (increment, stage, parts): (usize, usize, usize),
     wall_s: f64,
 ) -> StepRecord {
@@ -49,6 +49,7 @@ pub fn record(
         dissipated_energy: state.dissipated_energy,
         worn_volume: 0.0,
         max_worn_depth: 0.0,
+        friction_coefficient: mean_coefficient(friction, &state.pressure),
         regime: outcome.regime,
         residual: Residual { ..outcome.residual },
         work: solved.work,
@@ -60,12 +61,22 @@ pub fn record(
 ///
 /// # Errors
 /// When there is no memory for them: they are what grows while a run goes.
-pub fn kept(solved: &Increment, increment: usize, names: &[String]) -> Result<KeptFields, MemoryError> {
+pub fn kept(
+    solved: &Increment,
+    friction: &CoulombFriction,
+    increment: usize,
+    names: &[String],
+) -> Result<KeptFields, MemoryError> {
     let asked = |name: &str| names.iter().any(|asked| asked == name);
     let state = &solved.state;
     let one = |name: &str, field: &Array2<f64>| asked(name).then(|| copied(field)).transpose();
     let two =
         |name: &str, [x, y]: &[Array2<f64>; 2]| asked(name).then(|| Ok([copied(x)?, copied(y)?])).transpose();
+    let coefficients = if asked("friction") {
+        Array2::from_shape_fn(state.pressure.dim(), |(i, j)| friction.at(i, j))
+    } else {
+        Array2::zeros([0, 0])
+    };
     Ok(KeptFields {
         increment,
         pressure: one("pressure", &state.pressure)?,
@@ -74,8 +85,24 @@ pub fn kept(solved: &Increment, increment: usize, names: &[String]) -> Result<Ke
         gap: one("gap", &solved.gap)?,
         zone: asked("zone").then(|| copied(&state.zone)).transpose()?,
         worn_depth: None,
+        friction: one("friction", &coefficients)?,
         rest: None,
     })
+}
+
+/// Mean coefficient of friction over the contact, weighted with the pressure [-]: what sliding carries of the normal force. Over all cells
+/// where nothing touches.
+pub fn mean_coefficient(friction: &CoulombFriction, pressure: &Array2<f64>) -> f64 {
+    let CellValues::Map(coefficients) = friction.coefficient() else { return friction.largest() };
+    // Counted from one of them: the mean of equal numbers is that number.
+    let one = coefficients.iter().next().copied().unwrap_or_default();
+    let (mut weighted, mut weights, mut plain) = (0.0, 0.0, 0.0);
+    for (coefficient, pressure) in coefficients.iter().zip(pressure) {
+        weighted += (coefficient - one) * pressure;
+        weights += pressure;
+        plain += coefficient - one;
+    }
+    one + if weights > 0.0 { weighted / weights } else { plain / coefficients.len().max(1) as f64 }
 }
 
 /// A copy of a field in memory that is asked for first.

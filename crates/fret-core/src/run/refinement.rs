@@ -3,7 +3,7 @@
 
 use ndarray::Zip;
 
-use super::wear::Wearing;
+use super::surfaces::Surfaces;
 use crate::history::Work;
 use crate::model::{ContactState, Integration, LoadStep};
 use crate::solver::{ContactSolver, Increment, IterationCallback, SolveError, SolverMemory};
@@ -30,40 +30,38 @@ pub struct Span<'a> {
     pub to: &'a LoadStep,
 }
 
-/// Solves a step; one whose equations are not solved as a whole in two halves, and these again. With it the number of parts; wear is
-/// collected on the way.
+/// Solves a step; one whose equations are not solved as a whole in two halves, and these again. With it the number of parts; what slip
+/// does to the surfaces is collected on the way.
 ///
 /// # Errors
 /// Those of the equations; that they do not converge, when the smallest part does not.
 pub fn in_halves(
     solver: &mut ContactSolver<'_>,
-    wearing: &mut Option<Wearing>,
+    surfaces: &mut Surfaces,
     span: Span<'_>,
     watch: IterationCallback<'_>,
 ) -> Result<(Increment, usize), SolveError> {
-    halved(solver, wearing, span, MOST_HALVINGS, watch)
+    halved(solver, surfaces, span, MOST_HALVINGS, watch)
 }
 
 fn halved(
     solver: &mut ContactSolver<'_>,
-    wearing: &mut Option<Wearing>,
+    surfaces: &mut Surfaces,
     span: Span<'_>,
     halvings: u32,
     watch: IterationCallback<'_>,
 ) -> Result<(Increment, usize), SolveError> {
     match solver.step(span.state, span.to, watch) {
         Ok(end) => {
-            if let Some(wearing) = wearing {
-                wearing.add(span.state, &end.state);
-            }
+            surfaces.add(span.state, &end.state);
             Ok((end, 1))
         }
         Err(SolveError::NotConverged { .. }) if halvings > 0 && span.from != span.to => {
             let middle = &LoadStep::between(span.from, span.to, 0.5);
             let first = Span { to: middle, ..span };
-            let (first, parts) = halved(solver, wearing, first, halvings - 1, watch)?;
+            let (first, parts) = halved(solver, surfaces, first, halvings - 1, watch)?;
             let second = Span { state: &first.state, from: middle, to: span.to };
-            let (second, more) = halved(solver, wearing, second, halvings - 1, watch)?;
+            let (second, more) = halved(solver, surfaces, second, halvings - 1, watch)?;
             Ok((after(&first, second), parts + more))
         }
         Err(error) => Err(error),
@@ -98,8 +96,8 @@ pub struct Divided {
     pub parts: usize,
     /// Parts to begin the next increment with.
     pub next: usize,
-    /// The wear collected on the way.
-    pub wearing: Option<Wearing>,
+    /// What slip did to the surfaces on the way.
+    pub surfaces: Surfaces,
 }
 
 /// Why an increment has no answer.
@@ -126,7 +124,7 @@ impl From<SolveError> for DivisionError {
 struct Way {
     end: Increment,
     memory: SolverMemory,
-    wearing: Option<Wearing>,
+    surfaces: Surfaces,
     /// Steps made.
     steps: usize,
     /// How far the tractions went, all parts in turn: Euclidean norm of (mu p, q).
@@ -142,7 +140,7 @@ impl Refinement {
     pub fn solve(
         &self,
         solver: &mut ContactSolver<'_>,
-        wearing: Option<&Wearing>,
+        surfaces: &Surfaces,
         span: Span<'_>,
         parts: usize,
         watch: IterationCallback<'_>,
@@ -151,7 +149,7 @@ impl Refinement {
         let mut work = Work::default();
         let mut try_in = |parts: usize| {
             solver.restore_memory(memory.clone());
-            let way = self.way(solver, wearing.cloned(), span, parts, watch);
+            let way = self.way(solver, surfaces.clone(), span, parts, watch);
             if let Ok(way) = &way {
                 work += way.end.work;
             }
@@ -171,11 +169,11 @@ impl Refinement {
                 .distance(&ContactState::untouched(fine.end.state.pressure.dim().into()), &fine.end.state);
             let bound = self.tolerance * fine.length + NOISE * self.residual * size;
             if error <= bound {
-                let Way { mut end, memory, wearing, steps, .. } = fine;
+                let Way { mut end, memory, surfaces, steps, .. } = fine;
                 end.work = work;
                 solver.restore_memory(memory);
                 let next = if error < 0.25 * bound { parts / 4 } else { parts / 2 };
-                return Ok(Divided { end, parts: steps, next: next.max(1), wearing });
+                return Ok(Divided { end, parts: steps, next: next.max(1), surfaces });
             }
             if parts >= MOST_PARTS {
                 return Err(DivisionError::Unresolved { reached: error / fine.length, parts });
@@ -187,7 +185,7 @@ impl Refinement {
     fn way(
         &self,
         solver: &mut ContactSolver<'_>,
-        mut wearing: Option<Wearing>,
+        mut surfaces: Surfaces,
         span: Span<'_>,
         parts: usize,
         watch: IterationCallback<'_>,
@@ -197,7 +195,7 @@ impl Refinement {
         let mut step = |before: &ContactState, part: usize| {
             let to = LoadStep::between(span.from, span.to, part as f64 / parts as f64);
             let here = Span { state: before, from: &from, to: &to };
-            let (solved, made) = in_halves(solver, &mut wearing, here, watch)?;
+            let (solved, made) = in_halves(solver, &mut surfaces, here, watch)?;
             from = to;
             steps += made;
             Ok::<_, SolveError>((self.distance(before, &solved.state), solved))
@@ -208,7 +206,7 @@ impl Refinement {
             end = after(&end, next);
             length += way;
         }
-        Ok(Way { end, memory: solver.memory().clone(), wearing, steps, length })
+        Ok(Way { end, memory: solver.memory().clone(), surfaces, steps, length })
     }
 
     /// Distance of the tractions of two states.
@@ -297,7 +295,7 @@ mod tests {
                 whole.step(&start, &pulled, watch).err()?;
                 let (mut halves, start) = pressed_with(most);
                 let span = Span { state: &start, from: &pressed, to: &pulled };
-                let (end, parts) = in_halves(&mut halves, &mut None, span, watch).ok()?;
+                let (end, parts) = in_halves(&mut halves, &mut Surfaces::default(), span, watch).ok()?;
                 (parts == 2).then_some((pulled, end))
             })
         });

@@ -190,6 +190,12 @@ impl<'a> ContactSolver<'a> {
         };
     }
 
+    /// The same, of a law that nobody else holds.
+    pub fn take_friction(&mut self, friction: CoulombFriction) {
+        let friction = if self.symmetry.any() { self.symmetry.part_of_friction(&friction) } else { friction };
+        self.friction = Cow::Owned(friction);
+    }
+
     /// Goes on with another undeformed gap [length], shape of the grid: the displacements known so far hold no longer. Tractions, loads
     /// and the region of the last increment still do.
     pub fn set_gap(&mut self, undeformed: Array2<f64>) {

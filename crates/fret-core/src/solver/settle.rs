@@ -76,6 +76,7 @@ fn state_after(problem: &IncrementProblem<'_>, solved: &Solved) -> ContactState 
     let IncrementProblem { grid, region, state: before, .. } = *problem;
     let mut state = ContactState::untouched(grid.cells());
     state.worn_depth.clone_from(&before.worn_depth);
+    state.accumulated.clone_from(&before.accumulated);
     region.place(&solved.tractions.pressure, &mut state.pressure);
     region.place(&solved.tractions.shear.x, &mut state.shear[0]);
     region.place(&solved.tractions.shear.y, &mut state.shear[1]);

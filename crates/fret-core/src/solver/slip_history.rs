@@ -11,17 +11,18 @@ use crate::model::{ContactState, Zone};
 /// A cell whose slip falls by half or more from increment to increment has, when it comes to rest, gone on by this fraction of its last
 /// slip on average. By trial: Spence's contact and loops (`docs/theory/second-order.md`); 0.125 and 0.17 do nearly as well.
 const STOP: f64 = 0.15;
-/// What slows down before it touches goes on to touch by this fraction of what its last rate says. By trial: the displacement at touch in
-/// Spence's contact.
-const ENTRY: f64 = 0.85;
+/// The edge of contact goes on to slip by this fraction of its last rate until it comes to a cell. By trial: Spence's contact, and normal and
+/// tangential force that grow together; with more, edges that slip in the coarse increments of a first touch go on to do so.
+const EDGE: f64 = 0.7;
 /// The direction of a slip increment is known where it is at least this fraction of the largest; below, the less the smaller.
 const KNOWN: f64 = 0.01;
 
 /// The paths in the cells of a region, in an increment that is `ratio` times as long as the last; `None` where nothing is known.
 ///
 /// *Entry.* A gap grows with the power 3/2 of the distance to the edge of contact: that distance, and with it the moment of touch, is
-/// extrapolated linearly from the gaps of the last two states. Up to that moment the cell goes on as in the last increment, see [`ENTRY`].
-/// An edge that moves by less than half a cell in an increment says nothing about moments; from a whole cell on it is believed.
+/// extrapolated linearly from the gaps of the last two states. Up to that moment the cell goes on with the slip of the edge that comes, see
+/// [`EDGE`], and with what it lags behind that, see [`left_of_lag`]. An edge that moves by less than half a cell in an increment says
+/// nothing about moments; from a whole cell on it is believed.
 ///
 /// *Stop.* See [`STOP`]; nothing where slip does not fall, the whole of it where it falls to half, and where a cell has just entered.
 ///
@@ -61,16 +62,22 @@ pub fn slip_path(
         let at = |cell: usize| [region.origin[0] + cell / columns, region.origin[1] + cell % columns];
         let entering: Vec<(usize, f64)> = (0..region.len())
             .filter(|&cell| zones[cell] == Zone::Open)
-            .map(|cell| (cell, ENTRY * edge.moment_of_touch(at(cell)) * ratio))
-            .filter(|(_, share)| *share > 0.0)
+            .map(|cell| (cell, edge.moment_of_touch(at(cell)) * ratio))
+            .filter(|(_, touch)| *touch > 0.0)
             .collect();
         let was_inside =
             |cell: usize| last.drift.region.is_some_and(|then| then.contains(at(cell)[0], at(cell)[1]));
         let all_inside = entering.iter().all(|(cell, _)| was_inside(*cell));
         let wide = if all_inside { None } else { Some(beyond(before, &last.drift)) };
-        for (cell, share) in entering {
+        let number = |[i, j]: [usize; 2]| (i - region.origin[0]) * columns + j - region.origin[1];
+        for (cell, touch) in entering {
             let here = wide.as_ref().filter(|_| !was_inside(cell)).unwrap_or(&drift).at(cell);
-            path.ahead.set(cell, here.map(|part| share * part));
+            let beside = edge.beside(at(cell), &state.zone);
+            let slides = state.zone[beside] == Zone::Slip;
+            let slid = if slides { drift.at(number(beside)) } else { [0.0; 2] };
+            let lag = left_of_lag(touch);
+            path.ahead
+                .set(cell, [0, 1].map(|axis| EDGE * touch * slid[axis] + lag * (here[axis] - slid[axis])));
         }
     }
     Some(path)
@@ -102,6 +109,19 @@ impl Edge<'_> {
         is_believed * (now / way).min(1.0)
     }
 
+    /// The cell of the edge that comes to an open cell: the first in contact on the way from neighbour to neighbour down the gap. Where that way
+    /// ends before, the open cell at its end.
+    fn beside(&self, mut at: [usize; 2], zones: &Array2<Zone>) -> [usize; 2] {
+        while zones[at] == Zone::Open {
+            let lowest = self.neighbours(at).min_by(|a, b| self.now[*a].total_cmp(&self.now[*b]));
+            match lowest {
+                Some(next) if self.now[next] < self.now[at] => at = next,
+                _ => break,
+            }
+        }
+        at
+    }
+
     fn neighbours(&self, [i, j]: [usize; 2]) -> impl Iterator<Item = [usize; 2]> {
         let (nx, ny) = self.now.dim();
         let all = [
@@ -112,6 +132,14 @@ impl Edge<'_> {
         ];
         all.into_iter().filter(|(exists, ..)| *exists).map(|(_, i, j)| [i, j])
     }
+}
+
+/// What an open cell goes on to lag behind the edge until that comes to it, over how it lagged in the last increment: at the distance x from a
+/// contact that moves as a whole the displacement lags by the root of x (Mindlin 1949), so that over the last way, from `1 + touch` steps
+/// of the edge away to `touch`, and over what is left the lags go with the power 3/2.
+fn left_of_lag(touch: f64) -> f64 {
+    let left = touch.powf(1.5);
+    left / ((1.0 + touch).powf(1.5) - left)
 }
 
 /// By how much slip fell over the last two increments: 0 where it did not, 1 where it fell to half or less. `ratio` of their lengths.
@@ -151,5 +179,39 @@ mod tests {
         assert_eq!(moment(2.1, 5.1, 1.0, 9), 1.0);
         assert_eq!(moment(4.7, 5.1, 1.0, 6), 0.0);
         assert_eq!(moment(5.1, 4.1, 1.0, 6), 0.0);
+    }
+
+    /// A disc that sticks and grows with the square of the time, in even steps of its radius a: beside it the displacement of the surface is
+    /// `(2/pi) asin(a/r)` of that of the disc (Mindlin 1949), so that a place at r has lagged behind by the integral of the rest.
+    #[test]
+    fn beside_a_growing_disc_that_sticks_the_way_to_touch_is_found() {
+        let lag = |from: f64, to: f64, r: f64| {
+            let sum = |k: u32| {
+                let a = from + (to - from) * (f64::from(k) + 0.5) / 1e4;
+                a * (1.0 - std::f64::consts::FRAC_2_PI * (a / r).asin())
+            };
+            (0..10_000).map(sum).sum::<f64>() * (to - from) / 1e4
+        };
+        for step in [0.1, 0.05] {
+            for touch in [0.2, 0.5, 0.8, 1.0] {
+                let r = 1.0 + touch * step;
+                let [last, left] = [lag(1.0 - step, 1.0, r), lag(1.0, r, r)];
+                // What a load that does not grow evenly adds is of the order of the step.
+                assert!((left_of_lag(touch) / (left / last) - 1.0).abs() < 1.2 * step, "{step} {touch}");
+            }
+        }
+    }
+
+    #[test]
+    fn the_edge_that_comes_is_down_the_gap() {
+        let gap = |i: usize, j: usize| ((i as f64 - 4.0).hypot(j as f64 - 4.0) - 2.0).max(0.0).powf(1.5);
+        let gap = Array2::from_shape_fn((9, 9), |(i, j)| gap(i, j));
+        let zones = gap.map(|gap| if *gap > 0.0 { Zone::Open } else { Zone::Stick });
+        let edge = Edge { before: &gap, now: &gap, ratio: 1.0 };
+        assert_eq!([[0, 4], [4, 8], [7, 4]].map(|at| edge.beside(at, &zones)), [[2, 4], [4, 6], [6, 4]]);
+        let corner = edge.beside([8, 8], &zones);
+        assert!([[5, 5], [5, 6], [6, 5]].contains(&corner), "{corner:?}");
+        // No contact anywhere: the lowest place of the gap, which is open.
+        assert_eq!(gap[edge.beside([0, 0], &zones.map(|_| Zone::Open))], 0.0);
     }
 }

@@ -236,7 +236,7 @@ fn tangential(
 ) -> Option<(Slipped, [f64; 2])> {
     let case = &plan.case;
     let CellValues::Uniform(friction) = *case.friction.coefficient() else { return None };
-    if case.friction.max_shear().is_some() {
+    if case.friction.max_shear().is_some() || case.friction_evolution.is_some() {
         return None;
     }
     let stages = &case.stages;

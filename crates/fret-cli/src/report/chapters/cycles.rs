@@ -61,6 +61,12 @@ pub fn cycles(view: &Overview<'_>) -> Markup {
         &change.in_page(),
         "Change of tractions and motions from the start of a cycle to its end, relative.",
     ));
+    if !view.results.record["plan"]["case"]["friction_evolution"].is_null() {
+        figures.push(figure_of(
+            &chart("friction coefficient", "", &|cycle| cycle.friction_coefficient).in_page(),
+            "Mean friction coefficient over the contact, weighted with the pressure.",
+        ));
+    }
     if !view.results.record["plan"]["case"]["wear"].is_null() {
         figures.push(figure_of(
             &chart("wear volume", "length^3", &|cycle| cycle.worn_volume).in_page(),

@@ -169,6 +169,7 @@ fn friction(view: &Overview<'_>, friction: &Value) -> Markup {
                 }
             }
         }
+        @if let Some(words) = evolution(view) { ", " (words) }
         @if !friction["max_shear"].is_null() {
             @match friction["max_shear"]["uniform"].as_f64() {
                 Some(strength) => { ", shear at most " (view.given(strength, "pressure")) }
@@ -176,6 +177,28 @@ fn friction(view: &Overview<'_>, friction: &Value) -> Markup {
             }
         }
     }
+}
+
+/// How friction evolves, where it does.
+fn evolution(view: &Overview<'_>) -> Option<String> {
+    let evolution = &view.results.record["plan"]["case"]["friction_evolution"];
+    let (over, kind) = match evolution["by"].as_str()? {
+        "energy" => ("dissipated energy by area", "force/length"),
+        "slip_distance" => ("slip distance", "length"),
+        _ => ("cycles", ""),
+    };
+    let exponential = &evolution["law"]["exponential"];
+    let driver = |value: f64| if kind.is_empty() { given(value) } else { view.given(value, kind) };
+    let law = if let Some((last, scale)) = exponential["last"].as_f64().zip(exponential["scale"].as_f64()) {
+        format!("tends to {} over a scale of {}", given(last), driver(scale))
+    } else {
+        let row = |row: &Value| Some(format!("{} at {}", given(row[1].as_f64()?), driver(row[0].as_f64()?)));
+        let rows = evolution["law"]["table"].as_array()?;
+        rows.iter().map(row).collect::<Option<Vec<_>>>()?.join(", ")
+    };
+    let every = evolution["every"].as_u64().filter(|every| *every > 1);
+    let jumps = every.map_or(String::new(), |every| format!("; a computed cycle stands for at most {every}"));
+    Some(format!("evolves with the {over} of each cell: {law}{jumps}"))
 }
 
 fn stage(view: &Overview<'_>, stage: &Value) -> Markup {

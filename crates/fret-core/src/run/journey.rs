@@ -1,0 +1,303 @@
+//! The journey of a run: stages, increments, cycles, records. The only room that knows all of it.
+
+use std::time::Instant;
+
+use super::checkpoint::{Place, Waypoint, solved_state};
+use super::evolving::{Evolved, Evolving};
+use super::fretting_loop::{CycleEnd, FrettingLoop};
+use super::observer::{Iteration, Observer};
+use super::plausibility::Gauge;
+use super::recording::{copied, kept, record};
+use super::refinement::{DivisionError, Refinement, Span, in_halves};
+use super::run_error::{RunError, run_error};
+use super::stepping::StageSteps;
+use super::surfaces::Surfaces;
+use super::wear::{Wearing, worn};
+use crate::case::{Case, Stage};
+use crate::history::{CycleRecord, History, KeptFields, StepRecord, WornThrough};
+use crate::model::{CoulombFriction, LoadStep, SolvedState};
+use crate::plan::{Coupling, Plan};
+use crate::solver::{ContactSolver, Resultants};
+
+/// A run on its way.
+pub(super) struct Journey<'a> {
+    pub plan: &'a Plan,
+    pub solver: ContactSolver<'a>,
+    pub surfaces: Surfaces,
+    pub history: History,
+    pub gauge: Gauge,
+    pub place: Place,
+    /// The cycle at work.
+    pub cycle: Option<FrettingLoop>,
+    pub observer: &'a mut dyn Observer,
+}
+
+impl<'a> Journey<'a> {
+    fn case(&self) -> &'a Case {
+        &self.plan.case
+    }
+
+    /// The law of friction in force.
+    fn friction(&self) -> &CoulombFriction {
+        self.surfaces.evolving.as_ref().map_or_else(|| self.given_friction(), Evolving::friction)
+    }
+
+    /// The law of friction that the case has for the stage at work.
+    fn given_friction(&self) -> &'a CoulombFriction {
+        let case = self.case();
+        let mut latest_first = case.stages.iter().take(self.place.stage + 1).rev();
+        latest_first.find_map(|stage| stage.friction.as_ref()).unwrap_or(&case.friction)
+    }
+
+    /// How the next increment is divided; it is one step where its end does not depend on the way there.
+    fn refinement(&self) -> Option<Refinement> {
+        let stage = &self.case().stages[self.place.stage];
+        let tolerance = stage.history_tolerance?;
+        let friction = self.friction().largest();
+        let shear = self.history.state.shear.iter().flatten().any(|shear| *shear != 0.0);
+        let depends = self.plan.coupling == Coupling::Coupled || stage.is_tangential() || shear;
+        (friction > 0.0 && depends).then_some(Refinement {
+            tolerance,
+            residual: self.case().tolerance,
+            integration: self.case().integration,
+            friction,
+        })
+    }
+
+    pub fn through_all_stages(mut self) -> (History, Result<(), RunError>) {
+        let outcome = loop {
+            let Some(stage) = self.case().stages.get(self.place.stage) else { break Ok(()) };
+            if let Err(error) = self.through_stage(stage) {
+                break Err(error);
+            }
+        };
+        self.history.worn_through = self.place.worn_through;
+        self.history.warnings = self.gauge.warnings(self.plan);
+        self.history.end = self.solved_state().beside(|_| true);
+        (self.history, outcome)
+    }
+
+    /// Where the run stands, for another history to start from.
+    fn solved_state(&self) -> SolvedState {
+        let Surfaces { wearing, evolving } = &self.surfaces;
+        let worn = wearing.as_ref().map(Wearing::collected);
+        let slipped = evolving.as_ref().map(Evolving::collected);
+        solved_state(&self.place, &self.history.state, worn, slipped)
+    }
+
+    /// Solves what is left of the stage at work.
+    fn through_stage(&mut self, stage: &'a Stage) -> Result<(), RunError> {
+        let (number, begins) = (self.place.stage, self.place.solved_of_stage == 0);
+        let given = self.given_friction();
+        if begins {
+            self.surfaces.begin_stage();
+        }
+        self.surfaces.take_friction(given);
+        match &self.surfaces.evolving {
+            None => self.solver.set_friction(given),
+            Some(evolving) => self.solver.take_friction(evolving.friction().clone()),
+        }
+        let place = &self.place;
+        let steps = if begins {
+            let reached = (&place.resultants, self.case().springs());
+            StageSteps::new(stage, &place.held, &self.history.state, reached)
+        } else {
+            StageSteps::from_start(stage, place.stage_start)
+        };
+        if begins {
+            self.place.stage_start = steps.start();
+            self.place.cycles = 0;
+            self.cycle = stage.cycles().map(|_| self.loop_from_here(1));
+        }
+        for k in self.place.solved_of_stage + 1..=stage.increments_in_all() {
+            let from = if k == 1 { steps.start() } else { steps.at(k - 1) };
+            self.increment(stage, k, [&from, &steps.at(k)])?;
+            if self.place.stage > number {
+                break;
+            }
+        }
+        Ok(())
+    }
+
+    /// Solves increment `k` of the stage at work and tells of it. When that ends a cycle or the stage, so does the place.
+    fn increment(&mut self, stage: &Stage, k: usize, [from, to]: [&LoadStep; 2]) -> Result<(), RunError> {
+        let (number, all) = (self.place.stage, stage.increments_in_all());
+        let may_keep = k == all || stage.ends_cycle(k) || self.case().keeps(number, k);
+        let (mut record, mut kept) = self.solved([from, to], may_keep)?;
+        if let Some(cycle) = &mut self.cycle {
+            cycle.add(&record);
+        }
+        let ended =
+            if stage.ends_cycle(k) || k == all { self.cycle_over(stage, record.increment)? } else { None };
+        record.dissipated_energy = self.history.state.dissipated_energy;
+        record.bulk_work = self.history.state.bulk_work;
+        [record.worn_volume, record.max_worn_depth] = worn(&self.history.state, &self.plan.grid);
+        let steady = ended.as_ref().is_some_and(|cycle| cycle.steady);
+        let enough = stage.cycles().is_some_and(|course| self.place.cycles >= course.most);
+        let last = k == all || steady || enough || self.place.worn_through.is_some();
+        if !last && !self.case().keeps(number, k) {
+            kept = None;
+        }
+        if let (Some(kept), Some(depth)) = (&mut kept, &self.history.state.worn_depth)
+            && self.case().output.fields.iter().any(|name| name == "worn_depth")
+        {
+            let increment = record.increment;
+            let out_of_memory = |error| RunError::OutOfMemory { increment, error };
+            kept.worn_depth = Some(copied(depth).map_err(out_of_memory)?);
+        }
+        self.place.solved += 1;
+        self.place.solved_of_stage = k;
+        if let Some(kept) = &mut kept {
+            kept.rest = self.rest_beside(kept, last).map(Box::new);
+        }
+        self.gauge.add(&record);
+        let heard = self.observer.solved(&record, &self.history.state, kept.as_ref());
+        self.history.steps.push(record);
+        if self.observer.leaves_fields() {
+            self.history.fields.extend(kept);
+        }
+        if let Some(cycle) = ended {
+            self.observer.cycled(&cycle);
+            self.cycle = Some(self.loop_from_here(cycle.cycle + 1));
+            self.history.cycles.push(cycle);
+        }
+        if last {
+            self.place.stage =
+                if self.place.worn_through.is_some() { self.case().stages.len() } else { number + 1 };
+            self.place.solved_of_stage = 0;
+            self.cycle = None;
+        }
+        let stored = self.observer.reached(&Waypoint {
+            place: &self.place,
+            state: &self.history.state,
+            memory: self.solver.memory(),
+            cycle: self.cycle.as_ref(),
+            wear: self.surfaces.wearing.as_ref().map(Wearing::collected),
+            slip: self.surfaces.evolving.as_ref().map(Evolving::collected),
+        });
+        if heard.is_break() || stored.is_break() {
+            return Err(RunError::Interrupted { increment: self.place.solved });
+        }
+        Ok(())
+    }
+
+    /// What another history needs to start here besides the kept fields; of what `ends` a stage in any case, of other increments
+    /// where the fields that are not kept are zero.
+    fn rest_beside(&self, kept: &KeptFields, ends: bool) -> Option<SolvedState> {
+        let mut rest = self.solved_state().beside(|name| kept.field(name).is_some());
+        (rest.thinned() || ends).then_some(rest)
+    }
+
+    /// A cycle that starts now, in the stage at work.
+    fn loop_from_here(&self, cycle: usize) -> FrettingLoop {
+        let Place { solved, stage, resultants, .. } = self.place;
+        let Resultants { tangential, moment, .. } = resultants;
+        FrettingLoop::new((stage, cycle), solved, &self.history.state, tangential, moment)
+    }
+
+    /// Solves the next increment, in parts where it is left to the program or not solved as a whole; its fields, should they be kept.
+    fn solved(
+        &mut self,
+        [from, to]: [&LoadStep; 2],
+        may_keep: bool,
+    ) -> Result<(StepRecord, Option<KeptFields>), RunError> {
+        let case = self.case();
+        let Place { solved: increment, stage, .. } = self.place;
+        let refinement = self.refinement();
+        let started = Instant::now();
+        let observer = &mut *self.observer;
+        let failed = |error| run_error(&error, increment, case, stage);
+        let mut watch = |iteration: usize, residual: f64| {
+            let tolerance = case.tolerance;
+            observer.iterated(&Iteration { increment, stage, iteration, residual, tolerance })
+        };
+        let state = &self.history.state;
+        let (solved, parts) = match refinement {
+            None => {
+                let span = Span { state, from, to };
+                in_halves(&mut self.solver, &mut self.surfaces, span, &mut watch).map_err(failed)?
+            }
+            Some(refinement) => {
+                let span = Span { state, from, to };
+                let divided = refinement
+                    .solve(&mut self.solver, &self.surfaces, span, self.place.parts, &mut watch)
+                    .map_err(|error| match error {
+                        DivisionError::Unsolved(error) => failed(error),
+                        DivisionError::Unresolved { reached, parts } => RunError::HistoryUnresolved {
+                            increment,
+                            stage: case.stages[stage].name.clone(),
+                            reached,
+                            tolerance: refinement.tolerance,
+                            parts,
+                        },
+                    })?;
+                self.surfaces = divided.surfaces;
+                self.place.parts = divided.next;
+                (divided.end, divided.parts)
+            }
+        };
+        let wall_s = started.elapsed().as_secs_f64();
+        let friction = self.friction();
+        let record = record(&solved, (case.springs(), friction), (increment, stage, parts), wall_s);
+        let kept = may_keep.then(|| kept(&solved, friction, increment, &case.output.fields)).transpose();
+        let kept = kept.map_err(|error| RunError::OutOfMemory { increment, error })?;
+        self.place.resultants = solved.outcome.resultants;
+        self.place.held = *to;
+        self.history.state = solved.state;
+        Ok((record, kept))
+    }
+
+    /// Changes the surfaces by what slip did to them in the cycle (or the stage without cycles) that ends with `increment`, and reads the
+    /// cycle's loop.
+    fn cycle_over(&mut self, stage: &Stage, increment: usize) -> Result<Option<CycleRecord>, RunError> {
+        let friction_before = self.cycle.as_ref().map(|_| self.friction().clone());
+        let (stands_for, evolved) = self.change_surfaces(stage, increment)?;
+        self.place.cycles += stands_for;
+        let (Some(cycle), Some(course)) = (&self.cycle, stage.cycles()) else { return Ok(None) };
+        let end = CycleEnd {
+            rig: self.case().rig,
+            stands_for,
+            last_cycle: self.place.cycles,
+            tolerance: course.until_steady,
+            worn: worn(&self.history.state, &self.plan.grid),
+            evolved,
+        };
+        let friction = friction_before.as_ref().unwrap_or_else(|| self.friction());
+        let record = cycle.close(&self.history.state, friction, end);
+        self.gauge.add_cycle(&record);
+        self.history.state.bulk_work = cycle.total_bulk_work(&self.history.state, stands_for);
+        self.history.state.dissipated_energy = record.total_dissipated_energy;
+        Ok(Some(record))
+    }
+
+    /// Opens the gap and changes friction by what slip has done since the last time; the number of cycles that stands for, and what became
+    /// of friction.
+    fn change_surfaces(
+        &mut self,
+        stage: &Stage,
+        increment: usize,
+    ) -> Result<(usize, Option<Evolved>), RunError> {
+        let left = stage.cycles().map_or(1, |course| course.most - self.place.cycles);
+        let of_cycle = stage.cycles().is_some();
+        let state = &mut self.history.state;
+        let block = self.surfaces.end_block(state, (left, of_cycle)).map_err(|too_fast| {
+            RunError::WearTooFast { increment, stage: stage.name.clone(), share: too_fast.share }
+        })?;
+        if let (true, Some(wearing), Some(depth)) =
+            (block.opened, &self.surfaces.wearing, &self.history.state.worn_depth)
+        {
+            self.solver.set_gap(wearing.gap(depth));
+        }
+        if let Some(evolving) = &self.surfaces.evolving {
+            self.solver.take_friction(evolving.friction().clone());
+        }
+        self.place.worn_through = block.through.map(|cell| WornThrough {
+            increment,
+            stage: self.place.stage,
+            cycles: self.place.cycles + block.cycles,
+            cell,
+            place: [self.plan.grid.centre(0, cell[0]), self.plan.grid.centre(1, cell[1])],
+        });
+        Ok((block.cycles, block.evolved))
+    }
+}

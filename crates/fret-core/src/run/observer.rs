@@ -1,0 +1,65 @@
+//! Who hears about a run, and may stop it.
+
+use std::ops::ControlFlow;
+
+use super::checkpoint::Waypoint;
+use crate::history::{CycleRecord, KeptFields, StepRecord};
+use crate::model::ContactState;
+
+/// Where an increment's iteration stands.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Iteration {
+    /// Number of the increment in the whole history, from 0.
+    pub increment: usize,
+    /// Number of its stage, from 0.
+    pub stage: usize,
+    /// Iteration within the increment.
+    pub iteration: usize,
+    /// Residual reached so far.
+    pub residual: f64,
+    /// Residual asked for.
+    pub tolerance: f64,
+}
+
+/// Hears about a run and may stop it.
+pub trait Observer {
+    /// An iteration was done. `Break` stops the run.
+    fn iterated(&mut self, iteration: &Iteration) -> ControlFlow<()> {
+        let _ = iteration;
+        ControlFlow::Continue(())
+    }
+
+    /// An increment is solved and heard of, and its cycle when that is over: where the run stands now, for those who store it.
+    /// `Break` stops the run after it.
+    fn reached(&mut self, waypoint: &Waypoint<'_>) -> ControlFlow<()> {
+        let _ = waypoint;
+        ControlFlow::Continue(())
+    }
+
+    /// An increment is solved; `kept` holds its fields when they are kept. `Break` stops the run after it.
+    fn solved(
+        &mut self,
+        record: &StepRecord,
+        state: &ContactState,
+        kept: Option<&KeptFields>,
+    ) -> ControlFlow<()> {
+        let _ = (record, state, kept);
+        ControlFlow::Continue(())
+    }
+
+    /// Whether the history is to hold the kept fields. An observer that has done with them once it has heard of them says no.
+    fn leaves_fields(&self) -> bool {
+        true
+    }
+
+    /// A cycle is over; its last increment was solved just before.
+    fn cycled(&mut self, record: &CycleRecord) {
+        let _ = record;
+    }
+}
+
+/// Hears nothing and stops nothing.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Silent;
+
+impl Observer for Silent {}
