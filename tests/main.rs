@@ -44,6 +44,7 @@ mod sliding;
 mod subsurface;
 mod surfaces;
 mod taken_up;
+mod thinning;
 mod tilt;
 mod two_bodies;
 mod wear;

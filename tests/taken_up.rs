@@ -133,6 +133,27 @@ fn with_wear_in_blocks_of_cycles() {
     }
 }
 
+/// A coating that wears thinner, through into the substrate, in jumps of bounded error.
+#[test]
+fn with_layers_that_wear_thinner() {
+    let head = coated()
+        .replace(
+            "thickness = 20e-6, young = 400e9, poisson = 0.25",
+            "thickness = 5e-10, young = 400e9, poisson = 0.25, wear_coefficient = 2e-11",
+        )
+        .replace(
+            "substrate = { young = 210e9, poisson = 0.3 }",
+            "substrate = { young = 210e9, poisson = 0.3, wear_coefficient = 4e-11 }",
+        );
+    let loads = WORN.replace("coefficient = 2e-11\nevery = 4", "tolerance = 0.3\nthinning_tolerance = 0.1");
+    let whole = taken_up_anywhere(&(head + &loads));
+    let blocks: Vec<usize> = whole.cycles.iter().map(|cycle| cycle.stands_for).collect();
+    assert!(blocks.iter().any(|block| *block > 1), "{blocks:?}");
+    let layers = &whole.worn_by_layer.as_ref().unwrap().lower;
+    assert!(layers.iter().all(|volume| *volume > 0.0), "{layers:?} {blocks:?} {:?}", whole.state.worn_depth);
+    assert!(whole.cycles.iter().all(|cycle| cycle.compliance_spread.is_some()));
+}
+
 /// Friction that follows the energy of each cell in cycle jumps, with wear and without.
 #[test]
 fn with_friction_that_evolves() {

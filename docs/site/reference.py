@@ -74,6 +74,7 @@ RUN = [
     ("warnings", "list of name, value, bound, stage, message, help"),
     ("start", "the state it started from, or null"),
     ("worn_through", "cycle and place where a coating was worn through, or null"),
+    ("worn_by_layer", "wear volume of each layer of the lower and the upper body, or null"),
     ("threads, started_unix_s, tolerance", "threads, start time, solver tolerance"),
 ]
 

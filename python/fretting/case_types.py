@@ -718,6 +718,11 @@ class Material(TypedDict):
     """
     Thermal conductivity [power/(length temperature)], positive; of all layers of a body and its substrate, or of none.
     """
+    wear_coefficient: NotRequired[float]
+    """
+    Wear coefficient [1/pressure], zero or positive: wear depth = k times dissipated energy by area, or k times pressure times slip
+    distance. Of all layers of a body and its substrate, or of none: then the body does not wear.
+    """
     young: float
     """
     Young's modulus [pressure], positive.
@@ -768,13 +773,14 @@ class Wear(TypedDict):
     Wear of the surfaces: after each computed cycle the gap grows by the wear depth.
     """
 
-    coefficient: float
+    coefficient: NotRequired[float]
     """
-    Wear coefficient k [1/pressure]: wear depth = k (pressure x slip distance) (Archard), or k (shear . slip) (energy).
+    Wear coefficient k [1/pressure] of both bodies together: wear depth = k (pressure x slip distance) (Archard), or k (shear . slip)
+    (energy). Instead: `wear_coefficient` of the layers, substrates and rigid bodies that wear.
     """
     every: NotRequired[int]
     """
-    Maximum cycle jump: number of cycles one simulated cycle may represent. Default: 1.
+    Maximum cycle jump: number of cycles one simulated cycle may represent. Default: 1; with `tolerance` 1000000.
     """
     largest_step: NotRequired[float]
     """
@@ -788,9 +794,19 @@ class Wear(TypedDict):
     """
     Stop when the wear depth reaches this value [length].
     """
+    thinning_tolerance: NotRequired[float]
+    """
+    Worn layers are thinner in the elastic response, too, which is found anew when the mean thickness of the layer at the surface has
+    changed by this fraction. Needs `wear_coefficient` of the layers. Default: the response stays that of the unworn bodies.
+    """
     through_coating_of: NotRequired[WornBody]
     """
     Stop when the outermost coating of this body is worn through.
+    """
+    tolerance: NotRequired[float]
+    """
+    Maximum relative error of the wear depth of a cycle jump, estimated from the change between computed cycles; jumps begin with
+    one cycle and at most double. Default: not controlled.
     """
 
 
@@ -835,6 +851,11 @@ class Coating(TypedDict):
     thickness: float
     """
     Thickness [length], positive.
+    """
+    wear_coefficient: NotRequired[float]
+    """
+    Wear coefficient [1/pressure], zero or positive: wear depth = k times dissipated energy by area, or k times pressure times slip
+    distance. Of all layers of a body and its substrate, or of none: then the body does not wear.
     """
     young: NotRequired[float]
     """
@@ -982,6 +1003,10 @@ class Body(TypedDict):
     thermal_conductivity: NotRequired[float]
     """
     Thermal conductivity [power/(length temperature)], positive; of what is rigid: the body, or the base of its coatings.
+    """
+    wear_coefficient: NotRequired[float]
+    """
+    Wear coefficient [1/pressure], zero or positive, of a rigid body.
     """
 
 

@@ -89,12 +89,16 @@ class History:
         ``displacement_amplitude``, ``opening``, ``energy_ratio``, ``sliding_ratio``, ``stiffness``, ``closure``,
         ``worn_volume`` (since the start), ``max_worn_depth``, and of the loop at the actuator of a rig
         ``actuator_amplitude``, ``actuator_energy_ratio``, ``actuator_sliding_ratio``, ``actuator_stiffness``,
-        ``friction_coefficient`` (mean), and where friction evolves ``friction_change``, ``jump_error`` (float,
+        ``friction_coefficient`` (mean), and where friction evolves ``friction_change``, ``jump_error``; of layers that
+        wear ``lower_worn_depth``, ``upper_worn_depth``, ``compliance_spread``, ``wear_jump_error`` (float,
         NaN where a cycle has none); ``steady`` (bool); ``drive``, ``regime`` (str).
     running_conditions : list of str or None
         ``"partial"``, ``"mixed"`` or ``"gross"`` for each stage; None for one without cycles.
     worn_through : dict or None
         ``increment``, ``stage``, ``cycles``, ``cell``, ``place`` of the first place worn to the limit.
+    worn_by_layer : dict or None
+        Volumes lost by the layers of the ``lower`` and the ``upper`` body [length^3], from the surface down, the
+        substrate last; None without ``wear_coefficient`` of layers.
     status : str
         ``"solved"``; of a history that ends early ``"interrupted"``, ``"failed"``, ``"refused"`` (the contact has grown
         to the edge of its grid, or slides away), or ``"running"`` (still, or killed).
@@ -126,6 +130,7 @@ class History:
     cycles: Columns
     running_conditions: list[str | None]
     worn_through: dict[str, Any] | None
+    worn_by_layer: dict[str, list[float]] | None
     status: str
     message: str | None
     warnings: list[Fact]
@@ -160,6 +165,7 @@ class History:
         self.cycles = Table(columns(json.loads(answer.cycles())))
         self.running_conditions = json.loads(answer.running_conditions())
         self.worn_through = json.loads(answer.worn_through())
+        self.worn_by_layer = json.loads(answer.worn_by_layer())
         self.status = "solved"
         self.message = None
         self._folder = None

@@ -77,6 +77,7 @@ def open_results(folder: str | os.PathLike[str]) -> History:
     history.cycles = Table(columns([cycle for cycle in records if cycle["last_increment"] < done]))
     history.running_conditions = [_running_condition(history.cycles, stage) for stage in range(len(stages))]
     history.worn_through = record.get("worn_through")
+    history.worn_by_layer = record.get("worn_by_layer")
     history.warnings = record.get("warnings", [])
     history._bodies = json.dumps(plan["case"]["bodies"])
     history._residual_stress = json.dumps(plan["case"].get("residual_stress", [{"layers": []}, {"layers": []}]))

@@ -50,3 +50,24 @@ def test_worn_depth_is_a_field(fretting_case: dict[str, Any]) -> None:
     volume = history.field("worn_depth").sum() * area
     np.testing.assert_allclose(volume, 1e-13 * history.increments["dissipated_energy"][-1], rtol=1e-10)
     np.testing.assert_allclose(volume, history.cycles["worn_volume"][-1], rtol=1e-12)
+
+
+def test_volumes_of_the_layers_add_up(fretting_case: dict[str, Any], tmp_path: Path) -> None:
+    case = fretting_case
+    case["grid"]["cells"] = [24, 24]
+    case["lower"]["coatings"] = [{"thickness": 1e-9, "young": 100e9, "poisson": 0.3, "wear_coefficient": 1e-12}]
+    case["lower"]["substrate"]["wear_coefficient"] = 2e-13
+    case["upper"]["substrate"]["wear_coefficient"] = 1e-13
+    case["wear"] = {"tolerance": 0.1, "thinning_tolerance": 0.1}
+    case["load"][1] = {"shift": [1e-6, 0.0], "cycles": 12, "increments": 8}
+    history = fretting.run(case, folder=tmp_path / "worn")
+    worn = history.worn_by_layer
+    assert worn is not None and [len(worn["lower"]), len(worn["upper"])] == [2, 1]
+    cycles = history.cycles
+    assert sum(worn["lower"]) + sum(worn["upper"]) == pytest.approx(cycles["worn_volume"][-1], rel=1e-9)
+    depths = cycles["lower_worn_depth"] + cycles["upper_worn_depth"]
+    np.testing.assert_allclose(depths, cycles["max_worn_depth"], rtol=1e-12)
+    assert fretting.open_results(tmp_path / "worn").worn_by_layer == worn
+    case["output"] = {"every": 1}
+    case["wear"].pop("thinning_tolerance")
+    assert fretting.run(case).worn_by_layer is not None

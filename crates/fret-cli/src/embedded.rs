@@ -212,6 +212,7 @@ pub fn save(solved: Solved<'_>, case: CaseText, folder: &Path, earlier: Earlier)
     }
     tally.stage_quantities = quantities.to_vec();
     tally.worn_through.clone_from(&history.worn_through);
+    tally.worn_by_layer.clone_from(&history.worn_by_layer);
     let wall_s = history.steps.iter().map(|step| step.wall_s).sum();
     let ending =
         early.map(|(status, message)| Ending { status: status.to_owned(), message: message.to_owned() });

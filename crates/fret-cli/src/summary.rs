@@ -250,6 +250,7 @@ impl Summary<'_> {
             "stages": stages,
             "cycles": cycles,
             "worn_through": self.tally.worn_through,
+            "worn_by_layer": self.tally.worn_by_layer,
             "warnings": self.warnings,
             "increments": self.tally.solved,
             "increments_planned": self.plan.increments,

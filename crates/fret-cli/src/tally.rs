@@ -1,6 +1,6 @@
 //! What a run has come to, kept while it goes, so that an interrupted or failed run can tell as much as a solved one.
 
-use fret_core::history::{CycleRecord, StepRecord, Work, WornThrough};
+use fret_core::history::{CycleRecord, StepRecord, Work, WornByLayer, WornThrough};
 use fret_core::plan::{Advance, Plan};
 use fret_core::run::plausibility::Gauge;
 use fret_core::study::StageQuantities;
@@ -44,6 +44,8 @@ pub struct Tally {
     pub cycles: Vec<CycleRecord>,
     /// Where and when the surfaces were worn to the limit; the run ended there.
     pub worn_through: Option<WornThrough>,
+    /// Volumes lost by the layers of both bodies.
+    pub worn_by_layer: Option<WornByLayer>,
     /// Work of all increments.
     pub work: Work,
     /// Largest residual of all increments.
@@ -64,6 +66,7 @@ impl Tally {
             stage_ends: Vec::new(),
             cycles: Vec::new(),
             worn_through: None,
+            worn_by_layer: None,
             work: Work::default(),
             largest_residual: 0.0,
             gauge: Gauge::default(),

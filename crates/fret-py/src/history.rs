@@ -82,6 +82,11 @@ impl History {
         serde_json::to_string(&self.solved.worn_through).map_err(bad_value)
     }
 
+    /// Volumes lost by the layers of both bodies, as JSON text.
+    fn worn_by_layer(&self) -> PyResult<String> {
+        serde_json::to_string(&self.solved.worn_by_layer).map_err(bad_value)
+    }
+
     /// What about the numbers may mislead, as JSON text.
     fn warnings(&self) -> PyResult<String> {
         serde_json::to_string(&self.solved.warnings).map_err(bad_value)

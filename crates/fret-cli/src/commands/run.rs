@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use fret_core::history::Warning;
-use fret_core::history::WornThrough;
+use fret_core::history::{WornByLayer, WornThrough};
 use fret_core::machine::memory::{self, Claim};
 use fret_core::plan::{LeaveOut, Plan};
 use fret_core::run::{Checkpoint, Observer, RunError, Simulation, plausibility};
@@ -284,7 +284,7 @@ impl Preparation {
         };
         let outcome = self.followed_by(from, &mut observer);
         let RunObserver { folder, progress, mut tally, clock, failure, guest, .. } = observer;
-        let outcome = outcome.map(|worn_through| tally.worn_through = worn_through);
+        let outcome = outcome.map(|worn| (tally.worn_through, tally.worn_by_layer) = worn);
         progress.end();
         let wall_s = clock.read();
         let failure = failure.or_else(|| outcome.err());
@@ -388,12 +388,13 @@ impl Preparation {
         &self,
         from: Checkpoint,
         observer: &mut RunObserver<'_>,
-    ) -> Result<Option<WornThrough>, Failure> {
+    ) -> Result<(Option<WornThrough>, Option<WornByLayer>), Failure> {
         let _memory = self.claim.take();
         let simulation = Simulation::new(&self.plan).in_claimed_memory();
-        let journey = || simulation.resume(from, observer).map(|history| history.worn_through);
+        let journey =
+            || simulation.resume(from, observer).map(|history| (history.worn_through, history.worn_by_layer));
         match catch_unwind(AssertUnwindSafe(|| self.pool.install(journey))) {
-            Ok(Ok(worn_through)) => Ok(worn_through),
+            Ok(Ok(worn)) => Ok(worn),
             Ok(Err(RunError::Interrupted { .. })) => {
                 let kept = self.kept(&observer.tally);
                 Err(Failure::Interrupted(format!("{kept}; --resume continues from there")))

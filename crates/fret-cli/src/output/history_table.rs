@@ -205,6 +205,10 @@ mod tests {
             friction_coefficient: 0.3,
             friction_change: Some(1e-4),
             jump_error: None,
+            lower_worn_depth: Some(2.5e-7),
+            upper_worn_depth: None,
+            compliance_spread: Some(0.125),
+            wear_jump_error: None,
         };
         let other = CycleRecord { regime: None, steady: false, ..one.clone() };
         for record in [one, other] {

@@ -93,6 +93,7 @@ impl RunRecord {
             "status": early.map_or("solved", |early| early.status.as_str()),
             "message": early.map(|early| early.message.as_str()),
             "worn_through": tally.worn_through,
+            "worn_by_layer": tally.worn_by_layer,
             "quantities_of_interest": tally.stage_quantities,
             "warnings": warnings,
             "totals": {

@@ -82,9 +82,7 @@ pub(super) fn case(
     bulk_and_tilt(&mut judge, &file.grid, loading, bodies.as_ref(), (is_line, size));
     let mapped = friction.iter().chain(changes.iter().flatten().flatten()).any(CoulombFriction::is_map);
     let has_arrays = mapped || profile.as_ref().is_some_and(|profile| !profile.heights.is_empty());
-    if let (true, Some(GridSize::Auto), false) = (has_arrays, size, periodic) {
-        refuse_auto(&mut judge, &file.grid.size);
-    }
+    auto_without_arrays(&mut judge, &file.grid.size, has_arrays && !periodic);
     let frictionless = laws.as_ref().is_some_and(|laws| laws.iter().all(|law| law.is_frictionless()));
     let files = [("lower", file.lower.get_ref()), ("upper", file.upper.get_ref())];
     sliding_coatings(&mut judge, files, frictionless || laws.is_none(), stages.as_deref());
@@ -93,7 +91,8 @@ pub(super) fn case(
         let strongest = strongest.map(|(evolution, first)| evolution.strongest(first));
         sliding(&mut judge, (laws, strongest.as_ref()), &file.load, stages);
     }
-    let wear = wear(&mut judge, file.wear.as_ref(), bodies.as_ref(), stages.as_deref(), frictionless);
+    let wears = (file.wear.as_ref(), file.stress.as_ref());
+    let wear = wear(&mut judge, wears, (bodies.as_ref(), files), stages.as_deref(), frictionless);
     let solver = file.solver.as_ref();
     let tolerance = tolerance(&mut judge, solver.and_then(|solver| solver.tolerance.as_ref()));
     let output = output(&mut judge, file.output.as_ref());
@@ -239,12 +238,14 @@ fn size(judge: &mut Judge, given: &Spanned<SizeFile>, cells: Option<[usize; 2]>)
 }
 
 /// Refuses a size left to the program where there are arrays over cells.
-fn refuse_auto(judge: &mut Judge, size: &Spanned<SizeFile>) {
-    judge.refuse::<()>(
-        size.span(),
-        "grid.size = \"auto\" with heights or a friction map: the size of their cells must be given",
-        "size = [x, y]",
-    );
+fn auto_without_arrays(judge: &mut Judge, size: &Spanned<SizeFile>, has_arrays: bool) {
+    if let (SizeFile::Auto, true) = (size.get_ref(), has_arrays) {
+        judge.refuse::<()>(
+            size.span(),
+            "grid.size = \"auto\" with heights or a friction map: the size of their cells must be given",
+            "size = [x, y]",
+        );
+    }
 }
 
 /// Whether cells are too long to compute with.

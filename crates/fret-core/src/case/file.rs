@@ -223,6 +223,9 @@ pub(super) struct BodyFile {
     /// Electrical resistivity [resistance x length], positive; of what is rigid: the body, or the base of its coatings.
     #[schemars(with = "Option<f64>")]
     pub electrical_resistivity: Option<Spanned<f64>>,
+    /// Wear coefficient [1/pressure], zero or positive, of a rigid body.
+    #[schemars(with = "Option<f64>")]
+    pub wear_coefficient: Option<Spanned<f64>>,
     /// Shape of this body's surface: its distance from the plane of first touch.
     #[schemars(with = "Option<ProfileFile>")]
     pub profile: Option<Spanned<ProfileFile>>,
@@ -269,6 +272,10 @@ pub(super) struct CoatingFile {
     /// Electrical resistivity [resistance x length], positive; of all layers of a body and its substrate, or of none.
     #[schemars(with = "Option<f64>")]
     pub electrical_resistivity: Option<Spanned<f64>>,
+    /// Wear coefficient [1/pressure], zero or positive: wear depth = k times dissipated energy by area, or k times pressure times slip
+    /// distance. Of all layers of a body and its substrate, or of none: then the body does not wear.
+    #[schemars(with = "Option<f64>")]
+    pub wear_coefficient: Option<Spanned<f64>>,
 }
 
 /// Young's modulus over the depth of a coating: `young` at both faces and the `law` between them, or a `table`.
@@ -321,6 +328,10 @@ pub(super) struct MaterialFile {
     /// Electrical resistivity [resistance x length], positive; of all layers of a body and its substrate, or of none.
     #[schemars(with = "Option<f64>")]
     pub electrical_resistivity: Option<Spanned<f64>>,
+    /// Wear coefficient [1/pressure], zero or positive: wear depth = k times dissipated energy by area, or k times pressure times slip
+    /// distance. Of all layers of a body and its substrate, or of none: then the body does not wear.
+    #[schemars(with = "Option<f64>")]
+    pub wear_coefficient: Option<Spanned<f64>>,
 }
 
 /// Accuracy of the solution.

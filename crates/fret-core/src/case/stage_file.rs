@@ -228,10 +228,11 @@ pub(super) struct SteadyFile {
 pub(super) struct WearFile {
     /// Wear law. Default: "energy".
     pub law: Option<WearLawFile>,
-    /// Wear coefficient k [1/pressure]: wear depth = k (pressure x slip distance) (Archard), or k (shear . slip) (energy).
-    #[schemars(with = "f64")]
-    pub coefficient: Spanned<f64>,
-    /// Maximum cycle jump: number of cycles one simulated cycle may represent. Default: 1.
+    /// Wear coefficient k [1/pressure] of both bodies together: wear depth = k (pressure x slip distance) (Archard), or k (shear . slip)
+    /// (energy). Instead: `wear_coefficient` of the layers, substrates and rigid bodies that wear.
+    #[schemars(with = "Option<f64>")]
+    pub coefficient: Option<Spanned<f64>>,
+    /// Maximum cycle jump: number of cycles one simulated cycle may represent. Default: 1; with `tolerance` 1000000.
     #[schemars(with = "Option<usize>")]
     pub every: Option<Spanned<usize>>,
     /// Maximum wear depth per cycle jump, relative to the approach. Default: 0.01.
@@ -243,6 +244,14 @@ pub(super) struct WearFile {
     /// Stop when the outermost coating of this body is worn through.
     #[schemars(with = "Option<WornBodyFile>")]
     pub through_coating_of: Option<Spanned<WornBodyFile>>,
+    /// Maximum relative error of the wear depth of a cycle jump, estimated from the change between computed cycles; jumps begin with
+    /// one cycle and at most double. Default: not controlled.
+    #[schemars(with = "Option<f64>")]
+    pub tolerance: Option<Spanned<f64>>,
+    /// Worn layers are thinner in the elastic response, too, which is found anew when the mean thickness of the layer at the surface has
+    /// changed by this fraction. Needs `wear_coefficient` of the layers. Default: the response stays that of the unworn bodies.
+    #[schemars(with = "Option<f64>")]
+    pub thinning_tolerance: Option<Spanned<f64>>,
 }
 
 /// Wear law.

@@ -1,36 +1,66 @@
 //! The judgement of wear.
 
+use toml::Spanned;
+
 use super::course::{Course, Stage};
+use super::file::{BodyFile, StressFile};
 use super::judge::Judge;
 use super::stage_file::{WearFile, WearLawFile, WornBodyFile};
-use crate::model::{Body, ContactPair, WearLaw, WearRule};
+use crate::model::{Body, ContactPair, WearLaw, WearLayers, WearRule, WornLayer};
 
 /// Cycles a computed one may stand for.
 pub(super) const MOST_EVERY: usize = 1_000_000;
+/// Largest relative change of thickness between two responses.
+const MOST_THINNING: f64 = 0.5;
 
 /// The wear of a case; `None` when nothing wears or it was refused.
 pub(super) fn wear(
     judge: &mut Judge,
-    file: Option<&WearFile>,
-    bodies: Option<&ContactPair>,
+    (file, stress): (Option<&WearFile>, Option<&Spanned<StressFile>>),
+    (bodies, files): (Option<&ContactPair>, [(&str, &BodyFile); 2]),
     stages: Option<&[Stage]>,
     frictionless: bool,
 ) -> Option<WearRule> {
-    let file = file?;
     let before = judge.mistakes.len();
-    let coefficient = *file.coefficient.get_ref();
-    if !(coefficient.is_finite() && coefficient >= 0.0) {
-        let message = format!("wear.coefficient = {coefficient:?}: must be zero or positive and finite");
-        judge.refuse::<()>(file.coefficient.span(), message, "");
+    let layers = files.map(|(which, body)| layers(judge, which, body));
+    let own: Option<&Spanned<f64>> = parts(files).into_iter().find_map(|part| part.coefficient);
+    let Some(file) = file else {
+        return own.and_then(|own| {
+            judge.refuse(own.span(), "wear_coefficient without a table [wear]", "[wear] law = \"energy\"")
+        });
+    };
+    let span = file.coefficient.as_ref().or(own).map(Spanned::span);
+    let Some(span) = span else {
+        let anywhere = file.thinning_tolerance.as_ref().map_or(0..0, Spanned::span);
+        return judge.refuse(
+            anywhere,
+            "wear: nothing says how much wears off",
+            "coefficient = ... in [wear], or wear_coefficient = ... in the layers that wear",
+        );
+    };
+    let coefficient = file.coefficient.as_ref().map(|given| *given.get_ref());
+    if let (Some(given), Some(value)) = (&file.coefficient, coefficient)
+        && !(value.is_finite() && value >= 0.0)
+    {
+        let message = format!("wear.coefficient = {value:?}: must be zero or positive and finite");
+        judge.refuse::<()>(given.span(), message, "");
+    }
+    if let (Some(_), Some(own)) = (&file.coefficient, own) {
+        judge.refuse::<()>(
+            own.span(),
+            "wear_coefficient and wear.coefficient, both at once",
+            "wear.coefficient is that of both bodies together: leave out one of the two",
+        );
     }
     if frictionless {
         judge.refuse::<()>(
-            file.coefficient.span(),
+            span.clone(),
             "wear: a contact without friction has no slip in this model",
             "[friction] coefficient = ...",
         );
     }
-    let every = file.every.as_ref().map_or(1, |given| *given.get_ref());
+    let jumps = file.tolerance.is_some();
+    let every = file.every.as_ref().map_or(if jumps { MOST_EVERY } else { 1 }, |given| *given.get_ref());
     if let (Some(given), false) = (&file.every, (1..=MOST_EVERY).contains(&every)) {
         let message = format!("wear.every = {every}: must lie between 1 and {MOST_EVERY}");
         judge.refuse::<()>(given.span(), message, "");
@@ -40,7 +70,53 @@ pub(super) fn wear(
         let message = format!("wear.largest_step = {largest_step:?}: must lie above 0, and at 1 at the most");
         judge.refuse::<()>(given.span(), message, "relative to the approach; 0.01 serves most purposes");
     }
-    for (index, stage) in stages.unwrap_or_default().iter().enumerate() {
+    let within = |judge: &mut Judge, key: &str, given: Option<&Spanned<f64>>, most: f64| {
+        let given = given?;
+        let value = *given.get_ref();
+        if value > 0.0 && value <= most {
+            return Some(value);
+        }
+        let message = format!("wear.{key} = {value:?}: must lie above 0, and at {most} at the most");
+        judge.refuse(given.span(), message, "0.02 serves most purposes")
+    };
+    let tolerance = within(judge, "tolerance", file.tolerance.as_ref(), 1.0);
+    let thinning = within(judge, "thinning_tolerance", file.thinning_tolerance.as_ref(), MOST_THINNING);
+    if let (Some(given), None) = (&file.thinning_tolerance, own) {
+        judge.refuse::<()>(
+            given.span(),
+            "wear.thinning_tolerance: nothing says which body wears, and how its layers do",
+            "wear_coefficient = ... in all layers of the body that wears, in place of wear.coefficient",
+        );
+    }
+    if let (Some(table), Some(_)) = (stress, thinning) {
+        judge.refuse::<()>(
+            table.span(),
+            "stress and wear.thinning_tolerance: stresses below are those of the unworn layers",
+            "leave out one of the two",
+        );
+    }
+    let jumping = file.every.as_ref().map_or_else(|| span.clone(), Spanned::span);
+    cycles_that_wear(judge, jumping, every, stages.unwrap_or_default());
+    let layers = own.is_some().then(|| WearLayers::new(layers.map(Option::unwrap_or_default)));
+    let limit = limit(judge, file, (bodies, files), layers.as_ref());
+    (judge.mistakes.len() == before).then_some(WearRule {
+        law: match file.law.unwrap_or(WearLawFile::Energy) {
+            WearLawFile::Archard => WearLaw::Archard,
+            WearLawFile::Energy => WearLaw::Energy,
+        },
+        coefficient,
+        layers,
+        every,
+        largest_step,
+        limit,
+        tolerance,
+        thinning_tolerance: thinning,
+    })
+}
+
+/// Refuses cycles that wear has no place for.
+fn cycles_that_wear(judge: &mut Judge, span: std::ops::Range<usize>, every: usize, stages: &[Stage]) {
+    for (index, stage) in stages.iter().enumerate() {
         let Course::Cycles(cycles) = stage.course else { continue };
         let words = if cycles.until_steady.is_some() {
             "until_steady of a contact that wears: it changes with every cycle"
@@ -49,23 +125,104 @@ pub(super) fn wear(
         } else {
             continue;
         };
-        let span = file.every.as_ref().map_or_else(|| file.coefficient.span(), toml::Spanned::span);
-        judge.refuse::<()>(span, format!("wear and load[{index}]: {words}"), "cycles = ..., wear.every = 1");
+        let message = format!("wear and load[{index}]: {words}");
+        judge.refuse::<()>(span.clone(), message, "cycles = ..., wear.every = 1");
     }
-    let limit = limit(judge, file, bodies);
-    (judge.mistakes.len() == before).then_some(WearRule {
-        law: match file.law.unwrap_or(WearLawFile::Energy) {
-            WearLawFile::Archard => WearLaw::Archard,
-            WearLawFile::Energy => WearLaw::Energy,
-        },
-        coefficient,
-        every,
-        largest_step,
-        limit,
-    })
 }
 
-fn limit(judge: &mut Judge, file: &WearFile, bodies: Option<&ContactPair>) -> Option<f64> {
+/// A part of a body that may wear: a coating, a substrate or what is rigid.
+struct Part<'a> {
+    place: String,
+    span: std::ops::Range<usize>,
+    thickness: f64,
+    coefficient: Option<&'a Spanned<f64>>,
+    /// Whether it may be left without a coefficient: it does not wear then.
+    may_lack: bool,
+}
+
+fn parts<'a>(files: [(&str, &'a BodyFile); 2]) -> Vec<Part<'a>> {
+    files.into_iter().flat_map(|(which, body)| parts_of(which, body)).collect()
+}
+
+/// From the surface down.
+fn parts_of<'a>(which: &str, body: &'a BodyFile) -> Vec<Part<'a>> {
+    let coatings = body.coatings.as_ref().map_or(&[][..], |list| list.get_ref());
+    let mut parts: Vec<Part<'a>> = coatings
+        .iter()
+        .enumerate()
+        .map(|(index, coating)| Part {
+            place: format!("{which}.coatings[{index}]"),
+            span: coating.span(),
+            thickness: *coating.get_ref().thickness.get_ref(),
+            coefficient: coating.get_ref().wear_coefficient.as_ref(),
+            may_lack: false,
+        })
+        .collect();
+    let rigid = body.wear_coefficient.as_ref();
+    if let Some(substrate) = &body.substrate {
+        parts.push(Part {
+            place: format!("{which}.substrate"),
+            span: substrate.span(),
+            thickness: f64::INFINITY,
+            coefficient: substrate.get_ref().wear_coefficient.as_ref(),
+            may_lack: false,
+        });
+    }
+    if body.substrate.is_none() || rigid.is_some() {
+        parts.push(Part {
+            place: which.to_owned(),
+            span: rigid.map_or(0..0, Spanned::span),
+            thickness: f64::INFINITY,
+            coefficient: rigid,
+            may_lack: true,
+        });
+    }
+    parts
+}
+
+/// The layers of a body that wears; `None` of one that does not, or was refused.
+fn layers(judge: &mut Judge, which: &str, body: &BodyFile) -> Option<Vec<WornLayer>> {
+    let parts = parts_of(which, body);
+    if parts.iter().all(|part| part.coefficient.is_none()) {
+        return None;
+    }
+    if let (Some(own), true) = (&body.wear_coefficient, body.substrate.is_some()) {
+        return judge.refuse(
+            own.span(),
+            format!("{which}.wear_coefficient: beside a substrate it belongs into the substrate"),
+            "substrate = { ..., wear_coefficient = ... }",
+        );
+    }
+    let mut layers = Vec::new();
+    for part in &parts {
+        let place = &part.place;
+        let coefficient = match part.coefficient {
+            None if part.may_lack => 0.0,
+            None => {
+                return judge.refuse(
+                    part.span.clone(),
+                    format!("{place}: no wear_coefficient, but another part of this body has one"),
+                    "of all layers and what they lie on, or of none; 0 of one that does not wear",
+                );
+            }
+            Some(given) => *given.get_ref(),
+        };
+        if !(coefficient.is_finite() && coefficient >= 0.0) {
+            let message =
+                format!("{place}.wear_coefficient = {coefficient:?}: must be zero or positive and finite");
+            return judge.refuse(part.coefficient.map_or(0..0, Spanned::span), message, "");
+        }
+        layers.push(WornLayer { thickness: part.thickness, coefficient });
+    }
+    Some(layers)
+}
+
+fn limit(
+    judge: &mut Judge,
+    file: &WearFile,
+    (bodies, files): (Option<&ContactPair>, [(&str, &BodyFile); 2]),
+    layers: Option<&WearLayers>,
+) -> Option<f64> {
     match (&file.limit, &file.through_coating_of) {
         (None, None) => None,
         (Some(limit), Some(_)) => judge.refuse(
@@ -83,22 +240,89 @@ fn limit(judge: &mut Judge, file: &WearFile, bodies: Option<&ContactPair>) -> Op
         }
         (None, Some(which)) => {
             let bodies = bodies?;
-            let body = match which.get_ref() {
-                WornBodyFile::Upper => bodies.upper(),
-                WornBodyFile::Lower => bodies.lower(),
+            let (number, body) = match which.get_ref() {
+                WornBodyFile::Lower => (0, bodies.lower()),
+                WornBodyFile::Upper => (1, bodies.upper()),
             };
-            let coating = match body {
-                Body::Rigid => None,
-                Body::Elastic(half_space) => half_space.coatings().first(),
-            };
-            match coating {
-                Some(coating) => Some(coating.thickness()),
-                None => judge.refuse(
+            let coated = matches!(body, Body::Elastic(half_space) if !half_space.coatings().is_empty());
+            // As it is written: a graded one is many layers in the half-space.
+            let written = files[number].1.coatings.as_ref().and_then(|list| list.get_ref().first());
+            let Some(written) = written.filter(|_| coated) else {
+                return judge.refuse(
                     which.span(),
                     "wear.through_coating_of: this body has no coating",
                     "wear.limit = ... ends the run at a depth of your choice",
+                );
+            };
+            let thickness = *written.get_ref().thickness.get_ref();
+            let Some(layers) = layers else { return Some(thickness) };
+            match layers.when_body_has_lost(number, thickness) {
+                Some(worn) => Some(worn.depth()),
+                None => judge.refuse(
+                    which.span(),
+                    "wear.through_coating_of: this coating does not wear",
+                    "a positive wear_coefficient of this coating",
                 ),
             }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::case::Case;
+
+    fn read([upper, coating, substrate, wear]: [&str; 4]) -> Result<Case, String> {
+        let text = format!(
+            "[grid]\ncells = [16, 16]\nsize = [3.0, 3.0]\n[upper]\nrigid = true\n{upper}\n[lower]\n\
+             coatings = [{{ thickness = 0.5, young = 2.0, poisson = 0.3{coating} }}]\n\
+             substrate = {{ young = 1.0, poisson = 0.3{substrate} }}\n[profile.sphere]\nradius = 100.0\n\
+             [friction]\ncoefficient = 0.3\n{wear}\n[[load]]\nnormal_force = 0.01\nincrements = 1\n\
+             [[load]]\ntangential_force = [1e-3, 0.0]\nincrements = 8\ncycles = 1\n"
+        );
+        Case::from_toml(&text, "case.toml").map_err(|error| error.to_string())
+    }
+
+    const FILM: &str = ", wear_coefficient = 2.0";
+    const BASE: &str = ", wear_coefficient = 0.5";
+
+    #[test]
+    fn coefficients_of_layers_are_read() {
+        let wear = "[wear]\ntolerance = 0.1\nthinning_tolerance = 0.2\nthrough_coating_of = \"lower\"";
+        let rule = read(["wear_coefficient = 1.0", FILM, BASE, wear]).unwrap().wear.unwrap();
+        let [lower, upper] = rule.layers.as_ref().unwrap().bodies();
+        assert_eq!((lower[0].thickness, lower[0].coefficient, lower[1].coefficient), (0.5, 2.0, 0.5));
+        assert!(lower[1].thickness.is_infinite() && upper[0].coefficient == 1.0);
+        assert_eq!((rule.coefficient, rule.every, rule.largest_rate()), (None, 1_000_000, 3.0));
+        assert_eq!((rule.tolerance, rule.thinning_tolerance), (Some(0.1), Some(0.2)));
+        // Through 0.5 of the coating the other body has lost half as much.
+        assert!((rule.limit.unwrap() - 0.75).abs() < 1e-15);
+        let both = read(["", "", "", "[wear]\ncoefficient = 3.0"]).unwrap().wear.unwrap();
+        assert_eq!((both.coefficient, both.every, both.layers), (Some(3.0), 1, None));
+    }
+
+    #[test]
+    fn what_cannot_wear_is_refused_with_words() {
+        for (words, message) in [
+            (["", FILM, "", "[wear]"], "lower.substrate: no wear_coefficient"),
+            (["", FILM, BASE, ""], "without a table [wear]"),
+            (["", "", "", "[wear]\nevery = 2"], "nothing says how much wears off"),
+            (["", FILM, BASE, "[wear]\ncoefficient = 1.0"], "both at once"),
+            (["wear_coefficient = -1.0", "", "", "[wear]"], "must be zero or positive"),
+            (["", "", "", "[wear]\ncoefficient = 1.0\nthinning_tolerance = 0.1"], "which body wears"),
+            (["", FILM, BASE, "[wear]\ntolerance = 0.0"], "must lie above 0"),
+            (["", FILM, BASE, "[wear]\nthinning_tolerance = 0.9"], "at 0.5 at the most"),
+            (
+                ["", ", wear_coefficient = 0.0", BASE, "[wear]\nthrough_coating_of = \"lower\""],
+                "does not wear",
+            ),
+            (
+                ["", FILM, BASE, "[wear]\nthinning_tolerance = 0.1\n[stress]\ndepths = [0.1]"],
+                "stress and wear",
+            ),
+        ] {
+            let error = read(words).unwrap_err();
+            assert!(error.contains(message), "{words:?}: {error}");
         }
     }
 }

@@ -1,19 +1,18 @@
 //! The vocabulary of the tables: every column of increments and of cycles with its name, its meaning, its unit and its value. The
 //! files of the command, the Python package and the reference page are made from it, so a new column is a line here.
 
-use super::cycle::{CycleRecord, CycleRegime, Drive};
 use super::records::StepRecord;
 use crate::solver::Regime;
 
-const NO_UNIT: &str = "";
-const RATIO: &str = "-";
-const ANGLE: &str = "rad";
+pub(super) const NO_UNIT: &str = "";
+pub(super) const RATIO: &str = "-";
+pub(super) const ANGLE: &str = "rad";
 const SECONDS: &str = "s";
-const LENGTH: &str = "length";
+pub(super) const LENGTH: &str = "length";
 const AREA: &str = "length^2";
-const VOLUME: &str = "length^3";
+pub(super) const VOLUME: &str = "length^3";
 const FORCE: &str = "force";
-const WORK: &str = "force x length";
+pub(super) const WORK: &str = "force x length";
 const PRESSURE: &str = "pressure";
 
 /// One number or word of a record.
@@ -44,7 +43,7 @@ pub enum Value<R: 'static> {
     Word(fn(&R) -> &'static str),
 }
 
-const fn count<R>(
+pub(super) const fn count<R>(
     name: &'static str,
     meaning: &'static str,
     unit: &'static str,
@@ -53,7 +52,7 @@ const fn count<R>(
     Column { name, meaning, unit, value: Value::Count(value) }
 }
 
-const fn real<R>(
+pub(super) const fn real<R>(
     name: &'static str,
     meaning: &'static str,
     unit: &'static str,
@@ -62,7 +61,7 @@ const fn real<R>(
     Column { name, meaning, unit, value: Value::Real(value) }
 }
 
-const fn real_or_none<R>(
+pub(super) const fn real_or_none<R>(
     name: &'static str,
     meaning: &'static str,
     unit: &'static str,
@@ -71,7 +70,7 @@ const fn real_or_none<R>(
     Column { name, meaning, unit, value: Value::RealOrNone(value) }
 }
 
-const fn truth<R>(
+pub(super) const fn truth<R>(
     name: &'static str,
     meaning: &'static str,
     unit: &'static str,
@@ -80,7 +79,7 @@ const fn truth<R>(
     Column { name, meaning, unit, value: Value::Truth(value) }
 }
 
-const fn word<R>(
+pub(super) const fn word<R>(
     name: &'static str,
     meaning: &'static str,
     unit: &'static str,
@@ -202,193 +201,12 @@ pub static STEP_COLUMNS: &[Column<StepRecord>] = &[
     ),
 ];
 
-/// Columns of the table of cycles, in its order: `cycles.csv`, and `history.cycles` in Python. Names are those of the record.
-pub static CYCLE_COLUMNS: &[Column<CycleRecord>] = &[
-    count("stage", "number of the stage, from 0", NO_UNIT, |cycle| cycle.stage),
-    count("cycle", "number of the cycle in its stage, from 1", NO_UNIT, |cycle| cycle.cycle),
-    count("first_increment", "first increment of the cycle", NO_UNIT, |cycle| cycle.first_increment),
-    count("last_increment", "last increment of the cycle", NO_UNIT, |cycle| cycle.last_increment),
-    count("stands_for", "cycles it represents: more than 1 with cycle jumps", NO_UNIT, |cycle| {
-        cycle.stands_for
-    }),
-    real("dissipated_energy", "dissipated energy W_d of this simulated cycle", WORK, |cycle| {
-        cycle.dissipated_energy
-    }),
-    word("drive", "tangential, or torsional", NO_UNIT, |cycle| drive_word(cycle.drive)),
-    real("direction", "direction of the tangential force's main axis, from x", ANGLE, |cycle| {
-        cycle.direction
-    }),
-    real("force_amplitude", "Q*: half the range of the force along it, or of the moment", NO_UNIT, |cycle| {
-        cycle.force_amplitude
-    }),
-    real(
-        "displacement_amplitude",
-        "delta*: half the range of the relative displacement along it, or of the twist",
-        NO_UNIT,
-        |cycle| cycle.displacement_amplitude,
-    ),
-    real("opening", "delta_0: loop half-width at the middle of the force range", NO_UNIT, |cycle| {
-        cycle.opening
-    }),
-    real_or_none("energy_ratio", "A = W_d / (4 Q* delta*)", RATIO, |cycle| cycle.energy_ratio),
-    real_or_none("sliding_ratio", "D = delta_0 / delta*", RATIO, |cycle| cycle.sliding_ratio),
-    real_or_none("stiffness", "slope of the loop directly after reversal", NO_UNIT, |cycle| cycle.stiffness),
-    word("regime", "sliding condition: full_stick, partial_slip, mixed or gross_slip", NO_UNIT, |cycle| {
-        cycle.regime.map_or("", cycle_regime_word)
-    }),
-    real("closure", "cycle-to-cycle change of tractions, forces and motions, relative", RATIO, |cycle| {
-        cycle.closure
-    }),
-    truth("steady", "whether the stage ended here because the cycle is steady", NO_UNIT, |cycle| {
-        cycle.steady
-    }),
-    real("worn_volume", "wear volume since the start of the history", VOLUME, |cycle| cycle.worn_volume),
-    real("max_worn_depth", "maximum wear depth after the cycle", LENGTH, |cycle| cycle.max_worn_depth),
-    count("last_cycle", "number in its stage of the last cycle it represents, from 1", NO_UNIT, |cycle| {
-        cycle.last_cycle
-    }),
-    real(
-        "total_dissipated_energy",
-        "dissipated energy since the start of the history, including the cycles represented by cycle jumps",
-        WORK,
-        |cycle| cycle.total_dissipated_energy,
-    ),
-    real_or_none(
-        "actuator_amplitude",
-        "half the range of the actuator's displacement along the axis of the force",
-        NO_UNIT,
-        |cycle| cycle.actuator_amplitude,
-    ),
-    real_or_none("actuator_energy_ratio", "A of the loop at the actuator", RATIO, |cycle| {
-        cycle.actuator_energy_ratio
-    }),
-    real_or_none("actuator_sliding_ratio", "D of the loop at the actuator", RATIO, |cycle| {
-        cycle.actuator_sliding_ratio
-    }),
-    real_or_none(
-        "actuator_stiffness",
-        "slope of the loop at the actuator directly after reversal",
-        NO_UNIT,
-        |cycle| cycle.actuator_stiffness,
-    ),
-    real(
-        "friction_coefficient",
-        "mean friction coefficient of the cycle over the contact at its end, weighted with the pressure",
-        RATIO,
-        |cycle| cycle.friction_coefficient,
-    ),
-    real_or_none(
-        "friction_change",
-        "largest change of the friction coefficient of a cell by this cycle and those it represents",
-        RATIO,
-        |cycle| cycle.friction_change,
-    ),
-    real_or_none(
-        "jump_error",
-        "estimated error of the friction coefficient of a cell by the cycle jump before this cycle, the largest",
-        RATIO,
-        |cycle| cycle.jump_error,
-    ),
-];
-
-fn regime_word(regime: Regime) -> &'static str {
+pub(super) fn regime_word(regime: Regime) -> &'static str {
     match regime {
         Regime::Apart => "apart",
         Regime::FullStick => "full_stick",
         Regime::PartialSlip => "partial_slip",
         Regime::GrossSlip => "gross_slip",
         Regime::Frictionless => "frictionless",
-    }
-}
-
-fn cycle_regime_word(regime: CycleRegime) -> &'static str {
-    match regime {
-        CycleRegime::FullStick => "full_stick",
-        CycleRegime::PartialSlip => "partial_slip",
-        CycleRegime::Mixed => "mixed",
-        CycleRegime::GrossSlip => "gross_slip",
-    }
-}
-
-fn drive_word(drive: Drive) -> &'static str {
-    match drive {
-        Drive::Tangential => "tangential",
-        Drive::Torsional => "torsional",
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use std::collections::BTreeSet;
-
-    use serde_json::json;
-
-    use super::*;
-
-    fn names<R>(columns: &[Column<R>]) -> BTreeSet<&'static str> {
-        let names: BTreeSet<_> = columns.iter().map(|column| column.name).collect();
-        assert_eq!(names.len(), columns.len(), "a name stands twice");
-        names
-    }
-
-    /// A cycle as JSON, as it goes to Python; each number is another one.
-    fn cycle() -> CycleRecord {
-        let all = json!({
-            "stage": 1, "cycle": 2, "first_increment": 3, "last_increment": 4, "stands_for": 5, "last_cycle": 6,
-            "dissipated_energy": 7.5, "total_dissipated_energy": 8.5, "drive": "torsional", "direction": 9.5,
-            "force_amplitude": 10.5, "displacement_amplitude": 11.5, "opening": 12.5, "energy_ratio": 13.5,
-            "sliding_ratio": 14.5, "stiffness": 15.5, "regime": "mixed", "closure": 16.5, "steady": true,
-            "worn_volume": 17.5, "max_worn_depth": 18.5, "actuator_amplitude": 19.5,
-            "actuator_energy_ratio": 20.5, "actuator_sliding_ratio": 21.5, "actuator_stiffness": 22.5,
-            "friction_coefficient": 23.5, "friction_change": 24.5, "jump_error": 25.5,
-        });
-        serde_json::from_value(all).unwrap()
-    }
-
-    #[test]
-    fn columns_of_cycles_are_the_entries_of_their_record() {
-        let record = cycle();
-        let entries = serde_json::to_value(&record).unwrap();
-        assert_eq!(names(CYCLE_COLUMNS), entries.as_object().unwrap().keys().map(String::as_str).collect());
-        for column in CYCLE_COLUMNS {
-            let value = match column.value {
-                Value::Count(of) => json!(of(&record)),
-                Value::Real(of) => json!(of(&record)),
-                Value::RealOrNone(of) => json!(of(&record)),
-                Value::Truth(of) => json!(of(&record)),
-                Value::Word(of) => json!(of(&record)),
-            };
-            assert_eq!(value, entries[column.name], "{}", column.name);
-        }
-    }
-
-    #[test]
-    fn words_are_those_that_are_stored() {
-        for regime in
-            [CycleRegime::FullStick, CycleRegime::PartialSlip, CycleRegime::Mixed, CycleRegime::GrossSlip]
-        {
-            assert_eq!(json!(cycle_regime_word(regime)), json!(regime));
-        }
-        for regime in
-            [Regime::Apart, Regime::FullStick, Regime::PartialSlip, Regime::GrossSlip, Regime::Frictionless]
-        {
-            assert_eq!(json!(regime_word(regime)), json!(regime));
-        }
-        for drive in [Drive::Tangential, Drive::Torsional] {
-            assert_eq!(json!(drive_word(drive)), json!(drive));
-        }
-    }
-
-    #[test]
-    fn names_and_meanings_go_into_a_table_of_commas() {
-        names(STEP_COLUMNS);
-        let told = STEP_COLUMNS.iter().map(|column| (column.name, column.meaning, column.unit));
-        for (name, meaning, unit) in
-            told.chain(CYCLE_COLUMNS.iter().map(|column| (column.name, column.meaning, column.unit)))
-        {
-            assert!(name.chars().all(|letter| letter.is_ascii_lowercase() || letter == '_'), "{name}");
-            assert!(!meaning.is_empty() && !meaning.contains('['), "{name}: the unit stands by itself");
-            assert!(!unit.contains(['[', ']']), "{name}");
-        }
     }
 }

@@ -84,6 +84,16 @@ pub struct CycleRecord {
     pub friction_change: Option<f64>,
     /// Estimated error of the coefficient of a cell by the cycle jump before this cycle, the largest [-].
     pub jump_error: Option<f64>,
+    /// Largest depth off the lower body [length]; of cases whose layers have wear coefficients, as the next.
+    pub lower_worn_depth: Option<f64>,
+    /// Largest depth off the upper body [length].
+    pub upper_worn_depth: Option<f64>,
+    /// Normal compliance, at the scale of the contact radius, of the most worn place of the contact less that of the least worn, over that
+    /// of the mean [-]: what one response for the whole contact leaves open. Of cases whose layers get thinner.
+    pub compliance_spread: Option<f64>,
+    /// Estimated error of the wear depth by the cycle jump before this cycle, relative to the depth of that jump [-]; with
+    /// `wear.tolerance`.
+    pub wear_jump_error: Option<f64>,
     /// Half of the range of the actuator's displacement along the direction of the force [length]; of a case with a machine that
     /// gives and a cycle driven tangentially, as what follows.
     pub actuator_amplitude: Option<f64>,

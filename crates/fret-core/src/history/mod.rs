@@ -3,6 +3,7 @@
 
 mod columns;
 mod cycle;
+mod cycle_columns;
 mod field_names;
 mod footprint;
 mod records;
@@ -10,11 +11,12 @@ mod start;
 pub mod warning;
 
 pub use crate::solver::{Regime, Residual, Work};
-pub use columns::{CYCLE_COLUMNS, Column, STEP_COLUMNS, Value};
+pub use columns::{Column, STEP_COLUMNS, Value};
 pub use cycle::{CycleRecord, CycleRegime, Drive, RunningCondition, SLIDING_ENERGY_RATIO, running_condition};
+pub use cycle_columns::CYCLE_COLUMNS;
 pub use field_names::{FIELDS, Field, FieldValues, ZONE_WORDS};
 pub use footprint::Footprint;
-pub use records::{History, KeptFields, StepRecord, WornThrough};
+pub use records::{History, KeptFields, StepRecord, WornByLayer, WornThrough};
 pub use start::Start;
 pub(crate) use start::{setting, way_of_solving};
 pub use warning::{Concern, Warning};

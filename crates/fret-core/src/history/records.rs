@@ -7,7 +7,7 @@ use serde_json::Value;
 use super::cycle::CycleRecord;
 use super::footprint::Footprint;
 use super::warning::Warning;
-use crate::model::{ContactPair, ContactState, SolvedState, SurfaceGrid, Zone};
+use crate::model::{ContactPair, ContactState, SolvedState, SurfaceGrid, WearLayers, Zone};
 use crate::solver::{Regime, Residual, Work, worst};
 
 /// One increment of the history. Units are those of the case.
@@ -117,6 +117,8 @@ pub struct History {
     pub cycles: Vec<CycleRecord>,
     /// Where and when the surfaces were worn to the limit; the history ends there.
     pub worn_through: Option<WornThrough>,
+    /// Volumes lost by the layers of both bodies; of cases whose layers have wear coefficients.
+    pub worn_by_layer: Option<WornByLayer>,
     /// Kept fields, in the order of the increments.
     pub fields: Vec<KeptFields>,
     /// The last state reached.
@@ -164,4 +166,28 @@ pub struct WornThrough {
     pub cell: [usize; 2],
     /// Its centre [length].
     pub place: [f64; 2],
+}
+
+/// Volumes lost by each layer of the bodies [length^3], from the surface down, the substrate last. Of a body that does not wear none.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct WornByLayer {
+    /// Of the lower body.
+    pub lower: Vec<f64>,
+    /// Of the upper body.
+    pub upper: Vec<f64>,
+}
+
+impl WornByLayer {
+    /// By layers, from the depth off both bodies together [length], in cells of an area [length^2].
+    pub fn new(layers: &WearLayers, depth: &Array2<f64>, cell_area: f64) -> Self {
+        let [mut lower, mut upper] = layers.bodies().map(|body| vec![0.0; body.len()]);
+        for depth in depth {
+            let lost = layers.by_layer(layers.at_depth(*depth).depths);
+            for (sum, lost) in [&mut lower, &mut upper].into_iter().zip(lost) {
+                sum.iter_mut().zip(lost).for_each(|(sum, depth)| *sum += depth);
+            }
+        }
+        lower.iter_mut().chain(&mut upper).for_each(|volume| *volume *= cell_area);
+        Self { lower, upper }
+    }
 }

@@ -31,6 +31,10 @@ pub const RING_CELLS: f64 = 1.0;
 /// in the next one is a tenth more dissipated energy.
 pub const FRICTION_CHANGE: f64 = 0.1;
 
+/// Compliance of the most worn place of a contact less that of the least worn, over that of the mean. The response is one for the whole
+/// contact; half of this is about its error at the ends.
+pub const COMPLIANCE_SPREAD: f64 = 0.1;
+
 /// What a warning is about; its name in files is stable.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
@@ -51,6 +55,8 @@ pub enum Concern {
     CoatingThinnerThanCell,
     /// Wear has taken a good part of the coating.
     WearDepthOverCoatingThickness,
+    /// Thickness of layers differs over the contact.
+    ComplianceSpread,
     /// Friction changes much from one cycle to the next.
     FrictionChangesInOneCycle,
     /// The contact comes close to the edge of the grid.
@@ -71,6 +77,7 @@ impl Concern {
             Self::SteepTopography => "steep_topography",
             Self::CoatingThinnerThanCell => "coating_thinner_than_cell",
             Self::WearDepthOverCoatingThickness => "wear_depth_over_coating_thickness",
+            Self::ComplianceSpread => "compliance_spread",
             Self::FrictionChangesInOneCycle => "friction_changes_in_one_cycle",
             Self::ContactNearEdge => "contact_near_edge",
             Self::PressingInFewIncrements => "pressing_in_few_increments",
@@ -90,6 +97,9 @@ impl Concern {
             Self::SteepTopography => "root mean square slope of the topography",
             Self::CoatingThinnerThanCell => "coating thickness over the side of a cell",
             Self::WearDepthOverCoatingThickness => "wear depth over coating thickness",
+            Self::ComplianceSpread => {
+                "compliance of the most worn place less that of the least worn, relative"
+            }
             Self::FrictionChangesInOneCycle => {
                 "change of the friction coefficient of a cell in one cycle over the mean one"
             }
@@ -114,6 +124,7 @@ impl Concern {
             Self::SteepTopography => SLOPE,
             Self::CoatingThinnerThanCell => COATING_CELLS,
             Self::WearDepthOverCoatingThickness => WORN,
+            Self::ComplianceSpread => COMPLIANCE_SPREAD,
             Self::FrictionChangesInOneCycle => FRICTION_CHANGE,
             Self::ContactNearEdge => FREE_CELLS as f64,
             Self::PressingInFewIncrements => RING_CELLS,
@@ -139,6 +150,9 @@ impl Concern {
                 "displacements are accurate, but stresses inside the coating are affected by the cell-wise constant tractions"
             }
             Self::WearDepthOverCoatingThickness => "the elastic response stays that of the unworn coating",
+            Self::ComplianceSpread => {
+                "the elastic response is that of the mean thickness all over the contact"
+            }
             Self::FrictionChangesInOneCycle => "the coefficient is constant within each cycle",
             Self::ContactNearEdge => "the contact edge and area cannot be evaluated there",
             Self::PressingInFewIncrements => {
@@ -162,6 +176,7 @@ impl Concern {
             Self::SteepTopography => "check the unit of the heights and the size of the grid",
             Self::CoatingThinnerThanCell => "more cells or a smaller grid, where such stresses matter",
             Self::WearDepthOverCoatingThickness => "wear.limit = ... ends the run sooner",
+            Self::ComplianceSpread => "take it as an error bar on the compliance, or end the run sooner",
             Self::FrictionChangesInOneCycle => {
                 "check the unit of friction.evolution.scale or of its table, which are energy by area, a length or cycles"
             }

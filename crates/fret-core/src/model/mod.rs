@@ -21,6 +21,7 @@ pub mod slip_increment;
 pub mod state;
 pub mod symmetry;
 pub mod wear;
+pub mod wear_layers;
 
 pub use crate::fields::TangentialField;
 pub use accumulated::AccumulatedSlip;
@@ -43,3 +44,4 @@ pub use shape::{Axis, ProfileError, Shape};
 pub use state::{ContactState, SolvedState, Zone};
 pub use symmetry::Symmetry;
 pub use wear::{WearLaw, WearRule};
+pub use wear_layers::{WearLayers, Worn, WornLayer, thinned};

@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 use super::friction::CoulombFriction;
 use super::slip_increment::add_dissipation;
 use super::state::ContactState;
+use super::wear_layers::WearLayers;
 
 /// What the worn depth follows.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
@@ -18,22 +19,40 @@ pub enum WearLaw {
 }
 
 /// How surfaces wear, and how many cycles a computed one stands for.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct WearRule {
     /// What the depth follows.
     pub law: WearLaw,
-    /// Depth for pressure times slip, or for dissipated energy by area [1/pressure].
-    pub coefficient: f64,
+    /// Depth off both bodies together for pressure times slip, or for dissipated energy by area [1/pressure]; `None` where each layer has
+    /// its own.
+    pub coefficient: Option<f64>,
+    /// Layers that wear, each by its own coefficient.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub layers: Option<WearLayers>,
     /// Cycles that a computed one stands for, at the most.
     pub every: usize,
     /// Depth of such a block of cycles relative to the approach, at the most.
     pub largest_step: f64,
     /// Depth at which the run ends [length].
     pub limit: Option<f64>,
+    /// Error of the depth of such a block relative to that depth, at the most; `None`: not looked at.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub tolerance: Option<f64>,
+    /// Change of the thickness of the layer at the surface, relative to it, from which on the elastic response is found anew; `None`: it
+    /// stays that of the unworn bodies.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub thinning_tolerance: Option<f64>,
 }
 
 impl WearRule {
-    /// Adds the depth [length] worn between two states that follow each other under a friction law. Only slipping cells have slip.
+    /// The largest coefficient that can be in force, of both bodies together [1/pressure].
+    pub fn largest_rate(&self) -> f64 {
+        let of_layers = || self.layers.as_ref().map_or(0.0, WearLayers::largest_rate);
+        self.coefficient.unwrap_or_else(of_layers)
+    }
+
+    /// Adds the depth [length] worn between two states that follow each other under a friction law; where each layer has a coefficient of
+    /// its own, the work by area [pressure x length] that they wear by. Only slipping cells have slip.
     pub fn add(
         &self,
         before: &ContactState,
@@ -44,7 +63,7 @@ impl WearRule {
         for axis in 0..2 {
             debug_assert_eq!(before.slip[axis].dim(), depth.dim());
         }
-        let k = self.coefficient;
+        let k = self.coefficient.unwrap_or(1.0);
         match self.law {
             WearLaw::Energy => add_dissipation(before, after, friction, k, depth),
             WearLaw::Archard => {

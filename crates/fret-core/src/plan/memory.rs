@@ -11,6 +11,8 @@ pub const PLANNING: usize = 48;
 
 /// Bytes a cell of the fields that wear collects.
 const WEAR: usize = 50;
+/// Bytes a cell of influence coefficients that are found while those before are in use.
+const THINNING: usize = 48;
 /// Bytes a cell of friction that evolves: what is accumulated in two states, collected in a cycle and kept of the last one, the law twice
 /// and its part in front of the mirrors.
 const EVOLVING: usize = 110;
@@ -49,7 +51,10 @@ fn bytes_per_cell(coupling: Coupling, periodic: bool) -> [usize; 2] {
 /// itself takes decides, and a contact that leaves more room takes less.
 pub fn of_run(case: &Case, grid: &SurfaceGrid, coupling: Coupling, symmetry: Symmetry) -> usize {
     let [whole, in_front] = bytes_per_cell(coupling, case.periodic);
-    let worn = if case.wear.is_some() { WEAR } else { 0 };
+    let worn = case.wear.as_ref().map_or(0, |wear| match wear.thinning_tolerance {
+        None => WEAR,
+        Some(_) => WEAR + THINNING,
+    });
     let evolving = if case.friction_evolution.is_some() { EVOLVING } else { 0 };
     let frictions = case.stages.iter().filter_map(|stage| stage.friction.as_ref()).chain([&case.friction]);
     let maps = frictions.filter(|friction| friction.is_map()).count() + case.profile.heights.len();

@@ -92,7 +92,7 @@ impl Plan {
         let response = PairResponse::new(&case.bodies);
         let sheared = |state: &ContactState| state.shear.iter().flatten().any(|shear| *shear != 0.0);
         let frictionless = case.is_frictionless() && !state.is_some_and(sheared);
-        let uncoupled = frictionless || response.is_uncoupled();
+        let uncoupled = frictionless || response.is_uncoupled() && !becomes_dissimilar(&case);
         let coupling = if frictionless && leave_out.takes(Simplification::Tangential) {
             Coupling::Frictionless
         } else if uncoupled && leave_out.takes(Simplification::Coupling) {
@@ -213,6 +213,13 @@ fn mirrors(
     } else {
         Symmetry::NONE
     }
+}
+
+/// Whether bodies that are similar now need not stay so, since their coatings wear thinner.
+fn becomes_dissimilar(case: &Case) -> bool {
+    let thins = case.wear.as_ref().is_some_and(|wear| wear.thinning_tolerance.is_some());
+    let coated = |body: &Body| matches!(body, Body::Elastic(half_space) if !half_space.coatings().is_empty());
+    thins && (coated(case.bodies.upper()) || coated(case.bodies.lower()))
 }
 
 /// Whether both bodies are there in any cell.

@@ -8,6 +8,7 @@ use serde_json::Value;
 
 use super::evolving::CollectedSlip;
 use super::fretting_loop::FrettingLoop;
+use super::thinning::mean_depths;
 use super::wear::Collected;
 use crate::case::{Case, Stage};
 use crate::history::{Start, WornThrough};
@@ -16,7 +17,7 @@ use crate::plan::Plan;
 use crate::solver::{Resultants, SolverMemory};
 
 /// Version of the bytes; another layout of what is stored gets another one.
-const FORMAT: u32 = 8;
+const FORMAT: u32 = 9;
 
 /// How far a run has come in its stages.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -168,7 +169,11 @@ impl Checkpoint {
         if wears {
             state.worn_depth.get_or_insert_with(|| Array2::zeros(cells));
         }
-        let wear = wears.then(|| Collected::nothing(cells));
+        let wear = plan.case.wear.as_ref().map(|rule| {
+            let layers = rule.layers.as_ref().filter(|_| rule.thinning_tolerance.is_some());
+            let thinned = layers.map_or([0.0; 2], |layers| mean_depths(layers, &state));
+            Collected::nothing(cells, rule.layers.clone()).thinned_by(thinned)
+        });
         let evolves = plan.case.friction_evolution.is_some();
         if evolves {
             state.accumulated.get_or_insert_with(|| AccumulatedSlip::none(cells));
@@ -211,8 +216,9 @@ impl Checkpoint {
     pub fn start_of(bytes: &[u8], plan: &Value) -> Result<Start, CheckpointError> {
         let Self { place, state, memory, wear, slip, .. } = Self::decoded(bytes)?;
         let solved = solved_state(&place, &state, wear.as_ref(), slip.as_ref());
-        // What an unfinished cycle has worn opens the gap, and the solver remembers another one.
-        let same_gap = wear.is_none_or(|wear| wear.depth().iter().all(|depth| *depth == 0.0));
+        // What an unfinished cycle has worn opens the gap, and the solver remembers another one; so it does of thinner layers, whose
+        // thickness another history finds for itself.
+        let same_gap = wear.is_none_or(|wear| wear.is_empty() && wear.thinned() == [0.0; 2]);
         Start::new(plan, solved, same_gap.then_some(memory)).ok_or(CheckpointError::Foreign)
     }
 
@@ -264,7 +270,7 @@ pub(crate) fn solved_state(
     let Resultants { normal, tangential, moment, tilt_moment } = place.resultants;
     let mut state = state.clone();
     if let (Some(depth), Some(wear)) = (&mut state.worn_depth, wear) {
-        *depth += wear.depth();
+        wear.take_off(depth);
     }
     if let (Some(accumulated), Some(slip)) = (&mut state.accumulated, slip) {
         accumulated.add_times(slip.of_cycle(), 1);

@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use super::evolving::Evolved;
 use super::recording::mean_coefficient;
+use super::thinning::LayersWorn;
 use crate::fields::stored;
 use crate::history::{CycleRecord, CycleRegime, Drive, Regime, SLIDING_ENERGY_RATIO, StepRecord};
 use crate::model::{ContactState, CoulombFriction, Rig};
@@ -55,6 +56,10 @@ pub struct CycleEnd {
     pub worn: [f64; 2],
     /// What became of friction, where it evolves.
     pub evolved: Option<Evolved>,
+    /// What is known of the layers that wear.
+    pub layers: Option<LayersWorn>,
+    /// Relative error of the wear depth by the cycle jump before, where it is looked at.
+    pub wear_jump_error: Option<f64>,
     /// The machine, where it gives.
     pub rig: Option<Rig>,
 }
@@ -92,6 +97,11 @@ impl FrettingLoop {
         self.stage == stage
             && self.points.len() == self.regimes.len() + 1
             && [pressure, x, y].iter().all(|field| field.dim() == cells.into())
+    }
+
+    /// Area of contact after the last increment [length^2].
+    pub fn contact_area(&self) -> f64 {
+        self.contact_area
     }
 
     /// Adds an increment.
@@ -163,6 +173,10 @@ impl FrettingLoop {
             friction_coefficient: mean_coefficient(friction, &state.pressure),
             friction_change: end.evolved.map(|evolved| evolved.change),
             jump_error: end.evolved.map(|evolved| evolved.jump_error),
+            lower_worn_depth: end.layers.map(|layers| layers.depths[0]),
+            upper_worn_depth: end.layers.map(|layers| layers.depths[1]),
+            compliance_spread: end.layers.and_then(|layers| layers.compliance_spread),
+            wear_jump_error: end.wear_jump_error,
             actuator_amplitude: at_actuator.as_ref().map(|far| far.displacement_amplitude),
             actuator_energy_ratio: moving.map(|far| dissipated_energy / (4.0 * far.work_scale())),
             actuator_sliding_ratio: moving.map(|far| far.opening / far.displacement_amplitude),

@@ -3,18 +3,20 @@
 use std::time::Instant;
 
 use super::checkpoint::{Place, Waypoint, solved_state};
-use super::evolving::{Evolved, Evolving};
+use super::evolving::Evolving;
 use super::fretting_loop::{CycleEnd, FrettingLoop};
 use super::observer::{Iteration, Observer};
+use super::pair_compliance::PairCompliance;
 use super::plausibility::Gauge;
 use super::recording::{copied, kept, record};
 use super::refinement::{DivisionError, Refinement, Span, in_halves};
-use super::run_error::{RunError, run_error};
+use super::run_error::{RunError, run_error, too_thin};
 use super::stepping::StageSteps;
-use super::surfaces::Surfaces;
+use super::surfaces::{Block, Surfaces};
+use super::thinning::{LayersWorn, bodies_left, due, layers_worn};
 use super::wear::{Wearing, worn};
 use crate::case::{Case, Stage};
-use crate::history::{CycleRecord, History, KeptFields, StepRecord, WornThrough};
+use crate::history::{CycleRecord, History, KeptFields, StepRecord, WornByLayer, WornThrough};
 use crate::model::{CoulombFriction, LoadStep, SolvedState};
 use crate::plan::{Coupling, Plan};
 use crate::solver::{ContactSolver, Resultants};
@@ -72,6 +74,10 @@ impl<'a> Journey<'a> {
             }
         };
         self.history.worn_through = self.place.worn_through;
+        let layers = self.case().wear.as_ref().and_then(|rule| rule.layers.as_ref());
+        self.history.worn_by_layer = layers
+            .zip(self.history.state.worn_depth.as_ref())
+            .map(|(layers, depth)| WornByLayer::new(layers, depth, self.plan.grid.cell_area()));
         self.history.warnings = self.gauge.warnings(self.plan);
         self.history.end = self.solved_state().beside(|_| true);
         (self.history, outcome)
@@ -251,7 +257,8 @@ impl<'a> Journey<'a> {
     /// cycle's loop.
     fn cycle_over(&mut self, stage: &Stage, increment: usize) -> Result<Option<CycleRecord>, RunError> {
         let friction_before = self.cycle.as_ref().map(|_| self.friction().clone());
-        let (stands_for, evolved) = self.change_surfaces(stage, increment)?;
+        let block = self.change_surfaces(stage, increment)?;
+        let Block { cycles: stands_for, evolved, .. } = block;
         self.place.cycles += stands_for;
         let (Some(cycle), Some(course)) = (&self.cycle, stage.cycles()) else { return Ok(None) };
         let end = CycleEnd {
@@ -261,6 +268,8 @@ impl<'a> Journey<'a> {
             tolerance: course.until_steady,
             worn: worn(&self.history.state, &self.plan.grid),
             evolved,
+            layers: self.layers_worn(cycle.contact_area()),
+            wear_jump_error: block.wear_jump_error,
         };
         let friction = friction_before.as_ref().unwrap_or_else(|| self.friction());
         let record = cycle.close(&self.history.state, friction, end);
@@ -270,13 +279,28 @@ impl<'a> Journey<'a> {
         Ok(Some(record))
     }
 
-    /// Opens the gap and changes friction by what slip has done since the last time; the number of cycles that stands for, and what became
-    /// of friction.
-    fn change_surfaces(
-        &mut self,
-        stage: &Stage,
-        increment: usize,
-    ) -> Result<(usize, Option<Evolved>), RunError> {
+    /// What is known of the layers that wear.
+    fn layers_worn(&self, contact_area: f64) -> Option<LayersWorn> {
+        let rule = self.surfaces.wearing.as_ref()?.rule();
+        layers_worn(self.plan, rule, &self.history.state, contact_area)
+    }
+
+    /// Finds the elastic response anew where layers have become thinner.
+    fn thin(&mut self) -> Result<(), RunError> {
+        let Some(wearing) = &mut self.surfaces.wearing else { return Ok(()) };
+        let Some(depths) = due(wearing.rule(), wearing.collected().thinned(), &self.history.state) else {
+            return Ok(());
+        };
+        let case = &self.plan.case;
+        let bodies = bodies_left(self.plan, depths).map_err(|reason| too_thin(case, &self.place, reason))?;
+        let compliance = PairCompliance::of_bodies(self.plan, &bodies);
+        wearing.set_thinned(depths, compliance.response.own_normal(case.cells));
+        self.solver.set_response(compliance.response, compliance.table);
+        Ok(())
+    }
+
+    /// Opens the gap, thins the bodies and changes friction by what slip has done since the last time.
+    fn change_surfaces(&mut self, stage: &Stage, increment: usize) -> Result<Block, RunError> {
         let left = stage.cycles().map_or(1, |course| course.most - self.place.cycles);
         let of_cycle = stage.cycles().is_some();
         let state = &mut self.history.state;
@@ -288,6 +312,9 @@ impl<'a> Journey<'a> {
         {
             self.solver.set_gap(wearing.gap(depth));
         }
+        if block.opened && block.through.is_none() {
+            self.thin()?;
+        }
         if let Some(evolving) = &self.surfaces.evolving {
             self.solver.take_friction(evolving.friction().clone());
         }
@@ -298,6 +325,6 @@ impl<'a> Journey<'a> {
             cell,
             place: [self.plan.grid.centre(0, cell[0]), self.plan.grid.centre(1, cell[1])],
         });
-        Ok((block.cycles, block.evolved))
+        Ok(block)
     }
 }

@@ -15,6 +15,7 @@ mod run_error;
 mod simulation;
 mod stepping;
 mod surfaces;
+mod thinning;
 mod wear;
 
 pub use checkpoint::{Checkpoint, CheckpointError, Waypoint};

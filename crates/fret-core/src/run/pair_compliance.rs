@@ -9,6 +9,7 @@ use crate::kernel::{
     Components, PairResponse, ResponseTable, coefficients_of, influence_coefficients, line_coefficients_of,
     periodic_symbols, symbols_of,
 };
+use crate::model::ContactPair;
 use crate::plan::{Coupling, Plan, Simplification};
 
 /// How a pair answers tractions on the grid of a plan.
@@ -23,7 +24,12 @@ pub struct PairCompliance {
 impl PairCompliance {
     /// That of a plan.
     pub fn of(plan: &Plan) -> Self {
-        Self { response: response(plan), table: table(plan) }
+        Self::of_bodies(plan, &plan.case.bodies)
+    }
+
+    /// That of other bodies on the grid of a plan.
+    pub fn of_bodies(plan: &Plan, bodies: &ContactPair) -> Self {
+        Self { response: response(plan, bodies), table: table(plan, bodies) }
     }
 
     /// All that it depends on.
@@ -39,7 +45,7 @@ impl PairCompliance {
     }
 }
 
-fn response(plan: &Plan) -> SurfaceResponse {
+fn response(plan: &Plan, bodies: &ContactPair) -> SurfaceResponse {
     let case = &plan.case;
     let wanted = match plan.coupling {
         Coupling::Frictionless => Components::NORMAL,
@@ -49,29 +55,22 @@ fn response(plan: &Plan) -> SurfaceResponse {
     let spacing = plan.grid.spacing();
     let plain = plan.leave_out.takes(Simplification::LayeredResponse);
     let [width, depth] = plan.grid.size();
-    let layered = || PairResponse::all_layers(&case.bodies, width.max(depth));
+    let layered = || PairResponse::all_layers(bodies, width.max(depth));
     if plan.grid.is_line() {
         let datum = plan.datum.unwrap_or(width);
-        let response = if plain { PairResponse::new(&case.bodies) } else { layered() };
+        let response = if plain { PairResponse::new(bodies) } else { layered() };
         let strips = case.cells[0];
         return SurfaceResponse::FreeSpace(line_coefficients_of(
-            &response,
-            &case.bodies,
-            strips,
-            spacing[0],
-            datum,
-            wanted,
+            &response, bodies, strips, spacing[0], datum, wanted,
         ));
     }
     match (case.periodic, plain) {
-        (true, true) => {
-            SurfaceResponse::Periodic(periodic_symbols(&case.bodies, case.cells, spacing, wanted, 0))
+        (true, true) => SurfaceResponse::Periodic(periodic_symbols(bodies, case.cells, spacing, wanted, 0)),
+        (true, false) => {
+            SurfaceResponse::Periodic(symbols_of(layered(), case.cells, spacing, wanted).with_uniform(bodies))
         }
-        (true, false) => SurfaceResponse::Periodic(
-            symbols_of(layered(), case.cells, spacing, wanted).with_uniform(&case.bodies),
-        ),
         (false, true) => {
-            SurfaceResponse::FreeSpace(influence_coefficients(&case.bodies, case.cells, spacing, wanted))
+            SurfaceResponse::FreeSpace(influence_coefficients(bodies, case.cells, spacing, wanted))
         }
         (false, false) => {
             SurfaceResponse::FreeSpace(coefficients_of(&layered(), case.cells, spacing, wanted))
@@ -79,9 +78,9 @@ fn response(plan: &Plan) -> SurfaceResponse {
     }
 }
 
-fn table(plan: &Plan) -> Option<ResponseTable> {
+fn table(plan: &Plan, bodies: &ContactPair) -> Option<ResponseTable> {
     let [width, depth] = plan.grid.size();
     let [dx, dy] = plan.grid.spacing();
     let [least, greatest] = [TAU / width.max(depth), 5.0 * PI / dx.min(dy)];
-    (!plan.case.periodic).then(|| ResponseTable::new(&plan.case.bodies, least, greatest))
+    (!plan.case.periodic).then(|| ResponseTable::new(bodies, least, greatest))
 }

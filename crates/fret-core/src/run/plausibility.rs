@@ -110,6 +110,8 @@ pub struct Gauge {
     worn_depth: f64,
     /// Largest relative change of friction in a single cycle, and its stage.
     friction_change: Option<(f64, usize)>,
+    /// Largest spread of compliance over a contact that wears, and its stage.
+    spread: Option<(f64, usize)>,
 }
 
 /// The end of a stage.
@@ -162,6 +164,11 @@ impl Gauge {
 
     /// Reads a cycle.
     pub fn add_cycle(&mut self, record: &CycleRecord) {
+        if let Some(spread) = record.compliance_spread
+            && self.spread.is_none_or(|(most, _)| spread > most)
+        {
+            self.spread = Some((spread, record.stage));
+        }
         let Some(change) = record.friction_change.filter(|_| record.stands_for == 1) else { return };
         let change = change / record.friction_coefficient;
         if change.is_finite() && self.friction_change.is_none_or(|(most, _)| change > most) {
@@ -206,7 +213,11 @@ impl Gauge {
             &mut std::iter::once((coating / longer_side(plan), usize::MAX)),
         );
         let last = self.ends.last().map_or(usize::MAX, |end| end.stage);
-        look(Concern::WearDepthOverCoatingThickness, &mut std::iter::once((self.worn_depth / coating, last)));
+        if plan.case.wear.as_ref().is_none_or(|wear| wear.thinning_tolerance.is_none()) {
+            let worn = self.worn_depth / coating;
+            look(Concern::WearDepthOverCoatingThickness, &mut std::iter::once((worn, last)));
+        }
+        look(Concern::ComplianceSpread, &mut self.spread.into_iter());
         look(Concern::FrictionChangesInOneCycle, &mut self.friction_change.into_iter());
         if !plan.case.periodic {
             look(Concern::ContactNearEdge, &mut touching().map(|end| (end.free as f64, end.stage)));

@@ -1,5 +1,6 @@
 //! Why a run ends without its answer.
 
+use super::checkpoint::Place;
 use crate::case::{Case, Units, apart};
 use crate::machine::memory::MemoryError;
 use crate::solver::SolveError;
@@ -112,6 +113,18 @@ pub enum RunError {
         /// Share of a cell's pressure that the cell's own compliance gives up.
         share: f64,
     },
+    /// Layers are worn so thin that their elastic response cannot be followed.
+    #[error(
+        "increment {increment} ({stage}): the layers cannot be followed any further: {reason}; wear.limit = ... ends the run before"
+    )]
+    WornTooThin {
+        /// Number of the cycle's last increment, from 0.
+        increment: usize,
+        /// Name of its stage.
+        stage: String,
+        /// Why.
+        reason: String,
+    },
     /// There is not the memory for the run, or for the fields that it keeps.
     #[error("increment {increment}: {error}")]
     OutOfMemory {
@@ -139,10 +152,17 @@ impl RunError {
             | Self::NoTilt { increment, .. }
             | Self::HistoryUnresolved { increment, .. }
             | Self::WearTooFast { increment, .. }
+            | Self::WornTooThin { increment, .. }
             | Self::OutOfMemory { increment, .. }
             | Self::Interrupted { increment } => *increment,
         }
     }
+}
+
+/// That layers are worn too thin in the increment before a place.
+pub fn too_thin(case: &Case, place: &Place, reason: &str) -> RunError {
+    let stage = case.stages.get(place.stage).map_or_else(String::new, |stage| stage.name.clone());
+    RunError::WornTooThin { increment: place.solved, stage, reason: reason.to_owned() }
 }
 
 /// What a solver's error means for increment `increment` of stage `stage` of a case.

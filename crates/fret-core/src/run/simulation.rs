@@ -10,8 +10,9 @@ use super::journey::Journey;
 use super::observer::Observer;
 use super::pair_compliance::PairCompliance;
 use super::plausibility::Gauge;
-use super::run_error::RunError;
+use super::run_error::{RunError, too_thin};
 use super::surfaces::Surfaces;
+use super::thinning::bodies_left;
 use super::wear::{Collected, Wearing};
 use crate::history::History;
 use crate::machine::memory::{Claim, claim};
@@ -110,6 +111,7 @@ impl<'a> Simulation<'a> {
             steps: Vec::new(),
             cycles: Vec::new(),
             worn_through: None,
+            worn_by_layer: None,
             fields: Vec::new(),
             end: solved_state(place, &state, wear, slip).beside(|_| true),
             state,
@@ -123,7 +125,12 @@ impl<'a> Simulation<'a> {
         let case = &plan.case;
         let Checkpoint { place, state, memory, cycle, wear, slip } = from;
         let history = self.history_from(&place, state, (wear.as_ref(), slip.as_ref()));
+        let thinned = wear.as_ref().map_or([0.0; 2], Collected::thinned);
         let compliance = match &self.compliance {
+            _ if thinned != [0.0; 2] => match bodies_left(plan, thinned) {
+                Ok(bodies) => PairCompliance::of_bodies(plan, &bodies),
+                Err(reason) => return (history, Err(too_thin(case, &place, reason))),
+            },
             Some(compliance) => PairCompliance::clone(compliance),
             None => PairCompliance::of(plan),
         };
@@ -135,6 +142,7 @@ impl<'a> Simulation<'a> {
         }
         let wearing = case
             .wear
+            .clone()
             .zip(wear)
             .map(|(rule, collected)| Wearing::new(rule, own, unworn, case.friction.clone(), collected));
         let evolution = case.friction_evolution.clone().zip(slip).zip(history.state.accumulated.as_ref());

@@ -25,6 +25,8 @@ pub struct Block {
     pub through: Option<[usize; 2]>,
     /// What became of friction.
     pub evolved: Option<Evolved>,
+    /// Relative error of the wear depth by the cycle jump before, where it is looked at.
+    pub wear_jump_error: Option<f64>,
 }
 
 impl Surfaces {
@@ -42,6 +44,9 @@ impl Surfaces {
     pub fn begin_stage(&mut self) {
         if let Some(evolving) = &mut self.evolving {
             evolving.begin_stage();
+        }
+        if let Some(wearing) = &mut self.wearing {
+            wearing.begin_stage();
         }
     }
 
@@ -73,10 +78,12 @@ impl Surfaces {
             }
             most = evolving.cycles(slipped, most);
         }
-        let mut block = Block { cycles: most, opened: false, through: None, evolved: None };
+        let mut block =
+            Block { cycles: most, opened: false, through: None, evolved: None, wear_jump_error: None };
         if let Some(wearing) = wearing {
             let worn = wearing.block(state, most)?;
             (block.cycles, block.through) = (worn.cycles, worn.through);
+            block.wear_jump_error = worn.jump_error;
             if let Some(depth) = &mut state.worn_depth
                 && worn.depth.iter().any(|depth| *depth > 0.0)
             {

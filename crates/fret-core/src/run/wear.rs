@@ -4,7 +4,8 @@ use ndarray::{Array2, Zip};
 use serde::{Deserialize, Serialize};
 
 use crate::fields::stored;
-use crate::model::{ContactState, CoulombFriction, SurfaceGrid, WearLaw, WearRule};
+use crate::model::slip_increment::add_path;
+use crate::model::{ContactState, CoulombFriction, SurfaceGrid, WearLaw, WearLayers, WearRule};
 
 /// Share of a cell's pressure that a block may take off at the most, as far as the cell's own compliance tells. Above 0.8
 /// neighbouring cells would take turns in carrying the load.
@@ -20,28 +21,70 @@ pub struct TooFast {
 /// Wear of increments, until the gap is opened by it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Collected {
-    /// Depth worn off [length].
+    /// Depth worn off [length], or the work that layers wear by [pressure x length].
     #[serde(with = "stored")]
-    depth: Array2<f64>,
+    wear: Array2<f64>,
     /// Length of the way slipped [length].
     #[serde(with = "stored")]
     path: Array2<f64>,
+    /// What the cycle before the last jump collected, where the error of jumps is looked at.
+    #[serde(with = "stored")]
+    last: Option<Array2<f64>>,
+    /// Cycles of that jump.
+    last_cycles: usize,
+    /// Depths off the lower and the upper body for which the elastic response in use was found [length].
+    thinned: [f64; 2],
+    /// Layers that wear, each by its own coefficient.
+    layers: Option<WearLayers>,
 }
 
 impl Collected {
     /// Nothing worn yet.
-    pub fn nothing(cells: [usize; 2]) -> Self {
-        Self { depth: Array2::zeros(cells), path: Array2::zeros(cells) }
+    pub fn nothing(cells: [usize; 2], layers: Option<WearLayers>) -> Self {
+        Self {
+            wear: Array2::zeros(cells),
+            path: Array2::zeros(cells),
+            last: None,
+            last_cycles: 0,
+            thinned: [0.0; 2],
+            layers,
+        }
     }
 
-    /// Depth worn off [length].
-    pub(crate) fn depth(&self) -> &Array2<f64> {
-        &self.depth
+    /// The same, of bodies whose elastic response was found for depths off the lower and the upper one [length].
+    pub fn thinned_by(self, thinned: [f64; 2]) -> Self {
+        Self { thinned, ..self }
+    }
+
+    /// Depths off the lower and the upper body for which the elastic response in use was found [length].
+    pub fn thinned(&self) -> [f64; 2] {
+        self.thinned
+    }
+
+    /// Whether anything has worn since the gap was opened last.
+    pub(crate) fn is_empty(&self) -> bool {
+        self.wear.iter().all(|wear| *wear == 0.0)
+    }
+
+    /// Takes off a depth what was collected, once.
+    pub(crate) fn take_off(&self, depth: &mut Array2<f64>) {
+        let layers = self.layers.as_ref();
+        Zip::from(depth).and(&self.wear).for_each(|depth, wear| *depth += deeper(layers, *depth, *wear));
     }
 
     /// Whether this was collected on a grid of `cells`.
     pub fn fits(&self, cells: [usize; 2]) -> bool {
-        [&self.depth, &self.path].iter().all(|field| field.dim() == cells.into())
+        [&self.wear, &self.path].into_iter().chain(&self.last).all(|field| field.dim() == cells.into())
+            && self.thinned.iter().all(|depth| depth.is_finite() && *depth >= 0.0)
+    }
+}
+
+/// Depth [length] that what was collected takes off where `worn` is gone already.
+fn deeper(layers: Option<&WearLayers>, worn: f64, wear: f64) -> f64 {
+    match layers {
+        None => wear,
+        Some(_) if wear == 0.0 => 0.0,
+        Some(layers) => (layers.after(layers.at_depth(worn).work + wear).depth() - worn).max(0.0),
     }
 }
 
@@ -67,6 +110,8 @@ pub struct Block {
     pub depth: Array2<f64>,
     /// The deepest cell, when it has reached the limit.
     pub through: Option<[usize; 2]>,
+    /// Error of the depth by the jump before relative to the depth of that jump, where it is looked at.
+    pub jump_error: Option<f64>,
 }
 
 impl Wearing {
@@ -87,6 +132,22 @@ impl Wearing {
         self.friction.clone_from(friction);
     }
 
+    /// How surfaces wear.
+    pub fn rule(&self) -> &WearRule {
+        &self.rule
+    }
+
+    /// The bodies are found anew, for mean depths off the lower and the upper one; `own`: as in [`Wearing::new`].
+    pub fn set_thinned(&mut self, depths: [f64; 2], own: f64) {
+        self.collected.thinned = depths;
+        self.own = own;
+    }
+
+    /// Another stage: its cycles tell nothing of the jumps before.
+    pub fn begin_stage(&mut self) {
+        self.collected.last = None;
+    }
+
     /// What was collected since the gap was opened last.
     pub fn collected(&self) -> &Collected {
         &self.collected
@@ -99,13 +160,8 @@ impl Wearing {
 
     /// Adds the wear between two states that follow each other.
     pub fn add(&mut self, before: &ContactState, after: &ContactState) {
-        self.rule.add(before, after, &self.friction, &mut self.collected.depth);
-        let slip_y = &after.slip[1] - &before.slip[1];
-        Zip::from(&mut self.collected.path)
-            .and(&after.slip[0])
-            .and(&before.slip[0])
-            .and(&slip_y)
-            .for_each(|path, now, then, y| *path += (now - then).hypot(*y));
+        self.rule.add(before, after, &self.friction, &mut self.collected.wear);
+        add_path(before, after, &mut self.collected.path);
     }
 
     /// The block that the wear collected so far stands for, at the most `most` cycles; collecting starts anew.
@@ -122,37 +178,93 @@ impl Wearing {
                 WearLaw::Energy => path * self.friction.at(i, j),
             })
             .fold(0.0, f64::max)
-            * self.rule.coefficient
+            * self.rule.largest_rate()
             / self.own;
         if softening > STABLE_SHARE {
             return Err(TooFast { share: softening });
         }
-        let deepest = self.collected.depth.iter().copied().fold(0.0, f64::max);
+        let worn = |cell: (usize, usize)| state.worn_depth.as_ref().map_or(0.0, |worn| worn[cell]);
+        let rule = &self.rule;
+        let of_cycles = |cycles: f64| {
+            let mut depth = &self.collected.wear * cycles;
+            if rule.layers.is_some() {
+                let layers = rule.layers.as_ref();
+                depth.indexed_iter_mut().for_each(|(cell, wear)| *wear = deeper(layers, worn(cell), *wear));
+            }
+            depth
+        };
+        let deepest = of_cycles(1.0).into_iter().fold(0.0, f64::max);
         let within =
             |bound: f64, each: f64| if each > 0.0 { (bound / each).floor() as usize } else { usize::MAX };
         let mut cycles = most
-            .min(self.rule.every)
+            .min(rule.every)
             .min(within(STABLE_SHARE, softening))
-            .min(within(self.rule.largest_step * state.approach.abs(), deepest))
+            .min(within(rule.largest_step * state.approach.abs(), deepest))
+            .min(self.within_tolerance())
             .max(1);
-        let worn = |cell: (usize, usize)| state.worn_depth.as_ref().map_or(0.0, |worn| worn[cell]);
-        if let Some(limit) = self.rule.limit {
-            for (cell, each) in self.collected.depth.indexed_iter().filter(|(_, each)| **each > 0.0) {
-                let needed = ((limit - worn(cell)) / each).ceil().max(1.0);
+        if let Some(limit) = rule.limit {
+            for (cell, each) in self.collected.wear.indexed_iter().filter(|(_, each)| **each > 0.0) {
+                let needed = (self.left_to(limit, worn(cell)) / each).ceil().max(1.0);
                 cycles = cycles.min(needed as usize);
             }
         }
-        let depth = &self.collected.depth * cycles as f64;
+        let depth = of_cycles(cycles as f64);
         let mut deepest = ([0, 0], 0.0);
         for (cell, more) in depth.indexed_iter() {
             if worn(cell) + more > deepest.1 {
                 deepest = ([cell.0, cell.1], worn(cell) + more);
             }
         }
-        let through = self.rule.limit.filter(|limit| deepest.1 >= *limit).map(|_| deepest.0);
-        self.collected.depth.fill(0.0);
-        self.collected.path.fill(0.0);
-        Ok(Block { cycles, depth, through })
+        // Depths through layers are rounded.
+        let rounding = if rule.layers.is_some() { 1e-12 } else { 0.0 };
+        let through = rule.limit.filter(|limit| deepest.1 >= *limit * (1.0 - rounding)).map(|_| deepest.0);
+        let jump_error = rule.tolerance.map(|_| self.jump_error());
+        let Collected { wear, path, last, last_cycles, .. } = &mut self.collected;
+        *last = rule.tolerance.map(|_| wear.clone());
+        *last_cycles = cycles;
+        wear.fill(0.0);
+        path.fill(0.0);
+        Ok(Block { cycles, depth, through, jump_error })
+    }
+
+    /// What has to be collected in a cell until the depth there is at a limit.
+    fn left_to(&self, limit: f64, worn: f64) -> f64 {
+        let Some(layers) = &self.rule.layers else { return limit - worn };
+        let at_limit = layers.at_depth(limit);
+        if at_limit.depth() < limit * (1.0 - 1e-12) {
+            return f64::INFINITY; // what lies above does not wear
+        }
+        at_limit.work - layers.at_depth(worn).work
+    }
+
+    /// Change of what a cycle collects since the cycle before the last jump, and what that collected: the largest of all cells, each.
+    fn change(&self) -> Option<[f64; 2]> {
+        let last = self.collected.last.as_ref()?;
+        let pairs = || self.collected.wear.iter().zip(last);
+        let change = pairs().map(|(now, then)| (now - then).abs()).fold(0.0, f64::max);
+        Some([change, last.iter().copied().fold(0.0, f64::max)])
+    }
+
+    /// Error of the depth by the last jump, relative to that depth. It took the wear of its `n` cycles for that of the first; had it changed
+    /// evenly to what it is in the cycle after them, all would have had `(n - 1) / 2` times the change more.
+    fn jump_error(&self) -> f64 {
+        let cycles = self.collected.last_cycles as f64;
+        match self.change() {
+            Some([change, each]) if each > 0.0 => 0.5 * (cycles - 1.0) * change / (cycles * each),
+            _ => 0.0,
+        }
+    }
+
+    /// Cycles of the next jump whose error is within the tolerance when wear goes on to change as over the last jump.
+    fn within_tolerance(&self) -> usize {
+        let Some(tolerance) = self.rule.tolerance else { return usize::MAX };
+        let Some([change, _]) = self.change() else { return 1 };
+        let last = self.collected.last_cycles;
+        let each = self.collected.wear.iter().copied().fold(0.0, f64::max);
+        let bound = 1.0 + 2.0 * tolerance * each * last as f64 / change;
+        // A change of nothing bounds nothing.
+        let bound = if bound.is_nan() { f64::INFINITY } else { bound };
+        (bound.floor() as usize).min(2 * last)
     }
 }
 

@@ -208,6 +208,18 @@ impl<'a> ContactSolver<'a> {
         self.set_tilt(tilt);
     }
 
+    /// Goes on with bodies that respond otherwise; `table`: their frequency response, where it is used. As with another gap, the displacements
+    /// known so far hold no longer.
+    pub fn set_response(&mut self, response: SurfaceResponse, table: Option<ResponseTable>) {
+        self.response = response;
+        self.table = table;
+        self.operators = None;
+        self.full_grid = None;
+        self.coarse = None;
+        self.memory.last = None;
+        self.memory.before = None;
+    }
+
     /// Solves one increment: from `state`, which the increment before returned, to the loads and motions of `load`.
     ///
     /// # Errors

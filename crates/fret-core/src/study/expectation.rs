@@ -152,7 +152,7 @@ fn counts(plan: &Plan, habit: &Habit) -> Counts {
             started: Instant::now(),
             enough: ENOUGH / trial.grid.len(),
             advance: Advance::new(&trial.case),
-            limit: trial.case.wear.and_then(|wear| wear.limit),
+            limit: trial.case.wear.as_ref().and_then(|wear| wear.limit),
             worn: 0.0,
             solved: 0,
             work: Work::default(),

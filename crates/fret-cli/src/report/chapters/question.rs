@@ -144,8 +144,25 @@ fn topography(view: &Overview<'_>, heights: &Value) -> String {
 
 fn wear(view: &Overview<'_>, wear: &Value) -> String {
     let law = if wear["law"] == "energy" { "by dissipated energy" } else { "by Archard's law" };
-    let mut parts =
-        vec![format!("{law}, coefficient {}", constant(view, &wear["coefficient"], "1/pressure"))];
+    let layers = &wear["layers"];
+    let mut parts = vec![if layers.is_null() {
+        format!("{law}, coefficient {}", constant(view, &wear["coefficient"], "1/pressure"))
+    } else {
+        law.to_owned()
+    }];
+    for body in ["lower", "upper"] {
+        let coefficients = layers[body].as_array().filter(|list| !list.is_empty());
+        parts.extend(coefficients.map(|list| {
+            let told = |layer: &Value| constant(view, &layer["coefficient"], "1/pressure");
+            format!("{body} body {}", list.iter().map(told).collect::<Vec<_>>().join(", then "))
+        }));
+    }
+    if let Some(tolerance) = wear["thinning_tolerance"].as_f64() {
+        parts.push(format!("worn layers are thinner, followed to {}", given(tolerance)));
+    }
+    if let Some(tolerance) = wear["tolerance"].as_f64() {
+        parts.push(format!("cycle jumps with an error of at most {}", given(tolerance)));
+    }
     if let Some(every) = wear["every"].as_u64().filter(|every| *every > 1) {
         parts.push(format!("a computed cycle stands for at most {every}"));
     }
