@@ -43,8 +43,8 @@ impl CellPath {
     /// The slip at the end of the increment, of a change of displacement.
     pub(super) fn end(&self, change: [f64; 2]) -> [f64; 2] {
         let rest = [change[0] - self.ahead[0], change[1] - self.ahead[1]];
-        // Nothing from 40 degrees between the chords on.
-        let along = (dot(rest, self.turn) - 0.766 * hypot(rest) * hypot(self.turn)).max(0.0);
+        // Nothing from 60 degrees between the chords on.
+        let along = (dot(rest, self.turn) - 0.5 * hypot(rest) * hypot(self.turn)).max(0.0);
         [rest[0] - along * self.turn[0], rest[1] - along * self.turn[1]]
     }
 
@@ -128,12 +128,12 @@ impl Past {
                         (rates - 1.0).clamp(0.0, 1.0)
                     }
                 };
-                let stop = 0.15 * fall;
+                let stop = 0.16 * fall;
                 let known = f64::min(1.0, length / (0.01 * self.largest_slip));
                 let c = 1.0 - (1.0 + ratio) / (1.0 + 2.0 * ratio) / (1.0 - stop);
                 CellPath {
                     ahead: last.map(|part| part * ratio * stop),
-                    turn: last.map(|part| part / length * (known * c.max(0.0) / (1.0 - 0.766)).sqrt()),
+                    turn: last.map(|part| part / length * (known * c.max(0.0) / (1.0 - 0.5)).sqrt()),
                     is_open: false,
                 }
             }

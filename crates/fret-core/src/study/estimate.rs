@@ -28,16 +28,16 @@ const EDGE_OF_LINE: f64 = 0.2;
 const SCATTER: f64 = 0.4;
 /// The same of shift and energy, which slip makes in fewer cells.
 const SCATTER_OF_SHIFT: f64 = 1.0;
-const SCATTER_OF_ENERGY: f64 = 2.0;
+const SCATTER_OF_ENERGY: f64 = 4.0;
 /// Edge of contact where a body ends: it ends at the border of a cell.
 const END_OF_A_BODY: f64 = 0.5;
 /// Edge of what sticks: counted by cells, in steps of the load.
-const STICK_EDGE: f64 = 0.25;
+const STICK_EDGE: f64 = 0.3;
 /// Share of the difference of two runs: of second order extrapolated; of an unknown one; of what sticks; of the shift with increments of
 /// second order; of a pressure that has a cusp in the middle of a small stick zone.
 const SECOND_ORDER: f64 = 1.0 / 3.0;
 const UNKNOWN_ORDER: f64 = 1.5;
-const STICK: f64 = 1.0;
+const STICK: f64 = 1.3;
 const SHIFT: f64 = 1.0;
 const CUSP: f64 = 3.5;
 /// Factor on these for increments of first order.

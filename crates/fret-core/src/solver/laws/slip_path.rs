@@ -20,9 +20,10 @@
 use super::super::contact_set::ContactSet;
 use crate::fields::{Reals, TangentialField};
 
-/// Cosine k of the angle between slip increments (40 degrees) from which on the last one says nothing of this one. By trial: without it
-/// the discrete equations have several solutions much more often.
-const FADED: f64 = 0.766;
+/// Cosine k of the angle between slip increments (60 degrees) from which on the last one says nothing of this one: the angle from which on the
+/// loads do not continue either. By trial: without it the discrete equations have several solutions much more often; 40 and 50
+/// degrees err more and take more applications.
+const FADED: f64 = 0.5;
 
 /// What is known of the paths before an increment is solved, over the cells of a region or packed over a contact. With empty fields it is
 /// the end-point rule.
@@ -119,7 +120,7 @@ mod tests {
     fn chords_of_a_circle_end_along_it() {
         let point = |angle: f64| [angle.cos(), angle.sin()];
         for ratio in [0.5, 1.0, 2.0] {
-            for stop in [0.0, 0.15] {
+            for stop in [0.0, 0.16] {
                 let errors = [0.1, 0.05].map(|step: f64| {
                     let angles = [-step / ratio, 0.0, step].map(point);
                     let chord = |k: usize| [0, 1].map(|axis| angles[k + 1][axis] - angles[k][axis]);
