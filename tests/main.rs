@@ -20,6 +20,7 @@ mod evolving_friction;
 mod fretting_cycles;
 mod friction_on_patches;
 mod frictional_counts;
+mod hard_increments;
 mod interfaces;
 mod invariants;
 mod layers;

@@ -54,3 +54,18 @@ impl LayerConstants {
         self.mu
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Shear modulus 4 without lateral contraction.
+    #[test]
+    fn a_layer_that_conducts_is_one_without_lateral_contraction() {
+        let [one, other] =
+            [LayerConstants::conducting(4.0), LayerConstants::new(&ElasticMaterial::new(8.0, 0.0).unwrap())];
+        let all = |c: &LayerConstants| [c.nu, c.mu, c.b, c.g, c.c0, c.b_one_minus_4nu, c.one_minus_g2];
+        assert_eq!(all(&one), all(&other));
+        assert_eq!((one.c0, one.shear_modulus(), one.poisson()), (0.25, 4.0, 0.0));
+    }
+}

@@ -175,6 +175,29 @@ mod tests {
         assert!(!two(&upper, &lower).is_uncoupled());
     }
 
+    /// Lengths and moduli over many decades: what couples is found, and bodies of one elasticity do not; half-spaces without lateral
+    /// contraction move along the shear.
+    #[test]
+    fn bodies_couple_or_not_in_every_unit() {
+        for length in [1e-9, 1.0, 1e9] {
+            for modulus in [1e-16, 1.0, 1e16] {
+                let body = |poisson: f64, base: f64| {
+                    stack(&[(modulus, poisson, length)], Some((2.0 * modulus, base)))
+                };
+                assert!(two(&body(0.3, 0.3), &body(0.3, 0.3)).is_uncoupled());
+                assert!(!two(&body(0.3, 0.31), &body(0.3, 0.3)).is_uncoupled(), "{length:e} {modulus:e}");
+                // Where layers differ lateral contraction is not all that turns shear.
+                assert!(!two(&body(0.0, 0.0), &body(0.0, 0.0)).is_straight(), "{length:e} {modulus:e}");
+                let plain = |poisson: f64| {
+                    let body = HalfSpace::homogeneous(material((modulus, poisson)));
+                    PairResponse::new(&ContactPair::new(Body::Rigid, Body::Elastic(body)).unwrap())
+                };
+                assert!(!plain(0.3).is_uncoupled() && plain(0.5).is_uncoupled());
+                assert!(!plain(0.3).is_straight() && plain(0.0).is_straight());
+            }
+        }
+    }
+
     /// Temperature times k1/(q a) at the centre of a heated disc of radius 1 on a layer, by images at the depths 2 n h: of a uniform flux,
     /// and of `sqrt(1 - r^2)`.
     fn by_images(ratio: f64, thickness: f64) -> [f64; 2] {

@@ -191,6 +191,37 @@ mod tests {
     use super::*;
     use crate::model::{Body, HalfSpace};
 
+    /// Layers that cannot widen, one on another: oedometric moduli 2.6 x 0.7/(1.3 x 0.4) = 3.5 and 8 at nu = 0, shear moduli 1 and 4,
+    /// springs of compliance 1/5 and 1/10.
+    #[test]
+    fn a_uniform_traction_moves_layers_on_a_rigid_base_as_they_are_thick() {
+        use super::super::samples::on_springs;
+        let lower = stack(&[(2.6, 0.3, 0.7), (8.0, 0.0, 0.4)], None);
+        let lower = on_springs(&lower, &[None, Some((Some(5.0), Some(10.0)))]);
+        let upper = stack(&[(2.6, 0.3, 1.4)], None);
+        let pair = |upper: &Body, lower: &Body| ContactPair::new(upper.clone(), lower.clone()).unwrap();
+        let [upper, lower] = [upper, lower].map(Body::Elastic);
+        let [normal, tangential] = uniform_response(&pair(&upper, &lower)).unwrap();
+        assert!((normal - (0.7 / 3.5 + 0.4 / 8.0 + 0.2 + 1.4 / 3.5)).abs() < 1e-15, "{normal}");
+        assert!((tangential - (0.7 + 0.1 + 0.1 + 1.4)).abs() < 1e-15, "{tangential}");
+        let deep = Body::Elastic(stack(&[(2.6, 0.3, 0.7)], Some((1.0, 0.3))));
+        assert_eq!(uniform_response(&pair(&upper, &deep)), None);
+        assert_eq!(uniform_response(&pair(&deep, &upper)), None);
+    }
+
+    /// A period of 12 by 10 of cells 2 by 5: waves from one that fills the longer side to the shortest of each axis at once.
+    #[test]
+    fn wavenumbers_reach_from_the_longest_wave_to_the_corner() {
+        for (cells, spacing) in [([6, 2], [2.0, 5.0]), ([2, 6], [5.0, 2.0])] {
+            for aliases in [0, 3] {
+                let [least, greatest] = wavenumbers(cells, spacing, aliases);
+                let times = (2 * aliases + 1) as f64;
+                assert!((least - TAU / 12.0).abs() < 1e-15);
+                assert!((greatest / (times * PI * (0.25_f64 + 0.04).sqrt()) - 1.0).abs() < 1e-15);
+            }
+        }
+    }
+
     #[test]
     fn waves_along_an_axis_meet_one_response_each() {
         let pair = pair(&[(2.0, 0.3, 1.0)], Some((1.0, 0.4)));

@@ -135,6 +135,7 @@ pub(crate) fn longest_length(layers: &[StackLayer], base: Option<&LayerConstants
 mod tests {
     use super::super::frequency_response::{FrequencyResponse, Response};
     use super::super::samples::{Random, Springs as Given, golden, on_springs, stack};
+    use super::{OPAQUE, StackLayer};
     use crate::model::{HalfSpace, Interface};
     use serde::Deserialize;
 
@@ -263,6 +264,38 @@ mod tests {
                 assert_eq!(response(&one, k), response(&other, k / length).over(1.0 / modulus));
             }
         }
+    }
+
+    /// Shear moduli 1, 2 and 10: .75 of layers, ten times as far for the ratio of the moduli; springs of compliance 1/4 and 1/2 make
+    /// lengths 10/4 and 10/2; an interface without friction makes none.
+    #[test]
+    fn the_longest_length_counts_layers_and_springs() {
+        let bonded = stack(&[(2.6, 0.3, 0.5), (5.2, 0.3, 0.25)], Some((26.0, 0.3)));
+        for (springs, expected) in [
+            (None, 7.5),
+            (Some((Some(4.0), Some(2.0))), 15.0),
+            (Some((Some(4.0), Some(0.0))), 10.0),
+            (Some((None, Some(2.0))), 12.5),
+        ] {
+            let response = FrequencyResponse::new(&on_springs(&bonded, &[springs, None]));
+            let found = response.longest_length();
+            assert!((found / expected - 1.0).abs() < 1e-14, "{springs:?}: {found} {expected}");
+            assert_eq!(response.shortest_length(), Some(0.25));
+        }
+        let plain = FrequencyResponse::new(&stack(&[], Some((26.0, 0.3))));
+        assert_eq!((plain.longest_length(), plain.shortest_length()), (0.0, None));
+    }
+
+    /// A wave that is not felt through a layer has the response of a half-space of the layer's material, to the last bit; one of a
+    /// length near the thickness feels what lies below.
+    #[test]
+    fn short_waves_do_not_see_through_a_layer() {
+        let (layered, alone) = (stack(&[(1.0, 0.3, 0.25)], Some((9.0, 0.1))), stack(&[], Some((1.0, 0.3))));
+        let layer = StackLayer::of(&layered.coatings()[0]);
+        let shortest = OPAQUE / 0.25;
+        assert!(layer.is_opaque(1.001 * shortest) && !layer.is_opaque(0.999 * shortest));
+        assert!(difference(response(&layered, 1.001 * shortest), response(&alone, 1.0)) < 1e-15);
+        assert!(difference(response(&layered, 5.0 / 0.25), response(&alone, 1.0)) > 1e-6);
     }
 
     #[test]

@@ -288,3 +288,6 @@ fn median(values: &mut [f64]) -> Option<f64> {
     let middle = values.len() / 2;
     Some(*values.select_nth_unstable_by(middle, f64::total_cmp).1)
 }
+
+#[cfg(test)]
+mod tests;

@@ -180,6 +180,24 @@ mod tests {
         assert_eq!(back, [0.0, 7.0, 8.0, 0.0, 0.0, 9.0, 0.0]);
     }
 
+    /// Neighbours are one run; no pressure is no contact.
+    #[test]
+    fn the_loaded_cells_are_in_contact() {
+        let contact = ContactSet::loaded(&[0.0, 1.0, 2.0, -1.0, 0.0, 3.0]);
+        assert_eq!((contact.len(), contact.runs.as_slice()), (3, &[1..3, 5..6][..]));
+        let field =
+            TangentialField { x: vec![1.0, 2.0, 3.0, 4.0, 5.0, 6.0], y: vec![0.1, 0.2, 0.3, 0.4, 0.5, 0.6] };
+        let expected = TangentialField { x: vec![2.0, 3.0, 6.0], y: vec![0.2, 0.3, 0.6] };
+        let mut packed = TangentialField::zeros(1);
+        contact.pack_tangential(&field, &mut packed);
+        assert_eq!(packed, expected);
+        assert_eq!(contact.packed_tangential(&field), expected);
+        let mut back = field.clone();
+        contact.scatter_tangential(&expected, &mut back);
+        assert_eq!(back.x, [0.0, 2.0, 3.0, 0.0, 0.0, 6.0]);
+        assert_eq!(back.y, [0.0, 0.2, 0.3, 0.0, 0.0, 0.6]);
+    }
+
     #[test]
     fn large_fields_go_the_same_way_on_many_threads() {
         let cells = 8 * PORTION;

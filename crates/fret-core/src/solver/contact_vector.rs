@@ -160,23 +160,32 @@ mod tests {
         }
     }
 
+    /// An operator that takes every cell by its number: what another contact or region left behind would be seen, and so would a wrong
+    /// cell.
     #[test]
     fn nothing_is_left_of_another_contact() {
-        let mut fields = RegionFields::<f64>::default();
-        let mut through = |cells: [usize; 2]| {
-            let contact = ContactSet::of(4, |cell| cells.contains(&cell));
-            fields.begin(&contact, 4);
+        let mut through = RegionFields::<f64>::default();
+        for (cells, region, fields) in
+            [(&[0, 1][..], 4, 2), (&[1, 3], 4, 2), (&[1, 3], 6, 3), (&[1, 3], 4, 3), (&[0, 2, 3], 4, 3)]
+        {
+            let contact = ContactSet::of(region, |cell| cells.contains(&cell));
+            through.begin(&contact, region);
             let (mut from, mut to) = (ContactVector::default(), ContactVector::default());
-            from.reset(2, 2);
-            from.values_mut().fill(1.0);
-            fields.apply(&from, &mut to, |q, u| {
-                for (q, u) in q.iter().zip(u) {
-                    u.fill(q.iter().sum());
+            from.reset(fields, cells.len());
+            from.values_mut().iter_mut().enumerate().for_each(|(index, value)| *value = 1.0 + index as f64);
+            through.apply(&from, &mut to, |q, u| {
+                assert_eq!((q.len(), u.len()), (fields, fields));
+                for (field, (q, u)) in q.iter().zip(u).enumerate() {
+                    assert_eq!((q.len(), u.len()), (region, region));
+                    assert!((0..region).all(|cell| cells.contains(&cell) || q[cell] == 0.0), "{q:?}");
+                    (0..region).for_each(|cell| u[cell] = q[cell] * (1 + cell + 10 * field) as f64);
                 }
             });
-            to.values().to_vec()
-        };
-        assert_eq!(through([0, 1]), [2.0; 4]);
-        assert_eq!(through([1, 3]), [2.0; 4]);
+            let expected = (0..fields * cells.len()).map(|index| {
+                let (field, place) = (index / cells.len(), index % cells.len());
+                (1 + index) as f64 * (1 + cells[place] + 10 * field) as f64
+            });
+            assert_eq!(to.values(), expected.collect::<Vec<_>>());
+        }
     }
 }

@@ -244,6 +244,23 @@ mod tests {
         };
         Gmres::default().solve(&right, apply, (0.0, 10), &mut found);
         assert_eq!((count, found.values()), (1, &[0.0, 0.0, 0.0, 0.0, -0.25, 0.0][..]));
+        // What rounding leaves of a direction is nothing new, in any unit: parts that are no powers of two, times a number that is none.
+        let parts = [0.1, 0.3, -0.7, 0.9, 0.2, -0.6];
+        let size = parts.iter().map(|part| part * part).sum::<f64>().sqrt();
+        right.values_mut().iter_mut().zip(parts).for_each(|(value, part)| *value = part / size);
+        for unit in [3e-20, 3e20] {
+            let mut count = 0;
+            let apply = |from: &ContactVector<f64>, to: &mut ContactVector<f64>| {
+                count += 1;
+                to.clone_from(from);
+                to.scale(unit);
+            };
+            Gmres::default().solve(&right, apply, (0.0, 10), &mut found);
+            assert_eq!(count, 1, "{unit:e}");
+            for (found, part) in found.values().iter().zip(right.values()) {
+                assert!((found * unit - part).abs() < 1e-15, "{unit:e}: {found} {part}");
+            }
+        }
         // An operator that makes nothing of it leaves nothing to combine.
         Gmres::default().solve(
             &right,

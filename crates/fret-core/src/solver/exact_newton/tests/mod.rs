@@ -1,0 +1,150 @@
+mod few_cells;
+mod solutions;
+
+use std::ops::ControlFlow;
+
+use super::super::settings::Coupling;
+use super::*;
+use crate::random::Random;
+use few_cells::{Asked, Cells, KINDS, by_cell, kinds, size, tractions_of};
+
+#[test]
+fn a_newton_step_solves_the_equations_linearised_by_difference_quotients() {
+    let cells = Cells::new([3, 2], 0.2);
+    let mut random = Random::seeded(171);
+    let mut seen = [0; 3];
+    let mut tried = [0; KINDS];
+    while tried.iter().any(|tried| *tried < 12) {
+        let kind = random.whole(0, KINDS - 1);
+        let asked = kinds(&mut random, &cells, kind);
+        let tractions: Vec<[f64; 3]> = (0..cells.count())
+            .map(|_| [random.between(-0.1, 1.0), random.between(-0.3, 0.3), random.between(-0.3, 0.3)])
+            .collect();
+        let has_approach = asked.total.is_some() || asked.give > 0.0;
+        let approach = if has_approach { random.between(0.3, 1.5) } else { asked.approach };
+        let motion = [0, 1, 2]
+            .map(|mode| if asked.by_force[mode] { random.between(-0.3, 0.3) } else { asked.motion[mode] });
+        // Away from the kinks: difference quotients do not step across.
+        let trials = asked.trials(&cells, (&tractions, approach, motion));
+        let near = |(augmented, trial, bound): &(f64, [f64; 2], f64)| {
+            let mu_p = 0.5 * augmented;
+            augmented.abs() < 1e-3
+                || (trial[0].hypot(trial[1]) - bound).abs() < 1e-3
+                || (mu_p - asked.strength).abs() < 1e-3
+        };
+        if trials.iter().any(near) || trials.iter().all(|trial| trial.0 < 0.0) {
+            continue;
+        }
+        for (augmented, trial, bound) in &trials {
+            seen[if *augmented < 0.0 { 0 } else { 1 + usize::from(trial[0].hypot(trial[1]) > *bound) }] += 1;
+        }
+        tried[kind] += 1;
+        asked.problem(&cells, |problem| {
+            let (response, mut operators) = (cells.cell_response(), cells.operators());
+            let mut attempt = Attempt::new(problem, &tractions_of(&tractions), &response, &mut operators);
+            (attempt.here.approach, attempt.here.motion) = (approach, motion);
+            let here = asked.left(&cells, (&tractions, approach, motion));
+            let merit = attempt.merit(&attempt.here);
+            assert!((merit - size(&here).powi(2)).abs() < 1e-12 * merit, "kind {kind}: {merit} {here:?}");
+            let active = attempt.active_cells();
+            let unknowns = active.last().map_or(0, |cell| cell.first + cell.unknowns());
+            let next = attempt.newton_point(&active, unknowns).unwrap();
+            let there = by_cell(next.tractions.parts());
+            for mode in 0..3 {
+                assert!(asked.by_force[mode] || next.motion[mode] == asked.motion[mode]);
+            }
+            // Along the way there, from a step of 1e-5 to both sides: as far as every set stays.
+            let ways = there.as_flattened().iter().zip(tractions.as_flattened()).map(|(a, b)| a - b);
+            let turns = (0..3).map(|mode| next.motion[mode] - motion[mode]);
+            let way = 1.0 + size(&ways.chain(turns).chain([next.approach - approach]).collect::<Vec<_>>());
+            let step = 1e-5 / way;
+            let at = |fraction: f64| {
+                let between = |a: f64, b: f64| a + fraction * (b - a);
+                let part: Vec<[f64; 3]> = (0..cells.count())
+                    .map(|cell| [0, 1, 2].map(|k| between(tractions[cell][k], there[cell][k])))
+                    .collect();
+                let turned = [0, 1, 2].map(|mode| between(motion[mode], next.motion[mode]));
+                asked.left(&cells, (&part, between(approach, next.approach), turned))
+            };
+            let [ahead, back] = [at(step), at(-step)];
+            for (equation, here) in here.iter().enumerate() {
+                let change = (ahead[equation] - back[equation]) / (2.0 * step);
+                // Curvature of the discs, whose radius may be 1e-3, and rounding over the step.
+                assert!(
+                    (here + change).abs() < 1e-6 * way,
+                    "kind {kind}, equation {equation}: {here} {change} on a way of {way}"
+                );
+            }
+        });
+    }
+    assert!(seen.iter().all(|seen| *seen > 50), "open, sticking, slipping: {seen:?}");
+}
+
+#[test]
+fn from_a_solution_nothing_is_solved_again() {
+    let mut random = Random::seeded(174);
+    let settings = SolverSettings::new(1e-8);
+    let cells = Cells::new([3, 3], 0.3);
+    for kind in [0, 1, 3] {
+        let asked = kinds(&mut random, &cells, kind);
+        asked.problem(&cells, |problem| {
+            let (response, mut operators) = (cells.cell_response(), cells.operators());
+            let mut tractions = Tractions { pressure: vec![0.5; 9], ..Tractions::zeros(9) };
+            let mut solve = |tractions: &mut Tractions| {
+                let before = operators.direct_solves;
+                let mut attempt = Attempt::new(problem, tractions, &response, &mut operators);
+                let go_on: IterationCallback<'_> = &mut |_, _| ControlFlow::Continue(());
+                assert!(attempt.iterate(tractions, &mut operators, &settings, go_on).unwrap());
+                (attempt.here.approach, attempt.here.motion, operators.direct_solves - before)
+            };
+            let (approach, motion, solves) = solve(&mut tractions);
+            assert!(solves > 1, "{solves}");
+            let again = solve(&mut tractions);
+            assert_eq!(again.2, 0, "kind {kind}");
+            assert!((again.0 - approach).abs() < 1e-9, "kind {kind}: {} {approach}", again.0);
+            for mode in 0..2 {
+                assert!((again.1[mode] - motion[mode]).abs() < 1e-8, "kind {kind}: {:?} {motion:?}", again.1);
+            }
+        });
+    }
+}
+
+#[test]
+fn what_is_too_large_or_stopped_is_not_solved() {
+    let cells = Cells::new([3, 2], 0.3);
+    let asked = Asked::drawn(&mut Random::seeded(175), &cells);
+    asked.problem(&cells, |problem| {
+        let start = Tractions { pressure: vec![0.5; 6], ..Tractions::zeros(6) };
+        let solve = |most: usize, go_on: IterationCallback<'_>| {
+            let settings = SolverSettings { max_direct_unknowns: most, ..SolverSettings::new(1e-8) };
+            let (response, mut operators) = (|| Ok(cells.cell_response()), cells.operators());
+            let method = Method { coupling: Coupling::Coupled, settings: &settings, cells: &response };
+            let (mut tractions, mut displacements) = (Tractions::zeros(6), Displacements::zeros(6));
+            let ends = (&mut tractions, &mut displacements);
+            let solved = super::solve(problem, [&start, &start], ends, &mut operators, &method, go_on);
+            solved.map(|solution| solution.is_some())
+        };
+        let go_on: IterationCallback<'_> = &mut |_, _| ControlFlow::Continue(());
+        // Six cells have up to three unknowns each.
+        for (most, is_solved) in [(0, false), (2, false), (18, true)] {
+            assert_eq!(solve(most, go_on), Ok(is_solved), "at the most {most} unknowns");
+        }
+        assert_eq!(solve(18, &mut |_, _| ControlFlow::Break(())), Err(SolveError::Stopped));
+    });
+}
+
+#[test]
+fn what_rounding_leaves_of_tension_and_of_too_much_shear_is_taken_away() {
+    let cells = Cells::new([3, 1], 0.3);
+    let asked = Asked { friction: vec![0.5; 3], ..Asked::drawn(&mut Random::seeded(176), &cells) };
+    asked.problem(&cells, |problem| {
+        let (response, mut operators) = (cells.cell_response(), cells.operators());
+        let mut tractions = tractions_of(&[[-1e-13, 1e-13, 0.0], [1.0, 0.3, 0.4 + 1e-12], [1.0, 0.3, 0.0]]);
+        Attempt::new(problem, &tractions, &response, &mut operators).project(&mut tractions);
+        let [open, slipping, sticking] = by_cell(tractions.parts())[..] else { unreachable!() };
+        assert_eq!(open, [0.0; 3]);
+        assert!((slipping[1].hypot(slipping[2]) - 0.5).abs() < 1e-15, "{slipping:?}");
+        assert!((slipping[1] / slipping[2] - 0.75).abs() < 1e-11, "{slipping:?}");
+        assert_eq!(sticking, [1.0, 0.3, 0.0]);
+    });
+}
