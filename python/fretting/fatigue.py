@@ -9,7 +9,7 @@ import numpy.typing as npt
 
 from fretting import _core, _dataset
 from fretting._meaning import described
-from fretting.stress import bulk_stress, coordinates, frictionless, is_upper, on_grid, points
+from fretting.stress import bulk_stress, coordinates, frictionless, is_upper, on_grid, points, refuse_thinned
 
 if TYPE_CHECKING:
     import xarray
@@ -168,6 +168,7 @@ def coating_fracture(
 
 def _cycle(history: "History", cycle: int, body: Literal["lower", "upper"]) -> tuple[list[int], tuple[Any, Any, Any]]:
     """Return the kept increments of a cycle, and bodies, setting and loading for the core."""
+    refuse_thinned(history)
     count = len(history.cycles["cycle"])
     if not -count <= cycle < count:
         raise IndexError(f"cycle {cycle}: the history has {count} computed cycles, counted from 0")

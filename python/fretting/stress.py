@@ -17,11 +17,21 @@ if TYPE_CHECKING:
 COMPONENTS = ("xx", "yy", "zz", "xy", "xz", "yz")
 
 
+def refuse_thinned(history: "History") -> None:
+    """Refuse stresses below layers that became thinner in the run: they are computed for unworn layers."""
+    if (history.plan["case"].get("wear") or {}).get("thinning_tolerance") is not None:
+        raise ValueError(
+            "wear.thinning_tolerance: the layers of this run became thinner by wear, and stresses below are those of "
+            "unworn layers; a case with the thinner coating has them"
+        )
+
+
 def subsurface(
     history: "History", depths: npt.ArrayLike, increment: int, body: Literal["lower", "upper"], threads: int | None
 ) -> "xarray.Dataset":
     """Return stresses: see :meth:`fretting.History.subsurface`."""
     module = _dataset.module("subsurface")
+    refuse_thinned(history)
     pressure = on_grid(history, history.field("pressure", increment))
     shear = None
     if not frictionless(history):

@@ -67,7 +67,14 @@ def test_volumes_of_the_layers_add_up(fretting_case: dict[str, Any], tmp_path: P
     assert sum(worn["lower"]) + sum(worn["upper"]) == pytest.approx(cycles["worn_volume"][-1], rel=1e-9)
     depths = cycles["lower_worn_depth"] + cycles["upper_worn_depth"]
     np.testing.assert_allclose(depths, cycles["max_worn_depth"], rtol=1e-12)
-    assert fretting.open_results(tmp_path / "worn").worn_by_layer == worn
+    opened = fretting.open_results(tmp_path / "worn")
+    assert opened.worn_by_layer == worn
+    # Stresses would be those of the unworn coating.
+    for one in (history, opened):
+        with pytest.raises(ValueError, match="thinner by wear"):
+            one.subsurface([1e-6])
+    with pytest.raises(ValueError, match="thinner by wear"):
+        history.fatigue([1e-6])
     case["output"] = {"every": 1}
     case["wear"].pop("thinning_tolerance")
     assert fretting.run(case).worn_by_layer is not None

@@ -39,6 +39,11 @@ pub fn stress(arguments: &StressArguments, as_json: bool) -> Result<(), Failure>
 fn stress_of(arguments: &StressArguments, as_json: bool) -> Result<Value, Failure> {
     interrupt::listen();
     let run = KeptRun::open(&arguments.folder)?;
+    if run.record["plan"]["case"]["wear"]["thinning_tolerance"].is_number() {
+        let why = "the layers of this run became thinner by wear (wear.thinning_tolerance), and stresses below are those of unworn layers";
+        let way_out = "a case with the thinner coating, pressed alike".to_owned();
+        return Err(Failure::Call(format!("{}: {why}", arguments.folder.display()), way_out));
+    }
     let request = requested(arguments, &run);
     let pool = threads::pool(threads::asked(arguments.threads))?;
     let answer = pool.install(|| computed(&arguments.folder, &run, &request))?;

@@ -86,8 +86,17 @@ fn what_cannot_be_told_is_refused_with_a_way_out() {
     assert_eq!(bench.fret(&["run", "case.toml", "--out", "bare", "--quiet"]).code, Some(0));
     bench.file("good.toml", SPHERE);
     assert_eq!(bench.fret(&["run", "good.toml", "--out", "good", "--quiet"]).code, Some(0));
+    let coating = "coatings = [{ thickness = 5e-6, young = 210e9, poisson = 0.3, wear_coefficient = 1e-13 }]";
+    let worn = SPHERE.replace(
+        "substrate = { young = 210e9, poisson = 0.3 }",
+        &format!("{coating}\nsubstrate = {{ young = 210e9, poisson = 0.3, wear_coefficient = 1e-13 }}"),
+    ) + "\n[wear]\nthinning_tolerance = 0.1\n";
+    bench.file("worn.toml", &worn);
+    let answer = bench.fret(&["run", "worn.toml", "--out", "worn", "--quiet"]);
+    assert_eq!(answer.code, Some(0), "{}", answer.err);
     for (arguments, words) in [
         (&["stress", "bare"][..], "holds no tractions"),
+        (&["stress", "worn"], "those of unworn layers"),
         (&["stress", "nowhere"], "no such folder"),
         (&["stress", "."], "no results of fret"),
         (&["stress", "good", "--depths", "-1e-6"], "above the surface"),
