@@ -58,7 +58,12 @@ impl Summary<'_> {
             row(&mut table, &self.heading(name), shown.iter().map(reading));
         }
         if self.plan.case.wear.is_some() || self.plan.case.friction_evolution.is_some() {
-            row(&mut table, "cycles", shown.iter().map(|record| self.cycles_of(record.stage)));
+            let cycles = || shown.iter().map(|record| self.cycles_of(record.stage));
+            let told = |number: Option<usize>| number.map_or("-".to_owned(), |number| number.to_string());
+            row(&mut table, "cycles", cycles().map(|over| told(over.map(|[all, _]| all))));
+            if cycles().flatten().any(|[all, solved]| all != solved) {
+                row(&mut table, "cycles solved", cycles().map(|over| told(over.map(|[_, solved]| solved))));
+            }
         }
         if shown.len() < ends.len() {
             let _ = writeln!(table, "(the last {MOST_COLUMNS} of {} stages)", ends.len());
@@ -178,13 +183,10 @@ impl Summary<'_> {
             .map_or_else(|| figure(value), |units| format!("{} {}", figure(value), units.length))
     }
 
-    /// Cycles of a stage that are over, those that computed ones stand for among them.
-    fn cycles_of(&self, stage: usize) -> String {
-        let last = self.tally.cycles.iter().rfind(|cycle| cycle.stage == stage);
-        last.map_or("-".to_owned(), |cycle| match cycle.last_cycle {
-            all if all == cycle.cycle => all.to_string(),
-            all => format!("{all} ({} solved)", cycle.cycle),
-        })
+    /// Cycles of a stage that are over, with those that solved ones stand for, and those that were solved.
+    fn cycles_of(&self, stage: usize) -> Option<[usize; 2]> {
+        let last = self.tally.cycles.iter().rfind(|cycle| cycle.stage == stage)?;
+        Some([last.last_cycle, last.cycle])
     }
 
     fn cycles(&self, table: &mut String) {
