@@ -163,16 +163,16 @@ impl SolvedState {
     }
 
     /// Gives back the memory of the tractions and the slip that are zero everywhere; whether none other is left.
-    pub fn thinned(&mut self) -> bool {
-        let mut thin = true;
+    pub fn give_back_zeros(&mut self) -> bool {
+        let mut none_other = true;
         for (_, field) in self.tractions_and_slip() {
             if field.iter().all(|value| *value == 0.0) {
                 *field = Array2::zeros(field.dim()); // zeros that nobody wrote to take no memory
             } else {
-                thin = false;
+                none_other = false;
             }
         }
-        thin
+        none_other
     }
 
     fn tractions_and_slip(&mut self) -> [(&'static str, &mut Array2<f64>); 5] {

@@ -1,4 +1,4 @@
-//! The journey of a run: stages, increments, cycles, records. The only room that knows all of it.
+//! The journey of a run: stages, increments, cycles, records. The only file that knows all of it.
 
 use std::time::Instant;
 
@@ -191,7 +191,7 @@ impl<'a> Journey<'a> {
     /// where the fields that are not kept are zero.
     fn rest_beside(&self, kept: &KeptFields, ends: bool) -> Option<SolvedState> {
         let mut rest = self.solved_state().beside(|name| kept.field(name).is_some());
-        (rest.thinned() || ends).then_some(rest)
+        (rest.give_back_zeros() || ends).then_some(rest)
     }
 
     /// A cycle that starts now, in the stage at work.
