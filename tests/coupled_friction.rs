@@ -105,8 +105,8 @@ fn history_error_falls_with_the_increments() {
     }
     let errors = [10, 20, 40].map(|increments| stick_ratio(&solved(&pressed(increments))) - 0.9);
     println!("of second order: {errors:.4?}");
-    // Half a cell in the border is 0.01.
-    assert!(errors[0].abs() < 0.02 && errors[1].abs() < 0.01 && errors[2].abs() < 0.006, "{errors:?}");
+    // Half a cell in the border is 0.01; what is counted along the whole border averages it.
+    assert!(errors[0].abs() < 0.02 && errors[1].abs() < 0.008 && errors[2].abs() < 0.004, "{errors:?}");
 }
 
 /// The case with its increments left to the program.
