@@ -70,9 +70,10 @@ pub fn slip_path(
         let all_inside = entering.iter().all(|(cell, _)| was_inside(*cell));
         let wide = if all_inside { None } else { Some(beyond(before, &last.drift)) };
         let number = |[i, j]: [usize; 2]| (i - region.origin[0]) * columns + j - region.origin[1];
+        let mut beside = EdgeBeside::new(&edge, &state.zone);
         for (cell, touch) in entering {
             let here = wide.as_ref().filter(|_| !was_inside(cell)).unwrap_or(&drift).at(cell);
-            let beside = edge.beside(at(cell), &state.zone);
+            let beside = beside.of(at(cell));
             let slides = state.zone[beside] == Zone::Slip;
             let slid = if slides { drift.at(number(beside)) } else { [0.0; 2] };
             let lag = left_of_lag(touch);
@@ -109,17 +110,10 @@ impl Edge<'_> {
         is_believed * (now / way).min(1.0)
     }
 
-    /// The cell of the edge that comes to an open cell: the first in contact on the way from neighbour to neighbour down the gap. Where that way
-    /// ends before, the open cell at its end.
-    fn beside(&self, mut at: [usize; 2], zones: &Array2<Zone>) -> [usize; 2] {
-        while zones[at] == Zone::Open {
-            let lowest = self.neighbours(at).min_by(|a, b| self.now[*a].total_cmp(&self.now[*b]));
-            match lowest {
-                Some(next) if self.now[next] < self.now[at] => at = next,
-                _ => break,
-            }
-        }
-        at
+    /// The neighbour with the least gap, if that is less than here.
+    fn down(&self, at: [usize; 2]) -> Option<[usize; 2]> {
+        let lowest = self.neighbours(at).min_by(|a, b| self.now[*a].total_cmp(&self.now[*b]));
+        lowest.filter(|lowest| self.now[*lowest] < self.now[at])
     }
 
     fn neighbours(&self, [i, j]: [usize; 2]) -> impl Iterator<Item = [usize; 2]> {
@@ -131,6 +125,42 @@ impl Edge<'_> {
             (j + 1 < ny, i, j + 1),
         ];
         all.into_iter().filter(|(exists, ..)| *exists).map(|(_, i, j)| [i, j])
+    }
+}
+
+/// The cell of the edge that comes to an open cell: the first in contact on the way from neighbour to neighbour down the gap. Where that way
+/// ends before, the open cell at its end.
+struct EdgeBeside<'a> {
+    edge: &'a Edge<'a>,
+    zones: &'a Array2<Zone>,
+    /// What was found, of all cells on the ways so far.
+    found: Array2<Option<[usize; 2]>>,
+    way: Vec<[usize; 2]>,
+}
+
+impl<'a> EdgeBeside<'a> {
+    fn new(edge: &'a Edge<'a>, zones: &'a Array2<Zone>) -> Self {
+        Self { edge, zones, found: Array2::default(zones.dim()), way: Vec::new() }
+    }
+
+    fn of(&mut self, mut at: [usize; 2]) -> [usize; 2] {
+        self.way.clear();
+        let end = loop {
+            if let Some(end) = self.found[at] {
+                break end;
+            }
+            match self.edge.down(at).filter(|_| self.zones[at] == Zone::Open) {
+                Some(next) => {
+                    self.way.push(at);
+                    at = next;
+                }
+                None => break at,
+            }
+        };
+        for at in &self.way {
+            self.found[*at] = Some(end);
+        }
+        end
     }
 }
 
@@ -208,10 +238,14 @@ mod tests {
         let gap = Array2::from_shape_fn((9, 9), |(i, j)| gap(i, j));
         let zones = gap.map(|gap| if *gap > 0.0 { Zone::Open } else { Zone::Stick });
         let edge = Edge { before: &gap, now: &gap, ratio: 1.0 };
-        assert_eq!([[0, 4], [4, 8], [7, 4]].map(|at| edge.beside(at, &zones)), [[2, 4], [4, 6], [6, 4]]);
-        let corner = edge.beside([8, 8], &zones);
+        let mut beside = EdgeBeside::new(&edge, &zones);
+        // The second and the last lie on ways that were gone before, or are the edge.
+        let from = [[0, 4], [1, 4], [4, 8], [7, 4], [6, 4]];
+        assert_eq!(from.map(|at| beside.of(at)), [[2, 4], [2, 4], [4, 6], [6, 4], [6, 4]]);
+        let corner = beside.of([8, 8]);
         assert!([[5, 5], [4, 6], [6, 4]].contains(&corner), "{corner:?}");
         // No contact anywhere: the lowest place of the gap, which is open.
-        assert_eq!(gap[edge.beside([0, 0], &zones.map(|_| Zone::Open))], 0.0);
+        let open = zones.map(|_| Zone::Open);
+        assert_eq!(gap[EdgeBeside::new(&edge, &open).of([0, 0])], 0.0);
     }
 }
