@@ -3,17 +3,15 @@
 //! Numbers of a column are `Z = A - i B`: at a mirror across the rows `A` and `B` are the real transforms at two frequencies
 //! (see [`Side`]), otherwise the real and minus the imaginary part at one. Transformed along `x`, each of the two is such a
 //! pair again, `P - i Q`. So every place has four real numbers, the slots `AP, AQ, BP, BQ`, and a kernel takes slots to slots
-//! with a real factor each: see [`SlotTerm`]. In free space the second part of a column, its numbers with real and imaginary
+//! with a real factor each: see [`SlotTerm`](super::mirrored_kernels::SlotTerm). In free space the second part of a column, its numbers with real and imaginary
 //! part exchanged, tells `A` from `B`; in a product that repeats, the place of the opposite frequency does.
 
-use std::ops::Range;
-
-use super::butterfly::{Complex, butterfly, plain_butterfly, splat};
+use super::butterfly::{Complex, butterfly, splat};
 use super::columns::{OutermostForward, OutermostInverse};
-use super::memory::{Line, OnCacheLine, as_lines, as_lines_mut, as_vectors, fetch};
+use super::memory::{Line, as_lines, as_lines_mut, as_vectors, fetch};
 use super::mirrored_kernels::{MirroredTerm, MultiplyPairs, MultiplyParts};
 use super::paired_rows::Places;
-use super::passes::{forward_middle, inverse_middle, load_quad, parts, with_radix};
+use super::passes::{forward_middle, inverse_middle, parts, with_radix};
 use super::plan::LinePlan;
 use super::row_groups::Layout;
 use super::rows::{Side, mirrored_point};

@@ -4,11 +4,11 @@
 //! lanes are neighbouring frequencies of one row.
 
 use super::butterfly::{Complex, butterfly, plain_butterfly, splat};
-use super::memory::{Line, as_lines, as_lines_mut, as_vectors, as_vectors_mut};
+use super::memory::{Line, as_lines_mut, as_vectors_mut};
 use super::passes::{forward_middle, inverse_middle, load_quad, parts, with_radix};
 use super::plan::LinePlan;
 use super::row_groups::{Layout, gather_rows, rows_of_strip, scatter_rows};
-use super::simd::{Lanes, MAX_WIDTH, Task};
+use super::simd::{Lanes, Task};
 
 /// How a line lies to a mirror before its first point.
 ///

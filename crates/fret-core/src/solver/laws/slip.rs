@@ -94,7 +94,8 @@ impl SlipIncrement {
         let Self { slip, at_end, .. } = self;
         at_end.x.resize(bound.len(), 0.0);
         at_end.y.resize(bound.len(), 0.0);
-        let turn = problem.path.turn.parts();
+        let straight = vec![0.0; if problem.path.turns() { 0 } else { bound.len() }];
+        let turn = if problem.path.turns() { problem.path.turn.parts() } else { [&straight[..]; 2] };
         let read = [&q.x, &q.y, bound, turn[0], turn[1], rotation[0], rotation[1]];
         let write = [&mut slip.x[..], &mut slip.y, &mut at_end.x, &mut at_end.y];
         let [off] = each_cell(&OffLaw { motion: found, stiffness }, read, write);
@@ -198,7 +199,7 @@ struct OffLaw {
 }
 
 impl CellRule<7, 4, 1> for OffLaw {
-    const OPTIONAL: usize = 4;
+    const OPTIONAL: usize = 2;
 
     #[inline(always)]
     fn at<R: Reals>(
