@@ -181,7 +181,7 @@ impl CheckpointFolder {
             self.synced_at = Some(Instant::now());
         }
         let turn = waypoint.solved() % 2;
-        self.turns.write(turn, self.path.join(TURNS[turn]), |to| pack(to, head, waypoint))
+        self.turns.write(turn, &self.path.join(TURNS[turn]), |to| pack(to, head, waypoint))
     }
 
     /// The run is solved: nothing is left to go on from.

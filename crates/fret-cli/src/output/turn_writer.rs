@@ -2,7 +2,7 @@
 
 use std::fs::File;
 use std::io::{self, BufWriter, Write};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
 use std::thread::JoinHandle;
 
@@ -40,7 +40,7 @@ impl TurnWriter {
     pub fn write(
         &mut self,
         turn: usize,
-        path: PathBuf,
+        path: &Path,
         body: impl FnOnce(&mut dyn Write) -> io::Result<()>,
     ) -> Result<(), Unwritten> {
         self.settle()?;
@@ -51,17 +51,17 @@ impl TurnWriter {
                 body(&mut to)?;
                 to.into_inner()?.finish()
             };
-            self.files[turn] = Some(here(&path).map_err(Unwritten::at(&path))?);
+            self.files[turn] = Some(here(path).map_err(Unwritten::at(path))?);
             return Ok(());
         }
         let (sender, receiver) = sync_channel(WAITING);
         let mut chunks = Chunks { sender, chunk: Vec::new() };
-        let at = path.clone();
+        let at = path.to_path_buf();
         self.at_work = Some(std::thread::spawn(move || Written {
             turn,
             file: written(file, &at, first_line, &receiver).map_err(Unwritten::at(&at)),
         }));
-        body(&mut chunks).and_then(|()| chunks.finish()).map_err(Unwritten::at(&path))
+        body(&mut chunks).and_then(|()| chunks.finish()).map_err(Unwritten::at(path))
     }
 
     /// Waits for what is written beside the run.
@@ -163,13 +163,13 @@ mod tests {
                     let write = |to: &mut dyn Write| {
                         to.write_all(&body[..length / 3]).and_then(|()| to.write_all(&body[length / 3..]))
                     };
-                    writer.write(index % 2, path(index % 2), write).unwrap();
+                    writer.write(index % 2, &path(index % 2), write).unwrap();
                     writer.settle().unwrap();
                     assert!(body_of(&std::fs::read(path(index % 2)).unwrap(), b"line\n").unwrap() == body);
                 }
                 let breaks_off =
                     |to: &mut dyn Write| to.write_all(&[1; 10]).and_then(|()| Err(io::Error::other("no")));
-                assert!(writer.write(0, path(0), breaks_off).is_err());
+                assert!(writer.write(0, &path(0), breaks_off).is_err());
                 drop(writer);
                 assert!(body_of(&std::fs::read(path(0)).unwrap(), b"line\n").is_err());
             });
@@ -184,9 +184,9 @@ mod tests {
         let mut writer = TurnWriter::new(b"line\n");
         let pool = rayon::ThreadPoolBuilder::new().num_threads(2).build().unwrap();
         pool.install(|| {
-            let gone = || PathBuf::from("/no/such/folder/at/all");
-            writer.write(0, gone(), |to| to.write_all(&[1; 3])).unwrap();
-            assert!(writer.write(1, gone(), |to| to.write_all(&[1; 3])).is_err());
+            let gone = Path::new("/no/such/folder/at/all");
+            writer.write(0, gone, |to| to.write_all(&[1; 3])).unwrap();
+            assert!(writer.write(1, gone, |to| to.write_all(&[1; 3])).is_err());
         });
     }
 }
