@@ -219,7 +219,7 @@ def large() -> str:
                 f"{_seconds(us['wall_s'])} ({_seconds(us['cpu_s'])})",
                 _seconds(whole and whole["wall_s"]),
                 *(_seconds(other and other["solver_s"]) for other in others),
-                f"{us['memory'] / 1e6:.0f}",
+                "-" if us["memory"] is None else f"{us['memory'] / 1e6:.0f}",
                 f"{us['applications'] / us['increments']:.0f}",
                 _power(us["residual"], 0),
                 _power(max((abs(error) for error in errors.values()), default=None)),
