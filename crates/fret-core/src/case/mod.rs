@@ -24,6 +24,8 @@ mod numbers;
 mod output;
 mod pair;
 mod phases;
+#[cfg(test)]
+mod ranges;
 mod read;
 mod refusal;
 mod repeating;
