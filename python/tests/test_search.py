@@ -1,6 +1,7 @@
 """What a tribologist types into the search of the site finds the right page first."""
 
 import json
+import re
 import shutil
 import subprocess
 import sys
@@ -55,19 +56,25 @@ QUERIES = {
 
 
 @pytest.fixture(scope="module")
-def found(tmp_path_factory: pytest.TempPathFactory) -> dict[str, list[str]]:
-    """Return the pages that the search finds for each query, best first."""
-    node = shutil.which("node")
+def site(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Return the folder of the built site."""
     pytest.importorskip("mkdocs")
     pytest.importorskip("material")
     pytest.importorskip("mkdocstrings")
-    if node is None:
-        pytest.skip("the search runs in node")
     site = tmp_path_factory.mktemp("site")
     call = [sys.executable, "-m", "mkdocs", "build", "--quiet", "--site-dir", str(site)]
     subprocess.run(
         call, check=True, cwd=ROOT, timeout=120, env={"NO_MKDOCS_2_WARNING": "1", "PATH": ""}, capture_output=True
     )
+    return site
+
+
+@pytest.fixture(scope="module")
+def found(site: Path) -> dict[str, list[str]]:
+    """Return the pages that the search finds for each query, best first."""
+    node = shutil.which("node")
+    if node is None:
+        pytest.skip("the search runs in node")
     call = [
         node,
         str(ROOT / "docs" / "site" / "search.js"),
@@ -82,3 +89,17 @@ def found(tmp_path_factory: pytest.TempPathFactory) -> dict[str, list[str]]:
 @pytest.mark.parametrize("query", QUERIES)
 def test_the_right_page_comes_first(query: str, found: dict[str, list[str]]) -> None:
     assert found[query][:1] and found[query][0] in QUERIES[query], found[query]
+
+
+def test_the_search_needs_no_server_and_no_network(site: Path) -> None:
+    # Opened as a file a page can neither fetch the index nor start a worker: both have to come as scripts.
+    script = (site / "search" / "search_index.js").read_text(encoding="utf-8")
+    index = (site / "search" / "search_index.json").read_text(encoding="utf-8")
+    assert script == f"var __index = {index}"
+    for page in site.rglob("*.html"):
+        text = page.read_text(encoding="utf-8")
+        if 'data-md-component="search"' in text:
+            sources = re.findall(r'<script[^>]* src="([^"]*)"', text)
+            stand_in = [source for source in sources if "iframe-worker" in source]
+            assert not [source for source in sources if source.startswith(("http", "//"))], page
+            assert len(stand_in) == 1 and (page.name == "404.html" or (page.parent / stand_in[0]).exists()), page

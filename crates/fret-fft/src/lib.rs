@@ -6,6 +6,7 @@
 mod block;
 mod convolution;
 mod engine;
+mod fork;
 mod fourier;
 mod inverse_table;
 mod lanes;
@@ -26,6 +27,7 @@ mod workspace;
 pub use block::{Block, ConvolutionError, Kernel, Symbol};
 pub use convolution::Convolution;
 pub use engine::Engine;
+pub use fork::join;
 pub use inverse_table::inverse_table;
 pub use lengths::good_length;
 pub use mirrors::Mirrors;

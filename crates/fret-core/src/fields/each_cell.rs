@@ -26,7 +26,7 @@ fn convert_in<A: Number, B: Number>(pieces: usize, from: &[A], factor: f64, to: 
     if pieces > 1 {
         let middle = to.len() * (pieces / 2) / pieces;
         let ([from, from_behind], (to, behind)) = (split([from], middle), to.split_at_mut(middle));
-        rayon::join(
+        fret_fft::join(
             || convert_in(pieces / 2, from[0], factor, to),
             || convert_in(pieces - pieces / 2, from_behind[0], factor, behind),
         );
@@ -84,7 +84,7 @@ fn in_portions<N, R, const READ: usize, const WRITE: usize, const SUMS: usize>(
         let (sums, sums_behind) = sums.split_at_mut(middle);
         let [read, read_behind] = split(read, middle * PORTION);
         let [write, write_behind] = split_mut(write, middle * PORTION);
-        rayon::join(
+        fret_fft::join(
             || in_portions(rule, read, write, sums, pieces / 2),
             || in_portions(rule, read_behind, write_behind, sums_behind, pieces - pieces / 2),
         );
@@ -234,7 +234,7 @@ fn largest_in<N: Number, R: CellSize<READ> + Sync, const READ: usize>(
 ) -> f64 {
     if pieces > 1 {
         let [read, behind] = split(read, read[0].len() * (pieces / 2) / pieces);
-        let (one, other) = rayon::join(
+        let (one, other) = fret_fft::join(
             || largest_in(pieces / 2, size, read),
             || largest_in(pieces - pieces / 2, size, behind),
         );

@@ -2,10 +2,10 @@
 //! sums over cells, taken portion by portion, do not either.
 
 /// Cells of a portion.
-pub const PORTION: usize = 1 << 14;
-/// Portions that pay for waking a second thread. Measured, a pass over three fields in single precision, one thread and two that are awake:
-/// 2.8 and 2.2 microseconds for two portions, 5.0 and 4.1 for three, 6.6 and 4.0 for four, 58 and 31 for 32.
-const FEWEST: usize = 3;
+pub const PORTION: usize = 1 << 12;
+/// Portions that pay for a second thread that is awake. Measured, a pass over three fields in single precision, one thread and two: 2.8 and 2.2
+/// microseconds for 32,768 cells, 6.6 and 4.0 for 65,536, 58 and 31 for 524,288; with fewer than 20,000 a contact of 128 x 128 cells gets slower.
+const FEWEST: usize = 5;
 
 /// Pieces worth making of so many portions: one outside of a pool, and where they are few.
 pub fn pieces(portions: usize) -> usize {

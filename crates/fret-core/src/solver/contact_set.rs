@@ -106,7 +106,7 @@ fn gather_runs<A: Number, B: Number>(
     if pieces > 1 {
         let (first, others, cells) = halved(runs, pieces);
         let (of_first, of_others) = packed.split_at_mut(cells);
-        rayon::join(
+        fret_fft::join(
             || gather_runs(pieces / 2, first, field, factor, of_first),
             || gather_runs(pieces - pieces / 2, others, field, factor, of_others),
         );
@@ -139,7 +139,7 @@ fn place_runs<A: Number, B: Number>(
         let (first, others, cells) = halved(runs, pieces);
         let border = others.first().map_or(start + field.len(), |run| run.start);
         let (of_first, of_others) = field.split_at_mut(border - start);
-        rayon::join(
+        fret_fft::join(
             || place_runs(pieces / 2, (first, start), &packed[..cells], factor, of_first),
             || place_runs(pieces - pieces / 2, (others, border), &packed[cells..], factor, of_others),
         );

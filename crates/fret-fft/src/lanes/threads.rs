@@ -75,7 +75,7 @@ fn divide_from<N, W>(
     let (numbers, right_numbers) = numbers.split_at_mut(left_pieces * piece_len);
     let right_scratch = Scratch { numbers: right_numbers, piece_len };
     let left_scratch = Scratch { numbers, piece_len };
-    rayon::join(
+    crate::join(
         || divide_from(left, chunk_len, left_scratch, left_pieces, work),
         || divide_from(right, chunk_len, right_scratch, pieces - left_pieces, work),
     );
