@@ -2,15 +2,16 @@
 
     cargo install cargo-mutants --locked; pip install tree-sitter tree-sitter-rust
     python docs/data/mutants.py build COPY 'crates/fret-core/src/kernel/*.rs' [--every 3]
-    python docs/data/mutants.py run COPY [--minutes 7]
+    python docs/data/mutants.py run COPY [--minutes 7] [--only REGEX] [--longest SECONDS]
     python docs/data/mutants.py whole-runs COPY [--minutes 7]
     python docs/data/mutants.py report COPY
 
-``build`` copies the repository to ``COPY`` (outside of it), takes the list of `cargo mutants`, writes each mutant beside
-the expression that it changes (``match mutant(7, 9) { 0 => a + b, 7 => a - b, ... }``), drops what the compiler refuses
-and builds the tests of the package. ``run`` sees first which test reaches which mutant, then gives every mutant to the
-tests that reach it, the quick ones first, until one fails; it goes on where it was stopped. ``whole-runs`` gives the
-survivors to the tests of whole runs, too: `tests/`, then those of the command. ``report`` prints a table and the survivors.
+``build`` copies the repository to ``COPY`` (outside of it), takes the list of `cargo mutants`, writes each mutant
+beside the expression that it changes (``match mutant(7, 9) { 0 => a + b, 7 => a - b, ... }``), drops what the compiler
+refuses and builds the tests of the package. ``run`` sees first which test reaches which mutant, then gives every mutant
+to the tests that reach it, those of its own file and the quick ones first, until one fails; it goes on where it was
+stopped. ``whole-runs`` gives the survivors to the tests of whole runs, too: `tests/`, then those of the command.
+``report`` prints the figures of each file, and the survivors.
 """
 
 import argparse
@@ -34,6 +35,7 @@ from tree_sitter import Language, Node, Parser
 
 ROOT = Path(__file__).parents[2]
 PACKAGES = {"crates/fret-core": "fretting", "crates/fret-fft": "fretting-fft"}
+WHOLE_RUNS = (("fret-validation", "tests"), ("fretting-cli", "crates/fret-cli"))
 WORKERS = 2
 CAUGHT = ("caught", "caught by tests/", "caught by the command's tests")
 MISSED = ("missed", "missed by tests/", "missed by all")
@@ -64,7 +66,8 @@ fn chosen_mutant(mut chosen: u32, first: u32, last: u32) -> u32 {
         MUTANT.store(chosen, Relaxed);
     }
     if chosen == u32::MAX - 1 && !REACHED[first as usize].swap(true, Relaxed) {
-        let mut file = std::fs::File::options().append(true).create(true).open(std::env::var("REACHED").unwrap()).unwrap();
+        let place = std::env::var("REACHED").unwrap();
+        let mut file = std::fs::File::options().append(true).create(true).open(place).unwrap();
         file.write_all(format!("{first} {last}\\n").as_bytes()).unwrap();
     }
     if (first..=last).contains(&chosen) { chosen } else { 0 }
@@ -83,12 +86,20 @@ class Site:
 
 def environment(copy: Path, **variables: str) -> dict[str, str]:
     """Return the environment of a build or a test in the copy."""
-    return {"CARGO_TARGET_DIR": str(copy / "target")} | os.environ | {
-        "CARGO_PROFILE_RELEASE_DEBUG": "0",
-        "CARGO_INCREMENTAL": "1",
-        "RUST_MIN_STACK": str(64 << 20),
-        **variables,
-    }
+    ours = {"CARGO_PROFILE_RELEASE_DEBUG": "0", "CARGO_INCREMENTAL": "1", "RUST_MIN_STACK": str(64 << 20)}
+    return {"CARGO_TARGET_DIR": str(copy / "target")} | os.environ | ours | variables
+
+
+def listed(words: list[str]) -> str:
+    """Return what a command prints in the repository."""
+    return subprocess.run(words, capture_output=True, text=True, check=True, cwd=ROOT).stdout
+
+
+def built(copy: Path, package: str, tests: str) -> tuple[int, list[dict[str, Any]]]:
+    """Build tests of a package in the copy: return the exit code and what cargo says."""
+    words = ["cargo", "test", "--release", "--locked", "--package", package, tests, "--no-run", "--message-format=json"]
+    done = subprocess.run(words, capture_output=True, text=True, check=False, cwd=copy, env=environment(copy))
+    return done.returncode, [json.loads(line) for line in done.stdout.split("\n")[:-1]]
 
 
 def flat(node: Node) -> str:
@@ -174,7 +185,10 @@ class Switched:
         call = f"crate::mutant({numbers[0]}, {numbers[-1]})"
         if node.type == "function_item":
             at = inner.index("{", len(self.inner_until(node, node.child_by_field_name("body"))))
-            values = [f"\n/*m{m['number']}*/ if {call} == {m['number']} {{ return {m['replacement']}; }}\n" for m in site.mutants]
+            values = [
+                f"\n/*m{m['number']}*/ if {call} == {m['number']} {{ return {m['replacement']}; }}\n"
+                for m in site.mutants
+            ]
             return inner[: at + 1] + "".join(values).replace("\n\n", "\n") + inner[at + 1 :]
         if node.type == "match_arm":
             return self.arm(node, site, call)
@@ -182,6 +196,7 @@ class Switched:
         return f"(match {call} {{ 0 => ({inner}),{''.join(arms)}\n _ => unreachable!() }})"
 
     def inner(self, node: Node) -> str:
+        """Return the text of a node with the switches of its parts in it."""
         if not node.children:
             return node.text.decode()
         return self.inner_until(node, None) + self.source[node.children[-1].end_byte : node.end_byte].decode()
@@ -215,7 +230,9 @@ class Switched:
         pattern = node.child_by_field_name("pattern")
         condition = pattern.child_by_field_name("condition")
         guard = "true" if condition is None else self.render(condition)
-        head = flat(pattern) if condition is None else flat(pattern)[: -len(flat(condition))].rstrip().removesuffix("if")
+        head = flat(pattern)
+        if condition is not None:
+            head = head.removesuffix(flat(condition)).rstrip().removesuffix("if")
         for m in site.mutants:
             value = m["replacement"] if m["genre"] == "MatchArmGuard" else "false"
             guard = f"\n/*m{m['number']}*/ (if {call} == {m['number']} {{ {value} }} else {{ {guard} }})"
@@ -233,7 +250,7 @@ class Switched:
 
 def build(copy: Path, patterns: list[str], every: int) -> None:
     """Make the copy with its mutants and build its tests."""
-    paths = subprocess.run(["git", "ls-files", "--cached", "--others", "--exclude-standard"], capture_output=True, text=True, check=True, cwd=ROOT).stdout.split("\n")
+    paths = listed(["git", "ls-files", "--cached", "--others", "--exclude-standard"]).split("\n")
     for path in filter(None, paths):
         if (ROOT / path).exists():
             (copy / path).parent.mkdir(parents=True, exist_ok=True)
@@ -241,8 +258,8 @@ def build(copy: Path, patterns: list[str], every: int) -> None:
                 shutil.copy(ROOT / path, copy / path)
     files = [p for p in paths if any(fnmatch.fnmatchcase(p, pattern) for pattern in patterns)]
     package = next(root for root in PACKAGES if files[0].startswith(root))
-    listed = ["cargo", "mutants", "--list", "--json", "--package", PACKAGES[package], *(f"--file={p}" for p in files)]
-    mutants = json.loads(subprocess.run(listed, capture_output=True, text=True, check=True, cwd=ROOT).stdout)[::every]
+    words = ["cargo", "mutants", "--list", "--json", "--package", PACKAGES[package], *(f"--file={p}" for p in files)]
+    mutants = json.loads(listed(words))[::every]
     of_file = defaultdict(list)
     for number, mutant in enumerate(mutants, 1):
         mutant["number"] = number
@@ -267,12 +284,8 @@ def build(copy: Path, patterns: list[str], every: int) -> None:
 
 def compiled(copy: Path, package: str) -> tuple[str | None, set[int]]:
     """Build the unit tests: return the binary, or the numbers of the mutants that the compiler refuses."""
-    done = subprocess.run(
-        ["cargo", "test", "--release", "--locked", "--package", package, "--lib", "--no-run", "--message-format=json"],
-        stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True, check=False, cwd=copy, env=environment(copy),
-    )  # fmt: skip
-    messages = [json.loads(line) for line in done.stdout.split("\n")[:-1]]
-    if done.returncode == 0:
+    code, messages = built(copy, package, "--lib")
+    if code == 0:
         return next(m["executable"] for m in messages if m.get("executable")), set()
     refused, strange = set(), []
     for inner in (m["message"] for m in messages if m["reason"] == "compiler-message"):
@@ -312,9 +325,14 @@ def passes(copy: Path, binary: list[str], tests: list[str], seconds: float, **va
     try:
         done = subprocess.run(
             [binary[0], "--exact", "--test-threads=1", *tests],
-            env=environment(copy, RAYON_NUM_THREADS="2", **variables), cwd=copy / binary[1], timeout=seconds, check=False,
-            stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, preexec_fn=limited,
-        )  # fmt: skip
+            env=environment(copy, RAYON_NUM_THREADS="2", **variables),
+            cwd=copy / binary[1],
+            timeout=seconds,
+            check=False,
+            stdout=subprocess.DEVNULL,
+            stderr=subprocess.DEVNULL,
+            preexec_fn=limited,
+        )
     except subprocess.TimeoutExpired:
         return False
     return done.returncode == 0
@@ -322,8 +340,8 @@ def passes(copy: Path, binary: list[str], tests: list[str], seconds: float, **va
 
 def reach(copy: Path, binary: list[str]) -> dict[str, Any]:
     """Return for every test its time and the mutants that it reaches; tests that fail unchanged are left out."""
-    listed = subprocess.run([binary[0], "--list"], capture_output=True, text=True, check=True).stdout.split("\n")
-    names = [line.removesuffix(": test") for line in listed if line.endswith(": test")]
+    lines = listed([binary[0], "--list"]).split("\n")
+    names = [line.removesuffix(": test") for line in lines if line.endswith(": test")]
 
     def one(name: str) -> tuple[str, float, list[int]] | None:
         file = copy / f"reached-{abs(hash(name))}"
@@ -343,7 +361,7 @@ def reach(copy: Path, binary: list[str]) -> dict[str, Any]:
 
 
 def run(copy: Path, minutes: float, only: str, longest: float, place: int) -> None:
-    """Try the mutants that are left with the tests of the package (0) or of whole runs (1, 2), none above `longest` seconds."""
+    """Try the mutants that are left with the tests of the package (0) or of whole runs (1, 2) that are not too long."""
     end = time.monotonic() + 60 * minutes
     state = json.loads((copy / "mutants.json").read_text(encoding="utf-8"))
     binary = state["binaries"][place]
@@ -386,10 +404,8 @@ def run(copy: Path, minutes: float, only: str, longest: float, place: int) -> No
 def whole_runs(copy: Path) -> None:
     """Build the tests of whole runs if they are not."""
     state = json.loads((copy / "mutants.json").read_text(encoding="utf-8"))
-    for package, folder in (("fret-validation", "tests"), ("fretting-cli", "crates/fret-cli"))[len(state["binaries"]) - 1 :]:
-        command = ["cargo", "test", "--release", "--locked", "--package", package, "--tests", "--no-run", "--message-format=json"]
-        done = subprocess.run(command, stdout=subprocess.PIPE, text=True, check=True, cwd=copy, env=environment(copy))
-        messages = [json.loads(line) for line in done.stdout.split("\n")[:-1]]
+    for package, folder in WHOLE_RUNS[len(state["binaries"]) - 1 :]:
+        _, messages = built(copy, package, "--tests")
         executables = [m["executable"] for m in messages if m.get("executable") and m["target"]["kind"] == ["test"]]
         state["binaries"].append([executables[0], folder])
     write(copy, state)
