@@ -225,7 +225,7 @@ def large() -> str:
                 _power(max((abs(error) for error in errors.values()), default=None)),
             ]
         )
-    head = ["contact", "wall (CPU) [s]", "nothing left out [s]", "aspher [s]", "tamaas [s]", "memory [MB]", "applications an increment", "residual",
+    head = ["contact", "wall (CPU) [s]", "without simplifications [s]", "aspher [s]", "tamaas [s]", "memory [MB]", "applications an increment", "residual",
             "largest error"]  # fmt: skip
     return _table(head, rows, of)
 
