@@ -1,8 +1,11 @@
 //! Wear through layers: what each layer of both bodies loses by closed forms, and bodies whose elastic response gets thinner with them.
 
+use fret_core::case::Case;
 use fret_core::history::History;
 use fret_core::kernel::PairResponse;
-use fret_core::model::{Base, Body, Coating, ContactPair, ElasticMaterial, HalfSpace, thinned};
+use fret_core::model::{Base, Body, Coating, ContactPair, ElasticMaterial, HalfSpace, Symmetry, thinned};
+use fret_core::plan::{LeaveOut, Plan, Simplification};
+use fret_validation::shortcuts::{TOLERANCE, difference, solved as solved_leaving_out};
 use fret_validation::{Sphere, keeping, run, solved};
 
 /// Pressure on a flat layer and amplitude of its cycles; stiffness of the layer (E = 10, nu = 0.3, thickness 1) under uniform shear.
@@ -129,6 +132,63 @@ fn a_coating_worn_evenly_is_the_thinner_coating() {
     });
     // Displacements of two loads, so that the worn gap does not matter; both to 1e-8.
     assert!((ends[0] / ends[1] - 1.0).abs() < 1e-6, "{ends:?}");
+}
+
+/// The same of a line contact.
+#[test]
+fn under_a_line_a_coating_worn_evenly_is_the_thinner_coating() {
+    let text = |thickness: f64, coefficient: f64| {
+        let lower = format!(
+            "coatings = [{{ thickness = {thickness:e}, young = 10.0, poisson = 0.3, wear_coefficient = {coefficient:e} }},\
+             {{ thickness = 0.3, young = 1.0, poisson = 0.2, wear_coefficient = 0.0 }}]\nbase = \"rigid\""
+        );
+        let wear = "law = \"archard\"\nthinning_tolerance = 1e-9\nlargest_step = 1.0";
+        let press =
+            "[[load]]\nnormal_force = 18.0\nincrements = 1\n[[load]]\nnormal_force = 6.0\nincrements = 1\n";
+        flat([&lower, "rigid = true"], wear, 8)
+            .replace("cells = [8, 4]\nsize = [2.0, 1.0]", "cells = 16\nsize = 2.0")
+            .replace("[output]", &format!("{press}[output]"))
+    };
+    let worn = solved(&text(0.5, 2e-3));
+    let depth = worn.cycles.last().unwrap().max_worn_depth;
+    assert!(depth > 0.05 && depth < 0.4, "{depth}");
+    let thinner = solved(&text(0.5 - depth, 0.0));
+    let ends = [&worn, &thinner].map(|history| {
+        let [.., high, low] = &history.steps[..] else { panic!() };
+        high.approach - low.approach
+    });
+    assert!((ends[0] / ends[1] - 1.0).abs() < 1e-6, "{ends:?}");
+    // Under uniform pressure a layer gives by h/M, M = E (1 - nu)/((1 + nu)(1 - 2 nu)): 12 of force on 2 of length.
+    let modulus =
+        |young: f64, poisson: f64| young * (1.0 - poisson) / ((1.0 + poisson) * (1.0 - 2.0 * poisson));
+    let expected = 6.0 * ((0.5 - depth) / modulus(10.0, 0.3) + 0.3 / modulus(1.0, 0.2));
+    assert!((ends[0] / expected - 1.0).abs() < 1e-6, "{} {expected}", ends[0]);
+}
+
+/// Half or a quarter of the grid behind mirrors wears thinner as the whole one does.
+#[test]
+fn mirrors_change_nothing_where_a_coating_gets_thinner() {
+    for poisson in [0.0, 0.3] {
+        let text = format!(
+            "[grid]\ncells = [24, 24]\nsize = [2.8, 2.8]\n[upper]\nrigid = true\n[lower]\n\
+             coatings = [{{ thickness = 0.02, young = 3.0, poisson = {poisson}, wear_coefficient = 0.1 }}]\n\
+             substrate = {{ young = 1.0, poisson = {poisson}, wear_coefficient = 0.0 }}\n[profile.sphere]\nradius = 100.0\n\
+             [friction]\ncoefficient = 0.3\n[solver]\ntolerance = {TOLERANCE:e}\n[wear]\nthinning_tolerance = 0.02\nlargest_step = 1.0\n\
+             [[load]]\nnormal_force = 1.2e-2\nincrements = 3\n[[load]]\nshift = [0.03, 0.0]\nincrements = 8\ncycles = 30\n{}",
+            keeping(8).replace("\"zone\"", "\"zone\", \"worn_depth\"")
+        );
+        let [with, without] = [LeaveOut::ALL, LeaveOut::all_but(Simplification::Mirror)].map(|leave_out| {
+            let plan = Plan::leaving_out(Case::from_toml(&text, "case.toml").unwrap(), leave_out).unwrap();
+            (plan.symmetry, solved_leaving_out(&text, leave_out).history)
+        });
+        assert!(with.0 != Symmetry::NONE && without.0 == Symmetry::NONE);
+        let depths = [&with.1, &without.1].map(|history| history.cycles.last().unwrap().max_worn_depth);
+        let off = difference(&without.1, &with.1);
+        println!("nu = {poisson}: worn {:.2e} of 0.02, {off:.1e} apart", depths[0]);
+        assert!(depths[0] > 0.1 * 0.02, "{}: the response shall have been found anew", depths[0]);
+        assert!((depths[0] / depths[1] - 1.0).abs() < 100.0 * TOLERANCE, "{depths:?}");
+        assert!(off < 100.0 * TOLERANCE, "{off:e}");
+    }
 }
 
 /// A soft coating under a sphere is worn through in the middle first, where the substrate wears by its own coefficient.
