@@ -107,7 +107,7 @@ impl Increment<'_> {
             let length = hypot(q);
             certificate.excess.raise(over((length - bound).max(0.0), most));
             let kept = [0, 1].map(|axis| slip[axis][at] - self.before.slip[axis][at]);
-            work += dissipated([self.law.bound(i, j, self.before.pressure[at]), bound], kept);
+            work += dissipated([self.bound_at(at, self.before.pressure[at]), bound], kept);
             limit += bound * hypot(kept);
             if zone == Zone::Slip {
                 certificate.on_circle.raise(over((bound - length).max(0.0), most));
@@ -212,8 +212,14 @@ impl Increment<'_> {
     /// Friction bound of every cell.
     fn bound(&self) -> Array2<f64> {
         let mut bound = self.fields.p.clone();
-        bound.indexed_iter_mut().for_each(|((i, j), p)| *p = self.law.bound(i, j, *p));
+        bound.indexed_iter_mut().for_each(|((i, j), p)| *p = self.bound_at([i, j], *p));
         bound
+    }
+
+    /// Friction bound of a cell under a pressure, `min(mu p, tau)`.
+    fn bound_at(&self, [i, j]: [usize; 2], pressure: f64) -> f64 {
+        let strength = self.law.max_shear().map_or(f64::INFINITY, |strength| strength.at(i, j));
+        (self.law.at(i, j) * pressure).min(strength)
     }
 
     /// That of every cell.

@@ -13,7 +13,8 @@ use serde_json::Value;
 
 use crate::arguments::StudyArguments;
 use crate::case_file::{Beside, CaseFile};
-use crate::commands::run::{self, Wanted};
+use crate::commands::preparation::Wanted;
+use crate::commands::run;
 use crate::commands::study::{Question, studied};
 use crate::estimate::{Estimate, NoBars};
 use crate::failure::{Failure, Unwritten};

@@ -9,6 +9,7 @@ pub mod heat;
 pub mod identify;
 mod loaded_surfaces;
 pub mod plan;
+pub mod preparation;
 pub mod report;
 pub mod run;
 mod run_observer;

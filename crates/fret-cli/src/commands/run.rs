@@ -1,34 +1,27 @@
 //! `fret run`: from a case file to a folder of results, with a face for the time between.
 
-use std::cell::Cell;
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use fret_core::history::Warning;
 use fret_core::history::{WornByLayer, WornThrough};
-use fret_core::machine::memory::{self, Claim};
-use fret_core::plan::{LeaveOut, Plan};
-use fret_core::run::{Checkpoint, Observer, RunError, Simulation, plausibility};
-use fret_core::study::{StageQuantities, companion};
+use fret_core::run::{Checkpoint, Observer, RunError, Simulation};
+use fret_core::study::StageQuantities;
 use serde_json::{Value, json};
 
+use super::preparation::{Preparation, Wanted};
 use super::run_observer::{Clock, RunObserver};
-use crate::arguments::{LeavingOut, RunArguments};
-use crate::case_file::CaseFile;
-use crate::commands::plan::left_out_in_short;
+use crate::arguments::RunArguments;
 use crate::commands::{heat, stress};
 use crate::defect;
 use crate::estimate::{Estimate, NoBars};
 use crate::failure::{Failure, Told};
 use crate::interrupt::{self, Listener};
-use crate::origin::Origin;
-use crate::output::{ERROR_BARS, Ending, ResultFolder, RunRecord, Standing, Stored, Wish, write_whole};
+use crate::output::{ERROR_BARS, Ending, ResultFolder, RunRecord, Standing, Stored, write_whole};
 use crate::progress::Progress;
-use crate::summary::{Summary, warning_line};
+use crate::summary::Summary;
 use crate::tally::Tally;
 use crate::terminal;
-use crate::threads;
 
 /// Solves a case.
 pub fn run(arguments: &RunArguments, as_json: bool) -> Result<(), Told> {
@@ -48,22 +41,6 @@ pub fn run(arguments: &RunArguments, as_json: bool) -> Result<(), Told> {
     }
 }
 
-/// Everything judged; nothing written yet.
-struct Preparation {
-    case_file: CaseFile,
-    plan: Plan,
-    /// Where the run starts, when the call names a state.
-    origin: Option<Origin>,
-    folder: PathBuf,
-    standing: Standing,
-    /// The coarser run that error bars are read from, when they are asked for.
-    companion: Option<Plan>,
-    threads: usize,
-    pool: rayon::ThreadPool,
-    /// Memory for the run.
-    claim: Cell<Option<Claim>>,
-}
-
 /// Where a run begins.
 enum Beginning {
     /// There is nothing to do: the record of the run that was solved before.
@@ -79,86 +56,6 @@ struct Departure {
     from: Checkpoint,
     /// Time spent before [s].
     wall_s: f64,
-}
-
-/// What is to be run, and where to.
-pub struct Wanted {
-    /// The case.
-    pub case_file: CaseFile,
-    /// Folder of the results.
-    pub folder: PathBuf,
-    /// Where it starts, when the call names a state.
-    pub origin: Option<Origin>,
-    /// What to do with what is in the folder.
-    pub wish: Wish,
-    /// Which automatic simplifications to use.
-    pub leave_out: LeaveOut,
-    /// Whether error bars are asked for.
-    pub estimate_error: bool,
-    /// Number of threads; all cores without.
-    pub threads: Option<u16>,
-    /// Whether nothing but errors is told.
-    pub quiet: bool,
-}
-
-impl Wanted {
-    fn by(arguments: &RunArguments) -> Result<Self, Failure> {
-        let case_file = CaseFile::read(&arguments.case)?;
-        let folder = arguments.out.clone().unwrap_or_else(|| Path::new("results").join(case_file.stem()));
-        Ok(Self {
-            folder,
-            case_file,
-            origin: arguments.from.as_deref().map(Origin::read).transpose()?,
-            wish: match (arguments.resume, arguments.force) {
-                (true, _) => Wish::Resume,
-                (false, true) => Wish::Force,
-                (false, false) => Wish::Start,
-            },
-            leave_out: match arguments.leave_out {
-                LeavingOut::All => LeaveOut::ALL,
-                LeavingOut::None => LeaveOut::NONE,
-            },
-            estimate_error: arguments.estimate_error,
-            threads: arguments.threads,
-            quiet: arguments.quiet,
-        })
-    }
-
-    /// Judges everything; writes nothing.
-    fn prepared(self) -> Result<Preparation, Failure> {
-        let Self { case_file, folder, origin, wish, quiet, .. } = self;
-        let earlier = if origin.is_none() && wish == Wish::Resume { Origin::below(&folder)? } else { None };
-        let plan = case_file.planned_leaving_out(self.leave_out, origin.as_ref().or(earlier.as_ref()))?;
-        if let Some(Origin { results, .. }) = &origin
-            && is_same_folder(&folder, Path::new(results))
-        {
-            return Err(Failure::Call(
-                format!("{}: the run would replace the results it starts from", folder.display()),
-                "choose another folder with --out DIR".to_owned(),
-            ));
-        }
-        let companion = self.estimate_error.then(|| companion(&plan)).transpose().map_err(|error| {
-            Failure::Call(format!("--estimate-error: {error}"), "the same command without it".to_owned())
-        })?;
-        let standing = ResultFolder::standing(&folder, &case_file, &plan, wish)?;
-        let threads = threads::asked(self.threads);
-        let pool = threads::pool(threads)?;
-        // Once for all: what the run maps on its way would make a second look find less.
-        let needed = plan.memory_bytes.max(companion.as_ref().map_or(0, |plan| plan.memory_bytes));
-        let claim = Cell::new(match standing {
-            Standing::Solved(_) => None,
-            _ => Some(pool.install(|| memory::claim(needed))?),
-        });
-        if !quiet && !matches!(standing, Standing::Solved(_)) {
-            announce(&plan, &folder, &standing);
-            if let Some(Origin { results, increment, .. }) = &origin {
-                terminal::say(&format!(
-                    "starts from {results}, end of increment {increment} (counted from 0)"
-                ));
-            }
-        }
-        Ok(Preparation { case_file, plan, origin, folder, standing, companion, threads, pool, claim })
-    }
 }
 
 /// Runs a case into a folder and tells nothing; `guest` hears of every increment and may stop the run.
@@ -182,35 +79,6 @@ pub fn run_into(wanted: Wanted, guest: &mut Guest<'_>) -> Result<(), Failure> {
 /// Quantities of interest as a record holds them.
 fn quantities_of(record: &Value) -> Vec<StageQuantities> {
     serde_json::from_value(record["quantities_of_interest"].clone()).unwrap_or_default()
-}
-
-fn is_same_folder(one: &Path, other: &Path) -> bool {
-    one.canonicalize().is_ok_and(|one| other.canonicalize().is_ok_and(|other| one == other))
-}
-
-fn announce(plan: &Plan, folder: &Path, standing: &Standing) {
-    if !plan.left_out.is_empty() {
-        terminal::say(&left_out_in_short(plan));
-    }
-    for warning in plausibility::of_plan(plan) {
-        terminal::say(&warning_line(&warning));
-    }
-    let shown = folder.display();
-    match standing {
-        Standing::Free | Standing::Unfinished | Standing::Solved(_) => {}
-        Standing::SameCase => {
-            terminal::say(&format!("{shown}: the earlier results of this case are replaced"));
-            let made_since = ["report.html", "export.npz", "csv", "vtk", "stress"];
-            let stays = |name: &&str| {
-                folder.join(name).exists() && !(*name == "stress" && plan.case.stress.is_some())
-            };
-            let old: Vec<&str> = made_since.into_iter().filter(stays).collect();
-            if !old.is_empty() {
-                terminal::say(&format!("{shown}: still of the earlier run: {}", old.join(", ")));
-            }
-        }
-        Standing::Forced => terminal::say(&format!("{shown}: existing folder used, by --force")),
-    }
 }
 
 impl Preparation {

@@ -2,8 +2,8 @@
 
 use toml::Spanned;
 
+use super::body_file::BodyFile;
 use super::coating::{self, material};
-use super::file::BodyFile;
 use super::judge::Judge;
 use crate::kernel::sublayers::{RESPONSE_BOUND, SublayerError, layered_half_space};
 use crate::model::{Base, Body, ContactPair, Layer};

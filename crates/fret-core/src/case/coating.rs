@@ -2,7 +2,7 @@
 
 use toml::Spanned;
 
-use super::file::{CoatingFile, GradientFile, LawFile};
+use super::body_file::{CoatingFile, GradientFile, LawFile};
 use super::interface::interface;
 use super::judge::Judge;
 use crate::kernel::sublayers::MOST_SUBLAYERS;

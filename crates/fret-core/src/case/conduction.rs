@@ -2,8 +2,9 @@
 
 use toml::Spanned;
 
+use super::body_file::BodyFile;
 use super::course::{Course, Stage};
-use super::file::{BodyFile, ThermalFile};
+use super::file::ThermalFile;
 use super::judge::Judge;
 use super::output::Output;
 use crate::model::{ConductingLayer, Conduction, Conductor};

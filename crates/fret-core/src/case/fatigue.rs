@@ -2,7 +2,7 @@
 
 use toml::Spanned;
 
-use super::file::{BodyFile, ConstantsFile};
+use super::body_file::{BodyFile, ConstantsFile};
 use super::judge::Judge;
 use crate::subsurface::fatigue::{FatigueConstants, LayerConstants};
 

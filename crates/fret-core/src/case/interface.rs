@@ -2,8 +2,8 @@
 
 use toml::Spanned;
 
+use super::body_file::{BodyFile, CoatingFile};
 use super::course::Stage;
-use super::file::{BodyFile, CoatingFile};
 use super::interface_file::InterfaceFile;
 use super::judge::Judge;
 use crate::model::{Interface, InterfaceError, Layer};

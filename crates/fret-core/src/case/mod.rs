@@ -5,6 +5,7 @@ mod arrays;
 mod attachments;
 mod axis;
 mod bodies;
+mod body_file;
 pub(crate) mod check;
 mod coating;
 mod conduction;

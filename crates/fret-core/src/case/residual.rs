@@ -2,7 +2,7 @@
 
 use toml::Spanned;
 
-use super::file::BodyFile;
+use super::body_file::BodyFile;
 use super::judge::Judge;
 use super::residual_file::ResidualFile;
 use crate::model::{ResidualLayer, ResidualStress};

@@ -2,8 +2,9 @@
 
 use toml::Spanned;
 
+use super::body_file::BodyFile;
 use super::course::{Course, Stage};
-use super::file::{BodyFile, StressFile};
+use super::file::StressFile;
 use super::judge::Judge;
 use super::stage_file::{WearFile, WearLawFile, WornBodyFile};
 use crate::model::{Body, ContactPair, WearLaw, WearLayers, WearRule, WornLayer};

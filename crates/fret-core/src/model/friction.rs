@@ -1,4 +1,4 @@
-//! Coulomb's law of dry friction, with a shear strength of the interface: the bound on shear from pressure.
+//! Parameters of Coulomb's law of dry friction, with a shear strength of the interface. What they bound: `solver/laws/friction.rs`.
 
 use ndarray::Array2;
 use serde::{Serialize, Serializer};
@@ -168,12 +168,6 @@ impl CoulombFriction {
     /// Whether it has a value for every cell.
     pub fn is_map(&self) -> bool {
         self.maps().next().is_some()
-    }
-
-    /// Bound on the shear of cell `[i, j]` under a pressure that is not negative [pressure].
-    pub fn bound(&self, i: usize, j: usize, pressure: f64) -> f64 {
-        let coulomb = self.coefficient.at(i, j) * pressure;
-        self.max_shear.as_ref().map_or(coulomb, |tau| coulomb.min(tau.at(i, j)))
     }
 
     /// Coefficient in cell `[i, j]` [-].

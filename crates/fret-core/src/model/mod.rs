@@ -17,7 +17,6 @@ pub mod residual;
 pub mod rig;
 pub mod scheme;
 pub mod shape;
-pub mod slip_increment;
 pub mod state;
 pub mod symmetry;
 pub mod wear;

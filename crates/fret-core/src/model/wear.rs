@@ -1,11 +1,7 @@
 //! Wear: the depth that slip takes off the surfaces, so that the gap opens.
 
-use ndarray::{Array2, Zip};
 use serde::{Deserialize, Serialize};
 
-use super::friction::CoulombFriction;
-use super::slip_increment::add_dissipation;
-use super::state::ContactState;
 use super::wear_layers::WearLayers;
 
 /// What the worn depth follows.
@@ -49,33 +45,5 @@ impl WearRule {
     pub fn largest_rate(&self) -> f64 {
         let of_layers = || self.layers.as_ref().map_or(0.0, WearLayers::largest_rate);
         self.coefficient.unwrap_or_else(of_layers)
-    }
-
-    /// Adds the depth [length] worn between two states that follow each other under a friction law; where each layer has a coefficient of
-    /// its own, the work by area [pressure x length] that they wear by. Only slipping cells have slip.
-    pub fn add(
-        &self,
-        before: &ContactState,
-        after: &ContactState,
-        friction: &CoulombFriction,
-        depth: &mut Array2<f64>,
-    ) {
-        for axis in 0..2 {
-            debug_assert_eq!(before.slip[axis].dim(), depth.dim());
-        }
-        let k = self.coefficient.unwrap_or(1.0);
-        match self.law {
-            WearLaw::Energy => add_dissipation(before, after, friction, k, depth),
-            WearLaw::Archard => {
-                let slip_y = &after.slip[1] - &before.slip[1];
-                let pressure = &before.pressure + &after.pressure;
-                Zip::from(depth)
-                    .and(&pressure)
-                    .and(&after.slip[0])
-                    .and(&before.slip[0])
-                    .and(&slip_y)
-                    .for_each(|depth, p, now, then, y| *depth += k * 0.5 * p * (now - then).hypot(*y));
-            }
-        }
     }
 }

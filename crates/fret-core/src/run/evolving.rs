@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::model::slip_increment::add_slip;
+use super::slip_increment::add_slip;
 use crate::model::{AccumulatedSlip, ContactState, CoulombFriction, FrictionEvolution};
 
 /// What a run knows of the cycle at work and of the cycle jump before it.

@@ -9,6 +9,7 @@ use super::thinning::LayersWorn;
 use crate::fields::stored;
 use crate::history::{CycleRecord, CycleRegime, Drive, Regime, SLIDING_ENERGY_RATIO, StepRecord};
 use crate::model::{ContactState, CoulombFriction, Rig};
+use crate::solver::friction_bounds;
 
 /// Force and moment, shift and twist at the end of an increment.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -206,8 +207,7 @@ impl FrettingLoop {
         let distance =
             |a: &Array2<f64>, b: &Array2<f64>| -> f64 { a.iter().zip(b).map(|(a, b)| (a - b).powi(2)).sum() };
         let pressure = state.pressure.iter().map(|p| p * p).sum::<f64>();
-        let bound: f64 =
-            state.pressure.indexed_iter().map(|((i, j), p)| friction.bound(i, j, *p).powi(2)).sum();
+        let bound: f64 = friction_bounds(friction, &state.pressure).iter().map(|bound| bound.powi(2)).sum();
         let share = |change: f64, whole: f64| if whole > 0.0 { (change / whole).sqrt() } else { 0.0 };
         let shear =
             distance(&state.shear[0], &self.start.shear[0]) + distance(&state.shear[1], &self.start.shear[1]);

@@ -13,6 +13,7 @@ mod recording;
 mod refinement;
 mod run_error;
 mod simulation;
+mod slip_increment;
 mod stepping;
 mod surfaces;
 mod thinning;

@@ -3,8 +3,8 @@
 use ndarray::{Array2, Zip};
 use serde::{Deserialize, Serialize};
 
+use super::slip_increment::{add_path, add_wear};
 use crate::fields::stored;
-use crate::model::slip_increment::add_path;
 use crate::model::{ContactState, CoulombFriction, SurfaceGrid, WearLaw, WearLayers, WearRule};
 
 /// Share of a cell's pressure that a block may take off at the most, as far as the cell's own compliance tells. Above 0.8
@@ -160,7 +160,7 @@ impl Wearing {
 
     /// Adds the wear between two states that follow each other.
     pub fn add(&mut self, before: &ContactState, after: &ContactState) {
-        self.rule.add(before, after, &self.friction, &mut self.collected.wear);
+        add_wear(before, after, &self.friction, &self.rule, &mut self.collected.wear);
         add_path(before, after, &mut self.collected.path);
     }
 

@@ -9,20 +9,22 @@
 //! the way. For contacts of some thousand unknowns: membranes on soft layers, stiff wavy films, friction near 1, where active sets read
 //! off feasible tractions wander.
 
-use faer::Mat;
-use faer::linalg::solvers::Solve;
+mod linear_system;
 
+use super::contact_problem::{ContactProblem, Solution};
 use super::contact_set::ContactSet;
 use super::laws::projection::project_pressure;
 use super::laws::rigid_motions::RigidMotions;
 use super::laws::slip::{SlipIncrement, TangentialProblem};
-use super::newton::{self, ContactProblem, Solution};
+use super::newton;
 use super::operators::{Method, RegionOperators};
 use super::settings::{IterationCallback, SolveError, SolverSettings};
 use super::tractions::{Displacements, Tractions};
 use crate::compliance::{CellResponse, SurfaceCompliance};
 use crate::fields::norm;
 use crate::model::TangentialField;
+
+use linear_system::{ActiveCell, LinearSystem};
 
 /// Iterations from one start.
 const MOST_ITERATIONS: usize = 40;
@@ -60,48 +62,6 @@ pub fn solve(
         }
     }
     Ok(None)
-}
-
-/// What a cell whose augmented pressure is positive does.
-struct ActiveCell {
-    cell: usize,
-    /// Unit vectors along and across its trial shear.
-    along: [f64; 2],
-    across: [f64; 2],
-    /// Where it slips, the displacement that turns its shear.
-    turning: [f64; 2],
-    /// Where it slips: bound and slope at the augmented pressure y, with `bound - slope y`.
-    slope: f64,
-    offset: f64,
-    /// Slip stiffness [length/pressure]; `None` where it sticks.
-    stiffness: Option<f64>,
-    /// Place of its pressure among the unknowns; its shear follows, two of them in stick and one in slip.
-    first: usize,
-    /// Unknowns of its shear.
-    shear_unknowns: usize,
-}
-
-impl ActiveCell {
-    /// The traction `[p, qx, qy]` of a unit of each of its unknowns.
-    fn columns(&self) -> [[f64; 3]; 3] {
-        let Self { along, across, slope, .. } = self;
-        match self.stiffness {
-            None => [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
-            Some(_) => [[1.0, slope * along[0], slope * along[1]], [0.0, across[0], across[1]], [0.0; 3]],
-        }
-    }
-
-    /// The displacement that each of its equations is about.
-    fn rows(&self) -> [[f64; 3]; 3] {
-        match self.stiffness {
-            None => [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
-            Some(_) => [[1.0, 0.0, 0.0], [0.0, self.turning[0], self.turning[1]], [0.0; 3]],
-        }
-    }
-
-    fn unknowns(&self) -> usize {
-        1 + self.shear_unknowns
-    }
 }
 
 /// Tractions and rigid motions.
@@ -219,7 +179,7 @@ impl<'a> Attempt<'a> {
                 return Ok(false);
             }
             operators.direct_solves += 1;
-            let Some(mut next) = self.newton_point(&active, unknowns) else { return Ok(false) };
+            let Some(mut next) = self.newton_point(&active) else { return Ok(false) };
             operators.compliance.full(next.tractions.parts(), next.displacements.parts_mut());
             let mut fraction = 1.0;
             let mut found = None;
@@ -332,101 +292,16 @@ impl<'a> Attempt<'a> {
         active
     }
 
-    /// Tractions and motions that solve the equations linearised here; displacements are left to be found.
-    fn newton_point(&self, active: &[ActiveCell], unknowns: usize) -> Option<Point> {
-        let Self { problem, motions, self_influence: [unit, _], .. } = self;
-        // Rows of displacements and columns of motions are in units of the normal self-influence.
-        let motion_unknown: Vec<usize> = (0..3).filter(|&mode| motions.by_force[mode]).collect();
-        let gives = problem.approach_give > 0.0;
-        let approach_unknown = usize::from(problem.total.is_some() || gives);
-        let size = unknowns + approach_unknown + motion_unknown.len();
-        let mut matrix = Mat::<f64>::zeros(size, size);
-        let mut right = Mat::<f64>::zeros(size, 1);
-        let place = |cell: usize| [cell / self.columns, cell % self.columns];
-        let prescribed =
-            [0, 1, 2].map(|mode| if motions.by_force[mode] { 0.0 } else { problem.motion[mode] });
-        let mode_at = |mode: usize, cell: usize| {
-            let mut amounts = [0.0; 3];
-            amounts[mode] = 1.0;
-            self.motions.at(amounts, cell)
-        };
-        for to in active {
-            let rows = to.rows();
-            for from in active {
-                let block = self.response.between(place(to.cell), place(from.cell));
-                let columns = from.columns();
-                for (row, vector) in rows.iter().enumerate().take(to.unknowns()) {
-                    let answer =
-                        [0, 1, 2].map(|k| (0..3).map(|l| vector[l] * block[l][k]).sum::<f64>() / unit);
-                    for (column, traction) in columns.iter().enumerate().take(from.unknowns()) {
-                        matrix[(to.first + row, from.first + column)] =
-                            (0..3).map(|k| answer[k] * traction[k]).sum();
-                    }
-                    let constant = answer[1] * from.along[0] + answer[2] * from.along[1];
-                    right[(to.first + row, 0)] -= constant * from.offset;
-                }
-            }
-            let approach = if approach_unknown == 1 { 0.0 } else { problem.approach };
-            right[(to.first, 0)] += (approach - problem.undeformed[to.cell]) / unit;
-            if approach_unknown == 1 {
-                matrix[(to.first, unknowns)] = -1.0;
-                matrix[(unknowns, to.first)] = 1.0;
-            }
-            let (before, moved) = (problem.before.at(to.cell), self.motions.at(prescribed, to.cell));
-            for (row, vector) in rows.iter().enumerate().take(to.unknowns()).skip(1) {
-                let wanted = vector[1] * (before[0] + moved[0]) + vector[2] * (before[1] + moved[1]);
-                right[(to.first + row, 0)] += wanted / unit;
-                if let Some(stiffness) = to.stiffness {
-                    matrix[(to.first + row, to.first + row)] += stiffness / unit;
-                }
-            }
-            let columns = to.columns();
-            for (index, &mode) in motion_unknown.iter().enumerate() {
-                let along = mode_at(mode, to.cell);
-                let at = unknowns + approach_unknown + index;
-                for (row, vector) in rows.iter().enumerate().take(to.unknowns()).skip(1) {
-                    matrix[(to.first + row, at)] = -(vector[1] * along[0] + vector[2] * along[1]);
-                }
-                for (column, traction) in columns.iter().enumerate().take(to.unknowns()) {
-                    matrix[(at, to.first + column)] = traction[1] * along[0] + traction[2] * along[1];
-                }
-                right[(at, 0)] -= to.offset * (to.along[0] * along[0] + to.along[1] * along[1]);
-            }
-        }
-        if let Some(total) = problem.total {
-            right[(unknowns, 0)] = total;
-        } else if gives {
-            matrix[(unknowns, unknowns)] = unit / problem.approach_give;
-            right[(unknowns, 0)] = problem.approach / problem.approach_give;
-        }
-        for (index, &mode) in motion_unknown.iter().enumerate() {
-            let at = unknowns + approach_unknown + index;
-            right[(at, 0)] += problem.resultant[mode];
-            matrix[(at, at)] += motions.spring[mode] * unit;
-        }
-        let solution = matrix.partial_piv_lu().solve(&right);
-        let value = |index: usize| solution[(index, 0)];
-        if (0..size).any(|index| !value(index).is_finite()) {
-            return None;
-        }
-        let mut tractions = Tractions::zeros(problem.undeformed.len());
-        for cell in active {
-            let mut found = [0.0, cell.offset * cell.along[0], cell.offset * cell.along[1]];
-            for (column, traction) in cell.columns().iter().enumerate().take(cell.unknowns()) {
-                found = [0, 1, 2].map(|k| found[k] + traction[k] * value(cell.first + column));
-            }
-            tractions.pressure[cell.cell] = found[0];
-            tractions.shear.set(cell.cell, [found[1], found[2]]);
-        }
-        let mut motion = problem.motion;
-        for (index, &mode) in motion_unknown.iter().enumerate() {
-            motion[mode] = value(unknowns + approach_unknown + index) * unit;
-        }
+    /// The solution of the equations linearised here; its displacements are left to be found.
+    fn newton_point(&self, active: &[ActiveCell]) -> Option<Point> {
+        let Self { problem, response, motions, columns, self_influence: [unit, _], .. } = self;
+        let system = LinearSystem { problem, response, motions, active, columns: *columns, unit: *unit };
+        let found = system.solve()?;
         Some(Point {
             displacements: Displacements::zeros(problem.undeformed.len()),
-            tractions,
-            approach: if approach_unknown == 1 { value(unknowns) * unit } else { problem.approach },
-            motion,
+            tractions: found.tractions,
+            approach: found.approach,
+            motion: found.motion,
         })
     }
 

@@ -4,7 +4,7 @@
 use ndarray::{Array2, ArrayView2};
 
 use super::contact_edge;
-use super::increment::Solved;
+use super::increment_problem::Solved;
 use super::outcome::Work;
 use super::region::Region;
 use super::{ContactSolver, Coupling, SolveError};
@@ -24,7 +24,7 @@ impl ContactSolver<'_> {
         let whole = Region::whole(cells);
         let mut gap = Array2::zeros(cells);
         if region == whole {
-            whole.scatter(&solved.gap, &mut gap);
+            whole.scatter(&solved.solution.gap, &mut gap);
             return Ok(gap);
         }
         gap.assign(&self.undeformed);
@@ -69,7 +69,7 @@ impl ContactSolver<'_> {
     pub(super) fn contact_area(&self, region: Region, solved: &Solved) -> f64 {
         let view = |field| ArrayView2::from_shape(region.shape, field);
         let (Ok(pressure), Ok(gap)) =
-            (view(solved.tractions.pressure.as_slice()), view(solved.gap.as_slice()))
+            (view(solved.tractions.pressure.as_slice()), view(solved.solution.gap.as_slice()))
         else {
             return 0.0;
         };

@@ -1,17 +1,23 @@
 //! One load increment: from the state before and the new loads to the state after.
 //!
-//! [`ContactSolver`] picks what the problem needs (pressure alone, pressure then shear, or both together), works in a region around the
-//! contact, and checks the rest of the grid once. The laws stand in `laws`, the method for pressure and shear together in `newton`,
-//! its linear problems in `linear`, the frictionless problem in `normal`. Theory: `docs/theory/contact-problem.md` and
+//! [`ContactSolver`] picks what the problem needs (pressure alone, pressure then shear: `sequential`; both together: `coupled`), works in
+//! a region around the contact, and checks the rest of the grid once: `increment` is that loop. The laws stand in `laws`, the method for
+//! pressure and shear together in `newton`, its linear problems in `linear`, the frictionless problem in `normal`. Theory: `docs/theory/contact-problem.md` and
 //! `docs/theory/solution-algorithm.md`.
 
 mod contact_edge;
+mod contact_problem;
 mod contact_set;
 mod contact_vector;
+mod coupled;
+mod displacement_before;
 mod exact_newton;
+mod frictionless;
 mod full_grid_check;
 mod globalisation;
 mod increment;
+mod increment_problem;
+mod iterate;
 mod laws;
 mod linear;
 mod memory;
@@ -19,12 +25,15 @@ mod newton;
 mod normal;
 mod operators;
 mod outcome;
+mod prescribed;
 mod region;
+mod sequential;
 mod settings;
 mod settle;
 mod slip_history;
 mod staggered;
 mod start;
+mod stretch;
 mod tilt;
 mod tractions;
 
@@ -32,31 +41,18 @@ use std::borrow::Cow;
 
 use ndarray::Array2;
 
-use crate::compliance::{CellResponse, OperatorSet, SharedWorkspace, SpectralCompliance, SurfaceResponse};
+use crate::compliance::{SharedWorkspace, SpectralCompliance, SurfaceResponse};
 use crate::kernel::ResponseTable;
-use crate::model::{
-    BulkCompliance, ContactState, Control, CoulombFriction, Integration, LoadStep, Rig, Scheme, SurfaceGrid,
-    Symmetry,
-};
+use crate::model::{BulkCompliance, ContactState, CoulombFriction, LoadStep, Rig, SurfaceGrid, Symmetry};
 
+pub(crate) use laws::friction::bounds_on_grid as friction_bounds;
 pub use memory::SolverMemory;
 pub(crate) use outcome::worst;
 pub use outcome::{Increment, Outcome, Regime, Residual, Resultants, Work};
 pub use settings::{Coupling, IterationCallback, SolveError, SolverSettings};
 
-use increment::{IncrementProblem, Solved, Stretch};
-use linear::preconditioner::{CellWaves, Preconditioner};
-use linear::solver::LinearSolver;
-use memory::{Before, Drift, GridTractions, LastIncrement};
-use normal::coarse_grids::{CoarseGrids, Prescribed};
-use operators::{Method, RegionOperators};
-use region::Region;
-use slip_history::slip_path;
-use tractions::Tractions;
-
-/// A normal load changes much when it changes by more than this fraction: starting on coarse grids is then cheaper than from the
-/// pressure before.
-const LARGE_CHANGE: f64 = 0.03;
+use normal::coarse_grids::CoarseGrids;
+use operators::RegionOperators;
 
 /// Solves increments of one contact; of one with mirrors the part before them, which is what its grid, fields and memory hold.
 pub struct ContactSolver<'a> {
@@ -248,280 +244,6 @@ impl<'a> ContactSolver<'a> {
             }
         }
     }
-
-    fn solve(
-        &mut self,
-        state: &ContactState,
-        load: &LoadStep,
-        work: &mut Work,
-        callback: IterationCallback<'_>,
-    ) -> Result<Increment, SolveError> {
-        if let Control::Force(normal) = load.normal {
-            self.check_friction_carries(load, normal, 1e-12)?;
-        }
-        self.take_last_load_as(load, state);
-        let mut start = self.pressure_from_coarse_grids(state, load, work, callback)?;
-        let mut region = match &start {
-            Some(pressure) => self.region_around(pressure, state),
-            None => self.region_for(state, load),
-        };
-        let ratio = self.ratio_to_last(load);
-        let follows =
-            self.coupling != Coupling::Frictionless && self.settings.integration == Integration::SecondOrder;
-        let mut ratio = ratio.filter(|_| follows);
-        loop {
-            let solved = self.solve_in(region, (start.as_ref(), ratio), (state, load), work, callback);
-            if let (Some(_), Err(SolveError::NotConverged { .. })) = (ratio, &solved) {
-                work.end_point_increments += 1;
-                ratio = None;
-                continue;
-            }
-            let (solved, after, outcome) = solved?;
-            self.check_equilibrium(load, &outcome)?;
-            self.check_across(&after)?;
-            if self.touches_edge(&after.pressure) {
-                return Err(SolveError::ContactAtEdge);
-            }
-            let same_pressure = self.memory.last.as_ref().filter(|last| {
-                self.coupling != Coupling::Coupled
-                    && self.settings.reuse_pressure
-                    && last.region == region
-                    && last.load.normal == load.normal
-                    && last.load.tilt == load.tilt
-            });
-            let (gap, contact_area) = if let Some(last) = same_pressure {
-                (last.gap.clone(), last.contact_area)
-            } else {
-                let gap = self.gap_everywhere(region, &solved, &after, work)?;
-                if self.overlaps_outside(region, &gap) {
-                    region = Region::whole(self.grid.cells());
-                    start = start.map(|_| after.pressure);
-                    continue;
-                }
-                (gap, self.contact_area(region, &solved))
-            };
-            let last = self.memory.last.take();
-            let contact_area_before = last.as_ref().map_or(0.0, |last| last.contact_area);
-            let (gap_before, drift_before) = last.map(|last| (last.gap, last.drift)).unzip();
-            let previous = self.memory.last_load.replace(*load);
-            self.memory.before = previous.map(|load| Before {
-                load,
-                tractions: GridTractions::of(state),
-                contact_area: contact_area_before,
-                gap: gap_before.filter(|_| ratio.is_some()),
-                drift: drift_before.filter(|_| ratio.is_some()),
-            });
-            let motion =
-                [after.shift[0] - state.shift[0], after.shift[1] - state.shift[1], after.twist - state.twist];
-            let drift = Drift {
-                region: Some(region),
-                field: solved.drift,
-                motion,
-                strain: self.stretch(state, load).strain,
-                ratio: ratio.unwrap_or(1.0),
-            };
-            self.memory.last = Some(LastIncrement {
-                region,
-                displacements: solved.displacements,
-                drift: if follows { drift } else { Drift::default() },
-                gap: gap.clone(),
-                contact_area,
-                load: *load,
-            });
-            let fraction = outcome.stick_cells as f64 / outcome.contact_cells.max(1) as f64;
-            let stick_area = contact_area * fraction;
-            return Ok(Increment { state: after, outcome, contact_area, stick_area, gap, work: *work });
-        }
-    }
-
-    /// One increment with all contact inside `region`, from the pressure `start` when there is one.
-    fn solve_in(
-        &mut self,
-        region: Region,
-        (start, ratio): (Option<&Array2<f64>>, Option<f64>),
-        (state, load): (&ContactState, &LoadStep),
-        work: &mut Work,
-        callback: IterationCallback<'_>,
-    ) -> Result<(Solved, ContactState, Outcome), SolveError> {
-        let grid = self.grid;
-        let periodic = self.response.is_periodic();
-        let mut increment = IncrementProblem::new(
-            &grid,
-            &self.undeformed,
-            &self.friction,
-            (state, load),
-            region,
-            periodic,
-            (start, self.stretch(state, load)),
-        );
-        if let Some(solved) = increment.apart() {
-            let (after, outcome) = settle::settle(&increment, &solved);
-            return Ok((solved, after, outcome));
-        }
-        let coupled = self.coupling == Coupling::Coupled;
-        let grown = start.filter(|_| coupled).and_then(|pressure| self.grown_to(pressure, state));
-        let predicted = grown.unwrap_or_else(|| self.extrapolated(state, load));
-        let tractions = Tractions {
-            pressure: region.gather(&predicted.0),
-            shear: region.gather_tangential(&predicted.1),
-        };
-        let mut operators = self.operators_for(region)?;
-        let counted =
-            (operators.compliance.applications, operators.preconditioner.passes, operators.direct_solves);
-        let beyond = |before: &Before, drift: &Drift| {
-            increment.drift_to_here(before, drift, &mut operators, self.coupling)
-        };
-        if let Some(path) = ratio.and_then(|ratio| slip_path(&self.memory, state, (ratio, region), beyond)) {
-            increment.path = path;
-        }
-        let last = self.memory.last.as_ref().filter(|last| last.region == region);
-        let unchanged =
-            last.is_some_and(|last| last.load.normal == load.normal && last.load.tilt == load.tilt);
-        let last = last.map(|last| &last.displacements);
-        let cells = || Ok(CellResponse::new(&self.response, self.grid.cells(), self.symmetry)?);
-        let method = Method { coupling: self.coupling, settings: &self.settings, cells: &cells };
-        let solved = increment.solve(tractions, (last, unchanged), &mut operators, &method, callback);
-        let applications = operators.compliance.applications - counted.0;
-        work.convolutions += applications;
-        let whole = (grid.len() * self.symmetry.copies()) as f64;
-        work.full_grid_convolutions += applications as f64 * (region.len() as f64 / whole);
-        work.preconditioner_passes += operators.preconditioner.passes - counted.1;
-        work.direct_solves += operators.direct_solves - counted.2;
-        self.operators = Some(operators);
-        self.memory.region = Some(region);
-        let solved = solved?;
-        let (after, outcome) = settle::settle(&increment, &solved);
-        work.outer_iterations += solved.iterations;
-        Ok((solved, after, outcome))
-    }
-
-    /// The operators of a region; those of the last one when its shape is the same.
-    fn operators_for(&mut self, region: Region) -> Result<RegionOperators, SolveError> {
-        if let Some(mut operators) = self.operators.take()
-            && operators.region.shape == region.shape
-        {
-            operators.region = region;
-            return Ok(operators);
-        }
-        let waves = self.table.as_ref().map(|table| CellWaves { table, spacing: self.grid.spacing() });
-        let single = self.settings.single_precision;
-        let operators = OperatorSet {
-            normal: true,
-            tangential: self.coupling == Coupling::Uncoupled || self.settings.scheme == Scheme::Staggered,
-            full: self.coupling == Coupling::Coupled,
-            normal_from_all: false,
-            shear_axis: self.shear_axis,
-            symmetry: self.symmetry,
-            single,
-        };
-        let tangential = self.coupling != Coupling::Frictionless;
-        Ok(RegionOperators {
-            region,
-            compliance: SpectralCompliance::new(&self.response, region.shape, operators)?
-                .working_in(&self.workspace),
-            preconditioner: Preconditioner::new(
-                &self.response,
-                waves,
-                region.shape,
-                [true, tangential],
-                self.shear_axis,
-                self.symmetry,
-                single,
-            )?
-            .working_in(&self.workspace),
-            linear: LinearSolver::default(),
-            direct_solves: 0,
-        })
-    }
-
-    /// A pressure from coarser grids: for a first contact, and where the normal load changes much.
-    fn pressure_from_coarse_grids(
-        &mut self,
-        state: &ContactState,
-        load: &LoadStep,
-        work: &mut Work,
-        callback: IterationCallback<'_>,
-    ) -> Result<Option<Array2<f64>>, SolveError> {
-        let touched = state.pressure.iter().any(|p| *p > 0.0);
-        let far = match (load.normal, self.memory.last_load.map(|last| last.normal)) {
-            (Control::Force(now), Some(Control::Force(then)))
-            | (Control::Motion(now), Some(Control::Motion(then))) => {
-                (now - then).abs() > LARGE_CHANGE * now.abs()
-            }
-            _ => true,
-        };
-        // A coupled contact that has grown before goes on from itself.
-        let goes_on = self.coupling == Coupling::Coupled && self.memory.before.is_some();
-        if touched && (!far || goes_on) {
-            return Ok(None);
-        }
-        let lowest = self.undeformed.iter().copied().fold(f64::INFINITY, f64::min);
-        let prescribed = match load.normal {
-            Control::Force(force) if force > 0.0 => {
-                Prescribed { total: Some(force / self.grid.cell_area()), approach: 0.0 }
-            }
-            Control::Motion(approach) if approach > lowest => Prescribed { total: None, approach },
-            _ => return Ok(None),
-        };
-        let spacing = self.grid.spacing();
-        let grids = self.coarse.get_or_insert_with(|| {
-            CoarseGrids::below(&self.response, &self.undeformed, spacing, self.symmetry)
-        });
-        grids.pressure_above(prescribed, self.table.as_ref(), &self.settings, work, callback)
-    }
-
-    /// By how much more the lower surface is strained than the upper one, in the increment.
-    fn stretch(&self, state: &ContactState, load: &LoadStep) -> Stretch {
-        let [before, after] =
-            [state.bulk_stress, load.bulk_stress].map(|stress| self.bulk.relative_strain(stress));
-        Stretch {
-            strain: [after[0] - before[0], after[1] - before[1]],
-            middle: self.middle,
-            load: *load,
-            rig: self.rig.of_part(self.symmetry.copies()),
-        }
-    }
-
-    /// Whether the forces asked for are those of the solution: with a prescribed approach they may be more than friction carries.
-    fn check_equilibrium(&self, load: &LoadStep, outcome: &Outcome) -> Result<(), SolveError> {
-        self.check_friction_carries(load, outcome.resultants.normal, self.settings.tolerance)?;
-        let reached = outcome.residual.equilibrium;
-        if reached <= self.settings.tolerance {
-            return Ok(());
-        }
-        Err(SolveError::NotConverged { reached, iterations: self.settings.max_newton_iterations })
-    }
-
-    /// Whether there is no shear across the one axis along which it acts: its displacement is left out, so that nothing else would
-    /// tell.
-    fn check_across(&self, state: &ContactState) -> Result<(), SolveError> {
-        let Some(axis) = self.shear_axis else { return Ok(()) };
-        let size = |field: &Array2<f64>| field.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
-        let (across, bound) = (size(&state.shear[1 - axis]), self.friction.largest() * size(&state.pressure));
-        if across <= self.settings.tolerance * bound {
-            return Ok(());
-        }
-        let reached = if bound > 0.0 { across / bound } else { 1.0 };
-        Err(SolveError::NotConverged { reached, iterations: self.settings.max_newton_iterations })
-    }
-
-    fn check_friction_carries(&self, load: &LoadStep, normal: f64, tolerance: f64) -> Result<(), SolveError> {
-        let asked = tangential_force(load);
-        let bound = self.friction.largest() * normal.max(0.0);
-        if asked > bound * (1.0 + tolerance) {
-            return Err(SolveError::AboveSliding { asked, bound });
-        }
-        Ok(())
-    }
-}
-
-/// Size of the prescribed tangential force [force].
-fn tangential_force(load: &LoadStep) -> f64 {
-    let [x, y] = load.tangential.map(|control| match control {
-        Control::Force(force) => force,
-        Control::Motion(_) | Control::FarEnd(_) => 0.0,
-    });
-    x.hypot(y)
 }
 
 #[cfg(test)]

@@ -2,6 +2,7 @@
 
 use super::linear::preconditioner::Preconditioner;
 use super::linear::solver::LinearSolver;
+use super::outcome::Work;
 use super::region::Region;
 use super::settings::{Coupling, SolveError, SolverSettings};
 use crate::compliance::{CellResponse, SpectralCompliance};
@@ -18,6 +19,21 @@ pub struct RegionOperators {
     pub linear: LinearSolver,
     /// Iterations of the exact Newton method so far.
     pub direct_solves: usize,
+}
+
+impl RegionOperators {
+    /// Applications, passes of the preconditioner and direct solves so far.
+    pub fn work(&self) -> [usize; 3] {
+        [self.compliance.applications, self.preconditioner.passes, self.direct_solves]
+    }
+
+    /// The work since it was `before`; the region is this `fraction` of the whole grid.
+    pub fn work_since(&self, before: [usize; 3], fraction: f64) -> Work {
+        let now = self.work();
+        let [convolutions, preconditioner_passes, direct_solves] = [0, 1, 2].map(|k| now[k] - before[k]);
+        let full_grid_convolutions = convolutions as f64 * fraction;
+        Work { convolutions, full_grid_convolutions, preconditioner_passes, direct_solves, ..Work::default() }
+    }
 }
 
 /// What an increment is solved with besides its operators.

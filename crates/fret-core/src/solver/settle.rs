@@ -1,14 +1,20 @@
 //! From a solved region to the state after the increment: what every cell did, what friction dissipated, resultants and residuals.
 
 use super::contact_set::ContactSet;
-use super::increment::{IncrementProblem, Solved, Stretch};
+use super::increment_problem::{IncrementProblem, Solved};
 use super::laws::friction::{dissipation, slips};
 use super::outcome::{Outcome, Regime, Residual, Resultants};
 use crate::fields::sum;
 use crate::model::{ContactState, Control, Zone};
 
-/// The state after an increment, and what happened.
-pub(super) fn settle(problem: &IncrementProblem<'_>, solved: &Solved) -> (ContactState, Outcome) {
+/// The state after an increment, and what happened. `self_influence`: of the shear of a cell [length/pressure].
+pub(super) fn settle(
+    problem: &IncrementProblem<'_>,
+    solved: &Solved,
+    self_influence: f64,
+) -> (ContactState, Outcome) {
+    let stiffness = if self_influence > 0.0 { 1.0 / self_influence } else { 0.0 };
+    let solution = &solved.solution;
     let IncrementProblem { grid, region, state: before, .. } = *problem;
     let pressure = &solved.tractions.pressure;
     let contact = ContactSet::loaded(pressure);
@@ -16,8 +22,8 @@ pub(super) fn settle(problem: &IncrementProblem<'_>, solved: &Solved) -> (Contac
     let bound = law.bound(&contact.packed(pressure)).bound;
     let bound_before = law.bound(&contact.packed(&region.gather(&before.pressure))).bound;
     let shear = contact.packed_tangential(&solved.tractions.shear);
-    let slip = contact.packed_tangential(&solved.slip);
-    let end_slip = contact.packed_tangential(&solved.end_slip);
+    let slip = contact.packed_tangential(&solution.slip);
+    let end_slip = contact.packed_tangential(&solution.end_slip);
     let mut state = state_after(problem, solved);
     let columns = region.shape[1];
     let mut stick_cells = 0;
@@ -32,7 +38,7 @@ pub(super) fn settle(problem: &IncrementProblem<'_>, solved: &Solved) -> (Contac
             tilt_moment[axis] +=
                 (problem.stretch.middle[axis] + grid.centre(axis, at[axis])) * pressure[cell];
         }
-        let (zone, slip) = if slips(q, end, bound[place], solved.tangential_stiffness) {
+        let (zone, slip) = if slips(q, end, bound[place], stiffness) {
             (Zone::Slip, slip.at(place))
         } else {
             stick_cells += 1;
@@ -63,9 +69,9 @@ pub(super) fn settle(problem: &IncrementProblem<'_>, solved: &Solved) -> (Contac
         _ => Regime::PartialSlip,
     };
     let residual = Residual {
-        complementarity: solved.normal.residual,
-        coulomb: solved.tangential.residual,
-        equilibrium: problem.off_equilibrium(&resultants, limit * area),
+        complementarity: solution.normal.residual,
+        coulomb: solution.tangential.residual,
+        equilibrium: off_equilibrium(problem, &resultants, limit * area),
     };
     let outcome = Outcome { resultants, contact_cells: contact.len(), stick_cells, regime, residual };
     (state, outcome)
@@ -85,11 +91,11 @@ fn state_after(problem: &IncrementProblem<'_>, solved: &Solved) -> ContactState 
             slip.assign(before);
         }
     }
-    let [shift_x, shift_y, turned] = solved.tangential.motion;
-    state.approach = solved.normal.approach;
+    let [shift_x, shift_y, turned] = solved.solution.tangential.motion;
+    state.approach = solved.solution.normal.approach;
     state.shift = [before.shift[0] + shift_x, before.shift[1] + shift_y];
     state.twist = before.twist + turned / problem.positions.length;
-    let Stretch { load, .. } = &problem.stretch;
+    let load = problem.load;
     state.tilt = load.tilt.map(|tilt| match tilt {
         Control::Motion(slope) | Control::FarEnd(slope) => slope,
         Control::Force(_) => 0.0, // the tilt is found outside, and prescribed here
@@ -110,5 +116,20 @@ fn bulk_work(problem: &IncrementProblem<'_>, after: &ContactState) -> f64 {
     x.1.indexed_iter().fold(0.0, |work, (at, after)| {
         let [along, across] = stretch.at(grid, [at.0, at.1]);
         work - 0.5 * ((x.0[at] + after) * along + (y.0[at] + y.1[at]) * across)
+    })
+}
+
+/// How far resultants are from the prescribed ones, relative to the normal force; the tangential ones to the `limit` of friction.
+fn off_equilibrium(problem: &IncrementProblem<'_>, found: &Resultants, limit: f64) -> f64 {
+    let IncrementProblem { grid, positions, prescribed, .. } = problem;
+    let area = grid.cell_area();
+    let normal = match prescribed.total {
+        Some(total) if total > 0.0 => (found.normal / (total * area) - 1.0).abs(),
+        _ => 0.0,
+    };
+    let lengths = [1.0, 1.0, positions.length];
+    let found = [found.tangential[0], found.tangential[1], found.moment];
+    (0..3).filter(|&mode| limit > 0.0 && positions.held()[mode]).fold(normal, |worst, mode| {
+        worst.max((found[mode] / lengths[mode] - prescribed.resultant[mode] * area).abs() / limit)
     })
 }

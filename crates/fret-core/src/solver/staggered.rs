@@ -1,7 +1,8 @@
 //! The scheme of the published three-level methods (Panagiotopoulos 1975): pressure at given shear, then shear at given pressure, until
 //! the laws of both hold at once. A cross-check of the Newton method, which needs several times fewer operator applications.
 
-use super::newton::{self, ContactProblem, Pressure, Solution};
+use super::contact_problem::{ContactProblem, Pressure, Solution};
+use super::newton;
 use super::normal::{NormalEquations, solve_normal};
 use super::operators::RegionOperators;
 use super::settings::{IterationCallback, SolveError, SolverSettings};

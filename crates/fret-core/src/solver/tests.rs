@@ -2,7 +2,7 @@ use std::ops::ControlFlow;
 
 use super::*;
 use crate::kernel::{Components, influence_coefficients};
-use crate::model::{Base, Body, ContactPair, ElasticMaterial, HalfSpace};
+use crate::model::{Base, Body, ContactPair, Control, ElasticMaterial, HalfSpace};
 
 #[test]
 fn shear_across_the_one_axis_is_not_certified() {

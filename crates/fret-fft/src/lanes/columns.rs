@@ -9,7 +9,7 @@ use super::butterfly::{Complex, butterfly, plain_butterfly, splat};
 use super::memory::{Line, OnCacheLine, as_lines, as_lines_mut, as_vectors, fetch};
 use super::passes::{forward_middle, inverse_middle, load_quad, parts, with_radix};
 use super::plan::LinePlan;
-use super::rows::Layout;
+use super::row_groups::Layout;
 use super::simd::{Lanes, Task};
 
 /// One term of the kernel product, in the order of the engine.

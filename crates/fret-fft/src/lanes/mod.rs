@@ -3,20 +3,23 @@
 //! Lines are transformed [`Lanes::WIDTH`](simd::Lanes::WIDTH) at a time, so that SIMD code is one vector operation per
 //! scalar one. Frequencies stay in the order in which they come out; kernels are stored in that order. Per strip of
 //! columns, forward transform, kernels and inverse transform are done in cache. From the ground: `simd`, `x86` and
-//! `butterfly` (arithmetic), `plan` (tables), `passes` (one line transform), `rows`, `paired_rows`, `columns` and
-//! `mirrored_columns` (the stages of a product), `spectrum` (kernels in the order of the engine), `reflection` (what mirrors change), `product` (the whole).
+//! `butterfly` (arithmetic), `plan` (tables), `passes` (one line transform), `row_groups`, `rows`, `paired_rows`, `columns`,
+//! `mirrored_kernels` and `mirrored_columns` (the stages of a product), `spectrum` (kernels in the order of the engine), `reflection` (what mirrors change), `product` (the whole).
 
 #![expect(clippy::needless_range_loop, reason = "an index runs over several arrays of lanes at once")]
 
 mod butterfly;
 mod columns;
+mod instruction_set;
 mod memory;
 mod mirrored_columns;
+mod mirrored_kernels;
 mod paired_rows;
 mod passes;
 mod plan;
 mod product;
 mod reflection;
+mod row_groups;
 mod rows;
 mod simd;
 mod spectrum;
@@ -24,5 +27,6 @@ mod threads;
 #[cfg(target_arch = "x86_64")]
 mod x86;
 
+pub(super) use instruction_set::InstructionSet;
 pub(super) use memory::AlignedNumbers;
-pub(super) use product::{InstructionSet, LaneProduct};
+pub(super) use product::LaneProduct;

@@ -8,7 +8,8 @@ use super::butterfly::{Complex, butterfly, plain_butterfly, splat};
 use super::memory::{Line, as_lines_mut, as_vectors_mut};
 use super::passes::{forward_middle, inverse_middle, load_quad, parts, with_radix};
 use super::plan::LinePlan;
-use super::rows::{Layout, Side, gather_rows, mirrored_point, rows_of_strip, scatter_rows};
+use super::row_groups::{Layout, gather_rows, rows_of_strip, scatter_rows};
+use super::rows::{Side, mirrored_point};
 use super::simd::{Lanes, Number, Task};
 
 /// Where the frequencies `k` and `-k` come out of the transform of a pair of rows.

@@ -9,63 +9,20 @@ use super::super::lengths::good_length;
 use super::super::line_product::folded_indices;
 use super::super::{Kernel, Parity};
 use super::columns::{Columns, Term};
+use super::instruction_set::InstructionSet;
 use super::memory::{AlignedNumbers, numbers_in_cache_line};
 use super::mirrored_columns::MirroredColumns;
 use super::paired_rows::{PairsForward, PairsInverse, Places, places};
 use super::plan::LinePlan;
 use super::reflection::{Reflection, tables};
-use super::rows::{Layout, RowsForward, RowsInverse, Side};
+use super::row_groups::Layout;
+use super::rows::{RowsForward, RowsInverse, Side};
 use super::simd::{Lanes, Number};
 use super::threads::{MAX_FIELDS, Scratch, divide, pieces};
 use kernels::KernelTransform;
 
 /// Shortest line: an outermost and an innermost pass.
 const SHORTEST: usize = 8;
-
-/// The instruction sets the engine is compiled for.
-#[derive(Clone, Copy)]
-pub enum InstructionSet {
-    Portable,
-    #[cfg(target_arch = "x86_64")]
-    Avx2(pulp::x86::V3),
-    #[cfg(target_arch = "x86_64")]
-    Avx512(pulp::x86::V4),
-}
-
-impl InstructionSet {
-    /// All that this machine has, fastest first.
-    pub fn available() -> Vec<Self> {
-        let mut available = Vec::new();
-        #[cfg(target_arch = "x86_64")]
-        {
-            available.extend(pulp::x86::V4::try_new().map(Self::Avx512));
-            available.extend(pulp::x86::V3::try_new().map(Self::Avx2));
-        }
-        available.push(Self::Portable);
-        available
-    }
-
-    /// What it is called.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Portable => "portable lanes",
-            #[cfg(target_arch = "x86_64")]
-            Self::Avx2(_) => "AVX2 lanes",
-            #[cfg(target_arch = "x86_64")]
-            Self::Avx512(_) => "AVX-512 lanes",
-        }
-    }
-
-    fn width<N: Number>(self) -> usize {
-        match self {
-            Self::Portable => N::Portable::WIDTH,
-            #[cfg(target_arch = "x86_64")]
-            Self::Avx2(_) => N::Avx2::WIDTH,
-            #[cfg(target_arch = "x86_64")]
-            Self::Avx512(_) => N::Avx512::WIDTH,
-        }
-    }
-}
 
 /// Runs a task on an instruction set, on numbers `$number`.
 macro_rules! enter {

@@ -1,7 +1,8 @@
 //! What mirrors change in a product: which frequencies the numbers of a place belong to, and where kernels take them.
 
 use super::super::block::Terms;
-use super::mirrored_columns::{MirroredTerm, Sides, SlotTerm};
+use super::mirrored_columns::Sides;
+use super::mirrored_kernels::{MirroredTerm, SlotTerm};
 use super::paired_rows::Places;
 use super::rows::Side;
 use super::simd::Number;

@@ -4,7 +4,7 @@ use super::butterfly::{Complex, butterfly, splat};
 use super::memory::{Line, as_lines, as_lines_mut, as_vectors, as_vectors_mut};
 use super::passes::{forward_middle, load_quad, parts, with_radix};
 use super::plan::LinePlan;
-use super::rows::Layout;
+use super::row_groups::Layout;
 use super::simd::{Lanes, Task};
 
 /// Keeps the real parts of a group of transformed rows, or the imaginary ones: of a kernel even or odd along `y`.

@@ -5,6 +5,8 @@
 //! Coulomb: `|q| <= b(p)`; where `|q| = b` the surfaces may slip, along `q`, the shear on the lower body; elsewhere they stick.
 //! `b = min(mu p, tau)` with the shear strength `tau` of the interface, where it has one.
 
+use ndarray::Array2;
+
 use crate::fields::{CellRule, Reals, each_cell};
 use crate::model::{CellValues, CoulombFriction};
 
@@ -74,6 +76,15 @@ impl FrictionLaw {
         slope.resize(pressure.len(), 0.0);
         bounds_under(pressure, (&self.coefficient, &self.max_shear), [bound, slope]);
     }
+}
+
+/// Bounds of all cells of a grid under their pressures [pressure].
+pub fn bounds_on_grid(friction: &CoulombFriction, pressure: &Array2<f64>) -> Array2<f64> {
+    let whole = Region::whole(pressure.dim().into());
+    let FrictionBound { bound, .. } = FrictionLaw::in_region(friction, whole).bound(&whole.gather(pressure));
+    let mut field = Array2::zeros(pressure.dim());
+    whole.place(&bound, &mut field);
+    field
 }
 
 /// Bounds and their slopes; a `strength` that is empty bounds nothing.

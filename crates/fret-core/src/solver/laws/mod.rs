@@ -5,6 +5,7 @@ pub mod active_sets;
 pub mod complementarity;
 pub mod friction;
 pub mod limit;
+mod motion_by_force;
 pub mod projection;
 pub mod rigid_motions;
 pub mod slip;

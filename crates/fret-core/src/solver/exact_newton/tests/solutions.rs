@@ -131,7 +131,7 @@ fn a_row_of_cells_is_solved_as_one_of_all_its_contact_sets() {
                 return;
             };
             solved += 1;
-            let approach = solution.normal.unwrap().approach;
+            let approach = solution.normal.approach;
             let found: Vec<f64> =
                 tractions.pressure.iter().chain(&tractions.shear.x).copied().chain([approach]).collect();
             let off = |one: &Vec<f64>| {

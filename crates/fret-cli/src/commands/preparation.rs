@@ -1,0 +1,145 @@
+//! What is judged before a run: the case, its plan, the folder, memory. Nothing is written yet.
+
+use std::cell::Cell;
+use std::path::{Path, PathBuf};
+
+use fret_core::machine::memory::{self, Claim};
+use fret_core::plan::{LeaveOut, Plan};
+use fret_core::run::plausibility;
+use fret_core::study::companion;
+
+use super::plan::left_out_in_short;
+use crate::arguments::{LeavingOut, RunArguments};
+use crate::case_file::CaseFile;
+use crate::failure::Failure;
+use crate::origin::Origin;
+use crate::output::{ResultFolder, Standing, Wish};
+use crate::summary::warning_line;
+use crate::terminal;
+use crate::threads;
+
+/// What is to be run, and where to.
+pub struct Wanted {
+    /// The case.
+    pub case_file: CaseFile,
+    /// Folder of the results.
+    pub folder: PathBuf,
+    /// Where it starts, when the call names a state.
+    pub origin: Option<Origin>,
+    /// What to do with what is in the folder.
+    pub wish: Wish,
+    /// Which automatic simplifications to use.
+    pub leave_out: LeaveOut,
+    /// Whether error bars are asked for.
+    pub estimate_error: bool,
+    /// Number of threads; all cores without.
+    pub threads: Option<u16>,
+    /// Whether nothing but errors is told.
+    pub quiet: bool,
+}
+
+impl Wanted {
+    /// What the arguments of the command ask for.
+    pub fn by(arguments: &RunArguments) -> Result<Self, Failure> {
+        let case_file = CaseFile::read(&arguments.case)?;
+        let folder = arguments.out.clone().unwrap_or_else(|| Path::new("results").join(case_file.stem()));
+        Ok(Self {
+            folder,
+            case_file,
+            origin: arguments.from.as_deref().map(Origin::read).transpose()?,
+            wish: match (arguments.resume, arguments.force) {
+                (true, _) => Wish::Resume,
+                (false, true) => Wish::Force,
+                (false, false) => Wish::Start,
+            },
+            leave_out: match arguments.leave_out {
+                LeavingOut::All => LeaveOut::ALL,
+                LeavingOut::None => LeaveOut::NONE,
+            },
+            estimate_error: arguments.estimate_error,
+            threads: arguments.threads,
+            quiet: arguments.quiet,
+        })
+    }
+
+    /// Judges everything; writes nothing.
+    pub fn prepared(self) -> Result<Preparation, Failure> {
+        let Self { case_file, folder, origin, wish, quiet, .. } = self;
+        let earlier = if origin.is_none() && wish == Wish::Resume { Origin::below(&folder)? } else { None };
+        let plan = case_file.planned_leaving_out(self.leave_out, origin.as_ref().or(earlier.as_ref()))?;
+        if let Some(Origin { results, .. }) = &origin
+            && is_same_folder(&folder, Path::new(results))
+        {
+            return Err(Failure::Call(
+                format!("{}: the run would replace the results it starts from", folder.display()),
+                "choose another folder with --out DIR".to_owned(),
+            ));
+        }
+        let companion = self.estimate_error.then(|| companion(&plan)).transpose().map_err(|error| {
+            Failure::Call(format!("--estimate-error: {error}"), "the same command without it".to_owned())
+        })?;
+        let standing = ResultFolder::standing(&folder, &case_file, &plan, wish)?;
+        let threads = threads::asked(self.threads);
+        let pool = threads::pool(threads)?;
+        // Once for all: what the run maps on its way would make a second look find less.
+        let needed = plan.memory_bytes.max(companion.as_ref().map_or(0, |plan| plan.memory_bytes));
+        let claim = Cell::new(match standing {
+            Standing::Solved(_) => None,
+            _ => Some(pool.install(|| memory::claim(needed))?),
+        });
+        if !quiet && !matches!(standing, Standing::Solved(_)) {
+            announce(&plan, &folder, &standing);
+            if let Some(Origin { results, increment, .. }) = &origin {
+                terminal::say(&format!(
+                    "starts from {results}, end of increment {increment} (counted from 0)"
+                ));
+            }
+        }
+        Ok(Preparation { case_file, plan, origin, folder, standing, companion, threads, pool, claim })
+    }
+}
+
+/// Everything judged; nothing written yet.
+pub struct Preparation {
+    pub case_file: CaseFile,
+    pub plan: Plan,
+    /// Where the run starts, when the call names a state.
+    pub origin: Option<Origin>,
+    pub folder: PathBuf,
+    pub standing: Standing,
+    /// The coarser run that error bars are read from, when they are asked for.
+    pub companion: Option<Plan>,
+    pub threads: usize,
+    pub pool: rayon::ThreadPool,
+    /// Memory for the run.
+    pub claim: Cell<Option<Claim>>,
+}
+
+fn is_same_folder(one: &Path, other: &Path) -> bool {
+    one.canonicalize().is_ok_and(|one| other.canonicalize().is_ok_and(|other| one == other))
+}
+
+fn announce(plan: &Plan, folder: &Path, standing: &Standing) {
+    if !plan.left_out.is_empty() {
+        terminal::say(&left_out_in_short(plan));
+    }
+    for warning in plausibility::of_plan(plan) {
+        terminal::say(&warning_line(&warning));
+    }
+    let shown = folder.display();
+    match standing {
+        Standing::Free | Standing::Unfinished | Standing::Solved(_) => {}
+        Standing::SameCase => {
+            terminal::say(&format!("{shown}: the earlier results of this case are replaced"));
+            let made_since = ["report.html", "export.npz", "csv", "vtk", "stress"];
+            let stays = |name: &&str| {
+                folder.join(name).exists() && !(*name == "stress" && plan.case.stress.is_some())
+            };
+            let old: Vec<&str> = made_since.into_iter().filter(stays).collect();
+            if !old.is_empty() {
+                terminal::say(&format!("{shown}: still of the earlier run: {}", old.join(", ")));
+            }
+        }
+        Standing::Forced => terminal::say(&format!("{shown}: existing folder used, by --force")),
+    }
+}

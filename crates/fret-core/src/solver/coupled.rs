@@ -1,0 +1,98 @@
+//! Pressure and shear of one increment together, and what is done where the Newton method does not converge.
+
+use super::contact_problem::Pressure;
+use super::exact_newton;
+use super::increment_problem::{IncrementProblem, Solved};
+use super::laws::projection::project_pressure;
+use super::newton;
+use super::operators::{Method, RegionOperators};
+use super::settings::{IterationCallback, SolveError, SolverSettings};
+use super::staggered;
+use super::tractions::{Displacements, Tractions};
+use crate::compliance::SurfaceCompliance;
+use crate::model::Scheme;
+
+/// Residual to which the frictionless start of a first contact is solved.
+const ROUGH: f64 = 1e-2;
+/// Residual of the pressure without friction that a second start, and the limit of friction, are taken from.
+const FRICTIONLESS: f64 = 1e-6;
+
+/// Solves an increment from predicted `tractions`. `last`: displacements of the state before, when they are known.
+///
+/// # Errors
+/// When no method converges, or the iteration is stopped.
+pub fn solve(
+    increment: &IncrementProblem<'_>,
+    mut tractions: Tractions,
+    last: Option<&Displacements>,
+    operators: &mut RegionOperators,
+    method: &Method<'_>,
+    callback: IterationCallback<'_>,
+) -> Result<Solved, SolveError> {
+    let settings = &increment.limited(method.settings);
+    let touched = increment.touched();
+    let mut displacements = Displacements::zeros(increment.region.len());
+    let before = increment.displacement_before(last.filter(|_| touched), operators, method.coupling);
+    if !touched {
+        tractions.shear.clear();
+        tractions.pressure = increment.first_pressure(operators);
+        let rough = SolverSettings { tolerance: ROUGH, ..*settings };
+        increment.solve_pressure(&mut tractions, &mut displacements, operators, &rough, callback)?;
+    }
+    make_pressure_feasible(&mut tractions, increment.prescribed.total);
+    let counted_from = increment.counted_from(&before);
+    let problem = increment.contact_problem(Pressure::Unknown, &counted_from);
+    newton::make_shear_feasible(&problem, &mut tractions, operators);
+    operators.compliance.full(tractions.parts(), displacements.parts_mut());
+    let start = tractions.clone();
+    let solve = match settings.scheme {
+        Scheme::Monolithic => newton::solve,
+        Scheme::Staggered => staggered::solve,
+    };
+    let mut solution = solve(&problem, &mut tractions, &mut displacements, operators, settings, callback);
+    if let (Err(SolveError::NotConverged { .. }), Scheme::Monolithic, false) =
+        (&solution, settings.scheme, increment.path.turns())
+    {
+        let frictionless = without_friction(increment, &start, operators, settings, callback)?;
+        increment.check_limit(&frictionless)?;
+        let starts = [&start, &frictionless];
+        let ends = (&mut tractions, &mut displacements);
+        if let Some(exact) = exact_newton::solve(&problem, starts, ends, operators, method, callback)? {
+            solution = Ok(exact);
+        }
+    }
+    let solution = solution?;
+    let drift = increment.drift(&before, &displacements.tangential, solution.tangential.motion);
+    Ok(Solved { tractions, displacements, drift, solution })
+}
+
+/// Brings predicted pressure to what its laws allow. Shear keeps its ratio to the pressure: what was on its circle stays there.
+fn make_pressure_feasible(tractions: &mut Tractions, total: Option<f64>) {
+    if let Some(total) = total {
+        let found: f64 = tractions.pressure.iter().map(|p| p.max(0.0)).sum();
+        if found > 0.0 {
+            for q in tractions.shear.x.iter_mut().chain(&mut tractions.shear.y) {
+                *q *= total / found;
+            }
+        }
+    }
+    project_pressure(&mut tractions.pressure, total);
+}
+
+/// The pressure without friction, from that of other tractions; as far as it is found.
+fn without_friction(
+    increment: &IncrementProblem<'_>,
+    start: &Tractions,
+    operators: &mut RegionOperators,
+    settings: &SolverSettings,
+    callback: IterationCallback<'_>,
+) -> Result<Tractions, SolveError> {
+    let mut tractions = start.clone();
+    tractions.shear.clear();
+    let mut displacements = Displacements::zeros(increment.region.len());
+    let settings = SolverSettings { tolerance: FRICTIONLESS, ..*settings };
+    match increment.solve_pressure(&mut tractions, &mut displacements, operators, &settings, callback) {
+        Err(SolveError::Stopped) => Err(SolveError::Stopped),
+        _ => Ok(tractions),
+    }
+}

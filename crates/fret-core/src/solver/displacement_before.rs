@@ -1,0 +1,117 @@
+//! The tangential displacement before an increment, from which slip is counted, and its change in an increment: the drift of the upper
+//! surface over the lower.
+
+use std::borrow::Cow;
+
+use ndarray::Array2;
+
+use super::contact_set::ContactSet;
+use super::increment_problem::IncrementProblem;
+use super::memory::{Before, Drift};
+use super::operators::RegionOperators;
+use super::settings::Coupling;
+use super::stretch::Stretch;
+use super::tractions::Displacements;
+use crate::compliance::SurfaceCompliance;
+use crate::fields::add_scaled;
+use crate::model::TangentialField;
+
+impl IncrementProblem<'_> {
+    /// Tangential displacement of the state before [length], less that by the bulk stresses: slip counts its increment alone. `last`: the
+    /// displacements of the state before, when they are known.
+    pub fn displacement_before(
+        &self,
+        last: Option<&Displacements>,
+        operators: &mut RegionOperators,
+        coupling: Coupling,
+    ) -> TangentialField {
+        let mut before = last
+            .map_or_else(|| self.displacement_of_state(operators, coupling), |last| last.tangential.clone());
+        if self.stretch.is_none() {
+            return before;
+        }
+        let columns = self.region.shape[1];
+        for cell in 0..self.region.len() {
+            let at = [self.region.origin[0] + cell / columns, self.region.origin[1] + cell % columns];
+            let [x, y] = self.stretch.at(self.grid, at);
+            before.x[cell] -= x;
+            before.y[cell] -= y;
+        }
+        before
+    }
+
+    /// Tangential displacement of the tractions of the state before [length].
+    fn displacement_of_state(&self, operators: &mut RegionOperators, coupling: Coupling) -> TangentialField {
+        let mut moved = Displacements::zeros(self.region.len());
+        let shear = self.region.gather_tangential(&self.state.shear);
+        if coupling == Coupling::Coupled && self.touched() {
+            let pressure = self.region.gather(&self.state.pressure);
+            operators.compliance.full([&pressure, &shear.x, &shear.y], moved.parts_mut());
+        } else if shear.x.iter().chain(&shear.y).any(|q| *q != 0.0) {
+            operators.compliance.tangential(shear.parts(), moved.tangential.parts_mut());
+        }
+        moved.tangential
+    }
+
+    /// Displacement from which the law counts slip.
+    pub fn counted_from<'b>(&self, before: &'b TangentialField) -> Cow<'b, TangentialField> {
+        if !self.path.turns() {
+            return Cow::Borrowed(before);
+        }
+        let mut from = before.clone();
+        from.add_scaled(-1.0, &self.path.ahead);
+        Cow::Owned(from)
+    }
+
+    /// Change of the tangential displacement of the upper body over the lower in every cell of the region.
+    pub fn drift(
+        &self,
+        before: &TangentialField,
+        after: &TangentialField,
+        motion: [f64; 3],
+    ) -> TangentialField {
+        let motions = self.positions.motions_of(&ContactSet::of(self.region.len(), |_| true));
+        let mut drift = before.clone();
+        drift.add_scaled(-1.0, after);
+        for cell in 0..self.region.len() {
+            let (moved, here) = (motions.at(motion, cell), drift.at(cell));
+            drift.set(cell, [here[0] + moved[0], here[1] + moved[1]]);
+        }
+        drift
+    }
+
+    /// The drift of the last increment in every cell of the region.
+    pub fn drift_to_here(
+        &self,
+        before: &Before,
+        drift: &Drift,
+        operators: &mut RegionOperators,
+        coupling: Coupling,
+    ) -> TangentialField {
+        let Self { region, grid, state, .. } = self;
+        let change = |now: &Array2<f64>, then: &Array2<f64>| {
+            let mut change = region.gather(now);
+            add_scaled(&mut change, -1.0, &region.gather(then));
+            change
+        };
+        let pressure = change(&state.pressure, &before.tractions.pressure);
+        let [x, y] = [0, 1].map(|axis| change(&state.shear[axis], &before.tractions.shear[axis]));
+        let mut moved = Displacements::zeros(region.len());
+        if coupling == Coupling::Coupled {
+            operators.compliance.full([&pressure, &x, &y], moved.parts_mut());
+        } else {
+            operators.compliance.tangential([&x, &y], moved.tangential.parts_mut());
+        }
+        let [shift_x, shift_y, twist] = drift.motion;
+        let mut found = moved.tangential;
+        for cell in 0..region.len() {
+            let [i, j] =
+                [region.origin[0] + cell / region.shape[1], region.origin[1] + cell % region.shape[1]];
+            let u = found.at(cell);
+            let turned = [-twist * grid.centre(1, j), twist * grid.centre(0, i)];
+            let [x, y] = Stretch { strain: drift.strain, ..self.stretch }.at(grid, [i, j]);
+            found.set(cell, [shift_x + turned[0] - u[0] - x, shift_y + turned[1] - u[1] - y]);
+        }
+        found
+    }
+}

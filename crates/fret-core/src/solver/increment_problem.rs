@@ -1,0 +1,181 @@
+//! One increment in a region: everything that its equations need, gathered.
+
+use ndarray::Array2;
+
+use super::contact_problem::{ContactProblem, Pressure, Solution};
+use super::contact_set::ContactSet;
+use super::laws::complementarity::NormalResidual;
+use super::laws::friction::FrictionLaw;
+use super::laws::limit::carried_fraction;
+use super::laws::rigid_motions::{CellPositions, RigidMotions};
+use super::laws::slip_path::SlipPath;
+use super::normal::NormalEquations;
+use super::prescribed::PrescribedLoads;
+use super::region::Region;
+use super::settings::{SolveError, SolverSettings};
+use super::stretch::Stretch;
+use super::tractions::{Displacements, Tractions};
+use crate::model::{ContactState, Control, CoulombFriction, LoadStep, Rig, SurfaceGrid, TangentialField};
+
+/// Friction that carries less than this fraction of what is prescribed is the reason why there is no solution. By the pressure without
+/// friction: coupling takes some of it away. A sphere that slides at a given approach carried 0.89 to 0.997 of it (friction 0.3 to 2,
+/// Poisson's ratio -0.5 to 0.3, with and without coatings).
+const LIMIT: f64 = 0.98;
+
+/// Newton iterations of the rule of second order; where it converges it takes about six.
+const MOST_TURNING: usize = 24;
+
+/// One increment in one region.
+pub struct IncrementProblem<'a> {
+    pub grid: &'a SurfaceGrid,
+    /// The state before.
+    pub state: &'a ContactState,
+    /// What is prescribed at the end.
+    pub load: &'a LoadStep,
+    pub region: Region,
+    /// Whether the problem repeats beyond the region, which is then its period.
+    pub periodic: bool,
+    pub friction: FrictionLaw,
+    pub positions: CellPositions,
+    /// Gap before deformation [length].
+    pub undeformed: Vec<f64>,
+    pub prescribed: PrescribedLoads,
+    /// What the bulk stresses do in the increment.
+    pub stretch: Stretch,
+    /// What is known of the paths of slip.
+    pub path: SlipPath,
+    /// A pressure to start from, whatever the state before.
+    pub start: Option<Vec<f64>>,
+}
+
+/// A solved region.
+pub struct Solved {
+    /// Pressure and shear.
+    pub tractions: Tractions,
+    /// Their displacements.
+    pub displacements: Displacements,
+    /// Change of the tangential displacement of the upper body over the lower, in every cell [length].
+    pub drift: TangentialField,
+    /// Gap, slip, motions and residuals.
+    pub solution: Solution,
+}
+
+impl<'a> IncrementProblem<'a> {
+    /// Gathers what an increment needs inside `region`.
+    pub fn new(
+        grid: &'a SurfaceGrid,
+        undeformed: &Array2<f64>,
+        friction: &CoulombFriction,
+        (state, load): (&'a ContactState, &'a LoadStep),
+        (rig, stretch): (Rig, Stretch),
+        (region, periodic): (Region, bool),
+    ) -> Self {
+        let centres = |axis: usize| -> Vec<f64> {
+            (0..region.shape[axis]).map(|index| grid.centre(axis, region.origin[axis] + index)).collect()
+        };
+        let rotates = state.twist != 0.0 || load.twist != Control::Motion(0.0);
+        let positions = CellPositions::new(centres(0), centres(1), rotates, [false; 3]);
+        let prescribed = PrescribedLoads::new(state, load, rig, [positions.length, grid.cell_area()]);
+        Self {
+            grid,
+            state,
+            load,
+            region,
+            periodic,
+            friction: FrictionLaw::in_region(friction, region),
+            positions: positions.with_springs(prescribed.by_force, prescribed.spring),
+            undeformed: region.gather(undeformed),
+            prescribed,
+            stretch,
+            path: SlipPath::default(),
+            start: None,
+        }
+    }
+
+    /// The solution where the bodies do not touch under these loads.
+    pub fn apart(&self) -> Option<Solved> {
+        let PrescribedLoads { total, approach, .. } = self.prescribed;
+        let lowest = self.undeformed.iter().copied().fold(f64::INFINITY, f64::min);
+        let (apart, approach) = match total {
+            Some(total) => (total <= 0.0, lowest),
+            None => (approach <= lowest, approach),
+        };
+        let len = self.region.len();
+        apart.then(|| Solved {
+            tractions: Tractions::zeros(len),
+            displacements: Displacements::zeros(len),
+            drift: TangentialField::zeros(len),
+            solution: Solution {
+                normal: NormalResidual { approach, residual: 0.0 },
+                gap: self.undeformed.iter().map(|gap| gap - approach).collect(),
+                ..Solution::without_slip(len, self.prescribed.motion_apart())
+            },
+        })
+    }
+
+    /// Its equations, as the methods take them.
+    pub fn contact_problem<'b>(
+        &'b self,
+        pressure: Pressure,
+        before: &'b TangentialField,
+    ) -> ContactProblem<'b> {
+        let PrescribedLoads { total, approach, approach_give, motion, resultant, .. } = self.prescribed;
+        ContactProblem {
+            pressure,
+            undeformed: &self.undeformed,
+            friction: &self.friction,
+            total,
+            approach,
+            approach_give,
+            before,
+            path: &self.path,
+            positions: &self.positions,
+            motion,
+            resultant,
+        }
+    }
+
+    /// Those of the frictionless problem.
+    pub fn normal_equations(&self) -> NormalEquations<'_> {
+        let PrescribedLoads { total, approach, approach_give, .. } = self.prescribed;
+        NormalEquations { undeformed: &self.undeformed, total, approach, give: approach_give }
+    }
+
+    /// Whether the bodies touched in the state before.
+    pub fn touched(&self) -> bool {
+        self.state.pressure.iter().any(|p| *p > 0.0)
+    }
+
+    /// Whether anything asks for shear, or has left some.
+    pub fn causes_shear(&self) -> bool {
+        let prescribed = &self.prescribed;
+        prescribed.motion != [0.0; 3]
+            || !self.stretch.is_none()
+            || prescribed.resultant != [0.0; 3]
+            || self.state.shear.iter().any(|shear| shear.iter().any(|q| *q != 0.0))
+    }
+
+    /// Settings with fewer iterations where the end-point rule is left to fall back on.
+    pub fn limited(&self, settings: &SolverSettings) -> SolverSettings {
+        let most = if self.path.turns() { MOST_TURNING } else { usize::MAX };
+        SolverSettings { max_newton_iterations: settings.max_newton_iterations.min(most), ..*settings }
+    }
+
+    /// Whether friction can carry what is prescribed, at the pressure without it.
+    pub fn check_limit(&self, tractions: &Tractions) -> Result<(), SolveError> {
+        let contact = ContactSet::loaded(&tractions.pressure);
+        let bound = self.friction.packed(&contact).bound(&contact.packed(&tractions.pressure));
+        let motions = RigidMotions { by_force: self.positions.held(), ..self.positions.motions_of(&contact) };
+        let prescribed = motions.only_by_force(self.prescribed.resultant);
+        let fraction = carried_fraction(&bound.bound, &motions, prescribed);
+        if fraction > LIMIT {
+            return Ok(());
+        }
+        let [x, y, moment] = prescribed;
+        if moment != 0.0 {
+            return Err(SolveError::AboveFullSlip { fraction });
+        }
+        let asked = x.hypot(y) * self.grid.cell_area();
+        Err(SolveError::AboveSliding { asked, bound: fraction * asked })
+    }
+}

@@ -1,0 +1,299 @@
+//! Tractions on their way to the solution of one increment, with everything that follows from them: gap, contact, slip, rigid motions,
+//! residuals, active sets; and the step from one iterate to the next.
+
+use super::contact_problem::{ContactProblem, Pressure, Solution};
+use super::contact_set::ContactSet;
+use super::contact_vector::ContactVector;
+use super::laws::active_sets::ActiveSets;
+use super::laws::complementarity::{NormalResidual, normal_residual};
+use super::laws::friction::{FrictionBound, FrictionLaw, is_inside, slips};
+use super::laws::projection::{ShearProjection, project_pressure};
+use super::laws::rigid_motions::RigidMotions;
+use super::laws::slip::{SlipIncrement, TangentialProblem, TangentialResidual};
+use super::laws::slip_path::SlipPath;
+use super::linear::solver::Linearised;
+use super::operators::RegionOperators;
+use super::settings::SolverSettings;
+use super::tractions::{Displacements, Tractions};
+use crate::compliance::SurfaceCompliance;
+use crate::fields::{CellRule, Reals, TangentialField, add_scaled, each_cell, largest, lower, sum};
+
+/// Tractions on their way to the solution, with everything that follows from them.
+pub struct Iterate<'a> {
+    problem: &'a ContactProblem<'a>,
+    tractions: &'a mut Tractions,
+    displacements: &'a mut Displacements,
+    /// Those before the last step.
+    last: Tractions,
+    /// Self-influence of a cell, normal and tangential [length/pressure].
+    self_influence: [f64; 2],
+    contact: ContactSet,
+    motions: RigidMotions,
+    /// Of the region [length].
+    gap: Vec<f64>,
+    normal: NormalResidual,
+    tangential: TangentialResidual,
+    slip: SlipIncrement,
+    sets: ActiveSets,
+    step: ContactVector<f64>,
+    /// Resultants that the next projection restores [pressure].
+    to_restore: [f64; 3],
+    packed: Packed,
+    projection: ShearProjection,
+}
+
+/// Fields packed over the contact.
+#[derive(Default)]
+struct Packed {
+    pressure: Vec<f64>,
+    shear: TangentialField,
+    law: FrictionLaw,
+    bound: FrictionBound,
+    before: TangentialField,
+    path: SlipPath,
+    displacement: TangentialField,
+    gap: Vec<f64>,
+}
+
+impl Packed {
+    fn tangential_problem<'a>(
+        &'a self,
+        problem: &ContactProblem<'_>,
+        motions: &'a RigidMotions,
+        self_influence: f64,
+    ) -> TangentialProblem<'a> {
+        TangentialProblem {
+            bound: &self.bound.bound,
+            before: &self.before,
+            path: &self.path,
+            motions,
+            motion: problem.motion,
+            resultant: problem.resultant,
+            self_influence,
+        }
+    }
+}
+
+impl<'a> Iterate<'a> {
+    pub fn new(
+        problem: &'a ContactProblem<'a>,
+        tractions: &'a mut Tractions,
+        displacements: &'a mut Displacements,
+        operators: &RegionOperators,
+    ) -> Self {
+        let own = operators.compliance.self_influence();
+        let contact = ContactSet::loaded(&tractions.pressure);
+        let motions = problem.positions.motions_of(&contact);
+        let mut iterate = Self {
+            problem,
+            last: Tractions::default(),
+            tractions,
+            displacements,
+            self_influence: [own.normal, own.tangential],
+            contact: ContactSet::default(),
+            motions,
+            gap: Vec::new(),
+            normal: NormalResidual { approach: problem.approach, residual: 0.0 },
+            tangential: TangentialResidual { motion: [0.0; 3], residual: 0.0 },
+            slip: SlipIncrement::default(),
+            sets: ActiveSets::default(),
+            step: ContactVector::default(),
+            to_restore: problem.resultant,
+            packed: Packed::default(),
+            projection: ShearProjection::default(),
+        };
+        iterate.change_contact(contact);
+        iterate
+    }
+
+    fn change_contact(&mut self, contact: ContactSet) {
+        let Self { problem, packed, .. } = self;
+        self.motions = problem.positions.motions_of(&contact);
+        packed.law = problem.friction.packed(&contact);
+        contact.pack_tangential(problem.before, &mut packed.before);
+        packed.path = problem.path.packed(&contact);
+        self.contact = contact;
+    }
+
+    /// The residual of complementarity and of Coulomb's law; finds gap, contact, slip and motions.
+    pub fn evaluate(&mut self) -> f64 {
+        let problem = self.problem;
+        let mut worst = 0.0;
+        if problem.pressure == Pressure::Unknown {
+            let Self { gap, tractions, displacements, .. } = self;
+            gap.resize(problem.undeformed.len(), 0.0);
+            each_cell(&Height, [&displacements.normal, problem.undeformed], [gap]);
+            let approach = problem.approach_under(&tractions.pressure);
+            let [own, _] = self.self_influence;
+            self.normal = normal_residual(&tractions.pressure, gap, problem.undeformed, own, approach);
+            worst = self.normal.residual;
+            let contact =
+                ContactSet::of(gap.len(), |cell| self.tractions.pressure[cell] > 0.0 || self.gap[cell] < 0.0);
+            if contact != self.contact {
+                self.change_contact(contact);
+            }
+            self.contact.pack(&self.gap, &mut self.packed.gap);
+        }
+        let Self { contact, packed, tractions, displacements, .. } = self;
+        contact.pack(&tractions.pressure, &mut packed.pressure);
+        contact.pack_tangential(&tractions.shear, &mut packed.shear);
+        contact.pack_tangential(&displacements.tangential, &mut packed.displacement);
+        packed.law.find_bound(&packed.pressure, &mut packed.bound);
+        let Self { packed, motions, self_influence: [_, own], .. } = self;
+        let equations = packed.tangential_problem(problem, motions, *own);
+        let Packed { shear, displacement, .. } = &*packed;
+        self.tangential = self.slip.find(&equations, shear, displacement, self.tangential.motion);
+        worst.max(self.tangential.residual)
+    }
+
+    /// What every cell in contact does.
+    pub fn find_sets(&mut self) {
+        let Self { packed, slip, self_influence: [_, own], .. } = self;
+        self.sets.classify(&packed.shear, &slip.at_end, &packed.bound, *own);
+    }
+
+    /// The step that solves the linearised problem as far as the sets deserve it.
+    pub fn find_step(&mut self, forcing: f64, settings: &SolverSettings, operators: &mut RegionOperators) {
+        let Self { problem, packed, self_influence, .. } = self;
+        let Packed { pressure, bound, gap, .. } = packed;
+        let (size, own) = match problem.pressure {
+            Pressure::Unknown => (largest(pressure), self_influence[0]),
+            Pressure::Given => (largest(&bound.bound), self_influence[1]),
+        };
+        let mut left_over = self.slip.left_over(&self.sets);
+        if self.motions.any_spring() {
+            // Of the shear as it is the spring makes another motion than of what the law makes of it.
+            let parts = [(&mut left_over.x, &packed.shear.x), (&mut left_over.y, &packed.shear.y)];
+            for (mode, (slip, shear)) in parts.into_iter().enumerate() {
+                let spring = self.motions.spring[mode];
+                if spring > 0.0 {
+                    let motion = (problem.resultant[mode] - sum(shear)) / spring;
+                    lower(slip, self.tangential.motion[mode] - motion);
+                }
+            }
+        }
+        let linearised = Linearised {
+            contact: &self.contact,
+            sets: &self.sets,
+            motions: &self.motions,
+            slope: &bound.slope,
+            gap,
+            slip: left_over.parts(),
+            holds_force: problem.total.is_some(),
+            give: problem.give(),
+            forcing,
+            most_steps: settings.max_krylov_steps,
+            floor: 0.02 * settings.tolerance * size * own,
+        };
+        let RegionOperators { compliance, preconditioner, linear, .. } = operators;
+        linear.solve(&linearised, compliance, preconditioner, &mut self.step);
+    }
+
+    /// Adds the step and projects onto what the laws allow. False when no pressure is left.
+    pub fn take_step(&mut self) -> bool {
+        let Packed { pressure, shear, law, bound, .. } = &mut self.packed;
+        let (step, [x, y]) = self.step.parts();
+        add_scaled(&mut shear.x, 1.0, x);
+        add_scaled(&mut shear.y, 1.0, y);
+        self.to_restore = self.problem.to_restore(shear, &bound.bound);
+        if self.problem.pressure == Pressure::Unknown {
+            add_scaled(pressure, 1.0, step);
+            if !project_pressure(pressure, self.problem.total) {
+                return false;
+            }
+            law.find_bound(pressure, bound);
+        }
+        self.project_shear();
+        let Self { contact, packed, tractions, last, .. } = self;
+        std::mem::swap(last, *tractions);
+        tractions.resize(last.pressure.len());
+        contact.scatter(&packed.pressure, &mut tractions.pressure);
+        contact.scatter_tangential(&packed.shear, &mut tractions.shear);
+        true
+    }
+
+    /// Brings packed shear to its discs, where it slips to its circles, and to its resultants.
+    fn project_shear(&mut self) {
+        let mut shear = std::mem::take(&mut self.packed.shear);
+        let [_, own] = self.self_influence;
+        let equations = self.packed.tangential_problem(self.problem, &self.motions, own);
+        let equations = TangentialProblem { resultant: self.to_restore, ..equations };
+        self.projection.project(&mut shear, &self.sets, &equations);
+        self.packed.shear = shear;
+    }
+
+    /// Puts the shear of cells that slip, and lie inside their circles by what the solution is off, on these. Whether there were any.
+    pub fn puts_slipping_cells_on_their_circles(&mut self) -> bool {
+        let [_, own] = self.self_influence;
+        let Packed { shear, bound, .. } = &self.packed;
+        let end_slip = &self.slip.at_end;
+        let slipping: Vec<usize> = (0..self.contact.len())
+            .filter(|&cell| {
+                let (q, bound) = (shear.at(cell), bound.bound[cell]);
+                is_inside(q, bound) && slips(q, end_slip.at(cell), bound, 1.0 / own)
+            })
+            .collect();
+        if slipping.is_empty() {
+            return false;
+        }
+        self.to_restore = self.problem.to_restore(&self.packed.shear, &self.packed.bound.bound);
+        self.find_sets();
+        for cell in slipping {
+            self.sets.stick[cell] = 0.0;
+        }
+        self.project_shear();
+        self.contact.scatter_tangential(&self.packed.shear, &mut self.tractions.shear);
+        true
+    }
+
+    /// The displacements of the tractions.
+    pub fn find_displacements(&mut self, operators: &mut RegionOperators) {
+        let Self { problem, tractions, displacements, .. } = self;
+        match problem.pressure {
+            Pressure::Unknown => operators.compliance.full(tractions.parts(), displacements.parts_mut()),
+            Pressure::Given => {
+                operators
+                    .compliance
+                    .tangential(tractions.shear.parts(), displacements.tangential.parts_mut());
+            }
+        }
+    }
+
+    /// To the middle between here and where the last step began, as far as the contact is the same; what slipped there is put back on
+    /// its circle.
+    pub fn go_halfway_back(&mut self, operators: &mut RegionOperators) {
+        self.tractions.average_with(&self.last);
+        if self.sets.len() == self.contact.len() {
+            let Self { contact, packed, tractions, .. } = self;
+            contact.pack(&tractions.pressure, &mut packed.pressure);
+            contact.pack_tangential(&tractions.shear, &mut packed.shear);
+            packed.law.find_bound(&packed.pressure, &mut packed.bound);
+            self.to_restore = self.problem.to_restore(&packed.shear, &packed.bound.bound);
+            self.project_shear();
+            self.contact.scatter_tangential(&self.packed.shear, &mut self.tractions.shear);
+        }
+        self.find_displacements(operators);
+    }
+
+    pub fn solution(self, iterations: usize) -> Solution {
+        let scattered = |packed: &TangentialField| {
+            let mut field = TangentialField::zeros(self.tractions.pressure.len());
+            self.contact.scatter_tangential(packed, &mut field);
+            field
+        };
+        let slip = scattered(&self.slip.slip);
+        let end_slip = scattered(&self.slip.at_end);
+        let Self { normal, tangential, gap, .. } = self;
+        Solution { normal, tangential, gap, slip, end_slip, iterations }
+    }
+}
+
+struct Height;
+
+impl CellRule<2, 1, 0> for Height {
+    #[inline(always)]
+    fn at<R: Reals>(&self, [u, g]: [R; 2], [height]: &mut [R; 1]) -> [R; 0] {
+        *height = u + g;
+        []
+    }
+}

@@ -1,0 +1,143 @@
+//! The rigid motions that follow from resultants: those under which the projected shear has them, the minimum of a convex potential,
+//! found by Newton's method with Armijo's rule.
+
+use super::friction::OnDisc;
+use super::rigid_motions::RigidMotions;
+use crate::fields::{CellRule, Reals, TangentialField, each_cell};
+
+/// What the motions follow from, packed over the cells in contact; all in units of pressure.
+#[derive(Debug, Clone, Copy)]
+pub struct MotionByForce<'a> {
+    /// Vectors `q + slip / K` before these motions.
+    pub trial: &'a TangentialField,
+    /// Friction bound.
+    pub bound: &'a [f64],
+    /// Rigid motions.
+    pub motions: &'a RigidMotions,
+    /// Sums over the cells of shear times mode, at no motion.
+    pub resultant: [f64; 3],
+    /// Influence of a cell's shear on its own displacement [length/pressure]: what a motion of a unit of pressure moves.
+    pub self_influence: f64,
+}
+
+/// Sizes that the search for motions measures itself by [pressure].
+#[derive(Debug, Clone, Copy)]
+pub struct Scale {
+    /// Sum of the friction bounds.
+    pub total: f64,
+    /// A common size of trial vectors and bounds.
+    pub spread: f64,
+}
+
+/// Value, gradient and curvature of the convex potential whose minimum is the rigid motion.
+struct Potential {
+    value: f64,
+    defect: [f64; 3],
+    curvature: [f64; 6],
+}
+
+impl MotionByForce<'_> {
+    /// Root of `sum Proj(trial + motion) . mode + spring x motion = resultant`, from a guess.
+    pub fn find(&self, scale: Scale, guess: [f64; 3]) -> [f64; 3] {
+        let motions = self.motions;
+        let mut motion = motions.only_by_force(guess);
+        let mut here = self.potential(motion);
+        if size(&here.defect) > 0.5 * scale.total {
+            // A guess far off: nothing moved may be nearer.
+            let at_rest = self.potential([0.0; 3]);
+            if at_rest.value < here.value {
+                motion = [0.0; 3];
+                here = at_rest;
+            }
+        }
+        for _ in 0..60 {
+            let defect = size(&here.defect);
+            if defect <= 4e-16 * scale.total {
+                break;
+            }
+            let mut change = motions.solve(here.curvature, here.defect.map(|d| -d));
+            let length = size(&change);
+            if length > 4.0 * scale.spread {
+                change = change.map(|c| c * 4.0 * scale.spread / length);
+            }
+            let slope: f64 = change.iter().zip(&here.defect).map(|(c, d)| c * d).sum();
+            if slope >= 0.0 {
+                break;
+            }
+            let slack = 1e-15 * (here.value.abs() + scale.total * scale.spread);
+            let mut fraction = 1.0;
+            let mut accepted = false;
+            for _ in 0..30 {
+                let there_motion = [0, 1, 2].map(|mode| motion[mode] + fraction * change[mode]);
+                let there = self.potential(there_motion);
+                if there.value <= here.value + 1e-4 * fraction * slope
+                    || (there.value <= here.value + slack && size(&there.defect) < defect)
+                {
+                    motion = there_motion;
+                    here = there;
+                    accepted = true;
+                    break;
+                }
+                fraction *= 0.5;
+            }
+            if !accepted || (size(&here.defect) > 0.5 * defect && size(&here.defect) < 1e-14 * scale.total) {
+                break;
+            }
+        }
+        motion
+    }
+
+    fn potential(&self, motion: [f64; 3]) -> Potential {
+        let Self { trial, bound, motions, .. } = *self;
+        let [around_x, around_y] = motions.rotation.parts();
+        let read = [&trial.x, &trial.y, bound, around_x, around_y];
+        let [value, x, y, r, xx, yy, rr, xy, xr, yr] = each_cell(&OnDiscs(motion), read, []);
+        let mut potential = Potential { value, defect: [x, y, r], curvature: [xx, yy, rr, xy, xr, yr] };
+        for mode in 0..3 {
+            if motions.by_force[mode] {
+                let spring = motions.spring[mode] * self.self_influence;
+                potential.value += motion[mode] * (0.5 * spring * motion[mode] - self.resultant[mode]);
+                potential.defect[mode] += spring * motion[mode] - self.resultant[mode];
+                potential.curvature[mode] += spring;
+            } else {
+                potential.defect[mode] = 0.0;
+            }
+        }
+        potential
+    }
+}
+
+/// Length of a vector of motions or resultants.
+pub fn size(vector: &[f64; 3]) -> f64 {
+    vector.iter().map(|v| v * v).sum::<f64>().sqrt()
+}
+
+/// Sums of the potential, its defect and its curvature under motions.
+struct OnDiscs([f64; 3]);
+
+impl CellRule<5, 0, 10> for OnDiscs {
+    const OPTIONAL: usize = 2;
+
+    #[inline(always)]
+    fn at<R: Reals>(&self, [x, y, bound, around_x, around_y]: [R; 5], _: &mut [R; 0]) -> [R; 10] {
+        let [shift_x, shift_y, twist] = self.0;
+        let on = OnDisc::new([x + (around_x * twist + shift_x), y + (around_y * twist + shift_y)], bound);
+        let [along_x, along_y] = on.along;
+        let turned = along_x * around_x + along_y * around_y;
+        [
+            on.potential,
+            on.image[0],
+            on.image[1],
+            on.image[0] * around_x + on.image[1] * around_y,
+            on.fraction - on.fraction * along_x * along_x,
+            on.fraction - on.fraction * along_y * along_y,
+            on.fraction * (around_x * around_x + around_y * around_y - turned * turned),
+            on.fraction * along_x * along_y * -1.0,
+            on.fraction * (around_x - along_x * turned),
+            on.fraction * (around_y - along_y * turned),
+        ]
+    }
+}
+
+#[cfg(test)]
+mod tests;

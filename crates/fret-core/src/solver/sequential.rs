@@ -1,0 +1,80 @@
+//! Pressure first, then shear under it: for bodies whose shear does not move the surfaces normally, and without friction.
+
+use super::contact_problem::{Pressure, Solution};
+use super::increment_problem::{IncrementProblem, Solved};
+use super::laws::complementarity::normal_residual;
+use super::laws::projection::project_pressure;
+use super::newton;
+use super::normal::NormalSolution;
+use super::operators::{Method, RegionOperators};
+use super::settings::{Coupling, IterationCallback, SolveError};
+use super::tractions::{Displacements, Tractions};
+use crate::compliance::SurfaceCompliance;
+use crate::model::TangentialField;
+
+/// Solves an increment from predicted `tractions`. `last`: displacements of the state before, when they are known; `unchanged`: its
+/// normal load is the one asked for.
+///
+/// # Errors
+/// When an iteration does not converge, or is stopped.
+pub fn solve(
+    increment: &IncrementProblem<'_>,
+    mut tractions: Tractions,
+    (last, unchanged): (Option<&Displacements>, bool),
+    operators: &mut RegionOperators,
+    method: &Method<'_>,
+    callback: IterationCallback<'_>,
+) -> Result<Solved, SolveError> {
+    let settings = &increment.limited(method.settings);
+    let cells = increment.region.len();
+    let mut displacements = Displacements::zeros(cells);
+    let pressure = if let (true, Some(last)) = (unchanged && settings.reuse_pressure, last) {
+        tractions.pressure = increment.region.gather(&increment.state.pressure);
+        displacements.normal.clone_from(&last.normal);
+        pressure_before(increment, &displacements, &tractions, operators)
+    } else {
+        let usable = project_pressure(&mut tractions.pressure, increment.prescribed.total);
+        if increment.start.is_some() || !increment.touched() || !usable {
+            tractions.pressure = increment.first_pressure(operators);
+        }
+        increment.solve_pressure(&mut tractions, &mut displacements, operators, settings, callback)?
+    };
+    let mut drift = TangentialField::zeros(cells);
+    let mut solution = Solution::without_slip(cells, increment.prescribed.motion);
+    if method.coupling == Coupling::Frictionless || settings.skip_unloaded_shear && !increment.causes_shear()
+    {
+        tractions.shear.clear();
+    } else {
+        let before = increment.displacement_before(last, operators, method.coupling);
+        let counted_from = increment.counted_from(&before);
+        let problem = increment.contact_problem(Pressure::Given, &counted_from);
+        newton::make_shear_feasible(&problem, &mut tractions, operators);
+        operators.compliance.tangential(tractions.shear.parts(), displacements.tangential.parts_mut());
+        let found =
+            newton::solve(&problem, &mut tractions, &mut displacements, operators, settings, callback);
+        if let (Err(SolveError::NotConverged { .. }), false) = (&found, increment.path.turns()) {
+            increment.check_limit(&tractions)?;
+        }
+        solution = found?;
+        drift = increment.drift(&before, &displacements.tangential, solution.tangential.motion);
+    }
+    let NormalSolution { residual: normal, gap, iterations } = pressure;
+    let solution = Solution { normal, gap, iterations: iterations + solution.iterations, ..solution };
+    Ok(Solved { tractions, displacements, drift, solution })
+}
+
+/// What the pressure of the state before is a solution of, with its displacement.
+fn pressure_before(
+    increment: &IncrementProblem<'_>,
+    displacements: &Displacements,
+    tractions: &Tractions,
+    operators: &RegionOperators,
+) -> NormalSolution {
+    let IncrementProblem { undeformed, prescribed, .. } = increment;
+    let own = operators.compliance.self_influence().normal;
+    let mut gap: Vec<f64> = displacements.normal.iter().zip(undeformed).map(|(u, g)| u + g).collect();
+    let gives = increment.normal_equations().given_way(&tractions.pressure);
+    let approach = prescribed.total.is_none().then_some(prescribed.approach - gives);
+    let residual = normal_residual(&tractions.pressure, &mut gap, undeformed, own, approach);
+    NormalSolution { residual, gap, iterations: 0 }
+}
