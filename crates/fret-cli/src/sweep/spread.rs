@@ -12,6 +12,9 @@ const NAMES: usize = 32;
 /// Width of a column of numbers.
 const COLUMN: usize = 13;
 
+/// A number that varies by less, relative, does not: the last digits of a prescribed force.
+const ROUNDING: f64 = 1e-13;
+
 /// A number of the answers.
 struct Quantity {
     name: String,
@@ -116,7 +119,8 @@ impl<'a> Spread<'a> {
         }
         table.truncate(table.trim_end().len());
         table.push('\n');
-        let varying = || point.quantities.iter().filter(|quantity| quantity.statistics.deviation > 0.0);
+        let varies = |of: &Statistics| of.deviation > ROUNDING * of.min.abs().max(of.max.abs());
+        let varying = || point.quantities.iter().filter(|quantity| varies(&quantity.statistics));
         for Quantity { name, statistics, .. } in varying() {
             let [low, _, median, _, high] = statistics.quantiles;
             let _ = write!(table, "{name:<NAMES$}");
