@@ -134,44 +134,13 @@ fn a_coating_worn_evenly_is_the_thinner_coating() {
     assert!((ends[0] / ends[1] - 1.0).abs() < 1e-6, "{ends:?}");
 }
 
-/// The same of a line contact.
-#[test]
-fn under_a_line_a_coating_worn_evenly_is_the_thinner_coating() {
-    let text = |thickness: f64, coefficient: f64| {
-        let lower = format!(
-            "coatings = [{{ thickness = {thickness:e}, young = 10.0, poisson = 0.3, wear_coefficient = {coefficient:e} }},\
-             {{ thickness = 0.3, young = 1.0, poisson = 0.2, wear_coefficient = 0.0 }}]\nbase = \"rigid\""
-        );
-        let wear = "law = \"archard\"\nthinning_tolerance = 1e-9\nlargest_step = 1.0";
-        let press =
-            "[[load]]\nnormal_force = 18.0\nincrements = 1\n[[load]]\nnormal_force = 6.0\nincrements = 1\n";
-        flat([&lower, "rigid = true"], wear, 8)
-            .replace("cells = [8, 4]\nsize = [2.0, 1.0]", "cells = 16\nsize = 2.0")
-            .replace("[output]", &format!("{press}[output]"))
-    };
-    let worn = solved(&text(0.5, 2e-3));
-    let depth = worn.cycles.last().unwrap().max_worn_depth;
-    assert!(depth > 0.05 && depth < 0.4, "{depth}");
-    let thinner = solved(&text(0.5 - depth, 0.0));
-    let ends = [&worn, &thinner].map(|history| {
-        let [.., high, low] = &history.steps[..] else { panic!() };
-        high.approach - low.approach
-    });
-    assert!((ends[0] / ends[1] - 1.0).abs() < 1e-6, "{ends:?}");
-    // Under uniform pressure a layer gives by h/M, M = E (1 - nu)/((1 + nu)(1 - 2 nu)): 12 of force on 2 of length.
-    let modulus =
-        |young: f64, poisson: f64| young * (1.0 - poisson) / ((1.0 + poisson) * (1.0 - 2.0 * poisson));
-    let expected = 6.0 * ((0.5 - depth) / modulus(10.0, 0.3) + 0.3 / modulus(1.0, 0.2));
-    assert!((ends[0] / expected - 1.0).abs() < 1e-6, "{} {expected}", ends[0]);
-}
-
 /// Half or a quarter of the grid behind mirrors wears thinner as the whole one does.
 #[test]
 fn mirrors_change_nothing_where_a_coating_gets_thinner() {
     for poisson in [0.0, 0.3] {
         let text = format!(
             "[grid]\ncells = [24, 24]\nsize = [2.8, 2.8]\n[upper]\nrigid = true\n[lower]\n\
-             coatings = [{{ thickness = 0.02, young = 3.0, poisson = {poisson}, wear_coefficient = 0.1 }}]\n\
+             coatings = [{{ thickness = 0.02, young = 3.0, poisson = {poisson}, wear_coefficient = 0.8 }}]\n\
              substrate = {{ young = 1.0, poisson = {poisson}, wear_coefficient = 0.0 }}\n[profile.sphere]\nradius = 100.0\n\
              [friction]\ncoefficient = 0.3\n[solver]\ntolerance = {TOLERANCE:e}\n[wear]\nthinning_tolerance = 0.02\nlargest_step = 1.0\n\
              [[load]]\nnormal_force = 1.2e-2\nincrements = 3\n[[load]]\nshift = [0.03, 0.0]\nincrements = 8\ncycles = 30\n{}",
@@ -186,7 +155,8 @@ fn mirrors_change_nothing_where_a_coating_gets_thinner() {
         let off = difference(&without.1, &with.1);
         println!("nu = {poisson}: worn {:.2e} of 0.02, {off:.1e} apart", depths[0]);
         assert!(depths[0] > 0.1 * 0.02, "{}: the response shall have been found anew", depths[0]);
-        assert!((depths[0] / depths[1] - 1.0).abs() < 100.0 * TOLERANCE, "{depths:?}");
+        // The same iterations on half of the cells: rounding, over 30 cycles.
+        assert!((depths[0] / depths[1] - 1.0).abs() < 1e-11, "{depths:?}");
         assert!(off < 100.0 * TOLERANCE, "{off:e}");
     }
 }
@@ -262,8 +232,12 @@ fn a_thin_layer_wears_as_its_differential_equations_say() {
     );
     let k = 0.02;
     let history = solved(&text.replace("wear_coefficient = K", &format!("wear_coefficient = {k}")));
-    let by_hand = winkler(&history, [thickness, radius, modulus, force, k], true);
-    let unthinned = winkler(&history, [thickness, radius, modulus, force, k], false);
+    let (side, cells) = (2.4, 400);
+    let at = |index: i32| (f64::from(index) + 0.5) * side / f64::from(cells) - 0.5 * side;
+    let squares: Vec<f64> =
+        (0..cells * cells).map(|cell| at(cell / cells).powi(2) + at(cell % cells).powi(2)).collect();
+    let layer = [thickness, radius, modulus, force, k, (side / f64::from(cells)).powi(2)];
+    let [by_hand, unthinned] = [true, false].map(|thins| winkler(&history, layer, &squares, thins));
     let last = history.cycles.last().unwrap();
     let found = [last.max_worn_depth, history.steps.last().unwrap().approach];
     println!(
@@ -276,18 +250,41 @@ fn a_thin_layer_wears_as_its_differential_equations_say() {
     assert!((unthinned[1] / by_hand[1] - 1.0).abs() > 5e-3, "{unthinned:?} {by_hand:?}");
 }
 
-/// Largest depth after the cycles of a history, and approach in the last one, by springs.
-fn winkler(history: &History, [thickness, radius, modulus, force, k]: [f64; 5], thins: bool) -> [f64; 2] {
-    let cells = 400;
-    let side = 2.4;
-    let step = side / f64::from(cells);
-    let squares: Vec<f64> = (0..cells * cells)
-        .map(|cell| {
-            let at = |index: i32| (f64::from(index) + 0.5) * step - 0.5 * side;
-            at(cell / cells).powi(2) + at(cell % cells).powi(2)
-        })
-        .filter(|square| *square < 1.44)
-        .collect();
+/// The same layer in a line contact, under a cylinder.
+#[test]
+fn a_thin_layer_in_a_line_contact_wears_as_its_differential_equations_say() {
+    let (thickness, radius, force, k) = (0.02, 100.0, 3e-2, 0.02);
+    let modulus = 0.8 / (1.2 * 0.6);
+    let text = format!(
+        "[grid]\ncells = 256\nsize = 2.4\n[upper]\nrigid = true\n[lower]\n\
+         coatings = [{{ thickness = {thickness}, young = 1.0, poisson = 0.2, wear_coefficient = {k} }}]\nbase = \"rigid\"\n\
+         [profile.cylinder]\nradius = {radius}\naxis = \"y\"\n[friction]\ncoefficient = 0.1\n[wear]\nlaw = \"archard\"\n\
+         thinning_tolerance = 1e-3\nevery = 1\nlargest_step = 1.0\n[[load]]\nnormal_force = {force}\nincrements = 1\n\
+         [[load]]\nshift = [0.02, 0.0]\nincrements = 4\ncycles = 80\n"
+    );
+    let history = solved(&text);
+    let step = 2.4 / 4000.0;
+    let squares: Vec<f64> = (0..4000).map(|k| ((f64::from(k) + 0.5) * step - 1.2).powi(2)).collect();
+    let layer = [thickness, radius, modulus, force, k, step];
+    let [by_hand, unthinned] = [true, false].map(|thins| winkler(&history, layer, &squares, thins));
+    let last = history.cycles.last().unwrap();
+    let found = [last.max_worn_depth, history.steps.last().unwrap().approach];
+    println!("line on a Winkler layer: {found:?}, by its equations {by_hand:?}, not thinning {unthinned:?}");
+    // As under the sphere: a layer of a twentieth of the half-width is nearly its own spring, in the middle most of all.
+    assert!((found[0] / by_hand[0] - 1.0).abs() < 0.015, "{found:?} {by_hand:?}");
+    assert!((found[1] / by_hand[1] - 1.0).abs() < 1e-3, "{found:?} {by_hand:?}");
+    assert!((unthinned[1] / by_hand[1] - 1.0).abs() > 5e-3, "{unthinned:?} {by_hand:?}");
+}
+
+/// Largest depth after the cycles of a history, and approach in the last one, by springs: at squares of the distance from the middle, one
+/// for each `cell` (area, of a line length).
+fn winkler(
+    history: &History,
+    [thickness, radius, modulus, force, k, cell]: [f64; 6],
+    squares: &[f64],
+    thins: bool,
+) -> [f64; 2] {
+    let squares: Vec<f64> = squares.iter().copied().filter(|square| *square < 1.44).collect();
     let mut worn = vec![0.0; squares.len()];
     let mut approach = 0.0;
     for cycle in &history.cycles {
@@ -306,7 +303,7 @@ fn winkler(history: &History, [thickness, radius, modulus, force, k]: [f64; 5], 
         let (mut low, mut high) = (0.0, 0.05);
         for _ in 0..60 {
             let middle = 0.5 * (low + high);
-            let found = pressure(middle, &worn).iter().sum::<f64>() * step * step;
+            let found = pressure(middle, &worn).iter().sum::<f64>() * cell;
             if found > force { high = middle } else { low = middle }
         }
         approach = low;
