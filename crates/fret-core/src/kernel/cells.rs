@@ -1,343 +1,250 @@
-//! Radial kernels integrated over rectangular cells.
+//! Radial kernels integrated over the rectangular cells of a grid: what a unit traction on one cell does under another, at the surface
+//! or at a depth.
 
-use super::quadrature::GaussRule;
-use super::radial::RadialKernels;
+use std::marker::PhantomData;
 
-/// Displacements caused by unit traction on one cell [length/pressure].
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(crate) struct CellResponse {
-    pub zz: f64,
-    pub xx: f64,
-    pub yy: f64,
-    pub xy: f64,
-    pub zx: f64,
-    pub zy: f64,
-}
+use ndarray::{Array3, ArrayView2, Axis};
+use pulp::{Arch, Simd, WithSimd};
+use rayon::prelude::*;
 
-/// Gauss rules for cells at any distance.
+use super::cell_integrals::{Moments, NearCells, Rectangle, add_five_points};
+use super::cell_rules::CellQuadrature;
+use super::far_cells::{FAR, LEAST};
+use super::lattice_samples::WaveResponse;
+use super::pair_response::PairResponse;
+use super::quartets::{Quartets, SurfaceDisplacement};
+use super::radial::{KernelLattice, RadialKernels};
+
+/// Kernels of `C` components: what unit pressure on a cell does under another, and unit shear along x and y. Values over
+/// offsets `i, j >= 0` from the loaded cell to the point; of periodic scenes, over indices of wavenumbers.
 ///
-/// The number of points in a direction depends on distance over side only: enough for `exp(-c r/h)/r` at the largest `c r/h`
-/// that matters at a contrast of 1e6. A fixed order needs no error estimate, which the rounding of the table would defeat.
+/// Of stress \[1\] the components are xx, yy, zz, xy, xz, yz: from pressure xx, yy, zz are even-even, xy odd-odd, xz odd-even, yz
+/// even-odd; from `q_x` the parity along x is turned, from `q_y` along y. Of displacement [length/pressure] they are x, y, z,
+/// with the parities of xz, yz, zz.
 #[derive(Clone, Debug)]
-pub(crate) struct CellQuadrature {
-    rules: [(f64, GaussRule); 7],
-    pub(super) polar_angle: GaussRule,
-    pub(super) polar_radius: GaussRule,
+pub(crate) struct CellCoefficients<const C: usize> {
+    /// Shape `(nx, loads * C, ny)`: rows of all kernels lie together.
+    pub(super) values: Array3<f64>,
 }
 
-/// A rectangle seen from the point whose displacement is asked.
-#[derive(Clone, Copy, Debug)]
-struct Rectangle {
-    centre: [f64; 2],
-    sides: [f64; 2],
+impl<const C: usize> CellCoefficients<C> {
+    pub(super) fn new(values: Array3<f64>) -> Self {
+        Self { values }
+    }
+
+    /// The memory the values are in, for the next.
+    pub(crate) fn into_memory(self) -> Vec<f64> {
+        self.values.into_raw_vec_and_offset().0
+    }
+
+    /// The kernel of a component from a load: pressure, `q_x`, `q_y`.
+    pub(crate) fn kernel(&self, load: usize, component: usize) -> ArrayView2<'_, f64> {
+        self.values.index_axis(Axis(1), load * C + component)
+    }
 }
 
-/// Largest number of points in one direction.
-pub(super) const MOST_POINTS: usize = 11;
+/// Radial kernels for near cells, and for far ones where cells are square.
+pub(super) struct Tables<Q, const N: usize> {
+    near: Option<RadialKernels<N>>,
+    far: Option<RadialKernels<N>>,
+    depth: f64,
+    spacing: [f64; 2],
+    quartets: PhantomData<Q>,
+}
 
-impl CellQuadrature {
-    pub(crate) fn new() -> Self {
-        let up_to = |ratio: f64, count: usize| (ratio, GaussRule::new(count));
-        Self {
-            rules: [
-                up_to(3.0, MOST_POINTS),
-                up_to(6.0, 10),
-                up_to(12.0, 8),
-                up_to(20.0, 6),
-                up_to(40.0, 5),
-                up_to(200.0, 4),
-                up_to(f64::INFINITY, 3),
-            ],
-            polar_angle: GaussRule::new(28),
-            polar_radius: GaussRule::new(14),
+impl<Q: Quartets<N>, const N: usize> Tables<Q, N> {
+    pub(super) fn new(response: &impl WaveResponse, cells: [usize; 2], spacing: [f64; 2]) -> Self {
+        let depth = response.depth();
+        let greatest = diagonal(cells, spacing);
+        let least = 0.5 * spacing[0].min(spacing[1]);
+        if spacing[0] != spacing[1] {
+            return Self::near_only(response, cells, spacing);
         }
+        let quartets = PhantomData;
+        let side = spacing[0];
+        let edge = FAR * side;
+        if depth >= edge {
+            let lattice = KernelLattice::new::<Q, N>(response, LEAST * side, greatest);
+            let far = lattice.filtered::<Q, N>(LEAST * side, greatest, side);
+            return Self { near: None, far: Some(far), depth, spacing, quartets };
+        }
+        // centres of near cells lie within this radius; Gauss points less than a side farther, of the five less nearer
+        let radius = ((edge - depth) * (edge + depth)).sqrt();
+        let lattice = KernelLattice::new::<Q, N>(response, least, greatest);
+        let near = lattice.points::<Q, N>((radius + side).min(greatest));
+        let far = (radius < greatest)
+            .then(|| lattice.filtered::<Q, N>((radius - LEAST * side - side).max(least), greatest, side));
+        Self { near: Some(near), far, depth, spacing, quartets }
     }
 
-    /// The rule for a rectangle whose distance is so many times its side.
-    pub(super) fn rule(&self, distance_over_side: f64) -> &[(f64, f64)] {
-        let index = self.rules[..6].iter().position(|(limit, _)| distance_over_side < *limit).unwrap_or(6);
-        &self.rules[index].1.points
+    /// All cells as if they were near.
+    pub(super) fn near_only(response: &impl WaveResponse, cells: [usize; 2], spacing: [f64; 2]) -> Self {
+        let least = 0.5 * spacing[0].min(spacing[1]);
+        let greatest = diagonal(cells, spacing);
+        let near = KernelLattice::new::<Q, N>(response, least, greatest).points::<Q, N>(greatest);
+        Self { near: Some(near), far: None, depth: response.depth(), spacing, quartets: PhantomData }
     }
 
-    /// Displacement at `offset` from the centre of a loaded cell, outside that cell.
-    pub(crate) fn distant_cell(
+    /// Whether the rule of five points serves a cell.
+    #[inline(always)]
+    fn is_far(&self, offset: [f64; 2]) -> bool {
+        let [x, y] = offset;
+        let edge = FAR * self.spacing[0];
+        self.far.is_some() && x * x + y * y + self.depth * self.depth >= edge * edge
+    }
+
+    /// Integrals over the cell at an offset from the load; `parts`: memory to work in.
+    #[inline(always)]
+    fn moments<S: Simd>(
         &self,
-        kernels: &RadialKernels,
+        quadrature: &CellQuadrature,
         offset: [f64; 2],
-        sides: [f64; 2],
-    ) -> CellResponse {
-        let mut sum = CellResponse::default();
-        self.add_rectangle(kernels, Rectangle { centre: offset, sides }, &mut sum);
-        // the parts that are odd across an axis vanish on it
-        if offset[0] == 0.0 {
-            (sum.xy, sum.zx) = (0.0, 0.0);
-        }
-        if offset[1] == 0.0 {
-            (sum.xy, sum.zy) = (0.0, 0.0);
-        }
-        sum
-    }
-
-    /// Adds one rectangle, halved across its longer side while that is longer than half its distance.
-    fn add_rectangle(&self, kernels: &RadialKernels, rectangle: Rectangle, sum: &mut CellResponse) {
-        let Rectangle { centre, sides } = rectangle;
-        let distance = (centre[0] * centre[0] + centre[1] * centre[1]).sqrt();
-        let longer = usize::from(sides[1] > sides[0]);
-        if sides[longer] > 0.5 * distance {
-            let quarter = 0.25 * sides[longer];
-            for shift in [-quarter, quarter] {
-                let mut half = rectangle;
-                half.centre[longer] += shift;
-                half.sides[longer] *= 0.5;
-                self.add_rectangle(kernels, half, sum);
+        parts: &mut Vec<Rectangle>,
+    ) -> [Moments; N] {
+        let Self { depth, spacing, quartets, .. } = *self;
+        let mut moments = [[[0.0; 4]; 2]; N];
+        match (&self.near, &self.far) {
+            (_, Some(far)) if self.is_far(offset) => {
+                add_five_points::<S, Q, N>(far, offset, spacing[0], &mut moments);
             }
-        } else {
-            let rules = [self.rule(distance / sides[0]), self.rule(distance / sides[1])];
-            add_gauss_points(kernels, rectangle, rules, sum);
-        }
-    }
-
-    /// Displacement at the centre of the loaded cell itself: the inscribed disc by its antiderivative, the rest of the
-    /// rectangle in polar coordinates.
-    pub(crate) fn own_cell(&self, kernels: &RadialKernels, sides: [f64; 2]) -> CellResponse {
-        let [disc_zz, disc_mean] = kernels.over_disc();
-        let half = [0.5 * sides[0], 0.5 * sides[1]];
-        let towards_x = self.sector(kernels, half[0], half[1]);
-        let towards_y = self.sector(kernels, half[1], half[0]);
-        let mean = disc_mean + 4.0 * (towards_x[1] + towards_y[1]);
-        let difference = 4.0 * (towards_x[2] - towards_y[2]);
-        CellResponse {
-            zz: disc_zz + 4.0 * (towards_x[0] + towards_y[0]),
-            xx: mean - difference,
-            yy: mean + difference,
-            ..CellResponse::default()
-        }
-    }
-
-    /// Integrals of Z0, A0 and cos(2 phi) B2 between the disc and an edge at distance `edge` with half length `half_length`,
-    /// over half the angle under which the edge is seen; phi is the angle from the edge's normal.
-    fn sector(&self, kernels: &RadialKernels, edge: f64, half_length: f64) -> [f64; 3] {
-        let radius = kernels.disc_radius();
-        let last = libm::asinh(half_length / edge);
-        let mut sum = [0.0; 3];
-        for (point, weight) in &self.polar_angle.points {
-            // y = edge sinh(tau), so that the distance of the edge is edge cosh(tau)
-            let tau = 0.5 * last * (1.0 + point);
-            let (sinh, cosh) = (libm::sinh(tau), libm::cosh(tau));
-            let cos_double = (1.0 - sinh) * (1.0 + sinh) / (cosh * cosh);
-            let reach = libm::log(edge * cosh / radius);
-            if reach <= 0.0 {
-                continue;
+            (Some(kernels), _) => {
+                let cells = NearCells { quadrature, kernels, depth, quartets };
+                if offset == [0.0, 0.0] {
+                    cells.add_own_cell::<S>(spacing, &mut moments);
+                } else {
+                    parts.push(Rectangle { centre: offset, sides: spacing });
+                    cells.add_rectangles::<S>(parts, &mut moments);
+                }
             }
-            let panels = (reach / 0.35).ceil();
-            let angle_weight = 0.5 * last * weight / cosh * (0.5 * reach / panels);
-            for panel in 0..panels as u32 {
-                for (point, weight) in &self.polar_radius.points {
-                    let log_radius = reach * (f64::from(panel) + 0.5 * (1.0 + point)) / panels;
-                    let r = radius * libm::exp(log_radius);
-                    let square = r * r;
-                    let [z0, a0, b2_per_square, _] = kernels.at_square(square);
-                    let weight = angle_weight * weight * square;
-                    sum[0] += weight * z0;
-                    sum[1] += weight * a0;
-                    sum[2] += weight * cos_double * b2_per_square * square;
+            _ => {}
+        }
+        moments
+    }
+}
+
+fn diagonal(cells: [usize; 2], spacing: [f64; 2]) -> f64 {
+    let size = [cells[0] as f64 * spacing[0], cells[1] as f64 * spacing[1]];
+    (size[0] * size[0] + size[1] * size[1]).sqrt()
+}
+
+/// A row of cells to be integrated, of which the first `count` are wanted.
+struct Row<'a, Q, F, const N: usize, const C: usize, const L: usize> {
+    tables: &'a Tables<Q, N>,
+    quadrature: &'a CellQuadrature,
+    index: usize,
+    count: usize,
+    of_moments: &'a F,
+    /// Rows of all kernels.
+    kernels: Vec<&'a mut [f64]>,
+}
+
+impl<Q, F, const N: usize, const C: usize, const L: usize> WithSimd for Row<'_, Q, F, N, C, L>
+where
+    Q: Quartets<N>,
+    F: Fn(&[Moments; N]) -> [[f64; C]; L],
+{
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        let Row { tables, quadrature, index, count, of_moments, mut kernels } = self;
+        let spacing = tables.spacing;
+        let mut parts = Vec::new();
+        for j in 0..count {
+            let offset = [index as f64 * spacing[0], j as f64 * spacing[1]];
+            let moments = tables.moments::<S>(quadrature, offset, &mut parts);
+            let values = of_moments(&moments);
+            for (row, value) in kernels.iter_mut().zip(values.as_flattened()) {
+                row[j] = *value;
+            }
+        }
+    }
+}
+
+/// Kernels on a grid, `K = loads C` of them, from what `of_moments` makes of a cell's moments: `[load][component]`. On square
+/// grids of square cells only offsets `j <= i` are integrated; the others are those with x and y exchanged: `exchanged` components,
+/// and the second load for the third. `memory` is written over.
+pub(super) fn coefficients<Q: Quartets<N>, const N: usize, const C: usize, const L: usize>(
+    tables: &Tables<Q, N>,
+    cells: [usize; 2],
+    memory: Vec<f64>,
+    exchanged: [usize; C],
+    of_moments: impl Fn(&[Moments; N]) -> [[f64; C]; L] + Sync,
+) -> CellCoefficients<C> {
+    let spacing = tables.spacing;
+    let quadrature = CellQuadrature::new();
+    let [nx, ny] = cells;
+    let mirrored = nx == ny && spacing[0] == spacing[1];
+    let kernels = L * C;
+    let mut values = memory;
+    values.resize(nx * kernels * ny, 0.0);
+    values.par_chunks_mut(kernels * ny).enumerate().for_each(|(index, rows)| {
+        let row = Row::<Q, _, N, C, L> {
+            tables,
+            quadrature: &quadrature,
+            index,
+            count: if mirrored { index + 1 } else { ny },
+            of_moments: &of_moments,
+            kernels: rows.chunks_exact_mut(ny).collect(),
+        };
+        Arch::new().dispatch(row);
+    });
+    if mirrored {
+        mirror(&mut values, nx, kernels, exchanged);
+    }
+    let shape = (nx, kernels, ny);
+    let values = Array3::from_shape_vec(shape, values).unwrap_or_else(|_| Array3::zeros(shape));
+    CellCoefficients::new(values)
+}
+
+/// Fills the offsets `j > i` from those with x and y exchanged, block by block.
+fn mirror<const C: usize>(values: &mut [f64], n: usize, kernels: usize, exchanged: [usize; C]) {
+    const BLOCK: usize = 8;
+    let exchanged = |kernel: usize| [0, 2, 1][kernel / C] * C + exchanged[kernel % C];
+    let stride = kernels * n;
+    for first in (0..n).step_by(BLOCK) {
+        let last = (first + BLOCK).min(n);
+        let (upper, lower) = values.split_at_mut(last * stride);
+        let upper = &mut upper[first * stride..];
+        // the block on the diagonal
+        for kernel in 0..kernels {
+            let [own, partner] = [kernel, exchanged(kernel)].map(|kernel| kernel * n + first);
+            for i in 0..last - first {
+                for j in i + 1..last - first {
+                    upper[i * stride + own + j] = upper[j * stride + partner + i];
                 }
             }
         }
-        sum
+        for (number, rows) in lower.chunks(BLOCK * stride).enumerate() {
+            let place = last + number * BLOCK;
+            let count = rows.len() / stride;
+            for kernel in 0..kernels {
+                let [own, partner] = [kernel, exchanged(kernel)].map(|kernel| kernel * n);
+                for (i, row) in upper.chunks_exact_mut(stride).enumerate() {
+                    let values = &mut row[own + place..own + place + count];
+                    for (value, row) in values.iter_mut().zip(rows.chunks_exact(stride)) {
+                        *value = row[partner + first + i];
+                    }
+                }
+            }
+        }
     }
 }
 
-fn add_gauss_points(
-    kernels: &RadialKernels,
-    rectangle: Rectangle,
-    rules: [&[(f64, f64)]; 2],
-    sum: &mut CellResponse,
-) {
-    let Rectangle { centre, sides } = rectangle;
-    let half = [0.5 * sides[0], 0.5 * sides[1]];
-    let mut column = [[0.0; 3]; MOST_POINTS];
-    for (place, (point, weight)) in column.iter_mut().zip(rules[1]) {
-        let y = centre[1] + half[1] * point;
-        *place = [y, y * y, weight * half[1]];
-    }
-    let column = &column[..rules[1].len()];
-    let [mut zz, mut mean, mut difference, mut xy, mut zx, mut zy] = [0.0; 6];
-    for (point, weight) in rules[0] {
-        let x = centre[0] + half[0] * point;
-        let xx = x * x;
-        let weight_x = weight * half[0];
-        for [y, yy, weight_y] in column {
-            let [z0, a0, b, z] = kernels.at_square(xx + yy);
-            let weight = weight_x * weight_y;
-            let (weight_b, weight_z) = (weight * b, weight * z);
-            zz += weight * z0;
-            mean += weight * a0;
-            difference += weight_b * (xx - yy);
-            xy += weight_b * (x * y);
-            zx += weight_z * x;
-            zy += weight_z * y;
-        }
-    }
-    sum.zz += zz;
-    sum.xx += mean - difference;
-    sum.yy += mean + difference;
-    sum.xy -= 2.0 * xy;
-    sum.zx += zx;
-    sum.zy += zy;
+/// Displacement of the surface by unit traction on a cell: zz, xx, yy, xy, zx, zy.
+pub(super) fn surface_coefficients(
+    response: &PairResponse,
+    cells: [usize; 2],
+    spacing: [f64; 2],
+) -> CellCoefficients<6> {
+    let tables = Tables::<SurfaceDisplacement, 1>::new(response, cells, spacing);
+    coefficients(&tables, cells, Vec::new(), [0, 2, 1, 3, 5, 4], |[moments]| [surface_displacement(moments)])
+}
+
+#[inline(always)]
+fn surface_displacement([[zz, mean, double, zx], [_, _, double_y, zy]]: &Moments) -> [f64; 6] {
+    [*zz, mean - double, mean + double, -2.0 * double_y, *zx, *zy]
 }
 
 #[cfg(test)]
-mod tests {
-    use super::super::closed_form::homogeneous_cell;
-    use super::super::pair_response::PairResponse;
-    use super::super::samples::{material, pair};
-    use super::*;
-    use crate::model::ContactPair;
-
-    fn kernels(pair: &ContactPair, sides: [f64; 2], farthest: f64) -> RadialKernels {
-        RadialKernels::new(&PairResponse::new(pair), 0.5 * sides[0].min(sides[1]), farthest)
-    }
-
-    fn cell(
-        quadrature: &CellQuadrature,
-        kernels: &RadialKernels,
-        offset: [f64; 2],
-        sides: [f64; 2],
-    ) -> CellResponse {
-        if offset == [0.0, 0.0] {
-            quadrature.own_cell(kernels, sides)
-        } else {
-            quadrature.distant_cell(kernels, offset, sides)
-        }
-    }
-
-    /// Largest difference of the components, over zz.
-    fn difference(found: CellResponse, exact: CellResponse) -> f64 {
-        let differences = [
-            found.zz - exact.zz,
-            found.xx - exact.xx,
-            found.yy - exact.yy,
-            found.xy - exact.xy,
-            found.zx - exact.zx,
-            found.zy - exact.zy,
-        ];
-        differences.iter().fold(0.0_f64, |worst, difference| worst.max(difference.abs())) / exact.zz
-    }
-
-    #[test]
-    fn homogeneous_cells_follow_love_and_cerruti() {
-        let quadrature = CellQuadrature::new();
-        for nu in [-0.5, 0.0, 0.3, 0.5] {
-            for sides in [[1.0, 1.0], [1.0, 10.0], [3.0, 0.5], [100.0, 1.0]] {
-                let kernels = kernels(&pair(&[], Some((2.6, nu))), sides, 2e4);
-                for (i, j) in [
-                    (0, 0),
-                    (1, 0),
-                    (0, 1),
-                    (1, 1),
-                    (2, 1),
-                    (0, 3),
-                    (5, 2),
-                    (3, 7),
-                    (17, 0),
-                    (40, 17),
-                    (120, 90),
-                ] {
-                    let offset = [f64::from(i) * sides[0], f64::from(j) * sides[1]];
-                    let found = cell(&quadrature, &kernels, offset, sides);
-                    let exact = homogeneous_cell(&material((2.6, nu)), offset, sides);
-                    let far = (offset[0] * offset[0] + offset[1] * offset[1]) / (sides[0] * sides[1]);
-                    let error = difference(found, exact);
-                    let tolerance = 1e-14 + 3e-15 * far; // rounding of our sums; of the closed form's corner differences
-                    assert!(
-                        error < tolerance,
-                        "nu {nu}, {sides:?}, ({i}, {j}): {error:.1e} > {tolerance:.1e}"
-                    );
-                }
-            }
-        }
-    }
-
-    #[test]
-    fn published_values_of_the_unit_square() {
-        // G = 1, nu = 0.3; ten digits
-        let quadrature = CellQuadrature::new();
-        let kernels = kernels(&pair(&[], Some((2.6, 0.3))), [1.0, 1.0], 10.0);
-        let values = [
-            ([0.0, 0.0], [0.392_769_896_6, 0.476_934_874_5, 0.476_934_874_5, 0.0, 0.0, 0.0]),
-            ([1.0, 0.0], [0.115_647_522_7, 0.160_389_456_5, 0.120_468_812_7, 0.0, 0.031_339_914_6, 0.0]),
-            (
-                [2.0, 1.0],
-                [
-                    0.050_255_129_6,
-                    0.067_283_300_3,
-                    0.054_764_871_6,
-                    0.008_318_168_9,
-                    0.012_738_830_1,
-                    0.006_359_210_2,
-                ],
-            ),
-        ];
-        for (offset, [zz, xx, yy, xy, zx, zy]) in values {
-            let found = cell(&quadrature, &kernels, offset, [1.0, 1.0]);
-            assert!(difference(found, CellResponse { zz, xx, yy, xy, zx, zy }) < 3e-9, "{offset:?}"); // digits given over zz
-        }
-    }
-
-    #[test]
-    fn a_cell_answers_like_the_cells_that_tile_it() {
-        // Another disc, another table, other Gauss orders. Own cells agree to 5e-15 in every case; the tolerance of the others,
-        // over zz at their place, is the rounding of the table, which grows as the coating gets softer than what lies below
-        // and where a rigid base makes zz fall exponentially.
-        type Case = (&'static [(f64, f64, f64)], Option<(f64, f64)>, f64);
-        let cases: [Case; 12] = [
-            (&[], Some((1.0, 0.3)), 1e-14),
-            (&[(2.0, 0.3, 1e-3)], Some((1.0, 0.3)), 1e-14),
-            (&[(0.5, 0.3, 1.0)], Some((1.0, 0.3)), 1e-14),
-            (&[(10.0, 0.5, 30.0)], Some((1.0, 0.0)), 1e-14),
-            (&[(1e6, 0.3, 1.0)], Some((1.0, 0.3)), 1e-14),
-            (&[(1e4, 0.25, 1e4)], Some((1.0, 0.3)), 1e-14),
-            (&[(1e-2, 0.3, 0.1)], Some((1.0, 0.3)), 1e-13),
-            (&[(1e-4, 0.3, 1.0)], Some((1.0, 0.3)), 1e-11),
-            (&[(1e-6, 0.3, 0.01)], Some((1.0, 0.3)), 1e-10),
-            (&[(1.0, 0.45, 1.0), (100.0, 0.2, 0.05), (0.1, 0.5, 0.5)], Some((3.0, 0.3)), 1e-13),
-            (&[(1.0, 0.3, 20.0)], None, 1e-12),
-            (&[(1.0, 0.5, 30.0)], None, 1e-12),
-        ];
-        let quadrature = CellQuadrature::new();
-        for (layers, substrate, tolerance) in cases {
-            let pair = pair(layers, substrate);
-            for sides in [[1.0, 1.0], [3.0, 1.0], [1.0, 10.0]] {
-                let parts = if sides[1] > 5.0 { [5_i32, 31] } else { [5, 5] };
-                let small = [sides[0] / f64::from(parts[0]), sides[1] / f64::from(parts[1])];
-                let coarse = kernels(&pair, sides, 400.0);
-                let fine = kernels(&pair, small, 400.0);
-                for (i, j) in [(0, 0), (1, 0), (0, 1), (1, 1), (3, 1), (7, 2), (15, 4), (30, 3), (3, 25)] {
-                    let offset = [f64::from(i) * sides[0], f64::from(j) * sides[1]];
-                    let whole = cell(&quadrature, &coarse, offset, sides);
-                    let mut sum = CellResponse::default();
-                    for a in -(parts[0] / 2)..=parts[0] / 2 {
-                        for b in -(parts[1] / 2)..=parts[1] / 2 {
-                            // whole numbers of small sides, so that the middle one is exactly at the point
-                            let place = [
-                                f64::from(i * parts[0] + a) * small[0],
-                                f64::from(j * parts[1] + b) * small[1],
-                            ];
-                            let part = cell(&quadrature, &fine, place, small);
-                            sum.zz += part.zz;
-                            sum.xx += part.xx;
-                            sum.yy += part.yy;
-                            sum.xy += part.xy;
-                            sum.zx += part.zx;
-                            sum.zy += part.zy;
-                        }
-                    }
-                    let error = difference(whole, sum);
-                    let allowed = if (i, j) == (0, 0) { 1e-14 } else { tolerance };
-                    assert!(error < allowed, "{layers:?} {substrate:?} {sides:?} ({i}, {j}): {error:.1e}");
-                }
-            }
-        }
-    }
-}
+mod tests;

@@ -1,9 +1,19 @@
 //! Uniform traction on a rectangle of a homogeneous half-space: surface displacements in closed form. The judge of the
 //! quadrature over cells; it is not used beyond tests, because its corner differences lose the square of distance over side.
 
-use super::cells::CellResponse;
 use crate::model::ElasticMaterial;
 use std::f64::consts::PI;
+
+/// Displacements caused by unit traction on one cell [length/pressure].
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct CellResponse {
+    pub zz: f64,
+    pub xx: f64,
+    pub yy: f64,
+    pub xy: f64,
+    pub zx: f64,
+    pub zy: f64,
+}
 
 /// Displacement at `offset` from the centre of a rectangle with the given `sides` under unit traction.
 ///

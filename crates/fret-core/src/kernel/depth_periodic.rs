@@ -5,8 +5,8 @@ use std::f64::consts::{PI, TAU};
 use ndarray::Array3;
 use rayon::prelude::*;
 
-use super::depth_cells::DepthCoefficients;
-use super::depth_response::{DepthResponse, DepthTransfer};
+use super::cells::CellCoefficients;
+use super::depth_response::{DepthResponse, Transfer};
 
 /// Symbols of stress at one depth, shape `(nx/2 + 1, ny/2 + 1)`, in the convention of [`PeriodicSymbols`]: the transfer function
 /// is the value times `-i` for every axis along which the kernel is odd.
@@ -18,7 +18,7 @@ pub(crate) fn stress_symbols(
     response: &DepthResponse,
     cells: [usize; 2],
     spacing: [f64; 2],
-) -> DepthCoefficients<6> {
+) -> CellCoefficients<6> {
     let nu = response.poisson();
     let lateral = -nu / (1.0 - nu);
     let uniform = [
@@ -36,7 +36,7 @@ pub(crate) fn displacement_symbols(
     response: &DepthResponse,
     cells: [usize; 2],
     spacing: [f64; 2],
-) -> DepthCoefficients<3> {
+) -> CellCoefficients<3> {
     symbols(response, cells, spacing, [[0.0; 3]; 3], |c, s, t, k| {
         let per_k = 1.0 / k;
         let difference = t.tangential[0] - t.sideways;
@@ -50,7 +50,7 @@ pub(crate) fn displacement_symbols(
 }
 
 /// xx, yy, zz, xy, xz, yz.
-fn from_pressure(c: f64, s: f64, t: &DepthTransfer<f64>) -> [f64; 6] {
+fn from_pressure(c: f64, s: f64, t: &Transfer<f64>) -> [f64; 6] {
     let (along, across) = (t.along[1], t.across[1]);
     [
         c * c * along + s * s * across,
@@ -62,7 +62,7 @@ fn from_pressure(c: f64, s: f64, t: &DepthTransfer<f64>) -> [f64; 6] {
     ]
 }
 
-fn from_shear_x(c: f64, s: f64, t: &DepthTransfer<f64>) -> [f64; 6] {
+fn from_shear_x(c: f64, s: f64, t: &Transfer<f64>) -> [f64; 6] {
     let (along, across, twice) = (t.along[0], t.across[0], 2.0 * t.in_plane_shear);
     [
         c * (c * c * along + s * s * (across - twice)),
@@ -84,8 +84,8 @@ fn symbols<const N: usize>(
     cells: [usize; 2],
     spacing: [f64; 2],
     uniform: [[f64; N]; 3],
-    of_wave: impl Fn(f64, f64, &DepthTransfer<f64>, f64) -> [[f64; N]; 3] + Sync,
-) -> DepthCoefficients<N> {
+    of_wave: impl Fn(f64, f64, &Transfer<f64>, f64) -> [[f64; N]; 3] + Sync,
+) -> CellCoefficients<N> {
     let axis = |axis: usize| -> Vec<(f64, f64)> {
         (0..=cells[axis] / 2)
             .map(|index| {
@@ -108,7 +108,7 @@ fn symbols<const N: usize>(
             }
         }
     });
-    DepthCoefficients::new(Array3::from_shape_fn((shape.0, 3 * N, shape.1), |(a, kernel, b)| {
+    CellCoefficients::new(Array3::from_shape_fn((shape.0, 3 * N, shape.1), |(a, kernel, b)| {
         values[a * shape.1 + b][kernel / N][kernel % N]
     }))
 }

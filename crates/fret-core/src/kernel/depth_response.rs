@@ -35,7 +35,7 @@ pub(crate) struct DepthResponse {
 /// `sigma_yy = across . (Q, P)`, `k u_x = i (tangential . (Q, P))`, `k u_z = depthwise . (Q, P)`; and per `q_y`:
 /// `sigma_yz = -twist_shear`, `sigma_xy = i in_plane_shear`, `k u_y = sideways`. Pairs are `[per Q, per P]`.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct DepthTransfer<T> {
+pub(crate) struct Transfer<T> {
     pub normal: [T; 2],
     pub shear: [T; 2],
     pub along: [T; 2],
@@ -104,7 +104,7 @@ impl DepthResponse {
     }
 
     /// Response at a real or complex wavenumber.
-    pub(crate) fn at<T: Wavenumber>(&self, k: T) -> DepthTransfer<T> {
+    pub(crate) fn at<T: Wavenumber>(&self, k: T) -> Transfer<T> {
         let opaque = self.below.iter().position(|layer| layer.is_opaque(k));
         let (mut compliance, below) = match (opaque, &self.base) {
             (Some(index), _) => (self.below[index].constants.half_space(), &self.below[..index]),
@@ -129,7 +129,7 @@ impl DepthResponse {
         self.transfer(&at_depth, &descent)
     }
 
-    fn transfer<T: Wavenumber>(&self, below: &Compliance<T>, descent: &Descent<T>) -> DepthTransfer<T> {
+    fn transfer<T: Wavenumber>(&self, below: &Compliance<T>, descent: &Descent<T>) -> Transfer<T> {
         let (nu, mu) = (self.constants.poisson(), self.constants.shear_modulus());
         let (c, t) = (below.in_plane, descent.in_plane);
         let shear = [t.rr, t.rz];
@@ -141,7 +141,7 @@ impl DepthResponse {
             [0, 1].map(|n| -(tangential[n] * (2.0 * mu / (1.0 - nu)) + normal[n] * (nu / (1.0 - nu))));
         let across = [0, 1].map(|n| (along[n] - normal[n]) * nu);
         let sideways = below.tt * descent.across;
-        DepthTransfer {
+        Transfer {
             normal,
             shear,
             along,
@@ -162,8 +162,8 @@ mod tests {
     use super::*;
 
     /// What both sides of an interface share: tractions and displacements.
-    fn shared(transfer: &DepthTransfer<f64>) -> [f64; 10] {
-        let DepthTransfer { normal, shear, tangential, depthwise, twist_shear, sideways, .. } = *transfer;
+    fn shared(transfer: &Transfer<f64>) -> [f64; 10] {
+        let Transfer { normal, shear, tangential, depthwise, twist_shear, sideways, .. } = *transfer;
         [
             normal[0],
             normal[1],
@@ -321,7 +321,7 @@ mod tests {
             let at = |depth: f64| DepthResponse::new(&half_space, layer, depth).at(k);
             // eighth-order central difference: truncation (0.02)^8, rounding over the step
             let weights = [4.0 / 5.0, -1.0 / 5.0, 4.0 / 105.0, -1.0 / 280.0];
-            let slope = |of: &dyn Fn(&DepthTransfer<f64>) -> f64| {
+            let slope = |of: &dyn Fn(&Transfer<f64>) -> f64| {
                 let pairs = weights.iter().zip(1..).map(|(weight, n)| {
                     let away = f64::from(n) * step;
                     weight * (of(&at(z + away)) - of(&at(z - away)))

@@ -13,11 +13,11 @@ use std::f64::consts::FRAC_1_PI;
 use ndarray::Array3;
 use rayon::prelude::*;
 
+use super::cells::CellCoefficients;
 use super::complex::{Complex, Wavenumber};
-use super::depth_cells::DepthCoefficients;
-use super::depth_response::{DepthResponse, DepthTransfer};
+use super::depth_response::{DepthResponse, Transfer};
+use super::interpolation::{REACH, interpolated};
 use super::line_kernels::LineLattice;
-use super::radial::{BARYCENTRIC, REACH};
 
 /// Kernels side by side: from pressure xx, yy, zz, xz; from `q_x` the same; from `q_y` xy, yz.
 const LANES: usize = 10;
@@ -30,7 +30,7 @@ const PLACES: [[usize; 2]; LANES] =
 type Lanes = [f64; LANES];
 
 /// `S` of all kernels: the stresses of a wave along x.
-fn lanes<T: Wavenumber>(t: &DepthTransfer<T>) -> [T; LANES] {
+fn lanes<T: Wavenumber>(t: &Transfer<T>) -> [T; LANES] {
     [
         t.along[1],
         t.across[1],
@@ -123,21 +123,7 @@ impl Primitives {
     /// The antiderivatives at a distance `x >= half`, by Lagrange's polynomial through the lattice around it.
     fn at(&self, x: f64) -> Lanes {
         let position = libm::log(x / self.half) / self.step + f64::from(self.margin);
-        let below = position.floor();
-        let start = below as usize + 1 - REACH;
-        let within = position - below + (REACH - 1) as f64;
-        if position == below {
-            return self.values[below as usize];
-        }
-        let (mut sums, mut total) = ([0.0; LANES], 0.0);
-        for (j, (weight, values)) in BARYCENTRIC.iter().zip(&self.values[start..]).enumerate() {
-            let weight = weight / (within - j as f64);
-            total += weight;
-            for lane in 0..LANES {
-                sums[lane] += weight * values[lane];
-            }
-        }
-        sums.map(|sum| sum / total)
+        interpolated(&self.values, position)
     }
 }
 
@@ -148,7 +134,7 @@ pub(crate) fn line_stress_coefficients(
     strips: usize,
     spacing: f64,
     with_shear: bool,
-) -> DepthCoefficients<6> {
+) -> CellCoefficients<6> {
     let half = 0.5 * spacing;
     let primitives = Primitives::new(response, half, strips as f64 * spacing);
     let edges: Vec<Lanes> = (0..strips).map(|i| primitives.at((i as f64 + 0.5) * spacing)).collect();
@@ -164,7 +150,7 @@ pub(crate) fn line_stress_coefficients(
             };
         }
     }
-    DepthCoefficients::new(values)
+    CellCoefficients::new(values)
 }
 
 #[cfg(test)]

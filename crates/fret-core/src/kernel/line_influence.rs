@@ -2,7 +2,7 @@
 
 use ndarray::Array2;
 
-use super::cells::CellQuadrature;
+use super::cell_rules::CellQuadrature;
 use super::datum::Datum;
 use super::influence::{Components, InfluenceCoefficients};
 use super::line_kernels::LineKernels;

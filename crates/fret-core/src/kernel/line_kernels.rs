@@ -15,15 +15,16 @@
 use std::f64::consts::{FRAC_1_PI, FRAC_PI_2};
 use std::sync::OnceLock;
 
+use pulp::Scalar;
 use rayon::prelude::*;
 
 use super::complex::{Complex, Wavenumber};
 use super::datum::Datum;
 use super::frequency_response::{Response, ResponseTimesK};
 use super::hankel_lattice::{ANGLE, LEAST_LOG, STEPS_PER_E_FOLD};
+use super::interpolation::{REACH, interpolated};
 use super::pair_response::PairResponse;
 use super::panels::Panels;
-use super::radial::{REACH, interpolated};
 
 /// Kernels side by side: zz, xx, yy, zx.
 type Lanes = [f64; 4];
@@ -255,7 +256,7 @@ impl<'a> LatticeResponse<'a> {
 /// and the means of the first three over the strip of the load itself.
 #[derive(Clone, Debug)]
 pub(super) struct LineKernels {
-    panels: Panels,
+    panels: Panels<1>,
     means: [f64; 3],
 }
 
@@ -279,7 +280,7 @@ impl LineKernels {
         };
         let panels = Panels::new(least * least, greatest * greatest, |square| {
             let [zz, xx, yy] = at(libm::log(depth / square.sqrt()));
-            [zz, xx, yy, rz * FRAC_PI_2 * FRAC_1_PI]
+            [[zz, xx, yy, rz * FRAC_PI_2 * FRAC_1_PI]]
         });
         Self { panels, means: at(libm::log(depth / least) + 1.0) }
     }
@@ -294,14 +295,15 @@ impl LineKernels {
             (-margin..last + 1).into_par_iter().with_min_len(8).map(|n| response.transformed(n)).collect();
         let panels = Panels::new(least * least, greatest * greatest, |square| {
             let position = libm::log(square.sqrt() / least) / lattice.step + f64::from(margin);
-            interpolated(&values, position)
+            [interpolated(&values, position)]
         });
         Self { panels, means: response.means() }
     }
 
     /// zz, xx, yy, zx at a distance `x > 0`.
     pub(super) fn at(&self, x: f64) -> Lanes {
-        self.panels.at(x * x)
+        let [kernels] = self.panels.at::<Scalar>(x * x);
+        kernels
     }
 
     /// Means of zz, xx and yy over the loaded strip itself.

@@ -14,7 +14,6 @@ pub(crate) mod complex;
 pub(crate) mod compliance_below;
 pub(crate) mod depth_cells;
 pub(crate) mod depth_periodic;
-pub(crate) mod depth_radial;
 pub(crate) mod depth_response;
 pub(crate) mod layer;
 pub(crate) mod layer_constants;
@@ -24,20 +23,21 @@ pub(crate) mod stack_layer;
 
 mod axis_waves;
 mod bessel;
+mod cell_integrals;
+mod cell_rules;
 mod cells;
 #[cfg(test)]
 mod closed_form;
 mod datum;
-mod depth_integrals;
-mod depth_lattice;
-mod depth_panels;
-mod depth_quartets;
 mod far_cells;
 mod hankel_lattice;
 mod homogeneous;
+mod interpolation;
+mod lattice_samples;
 mod line_kernels;
 mod panels;
 pub(crate) mod quadrature;
+mod quartets;
 mod radial;
 #[cfg(test)]
 pub(crate) mod samples;

@@ -122,6 +122,7 @@ mod tests {
     use super::super::samples::{Random, material, stack};
     use super::*;
     use crate::model::{ConductingLayer, HalfSpace};
+    use pulp::Scalar;
 
     fn two(upper: &HalfSpace, lower: &HalfSpace) -> PairResponse {
         let pair = ContactPair::new(Body::Elastic(upper.clone()), Body::Elastic(lower.clone())).unwrap();
@@ -226,11 +227,11 @@ mod tests {
             let body = Conductor::new(vec![layer], 1.0).unwrap();
             let response = PairResponse::conduction([Some(&body), None]);
             let [disc, hertz] = by_images(ratio, thickness);
-            let whole = RadialKernels::new(&response, 1.0, 2.0).over_disc()[0] * ratio;
+            let whole = RadialKernels::of_surface(&response, 1.0, 2.0).innermost()[0][0] * ratio;
             assert!((whole / disc - 1.0).abs() < 1e-12, "{ratio}, {thickness}: {whole} {disc}"); // rounding of 400 images
             // the flux over a small disc around the middle is one but for 5e-9 of 1e-4; beyond by Gauss points in the angle of sin = r
             let least = 1e-4_f64;
-            let kernels = RadialKernels::new(&response, least, 2.0);
+            let kernels = RadialKernels::of_surface(&response, least, 2.0);
             let from = libm::asin(least);
             let half = 0.5 * (std::f64::consts::FRAC_PI_2 - from);
             let beyond: f64 = GaussRule::new(40)
@@ -239,10 +240,16 @@ mod tests {
                 .map(|(point, weight)| {
                     let angle = from + half * (1.0 + point);
                     let (r, flux) = (libm::sin(angle), libm::cos(angle));
-                    weight * half * flux * flux * std::f64::consts::TAU * r * kernels.at_square(r * r)[0]
+                    weight
+                        * half
+                        * flux
+                        * flux
+                        * std::f64::consts::TAU
+                        * r
+                        * kernels.at_square::<Scalar>(r * r)[0][0]
                 })
                 .sum();
-            let found = ratio * (kernels.over_disc()[0] + beyond);
+            let found = ratio * (kernels.innermost()[0][0] + beyond);
             assert!((found / hertz - 1.0).abs() < 1e-11, "{ratio}, {thickness}: {found} {hertz}");
         }
     }

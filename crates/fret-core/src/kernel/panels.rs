@@ -1,33 +1,46 @@
-//! Four functions of one positive number, tabulated as polynomials on quarter octaves: one vector of four per evaluation and
-//! no transcendental function. Radial kernels (of `r^2`) and responses (of `k^2`) are both kept so.
+//! Functions of one positive number in quartets, tabulated side by side as polynomials on quarter octaves: one look-up for all,
+//! vectors of four per evaluation and no transcendental function. Radial kernels (of `r^2`) and responses (of `k^2`) are both kept so.
+
+use pulp::Simd;
+use rayon::prelude::*;
+
+/// Four functions side by side.
+pub(crate) type Lanes = [f64; 4];
 
 /// Chebyshev nodes, and coefficients, of one panel. The tabulated functions are analytic but for the imaginary axis of `r`
 /// (of `k`: beyond the poles, 22 degrees off the axis and more); their singularities lie 6 half-panels away in the square and
 /// more, usually 9: twelve terms leave 1e-13 to 1e-15.
-pub(super) const DEGREES: usize = 12;
+const DEGREES: usize = 12;
 /// Bits of a number's pattern below exponent and the two leading bits of its fraction: what stays within a panel.
-pub(super) const WITHIN_PANEL: u32 = 50;
+const WITHIN_PANEL: u32 = 50;
 
-/// Piecewise polynomials in `s > 0`, on panels `[2^e (1 + q/4), 2^e (1 + (q+1)/4))`.
-#[derive(Clone, Debug)]
-pub(crate) struct Panels {
-    first: u64,
-    polynomials: Vec<[[f64; 4]; DEGREES]>,
+/// `a b + c`, fused where the machine can.
+#[inline(always)]
+pub(super) fn fused<S: Simd>(a: f64, b: f64, c: f64) -> f64 {
+    if S::IS_SCALAR { a * b + c } else { a.mul_add(b, c) }
 }
 
-impl Panels {
-    /// Tabulates `functions` on all panels that meet `[least, greatest]`.
-    pub(crate) fn new(least: f64, greatest: f64, functions: impl Fn(f64) -> [f64; 4] + Sync) -> Self {
-        use rayon::prelude::*;
+/// Piecewise polynomials in `s > 0` of `N` quartets, on panels `[2^e (1 + q/4), 2^e (1 + (q+1)/4))`.
+#[derive(Clone, Debug)]
+pub(crate) struct Panels<const N: usize> {
+    first: u64,
+    polynomials: Vec<[[Lanes; N]; DEGREES]>,
+}
+
+impl<const N: usize> Panels<N> {
+    /// Tabulates functions on all panels that meet `[least, greatest]`.
+    pub(crate) fn new(least: f64, greatest: f64, functions: impl Fn(f64) -> [Lanes; N] + Sync) -> Self {
         let first = panel_of(least);
-        let count = panel_of(greatest) - first + 1;
+        let count = (panel_of(greatest) - first + 1) as usize;
         let cosines = chebyshev_cosines();
         let powers = chebyshev_powers();
-        let polynomials = (0..count as usize)
+        let polynomials = (0..count)
             .into_par_iter()
+            .with_min_len(16)
             .map(|index| {
-                let start = f64::from_bits((first + index as u64) << WITHIN_PANEL);
-                let end = f64::from_bits((first + index as u64 + 1) << WITHIN_PANEL);
+                let panel = first + index as u64;
+                let start = f64::from_bits(panel << WITHIN_PANEL);
+                let end = f64::from_bits((panel + 1) << WITHIN_PANEL);
                 let half = 0.5 * (end - start);
                 let middle = start + half;
                 let values = std::array::from_fn(|node| functions(middle + half * cosines[1][node]));
@@ -39,7 +52,7 @@ impl Panels {
 
     /// Values at `s`, which must lie within the tabulated range.
     #[inline(always)]
-    pub(crate) fn at(&self, s: f64) -> [f64; 4] {
+    pub(crate) fn at<S: Simd>(&self, s: f64) -> [Lanes; N] {
         let bits = s.to_bits();
         let polynomial = &self.polynomials[(bits >> WITHIN_PANEL).wrapping_sub(self.first) as usize];
         let fraction = (bits << 2) & ((1 << 52) - 1);
@@ -48,14 +61,22 @@ impl Panels {
         let square = u * u;
         let mut even = polynomial[DEGREES - 2];
         let mut odd = polynomial[DEGREES - 1];
-        for pair in polynomial[..DEGREES - 2].rchunks_exact(2) {
-            for lane in 0..4 {
-                even[lane] = even[lane] * square + pair[0][lane];
-                odd[lane] = odd[lane] * square + pair[1][lane];
+        let mut degree = DEGREES - 2;
+        while degree > 0 {
+            degree -= 2;
+            for quartet in 0..N {
+                for lane in 0..4 {
+                    even[quartet][lane] =
+                        fused::<S>(even[quartet][lane], square, polynomial[degree][quartet][lane]);
+                    odd[quartet][lane] =
+                        fused::<S>(odd[quartet][lane], square, polynomial[degree + 1][quartet][lane]);
+                }
             }
         }
-        for lane in 0..4 {
-            even[lane] += odd[lane] * u;
+        for quartet in 0..N {
+            for lane in 0..4 {
+                even[quartet][lane] = fused::<S>(odd[quartet][lane], u, even[quartet][lane]);
+            }
         }
         even
     }
@@ -70,12 +91,12 @@ impl Panels {
     }
 }
 
-pub(super) fn panel_of(s: f64) -> u64 {
+fn panel_of(s: f64) -> u64 {
     s.to_bits() >> WITHIN_PANEL
 }
 
 /// `cos(degree * angle of node)`.
-pub(super) fn chebyshev_cosines() -> [[f64; DEGREES]; DEGREES] {
+fn chebyshev_cosines() -> [[f64; DEGREES]; DEGREES] {
     let mut cosines = [[0.0; DEGREES]; DEGREES];
     for (degree, row) in cosines.iter_mut().enumerate() {
         for (node, cosine) in row.iter_mut().enumerate() {
@@ -87,7 +108,7 @@ pub(super) fn chebyshev_cosines() -> [[f64; DEGREES]; DEGREES] {
 }
 
 /// Coefficients of the powers of u in the Chebyshev polynomials: whole numbers, exact.
-pub(super) fn chebyshev_powers() -> [[f64; DEGREES]; DEGREES] {
+fn chebyshev_powers() -> [[f64; DEGREES]; DEGREES] {
     let mut powers = [[0.0; DEGREES]; DEGREES];
     powers[0][0] = 1.0;
     powers[1][1] = 1.0;
@@ -102,26 +123,40 @@ pub(super) fn chebyshev_powers() -> [[f64; DEGREES]; DEGREES] {
 
 /// Powers of u from values at the Chebyshev nodes: first to Chebyshev coefficients, then to powers; one inverse Vandermonde
 /// matrix would cost two digits. Only the variation over the panel is transformed, so that only it is rounded.
-fn polynomial(
-    values: &[[f64; 4]; DEGREES],
+fn polynomial<const N: usize>(
+    values: &[[Lanes; N]; DEGREES],
     cosines: &[[f64; DEGREES]; DEGREES],
     powers: &[[f64; DEGREES]; DEGREES],
-) -> [[f64; 4]; DEGREES] {
-    let mut coefficients = [[0.0; 4]; DEGREES];
-    for lane in 0..4 {
-        let level = values[DEGREES / 2][lane];
-        let chebyshev: [f64; DEGREES] = std::array::from_fn(|degree| {
-            let share = if degree == 0 { 1.0 } else { 2.0 } / DEGREES as f64;
-            let sum: f64 =
-                (0..DEGREES).map(|node| (values[node][lane] - level) * cosines[degree][node]).sum();
-            share * sum
-        });
-        for (power, coefficient) in coefficients.iter_mut().enumerate() {
-            // smallest first
-            coefficient[lane] =
-                (power..DEGREES).rev().map(|degree| chebyshev[degree] * powers[degree][power]).sum();
+) -> [[Lanes; N]; DEGREES] {
+    let level = values[DEGREES / 2];
+    let mut chebyshev = [[[0.0; 4]; N]; DEGREES];
+    for (degree, sum) in chebyshev.iter_mut().enumerate() {
+        for node in 0..DEGREES {
+            for quartet in 0..N {
+                for lane in 0..4 {
+                    let change = values[node][quartet][lane] - level[quartet][lane];
+                    sum[quartet][lane] += change * cosines[degree][node];
+                }
+            }
         }
-        coefficients[0][lane] += level;
+        let share = if degree == 0 { 1.0 } else { 2.0 } / DEGREES as f64;
+        sum.as_flattened_mut().iter_mut().for_each(|value| *value *= share);
+    }
+    let mut coefficients = [[[0.0; 4]; N]; DEGREES];
+    for (power, sum) in coefficients.iter_mut().enumerate() {
+        // smallest first; a polynomial has the powers of its degree's parity only
+        for degree in (power..DEGREES).rev().filter(|degree| (degree - power) % 2 == 0) {
+            for quartet in 0..N {
+                for lane in 0..4 {
+                    sum[quartet][lane] += chebyshev[degree][quartet][lane] * powers[degree][power];
+                }
+            }
+        }
+    }
+    for quartet in 0..N {
+        for lane in 0..4 {
+            coefficients[0][quartet][lane] += level[quartet][lane];
+        }
     }
     coefficients
 }
@@ -129,14 +164,15 @@ fn polynomial(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use pulp::Scalar;
 
     #[test]
     fn powers_of_the_argument_come_back_to_rounding() {
         let functions = |s: f64| [1.0 / s, 1.0 / s.sqrt(), s.sqrt(), libm::exp(-s.sqrt())];
-        let panels = Panels::new(0.3, 40.0, functions);
+        let panels = Panels::new(0.3, 40.0, |s| [functions(s)]);
         for n in 0..2000 {
             let s = 0.3 * (40.0_f64 / 0.3).powf(f64::from(n) / 1999.9);
-            let found = panels.at(s);
+            let [found] = panels.at::<Scalar>(s);
             let exact = functions(s);
             for lane in 0..4 {
                 let error = (found[lane] - exact[lane]).abs() / exact[lane];
@@ -149,7 +185,7 @@ mod tests {
 
     #[test]
     fn range_is_known() {
-        let panels = Panels::new(1.0, 4.0, |s| [s; 4]);
+        let panels = Panels::new(1.0, 4.0, |s| [[s; 4]]);
         assert!(panels.holds(1.0) && panels.holds(4.0));
         assert!(!panels.holds(0.9) && !panels.holds(6.0) && !panels.holds(0.0) && !panels.holds(f64::NAN));
     }

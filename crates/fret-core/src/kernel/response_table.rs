@@ -1,6 +1,7 @@
 //! The frequency response of a pair as a table, for the many wavenumbers of grids.
 
 use ndarray::Array2;
+use pulp::Scalar;
 
 use super::axis_waves::{AxisWaves, axis_waves};
 use super::frequency_response::Response;
@@ -20,7 +21,7 @@ enum Values {
     /// Homogeneous bodies: `k C` is constant.
     Constant([f64; 4]),
     /// `k C_zz, k C_rr, k C_rz, k C_tt` over `k^2`.
-    Tabulated(Panels),
+    Tabulated(Panels<1>),
 }
 
 impl ResponseTable {
@@ -35,7 +36,7 @@ impl ResponseTable {
         let values = match pair.constant() {
             Some(response) => Values::Constant(components(response)),
             None => Values::Tabulated(Panels::new(least * least, greatest * greatest, |square| {
-                components(pair.times_k(square.sqrt()))
+                [components(pair.times_k(square.sqrt()))]
             })),
         };
         Self { pair, values }
@@ -51,7 +52,7 @@ impl ResponseTable {
     pub(super) fn at_square(&self, square: f64) -> [f64; 4] {
         match &self.values {
             Values::Constant(response) => *response,
-            Values::Tabulated(panels) if panels.holds(square) => panels.at(square),
+            Values::Tabulated(panels) if panels.holds(square) => panels.at::<Scalar>(square)[0],
             Values::Tabulated(_) => components(self.pair.times_k(square.sqrt())),
         }
     }

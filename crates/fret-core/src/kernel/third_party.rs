@@ -1,5 +1,6 @@
 //! Radial kernels against a third party's program. Tests only.
 
+use pulp::Scalar;
 use serde::Deserialize;
 
 use super::pair_response::PairResponse;
@@ -23,10 +24,10 @@ fn three_layers_are_those_of_a_program_for_seismology() {
     let mut worst = 0.0_f64;
     for row in golden::<Row>("three_layers_pygrt.json") {
         let response = PairResponse::new(&pair(&row.layers, Some(row.substrate)));
-        let kernels = RadialKernels::new(&response, 0.1, 100.0);
+        let kernels = RadialKernels::of_surface(&response, 0.1, 100.0);
         // zz, zr, rr, tt: Z0, -Z1, A0 - B2, A0 + B2; the table holds B2/r^2 and Z1/r
         let at = |r: f64| {
-            let [z0, a0, b2, z1] = kernels.at_square(r * r);
+            let [[z0, a0, b2, z1]] = kernels.at_square::<Scalar>(r * r);
             [z0, -z1 * r, a0 - b2 * r * r, a0 + b2 * r * r]
         };
         let last = at(row.distances[row.distances.len() - 1]);

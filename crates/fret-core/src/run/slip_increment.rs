@@ -38,7 +38,7 @@ fn add_dissipation(
     let slip_y = &after.slip[1] - &before.slip[1];
     let mut bound = friction_bounds(friction, &before.pressure);
     bound.zip_mut_with(&friction_bounds(friction, &after.pressure), |bound, now| {
-        *bound = 0.5 * (*bound + now)
+        *bound = 0.5 * (*bound + now);
     });
     Zip::from(energy)
         .and(&bound)

@@ -1,14 +1,14 @@
-//! The kernels of one depth integrated over one rectangular cell: near the load by Gauss points, far from it by five.
+//! Radial kernels integrated over one rectangular cell: near the load by Gauss points, far from it by five.
 
 use std::marker::PhantomData;
 
 use pulp::Simd;
 
-use super::cells::{CellQuadrature, MOST_POINTS};
-use super::depth_panels::{Lanes, fused};
-use super::depth_quartets::Quartets;
-use super::depth_radial::DepthKernels;
+use super::cell_rules::{CellQuadrature, MOST_POINTS};
 use super::far_cells::FIVE_POINTS;
+use super::panels::{Lanes, fused};
+use super::quartets::Quartets;
+use super::radial::RadialKernels;
 
 /// Integrals over one cell of the kernels of a quartet times the angular factors of their orders.
 ///
@@ -25,7 +25,7 @@ pub(super) struct Rectangle {
 /// Adds the values at a point, times a weight.
 #[inline(always)]
 fn add_point<S: Simd, Q: Quartets<N>, const N: usize>(
-    kernels: &DepthKernels<N>,
+    kernels: &RadialKernels<N>,
     [x, y]: [f64; 2],
     weight: f64,
     sum: &mut [Moments; N],
@@ -60,7 +60,7 @@ fn add_values<S: Simd, Q: Quartets<N>, const N: usize>(
 /// The integral over a far square cell.
 #[inline(always)]
 pub(super) fn add_five_points<S: Simd, Q: Quartets<N>, const N: usize>(
-    kernels: &DepthKernels<N>,
+    kernels: &RadialKernels<N>,
     centre: [f64; 2],
     side: f64,
     sum: &mut [Moments; N],
@@ -79,7 +79,7 @@ pub(super) fn add_five_points<S: Simd, Q: Quartets<N>, const N: usize>(
 /// Cells whose distance from the load may be small.
 pub(super) struct NearCells<'a, Q, const N: usize> {
     pub quadrature: &'a CellQuadrature,
-    pub kernels: &'a DepthKernels<N>,
+    pub kernels: &'a RadialKernels<N>,
     pub depth: f64,
     pub quartets: PhantomData<Q>,
 }
@@ -143,17 +143,19 @@ impl<Q: Quartets<N>, const N: usize> NearCells<'_, Q, N> {
     /// kernels vanish.
     #[inline(always)]
     pub(super) fn add_own_cell<S: Simd>(&self, sides: [f64; 2], sum: &mut [Moments; N]) {
-        let disc = self.kernels.innermost();
-        for quartet in 0..N {
-            for lane in 0..4 {
-                sum[quartet][0][lane] += disc[quartet][lane];
-            }
-        }
         let radius = 0.5 * sides[0].min(sides[1]);
+        // many small terms by themselves, not onto the disc
+        let mut parts = [[[0.0; 4]; 2]; N];
         for (edge, half_length, sign) in
             [(0.5 * sides[0], 0.5 * sides[1], 1.0), (0.5 * sides[1], 0.5 * sides[0], -1.0)]
         {
-            self.add_sector::<S>(radius, edge, half_length, sign, sum);
+            self.add_sector::<S>(radius, edge, half_length, sign, &mut parts);
+        }
+        let disc = self.kernels.innermost();
+        for quartet in 0..N {
+            for lane in 0..4 {
+                sum[quartet][0][lane] += disc[quartet][lane] + parts[quartet][0][lane];
+            }
         }
     }
 

@@ -1,8 +1,8 @@
-//! The kernels of a depth in quartets: what they are, and how they follow from the response.
+//! Radial kernels in quartets: what they are, and how they follow from the response.
 
 use super::complex::Wavenumber;
-use super::depth_panels::Lanes;
-use super::depth_response::DepthTransfer;
+use super::depth_response::Transfer;
+use super::panels::Lanes;
 
 /// Four kernels that are made together: what they are, and the Bessel order of each.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -61,7 +61,7 @@ impl Quartet {
 
     /// D of the four kernels at a wavenumber.
     #[inline(always)]
-    pub(super) fn lanes<T: Wavenumber>(self, k: T, transfer: &DepthTransfer<T>) -> [T; 4] {
+    pub(super) fn lanes<T: Wavenumber>(self, k: T, transfer: &Transfer<T>) -> [T; 4] {
         let t = transfer;
         let zero = T::zero();
         match self {
@@ -124,4 +124,12 @@ pub(crate) struct DisplacementFromAll;
 
 impl Quartets<2> for DisplacementFromAll {
     const LIST: [Quartet; 2] = [Quartet::Displacement, Quartet::Rise];
+}
+
+/// Displacements of the surface, where pressure moves it along as shear does outward.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct SurfaceDisplacement;
+
+impl Quartets<1> for SurfaceDisplacement {
+    const LIST: [Quartet; 1] = [Quartet::Displacement];
 }

@@ -1,0 +1,112 @@
+//! A response on the lattice of wavenumbers, from which tables of kernels are made.
+
+use rayon::prelude::*;
+
+use super::complex::{Complex, Wavenumber};
+use super::depth_response::{DepthResponse, Transfer};
+use super::frequency_response::ResponseTimesK;
+use super::hankel_lattice::HankelLattice;
+use super::pair_response::PairResponse;
+
+/// What answers a traction wave by its wavenumber alone, at some depth.
+pub(crate) trait WaveResponse: Sync {
+    /// The answer at a wavenumber.
+    fn transfer<T: Wavenumber>(&self, k: T) -> Transfer<T>;
+    /// Longest length in the bodies: far beyond it the answer is that of a homogeneous one.
+    fn longest_length(&self) -> f64;
+    /// Depth of the point, 0 at the surface \[length\].
+    fn depth(&self) -> f64;
+}
+
+impl WaveResponse for DepthResponse {
+    fn transfer<T: Wavenumber>(&self, k: T) -> Transfer<T> {
+        self.at(k)
+    }
+
+    fn longest_length(&self) -> f64 {
+        Self::longest_length(self)
+    }
+
+    fn depth(&self) -> f64 {
+        Self::depth(self)
+    }
+}
+
+/// The surfaces of two bodies, lower minus upper: displacements alone.
+impl WaveResponse for PairResponse {
+    fn transfer<T: Wavenumber>(&self, k: T) -> Transfer<T> {
+        let ResponseTimesK { zz, rr, rz, tt } = self.times_wavenumber(k);
+        let zero = T::zero();
+        Transfer {
+            normal: [zero; 2],
+            shear: [zero; 2],
+            along: [zero; 2],
+            across: [zero; 2],
+            tangential: [rr, rz],
+            depthwise: [rz, zz],
+            twist_shear: zero,
+            in_plane_shear: zero,
+            sideways: tt,
+        }
+    }
+
+    fn longest_length(&self) -> f64 {
+        Self::longest_length(self)
+    }
+
+    fn depth(&self) -> f64 {
+        0.0
+    }
+}
+
+/// A response on the lattice of wavenumbers `exp(m step)/radius`, on the axis and on the ray.
+pub(super) struct LatticeSamples<'a> {
+    pub lattice: &'a HankelLattice,
+    /// Index m of the first wavenumber.
+    pub first: i32,
+    pub real: Vec<(f64, Transfer<f64>)>,
+    pub ray: Vec<(Complex, Transfer<Complex>)>,
+}
+
+impl<'a> LatticeSamples<'a> {
+    /// Of a response whose kernels start with a power of the wavenumber, for radii from `radius exp(-before step)` to `greatest`.
+    pub(super) fn new(
+        lattice: &'a HankelLattice,
+        response: &impl WaveResponse,
+        [radius, greatest]: [f64; 2],
+        before: i32,
+        start: i32,
+    ) -> Self {
+        let longest = greatest.max(response.longest_length());
+        // below, D is its first power but for a fraction as small as the argument
+        let least = if start > 0 { 1e-7 } else { 1e-8 };
+        let first = (libm::log(least * (radius / longest)) / lattice.step).floor() as i32;
+        let first = first.max(lattice.lowest + before);
+        // beyond 100 over the depth nothing arrives: exp(-96) on the ray
+        let last = if response.depth() > 0.0 {
+            (libm::log(100.0 * (radius / response.depth())) / lattice.step).ceil() as i32
+        } else {
+            i32::MAX
+        };
+        let wavenumber = |m: i32| libm::exp(f64::from(m) * lattice.step) / radius;
+        let direction = Complex::polar(1.0, lattice.angle);
+        let end = |of_lattice: i32| (of_lattice + before + 1).min(last).max(first + 1);
+        let real = (first..end(lattice.last_real()))
+            .into_par_iter()
+            .with_min_len(32)
+            .map(|m| {
+                let k = wavenumber(m);
+                (k, response.transfer(k))
+            })
+            .collect();
+        let ray = (first..end(lattice.last_ray()))
+            .into_par_iter()
+            .with_min_len(32)
+            .map(|m| {
+                let k = direction * wavenumber(m);
+                (k, response.transfer(k))
+            })
+            .collect();
+        Self { lattice, first, real, ray }
+    }
+}
