@@ -329,7 +329,8 @@ fn mirrors_change_nothing_behind_a_spring() {
         // Two solutions to 1e-9, whose worst cell is up to a hundred times the mean.
         assert!(off < 100.0 * TOLERANCE, "{off:e}");
         for (one, other) in with.1.steps.iter().zip(&without.1.steps) {
-            assert!((one.actuator[0] - other.actuator[0]).abs() < 1e-12 * amplitude, "what is prescribed");
+            let driven = (one.actuator[0] - other.actuator[0]).abs();
+            assert!(driven < 100.0 * TOLERANCE * amplitude, "{driven:e}: what is prescribed");
             let force = one.tangential_force[0] - other.tangential_force[0];
             assert!(force.abs() < 100.0 * TOLERANCE * FRICTION * sphere.force(), "{force:e}");
         }

@@ -70,7 +70,7 @@ held = int(open("/proc/self/statm").read().split()[0]) * resource.getpagesize()
 resource.setrlimit(resource.RLIMIT_AS, (held + 800_000_000, -1))
 for ask in (
     lambda: fretting.run(case, threads=200),
-    lambda: fretting.influence_coefficients(case["lower"], cells=(8, 8), spacing=(1e-6, 1e-6), threads=200),
+    lambda: fretting.study(case, cells=[8, 16], threads=200),
 ):
     try:
         ask()

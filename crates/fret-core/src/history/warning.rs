@@ -35,8 +35,8 @@ pub const FRICTION_CHANGE: f64 = 0.1;
 /// contact; half of this is about its error at the ends.
 pub const COMPLIANCE_SPREAD: f64 = 0.1;
 
-/// Young's modulus of the stiffest direction of diamond, 1.21e12 Pa (from its elastic constants: McSkimin & Andreatch 1972), rounded up:
-/// no coating and no body is stiffer.
+/// Young's modulus of diamond in its stiffest direction, 1.21e12 Pa by the elastic constants of `McSkimin` and Andreatch (1972), J. Appl.
+/// Phys. 43, 2944, rounded up: no coating and no body is stiffer.
 pub const STIFFEST: f64 = 1.25e12;
 
 /// What a warning is about; its name in files is stable.

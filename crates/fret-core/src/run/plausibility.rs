@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::case::Units;
 use crate::history::{Concern, CycleRecord, STIFFEST, StepRecord, Warning};
-use crate::model::{Base, Body, Control};
+use crate::model::{Base, Body, Coating, Control, ElasticMaterial};
 use crate::plan::{Coupling, Plan};
 
 /// What follows from the case alone, with the contact that its plan expects.
@@ -36,12 +36,12 @@ fn largest_modulus(plan: &Plan) -> f64 {
     let of_body = |body: &Body| match body {
         Body::Rigid => 0.0,
         Body::Elastic(stack) => {
-            let layers = stack.coatings().iter().map(|coating| coating.material());
+            let layers = stack.coatings().iter().map(Coating::material);
             let base = match stack.base() {
                 Base::Rigid => None,
                 Base::Elastic(material) => Some(material),
             };
-            layers.chain(base).map(|material| material.young()).fold(0.0, f64::max)
+            layers.chain(base).map(ElasticMaterial::young).fold(0.0, f64::max)
         }
     };
     of_body(plan.case.bodies.upper()).max(of_body(plan.case.bodies.lower()))
