@@ -105,8 +105,8 @@ fn history_error_falls_with_the_increments() {
     }
     let errors = [10, 20, 40].map(|increments| stick_ratio(&solved(&pressed(increments))) - 0.9);
     println!("of second order: {errors:.4?}");
-    // Half a cell in the border is 0.01.
-    assert!(errors[0].abs() < 0.02 && errors[1].abs() < 0.01 && errors[2].abs() < 0.006, "{errors:?}");
+    // Half a cell in the border is 0.01; what is counted along the whole border averages it.
+    assert!(errors[0].abs() < 0.02 && errors[1].abs() < 0.008 && errors[2].abs() < 0.004, "{errors:?}");
 }
 
 /// The case with its increments left to the program.
@@ -284,6 +284,7 @@ fn the_energy_of_pressing_is_of_second_order() {
     }
     let errors = [10, 20, 40, 80].map(|increments| energy(pressed(increments)));
     println!("with slip from the moment of touch on: {errors:.4?}");
-    // A third of the error of end points over 10 increments, in each of which the edge moves by four cells; 2 % from 20 on.
-    assert!(errors[0].abs() < 0.16 && errors[1..].iter().all(|error| error.abs() < 0.02), "{errors:?}");
+    // Less than half the error of end points over 10 increments, in each of which the edge moves by four cells and cells slip for two at
+    // the most before they stick, so that little is known of how they stop; 2 % from 20 on.
+    assert!(errors[0].abs() < 0.21 && errors[1..].iter().all(|error| error.abs() < 0.02), "{errors:?}");
 }

@@ -85,7 +85,9 @@ struct Keeper(Vec<Vec<u8>>);
 
 impl Observer for Keeper {
     fn reached(&mut self, waypoint: &Waypoint<'_>) -> ControlFlow<()> {
-        self.0.push(waypoint.write(Vec::new()).unwrap());
+        let mut bytes = Vec::new();
+        waypoint.write(&mut bytes).unwrap();
+        self.0.push(bytes);
         ControlFlow::Continue(())
     }
 }

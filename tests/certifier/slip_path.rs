@@ -121,14 +121,14 @@ impl Past {
                 let entered = self.drift[1].is_some()
                     && self.pressure.as_ref().is_some_and(|pressure| pressure[at] == 0.0);
                 let fall = match &self.drift[1] {
-                    _ if entered => 1.0,
+                    _ if entered => 0.5,
                     None => 0.0,
                     Some(then) => {
                         let rates = dot([then[0][at], then[1][at]], last) / length * self.ratio / length;
                         (rates - 1.0).clamp(0.0, 1.0)
                     }
                 };
-                let stop = 0.16 * fall;
+                let stop = 0.24 * fall;
                 let known = f64::min(1.0, length / (0.01 * self.largest_slip));
                 let c = 1.0 - (1.0 + ratio) / (1.0 + 2.0 * ratio) / (1.0 - stop);
                 CellPath {

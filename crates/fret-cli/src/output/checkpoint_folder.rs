@@ -1,10 +1,11 @@
 //! `checkpoint/`: where an unfinished run stands. `even` and `odd` are written over in turn after every increment, so that one
-//! of them is whole however the process ends; that costs a copy in memory, written while the next increment is solved. `synced` is replaced now and then, waits for the
+//! of them is whole however the process ends; they are written while the next increment is solved. `synced` is replaced now and then, waits for the
 //! disk, and survives a power failure. `lock` tells that a run is alive. The folder is gone when the run is solved.
 //!
-//! A file is a line of text, a checksum, a length, a head, the waypoint of the core, and whatever an older one left behind that.
+//! The body of a file ([`FramedFile`]) is a head and the waypoint of the core.
 
 use std::fs::{self, File, TryLockError};
+use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
@@ -14,9 +15,10 @@ use fret_core::run::{Checkpoint, Waypoint};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
+use super::framed_file::{FramedFile, body_of};
 use super::history_table::Written;
 use super::turn_writer::TurnWriter;
-use super::whole_file::write_whole;
+use super::whole_file::write_whole_by;
 use crate::failure::{Failure, Unwritten};
 use crate::tally::Tally;
 
@@ -25,8 +27,6 @@ const SYNCED: &str = "synced";
 const LOCK: &str = "lock";
 const NAMES: [&str; 3] = [TURNS[0], TURNS[1], SYNCED];
 const FIRST_LINE: &[u8] = b"fretting checkpoint\n";
-/// Bytes of the checksum and the length.
-const FRAME: usize = 4 + 8;
 /// Waiting for the disk takes no more than this share of the run.
 const SYNC_SHARE: u32 = 100;
 
@@ -95,7 +95,7 @@ impl CheckpointFolder {
             Ok(()) | Err(TryLockError::Error(_)) => Ok(Self {
                 path,
                 _lock: lock,
-                turns: TurnWriter::default(),
+                turns: TurnWriter::new(FIRST_LINE),
                 synced_at: None,
                 sync_took: Duration::ZERO,
             }),
@@ -166,19 +166,22 @@ impl CheckpointFolder {
         head: &Head,
         waypoint: &Waypoint<'_>,
         settle: impl FnOnce() -> Result<(), Unwritten>,
-    ) -> Result<(), Failure> {
-        let mut bytes = self.turns.room()?;
-        pack(&mut bytes, head, waypoint)?;
+    ) -> Result<(), Unwritten> {
         let is_due = self.synced_at.is_none_or(|then| then.elapsed() >= self.sync_took * SYNC_SHARE);
         if is_due {
             let started = Instant::now();
             settle()?;
-            write_whole(&self.path.join(SYNCED), &bytes)?;
+            write_whole_by(&self.path.join(SYNCED), |file| {
+                let mut to =
+                    BufWriter::with_capacity(1 << 20, FramedFile::begin(file.try_clone()?, FIRST_LINE)?);
+                pack(&mut to, head, waypoint)?;
+                to.into_inner()?.finish().map(drop)
+            })?;
             self.sync_took = started.elapsed();
             self.synced_at = Some(Instant::now());
         }
         let turn = waypoint.solved() % 2;
-        Ok(self.turns.write(turn, self.path.join(TURNS[turn]), bytes)?)
+        self.turns.write(turn, &self.path.join(TURNS[turn]), |to| pack(to, head, waypoint))
     }
 
     /// The run is solved: nothing is left to go on from.
@@ -197,20 +200,10 @@ fn taken(results: &Path) -> Failure {
     )
 }
 
-fn pack(bytes: &mut Vec<u8>, head: &Head, waypoint: &Waypoint<'_>) -> Result<(), Failure> {
-    let unpackable = |what: String| Failure::Defect(format!("a checkpoint has no bytes: {what}"));
-    let mut room = std::mem::take(bytes);
-    room.clear();
-    room.extend_from_slice(FIRST_LINE);
-    room.extend_from_slice(&[0; FRAME]);
-    let room = postcard::to_extend(head, room).map_err(|error| unpackable(error.to_string()))?;
-    *bytes = waypoint.write(room).map_err(|error| unpackable(error.to_string()))?;
-    let body = FIRST_LINE.len() + FRAME;
-    let checksum = crc32fast::hash(&bytes[body..]).to_le_bytes();
-    let length = ((bytes.len() - body) as u64).to_le_bytes();
-    bytes[FIRST_LINE.len()..][..4].copy_from_slice(&checksum);
-    bytes[FIRST_LINE.len() + 4..][..8].copy_from_slice(&length);
-    Ok(())
+fn pack(to: &mut dyn Write, head: &Head, waypoint: &Waypoint<'_>) -> io::Result<()> {
+    let head = postcard::to_stdvec(head).map_err(io::Error::other)?;
+    to.write_all(&head)?;
+    waypoint.write(to)
 }
 
 /// The newest usable checkpoint below the results at `path`, whose plan is given as JSON, as a state to start from, and the number
@@ -243,13 +236,6 @@ fn unpacked(bytes: &[u8], plan: &Plan, question: &str) -> Result<Stored, String>
 
 /// The head of a checkpoint file and the bytes of its waypoint, when the file is whole.
 fn parts(bytes: &[u8]) -> Result<(Head, &[u8]), String> {
-    let frame = bytes.strip_prefix(FIRST_LINE).ok_or("not a checkpoint, or a damaged one")?;
-    let (checksum, frame) = frame.split_first_chunk::<4>().ok_or("damaged: it ends early")?;
-    let (length, body) = frame.split_first_chunk::<8>().ok_or("damaged: it ends early")?;
-    let length = usize::try_from(u64::from_le_bytes(*length)).unwrap_or(usize::MAX);
-    let body = body.get(..length).ok_or("damaged: it ends early")?;
-    if u32::from_le_bytes(*checksum) != crc32fast::hash(body) {
-        return Err("damaged: its checksum does not fit".to_owned());
-    }
+    let body = body_of(bytes, FIRST_LINE)?;
     postcard::take_from_bytes::<Head>(body).map_err(|_| "written by another version of fret".to_owned())
 }

@@ -6,6 +6,7 @@
 
 mod checkpoint_folder;
 mod field_store;
+mod framed_file;
 mod history_table;
 pub mod kept_run;
 mod packed_file;
@@ -257,7 +258,8 @@ impl ResultFolder {
             tally: tally.clone(),
             wall_s,
         };
-        self.checkpoints.store(&head, waypoint, || self.history.settle().and_then(|()| self.cycles.settle()))
+        let settle = || self.history.settle().and_then(|()| self.cycles.settle());
+        Ok(self.checkpoints.store(&head, waypoint, settle)?)
     }
 
     /// Writes down how the run ended.

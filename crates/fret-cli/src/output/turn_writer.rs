@@ -1,18 +1,24 @@
 //! Two files that are written over in turn, while the run goes on.
 
 use std::fs::File;
-use std::io::{Seek, Write};
-use std::path::{Path, PathBuf};
+use std::io::{self, BufWriter, Write};
+use std::path::Path;
+use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
 use std::thread::JoinHandle;
 
+use super::framed_file::FramedFile;
 use crate::failure::Unwritten;
 
+/// Bytes that are written at once.
+const CHUNK: usize = 1 << 20;
+/// Chunks that wait at the most to be written beside the run: a file that is larger holds the run up, and takes no more memory.
+const WAITING: usize = 32;
+
 /// The two files. One is written at a time; the other one is whole meanwhile.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub struct TurnWriter {
+    first_line: &'static [u8],
     files: [Option<File>; 2],
-    /// Bytes written last; their memory is used again.
-    bytes: Vec<u8>,
     at_work: Option<JoinHandle<Written>>,
 }
 
@@ -20,60 +26,167 @@ pub struct TurnWriter {
 #[derive(Debug)]
 struct Written {
     turn: usize,
-    file: Option<File>,
-    bytes: Vec<u8>,
-    outcome: Result<(), Unwritten>,
+    file: Result<File, Unwritten>,
 }
 
 impl TurnWriter {
-    /// Memory for the next bytes; or how the last writing failed.
-    pub fn room(&mut self) -> Result<Vec<u8>, Unwritten> {
-        if let Some(at_work) = self.at_work.take()
-            && let Ok(written) = at_work.join()
-        {
-            self.take_back(written)?;
-        }
-        Ok(std::mem::take(&mut self.bytes))
+    /// Of files that begin with a line.
+    pub fn new(first_line: &'static [u8]) -> Self {
+        Self { first_line, files: [None, None], at_work: None }
     }
 
-    /// Writes bytes over the file whose turn it is: beside the next increment where the run has more than one thread.
-    pub fn write(&mut self, turn: usize, path: PathBuf, bytes: Vec<u8>) -> Result<(), Unwritten> {
-        let file = self.files[turn].take();
-        let write = move || {
-            let (file, outcome) = written_over(file, &path, &bytes);
-            Written { turn, file, bytes, outcome }
-        };
-        if rayon::current_num_threads() > 1 {
-            self.at_work = Some(std::thread::spawn(write));
+    /// Writes the file whose turn it is: beside the next increment where the run has more than one thread. How a writing beside it failed is
+    /// told at the next one.
+    pub fn write(
+        &mut self,
+        turn: usize,
+        path: &Path,
+        body: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+    ) -> Result<(), Unwritten> {
+        self.settle()?;
+        let (file, first_line) = (self.files[turn].take(), self.first_line);
+        if rayon::current_num_threads() == 1 {
+            let here = |path: &Path| {
+                let mut to = BufWriter::with_capacity(CHUNK, begun(file, path, first_line)?);
+                body(&mut to)?;
+                to.into_inner()?.finish()
+            };
+            self.files[turn] = Some(here(path).map_err(Unwritten::at(path))?);
             return Ok(());
         }
-        self.take_back(write())
+        let (sender, receiver) = sync_channel(WAITING);
+        let mut chunks = Chunks { sender, chunk: Vec::new() };
+        let at = path.to_path_buf();
+        self.at_work = Some(std::thread::spawn(move || Written {
+            turn,
+            file: written(file, &at, first_line, &receiver).map_err(Unwritten::at(&at)),
+        }));
+        body(&mut chunks).and_then(|()| chunks.finish()).map_err(Unwritten::at(path))
     }
 
-    fn take_back(&mut self, written: Written) -> Result<(), Unwritten> {
-        self.files[written.turn] = written.file;
-        self.bytes = written.bytes;
-        written.outcome
+    /// Waits for what is written beside the run.
+    fn settle(&mut self) -> Result<(), Unwritten> {
+        if let Some(at_work) = self.at_work.take()
+            && let Ok(Written { turn, file }) = at_work.join()
+        {
+            self.files[turn] = Some(file?);
+        }
+        Ok(())
     }
 }
 
 impl Drop for TurnWriter {
     /// Nothing is left half written by a run that ends.
     fn drop(&mut self) {
-        if let Some(at_work) = self.at_work.take() {
-            // What failed here was the last checkpoint: the one before it is whole.
-            let _ = at_work.join();
+        // What failed here was the last file: the one before it is whole.
+        let _ = self.settle();
+    }
+}
+
+/// What goes to the thread that writes. If that has failed, it says so in the end.
+struct Chunks {
+    sender: SyncSender<Message>,
+    chunk: Vec<u8>,
+}
+
+enum Message {
+    Body(Vec<u8>),
+    End,
+}
+
+impl Chunks {
+    fn finish(mut self) -> io::Result<()> {
+        self.flush()?;
+        let _ = self.sender.send(Message::End);
+        Ok(())
+    }
+}
+
+impl Write for Chunks {
+    fn write(&mut self, body: &[u8]) -> io::Result<usize> {
+        if self.chunk.capacity() == 0 {
+            self.chunk.reserve_exact(CHUNK);
+        }
+        let taken = body.len().min(CHUNK - self.chunk.len());
+        self.chunk.extend_from_slice(&body[..taken]);
+        if self.chunk.len() == CHUNK {
+            self.flush()?;
+        }
+        Ok(taken)
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        let _ = self.sender.send(Message::Body(std::mem::take(&mut self.chunk)));
+        Ok(())
+    }
+}
+
+fn begun(file: Option<File>, path: &Path, first_line: &'static [u8]) -> io::Result<FramedFile> {
+    let open = || File::options().write(true).create(true).truncate(false).open(path);
+    FramedFile::begin(file.map_or_else(open, Ok)?, first_line)
+}
+
+/// The file after all chunks; one that did not come to its end stays unfinished.
+fn written(
+    file: Option<File>,
+    path: &Path,
+    first_line: &'static [u8],
+    chunks: &Receiver<Message>,
+) -> io::Result<File> {
+    let mut to = begun(file, path, first_line)?;
+    loop {
+        match chunks.recv() {
+            Ok(Message::Body(chunk)) => to.write_all(&chunk)?,
+            Ok(Message::End) => return to.finish(),
+            Err(_) => return Err(io::Error::other("its end was not written")),
         }
     }
 }
 
-fn written_over(file: Option<File>, path: &Path, bytes: &[u8]) -> (Option<File>, Result<(), Unwritten>) {
-    let open = || File::options().write(true).create(true).truncate(false).open(path);
-    match file.map_or_else(open, Ok) {
-        Err(error) => (None, Err(Unwritten::at(path)(error))),
-        Ok(mut file) => match file.rewind().and_then(|()| file.write_all(bytes)) {
-            Ok(()) => (Some(file), Ok(())),
-            Err(error) => (None, Err(Unwritten::at(path)(error))),
-        },
+#[cfg(test)]
+mod tests {
+    use super::super::framed_file::body_of;
+    use super::*;
+
+    /// Bodies of many chunks, longer and shorter than the one before, on one thread and beside the run.
+    #[test]
+    fn bodies_are_whole_in_both_ways() {
+        let path =
+            |turn: usize| std::env::temp_dir().join(format!("fret-turn-{}-{turn}", std::process::id()));
+        for threads in [1, 2] {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+            pool.install(|| {
+                let mut writer = TurnWriter::new(b"line\n");
+                let lengths = [5 * CHUNK + 3, 40 * CHUNK, 2 * CHUNK, 0, 7];
+                for (index, length) in lengths.into_iter().enumerate() {
+                    let body: Vec<u8> = (0..length).map(|place| (place % 251) as u8).collect();
+                    let write = |to: &mut dyn Write| {
+                        to.write_all(&body[..length / 3]).and_then(|()| to.write_all(&body[length / 3..]))
+                    };
+                    writer.write(index % 2, &path(index % 2), write).unwrap();
+                    writer.settle().unwrap();
+                    assert!(body_of(&std::fs::read(path(index % 2)).unwrap(), b"line\n").unwrap() == body);
+                }
+                let breaks_off =
+                    |to: &mut dyn Write| to.write_all(&[1; 10]).and_then(|()| Err(io::Error::other("no")));
+                assert!(writer.write(0, &path(0), breaks_off).is_err());
+                drop(writer);
+                assert!(body_of(&std::fs::read(path(0)).unwrap(), b"line\n").is_err());
+            });
+        }
+        for turn in [0, 1] {
+            std::fs::remove_file(path(turn)).unwrap();
+        }
+    }
+
+    #[test]
+    fn a_folder_that_is_gone_is_told() {
+        let mut writer = TurnWriter::new(b"line\n");
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(2).build().unwrap();
+        pool.install(|| {
+            let gone = Path::new("/no/such/folder/at/all");
+            writer.write(0, gone, |to| to.write_all(&[1; 3])).unwrap();
+            assert!(writer.write(1, gone, |to| to.write_all(&[1; 3])).is_err());
+        });
     }
 }

@@ -26,21 +26,23 @@ const TRACTIONS: usize = 5 * 8;
 const COLLECTED: usize = 12 * 8;
 /// Bytes a cell of the depth at work: kernels of all components, their transforms, the stress.
 const DEPTH: usize = 620;
+/// Bytes a cell of a checkpoint, and those of all that wait to be written at the most.
+const CHECKPOINT: usize = 90;
+const WAITING: usize = 32 << 20;
 /// Bytes a cell of heights or of a friction map: as they are held, and in the gap.
 const EACH_CELL: usize = 16;
 
 /// Bytes a cell of `[the whole grid, what the solver holds in front of the mirrors]`.
 ///
-/// The whole: the state before and after, the gap, the influence coefficients, what a checkpoint is written from. In front of the
-/// mirrors: the transformed kernels of each operator in double and single precision, their work space, and the fields of the
+/// The whole: the state before and after, the gap, the influence coefficients. In front of the mirrors: the transformed kernels of each operator in double and single precision, their work space, and the fields of the
 /// iterations. In a case that repeats nothing is padded, and the inverse is exact.
 fn bytes_per_cell(coupling: Coupling, periodic: bool) -> [usize; 2] {
     match (coupling, periodic) {
-        (Coupling::Frictionless, _) => [120, 190],
-        (Coupling::Uncoupled, false) => [300, 600],
-        (Coupling::Uncoupled, true) => [296, 320],
-        (Coupling::Coupled, false) => [490, 700],
-        (Coupling::Coupled, true) => [330, 320],
+        (Coupling::Frictionless, _) => [150, 190],
+        (Coupling::Uncoupled, false) => [210, 600],
+        (Coupling::Uncoupled, true) => [206, 320],
+        (Coupling::Coupled, false) => [400, 700],
+        (Coupling::Coupled, true) => [240, 320],
     }
 }
 
@@ -63,7 +65,7 @@ pub fn of_run(case: &Case, grid: &SurfaceGrid, coupling: Coupling, symmetry: Sym
     let stressed = case.stress.as_ref().map_or(0, |stress| {
         of_stress(grid.len(), case.kept_increments().len().div_ceil(stress.every.max(1)))
     });
-    PROCESS + solving.max(stressed)
+    PROCESS + (grid.len() * CHECKPOINT).min(WAITING) + solving.max(stressed)
 }
 
 /// Bytes a cell of what tilts in front of the mirrors.

@@ -1,6 +1,8 @@
 //! Where a run stands after an increment: all that later increments depend on, so that a run can be broken off at any moment and
 //! taken up again with the bits it would have had.
 
+use std::io::{self, Write};
+
 use ndarray::Array2;
 use postcard::ser_flavors::Flavor;
 use serde::{Deserialize, Serialize};
@@ -84,24 +86,28 @@ pub enum CheckpointError {
     Foreign,
 }
 
-/// Bytes behind others, copied field by field.
-struct Appended(Vec<u8>);
+/// Bytes on their way, field by field, and how that failed.
+struct Passed<'a> {
+    to: &'a mut dyn Write,
+    failed: &'a mut Option<io::Error>,
+}
 
-impl Flavor for Appended {
-    type Output = Vec<u8>;
+impl Flavor for Passed<'_> {
+    type Output = ();
 
     fn try_push(&mut self, byte: u8) -> postcard::Result<()> {
-        self.0.push(byte);
-        Ok(())
+        self.try_extend(&[byte])
     }
 
     fn try_extend(&mut self, bytes: &[u8]) -> postcard::Result<()> {
-        self.0.extend_from_slice(bytes);
-        Ok(())
+        self.to.write_all(bytes).map_err(|error| {
+            *self.failed = Some(error);
+            postcard::Error::SerializeBufferFull
+        })
     }
 
-    fn finalize(self) -> postcard::Result<Vec<u8>> {
-        Ok(self.0)
+    fn finalize(self) -> postcard::Result<()> {
+        Ok(())
     }
 }
 
@@ -123,13 +129,14 @@ impl Waypoint<'_> {
         }
     }
 
-    /// Appends the bytes of the waypoint: its format, then its parts in a compact form, floats bit by bit.
+    /// Writes the bytes of the waypoint: its format, then its parts in a compact form, floats bit by bit.
     ///
     /// # Errors
-    /// Never, for what a run holds; the encoder's words otherwise.
-    pub fn write(&self, bytes: Vec<u8>) -> Result<Vec<u8>, CheckpointError> {
-        postcard::serialize_with_flavor(&(FORMAT, self), Appended(bytes))
-            .map_err(|error| CheckpointError::Damaged(error.to_string()))
+    /// Those of `to`.
+    pub fn write(&self, to: &mut dyn Write) -> io::Result<()> {
+        let mut failed = None;
+        let done = postcard::serialize_with_flavor(&(FORMAT, self), Passed { to, failed: &mut failed });
+        done.map_err(|error| failed.unwrap_or_else(|| io::Error::other(error)))
     }
 }
 
