@@ -189,6 +189,65 @@ def others() -> str:
     return _table(head, rows, of)
 
 
+def _seconds(value: float | None) -> str:
+    return "-" if value is None else f"{value:.2g}" if value < 10 else f"{value:.0f}"
+
+
+SCENES = {
+    "hertz": "Hertz",
+    "rough 1 %": "rough, 1 % in contact",
+    "rough 10 %": "rough, 10 %",
+    "rough 50 %": "rough, 50 %",
+    "cattaneo": "Cattaneo-Mindlin",
+    "loop": "coated loop, 8 + 8 increments",
+}
+
+
+def large() -> str:
+    """Return the table of large contacts."""
+    of = data("large")
+    known = {(row["scene"], row["cells"], row["program"]): row for row in of["rows"]}
+    rows = []
+    for scene, cells in sorted({key[:2] for key in known}, key=lambda key: (list(SCENES).index(key[0]), key[1])):
+        us = known[scene, cells, "fretting"]
+        whole = known.get((scene, cells, "fretting, nothing left out"))
+        others = [known.get((scene, cells, name)) for name in ("aspher", "tamaas")]
+        errors = us.get("errors", {})
+        rows.append(
+            [
+                f"{SCENES[scene]}, {cells} x {cells}",
+                f"{_seconds(us['wall_s'])} ({_seconds(us['cpu_s'])})",
+                _seconds(whole and whole["wall_s"]),
+                *(_seconds(other and other["solver_s"]) for other in others),
+                "-" if us["memory"] is None else f"{us['memory'] / 1e6:.0f}",
+                f"{us['applications'] / us['increments']:.0f}",
+                _power(us["residual"], 0),
+                _power(max((abs(error) for error in errors.values()), default=None)),
+            ]
+        )
+    head = ["contact", "wall (CPU) [s]", "nothing left out [s]", "aspher [s]", "tamaas [s]", "memory [MB]", "applications an increment", "residual",
+            "largest error"]  # fmt: skip
+    return _table(head, rows, of)
+
+
+def threads() -> str:
+    """Return the table of the times on one thread and on two."""
+    of = data("threads")
+    names = {"loop": "coated loop, 8 + 8 increments", "hertz": "Hertz", "stress": "stresses at eight depths"}
+    rows = [
+        [
+            f"{names[row['scene']]}, {row['cells']} x {row['cells']}",
+            _seconds(row["one_s"]),
+            _seconds(row["more_s"]),
+            f"{row['one_s'] / row['more_s']:.2f}",
+            "-" if row["two_at_once_s"] is None else f"{2 * row['one_s'] / row['two_at_once_s']:.2f}",
+        ]
+        for row in of["rows"]
+    ]
+    head = ["run", "one thread [s]", "two threads [s]", "faster by", "two runs at once on one thread each: faster by"]
+    return _table(head, rows, of)
+
+
 def _random(column: int) -> Callable[[], str]:
     def number() -> str:
         text = (DOCS / "trust" / "random-cases.md").read_text(encoding="utf-8")
@@ -214,6 +273,8 @@ TABLES: dict[str, Callable[[], str]] = {
     "orders": orders,
     "cost": cost,
     "others": others,
+    "large": large,
+    "threads": threads,
 }
 NUMBERS: dict[str, Callable[[], str]] = {
     "random_cases": _random(1),

@@ -25,6 +25,8 @@ mod numbers;
 mod output;
 mod pair;
 mod phases;
+#[cfg(test)]
+mod ranges;
 mod read;
 mod refusal;
 mod repeating;

@@ -248,3 +248,80 @@ fn rounded(value: f64) -> String {
     let text = format!("{value:.digits$}");
     if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Each with its bound, as the pages name them, and whether small numbers are what is warned of.
+    const CONCERNS: [(Concern, f64, bool); 12] = [
+        (Concern::FewCells, 6.0, true),
+        (Concern::ContactRadiusOverBodyRadius, 0.2, false),
+        (Concern::ApproachOverContactRadius, 0.2, false),
+        (Concern::ApproachOverLayerThickness, 0.2, false),
+        (Concern::ShiftOverContactRadius, 0.2, false),
+        (Concern::SteepTopography, 0.3, false),
+        (Concern::CoatingThinnerThanCell, 1.0, true),
+        (Concern::WearDepthOverCoatingThickness, 0.2, false),
+        (Concern::ComplianceSpread, 0.1, false),
+        (Concern::FrictionChangesInOneCycle, 0.1, false),
+        (Concern::ContactNearEdge, 2.0, true),
+        (Concern::PressingInFewIncrements, 1.0, false),
+    ];
+
+    #[test]
+    fn a_warning_is_of_a_number_that_has_crossed_its_bound() {
+        for (name, bound, below) in CONCERNS {
+            let at = |value: f64| Warning::of(name, value, Some("rub".to_owned()));
+            let (within, beyond) = if below { (1.001, 0.999) } else { (0.999, 1.001) };
+            assert!(at(bound).is_none() && at(within * bound).is_none(), "{name:?}");
+            for none in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+                assert!(at(none).is_none(), "{name:?} {none}");
+            }
+            let warning = at(beyond * bound).unwrap();
+            assert_eq!((warning.name, warning.value, warning.bound), (name, beyond * bound, bound));
+            assert_eq!(warning.stage.as_deref(), Some("rub"));
+            let side = if below { "at least" } else { "at most" };
+            assert!(warning.message.contains(&format!(", stage \"rub\" (should be {side} ")), "{warning:?}");
+            assert!(!Warning::of(name, beyond * bound, None).unwrap().message.contains("stage \""));
+            // The name in tables is that of the files.
+            assert_eq!(serde_json::to_string(&name).unwrap(), format!("\"{}\"", name.name()));
+        }
+        let words: std::collections::HashSet<_> =
+            CONCERNS.iter().flat_map(|(name, ..)| [name.quantity(), name.consequence()]).collect();
+        assert_eq!(words.len(), 24, "every concern has its own words");
+        assert!(CONCERNS.iter().all(|(name, ..)| !name.help().is_empty()));
+    }
+
+    #[test]
+    fn the_words_of_a_warning_are_a_sentence() {
+        let warning = Warning::of(Concern::FewCells, 4.567, None).unwrap();
+        assert_eq!(
+            warning.message,
+            "cells in the contact radius: 4.57 (should be at least 6); the contact is under-resolved; errors may be large"
+        );
+    }
+
+    #[test]
+    fn numbers_have_three_digits() {
+        for (value, text) in [
+            (0.0, "0"),
+            (5.25, "5.25"),
+            (-2.5, "-2.5"),
+            (0.123_456, "0.123"),
+            (0.1, "0.1"),
+            (12.3456, "12.3"),
+            (123.6, "124"),
+            (120.0, "120"),
+            (1000.0, "1000"),
+            (0.001, "0.001"),
+            (0.001_234, "0.00123"),
+            (9.99e-4, "9.99e-4"),
+            (99_999.0, "99999"),
+            (1e5, "1.00e5"),
+            (-1.5e7, "-1.50e7"),
+        ] {
+            assert_eq!(rounded(value), text);
+        }
+    }
+}

@@ -261,3 +261,6 @@ fn is_round(plan: &Plan) -> bool {
     let [x, y] = plan.case.profile.curvatures();
     x > 0.0 && (x - y).abs() <= 0.5 * x.max(y)
 }
+
+#[cfg(test)]
+mod tests;
