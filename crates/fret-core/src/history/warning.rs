@@ -254,8 +254,9 @@ mod tests {
     use super::*;
 
     /// Each with its bound, as the pages name them, and whether small numbers are what is warned of.
-    const CONCERNS: [(Concern, f64, bool); 12] = [
+    const CONCERNS: [(Concern, f64, bool); 13] = [
         (Concern::FewCells, 6.0, true),
+        (Concern::StifferThanDiamond, 1.0, false),
         (Concern::ContactRadiusOverBodyRadius, 0.2, false),
         (Concern::ApproachOverContactRadius, 0.2, false),
         (Concern::ApproachOverLayerThickness, 0.2, false),
@@ -289,7 +290,7 @@ mod tests {
         }
         let words: std::collections::HashSet<_> =
             CONCERNS.iter().flat_map(|(name, ..)| [name.quantity(), name.consequence()]).collect();
-        assert_eq!(words.len(), 24, "every concern has its own words");
+        assert_eq!(words.len(), 26, "every concern has its own words");
         assert!(CONCERNS.iter().all(|(name, ..)| !name.help().is_empty()));
     }
 
