@@ -34,6 +34,25 @@ fn value(warnings: &[Warning], name: Concern) -> f64 {
         .value
 }
 
+/// Millimetres and newtons make MPa of moduli; a modulus in Pa there is no material's. Without units nobody knows.
+#[test]
+fn a_modulus_in_pascals_beside_millimetres_is_told_of() {
+    let case = |units: &str, young: &str| {
+        format!("{units}{}", ball(young, "\"auto\"", PRESS).replace("radius = 10e-3", "radius = 10.0"))
+    };
+    let in_mm = "[units]\nlength = \"mm\"\nforce = \"N\"\n";
+    let found = before(&case(in_mm, "210e9"));
+    // 210e9 MPa over 1.25e12 Pa
+    assert!((value(&found, Concern::StifferThanDiamond) / 1.68e5 - 1.0).abs() < 1e-12);
+    for good in [
+        case(in_mm, "210e3"),
+        case("", "210e9"),
+        case("[units]\nlength = \"in\"\nforce = \"lbf\"\n", "30.5e6"),
+    ] {
+        assert!(!names(&before(&good)).contains(&Concern::StifferThanDiamond));
+    }
+}
+
 #[test]
 fn a_modulus_without_its_gpa_is_told_of_before_the_run() {
     let found = before(&ball("210.0", "\"auto\"", PRESS));

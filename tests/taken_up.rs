@@ -123,6 +123,19 @@ fn with_controls_that_change_their_kind() {
     assert_eq!(taken_up_anywhere(&(coated() + TURNED)).steps.len(), 3 + 8 + 3);
 }
 
+/// Driven at the far end of springs along, across and into the surface.
+#[test]
+fn behind_a_machine_that_gives() {
+    let driven = "[rig]\ntangential_stiffness = [2e6, 3e6]\nnormal_stiffness = 8e6\n[[load]]\nactuator_approach = 0.4e-6\n\
+        increments = 2\n[[load]]\nactuator = [80e-9, 30e-9]\ncycles = 2\nincrements = 6\n[[load]]\ntangential_force = [0.05, 0.0]\nincrements = 2\n";
+    for head in [HEAD.to_owned(), coated()] {
+        let whole = taken_up_anywhere(&(head + driven));
+        assert_eq!(whole.steps.len(), 3 + 2 + 12 + 2);
+        let rubbed = &whole.steps[3 + 2 + 8];
+        assert!(rubbed.actuator[0] != rubbed.shift[0] && rubbed.dissipated_energy > 0.0, "the springs give");
+    }
+}
+
 #[test]
 fn with_wear_in_blocks_of_cycles() {
     for head in [HEAD.to_owned(), coated()] {

@@ -1,8 +1,11 @@
 //! Wear through layers: what each layer of both bodies loses by closed forms, and bodies whose elastic response gets thinner with them.
 
+use fret_core::case::Case;
 use fret_core::history::History;
 use fret_core::kernel::PairResponse;
-use fret_core::model::{Base, Body, Coating, ContactPair, ElasticMaterial, HalfSpace, thinned};
+use fret_core::model::{Base, Body, Coating, ContactPair, ElasticMaterial, HalfSpace, Symmetry, thinned};
+use fret_core::plan::{LeaveOut, Plan, Simplification};
+use fret_validation::shortcuts::{TOLERANCE, difference, solved as solved_leaving_out};
 use fret_validation::{Sphere, keeping, run, solved};
 
 /// Pressure on a flat layer and amplitude of its cycles; stiffness of the layer (E = 10, nu = 0.3, thickness 1) under uniform shear.
@@ -131,6 +134,33 @@ fn a_coating_worn_evenly_is_the_thinner_coating() {
     assert!((ends[0] / ends[1] - 1.0).abs() < 1e-6, "{ends:?}");
 }
 
+/// Half or a quarter of the grid behind mirrors wears thinner as the whole one does.
+#[test]
+fn mirrors_change_nothing_where_a_coating_gets_thinner() {
+    for poisson in [0.0, 0.3] {
+        let text = format!(
+            "[grid]\ncells = [24, 24]\nsize = [2.8, 2.8]\n[upper]\nrigid = true\n[lower]\n\
+             coatings = [{{ thickness = 0.02, young = 3.0, poisson = {poisson}, wear_coefficient = 0.8 }}]\n\
+             substrate = {{ young = 1.0, poisson = {poisson}, wear_coefficient = 0.0 }}\n[profile.sphere]\nradius = 100.0\n\
+             [friction]\ncoefficient = 0.3\n[solver]\ntolerance = {TOLERANCE:e}\n[wear]\nthinning_tolerance = 0.02\nlargest_step = 1.0\n\
+             [[load]]\nnormal_force = 1.2e-2\nincrements = 3\n[[load]]\nshift = [0.03, 0.0]\nincrements = 8\ncycles = 30\n{}",
+            keeping(8).replace("\"zone\"", "\"zone\", \"worn_depth\"")
+        );
+        let [with, without] = [LeaveOut::ALL, LeaveOut::all_but(Simplification::Mirror)].map(|leave_out| {
+            let plan = Plan::leaving_out(Case::from_toml(&text, "case.toml").unwrap(), leave_out).unwrap();
+            (plan.symmetry, solved_leaving_out(&text, leave_out).history)
+        });
+        assert!(with.0 != Symmetry::NONE && without.0 == Symmetry::NONE);
+        let depths = [&with.1, &without.1].map(|history| history.cycles.last().unwrap().max_worn_depth);
+        let off = difference(&without.1, &with.1);
+        println!("nu = {poisson}: worn {:.2e} of 0.02, {off:.1e} apart", depths[0]);
+        assert!(depths[0] > 0.1 * 0.02, "{}: the response shall have been found anew", depths[0]);
+        // The same iterations on half of the cells: rounding, over 30 cycles.
+        assert!((depths[0] / depths[1] - 1.0).abs() < 1e-11, "{depths:?}");
+        assert!(off < 100.0 * TOLERANCE, "{off:e}");
+    }
+}
+
 /// A soft coating under a sphere is worn through in the middle first, where the substrate wears by its own coefficient.
 #[test]
 fn a_coating_is_worn_through_in_the_middle_first() {
@@ -202,8 +232,12 @@ fn a_thin_layer_wears_as_its_differential_equations_say() {
     );
     let k = 0.02;
     let history = solved(&text.replace("wear_coefficient = K", &format!("wear_coefficient = {k}")));
-    let by_hand = winkler(&history, [thickness, radius, modulus, force, k], true);
-    let unthinned = winkler(&history, [thickness, radius, modulus, force, k], false);
+    let (side, cells) = (2.4, 400);
+    let at = |index: i32| (f64::from(index) + 0.5) * side / f64::from(cells) - 0.5 * side;
+    let squares: Vec<f64> =
+        (0..cells * cells).map(|cell| at(cell / cells).powi(2) + at(cell % cells).powi(2)).collect();
+    let layer = [thickness, radius, modulus, force, k, (side / f64::from(cells)).powi(2)];
+    let [by_hand, unthinned] = [true, false].map(|thins| winkler(&history, layer, &squares, thins));
     let last = history.cycles.last().unwrap();
     let found = [last.max_worn_depth, history.steps.last().unwrap().approach];
     println!(
@@ -216,18 +250,41 @@ fn a_thin_layer_wears_as_its_differential_equations_say() {
     assert!((unthinned[1] / by_hand[1] - 1.0).abs() > 5e-3, "{unthinned:?} {by_hand:?}");
 }
 
-/// Largest depth after the cycles of a history, and approach in the last one, by springs.
-fn winkler(history: &History, [thickness, radius, modulus, force, k]: [f64; 5], thins: bool) -> [f64; 2] {
-    let cells = 400;
-    let side = 2.4;
-    let step = side / f64::from(cells);
-    let squares: Vec<f64> = (0..cells * cells)
-        .map(|cell| {
-            let at = |index: i32| (f64::from(index) + 0.5) * step - 0.5 * side;
-            at(cell / cells).powi(2) + at(cell % cells).powi(2)
-        })
-        .filter(|square| *square < 1.44)
-        .collect();
+/// The same layer in a line contact, under a cylinder.
+#[test]
+fn a_thin_layer_in_a_line_contact_wears_as_its_differential_equations_say() {
+    let (thickness, radius, force, k) = (0.02, 100.0, 3e-2, 0.02);
+    let modulus = 0.8 / (1.2 * 0.6);
+    let text = format!(
+        "[grid]\ncells = 256\nsize = 2.4\n[upper]\nrigid = true\n[lower]\n\
+         coatings = [{{ thickness = {thickness}, young = 1.0, poisson = 0.2, wear_coefficient = {k} }}]\nbase = \"rigid\"\n\
+         [profile.cylinder]\nradius = {radius}\naxis = \"y\"\n[friction]\ncoefficient = 0.1\n[wear]\nlaw = \"archard\"\n\
+         thinning_tolerance = 1e-3\nevery = 1\nlargest_step = 1.0\n[[load]]\nnormal_force = {force}\nincrements = 1\n\
+         [[load]]\nshift = [0.02, 0.0]\nincrements = 4\ncycles = 80\n"
+    );
+    let history = solved(&text);
+    let step = 2.4 / 4000.0;
+    let squares: Vec<f64> = (0..4000).map(|k| ((f64::from(k) + 0.5) * step - 1.2).powi(2)).collect();
+    let layer = [thickness, radius, modulus, force, k, step];
+    let [by_hand, unthinned] = [true, false].map(|thins| winkler(&history, layer, &squares, thins));
+    let last = history.cycles.last().unwrap();
+    let found = [last.max_worn_depth, history.steps.last().unwrap().approach];
+    println!("line on a Winkler layer: {found:?}, by its equations {by_hand:?}, not thinning {unthinned:?}");
+    // As under the sphere: a layer of a twentieth of the half-width is nearly its own spring, in the middle most of all.
+    assert!((found[0] / by_hand[0] - 1.0).abs() < 0.015, "{found:?} {by_hand:?}");
+    assert!((found[1] / by_hand[1] - 1.0).abs() < 1e-3, "{found:?} {by_hand:?}");
+    assert!((unthinned[1] / by_hand[1] - 1.0).abs() > 5e-3, "{unthinned:?} {by_hand:?}");
+}
+
+/// Largest depth after the cycles of a history, and approach in the last one, by springs: at squares of the distance from the middle, one
+/// for each `cell` (area, of a line length).
+fn winkler(
+    history: &History,
+    [thickness, radius, modulus, force, k, cell]: [f64; 6],
+    squares: &[f64],
+    thins: bool,
+) -> [f64; 2] {
+    let squares: Vec<f64> = squares.iter().copied().filter(|square| *square < 1.44).collect();
     let mut worn = vec![0.0; squares.len()];
     let mut approach = 0.0;
     for cycle in &history.cycles {
@@ -246,7 +303,7 @@ fn winkler(history: &History, [thickness, radius, modulus, force, k]: [f64; 5], 
         let (mut low, mut high) = (0.0, 0.05);
         for _ in 0..60 {
             let middle = 0.5 * (low + high);
-            let found = pressure(middle, &worn).iter().sum::<f64>() * step * step;
+            let found = pressure(middle, &worn).iter().sum::<f64>() * cell;
             if found > force { high = middle } else { low = middle }
         }
         approach = low;

@@ -104,6 +104,82 @@ def loop_band(
     return axes
 
 
+def band_map(
+    dataset: "xarray.Dataset",
+    name: str,
+    x: str,
+    y: str,
+    *,
+    axes: "tuple[Axes, Axes] | None" = None,
+    **mesh: Any,
+) -> "tuple[Axes, Axes]":
+    """Draw a number of a sweep over two certain axes, and beside it how far the samples lie apart.
+
+    Of a number the median, and the width of the band that holds 95 % of the samples. Of a sliding condition
+    (``"cycle_regime"``) the one that most samples have, and the fraction of the samples that have it: where it is
+    below 1, the border of the map is uncertain.
+
+    Parameters
+    ----------
+    dataset : xarray.Dataset
+        From :func:`fretting.sweep` with distributions, and two axes beside them.
+    name : str
+        The number, such as ``"cycle_energy_ratio"``, or ``"cycle_regime"``.
+    x, y : str
+        Names of the axes; their values are numbers, in ascending or descending order.
+    axes : pair of matplotlib Axes, optional
+        Where to draw the map, and its band. Default: side by side in a figure of their own.
+    **mesh
+        Keywords of matplotlib's ``pcolormesh`` for both, such as ``cmap``.
+
+    Returns
+    -------
+    pair of matplotlib Axes
+        Points that were not solved stay white.
+    """
+    from fretting import plot
+
+    values = _own_samples(dataset, name)
+    if set(values.dims) != {"sample", x, y}:
+        beside = [str(dimension) for dimension in values.dims if dimension != "sample"]
+        raise ValueError(
+            f"band_map: {name} has the axes {', '.join(beside) or 'none'} beside the samples, not {x}, {y}"
+        )
+    values = values.transpose("sample", y, x)
+    label = values.attrs.get("long_name", name)
+    if axes is None:
+        axes = tuple(plot._pyplot().subplots(1, 2, figsize=(8.4, 3.4), layout="constrained")[1])
+    edges = [plot._edges(np.asarray(dataset[axis].values, dtype=np.float64), axis) for axis in (x, y)]
+    if values.dtype.kind == "f":
+        low, middle, high = _quantiles(values.values)
+        pictures = [(middle, f"{label}: median", {}), (high - low, "width of the band of 95 %", {})]
+    else:
+        words = [word for word, _ in plot.REGIMES]
+        counts = np.stack([(values.values == word).sum(axis=0) for word in words])
+        solved = counts.sum(axis=0)
+        most = dataset[name].isel(sample=0, drop=True).transpose(y, x).copy(data=np.array(words)[counts.argmax(axis=0)])
+        unsolved = most.where(solved > 0, "")
+        plot.regime_map(unsolved.to_dataset(name=name), x, y, variable=name, ax=axes[0], **mesh)
+        with np.errstate(invalid="ignore"):
+            share = np.where(solved > 0, counts.max(axis=0) / solved, np.nan)
+        pictures = [None, (share, "fraction of the samples with it", {"vmin": 0.0, "vmax": 1.0})]
+    for place, picture in zip(axes, pictures, strict=True):
+        if picture is not None:
+            numbers, words_beside, limits = picture
+            drawn = place.pcolormesh(*edges, numbers, **{**limits, **mesh})
+            place.figure.colorbar(drawn, ax=place, label=words_beside)
+        place.set(xlabel=x, ylabel=y)
+    return axes
+
+
+def _quantiles(samples: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
+    """The quantiles along the samples; not a number, and no warning, where none was solved."""
+    known = np.isfinite(samples).any(axis=0)
+    found = np.full((len(QUANTILES), *known.shape), np.nan)
+    found[:, known] = np.nanquantile(samples[:, known], QUANTILES, axis=0)
+    return found
+
+
 def _branches(course: npt.NDArray[np.float64]) -> list[tuple[int, int]]:
     """First and last places of the parts of a course between its turns."""
     steps = np.sign(np.diff(course))

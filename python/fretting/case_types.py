@@ -199,6 +199,29 @@ How Young's modulus runs over the depth.
 """
 
 
+class LogColumns(TypedDict):
+    """
+    Columns of a measured log by what they hold.
+    """
+
+    cycle: NotRequired[str]
+    """
+    Number of the cycle.
+    """
+    displacement: NotRequired[str]
+    """
+    Displacement of the actuator.
+    """
+    force: NotRequired[str]
+    """
+    Tangential force.
+    """
+    normal_force: NotRequired[str]
+    """
+    Normal force.
+    """
+
+
 Map: TypeAlias = str | Sequence[Sequence[float]] | npt.NDArray[Any]
 
 
@@ -292,6 +315,10 @@ class Rig(TypedDict):
     The machine: springs between the upper body and what a stage drives with `actuator` and `actuator_approach`.
     """
 
+    columns: NotRequired[LogColumns]
+    """
+    What the columns of a log that was measured on it are called, for `fret identify`. Default: usual names.
+    """
     normal_stiffness: NotRequired[float]
     """
     Normal stiffness of the machine [force/length]: `actuator_approach` = approach + normal force / stiffness. Default: rigid.

@@ -105,7 +105,7 @@ class RunError(FrettingError, RuntimeError):
 
 
 class OutOfMemoryError(RunError, MemoryError):
-    """A run needs more memory than the machine, a container, a batch job or ``ulimit -v`` leaves.
+    """A run or its threads need more memory than the machine, a container, a batch job or ``ulimit -v`` leaves.
 
     Nothing was begun that could not be ended.
     """

@@ -140,7 +140,8 @@ def identify(
     case : path, str or mapping
         Bodies, profile, grid and the stages that press them.
     columns : mapping, optional
-        Names of the columns of ``"displacement"``, ``"force"``, ``"cycle"``, ``"normal_force"``. Default: usual names.
+        Names of the columns of ``"displacement"``, ``"force"``, ``"cycle"``, ``"normal_force"``. Default: those of
+        ``rig.columns`` in the case, else usual names.
     units : mapping, optional
         Units of ``"displacement"``, ``"force"``, ``"normal_force"``, such as ``"um"``. Default: those beside the
         names, or those of the case.

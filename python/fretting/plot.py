@@ -14,7 +14,7 @@ import numpy as np
 import numpy.typing as npt
 
 from fretting._arrays import Reals
-from fretting._bands import band, loop_band
+from fretting._bands import band, band_map, loop_band
 from fretting._meaning import VECTORS, ZONE_NAMES, in_units, label, unit
 
 if TYPE_CHECKING:
@@ -25,7 +25,18 @@ if TYPE_CHECKING:
 
     from fretting.history import History
 
-__all__ = ["animation", "band", "field", "loop", "loop_band", "loop_stack", "regime_map", "section", "zones"]
+__all__ = [
+    "animation",
+    "band",
+    "band_map",
+    "field",
+    "loop",
+    "loop_band",
+    "loop_stack",
+    "regime_map",
+    "section",
+    "zones",
+]
 
 Direction = Literal["x", "y"]
 Motion = Literal["x", "y", "twist"]

@@ -205,3 +205,23 @@ def test_the_site_builds_without_a_warning(tmp_path: Path) -> None:
             assert "\\" not in re.sub(r"<[^>]+>", "", formula), (
                 f"{page.name}: a formula is not understood: {formula[:200]}"
             )
+
+
+def test_the_page_of_the_rig_shows_what_log_and_model_give(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(ROOT)
+    page = (ROOT / "docs" / "do" / "compare-with-a-rig.md").read_text(encoding="utf-8")
+    text = re.search(r"```toml\n(# driven\.toml\n.*?)```", page, re.DOTALL)
+    assert text is not None
+    model = fretting.run(tomllib.loads(text[1])).cycles
+    log = fretting.identify("examples/rig/test_12.csv", case="examples/rig/ball_on_ball.toml").cycles
+    rows = {
+        "$W_d$": (log["dissipated_energy"], model["dissipated_energy"], "{:.3f}", 1.0),
+        "$Q^*$": (log["force_amplitude"], model["force_amplitude"], "{:.1f}", 1.0),
+        "amplitude of the actuator": (log["displacement_amplitude"], model["actuator_amplitude"], "{:.2f}", 1e3),
+        "$A$ at the actuator": (log["energy_ratio"], model["actuator_energy_ratio"], "{:.3f}", 1.0),
+        "$D$ at the actuator": (log["sliding_ratio"], model["actuator_sliding_ratio"], "{:.3f}", 1.0),
+    }
+    for name, (measured, computed, form, factor) in rows.items():
+        expected = [form.format(factor * values[-1]) for values in (measured, computed)]
+        shown = next(line for line in page.splitlines() if line.startswith(f"| {name} |")).split("|")[2:4]
+        assert [cell.split()[0] for cell in shown] == expected, name

@@ -55,6 +55,42 @@ def test_too_little_memory_is_an_error_and_the_interpreter_lives_on() -> None:
     assert answer.stdout.split("\n")[:-1] == ["refused"] * 5 + ["lacking", "(64, 64)"], answer.stdout
 
 
+MANY_THREADS = """
+import resource
+import fretting
+
+case = {
+    "grid": {"cells": [16, 16], "size": "auto"},
+    "upper": {"rigid": True},
+    "lower": {"substrate": {"young": 210e9, "poisson": 0.3}},
+    "profile": {"sphere": {"radius": 10e-3}},
+    "load": [{"normal_force": 10.0, "increments": 1}],
+}
+held = int(open("/proc/self/statm").read().split()[0]) * resource.getpagesize()
+resource.setrlimit(resource.RLIMIT_AS, (held + 800_000_000, -1))
+for ask in (
+    lambda: fretting.run(case, threads=200),
+    lambda: fretting.study(case, cells=[8, 16], threads=200),
+):
+    try:
+        ask()
+        print("done")
+    except MemoryError as error:
+        assert "ulimit -v" in str(error) and "fewer threads give the same numbers" in str(error), error
+        print("refused")
+print(fretting.run(case, threads=1).shape)
+"""
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="limits on the address space are Linux's")
+def test_threads_without_room_for_them_are_a_lack_of_memory() -> None:
+    told = subprocess.run(
+        [sys.executable, "-c", MANY_THREADS], capture_output=True, text=True, timeout=300, check=False
+    )
+    assert told.returncode == 0, told.stderr
+    assert told.stdout.split("\n")[:-1] == ["refused", "refused", "(16, 16)"], told.stdout
+
+
 @pytest.mark.long
 def test_a_case_that_no_machine_holds_is_refused_before_it_starts(sphere_case: dict[str, Any]) -> None:
     sphere_case["grid"] = {"cells": [8192, 8192], "size": [1e-3, 1e-3]}

@@ -77,6 +77,51 @@ def test_energy_of_mindlin_and_deresiewicz_with_uncertain_friction(fretting_case
     assert fretting.plot.band(answer, "dissipated_energy").lines
 
 
+def test_maps_of_samples_show_their_middle_and_how_far_they_lie_apart() -> None:
+    pytest.importorskip("matplotlib")
+    import matplotlib.pyplot as plt
+
+    axes = {"load.press.normal_force": [5.0, 10.0, 20.0], "profile.sphere.radius": [5e-3, 10e-3]}
+    answer = fretting.sweep(hertz_case(), {**axes, "lower.substrate.young": fretting.Uniform(190e9, 230e9)}, samples=8)
+    left, right = fretting.plot.band_map(answer, "max_pressure", x="load.press.normal_force", y="profile.sphere.radius")
+    middle, width = (place.collections[0].get_array() for place in (left, right))
+    assert middle.shape == width.shape == (2, 3)
+    # Hertz: p0 = (6 P E*^2 / (pi^3 R^2))^(1/3); the grid is the same in cells at every point, so that ratios are exact.
+    force, radius = np.array(axes["load.press.normal_force"]), np.array(axes["profile.sphere.radius"])
+    law = (force[None, :] / radius[:, None] ** 2) ** (1 / 3)
+    for found in (middle, width):
+        assert np.allclose(found / found[0, 0], law / law[0, 0], rtol=1e-6)
+    # p0 ~ E^(2/3): between the second and the last but one of the samples in order, quantiles by linear interpolation
+    young = np.sort(answer["lower.substrate.young"].values) ** (2 / 3)
+    low, high = np.quantile(young, (0.025, 0.975))
+    assert np.allclose(width / middle, (high - low) / np.median(young), rtol=1e-6)
+    plt.close("all")
+    # Sliding conditions: with so much scatter of the friction some samples of the middle force slide.
+    case = hertz_case()
+    case |= {"friction": {"coefficient": 0.3}}
+    case["load"].append({"name": "rub", "shift": [0.2e-6, 0.0], "increments": 8, "cycles": 1})
+    sweep = {
+        "friction.coefficient": fretting.Uniform(0.1, 0.9),
+        "load.press.normal_force": [2.0, 20.0],
+        "load.rub.shift.0": [0.05e-6, 0.2e-6, 0.8e-6],
+    }
+    answer = fretting.sweep(case, sweep, samples=8)
+    pair = plt.subplots(1, 2)[1]
+    left, right = fretting.plot.band_map(
+        answer, "cycle_regime", x="load.rub.shift.0", y="load.press.normal_force", axes=tuple(pair)
+    )
+    regimes = answer["cycle_regime"].transpose("sample", "load.press.normal_force", "load.rub.shift.0").values
+    share = right.collections[0].get_array()
+    counted = [
+        [max((regimes[:, i, j] == word).mean() for word in set(regimes[:, i, j])) for j in range(3)] for i in range(2)
+    ]
+    assert np.allclose(share, counted) and share.min() < 1.0 == share.max()
+    assert left is pair[0] and right is pair[1]
+    with pytest.raises(ValueError, match="beside the samples"):
+        fretting.plot.band_map(answer, "cycle_regime", x="load.rub.shift.0", y="friction.coefficient")
+    plt.close("all")
+
+
 def closed_form(friction: float) -> float:
     """Mindlin & Deresiewicz (1953), J. Appl. Mech. 20, 327: energy of a cycle, identical spheres with nu = 0, E = 200
     GPa.

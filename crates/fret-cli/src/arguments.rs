@@ -219,8 +219,9 @@ pub struct HeatArguments {
 /// How to solve many cases.
 #[derive(Debug, Args)]
 pub struct SweepArguments {
-    /// The sweep file (TOML): base = "case.toml", and [axes] with "key.of.the.case" = [values], or [distributions] with
-    /// "key.of.the.case" = { normal = { mean = 0.6, deviation = 0.05 } } and [samples] count = 256
+    /// The sweep file (TOML): base = "case.toml", and [axes] with "key.of.the.case" = [values], [distributions] with
+    /// "key.of.the.case" = { normal = { mean = 0.6, deviation = 0.05 } } and [samples] count = 256,
+    /// or both: the samples at every point of the axes
     pub sweep: PathBuf,
     /// Folder for the results; points that are finished there are skipped [default: results/ and the name of the sweep]
     #[arg(long, value_name = "DIR")]
@@ -244,7 +245,7 @@ pub struct IdentifyArguments {
     /// The case: bodies, profile, grid and the stages that press them. Its friction is where the fit starts
     #[arg(long, value_name = "CASE")]
     pub case: PathBuf,
-    /// Which column holds what: `displacement=NAME,force=NAME,cycle=NAME,normal_force=NAME` [default: by usual names]
+    /// Which column holds what: `displacement=NAME,force=NAME,cycle=NAME,normal_force=NAME` [default: rig.columns of the case, else usual names]
     #[arg(long, value_name = "WHAT=NAME,...", value_delimiter = ',')]
     pub columns: Vec<String>,
     /// Units of the columns, such as displacement=um,force=N [default: those beside the names, or those of the case]

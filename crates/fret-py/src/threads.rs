@@ -4,11 +4,14 @@
 use std::process;
 use std::sync::{Arc, Mutex, TryLockError};
 
+use fret_core::machine::threads::ThreadsError;
 use fret_core::machine::{memory, threads};
 use pyo3::exceptions::{PyMemoryError, PyRuntimeError, PyTypeError, PyValueError};
 use pyo3::prelude::{Borrowed, FromPyObject, PyAny, PyAnyMethods, PyErr, PyResult, Python, pyfunction};
 use pyo3::types::PyBool;
 use rayon::ThreadPool;
+
+use crate::error::OutOfMemoryError;
 
 struct Remembered {
     process: u32,
@@ -39,7 +42,7 @@ impl FromPyObject<'_, '_> for Threads {
             return Ok(Self(None));
         }
         let words = given.repr()?.to_string();
-        let refused = threads::ThreadsError::OutOfRange(words).to_string() + ", or None for all cores";
+        let refused = ThreadsError::OutOfRange(words).to_string() + ", or None for all cores";
         // A truth value is a number to Python, and no number of threads to anybody.
         let is_whole = given.hasattr("__index__")? && !given.is_instance_of::<PyBool>();
         if !is_whole {
@@ -90,7 +93,12 @@ fn all_cores() -> PyResult<Arc<ThreadPool>> {
 }
 
 fn built(number: usize) -> PyResult<Arc<ThreadPool>> {
-    threads::pool(number).map(Arc::new).map_err(|error| PyRuntimeError::new_err(error.to_string()))
+    threads::pool(number).map(Arc::new).map_err(|error| match &error {
+        ThreadsError::NoAddresses(..) => OutOfMemoryError::new_err((error.to_string(), 0)),
+        ThreadsError::OutOfRange(_) | ThreadsError::NotStarted(..) => {
+            PyRuntimeError::new_err(error.to_string())
+        }
+    })
 }
 
 /// Does `work` on the pool, without the interpreter.

@@ -15,6 +15,9 @@ const GAP: f64 = 0.3;
 /// A cycle whose force ends further from where it began than this fraction of its range is not closed.
 const OPEN: f64 = 0.25;
 
+/// Points of a parabola at a turn: this part of those of a cycle, at the least and at the most.
+const POINTS_OF_A_PARABOLA: [usize; 3] = [12, 3, 15];
+
 /// One measured cycle, in the units of the case.
 #[derive(Debug, Clone)]
 pub struct MeasuredCycle {
@@ -237,7 +240,8 @@ impl MeasuredCycle {
         let count = self.force.len();
         let mut energy = 0.0;
         let places: Vec<f64> = (0..count).map(&displacement).collect();
-        let ([low, high], [bottom, top]) = (calm_range(&places), calm_range(&self.force));
+        let [high, low] = self.turns.map(|turn| at_turn(&places, turn, [-1, 1]));
+        let [bottom, top] = self.range_of_force();
         let middle = f64::midpoint(bottom, top);
         let (mut falling, mut rising) = (Vec::new(), Vec::new());
         for row in 0..count {
@@ -254,6 +258,14 @@ impl MeasuredCycle {
         }
         let mean = |values: &[f64]| values.iter().sum::<f64>() / values.len().max(1) as f64;
         [energy.abs(), 0.5 * (top - bottom), 0.5 * (high - low), 0.5 * (mean(&rising) - mean(&falling)).abs()]
+    }
+
+    /// Smallest and largest force: those at the ends of the branches, where the loop has its corners, or beyond them where a branch has
+    /// its extreme on the way.
+    fn range_of_force(&self) -> [f64; 2] {
+        let [bottom, top] = calm_range(&self.force);
+        let [first, last] = self.turns.map(|turn| at_turn(&self.force, turn, [-1]));
+        [bottom.min(first).min(last), top.max(first).max(last)]
     }
 
     /// Slope of the loop directly after both reversals: a line through the points of the first third of the change of force.
@@ -320,6 +332,25 @@ fn slope(points: &[[f64; 2]]) -> Option<f64> {
     (xx > 0.0).then(|| xy / xx)
 }
 
+/// Value at a turn, where a cycle has a corner (a triangle) or a top (a sine): parabolas of least squares through the points before it
+/// (side -1), behind it (1), or the mean of both. Means over a corner would cut it off.
+fn at_turn<const N: usize>(values: &[f64], turn: usize, sides: [isize; N]) -> f64 {
+    let count = values.len();
+    let points = (count / POINTS_OF_A_PARABOLA[0]).clamp(POINTS_OF_A_PARABOLA[1], POINTS_OF_A_PARABOLA[2]);
+    let of_side = |side: isize| {
+        let value =
+            |k: usize| values[(turn as isize + side * k as isize).rem_euclid(count as isize) as usize];
+        // Value at the end of the parabola of least squares through points 0, 1, ... n - 1: weights of the discrete orthogonal polynomials.
+        let n = points as f64;
+        let weight = |k: f64| {
+            3.0 * (3.0 * n * n - 3.0 * n + 2.0 - 6.0 * (2.0 * n - 1.0) * k + 10.0 * k * k)
+                / (n * (n + 1.0) * (n + 2.0))
+        };
+        (0..points).map(|k| weight(k as f64) * value(k)).sum::<f64>()
+    };
+    sides.into_iter().map(of_side).sum::<f64>() / N as f64
+}
+
 /// Smallest and largest value.
 pub fn range(values: &[f64]) -> [f64; 2] {
     values
@@ -383,4 +414,46 @@ fn tops(displacement: &[f64]) -> Vec<usize> {
         }
     }
     found
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn cycle(displacement: Vec<f64>, force: Vec<f64>) -> MeasuredCycle {
+        let turns = turns(&displacement);
+        MeasuredCycle { name: 1.0, displacement, force, normal_force: None, lines: [1, 1], turns }
+    }
+
+    #[test]
+    fn a_parabola_of_least_squares_ends_where_a_parabola_does() {
+        let values: Vec<f64> = (0..60).map(|k| 3.0 - 0.2 * f64::from(k) + 0.01 * f64::from(k * k)).collect();
+        for turn in [20, 33] {
+            assert!((at_turn(&values, turn, [-1, 1]) - values[turn]).abs() < 1e-12);
+        }
+    }
+
+    #[test]
+    fn corners_are_not_cut_off_and_tops_not_heightened() {
+        for count in [40, 100, 400] {
+            for is_sine in [true, false] {
+                let wave = |time: f64| {
+                    let triangle = if time < 0.5 { 1.0 - 4.0 * time } else { 4.0 * time - 3.0 };
+                    if is_sine { (TAU * time).cos() } else { triangle }
+                };
+                let displacement: Vec<f64> =
+                    (0..count).map(|k| 2.0 * wave(k as f64 / count as f64)).collect();
+                // A loop of two straight branches and a share of friction: force follows the displacement, and turns by 0.4 behind it.
+                let force =
+                    (0..count).map(|k| displacement[k] + if 2 * k < count { -0.2 } else { 0.2 }).collect();
+                let read = cycle(displacement, force).quantities(1.0, None);
+                // What the fourth derivative of a sine leaves of a parabola over a twelfth of a cycle.
+                let bound = if is_sine { 2e-3 } else { 1e-12 };
+                assert!(
+                    (read.displacement_amplitude / 2.0 - 1.0).abs() < bound,
+                    "{count} {is_sine}: {read:?}"
+                );
+            }
+        }
+    }
 }

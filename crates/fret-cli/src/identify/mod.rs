@@ -32,7 +32,7 @@ const TOLD: f64 = 0.5;
 /// What is asked of a log.
 #[derive(Debug, Clone, Default)]
 pub struct Request {
-    /// Columns by what they hold: `displacement`, `force`, `cycle`, `normal_force`.
+    /// Columns by what they hold: `displacement`, `force`, `cycle`, `normal_force`; before those that the case names.
     pub columns: Vec<(String, String)>,
     /// Units by what they are of: `displacement`, `force`.
     pub units: Vec<(String, String)>,
@@ -40,6 +40,19 @@ pub struct Request {
     pub cycle: Option<f64>,
     /// A key of the case that is fitted too, such as `lower.substrate.young`.
     pub key: Option<String>,
+}
+
+impl Request {
+    /// With the columns that the case names, where none is asked for.
+    fn beside(&self, of_case: &[(&str, String)]) -> Self {
+        let mut request = self.clone();
+        for (what, name) in of_case {
+            if !self.columns.iter().any(|(asked, _)| asked == what) {
+                request.columns.push(((*what).to_owned(), name.clone()));
+            }
+        }
+        request
+    }
 }
 
 /// The answer.
@@ -63,6 +76,7 @@ pub fn identify(
     request: &Request,
 ) -> Result<Identification, Failure> {
     let case = case_file.case(None)?;
+    let request = &request.beside(&case.log_columns);
     let table = log::read(name, bytes, request)?;
     let mut notes = Vec::new();
     let scale = unit_names::scales(&table, request, case.units.as_ref(), &mut notes)?;
@@ -124,7 +138,7 @@ fn text(json: &Value, units: &Units, cycles: usize) -> String {
         "{}: {cycles} cycle{}, fitted: cycle {}",
         json["log"].as_str().unwrap_or_default(),
         if cycles == 1 { "" } else { "s" },
-        json["cycle"]
+        json["cycle"].as_f64().unwrap_or_default()
     )];
     for constant in json["parameters"].as_array().into_iter().flatten() {
         let name = constant["name"].as_str().unwrap_or_default();

@@ -207,6 +207,34 @@ fn an_export_of_a_rig_is_identified() {
     assert!((json["removed"]["drift_per_cycle"].as_f64().unwrap() / 0.2e-3 - 1.0).abs() < 0.3);
 }
 
+/// A case names the columns of its machine's logs; what is asked for goes before.
+#[test]
+fn the_case_names_the_columns_of_the_log() {
+    let names = "nr,hub [um],reibkraft [N],kraft [N]\n";
+    let rows = (Rig { noise: 0.0, drift: 0.0, ..PARTIAL }).log(1);
+    let log: String = rows.lines().skip(1).fold(names.to_owned(), |text, row| text + "7," + row + ",1.0\n");
+    let in_case = |columns: &str| {
+        let text = format!("{CASE}[rig]\ntangential_stiffness = 3e4\ncolumns = {{ {columns} }}\n");
+        CaseFile::of_text("case.toml", text, Beside { folder: PathBuf::new(), contents: Vec::new() })
+    };
+    let good = "displacement = \"hub\", force = \"reibkraft\", cycle = \"nr\"";
+    let found = |case: CaseFile, columns: &[(&str, &str)]| {
+        let columns = columns.iter().map(|(what, name)| ((*what).to_owned(), (*name).to_owned())).collect();
+        identify(("log.csv", log.as_bytes()), case, &Request { columns, ..Request::default() })
+            .map(|answer| (answer.json["cycle"].clone(), constant(&answer.json, 0)))
+            .map_err(|failure| failure.message())
+    };
+    let (cycle, friction) = found(in_case(good), &[]).unwrap();
+    assert_eq!(cycle, 7.0);
+    assert!((friction[0] / 0.6 - 1.0).abs() < 0.01, "{friction:?}");
+    let wrong = "displacement = \"hub\", force = \"last\"";
+    assert_eq!(found(in_case(wrong), &[("force", "reibkraft"), ("cycle", "nr")]).unwrap(), (cycle, friction));
+    let refused = found(in_case(wrong), &[]).unwrap_err();
+    assert!(refused.contains("no line names the columns \"hub\" and \"last\""), "{refused}");
+    let nothing = found(in_case("force = \" \""), &[]).unwrap_err();
+    assert!(nothing.contains("rig.columns.force: must be the name of a column"), "{nothing}");
+}
+
 /// What a person in a laboratory is told.
 #[test]
 fn logs_that_cannot_be_are_refused_in_words() {

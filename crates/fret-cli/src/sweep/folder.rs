@@ -138,7 +138,7 @@ impl SweepFolder {
         Ok(path)
     }
 
-    /// Writes what the samples of a sweep say, where its points are samples; gives it to a person.
+    /// Writes what the samples of a sweep say, where it has some, at each point of its axes; gives it to a person.
     ///
     /// # Errors
     /// When the file cannot be written.
@@ -155,7 +155,13 @@ impl SweepFolder {
         let end = END.map(|name| (name.to_owned(), column(&|answer| at_end(answer, name).as_f64())));
         let cycle =
             CYCLE.map(|name| (format!("cycle_{name}"), column(&|answer| answer["cycle"][name].as_f64())));
-        let spread = Spread::new(&question.keys, design, end.into_iter().chain(cycle).collect());
+        let keys = question.drawn_keys();
+        let beside = question.keys.len() - keys.len();
+        let firsts = question.points.iter().step_by(design.points().max(1));
+        let at =
+            firsts.map(|point| question.keys.iter().cloned().zip(point.values[..beside].to_vec()).collect());
+        let columns: Vec<_> = end.into_iter().chain(cycle).collect();
+        let spread = Spread::new(keys, design, at.collect(), &columns);
         write_whole(&self.path.join(UNCERTAINTY), format!("{:#}\n", spread.to_json()).as_bytes())?;
         Ok(Some(spread.table()))
     }

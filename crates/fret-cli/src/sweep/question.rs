@@ -1,5 +1,6 @@
 //! The sweep file: `base`, a case file beside it or a table; `[axes]`, values of keys of the case, all combined; or
-//! `[[point]]`, values of keys that change together; or `[distributions]` of keys, from which `[samples]` are drawn.
+//! `[[point]]`, values of keys that change together; `[distributions]` of keys, from which `[samples]` are drawn, all of them at each
+//! point of the axes.
 
 use std::ops::Range;
 use std::path::{Path, PathBuf};
@@ -23,8 +24,16 @@ pub struct Question {
     pub keys: Vec<String>,
     /// The points, the last axis fastest.
     pub points: Vec<Point>,
-    /// How the points were drawn, where they are samples.
+    /// How the samples were drawn, where there are some; their keys are the last ones.
     pub design: Option<SampleDesign>,
+}
+
+impl Question {
+    /// The keys whose values are drawn.
+    pub fn drawn_keys(&self) -> &[String] {
+        let drawn = self.design.as_ref().map_or(0, |design| design.distributions.len());
+        &self.keys[self.keys.len() - drawn..]
+    }
 }
 
 /// One point of a sweep.
@@ -92,7 +101,7 @@ impl Reader<'_> {
             }
         }
         axes.sort_by_key(|axis| axis.span.start);
-        let design = self.designed(drawn, &mut axes);
+        let design = self.designed(&drawn, &mut axes);
         let nothing = Some("[axes]\n\"friction.coefficient\" = [0.1, 0.2]");
         if base.is_none() && self.mistakes.is_empty() {
             self.refuse(None, "no base case", Some("base = \"case.toml\", or a table [base]"));
@@ -228,30 +237,35 @@ impl Reader<'_> {
         drawn.samples = Some(value.span());
     }
 
-    /// The samples of the distributions, as the rows of an axis.
-    fn designed(&mut self, drawn: Drawn, axes: &mut Vec<Axis>) -> Option<SampleDesign> {
+    /// The samples of the distributions, as the rows of the last axis: each of them at every point of the others.
+    fn designed(&mut self, drawn: &Drawn, axes: &mut Vec<Axis>) -> Option<SampleDesign> {
         let Some(span) = drawn.span.clone() else {
             if drawn.samples.is_some() {
-                self.refuse(drawn.samples, "samples: there is nothing to draw from", Some("[distributions]"));
+                self.refuse(
+                    drawn.samples.clone(),
+                    "samples: there is nothing to draw from",
+                    Some("[distributions]"),
+                );
             }
             return None;
         };
-        if !axes.is_empty() {
-            let message =
-                "distributions: beside [axes] or [[point]], which would need statistics of their own";
-            self.refuse(Some(span), message, Some("one sweep per value, or fretting.sweep from Python"));
-            return None;
-        }
         if !self.mistakes.is_empty() {
             return None;
         }
         match drawn.rows() {
             Ok((keys, rows, design)) => {
+                if let Some(twice) = axes.iter().flat_map(|axis| &axis.keys).find(|key| keys.contains(key)) {
+                    let message =
+                        format!("distributions: `{twice}` has values already, in [axes] or [[point]]");
+                    self.refuse(Some(span), &message, Some("a distribution or values"));
+                    return None;
+                }
                 axes.push(Axis { keys, rows, span });
                 Some(design)
             }
             Err(message) => {
-                self.refuse(Some(drawn.samples.unwrap_or(span)), &message, Some("[samples]\ncount = 256"));
+                let place = drawn.samples.clone().unwrap_or(span);
+                self.refuse(Some(place), &message, Some("[samples]\ncount = 256"));
                 None
             }
         }

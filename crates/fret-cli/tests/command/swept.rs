@@ -147,6 +147,31 @@ fn samples_of_uncertain_keys_are_drawn_told_and_drawn_again_alike() {
 }
 
 #[test]
+fn samples_at_every_point_of_an_axis_are_those_of_a_sweep_for_each() {
+    let bench = Bench::new("sweep-samples-axes");
+    let drawn = "[distributions]\n\"friction.coefficient\" = { uniform = { from = 0.1, to = 0.2 } }\n[samples]\ncount = 4\n\
+        seed = 3\nindices = true\n";
+    let axes = "base = \"case.toml\"\n[axes]\nprofile.sphere.radius = [10e-3, 20e-3]\n";
+    let together = bench.file("case.toml", SPHERE).file("many.toml", &format!("{axes}{drawn}"));
+    let answer = together.fret(&["sweep", "many.toml"]);
+    assert_eq!(answer.code, Some(0), "{}", answer.err);
+    assert!(answer.out.contains("profile.sphere.radius = 0.02\n4 samples"), "{}", answer.out);
+    let told = |name: &str| -> Value {
+        serde_json::from_str(&bench.text(&format!("results/{name}/uncertainty.json"))).unwrap()
+    };
+    let points = told("many")["points"].as_array().unwrap().clone();
+    assert_eq!(points.len(), 2);
+    for (number, radius) in ["10e-3", "20e-3"].into_iter().enumerate() {
+        let case = SPHERE.replace("radius = 10e-3", &format!("radius = {radius}"));
+        let name = format!("alone{number}");
+        bench.file("one.toml", &case).file(&format!("{name}.toml"), &format!("base = \"one.toml\"\n{drawn}"));
+        assert_eq!(bench.fret(&["sweep", &format!("{name}.toml"), "--quiet"]).code, Some(0));
+        assert_eq!(points[number]["values"]["profile.sphere.radius"], radius.parse::<f64>().unwrap());
+        assert_eq!(points[number]["quantities"], told(&name)["quantities"], "radius {radius}");
+    }
+}
+
+#[test]
 fn wrong_distributions_are_refused_where_they_stand() {
     let bench = Bench::new("sweep-wrong-samples");
     bench.file("case.toml", SPHERE);
@@ -168,8 +193,10 @@ fn wrong_distributions_are_refused_where_they_stand() {
         (&format!("[distributions]\n{good}\n[samples]\ncount = 1"), "between 2 and"),
         (&format!("[distributions]\n{good}\n[samples]\ncount = 4\nsede = 1"), "sede"),
         (
-            &format!("[axes]\n\"grid.cells\" = [[8, 8]]\n[distributions]\n{good}\n[samples]\ncount = 4"),
-            "beside [axes]",
+            &format!(
+                "[axes]\n\"friction.coefficient\" = [0.1]\n[distributions]\n{good}\n[samples]\ncount = 4"
+            ),
+            "`friction.coefficient` has values already",
         ),
         ("[samples]\ncount = 4", "nothing to draw from"),
     ] {

@@ -17,7 +17,7 @@ use super::output::{FIELD_NAMES, Output};
 use super::refusal::Mistake;
 use super::repeating::repeats;
 use super::residual::residual;
-use super::rig::rig;
+use super::rig::{log_columns, rig};
 use super::shape::profile;
 use super::stages::{sliding, stages};
 use super::stress::stress;
@@ -67,6 +67,7 @@ pub(super) fn case(
     let history_tolerance = file.solver.as_ref().and_then(|solver| solver.history_tolerance.as_ref());
     let rig_file = file.rig.as_ref();
     let rig = rig(&mut judge, rig_file);
+    let log_columns = log_columns(&mut judge, rig_file);
     let stages = stages(&mut judge, &file.load, (laws.as_deref(), rig_file), history_tolerance);
     let stages = stages.zip(changes.as_ref()).map(|(stages, changes)| with_friction(stages, changes));
     let evolving = (file.load.get_ref().as_slice(), stages.as_deref());
@@ -129,6 +130,7 @@ pub(super) fn case(
             friction,
             friction_evolution,
             rig,
+            log_columns,
             start: judge.attachments.start,
             stages,
             wear,

@@ -51,6 +51,9 @@ pub struct Case {
     /// The machine between the upper body and what is driven, where it gives.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub rig: Option<Rig>,
+    /// Columns of a log that was measured on the machine: what each holds (`displacement`, `force`, `cycle`, `normal_force`), its name.
+    #[serde(skip)]
+    pub log_columns: Vec<(&'static str, String)>,
     /// What is prescribed where the history starts; `None`: bodies that have not touched yet.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub start: Option<LoadStep>,

@@ -64,6 +64,26 @@ pub(super) struct RigFile {
     /// Normal stiffness of the machine [force/length]: `actuator_approach` = approach + normal force / stiffness. Default: rigid.
     #[schemars(with = "Option<f64>")]
     pub normal_stiffness: Option<Spanned<f64>>,
+    /// What the columns of a log that was measured on it are called, for `fret identify`. Default: usual names.
+    pub columns: Option<LogColumnsFile>,
+}
+
+/// Columns of a measured log by what they hold.
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(super) struct LogColumnsFile {
+    /// Displacement of the actuator.
+    #[schemars(with = "Option<String>")]
+    pub displacement: Option<Spanned<String>>,
+    /// Tangential force.
+    #[schemars(with = "Option<String>")]
+    pub force: Option<Spanned<String>>,
+    /// Number of the cycle.
+    #[schemars(with = "Option<String>")]
+    pub cycle: Option<Spanned<String>>,
+    /// Normal force.
+    #[schemars(with = "Option<String>")]
+    pub normal_force: Option<Spanned<String>>,
 }
 
 /// Units of the numbers in the case. Nothing is converted: results are in the same units.

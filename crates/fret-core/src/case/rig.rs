@@ -1,11 +1,11 @@
-//! The judgement of the machine: how stiff it is, and that a stage which drives its far end has one.
+//! The judgement of the machine: how stiff it is, that a stage which drives its far end has one, and what its logs look like.
 
 use std::ops::Range;
 
 use toml::Spanned;
 
 use super::along::AlongFile;
-use super::file::RigFile;
+use super::file::{LogColumnsFile, RigFile};
 use super::judge::Judge;
 use super::stage_file::StageFile;
 use super::table::{ACTUATOR, ACTUATOR_APPROACH, COLUMNS, Columns};
@@ -39,6 +39,26 @@ pub(super) fn rig(judge: &mut Judge, file: Option<&RigFile>) -> Option<Rig> {
         .as_ref()
         .map_or(0.0, |given| compliance("rig.normal_stiffness", *given.get_ref(), given.span()));
     (judge.mistakes.len() == before).then_some(Rig { normal, tangential })
+}
+
+/// What the columns of a measured log are called: what each holds, and its name.
+pub(super) fn log_columns(judge: &mut Judge, file: Option<&RigFile>) -> Vec<(&'static str, String)> {
+    let Some(LogColumnsFile { displacement, force, cycle, normal_force }) =
+        file.and_then(|rig| rig.columns.as_ref())
+    else {
+        return Vec::new();
+    };
+    let given =
+        [("displacement", displacement), ("force", force), ("cycle", cycle), ("normal_force", normal_force)];
+    let mut columns = Vec::new();
+    for (what, name) in given.into_iter().filter_map(|(what, name)| Some((what, name.as_ref()?))) {
+        if name.get_ref().trim().is_empty() {
+            let message = format!("rig.columns.{what}: must be the name of a column");
+            judge.refuse::<()>(name.span(), message, "as it stands in the head of the log, without its unit");
+        }
+        columns.push((what, name.get_ref().trim().to_owned()));
+    }
+    columns
 }
 
 /// Refuses an actuator that nothing connects with the body.

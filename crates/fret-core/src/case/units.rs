@@ -40,6 +40,11 @@ impl Units {
 }
 
 impl Units {
+    /// Pascals in the unit of pressure, where it is one of SI.
+    pub fn pascals(&self) -> Option<f64> {
+        power_of_pressure(&self.length, &self.force).map(|power| 10_f64.powi(power))
+    }
+
     /// The head of a column: its name, with its unit in brackets where the case declares units and the quantity has one of them.
     pub fn heading(units: Option<&Self>, name: &str, kind: &str, is_line: bool) -> String {
         match Self::unit(units, kind, is_line) {
@@ -87,8 +92,13 @@ fn power_of(unit: &str, base: &str) -> Option<i32> {
     PREFIXES.iter().find(|(known, _)| *known == prefix).map(|(_, power)| *power)
 }
 
+/// Power of ten of the pressure of a force in newtons and a length in metres, where both have a prefix.
+fn power_of_pressure(length: &str, force: &str) -> Option<i32> {
+    Some(power_of(force, "N")? - 2 * power_of(length, "m")?)
+}
+
 fn pascals(length: &str, force: &str) -> Option<String> {
-    let power = power_of(force, "N")? - 2 * power_of(length, "m")?;
+    let power = power_of_pressure(length, force)?;
     let prefix = match power {
         12 => "T",
         9 => "G",

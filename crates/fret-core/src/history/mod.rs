@@ -19,4 +19,4 @@ pub use footprint::Footprint;
 pub use records::{History, KeptFields, StepRecord, WornByLayer, WornThrough};
 pub use start::Start;
 pub(crate) use start::{setting, way_of_solving};
-pub use warning::{Concern, Warning};
+pub use warning::{Concern, STIFFEST, Warning};

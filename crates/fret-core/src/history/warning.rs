@@ -35,12 +35,18 @@ pub const FRICTION_CHANGE: f64 = 0.1;
 /// contact; half of this is about its error at the ends.
 pub const COMPLIANCE_SPREAD: f64 = 0.1;
 
+/// Young's modulus of diamond in its stiffest direction, 1.21e12 Pa by the elastic constants of `McSkimin` and Andreatch (1972), J. Appl.
+/// Phys. 43, 2944, rounded up: no coating and no body is stiffer.
+pub const STIFFEST: f64 = 1.25e12;
+
 /// What a warning is about; its name in files is stable.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Concern {
     /// The contact radius is a few cells.
     FewCells,
+    /// A body is stiffer than anything in the declared units.
+    StifferThanDiamond,
     /// The contact radius is not small against the body's.
     ContactRadiusOverBodyRadius,
     /// The approach is not small against the contact.
@@ -70,6 +76,7 @@ impl Concern {
     pub fn name(self) -> &'static str {
         match self {
             Self::FewCells => "few_cells",
+            Self::StifferThanDiamond => "stiffer_than_diamond",
             Self::ContactRadiusOverBodyRadius => "contact_radius_over_body_radius",
             Self::ApproachOverContactRadius => "approach_over_contact_radius",
             Self::ApproachOverLayerThickness => "approach_over_layer_thickness",
@@ -88,6 +95,9 @@ impl Concern {
     fn quantity(self) -> &'static str {
         match self {
             Self::FewCells => "cells in the contact radius",
+            Self::StifferThanDiamond => {
+                "largest Young's modulus, in the declared units, over that of diamond"
+            }
             Self::ContactRadiusOverBodyRadius => "contact radius over body radius",
             Self::ApproachOverContactRadius => "approach over contact radius",
             Self::ApproachOverLayerThickness => {
@@ -117,6 +127,7 @@ impl Concern {
     fn bound(self) -> f64 {
         match self {
             Self::FewCells => CELLS_IN_RADIUS,
+            Self::StifferThanDiamond => 1.0,
             Self::ContactRadiusOverBodyRadius
             | Self::ApproachOverContactRadius
             | Self::ApproachOverLayerThickness => STRAIN,
@@ -135,6 +146,7 @@ impl Concern {
     fn consequence(self) -> &'static str {
         match self {
             Self::FewCells => "the contact is under-resolved; errors may be large",
+            Self::StifferThanDiamond => "moduli are in the unit that follows from [units]: MPa for mm and N",
             Self::ContactRadiusOverBodyRadius => {
                 "the contact must be small against the bodies; a wrong unit is a common cause"
             }
@@ -167,6 +179,7 @@ impl Concern {
             Self::FewCells => {
                 "more cells or a smaller grid (size = \"auto\" finds it); on a rough surface finer sampling"
             }
+            Self::StifferThanDiamond => "check the units of moduli, and [units]",
             Self::ContactRadiusOverBodyRadius
             | Self::ApproachOverContactRadius
             | Self::ApproachOverLayerThickness => {
@@ -241,8 +254,9 @@ mod tests {
     use super::*;
 
     /// Each with its bound, as the pages name them, and whether small numbers are what is warned of.
-    const CONCERNS: [(Concern, f64, bool); 12] = [
+    const CONCERNS: [(Concern, f64, bool); 13] = [
         (Concern::FewCells, 6.0, true),
+        (Concern::StifferThanDiamond, 1.0, false),
         (Concern::ContactRadiusOverBodyRadius, 0.2, false),
         (Concern::ApproachOverContactRadius, 0.2, false),
         (Concern::ApproachOverLayerThickness, 0.2, false),
@@ -276,7 +290,7 @@ mod tests {
         }
         let words: std::collections::HashSet<_> =
             CONCERNS.iter().flat_map(|(name, ..)| [name.quantity(), name.consequence()]).collect();
-        assert_eq!(words.len(), 24, "every concern has its own words");
+        assert_eq!(words.len(), 26, "every concern has its own words");
         assert!(CONCERNS.iter().all(|(name, ..)| !name.help().is_empty()));
     }
 

@@ -3,14 +3,18 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::history::{Concern, CycleRecord, StepRecord, Warning};
-use crate::model::{Base, Body, Control};
+use crate::case::Units;
+use crate::history::{Concern, CycleRecord, STIFFEST, StepRecord, Warning};
+use crate::model::{Base, Body, Coating, Control, ElasticMaterial};
 use crate::plan::{Coupling, Plan};
 
 /// What follows from the case alone, with the contact that its plan expects.
 pub fn of_plan(plan: &Plan) -> Vec<Warning> {
     let mut found = Vec::new();
     let mut look = |name: Concern, value: f64| found.extend(Warning::of(name, value, None));
+    if let Some(pascals) = plan.case.units.as_ref().and_then(Units::pascals) {
+        look(Concern::StifferThanDiamond, largest_modulus(plan) * pascals / STIFFEST);
+    }
     if let Some(contact) = &plan.expected {
         let [dx, dy] = plan.grid.spacing();
         let [x, y] = contact.half_widths;
@@ -25,6 +29,22 @@ pub fn of_plan(plan: &Plan) -> Vec<Warning> {
     look(Concern::SteepTopography, steepest(plan));
     look(Concern::CoatingThinnerThanCell, thinnest_coating(plan) / longer_side(plan));
     found
+}
+
+/// The largest Young's modulus of coatings and substrates [pressure].
+fn largest_modulus(plan: &Plan) -> f64 {
+    let of_body = |body: &Body| match body {
+        Body::Rigid => 0.0,
+        Body::Elastic(stack) => {
+            let layers = stack.coatings().iter().map(Coating::material);
+            let base = match stack.base() {
+                Base::Rigid => None,
+                Base::Elastic(material) => Some(material),
+            };
+            layers.chain(base).map(ElasticMaterial::young).fold(0.0, f64::max)
+        }
+    };
+    of_body(plan.case.bodies.upper()).max(of_body(plan.case.bodies.lower()))
 }
 
 /// Half-widths over the radii of curvature of the profile, the larger; 0 where it has none.

@@ -76,6 +76,11 @@ impl SampleDesign {
         Ok(rows)
     }
 
+    /// Number of rows.
+    pub fn points(&self) -> usize {
+        self.count * if self.indices { self.distributions.len() + 2 } else { 1 }
+    }
+
     /// A coordinate of a point, between 0 and 1 and neither of them.
     fn fraction(&self, sample: usize, dimension: usize) -> f64 {
         let coordinate = sobol_burley::sample(sample as u32, dimension as u32, self.seed);
