@@ -387,7 +387,7 @@ def run(copy: Path, minutes: float, only: str, longest: float, tests: str, again
         portion = 1
         while left:
             now, left = left[:portion], left[portion:]
-            seconds = 10 + 10 * sum(spent for _, spent in now)
+            seconds = 5 + 5 * sum(spent for _, spent in now)
             if not tried(copy, binary, [name for name, _ in now], seconds, MUTANT=str(mutant["number"]))[0]:
                 return {"state": CAUGHT[place], "by": [name for name, _ in now]}
             portion *= 3

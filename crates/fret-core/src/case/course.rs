@@ -521,11 +521,11 @@ mod tests {
 
     #[test]
     fn paths_of_zeros_are_zero() {
-        let zero = |path: Path| path.is_zero();
-        assert!(zero(Path::To(0.0)) && !zero(Path::To(1.0)));
-        assert!(zero(Path::Wave { amplitude: 0.0, phase: 0.5 }));
-        assert!(!zero(Path::Wave { amplitude: 0.5, phase: 0.0 }));
-        assert!(zero(Path::Through(vec![0.0; 3])) && !zero(Path::Through(vec![0.0, 1.0, 0.0])));
+        assert!(Path::To(0.0).is_zero() && !Path::To(1.0).is_zero());
+        for (amplitude, zero) in [(0.0, true), (0.5, false)] {
+            assert_eq!(Path::Wave { amplitude, phase: 0.5 }.is_zero(), zero);
+            assert_eq!(Path::Through(vec![0.0, amplitude, 0.0]).is_zero(), zero);
+        }
     }
 
     /// What a walk sees of one control.

@@ -158,7 +158,7 @@ fn heights_that_are_none_are_refused() {
     ] {
         refused(BALL, &[(SPHERE, &heights(words)), four], message, place);
     }
-    let turned: Vec<[f64; 4]> = vec![[1.0; 4]; 5];
+    let turned = [[1.0; 4]; 5];
     let text =
         BALL.replacen(SPHERE, &heights(&format!("values = {turned:?}")), 1).replacen(four.0, four.1, 1);
     let error = crate::case::Case::from_toml(&text, "case.toml").unwrap_err().to_string();
@@ -166,9 +166,9 @@ fn heights_that_are_none_are_refused() {
     let other = text.replacen("[4, 5]", "[4, 6]", 1);
     let error = crate::case::Case::from_toml(&other, "case.toml").unwrap_err().to_string();
     assert!(error.contains("5 x 4 numbers") && !error.contains("seem to run along y"), "{error}");
-    let of_body = format!("[lower.profile.heights]\nof = \"gap\"\nvalues = {:?}", vec![[1.0; 5]; 4]);
+    let of_body = format!("[lower.profile.heights]\nof = \"gap\"\nvalues = {:?}", [[1.0; 5]; 4]);
     refused(BALL, &[(SPHERE, &of_body), four], "a body has a surface, a gap lies between two", "\"gap\"");
-    let missing = format!("values = {:?}", vec![[1.0; 5]; 4]).replacen("1.0", "nan", 1);
+    let missing = format!("values = {:?}", [[1.0; 5]; 4]).replacen("1.0", "nan", 1);
     let text = BALL.replacen(SPHERE, &heights(&missing), 1).replacen(four.0, four.1, 1);
     let error = crate::case::Case::from_toml(&text, "case.toml").unwrap_err().to_string();
     assert!(error.contains("must be finite"), "{error}");
