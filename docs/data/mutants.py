@@ -11,7 +11,8 @@ beside the expression that it changes (``match mutant(7, 9) { 0 => a + b, 7 => a
 refuses and builds the tests of the package. ``run`` sees first which test reaches which mutant, then gives every mutant
 to the tests that reach it, those of its own file and the quick ones first, until one fails; it goes on where it was
 stopped. What a test may take is processor time, so a loaded machine fails none. ``whole-runs`` gives the survivors to
-the tests of whole runs, too: `tests/`, then those of the command. ``report`` prints the figures of each file, and the survivors.
+the tests of whole runs, too: `tests/`, then those of the command. ``report`` prints the figures of each
+file, and the survivors.
 """
 
 import argparse
@@ -336,7 +337,7 @@ def tried(copy: Path, binary: list[str], tests: list[str], seconds: float, **var
         preexec_fn=limited,
         start_new_session=True,
     )
-    sleeper = threading.Timer(300 + 20 * seconds, os.killpg, (process.pid, signal.SIGKILL))
+    sleeper = threading.Timer(1800 + 100 * seconds, os.killpg, (process.pid, signal.SIGKILL))
     sleeper.start()
     _, status, used = os.wait4(process.pid, 0)
     sleeper.cancel()
