@@ -244,7 +244,7 @@ fn pressure_that_ends_in_a_step_is_counted_by_cells() {
         let cells = pressure.iter().filter(|p| **p > 0.0).count() as f64;
         (contact_cells(&pressure.view(), &gap.view(), f64::INFINITY), cells)
     };
-    for of in [&|_: f64| 1.0 as f64, &|r: f64| 1.0 - 0.001 * r, &|r: f64| 1.0 / (64.0 - r * r).sqrt()]
+    for of in [&|_: f64| 1.0_f64, &|r: f64| 1.0 - 0.001 * r, &|r: f64| 1.0 / (64.0 - r * r).sqrt()]
         as [&dyn Fn(f64) -> f64; 3]
     {
         let (found, cells) = disc(of);
