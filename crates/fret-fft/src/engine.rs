@@ -151,3 +151,122 @@ fn unfolded_product(
         in_front(terms, field, part);
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use ndarray::Array2;
+
+    use super::super::tests::block;
+    use super::*;
+    use crate::{Block, Convolution, Parity, PeriodicProduct};
+
+    /// Which way a product goes.
+    fn way(product: &PlannedProduct) -> &'static str {
+        match product {
+            PlannedProduct::Lanes(_) => "lanes",
+            PlannedProduct::Lines(_) => "lines",
+            PlannedProduct::Unfolded(..) => "unfolded",
+        }
+    }
+
+    /// The ways of a product in free space and of one that repeats, on the fastest engine and line by line.
+    fn ways(shape: [usize; 2], axes: [bool; 2], blocks: &[Block]) -> [[&'static str; 2]; 2] {
+        let mirrors = Mirrors { axes, inputs: Vec::new() };
+        let whole = mirrors.whole(shape);
+        let values = Array2::ones(whole);
+        let kernels = [Kernel { values: values.view(), parity: Parity::EvenEven }];
+        [Engine::fastest(), Engine(Choice::Lines)].map(|engine| {
+            let terms = |quadrant| Terms::new(shape, quadrant, &kernels, blocks, mirrors.clone()).unwrap();
+            [
+                way(&PlannedProduct::free_space(engine, &terms(whole), &kernels)),
+                way(&PlannedProduct::periodic(engine, &terms(whole.map(|n| n / 2 + 1)), &kernels)),
+            ]
+        })
+    }
+
+    #[test]
+    fn the_lane_engine_takes_what_it_is_made_for() {
+        let one = [block(0, 0, 0, 1.0)];
+        let none = [false, false];
+        for (shape, expected) in [
+            ([8, 12], ["lanes", "lanes"]),
+            ([7, 12], ["lanes", "lines"]), // 7 is no length for it, in free space it is filled up
+            ([8, 10], ["lanes", "lines"]),
+            ([4, 8], ["lanes", "lines"]), // one pass only
+            ([1, 8], ["lanes", "lines"]),
+            ([8, 1], ["lines", "lines"]),
+        ] {
+            assert_eq!(ways(shape, none, &one), [expected, ["lines", "lines"]], "{shape:?}");
+        }
+        // Mirrors do not change that, but a line before one is two for the lanes.
+        assert_eq!(ways([8, 1], [true, false], &one), [["lanes", "unfolded"], ["unfolded"; 2]]);
+        assert_eq!(ways([8, 12], [false, true], &one), [["lanes"; 2], ["unfolded"; 2]]);
+    }
+
+    #[test]
+    fn more_than_three_fields_go_line_by_line() {
+        for (blocks, expected) in [
+            ([block(2, 0, 0, 1.0), block(0, 2, 0, 1.0)], "lanes"),
+            ([block(3, 0, 0, 1.0), block(0, 2, 0, 1.0)], "lines"),
+            ([block(2, 0, 0, 1.0), block(0, 3, 0, 1.0)], "lines"),
+        ] {
+            assert_eq!(ways([8, 12], [false, false], &blocks)[0], [expected; 2], "{blocks:?}");
+        }
+        let four = [block(0, 3, 0, 1.0)];
+        assert_eq!(ways([8, 12], [true, false], &four)[0], ["unfolded"; 2]);
+    }
+
+    #[test]
+    fn engines_have_names_and_the_fastest_is_the_first() {
+        let names: Vec<String> = Engine::available().iter().map(|engine| format!("{engine:?}")).collect();
+        assert_eq!(names[names.len() - 2..], ["portable lanes", "lines by rustfft"]);
+        assert_eq!(format!("{:?}", Engine::fastest()), names[0]);
+        let before = &names[..names.len() - 2];
+        assert!(before.is_empty() || before.ends_with(&["AVX2 lanes".to_string()]), "{names:?}");
+        assert!(before.len() < 2 || before == ["AVX-512 lanes", "AVX2 lanes"], "{names:?}");
+    }
+
+    /// A transform as large as the grid, one number for a frequency; a lane engine starts it on a cache line and fills up vectors.
+    #[test]
+    fn kernels_take_the_memory_of_their_frequencies() {
+        const CACHE_LINE: usize = 64;
+        let shape = [64, 48];
+        let values = Array2::<f64>::ones(shape);
+        let kernel = Kernel { values: values.view(), parity: Parity::EvenEven };
+        let symbol = crate::Symbol { values: values.view(), parity: Parity::EvenEven };
+        for engine in Engine::available() {
+            let (width, spare) = match engine.0 {
+                Choice::Lanes(set) => (set.width::<f64>(), CACHE_LINE),
+                Choice::Lines => (1, 0),
+            };
+            for count in [1, 2] {
+                let blocks: Vec<Block> = (0..count).map(|kernel| block(0, 0, kernel, 1.0)).collect();
+                let memory_of = |shape, axes| {
+                    let mirrors = Mirrors { axes, inputs: Vec::new() };
+                    Convolution::on(engine, shape, &vec![kernel; count], &blocks, mirrors).unwrap()
+                };
+                let is = |found: usize, numbers: usize| {
+                    assert!((8 * numbers..=8 * numbers + spare).contains(&found), "{engine:?} {found}");
+                };
+                let free_space = memory_of(shape, [false, false]);
+                is(free_space.memory_bytes(), count * 64 * 48);
+                assert_eq!(free_space.shape(), shape);
+                // In front of a mirror two tables for half of the frequencies.
+                is(memory_of([32, 48], [true, false]).memory_bytes(), count * 64 * 48);
+                let repeating =
+                    PeriodicProduct::on(engine, shape, &vec![symbol; count], &blocks, Mirrors::NONE).unwrap();
+                let columns = if width == 1 { 48 } else { 25_usize.next_multiple_of(width) };
+                is(repeating.memory_bytes(), count * 64 * columns);
+                assert_eq!(repeating.shape(), shape);
+                match (free_space.in_single_precision(), width) {
+                    (None, 1) => {}
+                    (Some(single), 2..) => {
+                        let numbers = count * 64 * 48;
+                        assert!((4 * numbers..=4 * numbers + spare).contains(&single.memory_bytes()));
+                    }
+                    _ => panic!("{engine:?}: single precision where there are lanes, and only there"),
+                }
+            }
+        }
+    }
+}

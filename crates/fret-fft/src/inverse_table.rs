@@ -133,4 +133,38 @@ mod tests {
             }
         }
     }
+
+    #[test]
+    fn more_values_than_needed_do_not_matter() {
+        let table = values([6, 8]);
+        let needed = table.slice(ndarray::s![..4, ..5]);
+        for parity in [Parity::EvenEven, Parity::OddOdd] {
+            let by = |values| inverse_table(&Symbol { values, parity }, [6, 9], [6, 4]);
+            assert_eq!(by(table.view()), by(needed));
+        }
+    }
+
+    #[test]
+    #[should_panic(expected = "a symbol of (3, 3) values does not cover [4, 3]")]
+    fn a_symbol_that_is_too_short_along_x_is_refused() {
+        inverse_table(&Symbol { values: values([3, 3]).view(), parity: Parity::EvenEven }, [6, 4], [1, 1]);
+    }
+
+    #[test]
+    #[should_panic(expected = "a symbol of (4, 2) values does not cover [4, 3]")]
+    fn a_symbol_that_is_too_short_along_y_is_refused() {
+        inverse_table(&Symbol { values: values([4, 2]).view(), parity: Parity::EvenEven }, [6, 4], [1, 1]);
+    }
+
+    #[test]
+    #[should_panic(expected = "window [7, 1] exceeds the period [6, 4]")]
+    fn a_window_longer_than_the_period_is_refused() {
+        inverse_table(&Symbol { values: values([4, 3]).view(), parity: Parity::EvenEven }, [6, 4], [7, 1]);
+    }
+
+    #[test]
+    #[should_panic(expected = "window [1, 5] exceeds the period [6, 4]")]
+    fn a_window_wider_than_the_period_is_refused() {
+        inverse_table(&Symbol { values: values([4, 3]).view(), parity: Parity::EvenEven }, [6, 4], [1, 5]);
+    }
 }

@@ -1,8 +1,10 @@
 //! The products against plain sums.
 
+mod refusals;
+
 use ndarray::Array2;
 
-use super::{Block, Convolution, ConvolutionError, Engine, Kernel, Mirrors, Parity, PeriodicProduct, Symbol};
+use super::{Block, Convolution, Engine, Kernel, Mirrors, Parity, PeriodicProduct, Symbol};
 use crate::random::Random;
 
 pub(super) const PARITIES: [Parity; 4] = [Parity::EvenEven, Parity::OddEven, Parity::EvenOdd, Parity::OddOdd];
@@ -30,7 +32,7 @@ struct Problem {
     input: Vec<Vec<f64>>,
 }
 
-fn block(output: usize, input: usize, kernel: usize, sign: f64) -> Block {
+pub(super) fn block(output: usize, input: usize, kernel: usize, sign: f64) -> Block {
     Block { output, input, kernel, sign }
 }
 
@@ -411,33 +413,37 @@ fn fields_may_be_many_or_differ_in_number() {
     }
 }
 
+/// With and without mirrors: what everybody gets is the product on the fastest engine.
 #[test]
-#[should_panic(expected = "field of 15 values passed to a product on a 4 x 4 grid")]
-fn a_field_of_another_size_is_named() {
-    let problem = Problem::new([4, 4], [4, 4], &[Parity::EvenEven], &[block(0, 0, 0, 1.0)], 17);
-    let product = Convolution::new([4, 4], &problem.kernels(), &problem.blocks).unwrap();
-    product.apply(&mut product.workspace(), &[&[0.0; 15]], &mut [&mut [0.0; 16]]);
-}
-
-#[test]
-fn what_cannot_be_planned_is_refused_with_the_reason() {
-    let values = Array2::<f64>::ones([4, 4]);
-    let kernel = Kernel { values: values.view(), parity: Parity::EvenEven };
-    let one = [block(0, 0, 0, 1.0)];
-    let error = |shape, kernels: &[Kernel<'_>], blocks: &[Block]| {
-        Convolution::new(shape, kernels, blocks).err().unwrap()
-    };
-    assert_eq!(error([0, 4], &[kernel], &one), ConvolutionError::EmptyShape(0, 4));
-    assert_eq!(error([4, 4], &[kernel], &[]), ConvolutionError::NoBlocks);
-    assert!(matches!(error([4, 5], &[kernel], &one), ConvolutionError::TooSmall { needed_y: 5, .. }));
-    assert!(matches!(
-        error([4, 4], &[kernel], &[block(0, 0, 1, 1.0)]),
-        ConvolutionError::NoSuchKernel { kernel: 1, kernels: 1, .. }
-    ));
-    assert!(matches!(error([4, 4], &[kernel], &[block(0, 0, 0, f64::NAN)]), ConvolutionError::Factor { .. }));
-    let mut broken = values.clone();
-    broken[[1, 2]] = f64::INFINITY;
-    let broken = Kernel { values: broken.view(), parity: Parity::EvenEven };
-    assert!(matches!(error([4, 4], &[broken], &one), ConvolutionError::NotFinite { x: 1, y: 2, .. }));
-    assert!(Convolution::new([1, 2], &[broken], &one).is_ok(), "values that are not used do not matter");
+fn the_usual_products_are_those_of_the_fastest_engine() {
+    let (parities, blocks) = full_blocks();
+    let problem = Problem::new([16, 24], [32, 48], &parities, &blocks, 18);
+    let mirrors =
+        Mirrors { axes: [true, true], inputs: vec![Parity::EvenEven, Parity::OddEven, Parity::EvenOdd] };
+    let fastest = Engine::available()[0];
+    let (kernels, symbols) = (problem.kernels(), problem.symbols());
+    for mirrors in [Mirrors::NONE, mirrors] {
+        let on = Convolution::on(fastest, problem.shape, &kernels, &blocks, mirrors.clone()).unwrap();
+        let usual = if mirrors.any() {
+            Convolution::mirrored(problem.shape, &kernels, &blocks, mirrors.clone())
+        } else {
+            Convolution::new(problem.shape, &kernels, &blocks)
+        };
+        let usual = usual.unwrap();
+        let by = |product: &Convolution| {
+            problem.apply(|input, output| product.apply(&mut product.workspace(), input, output))
+        };
+        assert_eq!(by(&usual), by(&on));
+        let on = PeriodicProduct::on(fastest, problem.shape, &symbols, &blocks, mirrors.clone()).unwrap();
+        let usual = if mirrors.any() {
+            PeriodicProduct::mirrored(problem.shape, &symbols, &blocks, mirrors)
+        } else {
+            PeriodicProduct::new(problem.shape, &symbols, &blocks)
+        };
+        let usual = usual.unwrap();
+        let by = |product: &PeriodicProduct| {
+            problem.apply(|input, output| product.apply(&mut product.workspace(), input, output))
+        };
+        assert_eq!(by(&usual), by(&on));
+    }
 }

@@ -80,3 +80,61 @@ fn divide_from<N, W>(
         || divide_from(right, chunk_len, right_scratch, pieces - left_pieces, work),
     );
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn large_grids_are_divided_among_the_threads_of_the_pool() -> Result<(), rayon::ThreadPoolBuildError> {
+        let large = [200, 200];
+        for threads in [1, 2, 3] {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build()?;
+            assert_eq!(pool.install(|| pieces(large, 8)), threads);
+            assert_eq!(pool.install(|| pieces(large, 2)), threads.min(2));
+            assert_eq!(pool.install(|| pieces([60, 60], 8)), 1);
+            assert_eq!(pool.install(|| pieces([20, 2000], 8)), threads);
+        }
+        assert_eq!(pieces(large, 8), 1, "outside of a pool");
+        Ok(())
+    }
+
+    /// Chunks are of 5 numbers, the last ones of some fields shorter; each piece notes in its scratch what it did.
+    #[test]
+    fn every_chunk_is_worked_on_once_and_the_pieces_are_alike() {
+        const CHUNK: usize = 5;
+        const PIECE: usize = 3;
+        for lens in [[35, 0, 0], [33, 33, 33], [5, 50, 1], [4, 0, 0], [100, 52, 17]] {
+            for pieces in 1..=9 {
+                let mut fields = lens.map(|len| vec![0.0_f64; len]);
+                let mut numbers = vec![0.0; 9 * PIECE];
+                let [a, b, c] = &mut fields;
+                let scratch = Scratch { numbers: &mut numbers, piece_len: PIECE };
+                divide(
+                    [a.as_mut_slice(), b, c],
+                    CHUNK,
+                    scratch,
+                    pieces,
+                    &|field, first, run: &mut [f64], scratch: &mut [f64]| {
+                        assert_eq!(scratch.len(), PIECE);
+                        for (index, chunk) in (first..).zip(run.chunks_mut(CHUNK)) {
+                            chunk.iter_mut().for_each(|number| *number += (100 * field + index) as f64 + 0.5);
+                            scratch[0] += 1.0;
+                        }
+                    },
+                );
+                for (field, found) in fields.iter().enumerate() {
+                    for (place, number) in found.iter().enumerate() {
+                        assert_eq!(*number, (100 * field + place / CHUNK) as f64 + 0.5);
+                    }
+                }
+                let chunks: usize = lens.iter().map(|len| len.div_ceil(CHUNK)).sum();
+                let done: Vec<f64> = numbers.chunks(PIECE).map(|scratch| scratch[0]).collect();
+                assert_eq!(done.iter().sum::<f64>(), chunks as f64);
+                let most = done.iter().copied().fold(0.0, f64::max);
+                assert!(most <= chunks.div_ceil(pieces) as f64, "{lens:?} {pieces}: {done:?}");
+                assert!(done[pieces..].iter().all(|count| *count == 0.0), "more pieces than told");
+            }
+        }
+    }
+}
