@@ -25,7 +25,7 @@ pub fn measured_by(reference: &Reference) -> String {
         (Source::ClosedForm, format!("the closed form ({form})")),
         (Source::Given, "the numbers given".to_owned()),
         (Source::Limit, "the Richardson extrapolation of this study".to_owned()),
-        (Source::Finest, "the finest level, whose error is then 0 by construction".to_owned()),
+        (Source::Finest, "the finest level, whose own error is then unknown".to_owned()),
     ];
     let said = sources.into_iter().filter_map(|(source, words)| {
         let numbers: Vec<&str> = Quantity::ALL

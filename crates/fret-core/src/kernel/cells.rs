@@ -9,11 +9,12 @@ use rayon::prelude::*;
 
 use super::cell_integrals::{Moments, NearCells, Rectangle, add_five_points};
 use super::cell_rules::CellQuadrature;
+use super::constant_kernels::ConstantKernels;
 use super::far_cells::{FAR, LEAST};
 use super::lattice_samples::WaveResponse;
 use super::pair_response::PairResponse;
 use super::quartets::{Quartets, SurfaceDisplacement};
-use super::radial::{KernelLattice, RadialKernels};
+use super::radial::{KernelLattice, KernelSource, RadialKernels};
 
 /// Kernels of `C` components: what unit pressure on a cell does under another, and unit shear along x and y. Values over
 /// offsets `i, j >= 0` from the loaded cell to the point; of periodic scenes, over indices of wavenumbers.
@@ -54,35 +55,42 @@ pub(super) struct Tables<Q, const N: usize> {
 
 impl<Q: Quartets<N>, const N: usize> Tables<Q, N> {
     pub(super) fn new(response: &impl WaveResponse, cells: [usize; 2], spacing: [f64; 2]) -> Self {
-        let depth = response.depth();
-        let greatest = diagonal(cells, spacing);
-        let least = 0.5 * spacing[0].min(spacing[1]);
-        if spacing[0] != spacing[1] {
-            return Self::near_only(response, cells, spacing);
-        }
+        let is_square = spacing[0] == spacing[1];
+        Self::of(response, cells, spacing, is_square)
+    }
+
+    /// All cells as if they were near.
+    #[cfg(test)]
+    pub(super) fn near_only(response: &impl WaveResponse, cells: [usize; 2], spacing: [f64; 2]) -> Self {
+        Self::of(response, cells, spacing, false)
+    }
+
+    fn of(response: &impl WaveResponse, cells: [usize; 2], spacing: [f64; 2], with_far: bool) -> Self {
+        let (depth, greatest) = (response.depth(), diagonal(cells, spacing));
+        let near = 0.5 * spacing[0].min(spacing[1]);
+        let least = if with_far && depth >= FAR * spacing[0] { LEAST * spacing[0] } else { near };
+        let source: Box<dyn KernelSource<Q, N>> = match response.constant() {
+            Some(transfer) => {
+                Box::new(ConstantKernels::new(Q::LIST.map(|quartet| quartet.lanes(1.0, &transfer)), least))
+            }
+            None => Box::new(KernelLattice::new::<Q, N>(response, least, greatest)),
+        };
         let quartets = PhantomData;
+        if !with_far {
+            return Self { near: Some(source.points(greatest)), far: None, depth, spacing, quartets };
+        }
         let side = spacing[0];
         let edge = FAR * side;
         if depth >= edge {
-            let lattice = KernelLattice::new::<Q, N>(response, LEAST * side, greatest);
-            let far = lattice.filtered::<Q, N>(LEAST * side, greatest, side);
+            let far = source.filtered(least, greatest, side);
             return Self { near: None, far: Some(far), depth, spacing, quartets };
         }
         // centres of near cells lie within this radius; Gauss points less than a side farther, of the five less nearer
         let radius = ((edge - depth) * (edge + depth)).sqrt();
-        let lattice = KernelLattice::new::<Q, N>(response, least, greatest);
-        let near = lattice.points::<Q, N>((radius + side).min(greatest));
+        let near = source.points((radius + side).min(greatest));
         let far = (radius < greatest)
-            .then(|| lattice.filtered::<Q, N>((radius - LEAST * side - side).max(least), greatest, side));
+            .then(|| source.filtered((radius - LEAST * side - side).max(least), greatest, side));
         Self { near: Some(near), far, depth, spacing, quartets }
-    }
-
-    /// All cells as if they were near.
-    pub(super) fn near_only(response: &impl WaveResponse, cells: [usize; 2], spacing: [f64; 2]) -> Self {
-        let least = 0.5 * spacing[0].min(spacing[1]);
-        let greatest = diagonal(cells, spacing);
-        let near = KernelLattice::new::<Q, N>(response, least, greatest).points::<Q, N>(greatest);
-        Self { near: Some(near), far: None, depth: response.depth(), spacing, quartets: PhantomData }
     }
 
     /// Whether the rule of five points serves a cell.

@@ -29,7 +29,7 @@ pub(super) const LEAST: f64 = 0.36;
 
 /// Coefficients of the filter in powers of `(k side)^2`: the exponential of the mean over all directions of
 /// `log(sinc sinc) - log(five points)`, as a power series.
-const FILTER: [f64; 7] = [
+pub(super) const FILTER: [f64; 7] = [
     1.0,
     -0.011_052_102_802_974_133,
     8.866_915_132_475_21e-6,

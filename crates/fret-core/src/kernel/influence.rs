@@ -51,7 +51,7 @@ pub struct InfluenceCoefficients {
 
 /// Influence coefficients of a pair for offsets up to `cells - 1` on a grid of the given `spacing` \[length\].
 ///
-/// The radial kernels of the whole stack are tabulated once and integrated over cells by Gauss rules whose number of points
+/// The radial kernels of the whole stack (of homogeneous bodies in closed form) are tabulated once and integrated over cells by Gauss rules whose number of points
 /// depends on distance over side alone, far square cells by five points; no step depends on the thickness or the stiffness of the coatings. Error about 1e-14
 /// of `zz` at the same offset for contrasts 1e-1 to 1e6, 1e-12 for coatings 1e4 times softer, 1e-10 at 1e6 times. On a rigid
 /// base the coefficients fall exponentially and keep 1e-15 of the own cell's value.

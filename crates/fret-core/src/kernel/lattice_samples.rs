@@ -12,6 +12,10 @@ use super::pair_response::PairResponse;
 pub(crate) trait WaveResponse: Sync {
     /// The answer at a wavenumber.
     fn transfer<T: Wavenumber>(&self, k: T) -> Transfer<T>;
+    /// The answer at any wavenumber, where it does not depend on it.
+    fn constant(&self) -> Option<Transfer<f64>> {
+        None
+    }
     /// Longest length in the bodies: far beyond it the answer is that of a homogeneous one.
     fn longest_length(&self) -> f64;
     /// Depth of the point, 0 at the surface \[length\].
@@ -48,6 +52,10 @@ impl WaveResponse for PairResponse {
             in_plane_shear: zero,
             sideways: tt,
         }
+    }
+
+    fn constant(&self) -> Option<Transfer<f64>> {
+        Self::constant(self).map(|_| self.transfer(1.0))
     }
 
     fn longest_length(&self) -> f64 {

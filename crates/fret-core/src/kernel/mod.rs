@@ -28,6 +28,7 @@ mod cell_rules;
 mod cells;
 #[cfg(test)]
 mod closed_form;
+mod constant_kernels;
 mod datum;
 mod far_cells;
 mod hankel_lattice;

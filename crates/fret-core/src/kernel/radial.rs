@@ -259,6 +259,15 @@ impl<const N: usize> WithSimd for Interpolated<'_, N> {
     }
 }
 
+/// What tables of kernels are made from.
+pub(super) trait KernelSource<Q: Quartets<N>, const N: usize> {
+    /// Kernels of points from the least radius to `greatest`, and their integrals over the disc of the least radius.
+    fn points(&self, greatest: f64) -> RadialKernels<N>;
+
+    /// Kernels filtered for the rule of five points on cells of a side, and their values right under the load.
+    fn filtered(&self, least: f64, greatest: f64, side: f64) -> RadialKernels<N>;
+}
+
 /// A response on the lattice, from which tables of kernels are made.
 pub(crate) struct KernelLattice<'a> {
     samples: LatticeSamples<'a>,
@@ -296,25 +305,6 @@ impl<'a> KernelLattice<'a> {
         }
     }
 
-    /// Kernels of points from the least radius to `greatest`, and their integrals over the disc of the least radius.
-    pub(crate) fn points<Q: Quartets<N>, const N: usize>(&self, greatest: f64) -> RadialKernels<N> {
-        let lattice = LatticeKernels::new::<Q>(&self.samples, |_| 1.0, |_| Complex::one());
-        let panels = self.panels::<Q, N>(&lattice, self.radius, greatest);
-        RadialKernels { panels, innermost: lattice.over_disc(self.radius) }
-    }
-
-    /// Kernels filtered for the rule of five points on cells of a side, and their values right under the load.
-    pub(crate) fn filtered<Q: Quartets<N>, const N: usize>(
-        &self,
-        least: f64,
-        greatest: f64,
-        side: f64,
-    ) -> RadialKernels<N> {
-        let lattice = LatticeKernels::new::<Q>(&self.samples, |k| filter(k * side), |k| filter(k * side));
-        let panels = self.panels::<Q, N>(&lattice, least, greatest);
-        RadialKernels { panels, innermost: lattice.at_centre(&self.samples) }
-    }
-
     fn panels<Q: Quartets<N>, const N: usize>(
         &self,
         lattice: &LatticeKernels<'_, N>,
@@ -341,6 +331,20 @@ impl<'a> KernelLattice<'a> {
     }
 }
 
+impl<Q: Quartets<N>, const N: usize> KernelSource<Q, N> for KernelLattice<'_> {
+    fn points(&self, greatest: f64) -> RadialKernels<N> {
+        let lattice = LatticeKernels::new::<Q>(&self.samples, |_| 1.0, |_| Complex::one());
+        let panels = self.panels::<Q, N>(&lattice, self.radius, greatest);
+        RadialKernels { panels, innermost: lattice.over_disc(self.radius) }
+    }
+
+    fn filtered(&self, least: f64, greatest: f64, side: f64) -> RadialKernels<N> {
+        let lattice = LatticeKernels::new::<Q>(&self.samples, |k| filter(k * side), |k| filter(k * side));
+        let panels = self.panels::<Q, N>(&lattice, least, greatest);
+        RadialKernels { panels, innermost: lattice.at_centre(&self.samples) }
+    }
+}
+
 /// Radial kernels, tabulated in `r^2` so that cells need no root and no angle, each over `r^n`, n being its Bessel order.
 #[derive(Clone, Debug)]
 pub(crate) struct RadialKernels<const N: usize> {
@@ -349,6 +353,11 @@ pub(crate) struct RadialKernels<const N: usize> {
 }
 
 impl<const N: usize> RadialKernels<N> {
+    /// Of a table and what is known right under the load.
+    pub(super) fn new(panels: Panels<N>, innermost: [Lanes; N]) -> Self {
+        Self { panels, innermost }
+    }
+
     /// The kernels over `r^n` at the square of the distance.
     #[inline(always)]
     pub(crate) fn at_square<S: Simd>(&self, square: f64) -> [Lanes; N] {
@@ -356,7 +365,7 @@ impl<const N: usize> RadialKernels<N> {
     }
 
     /// What is known right under the load, zero for kernels that are not of order 0: integrals over the disc of
-    /// [`KernelLattice::points`], values of [`KernelLattice::filtered`].
+    /// [`KernelSource::points`], values of [`KernelSource::filtered`].
     pub(crate) fn innermost(&self) -> [Lanes; N] {
         self.innermost
     }

@@ -2,10 +2,10 @@
 
 use serde::Serialize;
 
-use super::errors::{Errors, Form};
+use super::errors::Errors;
 use super::level::Level;
 use super::quantities::Quantity;
-use super::reference::Reference;
+use super::reference::{Reference, has_order};
 use super::resolutions::{Kind, Place, Resolutions};
 
 /// Cells and increments for an accuracy of every quantity of interest.
@@ -23,6 +23,12 @@ pub struct Advice {
 
 /// Beyond so many times the finest count nothing is concluded.
 const FARTHEST: f64 = 8.0;
+/// Least order that is extrapolated.
+const LEAST_ORDER: f64 = 0.2;
+/// Scatter of an area over the cells in its radius: an oval laid on a lattice covers a number of its points that differs from its
+/// area by the root of its radius in the mean square, relative to the area by this power (D. G. Kendall 1948, On the number of
+/// lattice points inside a random oval).
+const SCATTER: f64 = 1.5;
 
 /// Numbers of cells and increments whose errors each take half of `accuracy`. Cells are judged by the reference, increments by
 /// their own limit at the most cells, so that the error of the cells does not hide in it.
@@ -34,27 +40,35 @@ pub fn advice<'a>(
 ) -> Advice {
     let cells_line = resolutions.line(Kind::Cells);
     let increments_line = resolutions.line(Kind::Increments);
-    let worst = |place: Place| judged(place).and_then(|errors| errors.worst(Form::Between));
     let alone = limit_of_increments(resolutions, level);
-    let by_increments =
-        |place: Place| super::errors::errors(alone.as_ref()?, level(place)?, None).worst(Form::Between);
-    let (cells, beyond_cells) = choose(
+    let by_increments = |place: &Place| Some(super::errors::errors(alone.as_ref()?, level(*place)?, None));
+    let cells = choose(
         &cells_line.iter().map(|[i, ..]| resolutions.cells[*i][0]).collect::<Vec<_>>(),
-        &cells_line.iter().map(|place| worst(*place)).collect::<Vec<_>>(),
+        &cells_line.iter().map(|place| between(judged(*place).as_ref())).collect::<Vec<_>>(),
+        Kind::Cells,
         accuracy / 2.0,
-        judged(resolutions.finest()).is_some_and(|errors| areas(&errors) > accuracy / 2.0),
     );
-    let (increments, beyond_increments) = choose(
+    let increments = choose(
         &increments_line.iter().map(|[_, j, _]| largest(&resolutions.increments[*j])).collect::<Vec<_>>(),
-        &increments_line.iter().map(|place| by_increments(*place)).collect::<Vec<_>>(),
+        &increments_line.iter().map(|place| between(by_increments(place).as_ref())).collect::<Vec<_>>(),
+        Kind::Increments,
         accuracy / 2.0,
-        false,
     );
-    Advice { accuracy, cells, increments, concluded: beyond_cells || beyond_increments }
+    Advice {
+        accuracy,
+        cells: cells.map(|choice| choice.count),
+        increments: increments.map(|choice| choice.count),
+        concluded: cells.iter().chain(&increments).any(|choice| choice.is_beyond),
+    }
 }
 
 fn largest(counts: &[usize]) -> usize {
     counts.iter().copied().max().unwrap_or(1)
+}
+
+/// Errors of the quantities of interest; none of a level that was not solved.
+fn between(errors: Option<&Errors>) -> [Option<f64>; 6] {
+    errors.map_or([None; 6], |errors| errors.between)
 }
 
 /// The limit along the increments alone, at the most cells.
@@ -71,40 +85,63 @@ fn limit_of_increments<'a>(
     Reference::limit(&alone, &|[_, j, _]: Place| level([i, j, k]))
 }
 
-/// Largest error of the areas. Their error over the cells has no order: it depends on where the edge lies between cell centres.
-fn areas(errors: &Errors) -> f64 {
-    let of = |quantity: Quantity| errors.of(Form::Between)[quantity as usize].unwrap_or(0.0);
-    of(Quantity::ContactArea).max(of(Quantity::StickArea))
+/// A count, and whether it lies beyond those of the study.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Choice {
+    count: usize,
+    is_beyond: bool,
 }
 
-/// The smallest count from which on the errors stay within a bound. Beyond the counts it is extrapolated from the order of the last
-/// two, unless the errors are `without_order`.
-fn choose(
-    counts: &[usize],
-    errors: &[Option<f64>],
-    bound: f64,
-    without_order: bool,
-) -> (Option<usize>, bool) {
-    let within = |error: &Option<f64>| error.is_some_and(|error| error <= bound);
-    let good = errors.iter().rev().take_while(|error| within(error)).count();
-    if good > 0 {
-        return (Some(counts[counts.len() - good]), false);
-    }
-    if without_order {
-        return (None, false);
+/// The smallest count from which on the errors of every quantity stay within a bound; `None` when one of them is not seen to get
+/// there. `errors` of the counts from coarse to fine.
+fn choose(counts: &[usize], errors: &[[Option<f64>; 6]], kind: Kind, bound: f64) -> Option<Choice> {
+    let known = |quantity: &Quantity| errors.iter().any(|errors| errors[*quantity as usize].is_some());
+    let of = |quantity: Quantity| {
+        let errors: Vec<Option<f64>> = errors.iter().map(|errors| errors[quantity as usize]).collect();
+        let converges = has_order(quantity, kind) && errors.last().is_some_and(Option::is_some);
+        if converges { by_order(counts, &errors, bound) } else { by_scatter(counts, &errors, bound) }
+    };
+    let choices: Option<Vec<Choice>> = Quantity::ALL.into_iter().filter(known).map(of).collect();
+    choices?.into_iter().max_by_key(|choice| choice.count)
+}
+
+/// The choice for errors that converge: within the counts as it was seen, beyond them from the order of the last two.
+fn by_order(counts: &[usize], errors: &[Option<f64>], bound: f64) -> Option<Choice> {
+    if let Some(count) = within(counts, errors, bound) {
+        return Some(Choice { count, is_beyond: false });
     }
     let [.., (n0, Some(e0)), (n1, Some(e1))] =
         counts.iter().zip(errors.iter().copied()).collect::<Vec<_>>()[..]
     else {
-        return (None, false);
+        return None;
     };
     let order = (e0 / e1).ln() / (*n1 as f64 / *n0 as f64).ln();
-    if !(order.is_finite() && order > 0.2) {
-        return (None, false);
+    if !(order.is_finite() && order > LEAST_ORDER) {
+        return None;
     }
     let wanted = *n1 as f64 * (e1 / bound).powf(order.min(2.0).recip());
-    let is_near = wanted <= FARTHEST * *n1 as f64;
-    (is_near.then(|| (wanted / 8.0).ceil() as usize * 8), is_near)
+    let count = (wanted / 8.0).ceil() as usize * 8;
+    (wanted <= FARTHEST * *n1 as f64).then_some(Choice { count, is_beyond: true })
+}
+
+/// The choice for errors that scatter, and for those of a quantity whose finest level is its own reference: a count may be right by
+/// chance, so it also answers for the error of the one before, less what finer cells take off its scatter. Nothing is extrapolated.
+fn by_scatter(counts: &[usize], errors: &[Option<f64>], bound: f64) -> Option<Choice> {
+    let answered: Vec<Option<f64>> = (0..counts.len())
+        .map(|k| {
+            let before = k.checked_sub(1).and_then(|before| {
+                Some(errors[before]? * (counts[before] as f64 / counts[k] as f64).powf(SCATTER))
+            });
+            [errors[k], before].into_iter().flatten().reduce(f64::max)
+        })
+        .collect();
+    within(counts, &answered, bound).map(|count| Choice { count, is_beyond: false })
+}
+
+/// The smallest count from which on errors stay within a bound.
+fn within(counts: &[usize], errors: &[Option<f64>], bound: f64) -> Option<usize> {
+    let good = errors.iter().rev().take_while(|error| error.is_some_and(|error| error <= bound)).count();
+    (good > 0).then(|| counts[counts.len() - good])
 }
 
 /// Which of some levels are efficient: none is both quicker and closer. Points are time and error.
@@ -121,7 +158,9 @@ pub fn frontier(points: &[(f64, Option<f64>)]) -> Vec<bool> {
 
 #[cfg(test)]
 mod tests {
-    use super::{choose, frontier};
+    use super::{Choice, by_order, choose, frontier};
+    use crate::study::quantities::Quantity;
+    use crate::study::resolutions::Kind;
 
     #[test]
     fn the_frontier_holds_what_nothing_beats() {
@@ -133,11 +172,47 @@ mod tests {
     fn counts_are_chosen_from_the_ladder_and_concluded_beyond_it() {
         let counts = [16, 32, 64];
         let errors = [Some(0.04), Some(0.01), Some(0.0025)];
-        assert_eq!(choose(&counts, &errors, 0.01, false), (Some(32), false));
-        assert_eq!(choose(&counts, &errors, 0.0025 / 4.0, false), (Some(128), true)); // second order
-        assert_eq!(choose(&counts, &errors, 1e-7, false), (None, false)); // 10119 cells: too far from 64
-        assert_eq!(choose(&counts, &errors, 0.01, true), (Some(32), false)); // seen, not extrapolated
-        assert_eq!(choose(&counts, &errors, 0.0025 / 4.0, true), (None, false));
-        assert_eq!(choose(&counts, &[Some(0.01), Some(0.001), Some(0.02)], 0.01, false), (None, false));
+        let seen = |count| Some(Choice { count, is_beyond: false });
+        assert_eq!(by_order(&counts, &errors, 0.01), seen(32));
+        let beyond = Some(Choice { count: 128, is_beyond: true });
+        assert_eq!(by_order(&counts, &errors, 0.0025 / 4.0), beyond); // second order
+        assert_eq!(by_order(&counts, &errors, 1e-7), None); // 10119 cells: too far from 64
+        assert_eq!(by_order(&counts, &[Some(0.01), Some(0.001), Some(0.02)], 0.01), None);
+        assert_eq!(by_order(&counts, &[Some(0.01), Some(0.01), Some(0.01)], 0.005), None); // no order
+    }
+
+    /// The area of 32 cells is right by chance (as that of a coated sphere is: 5e-7 between 1e-3 and 1e-4): no order of 11, and no
+    /// count for what its neighbours miss.
+    #[test]
+    fn an_area_that_is_right_by_chance_is_neither_trusted_nor_extrapolated() {
+        let counts = [16, 32, 64];
+        let area = Quantity::ContactArea as usize;
+        let of = |areas: [f64; 3]| {
+            areas.map(|error| {
+                let mut errors = [None; 6];
+                errors[Quantity::MaxPressure as usize] = Some(1e-9);
+                errors[area] = Some(error);
+                errors
+            })
+        };
+        let chance = of([1e-3, 1.1e-3, 5e-7]);
+        assert_eq!(choose(&counts, &chance, Kind::Cells, 5e-5), None); // 1.1e-3 / 2^1.5 is not within it
+        assert_eq!(choose(&counts, &chance, Kind::Cells, 5e-4), Some(Choice { count: 64, is_beyond: false }));
+        assert_eq!(choose(&counts, &of([4e-2, 1e-2, 2.5e-3]), Kind::Cells, 1e-3), None);
+        // What increments change on one grid has an order.
+        let beyond = Some(Choice { count: 128, is_beyond: true });
+        assert_eq!(choose(&counts, &of([4e-2, 1e-2, 2.5e-3]), Kind::Increments, 2.5e-3 / 4.0), beyond);
+    }
+
+    /// A quantity whose finest level is its own reference: the error of that level is not zero but unknown.
+    #[test]
+    fn a_level_that_is_its_own_reference_answers_for_the_one_before() {
+        let counts = [16, 32, 64];
+        let mut errors = [[None; 6]; 3];
+        for (errors, shift) in errors.iter_mut().zip([Some(1e-3), Some(1e-3), None]) {
+            errors[Quantity::Shift as usize] = shift;
+        }
+        assert_eq!(choose(&counts, &errors, Kind::Cells, 1e-4), None);
+        assert_eq!(choose(&counts, &errors, Kind::Cells, 4e-4), Some(Choice { count: 64, is_beyond: false }));
     }
 }

@@ -30,7 +30,7 @@ impl Form {
 
 /// Errors of a level: of each quantity of interest the largest at the end of any stage, relative to the largest reference value of all
 /// ends (the stick area: to the contact area); of the fields the mean square over the cells at the end of the history.
-/// `None` where nothing is known or nothing happens.
+/// `None` where nothing is known, where nothing happens, and where a level is compared with itself.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Errors {
     /// As the cells have the numbers.
@@ -55,6 +55,11 @@ impl Errors {
         }
     }
 
+    /// Error of a quantity of interest, read between the cells.
+    pub fn of_quantity(&self, quantity: Quantity) -> Option<f64> {
+        self.between[quantity as usize]
+    }
+
     /// The worst quantity of interest of a form.
     pub fn worst(&self, form: Form) -> Option<f64> {
         self.of(form).iter().flatten().copied().reduce(f64::max)
@@ -64,7 +69,10 @@ impl Errors {
 /// Errors of a level; `coarser` is the level of half the cells, when there is one.
 pub fn errors(reference: &Reference, level: &Level, coarser: Option<&Level>) -> Errors {
     let judged = |reading: &dyn Fn(usize, Quantity) -> [f64; 2]| {
-        Quantity::ALL.map(|quantity| error(reference, quantity, level.ends.len(), reading))
+        Quantity::ALL.map(|quantity| {
+            (!reference.is_itself(quantity, level))
+                .then(|| error(reference, quantity, level.ends.len(), reading))?
+        })
     };
     let extrapolated = coarser.map_or([None; 6], |coarser| {
         judged(&|end, quantity| match coarser.ends.get(end) {

@@ -3,25 +3,28 @@
 /// Bounds on a plausible order.
 const ORDERS: [f64; 2] = [0.5, 4.0];
 
+/// Relative steps below this are rounding: the values have no limit but themselves.
+const ROUNDING: f64 = 1e-12;
+
 /// What is still missing from the last of `values` at resolutions `counts` (both from coarse to fine): `limit - last`. The order
-/// is that of the last three when they shrink from one side; else the `known` one, and where none is known nothing is added. Of
-/// two values an unknown order is taken to be the first.
-pub fn still_missing(counts: &[f64], values: &[f64], known: Option<f64>) -> f64 {
+/// is that of the last three when they shrink from one side; else the `known` one. Of two values an unknown order is taken to be
+/// the first. `None` where there is no order, nor a second value: the limit is unknown.
+pub fn still_missing(counts: &[f64], values: &[f64], known: Option<f64>) -> Option<f64> {
     let n = counts.len().min(values.len());
     if n < 2 {
-        return 0.0;
+        return None;
     }
     let step = values[n - 1] - values[n - 2];
     let ratio = counts[n - 1] / counts[n - 2];
+    if step.abs() <= ROUNDING * values[n - 1].abs() {
+        return Some(0.0);
+    }
     let order = if n == 2 {
         known.or(Some(1.0))
     } else {
         shown_order(&counts[n - 3..n], &values[n - 3..n]).or(known)
     };
-    match order {
-        Some(order) if ratio > 1.0 => step / (ratio.powf(order) - 1.0),
-        _ => 0.0,
-    }
+    order.filter(|_| ratio > 1.0).map(|order| step / (ratio.powf(order) - 1.0))
 }
 
 /// The order three values show; none when they do not shrink from one side. Exact where both ratios are alike.
@@ -44,20 +47,21 @@ mod tests {
         for order in [0.5_f64, 1.0, 1.5, 2.0] {
             let counts = [8.0_f64, 16.0, 32.0];
             let values = counts.map(|n| 3.0 + 5.0 * n.powf(-order));
-            let limit = values[2] + still_missing(&counts, &values, None);
+            let limit = values[2] + still_missing(&counts, &values, None).unwrap();
             assert!((limit - 3.0).abs() < 1e-12, "{order}: {limit}");
-            let two = values[2] + still_missing(&counts[1..], &values[1..], Some(order));
+            let two = values[2] + still_missing(&counts[1..], &values[1..], Some(order)).unwrap();
             assert!((two - 3.0).abs() < 1e-12, "{order}: {two}");
         }
     }
 
     #[test]
-    fn what_does_not_shrink_is_left_alone() {
+    fn what_does_not_shrink_has_no_limit() {
         let counts = [8.0, 16.0, 32.0];
-        for values in [[1.0, 2.0, 1.5], [1.0, 2.0, 4.0], [1.0, 1.0, 1.0]] {
-            assert_eq!(still_missing(&counts, &values, None), 0.0);
+        for values in [[1.0, 2.0, 1.5], [1.0, 2.0, 4.0]] {
+            assert_eq!(still_missing(&counts, &values, None), None);
         }
-        assert_eq!(still_missing(&counts[..1], &[1.0], Some(2.0)), 0.0);
-        assert_eq!(still_missing(&counts, &[1.0, 2.0, 2.75], Some(2.0)), 0.25); // they show 0.4: taken as scatter
+        assert_eq!(still_missing(&counts[..1], &[1.0], Some(2.0)), None);
+        assert_eq!(still_missing(&counts, &[1.0, 2.0, 2.75], Some(2.0)), Some(0.25)); // they show 0.4: taken as scatter
+        assert_eq!(still_missing(&counts, &[1.0, 1.0, 1.0 + 1e-15], None), Some(0.0));
     }
 }

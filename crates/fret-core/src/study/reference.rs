@@ -60,7 +60,8 @@ impl Reference {
         Self { numbers: Quantity::ALL.map(of), form: None, finest: Some(Fields::of(finest)) }
     }
 
-    /// The limit a solved study is heading for; for the fields, its finest level. `level` gives the level at a place.
+    /// The limit a solved study is heading for; for the fields, and for quantities that show no limit, its finest level. `level`
+    /// gives the level at a place.
     pub fn limit<'a>(resolutions: &Resolutions, level: &impl Fn(Place) -> Option<&'a Level>) -> Option<Self> {
         let finest = level(resolutions.finest())?;
         let mut reference = Self::finest(finest);
@@ -75,9 +76,10 @@ impl Reference {
             (kind, counts, levels)
         });
         for (quantity, (values, source)) in Quantity::ALL.iter().zip(&mut reference.numbers) {
+            let mut shows_a_limit = false;
             for (end, value) in values.iter_mut().enumerate() {
                 let Some(value) = value else { continue };
-                for (kind, counts, levels) in &lines {
+                for (kind, counts, levels) in lines.iter().filter(|(kind, ..)| has_order(*quantity, *kind)) {
                     let order = known_order(*quantity, *kind);
                     for (axis, part) in value.iter_mut().enumerate() {
                         let along: Vec<f64> = levels
@@ -85,11 +87,16 @@ impl Reference {
                             .filter_map(|level| level.ends.get(end))
                             .map(|end: &StageQuantities| end.between(*quantity)[axis])
                             .collect();
-                        *part += still_missing(counts, &along, order);
+                        if let Some(missing) = still_missing(counts, &along, order) {
+                            *part += missing;
+                            shows_a_limit |= along.iter().any(|value| *value != 0.0);
+                        }
                     }
                 }
             }
-            *source = Source::Limit;
+            if shows_a_limit {
+                *source = Source::Limit;
+            }
         }
         Some(reference)
     }
@@ -170,6 +177,11 @@ impl Reference {
         relative([(&level.shear[0], &exact[0]), (&level.shear[1], &exact[1])])
     }
 
+    /// Whether a quantity of a level is compared with itself.
+    pub(super) fn is_itself(&self, quantity: Quantity, level: &Level) -> bool {
+        self.numbers[quantity as usize].1 == Source::Finest && self.is_own(level)
+    }
+
     /// Whether the fields are this level's own.
     fn is_own(&self, level: &Level) -> bool {
         self.finest
@@ -191,6 +203,13 @@ fn known_order(quantity: Quantity, kind: Kind) -> Option<f64> {
         (Quantity::MaxPressure | Quantity::Approach, Kind::Cells) => Some(2.0),
         _ => None,
     }
+}
+
+/// Whether a quantity has an order in what is refined. Areas have none over the cells: it depends on where the edge lies between the
+/// centres of cells, and scatters.
+pub(super) fn has_order(quantity: Quantity, kind: Kind) -> bool {
+    let is_area = matches!(quantity, Quantity::ContactArea | Quantity::StickArea);
+    !(is_area && matches!(kind, Kind::Cells | Kind::Together))
 }
 
 /// `|a - b| / |b|` over the cells of all pairs; `None` where there is nothing to compare with.

@@ -5,7 +5,8 @@ use serde::Serialize;
 use super::advice::{Advice, advice, frontier};
 use super::errors::{Errors, Form, errors, orders};
 use super::level::Level;
-use super::reference::Reference;
+use super::quantities::Quantity;
+use super::reference::{Reference, Source, has_order};
 use super::resolutions::{Kind, Place, Resolutions};
 
 /// A solved study. Levels that could not be solved are missing; without the finest one there is nothing to judge by.
@@ -22,7 +23,8 @@ pub struct Judged {
     pub place: Place,
     /// Its errors.
     pub errors: Errors,
-    /// Orders its quantities of interest, read between the cells, show against the level before it in the line.
+    /// Orders its quantities of interest, read between the cells, show against the level before it in the line; areas have none
+    /// over the cells.
     pub orders: [Option<f64>; 6],
     /// The same of pressure and shear in the mean square.
     pub field_orders: [Option<f64>; 2],
@@ -106,11 +108,13 @@ impl RefinementStudy {
             let along = |error: &dyn Fn(&Errors) -> Option<f64>| {
                 orders(&counts, &solved.iter().map(|k| error(&all[*k].1)).collect::<Vec<_>>())
             };
-            let of_numbers: [_; 6] = std::array::from_fn(|number| along(&|errors| errors.between[number]));
+            let of_numbers = Quantity::ALL.map(|quantity| {
+                along(&|errors| errors.of_quantity(quantity).filter(|_| has_order(quantity, kind)))
+            });
             let of_fields = [along(&|errors| errors.pressure), along(&|errors| errors.shear)];
             let judged = |(row, k): (usize, &usize)| Judged {
                 place: all[*k].0,
-                errors: all[*k].1,
+                errors: self.shown(reference, kind, &all[*k]),
                 orders: std::array::from_fn(|number| of_numbers[number][row]),
                 field_orders: [0, 1].map(|field| of_fields[field][row]),
                 is_efficient: [0, 1, 2].map(|form| efficient[form][*k]),
@@ -118,6 +122,23 @@ impl RefinementStudy {
             Line { kind, levels: solved.iter().enumerate().map(judged).collect() }
         };
         Kind::ALL.into_iter().map(line).filter(|line| line.levels.len() > 1).collect()
+    }
+
+    /// The errors of a level as its line shows them: without those of quantities that have no order in what the line refines and
+    /// whose reference is therefore of the same resolution.
+    fn shown(&self, reference: &Reference, kind: Kind, (place, errors): &(Place, Errors)) -> Errors {
+        let is_finest =
+            self.resolutions.cells[place[0]] == self.resolutions.cells[self.resolutions.finest()[0]];
+        let mut shown = *errors;
+        for quantity in Quantity::ALL {
+            let is_from_study = matches!(reference.source(quantity), Some(Source::Limit | Source::Finest));
+            if is_finest && is_from_study && !has_order(quantity, kind) {
+                for form in [&mut shown.plain, &mut shown.between, &mut shown.extrapolated] {
+                    form[quantity as usize] = None;
+                }
+            }
+        }
+        shown
     }
 
     /// What to choose for an accuracy of every quantity of interest.

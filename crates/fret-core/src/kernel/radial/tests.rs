@@ -10,8 +10,8 @@ use serde::Deserialize;
 impl RadialKernels<1> {
     /// Those of the surfaces of a pair, from `least` to `greatest` distance; `least` is also the radius of the disc.
     pub(crate) fn of_surface(pair: &PairResponse, least: f64, greatest: f64) -> Self {
-        KernelLattice::new::<SurfaceDisplacement, 1>(pair, least, greatest)
-            .points::<SurfaceDisplacement, 1>(greatest)
+        let lattice = KernelLattice::new::<SurfaceDisplacement, 1>(pair, least, greatest);
+        KernelSource::<SurfaceDisplacement, 1>::points(&lattice, greatest)
     }
 }
 
@@ -169,8 +169,8 @@ fn other_rays_and_steps_give_the_same_kernels() {
         let pair = PairResponse::new(&under_rigid(half_space.clone()));
         let standard = RadialKernels::of_surface(&pair, 0.01, 30.0);
         for (twin, tolerance) in &twins {
-            let other = KernelLattice::on::<SurfaceDisplacement, 1>(twin, &pair, 0.01, 30.0)
-                .points::<SurfaceDisplacement, 1>(30.0);
+            let other = KernelLattice::on::<SurfaceDisplacement, 1>(twin, &pair, 0.01, 30.0);
+            let other = KernelSource::<SurfaceDisplacement, 1>::points(&other, 30.0);
             for r in [0.012, 0.1, 0.5, 1.0, 3.0, 8.0, 25.0] {
                 let (one, two) = (at_radius(&standard, r), at_radius(&other, r));
                 // where the kernel has decayed, rounding of what the transform adds remains
