@@ -238,7 +238,9 @@ def threads() -> str:
              "line": "line contact, 4 + 96 increments"}  # fmt: skip
     rows = [
         [
-            f"{names[row['scene']]}, {row['cells']}" + ("" if row["scene"] == "line" else f" x {row['cells']}") + ("*" if "measured" in row else ""),
+            f"{names[row['scene']]}, {row['cells']}"
+            + ("" if row["scene"] == "line" else f" x {row['cells']}")
+            + ("*" if "measured" in row else ""),
             _seconds(row["one_s"]),
             _seconds(row["more_s"]),
             f"{row['one_s'] / row['more_s']:.2f}",
@@ -247,7 +249,9 @@ def threads() -> str:
         for row in of["rows"]
     ]
     head = ["run", "one thread [s]", "two threads [s]", "faster by", "two runs at once on one thread each: faster by"]
-    apart = sorted({f"{row['measured']['date']}, commit {row['measured']['commit']}" for row in of["rows"] if "measured" in row})
+    apart = sorted(
+        {f"{row['measured']['date']}, commit {row['measured']['commit']}" for row in of["rows"] if "measured" in row}
+    )
     return _table(head, rows, of) + (f"\n\n\\* {'; '.join(apart)}." if apart else "")
 
 

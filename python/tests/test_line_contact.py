@@ -109,7 +109,7 @@ def test_closed_forms_have_their_numbers() -> None:
 
 
 def test_a_history_of_a_line_contact_is_that_of_a_run() -> None:
-    """Another way: the program. 256 cells of second order; the energy of increments that are integrated to second order."""
+    """Another way: the program, of second order in 256 cells and in its increments."""
     line = analytic.hertz_line(radius=1.0, line_force=1e-4, modulus=1.0)
     assert line.half_width == pytest.approx(np.sqrt(4e-4 / np.pi), rel=1e-12)
     sliding = 0.4e-4

@@ -148,7 +148,8 @@ def line_history(
     along_axis : bool, optional
         Whether the forces act along the axis of the cylinder (antiplane), not across it.
     datum : float, optional
-        Depth below the surfaces of the points whose displacement is asked for [length], far greater than the half-width.
+        Depth below the surfaces of the points whose displacement is asked for [length], far greater than the
+        half-width.
 
     References
     ----------
