@@ -74,9 +74,11 @@ fn leaving_out_changes_the_work_and_not_the_answer() {
                     "{name}"
                 );
             }
-            // The same steps; what it saves is before them.
+            // The same steps, but for coefficients of other roundings, which may end a Krylov iteration one step later; what it saves
+            // is before them.
             Simplification::LayeredResponse => {
-                assert_eq!(least.convolutions, more.convolutions, "{name}");
+                let steps = [least, more].map(|work| work.convolutions as f64);
+                assert!((steps[0] / steps[1] - 1.0).abs() < 0.02, "{name}: {least:?} {more:?}");
                 let [plain, layered] = seconds_of_coefficients(&planned.case.bodies);
                 // Forty times by the documentation of the coefficients; the machine may do other things besides.
                 assert!(5.0 * plain < layered, "{name}: {plain:e} s, by layers {layered:e} s");

@@ -167,3 +167,44 @@ fn totals_count_every_cycle_that_a_computed_one_stands_for() {
         );
     }
 }
+
+/// A rigid sphere in gross slip wears its mark into the other body until pressure is even. The scar is then a cap of the sphere but for
+/// what even pressure `P/(pi a^2)` leaves the surface higher at the rim than within: `V = pi a^4/(4 R) - 4 P a/(3 pi E*)`, from the mean
+/// `16 p a/(3 pi E*)` and the rim `4 p a/(pi E*)` of the displacement under a loaded circle (Johnson 1985, Contact Mechanics, 3.3).
+#[test]
+fn a_scar_worn_far_in_gross_slip_is_a_cap_under_even_pressure() {
+    let (modulus, force, cells) = (4.0 / 3.0, 1e-7, 40_u32); // E = 1, nu = .5: no coupling; R = 1
+    let first = (0.75_f64 * force / modulus).cbrt();
+    let side = 4.0 * first * 2.3 / f64::from(cells);
+    let amplitude = 20.0 * first * first;
+    // 0.38 of the own displacement of a cell in a cycle: as fast as explicit steps may wear.
+    let coefficient = 0.38 * 1.122 * side / (modulus * 4.0 * amplitude);
+    let size = side * f64::from(cells);
+    let history = solved(&format!(
+        "[grid]\ncells = [{cells}, {cells}]\nsize = [{size:e}, {size:e}]\n[upper]\nrigid = true\n[lower]\n\
+         substrate = {{ young = 1.0, poisson = 0.5 }}\n[profile.sphere]\nradius = 1.0\n[friction]\ncoefficient = 0.5\n[wear]\n\
+         law = \"archard\"\ncoefficient = {coefficient:e}\nlargest_step = 1.0\n[[load]]\nnormal_force = {force:e}\nincrements = 1\n\
+         [[load]]\nshift = [{amplitude:e}, 0.0]\nincrements = 4\ncycles = 1500\n[output]\nfields = [\"pressure\", \"worn_depth\"]\n"
+    ));
+    let (last, fields) = (history.steps.last().unwrap(), history.fields.last().unwrap());
+    let radius = (last.contact_area / PI).sqrt();
+    let volume = fields.worn_depth.as_ref().unwrap().sum() * history.grid.cell_area();
+    let elastic = 4.0 * force * radius / (3.0 * PI * modulus);
+    let exact = PI * radius.powi(4) / 4.0 - elastic;
+    let even = force / last.contact_area;
+    let [mut least, mut most] = [f64::INFINITY, 0.0_f64];
+    for p in fields.pressure.as_ref().unwrap().iter().filter(|p| **p > 0.0) {
+        (least, most) = (least.min(p / even), most.max(p / even));
+    }
+    println!(
+        "a {:.3} of the first, {:.1} cells; V {:.4}, without the elastic part {:.4}; p {least:.4} to {most:.4}",
+        radius / first,
+        radius / side,
+        volume / exact - 1.0,
+        volume / (exact + elastic) - 1.0
+    );
+    // The rim is where the cells end: to a tenth of a cell of 17, four times that of the volume.
+    assert!((volume / exact - 1.0).abs() < 0.024, "{volume:e} {exact:e}");
+    // What the mark has not yet worn off its first pressure, which was three times and a half the mean in the middle and none at the rim.
+    assert!(least > 0.98 && most < 1.02, "{least} {most}");
+}

@@ -4,6 +4,7 @@ use std::f64::consts::TAU;
 use std::fmt::Write;
 use std::path::PathBuf;
 
+use nalgebra::{DMatrix, DVector};
 use rand_pcg::Pcg64Mcg;
 use rand_pcg::rand_core::Rng;
 use rayon::prelude::{IntoParallelIterator, ParallelIterator};
@@ -164,14 +165,52 @@ fn noisy_loops_in_gross_slip_give_their_constants_back() {
     }
 }
 
+/// Least standard deviations, relative, of any unbiased estimate of friction and stiffness from a log of the rig: Cramer and Rao's bound
+/// for noise along both axes and unknown offsets, drift and amplitude, by differences of the closed form.
+fn least_scatter(rig: Rig) -> [f64; 2] {
+    let step = 1e-5;
+    let peak = rig.force_at(rig.amplitude);
+    let of = |rig: &Rig, sign: f64, place: f64| {
+        sign * (rig.force_at(rig.amplitude)
+            - 2.0 * rig.force_at(0.5 * (rig.amplitude - sign * place).max(0.0)))
+    };
+    let mut information = DMatrix::zeros(6, 6);
+    for k in 0..rig.points {
+        let time = k as f64 / rig.points as f64;
+        let sign = if time < 0.5 { 1.0 } else { -1.0 };
+        let place = rig.amplitude * if time < 0.5 { 1.0 - 4.0 * time } else { 4.0 * time - 3.0 };
+        let central = |changed: &dyn Fn(f64) -> f64| (changed(step) - changed(-step)) / (2.0 * step);
+        let slope = central(&|by| of(&rig, sign, place + by * rig.amplitude)) / rig.amplitude;
+        let derivatives = DVector::from_vec(vec![
+            central(&|by| of(&Rig { friction: rig.friction * (1.0 + by), ..rig }, sign, place)),
+            central(&|by| of(&Rig { stiffness: rig.stiffness * (1.0 + by), ..rig }, sign, place)),
+            central(&|by| of(&Rig { amplitude: rig.amplitude * (1.0 + by), ..rig }, sign, place)),
+            peak,
+            slope * rig.amplitude,
+            slope * rig.amplitude * time,
+        ]);
+        let noise = rig.noise * peak.hypot(slope * rig.amplitude);
+        information += &derivatives * derivatives.transpose() / (noise * noise);
+    }
+    let covariance = information.try_inverse().unwrap();
+    [0, 1].map(|k| covariance[(k, k)].sqrt())
+}
+
 /// The promise of the intervals: 93 and 95 of 100 in partial slip, 98 and 92 in gross slip when this was written.
+///
+/// The errors are near the least that there can be ([`least_scatter`]): 2.4 % for friction in partial slip, whose loop says little of it.
+/// The median of a hundred errors, 0.67 of a standard deviation, is known to a tenth; three times that, and the error of 40 cells, are
+/// allowed above the bound.
 #[test]
 #[ignore = "long: two hundred identifications"]
 fn intervals_hold_the_truth_in_ninety_of_a_hundred_trials() {
     for rig in [PARTIAL, Rig { amplitude: 8e-3, ..PARTIAL }] {
-        for found in trials(rig, 100) {
+        for (found, bound) in trials(rig, 100).iter().zip(least_scatter(rig)) {
             let held = found.iter().filter(|trial| trial[0] <= 1.0).count();
+            let scatter = median(found, 1) / 0.6745;
+            println!("{held} held, {scatter:.4} of {bound:.4}");
             assert!(held >= 90, "{held}");
+            assert!(scatter <= 1.3 * bound + 1e-3, "{scatter} {bound}");
         }
     }
 }

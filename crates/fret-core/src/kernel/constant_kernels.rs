@@ -97,8 +97,7 @@ mod tests {
         let (least, greatest, side) = (0.5, 300.0, 1.0);
         let lattice = KernelLattice::new::<SurfaceDisplacement, 1>(&response, least, greatest);
         let constant = ConstantKernels::new([d], least);
-        type Source<'a> = &'a dyn KernelSource<SurfaceDisplacement, 1>;
-        let sources: [Source<'_>; 2] = [&lattice, &constant];
+        let sources: [&dyn KernelSource<SurfaceDisplacement, 1>; 2] = [&lattice, &constant];
         let points = sources.map(|source| source.points(greatest));
         let filtered = sources.map(|source| source.filtered(20.0, greatest, side));
         for [by_lattice, found] in [&points, &filtered] {

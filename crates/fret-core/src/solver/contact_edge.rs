@@ -9,6 +9,11 @@ use ndarray::{Array2, ArrayView2};
 /// The zero line of half-spaces lies this share of a cell inside the true edge (measured on Hertz contacts, confirmed on coated ones).
 const OFFSET: f64 = 0.024;
 
+/// A pressure that would reach zero only so many cells beyond its last one, in the median of the edges, though the next cell is open,
+/// ends in a step: of half-spaces it gets there within one cell, in contacts of three cells' radius within 1.7. So it is where wear
+/// has worn the pressure even, or down to the rim of what sticks.
+const STEP: f64 = 2.0;
+
 /// How pressure rises from the edge.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Rise {
@@ -97,16 +102,17 @@ pub fn level_function(
     gap: &ArrayView2<'_, f64>,
     beyond: f64,
 ) -> Option<Array2<f64>> {
-    level_of(Rise::ROOT, pressure, gap, beyond)
+    level_of(Rise::ROOT, pressure, gap, beyond).map(|(level, _)| level)
 }
 
-/// The level function of pressures that rise so.
+/// The level function of pressures that rise so, and how many cells beyond its last one pressure would reach zero, in the median of
+/// the edges.
 fn level_of(
     rise: Rise,
     pressure: &ArrayView2<'_, f64>,
     gap: &ArrayView2<'_, f64>,
     beyond: f64,
-) -> Option<Array2<f64>> {
+) -> Option<(Array2<f64>, f64)> {
     let (nx, ny) = pressure.dim();
     let near = near_the_contact(pressure);
     let value = |((&p, &gap), near): ((&f64, &f64), bool)| {
@@ -128,6 +134,7 @@ fn level_of(
     for four in level.windows(3 * ny + 1) {
         slopes.read([four[0], four[ny], four[2 * ny], four[3 * ny]]);
     }
+    let reach = median(&mut slopes.reaches)?;
     let kappa = slopes.ratio()?;
     let mut lowest = 0.0_f64;
     for value in &mut level {
@@ -139,7 +146,7 @@ fn level_of(
     for value in &mut level {
         *value = value.max(lowest);
     }
-    Array2::from_shape_vec((nx, ny), level).ok()
+    Some((Array2::from_shape_vec((nx, ny), level).ok()?, reach))
 }
 
 /// Slopes of both sides of the level function along grid lines across the edge.
@@ -147,6 +154,8 @@ fn level_of(
 struct Slopes {
     rises: Vec<f64>,
     falls: Vec<f64>,
+    /// Where the level inside would reach zero [cells beyond the last loaded one].
+    reaches: Vec<f64>,
 }
 
 impl Slopes {
@@ -160,6 +169,7 @@ impl Slopes {
         if b > 0.0 && is_open(c) && is_open(d) {
             self.rises.push((a - b).abs());
             self.falls.push((d - c).abs());
+            self.reaches.push(if a > b { b / (a - b) } else { f64::INFINITY });
         }
     }
 
@@ -197,13 +207,15 @@ fn spread(marks: &mut [bool], stride: usize, before: &mut [bool]) {
 }
 
 /// Contact area in units of one cell, from pressure and gap on a grid (or a box of it). Good to about 0.05 cells along the
-/// perimeter for smooth contacts, of half-spaces and of layers much thinner than a cell alike; a contact without an edge inside the grid is counted by cells.
+/// perimeter for smooth contacts, of half-spaces and of layers much thinner than a cell alike; a contact without an edge inside the
+/// grid, and one whose pressure ends in a step, are counted by cells.
 /// Where the gap is wider than `beyond`, a body has ended, at the border of the cell.
 pub fn contact_cells(pressure: &ArrayView2<'_, f64>, gap: &ArrayView2<'_, f64>, beyond: f64) -> f64 {
     let (nx, ny) = pressure.dim();
     let rise = Rise::of(pressure);
-    let Some(level) = level_of(rise, pressure, gap, beyond) else {
-        return pressure.iter().filter(|p| **p > 0.0).count() as f64;
+    let level = match level_of(rise, pressure, gap, beyond) {
+        Some((level, reach)) if reach <= STEP => level,
+        _ => return pressure.iter().filter(|p| **p > 0.0).count() as f64,
     };
     let kind = |(level, gap): (&f64, &f64)| match *level > 0.0 {
         _ if *gap > beyond => BEYOND,

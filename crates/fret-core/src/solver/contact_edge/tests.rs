@@ -230,3 +230,30 @@ fn a_median_is_the_upper_of_two() {
     assert_eq!(median(&mut [3.0, 1.0]), Some(3.0));
     assert_eq!(median(&mut [3.0, 1.0, 2.0]), Some(2.0));
 }
+
+/// Even pressure, pressure that rises to its edge (a punch), and hardly falling pressure over a gap that opens at once: cells are
+/// counted, in all directions of the grid. Half-spaces of three cells' radius, the worst place of the edge, are not.
+#[test]
+fn pressure_that_ends_in_a_step_is_counted_by_cells() {
+    let radius: f64 = 7.3;
+    let disc = |of: &dyn Fn(f64) -> f64| {
+        let at = |i: usize, j: usize| (i as f64 - 10.0).hypot(j as f64 - 10.0);
+        let pressure =
+            Array2::from_shape_fn((21, 21), |(i, j)| if at(i, j) < radius { of(at(i, j)) } else { 0.0 });
+        let gap = Array2::from_shape_fn((21, 21), |(i, j)| 0.1 * (at(i, j) - radius).max(0.0));
+        let cells = pressure.iter().filter(|p| **p > 0.0).count() as f64;
+        (contact_cells(&pressure.view(), &gap.view(), f64::INFINITY), cells)
+    };
+    for of in [&|_: f64| 1.0_f64, &|r: f64| 1.0 - 0.001 * r, &|r: f64| 1.0 / (64.0 - r * r).sqrt()]
+        as [&dyn Fn(f64) -> f64; 3]
+    {
+        let (found, cells) = disc(of);
+        assert_eq!(found, cells);
+    }
+    let hertz = |r: f64| (radius * radius - r * r).sqrt();
+    let (found, cells) = disc(&hertz);
+    assert!(
+        found != cells && (found / (std::f64::consts::PI * radius * radius) - 1.0).abs() < 0.02,
+        "{found}"
+    );
+}
