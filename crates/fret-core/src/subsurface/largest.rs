@@ -234,6 +234,7 @@ struct InPortion<'a>([&'a [f64]; 6]);
 impl WithSimd for InPortion<'_> {
     type Output = Portion;
 
+    #[expect(clippy::needless_range_loop, reason = "an index runs over several arrays at once")]
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) -> Portion {
         let n = self.0[0].len().min(PORTION);
