@@ -101,7 +101,7 @@ impl LaneProduct<f64> {
         let (width, count) = (set.width::<f64>(), product.kernel_count);
         transform.each_kernel(kernels, scale, |kernel, strips| {
             let all = product.kernels.as_mut_slice();
-            strips.into_parts(all, lengths[0] * count * width, |values, to| {
+            strips.each_part(all, lengths[0] * count * width, |values, to| {
                 let groups = to.chunks_exact_mut(4 * width).skip(kernel).step_by(count);
                 groups
                     .zip(values.chunks_exact(4 * width))

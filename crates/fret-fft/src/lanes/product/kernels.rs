@@ -120,7 +120,7 @@ impl Strips<'_> {
     }
 
     /// Hands out the values of each strip with its part of `to`, which has parts of `part_len`; on all threads.
-    pub fn into_parts(&mut self, to: &mut [f64], part_len: usize, take: impl Fn(&[f64], &mut [f64]) + Sync) {
+    pub fn each_part(&mut self, to: &mut [f64], part_len: usize, take: impl Fn(&[f64], &mut [f64]) + Sync) {
         let Self { columns, scratch, pieces } = self;
         let scratch = Scratch { numbers: &mut *scratch.numbers, piece_len: scratch.piece_len };
         divide(
