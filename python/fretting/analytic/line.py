@@ -130,7 +130,7 @@ def line_history(
     along_axis: bool = False,
     datum: float | None = None,
 ) -> LineHistory:
-    """Take a Hertz line contact through tangential forces, to and fro as they come.
+    """Take a Hertz line contact through tangential forces, in any order.
 
     Loops that close are forgotten (Masing's rule). For bodies that do not couple.
 

@@ -181,7 +181,7 @@ class TangentialHistory:
 def tangential_history(
     sphere: Hertz, *, friction_coefficient: float, shear_modulus: float, tangential_forces: npt.ArrayLike
 ) -> TangentialHistory:
-    """Take a Hertz contact through tangential forces along one line, to and fro as they come.
+    """Take a Hertz contact through tangential forces along one line, in any order.
 
     Loops that close are forgotten (Masing's rule). Limits as for :func:`cattaneo_mindlin`.
 
