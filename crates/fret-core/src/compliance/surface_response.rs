@@ -17,11 +17,14 @@ pub enum SurfaceResponse {
 }
 
 impl SurfaceResponse {
-    /// Normal displacement of a cell by unit pressure on itself [length/pressure]; `cells` of the grid.
-    pub fn own_normal(&self, cells: [usize; 2]) -> f64 {
+    /// Normal displacement by unit pressure whose sign changes from each cell to the next [length/pressure]: the least of all patterns of
+    /// pressure. Of line contacts, too, it does not know the datum.
+    pub fn alternating_normal(&self) -> f64 {
         match self {
-            Self::FreeSpace(coefficients) => own_of(coefficients).normal,
-            Self::Periodic(symbols) => own_in_period(symbols, cells).normal,
+            Self::FreeSpace(coefficients) => coefficients.zz.as_ref().map_or(0.0, alternating_sum),
+            Self::Periodic(symbols) => {
+                symbols.zz.as_ref().and_then(|zz| zz.last().copied()).map_or(0.0, f64::abs)
+            }
         }
     }
 
@@ -66,6 +69,24 @@ pub(super) fn own_of(c: &InfluenceCoefficients) -> SelfInfluence {
     SelfInfluence { normal: own(&c.zz), tangential: own(&c.xx).min(own(&c.yy)) }
 }
 
+/// Sum over all offsets of both signs, each cell with the opposite sign of its neighbours. The last two along an axis count a quarter
+/// and three quarters: what lies beyond alternates and falls smoothly, and all but its curvature cancels.
+fn alternating_sum(coefficients: &Array2<f64>) -> f64 {
+    let weight = |index: usize, count: usize| match count - index {
+        _ if index == 0 => 1.0,
+        1 if count == 2 => 1.0,
+        1 => 0.5,
+        2 => 1.5,
+        _ => 2.0,
+    };
+    let [nx, ny] = [0, 1].map(|axis| coefficients.shape()[axis]);
+    let sign = |i: usize, j: usize| if (i + j) % 2 == 0 { 1.0 } else { -1.0 };
+    coefficients
+        .indexed_iter()
+        .map(|((i, j), value)| sign(i, j) * weight(i, nx) * weight(j, ny) * value)
+        .sum()
+}
+
 /// The symbols that the blocks of [`FULL_BLOCKS`] name, each with its parity.
 pub(super) fn signed_symbols(symbols: &PeriodicSymbols) -> [(&Option<Array2<f64>>, Parity); 6] {
     [
@@ -106,4 +127,40 @@ pub(crate) fn mirrors(symmetry: Symmetry, fields: &[usize]) -> Mirrors {
         Some([true, true]) => Parity::OddOdd,
     };
     Mirrors { axes: symmetry.axes(), inputs: fields.iter().map(parity).collect() }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::kernel::{Components, influence_coefficients, line_coefficients};
+    use crate::model::{Body, ContactPair, ElasticMaterial, HalfSpace};
+
+    /// Alternating strips of side 1 on a half-space of `E* = 1`: pressure `Sum 4/(pi m) cos(pi m x)` over odd m, displacement
+    /// `2/(E* pi m)` times each, `8/pi^2` times Catalan's constant in the middle of a strip. Alternating squares likewise, from a double
+    /// series, `m` and `n` odd: `Sum (16/(pi^2 m n)) (+-1) 2/(pi sqrt(m^2 + n^2))`, summed by averages of its partial sums.
+    #[test]
+    fn alternating_pressure_displaces_by_its_fourier_series_whatever_the_datum() {
+        let elastic = HalfSpace::homogeneous(ElasticMaterial::new(1.0, 0.0).unwrap());
+        let pair = ContactPair::new(Body::Rigid, Body::Elastic(elastic)).unwrap();
+        let strips = 8.0 / std::f64::consts::PI.powi(2) * 0.915_965_594_177_219;
+        for (cells, datum) in [(64, 10.0), (65, 1e4)] {
+            let lines = line_coefficients(&pair, cells, 1.0, datum, Components::NORMAL);
+            let found = SurfaceResponse::FreeSpace(lines).alternating_normal();
+            // The curvature of a logarithm at 64 cells.
+            assert!((found - strips).abs() < 1e-4, "{found} {strips}");
+        }
+        let odd =
+            |count: usize| (0..count).map(|k| ((2 * k + 1) as f64, if k % 2 == 0 { 1.0 } else { -1.0 }));
+        let partial = |count: usize| -> f64 {
+            odd(count)
+                .flat_map(|(m, sign)| odd(count).map(move |(n, other)| sign * other / (m * n * m.hypot(n))))
+                .sum::<f64>()
+                * 32.0
+                / std::f64::consts::PI.powi(3)
+        };
+        let squares = 0.5 * (partial(400) + partial(401));
+        let coefficients = influence_coefficients(&pair, [64, 64], [1.0, 1.0], Components::NORMAL);
+        let found = SurfaceResponse::FreeSpace(coefficients).alternating_normal();
+        assert!((found - squares).abs() < 1e-4, "{found} {squares}");
+    }
 }

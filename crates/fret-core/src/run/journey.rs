@@ -294,7 +294,7 @@ impl<'a> Journey<'a> {
         let case = &self.plan.case;
         let bodies = bodies_left(self.plan, depths).map_err(|reason| too_thin(case, &self.place, reason))?;
         let compliance = PairCompliance::of_bodies(self.plan, &bodies);
-        wearing.set_thinned(depths, compliance.response.own_normal(case.cells));
+        wearing.set_thinned(depths, compliance.response.alternating_normal());
         self.solver.set_response(compliance.response, compliance.table);
         Ok(())
     }

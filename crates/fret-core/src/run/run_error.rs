@@ -110,7 +110,7 @@ pub enum RunError {
         increment: usize,
         /// Name of its stage.
         stage: String,
-        /// Share of a cell's pressure that the cell's own compliance gives up.
+        /// Share of a pressure that alternates from cell to cell.
         share: f64,
     },
     /// Layers are worn so thin that their elastic response cannot be followed.

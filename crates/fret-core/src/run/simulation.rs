@@ -134,17 +134,15 @@ impl<'a> Simulation<'a> {
             Some(compliance) => PairCompliance::clone(compliance),
             None => PairCompliance::of(plan),
         };
-        let own = compliance.response.own_normal(case.cells);
+        let alternating = compliance.response.alternating_normal();
         let unworn = case.profile.gap(&plan.grid);
         let mut solver = self.solver(compliance, unworn.clone());
         if let Some(depth) = &history.state.worn_depth {
             solver.set_gap(&unworn + depth);
         }
-        let wearing = case
-            .wear
-            .clone()
-            .zip(wear)
-            .map(|(rule, collected)| Wearing::new(rule, own, unworn, case.friction.clone(), collected));
+        let wearing = case.wear.clone().zip(wear).map(|(rule, collected)| {
+            Wearing::new(rule, alternating, unworn, case.friction.clone(), collected)
+        });
         let evolution = case.friction_evolution.clone().zip(slip).zip(history.state.accumulated.as_ref());
         let evolving = evolution.map(|((rule, collected), slipped)| {
             Evolving::new(rule, case.friction.clone(), slipped, collected)
