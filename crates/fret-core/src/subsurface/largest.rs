@@ -151,7 +151,7 @@ pub fn look(
 }
 
 /// Cells that are looked through in one go.
-const PORTION: usize = 2048;
+const PORTION: usize = 256;
 
 /// A number and its cell.
 type At = (f64, usize);
@@ -190,7 +190,9 @@ impl<'a> Cells<'a> {
             let stress =
                 self.components.each_ref().map(|of| &of.as_slice().unwrap_or_default()[cells.clone()]);
             let mut found = Arch::new().dispatch(InPortion(stress));
-            found.iter_mut().for_each(|(_, cell)| *cell += cells.start);
+            for (_, cell) in &mut found {
+                *cell += cells.start;
+            }
             found
         };
         (0..self.len().div_ceil(PORTION)).into_par_iter().map(portion).collect()
@@ -234,7 +236,6 @@ struct InPortion<'a>([&'a [f64]; 6]);
 impl WithSimd for InPortion<'_> {
     type Output = Portion;
 
-    #[expect(clippy::needless_range_loop, reason = "an index runs over several arrays at once")]
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) -> Portion {
         let n = self.0[0].len().min(PORTION);

@@ -1,7 +1,5 @@
 //! Criteria on the critical plane: the plane on which the parameter is largest.
 
-#![expect(clippy::needless_range_loop, reason = "an index runs over several arrays of lanes at once")]
-
 use std::sync::LazyLock;
 
 use pulp::{Arch, Simd, WithSimd};
