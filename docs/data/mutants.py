@@ -2,7 +2,7 @@
 
     cargo install cargo-mutants --locked; pip install tree-sitter tree-sitter-rust
     python docs/data/mutants.py build COPY 'crates/fret-core/src/kernel/*.rs' [--every 3]
-    python docs/data/mutants.py run COPY [--minutes 7] [--only REGEX] [--longest SECONDS]
+    python docs/data/mutants.py run COPY [--minutes 7] [--only REGEX] [--tests REGEX] [--longest SECONDS] [--again]
     python docs/data/mutants.py whole-runs COPY [--minutes 7]
     python docs/data/mutants.py report COPY
 
@@ -10,19 +10,23 @@
 beside the expression that it changes (``match mutant(7, 9) { 0 => a + b, 7 => a - b, ... }``), drops what the compiler
 refuses and builds the tests of the package. ``run`` sees first which test reaches which mutant, then gives every mutant
 to the tests that reach it, those of its own file and the quick ones first, until one fails; it goes on where it was
-stopped. ``whole-runs`` gives the survivors to the tests of whole runs, too: `tests/`, then those of the command.
-``report`` prints the figures of each file, and the survivors.
+stopped. What a test may take is processor time, so a loaded machine fails none. ``whole-runs`` gives the survivors to
+the tests of whole runs, too: `tests/`, then those of the command. ``report`` prints the figures of each
+file, and the survivors.
 """
 
 import argparse
 import fnmatch
 import json
+import math
 import os
 import re
 import resource
 import shutil
+import signal
 import subprocess
 import sys
+import threading
 import time
 from collections import Counter, defaultdict
 from concurrent.futures import ThreadPoolExecutor
@@ -48,29 +52,31 @@ SWITCH = """
 #[allow(missing_docs, clippy::all)]
 #[inline(always)]
 pub fn mutant(first: u32, last: u32) -> u32 {
-    match MUTANT.load(std::sync::atomic::Ordering::Relaxed) {
-        0 => 0,
-        chosen => chosen_mutant(chosen, first, last),
+    let chosen = MUTANT.load(std::sync::atomic::Ordering::Relaxed);
+    if chosen >= u32::MAX - 1 {
+        return seen(chosen, first, last);
     }
+    if chosen.wrapping_sub(first) <= last - first { chosen } else { 0 }
 }
 
 static MUTANT: std::sync::atomic::AtomicU32 = std::sync::atomic::AtomicU32::new(u32::MAX);
 static REACHED: [std::sync::atomic::AtomicBool; 20000] = [const { std::sync::atomic::AtomicBool::new(false) }; 20000];
 
 #[inline(never)]
-fn chosen_mutant(mut chosen: u32, first: u32, last: u32) -> u32 {
+fn seen(chosen: u32, first: u32, last: u32) -> u32 {
     use std::io::Write;
     use std::sync::atomic::Ordering::Relaxed;
     if chosen == u32::MAX {
-        chosen = std::env::var("MUTANT").map_or(0, |text| text.parse().unwrap());
-        MUTANT.store(chosen, Relaxed);
+        MUTANT.store(std::env::var("MUTANT").map_or(0, |text| text.parse().unwrap()), Relaxed);
+        return mutant(first, last);
     }
-    if chosen == u32::MAX - 1 && !REACHED[first as usize].swap(true, Relaxed) {
+    let reached = &REACHED[first as usize];
+    if !reached.load(Relaxed) && !reached.swap(true, Relaxed) {
         let place = std::env::var("REACHED").unwrap();
         let mut file = std::fs::File::options().append(true).create(true).open(place).unwrap();
         file.write_all(format!("{first} {last}\\n").as_bytes()).unwrap();
     }
-    if (first..=last).contains(&chosen) { chosen } else { 0 }
+    0
 }
 """
 RECORD = str(2**32 - 2)
@@ -315,39 +321,39 @@ def write(copy: Path, state: dict[str, Any]) -> None:
     (copy / "mutants.json.new").replace(copy / "mutants.json")
 
 
-def limited() -> None:
-    """Bound the memory of a test process."""
-    resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY))
+def tried(copy: Path, binary: list[str], tests: list[str], seconds: float, **variables: str) -> tuple[bool, float]:
+    """Return whether the named tests pass in the processor time allowed, and the processor time that they took."""
+
+    def limited() -> None:
+        resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY))
+        resource.setrlimit(resource.RLIMIT_CPU, (math.ceil(seconds), math.ceil(seconds) + 2))
+
+    process = subprocess.Popen(
+        [binary[0], "--exact", "--test-threads=1", *tests],
+        env=environment(copy, RAYON_NUM_THREADS="2", **variables),
+        cwd=copy / binary[1],
+        stdout=subprocess.DEVNULL,
+        stderr=subprocess.DEVNULL,
+        preexec_fn=limited,
+        start_new_session=True,
+    )
+    sleeper = threading.Timer(1800 + 100 * seconds, os.killpg, (process.pid, signal.SIGKILL))
+    sleeper.start()
+    _, status, used = os.wait4(process.pid, 0)
+    sleeper.cancel()
+    process.returncode = status
+    return status == 0, used.ru_utime + used.ru_stime
 
 
-def passes(copy: Path, binary: list[str], tests: list[str], seconds: float, **variables: str) -> bool:
-    """Whether the named tests pass in the time allowed."""
-    try:
-        done = subprocess.run(
-            [binary[0], "--exact", "--test-threads=1", *tests],
-            env=environment(copy, RAYON_NUM_THREADS="2", **variables),
-            cwd=copy / binary[1],
-            timeout=seconds,
-            check=False,
-            stdout=subprocess.DEVNULL,
-            stderr=subprocess.DEVNULL,
-            preexec_fn=limited,
-        )
-    except subprocess.TimeoutExpired:
-        return False
-    return done.returncode == 0
-
-
-def reach(copy: Path, binary: list[str]) -> dict[str, Any]:
-    """Return for every test its time and the mutants that it reaches; tests that fail unchanged are left out."""
+def reach(copy: Path, binary: list[str], chosen: str) -> dict[str, Any]:
+    """Return for every chosen test its time and the mutants that it reaches; tests that fail unchanged are left out."""
     lines = listed([binary[0], "--list"]).split("\n")
     names = [line.removesuffix(": test") for line in lines if line.endswith(": test")]
+    names = [name for name in names if re.search(chosen, name)]
 
     def one(name: str) -> tuple[str, float, list[int]] | None:
         file = copy / f"reached-{abs(hash(name))}"
-        start = time.monotonic()
-        passed = passes(copy, binary, [name], 120, MUTANT=RECORD, REACHED=str(file))
-        spent = time.monotonic() - start
+        passed, spent = tried(copy, binary, [name], 240, MUTANT=RECORD, REACHED=str(file))
         rows = file.read_text(encoding="utf-8").split("\n")[:-1] if file.exists() else []
         file.unlink(missing_ok=True)
         numbers = sorted({n for row in rows for n in range(int(row.split()[0]), int(row.split()[1]) + 1)})
@@ -360,18 +366,18 @@ def reach(copy: Path, binary: list[str]) -> dict[str, Any]:
     return {name: {"seconds": seconds, "reaches": numbers} for name, seconds, numbers in found if numbers}
 
 
-def run(copy: Path, minutes: float, only: str, longest: float, place: int) -> None:
+def run(copy: Path, minutes: float, only: str, longest: float, tests: str, again: bool, place: int) -> None:
     """Try the mutants that are left with the tests of the package (0) or of whole runs (1, 2) that are not too long."""
     end = time.monotonic() + 60 * minutes
     state = json.loads((copy / "mutants.json").read_text(encoding="utf-8"))
     binary = state["binaries"][place]
     reached = state.setdefault("reached", {})
     if binary[0] not in reached:
-        reached[binary[0]] = reach(copy, binary)
+        reached[binary[0]] = reach(copy, binary, tests)
         write(copy, state)
     tests_of = defaultdict(list)
     for name, test in sorted(reached[binary[0]].items(), key=lambda item: item[1]["seconds"]):
-        for number in test["reaches"] if test["seconds"] <= longest else ():
+        for number in test["reaches"] if test["seconds"] <= longest and re.search(tests, name) else ():
             tests_of[number].append((name, test["seconds"]))
 
     def one(mutant: dict[str, Any]) -> dict[str, Any]:
@@ -382,14 +388,15 @@ def run(copy: Path, minutes: float, only: str, longest: float, place: int) -> No
         portion = 1
         while left:
             now, left = left[:portion], left[portion:]
-            seconds = 10 + 10 * sum(spent for _, spent in now)
-            if not passes(copy, binary, [name for name, _ in now], seconds, MUTANT=str(mutant["number"])):
+            seconds = 5 + 5 * sum(spent for _, spent in now)
+            if not tried(copy, binary, [name for name, _ in now], seconds, MUTANT=str(mutant["number"]))[0]:
                 return {"state": CAUGHT[place], "by": [name for name, _ in now]}
             portion *= 3
         return {"state": MISSED[place]}
 
-    before = "untried" if place == 0 else MISSED[place - 1]
-    wanted = [m for m in state["mutants"] if m["state"] == before and re.search(only, m["file"])]
+    before = {MISSED[place - 1]} if place > 0 else {"untried", "missed"} if again else {"untried"}
+    wanted = [m for m in state["mutants"] if m["state"] in before and re.search(only, m["file"])]
+    wanted = [mutant for first in range(3) for mutant in wanted[first::3]]  # what is cut short is a sample
     written = time.monotonic()
     with ThreadPoolExecutor(WORKERS) as pool:
         for mutant, found in zip(wanted, pool.map(one, wanted), strict=True):
@@ -433,16 +440,18 @@ def main() -> None:
     words.add_argument("--every", type=int, default=1)
     words.add_argument("--minutes", type=float, default=1e6)
     words.add_argument("--only", default="", help="files whose names match")
+    words.add_argument("--tests", default="", help="tests whose names match")
+    words.add_argument("--again", action="store_true", help="the missed ones, too: with more or longer tests")
     words.add_argument("--longest", type=float, default=1e6, help="seconds of a test")
     given = words.parse_args()
     if given.what == "build":
         build(given.copy, given.files, given.every)
     elif given.what == "run":
-        run(given.copy, given.minutes, given.only, given.longest, 0)
+        run(given.copy, given.minutes, given.only, given.longest, given.tests, given.again, 0)
     elif given.what == "whole-runs":
         whole_runs(given.copy)
         for place in (1, 2):
-            run(given.copy, given.minutes / 2, given.only, given.longest, place)
+            run(given.copy, given.minutes / 2, given.only, given.longest, given.tests, False, place)
     else:
         report(given.copy)
 

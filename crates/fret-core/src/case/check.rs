@@ -318,3 +318,6 @@ fn output(judge: &mut Judge, given: Option<&OutputFile>) -> Option<Output> {
     };
     good.then_some(Output { fields, every })
 }
+
+#[cfg(test)]
+pub(super) mod tests;

@@ -131,3 +131,97 @@ pub(super) fn datum(
         "the size of the grid serves when nothing else is known",
     )
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::case::check::tests::{ROLLER, read, refused};
+
+    #[test]
+    fn only_what_is_the_same_all_along_y_makes_a_line_contact() {
+        let cylinder = "cylinder]\nradius = 100.0\naxis = \"y\"";
+        for shape in [
+            "rounded_punch]\nflat_radius = 1.0\nedge_radius = 1.0",
+            "flat_punch]\nradius = 1.0",
+            "cone]\nslope = 0.1",
+        ] {
+            assert_eq!(read(ROLLER, &[(cylinder, shape)]).profile.shapes.len(), 1);
+        }
+        for (shape, words) in [
+            ("sphere]\nradius = 100.0", "profile.sphere in a line contact"),
+            ("ellipsoid]\nradius_x = 100.0\nradius_y = 10.0", "profile.ellipsoid in a line contact"),
+            ("cylinder]\nradius = 100.0\naxis = \"x\"", "profile.cylinder, across y or with ends,"),
+            (
+                "cylinder]\nradius = 100.0\naxis = \"y\"\nlength = 1.0",
+                "profile.cylinder, across y or with ends,",
+            ),
+            ("wave]\namplitude = 0.1\nwavelength_x = 1.0", "profile.wave in a line contact"),
+        ] {
+            refused(ROLLER, &[(cylinder, shape)], words, "16");
+        }
+        // two cylinders that leave a gap of the same height everywhere
+        let flat = (
+            "[profile.cylinder]\nradius = 100.0",
+            "[lower.profile.cylinder]\nradius = -100.0\naxis = \"y\"\n[upper.profile.cylinder]\nradius = 100.0",
+        );
+        assert!(crate::case::Case::from_toml(&ROLLER.replacen(flat.0, flat.1, 1), "case.toml").is_err());
+    }
+
+    #[test]
+    fn a_datum_lies_between_a_thousandth_and_a_million_million_sizes() {
+        let datum = |depth: &str| format!("size = 4.0\ndatum = {depth}");
+        for depth in [4e-3, 4.0, 4e12] {
+            assert_eq!(read(ROLLER, &[("size = 3.0", &datum(&format!("{depth:e}")))]).datum, Some(depth));
+        }
+        assert_eq!(read(ROLLER, &[]).datum, None);
+        for depth in ["3.9e-3", "4.1e12", "-4.0", "0.0", "nan", "inf"] {
+            refused(ROLLER, &[("size = 3.0", &datum(depth))], "a thousandth and 1e12 of the size", depth);
+        }
+        // with a size left to the program any depth
+        let auto = |depth: &str| format!("size = \"auto\"\ndatum = {depth}");
+        assert_eq!(read(ROLLER, &[("size = 3.0", &auto("1e-9"))]).datum, Some(1e-9));
+        for depth in ["0.0", "-1.0", "inf", "nan"] {
+            refused(ROLLER, &[("size = 3.0", &auto(depth))], "grid.datum", depth);
+        }
+    }
+
+    #[test]
+    fn a_datum_has_a_meaning_only_where_the_bodies_have_no_other_zero() {
+        let surface = "[grid]\ncells = [16, 16]\nsize = [3.0, 3.0]\ndatum = 1.5";
+        let ball = ROLLER.replacen("[grid]\ncells = 16\nsize = 3.0", surface, 1).replacen(
+            "cylinder]\nradius = 100.0\naxis = \"y\"",
+            "sphere]\nradius = 100.0",
+            1,
+        );
+        refused(&ball, &[], "only a line contact needs one", "1.5");
+        let rigid_base = "coatings = [{ thickness = 1.0, young = 1.0, poisson = 0.3 }]\nbase = \"rigid\"";
+        let layer = ROLLER.replacen("substrate = { young = 1.0, poisson = 0.3 }", rigid_base, 1);
+        refused(
+            &layer,
+            &[("size = 3.0", "size = 3.0\ndatum = 1.5")],
+            "displacements have a zero of their own",
+            "1.5",
+        );
+        // an approach needs the depth, which must not follow from the contact that it makes
+        let pushed = ("normal_force = 0.01", "approach = 0.01");
+        let words = "a prescribed approach and no datum";
+        refused(ROLLER, &[pushed, ("size = 3.0", "size = \"auto\"")], words, "\"auto\"");
+        read(ROLLER, &[pushed]);
+        read(ROLLER, &[("size = 3.0", "size = \"auto\"")]);
+        read(ROLLER, &[pushed, ("size = 3.0", "size = \"auto\"\ndatum = 1.5")]);
+        read(&layer, &[pushed, ("size = 3.0", "size = \"auto\"")]);
+    }
+
+    #[test]
+    fn strips_do_not_turn_and_do_not_repeat() {
+        let stage = |words: &str| format!("increments = 1\n[[load]]\nincrements = 1\n{words}");
+        refused(ROLLER, &[("increments = 1", &stage("twist = 0.125"))], "twist in a line contact", "0.125");
+        refused(
+            ROLLER,
+            &[("increments = 1", &stage("twist_moment = 0.125"))],
+            "twist_moment in a line contact",
+            "0.125",
+        );
+        refused(ROLLER, &[("size = 3.0", "size = 3.0\nperiodic = true")], "which is not periodic", "true");
+        assert!(!read(ROLLER, &[("size = 3.0", "size = 3.0\nperiodic = false")]).periodic);
+    }
+}

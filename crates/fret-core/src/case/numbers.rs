@@ -213,6 +213,55 @@ mod tests {
     }
 
     #[test]
+    fn every_type_of_number_is_read_in_both_orders_of_bytes() {
+        // 2 bytes and more: 258 is 0x0102; in one byte 2; floats by their bits: 2.0 is 0x40000000 and 0x4000000000000000
+        let float = |width: usize| [vec![0x40], vec![0; width - 1]].concat();
+        let whole = |width: usize| [vec![0; width - 2], vec![1, 2]].concat();
+        for (kind, big, value) in [
+            ("f8", float(8), 2.0),
+            ("f4", float(4), 2.0),
+            ("i8", whole(8), 258.0),
+            ("i4", whole(4), 258.0),
+            ("i2", whole(2), 258.0),
+            ("u8", whole(8), 258.0),
+            ("u4", whole(4), 258.0),
+            ("u2", whole(2), 258.0),
+            ("i1", vec![2], 2.0),
+            ("u1", vec![2], 2.0),
+            ("i8", vec![0xff; 8], -1.0),
+            ("i4", vec![0xff; 4], -1.0),
+            ("i2", vec![0xff; 2], -1.0),
+            ("i1", vec![0xff], -1.0),
+            ("u8", vec![0xff; 8], 2.0_f64.powi(64)),
+            ("u4", vec![0xff; 4], 4_294_967_295.0),
+            ("u2", vec![0xff; 2], 65_535.0),
+            ("u1", vec![0xff], 255.0),
+        ] {
+            let little: Vec<u8> = big.iter().rev().copied().collect();
+            for (order, body) in [(">", &big), ("<", &little), ("=", &little), ("|", &big)] {
+                let header =
+                    format!("{{\"descr\": \"{order}{kind}\", 'fortran_order': False, 'shape': (1, 1)}}");
+                let read = numbers(&file(&header, body));
+                if order == "|" && body.len() > 1 {
+                    assert_eq!(read, Err(NumbersError::Kind(format!("|{kind}"))));
+                } else {
+                    assert_eq!(read.unwrap(), array![[value]], "{order}{kind}");
+                }
+            }
+        }
+        // versions 2 and 3 have four bytes of length, and version 1 two: 0x0101 spaces behind the head
+        let mut long = "{'descr': '|u1', 'fortran_order': False, 'shape': (1, 1), }".to_owned();
+        long.push_str(&" ".repeat(0x0101 - long.len()));
+        assert_eq!(numbers(&file(&long, &[7])).unwrap(), array![[7.0]]);
+        for version in [2, 3] {
+            let head = [b"\x93NUMPY", &[version, 0, 1, 1, 0, 0][..], long.as_bytes()].concat();
+            assert_eq!(numbers(&[&head[..], &[7]].concat()).unwrap(), array![[7.0]]);
+            assert_eq!(numbers(&head[..100]), Err(NumbersError::CutHeader(100)));
+            assert_eq!(numbers(&head[..11]), Err(NumbersError::CutHeader(11)));
+        }
+    }
+
+    #[test]
     fn what_is_no_array_is_told_why() {
         let good = "{'descr': '<f8', 'fortran_order': False, 'shape': (1, 1), }\n";
         let words = |bytes: &[u8]| numbers(bytes).unwrap_err().to_string();
@@ -225,6 +274,11 @@ mod tests {
             words(&file(&good.replace("(1, 1)", "(4294967296, 4294967296)"), &[])).contains("header says")
         );
         assert!(words(&file("{}", &[])).contains("no descr"));
+        assert!(words(&file("{'descr': '<f8'}", &[])).contains("no fortran_order"));
+        assert!(words(&file(&good.replace("shape", "size"), &[0; 8])).contains("no shape"));
+        assert!(words(&file(&good.replace("False", "Maybe"), &[0; 8])).contains("fortran_order Maybe"));
+        assert!(words(&file(&good.replace("(1, 1)", "(1, x)"), &[0; 8])).contains("shape (1, x)"));
+        assert!(words(b"\x93NUMPY\x04\x00    ").contains("version 4"));
         assert!(words(&[0xff, 0xfe]).contains("neither"));
     }
 

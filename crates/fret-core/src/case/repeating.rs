@@ -130,3 +130,84 @@ fn whole_waves(judge: &mut Judge, grid: &GridFile, sides: [f64; 2], wavelengths:
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::case::check::tests::{BALL, read, refused};
+
+    const WAVE: (&str, &str) = (
+        "[profile.sphere]\nradius = 100.0",
+        "[profile.wave]\namplitude = 0.01\nwavelength_x = 1.5\nwavelength_y = 3.0",
+    );
+    const PERIODIC: (&str, &str) = ("size = [3.0, 3.0]", "size = [3.0, 3.0]\nperiodic = true");
+
+    #[test]
+    fn a_period_holds_whole_waves() {
+        assert!(read(BALL, &[PERIODIC, WAVE]).periodic);
+        assert!(!read(BALL, &[]).periodic);
+        // lengths along x and y that are not in 3 a whole number of times
+        for (length, other, waves) in [
+            ("1.5", "1.4999977500033748", "2.000003"),
+            ("3.0", "2.0", "1.500000"),
+            ("3.0", "2.4", "1.250000"),
+        ] {
+            let wrong = WAVE.1.replacen(length, other, 1);
+            refused(BALL, &[PERIODIC, (WAVE.0, &wrong)], &format!("holds {waves} waves"), "[3.0, 3.0]");
+        }
+        // not even one
+        refused(
+            BALL,
+            &[PERIODIC, (WAVE.0, &WAVE.1.replacen("3.0", "1e12", 1))],
+            "holds 0.000000 waves",
+            "[3.0, 3.0]",
+        );
+        // to rounding: a tenth has no last digit
+        let tenth = WAVE.1.replacen("1.5", "0.1", 1);
+        read(BALL, &[PERIODIC, (WAVE.0, &tenth)]);
+        refused(BALL, &[PERIODIC, ("[3.0, 3.0]", "\"auto\"")], "the period must be given", "\"auto\"");
+    }
+
+    #[test]
+    fn what_has_no_end_needs_a_period() {
+        refused(BALL, &[WAVE], "profile.wave: a wave is periodic", "[16, 32]");
+        for (axis, name) in [("x", "infinite along x"), ("y", "infinite along y")] {
+            let cylinder = format!("[profile.cylinder]\naxis = \"{axis}\"\nradius = 100.0");
+            refused(BALL, &[(WAVE.0, &cylinder)], name, "[16, 32]");
+            read(BALL, &[PERIODIC, (WAVE.0, &cylinder)]);
+            read(BALL, &[(WAVE.0, &format!("{cylinder}\nlength = 1.0"))]);
+        }
+    }
+
+    #[test]
+    fn a_half_space_under_a_periodic_load_has_no_rigid_motion() {
+        let stage = |words: &str| format!("increments = 1\n[[load]]\nincrements = 1\n{words}");
+        let layer = |poisson: f64| {
+            let layer = format!(
+                "coatings = [{{ thickness = 1.0, young = 1.0, poisson = {poisson} }}]\nbase = \"rigid\""
+            );
+            BALL.replacen("substrate = { young = 1.0, poisson = 0.3 }", &layer, 1)
+        };
+        for (key, value, normal) in [("approach", "0.125", true), ("shift", "[0.125, 0.0]", false)] {
+            let moved = stage(&format!("{key} = {value}"));
+            let moved = ("increments = 1", moved.as_str());
+            refused(BALL, &[PERIODIC, moved], "has no such rigid motion", value);
+            read(BALL, &[moved]);
+            // layers on a rigid base give way, unless they keep their volume
+            read(&layer(0.3), &[PERIODIC, moved]);
+            if normal {
+                refused(&layer(0.5), &[PERIODIC, moved], "layers that keep their volume", value);
+            } else {
+                read(&layer(0.5), &[PERIODIC, moved]);
+            }
+        }
+        refused(
+            BALL,
+            &[PERIODIC, ("increments = 1", &stage("twist = 0.125"))],
+            "a rotation is not periodic",
+            "0.125",
+        );
+        let turned = stage("twist_moment = 0.125");
+        refused(&layer(0.3), &[PERIODIC, ("increments = 1", &turned)], "a rotation is not periodic", "0.125");
+        read(BALL, &[PERIODIC, ("increments = 1", &stage("tangential_force = [1e-3, 0.0]"))]);
+    }
+}

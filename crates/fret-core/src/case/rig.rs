@@ -28,11 +28,11 @@ pub(super) fn rig(judge: &mut Judge, file: Option<&RigFile>) -> Option<Rig> {
         0.0
     };
     let tangential = file.tangential_stiffness.as_ref().map_or([0.0; 2], |given| {
-        let stiffness = match *given.get_ref() {
-            AlongFile::Both(both) => both,
-            AlongFile::Line(one) => [one; 2],
-        };
-        stiffness.map(|stiffness| compliance("rig.tangential_stiffness", stiffness, given.span()))
+        let mut along = |stiffness: f64| compliance("rig.tangential_stiffness", stiffness, given.span());
+        match *given.get_ref() {
+            AlongFile::Both(both) => both.map(along),
+            AlongFile::Line(one) => [along(one); 2],
+        }
     });
     let normal = file
         .normal_stiffness
@@ -91,5 +91,81 @@ pub(super) fn driven(
                 &format!("[rig] {stiffness} = ...; or prescribe the {own} of the body itself"),
             );
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::case::check::tests::{BALL, ROLLER, read, refused};
+
+    fn with_rig(words: &str) -> String {
+        format!("[rig]\n{words}\n[friction]")
+    }
+
+    #[test]
+    fn a_machine_gives_as_much_as_its_stiffness_says() {
+        let rig = |text: &str, words: &str| read(text, &[("[friction]", &with_rig(words))]).rig.unwrap();
+        let both = rig(BALL, "tangential_stiffness = [4.0, 8.0]\nnormal_stiffness = 16.0");
+        assert_eq!((both.normal, both.tangential), (0.0625, [0.25, 0.125]));
+        assert_eq!(rig(ROLLER, "tangential_stiffness = 4.0").tangential, [0.25; 2]);
+        assert_eq!(rig(BALL, "normal_stiffness = 4.0").tangential, [0.0; 2]);
+        assert_eq!(read(BALL, &[]).rig, None);
+        for stiffness in ["0.0", "-4.0", "nan", "inf", "1e-310"] {
+            for key in ["normal_stiffness", "tangential_stiffness"] {
+                let rig = with_rig(&format!("{key} = {stiffness}"));
+                refused(
+                    if key.starts_with('n') { BALL } else { ROLLER },
+                    &[("[friction]", &rig)],
+                    &format!("rig.{key}"),
+                    stiffness,
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn an_actuator_pulls_by_a_stiffness() {
+        let stage = |words: &str| format!("increments = 1\n[[load]]\nincrements = 1\n{words}");
+        for (own, other, driven, place) in [
+            (
+                "tangential_stiffness = [4.0, 8.0]",
+                "normal_stiffness = 4.0",
+                "actuator = [0.125, 0.0]",
+                "[0.125, 0.0]",
+            ),
+            (
+                "normal_stiffness = 4.0",
+                "tangential_stiffness = [4.0, 8.0]",
+                "actuator_approach = 0.125",
+                "0.125",
+            ),
+        ] {
+            let stage = stage(driven);
+            let stage = ("increments = 1", stage.as_str());
+            read(BALL, &[("[friction]", &with_rig(own)), stage]);
+            let words = "the case does not say how stiff the machine is";
+            refused(BALL, &[("[friction]", &with_rig(other)), stage], words, place);
+            refused(BALL, &[stage], words, place);
+        }
+    }
+
+    #[test]
+    fn columns_of_a_log_have_names() {
+        let columns = |words: &str| with_rig(&format!("normal_stiffness = 4.0\ncolumns = {{ {words} }}"));
+        let read = |words: &str| read(BALL, &[("[friction]", &columns(words))]).log_columns;
+        assert_eq!(
+            read("force = \" Q \", displacement = \"delta\""),
+            [("displacement", "delta".to_owned()), ("force", "Q".to_owned())]
+        );
+        assert_eq!(
+            read("cycle = \"N\", normal_force = \"P\""),
+            [("cycle", "N".to_owned()), ("normal_force", "P".to_owned())]
+        );
+        refused(
+            BALL,
+            &[("[friction]", &columns("force = \" \""))],
+            "rig.columns.force: must be the name",
+            "\" \"",
+        );
     }
 }

@@ -252,3 +252,6 @@ impl Part<'_, '_> {
         }
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -80,7 +80,7 @@ fn alternating_sum(coefficients: &Array2<f64>) -> f64 {
         _ => 2.0,
     };
     let [nx, ny] = [0, 1].map(|axis| coefficients.shape()[axis]);
-    let sign = |i: usize, j: usize| if (i + j) % 2 == 0 { 1.0 } else { -1.0 };
+    let sign = |i: usize, j: usize| if (i + j).is_multiple_of(2) { 1.0 } else { -1.0 };
     coefficients
         .indexed_iter()
         .map(|((i, j), value)| sign(i, j) * weight(i, nx) * weight(j, ny) * value)

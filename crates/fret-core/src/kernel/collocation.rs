@@ -42,7 +42,7 @@ pub fn cells_too_coarse_for_incompressible_film(half_space: &HalfSpace, spacing:
 
 #[cfg(test)]
 mod tests {
-    use super::super::samples::stack;
+    use super::super::samples::{on_springs, stack};
     use super::*;
 
     #[test]
@@ -58,5 +58,39 @@ mod tests {
         assert!(!refused(&[(1.0, 0.3, 0.1)], None)); // compressible
         assert!(!refused(&[(1.0, 0.5, 0.1)], Some((100.0, 0.3)))); // the base gives way
         assert!(!refused(&[], Some((1.0, 0.5))));
+    }
+
+    #[test]
+    fn the_bounds_of_stiffness_thickness_and_volume_are_those_that_are_told() {
+        let refused = |layers: &[(f64, f64, f64)], base, spacing| {
+            cells_too_coarse_for_incompressible_film(&stack(layers, base), spacing)
+        };
+        for cell in [0.25, 4.0] {
+            for spacing in [[cell, 3.0 * cell], [3.0 * cell, cell]] {
+                let film = |poisson: f64, share: f64| [(2.0, poisson, share * cell)];
+                // a fifth of the shorter side
+                assert!(
+                    refused(&film(0.5, 0.199), None, spacing) && !refused(&film(0.5, 0.201), None, spacing)
+                );
+                // 1 - 2 nu of 10 shares^2
+                assert!(
+                    refused(&film(0.451, 0.1), None, spacing) && !refused(&film(0.449, 0.1), None, spacing)
+                );
+                // a thousand times its modulus, at the same Poisson's ratio
+                for (young, expected) in [(2001.0, true), (1999.0, false)] {
+                    assert_eq!(refused(&film(0.5, 0.1), Some((young, 0.5)), spacing), expected);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_film_on_soft_shear_springs_moves_as_a_whole() {
+        let film = stack(&[(3.0, 0.5, 0.1)], None);
+        // its shear modulus is 1: springs of stiffness 10 give as much as the film itself
+        for (stiffness, refused) in [(9.9, false), (10.1, true)] {
+            let film = on_springs(&film, &[Some((None, Some(stiffness)))]);
+            assert_eq!(cells_too_coarse_for_incompressible_film(&film, [1.0, 1.0]), refused, "{stiffness}");
+        }
     }
 }

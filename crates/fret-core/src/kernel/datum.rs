@@ -73,3 +73,52 @@ fn layer_at(half_space: &HalfSpace, depth: f64) -> usize {
     });
     inside.unwrap_or(half_space.coatings().len())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::samples::{pair, stack};
+    use super::*;
+
+    #[test]
+    fn a_datum_lies_in_every_body_with_an_elastic_base() {
+        // displacements at the datum of both bodies together, by the response of each cut there: in the coating of the one
+        // (depth 2 of 3), in the substrate of the other (depth 2 below 0.5)
+        let (thick, thin) =
+            (stack(&[(5.0, 0.2, 3.0)], Some((1.0, 0.2))), stack(&[(5.0, 0.2, 0.5)], Some((2.0, 0.4))));
+        let both = ContactPair::new(Body::Elastic(thick.clone()), Body::Elastic(thin.clone())).unwrap();
+        let datum = Datum::new(&both, 2.0);
+        let cut = [DepthResponse::new(&thick, 0, 2.0), DepthResponse::new(&thin, 1, 2.0)];
+        for k in [0.01, 0.3, 1.0, 4.0] {
+            let [one, other] = cut.each_ref().map(|response| response.at(k));
+            let exact = [
+                one.depthwise[1] + other.depthwise[1],
+                one.tangential[0] + other.tangential[0],
+                one.sideways + other.sideways,
+            ];
+            for (found, exact) in datum.times_wavenumber(k).into_iter().zip(exact) {
+                assert!((found - exact).abs() <= 1e-15 * exact.abs(), "{k}: {found} {exact}");
+            }
+        }
+        assert_eq!(datum.depth(), 2.0);
+        // 3 times 5 of the thicker coating; or the depth
+        assert!((datum.longest_length() - 15.0).abs() < 1e-13);
+        assert_eq!(Datum::new(&both, 20.0).longest_length(), 20.0);
+        // a datum at an interface lies in the layer above it
+        assert_eq!([3.0, 3.1].map(|depth| layer_at(&thick, depth)), [0, 1]);
+        assert!(datum.constants().is_none());
+    }
+
+    #[test]
+    fn bodies_without_an_elastic_base_have_no_datum() {
+        let film = pair(&[(5.0, 0.2, 3.0)], None);
+        let datum = Datum::new(&film, 2.0);
+        assert_eq!(datum.times_wavenumber(1.0), [0.0; 3]);
+        assert_eq!(datum.longest_length(), 2.0);
+        // 1/(2 G) of Flamant's constants: G = 1 below, 4 above
+        let below = || Body::Elastic(stack(&[], Some((2.5, 0.25))));
+        let above = || Body::Elastic(stack(&[(10.0, 0.25, 1.0)], Some((10.0, 0.25))));
+        let homogeneous = Datum::new(&ContactPair::new(above(), below()).unwrap(), 2.0);
+        let [normal, across, along] = homogeneous.constants().unwrap();
+        assert!((normal - 0.625).abs() < 1e-15 && across == -normal && along == 0.0);
+    }
+}

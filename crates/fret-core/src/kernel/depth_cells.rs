@@ -85,9 +85,84 @@ fn displacement_from_all([four, [[rise, ..], [rise_y, ..]]]: &[Moments; 2]) -> [
 
 #[cfg(test)]
 mod tests {
-    use super::super::samples::stack;
+    use super::super::closed_form::homogeneous_cell;
+    use super::super::samples::{golden, material, stack};
     use super::*;
     use ndarray::Axis;
+    use serde::Deserialize;
+
+    #[derive(Deserialize)]
+    struct Row {
+        layers: Vec<(f64, f64, f64)>,
+        substrate: Option<(f64, f64)>,
+        depth: f64,
+        layer: usize,
+        sides: [f64; 2],
+        i: usize,
+        j: usize,
+        stress: [[f64; 6]; 3],
+    }
+
+    #[test]
+    fn golden_rows_of_stresses_are_met() {
+        // by plane waves; their dense systems lose up to 1e-13 at a contrast of 100
+        let rows = golden::<Row>("subsurface_cells.json");
+        for same in rows
+            .chunk_by(|a, b| (&a.layers, a.depth, a.layer, a.sides) == (&b.layers, b.depth, b.layer, b.sides))
+        {
+            let Row { layers, substrate, depth, layer, sides, .. } = &same[0];
+            let response = DepthResponse::new(&stack(layers, *substrate), *layer, *depth);
+            let found = stress_coefficients(&response, [9, 9], *sides, true, Vec::new());
+            let alone = stress_coefficients(&response, [9, 9], *sides, false, Vec::new());
+            for row in same {
+                for load in 0..3 {
+                    for k in 0..6 {
+                        let (found, exact) = (found.kernel(load, k)[[row.i, row.j]], row.stress[load][k]);
+                        let error = (found - exact).abs();
+                        assert!(
+                            error < 1e-11,
+                            "{layers:?} depth {depth} [{}, {}]: {error:.1e}",
+                            row.i,
+                            row.j
+                        );
+                        if load == 0 {
+                            let error = (alone.kernel(0, k)[[row.i, row.j]] - exact).abs();
+                            assert!(error < 1e-11, "pressure alone, {layers:?} depth {depth}: {error:.1e}");
+                        }
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn displacements_without_depth_are_those_of_love_and_cerruti() {
+        let response = DepthResponse::new(&stack(&[], Some((2.6, 0.3))), 0, 0.0);
+        for spacing in [[1.0, 1.0], [1.0, 2.5]] {
+            let found = displacement_coefficients(&response, [30, 5], spacing, Vec::new());
+            for (i, j) in [(0, 0), (1, 0), (0, 1), (2, 3), (7, 4), (29, 2)] {
+                let offset = [f64::from(i) * spacing[0], f64::from(j) * spacing[1]];
+                let exact = homogeneous_cell(&material((2.6, 0.3)), offset, spacing);
+                // u_z by shear is minus what pressure moves the surface by, at the same offset (Maxwell and Betti)
+                let exact = [
+                    [-exact.zx, -exact.zy, exact.zz],
+                    [exact.xx, exact.xy, exact.zx],
+                    [exact.xy, exact.yy, exact.zy],
+                ];
+                let far = f64::from(i * i + j * j);
+                for load in 0..3 {
+                    for k in 0..3 {
+                        let error = (found.kernel(load, k)[[i as usize, j as usize]] - exact[load][k]).abs();
+                        // rounding of our sums; of the closed form's corner differences
+                        assert!(
+                            error < (1e-14 + 3e-15 * far) * exact[0][2],
+                            "{spacing:?} [{i}, {j}], {load} {k}: {error:.1e}"
+                        );
+                    }
+                }
+            }
+        }
+    }
 
     /// Of one kernel, the largest effect that any traction between -1 and 1 could have of the difference.
     fn effect<const C: usize>(

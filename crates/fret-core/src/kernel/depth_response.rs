@@ -158,6 +158,7 @@ impl DepthResponse {
 #[cfg(test)]
 mod tests {
     use super::super::frequency_response::FrequencyResponse;
+    use super::super::lattice_samples::WaveResponse;
     use super::super::samples::{Random, on_springs, stack};
     use super::*;
 
@@ -343,6 +344,20 @@ mod tests {
             }
             let twist = slope(&|t| t.twist_shear) + here.in_plane_shear;
             assert!(twist.abs() < 1e-10 * (here.twist_shear + here.in_plane_shear) * (1.0 + 1.0 / (k * h)));
+        }
+    }
+
+    #[test]
+    fn the_longest_length_is_that_of_the_layers_or_of_the_depth() {
+        // thickness 3 times the ratio of moduli 5; and the depth itself
+        let half_space = stack(&[(5.0, 0.2, 3.0)], Some((1.0, 0.2)));
+        for (layer, depth, longest) in [(0, 1.0, 15.0), (1, 4.0, 15.0), (1, 40.0, 40.0)] {
+            let response = DepthResponse::new(&half_space, layer, depth);
+            assert!((response.longest_length() / longest - 1.0).abs() < 1e-15, "{depth}");
+            // the same for tables of it
+            assert_eq!(WaveResponse::longest_length(&response), response.longest_length());
+            assert_eq!([response.depth(), WaveResponse::depth(&response)], [depth; 2]);
+            assert!((response.poisson() - 0.2).abs() < 1e-15);
         }
     }
 }

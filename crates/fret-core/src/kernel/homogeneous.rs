@@ -162,6 +162,7 @@ fn near_cell(offset: [f64; 2], sides: [f64; 2]) -> f64 {
 mod tests {
     use super::super::influence::{Components, influence_coefficients};
     use super::super::samples::pair;
+    use super::serves;
 
     #[test]
     fn the_general_way_gives_the_same() {
@@ -173,6 +174,18 @@ mod tests {
             for ((i, j), value) in general.indexed_iter() {
                 let error = (fast[[i, j]] - value).abs() / value;
                 assert!(error < 3e-14, "({i}, {j}): {error:.1e}"); // rounding of 36 corner cells' differences
+            }
+        }
+    }
+
+    #[test]
+    fn cells_up_to_twice_as_long_as_wide_are_served() {
+        for unit in [1e-6, 1.0, 1e6] {
+            for (sides, served) in
+                [([1.0, 1.0], true), ([1.0, 2.0], true), ([1.0, 2.01], false), ([1.0, 10.0], false)]
+            {
+                let [short, long] = sides.map(|side| unit * side);
+                assert_eq!([serves([short, long]), serves([long, short])], [served; 2], "{sides:?} {unit}");
             }
         }
     }

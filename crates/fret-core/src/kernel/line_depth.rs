@@ -240,4 +240,21 @@ mod tests {
         let sum = zz[[0, 0]] + 2.0 * (1..2001).map(|i| zz[[i, 0]]).sum::<f64>();
         assert!((sum + 1.0).abs() < 1e-8, "{sum}"); // cube of depth over half the width
     }
+
+    #[test]
+    fn stresses_do_not_depend_on_the_unit_of_length() {
+        let stresses = |unit: f64| {
+            let half_space = stack(&[(3.0, 0.3, 0.5 * unit)], Some((1.0, 0.3)));
+            let response = DepthResponse::new(&half_space, 0, 0.25 * unit);
+            line_stress_coefficients(&response, 40, unit, true)
+        };
+        let exact = stresses(1.0);
+        for unit in [1.0 / 64.0, 64.0] {
+            let found = stresses(unit);
+            for (found, exact) in found.values.iter().zip(&exact.values) {
+                // differences of antiderivatives, good to 1e-13 of the traction
+                assert!((found - exact).abs() < 2e-13, "{unit}: {found} {exact}");
+            }
+        }
+    }
 }

@@ -187,6 +187,8 @@ mod tests {
     fn range_is_known() {
         let panels = Panels::new(1.0, 4.0, |s| [[s; 4]]);
         assert!(panels.holds(1.0) && panels.holds(4.0));
+        // panels are quarters of an octave: 4 lies in the last one, which ends before 5
+        assert!(panels.holds(4.999) && !panels.holds(5.0));
         assert!(!panels.holds(0.9) && !panels.holds(6.0) && !panels.holds(0.0) && !panels.holds(f64::NAN));
     }
 }

@@ -119,8 +119,9 @@ fn components(response: Response) -> [f64; 4] {
 
 #[cfg(test)]
 mod tests {
-    use super::super::samples::{Random, under_rigid};
+    use super::super::samples::{Random, pair, under_rigid};
     use super::*;
+    use std::f64::consts::PI;
 
     #[test]
     fn table_keeps_the_response() {
@@ -142,6 +143,57 @@ mod tests {
                 ];
                 // twelve terms with the nearest pole 22 to 90 degrees off
                 assert!(errors.iter().all(|error| error.abs() < 1e-12), "{pair:?} {k}: {errors:?}");
+            }
+        }
+    }
+
+    /// The wave itself, and the sum of its aliases up to the second, by the definition; `turns` between neighbouring cells.
+    fn wave_and_aliases(pair: &PairResponse, turns: [f64; 2], spacing: [f64; 2]) -> [f64; 2] {
+        let mut sums = [0.0; 2];
+        for aliases in (0..25).map(|n| [n / 5 - 2, n % 5 - 2]) {
+            let half = [0, 1].map(|axis| PI * (turns[axis] + f64::from(aliases[axis])));
+            let [x, y] = [0, 1].map(|axis| 2.0 * half[axis] / spacing[axis]);
+            let k = x.hypot(y);
+            // a uniform wave has no aliases: its factor there is the sine of a whole turn
+            if k > 0.0 {
+                let factor = half.map(|half| if half == 0.0 { 1.0 } else { half.sin() / half });
+                sums[usize::from(aliases != [0, 0])] += factor[0] * factor[1] * pair.times_k(k).zz / k;
+            }
+        }
+        sums
+    }
+
+    #[test]
+    fn the_response_of_cells_is_a_sum_over_aliases_interpolated_between_knots() {
+        let spacing = [0.3, 0.2];
+        for pair in [pair(&[], Some((2.6, 0.3))), pair(&[(10.0, 0.3, 0.5)], Some((1.0, 0.4)))] {
+            let direct = PairResponse::new(&pair);
+            // part of the waves lies beyond the table
+            let table = ResponseTable::new(&pair, 0.5, 20.0);
+            let aliases = |i: usize, j: usize| {
+                wave_and_aliases(&direct, [i as f64 / 32.0, j as f64 / 32.0], spacing)[1]
+            };
+            for cells in [[32, 32], [64, 32], [16, 128]] {
+                let found = table.cell_response(cells, spacing);
+                assert_eq!(found.dim(), (cells[0] / 2 + 1, cells[1] / 2 + 1));
+                assert_eq!(found[[0, 0]], 0.0);
+                for ((a, b), &value) in found.indexed_iter().skip(1) {
+                    let turns = [a as f64 / cells[0] as f64, b as f64 / cells[1] as f64];
+                    let [own, exact] = wave_and_aliases(&direct, turns, spacing);
+                    let [(i, s), (j, t)] = turns.map(|turns| {
+                        let knot = ((32.0 * turns) as usize).min(15);
+                        (knot, 32.0 * turns - knot as f64)
+                    });
+                    let corners = [(i, j), (i, j + 1), (i + 1, j), (i + 1, j + 1)];
+                    let shares = [(1.0 - s) * (1.0 - t), (1.0 - s) * t, s * (1.0 - t), s * t];
+                    let between: f64 =
+                        corners.into_iter().zip(shares).map(|((i, j), share)| share * aliases(i, j)).sum();
+                    // interpolation of the table, 1e-12, and sines of the aliases' own arguments
+                    let error = (value - (own + between)) / own;
+                    assert!(error.abs() < 3e-12, "{pair:?} {cells:?} [{a}, {b}]: {error:.1e}");
+                    let percent = (value - (own + exact)) / (own + exact);
+                    assert!(percent.abs() < 0.01, "{pair:?} {cells:?} [{a}, {b}]: {percent:.1e}");
+                }
             }
         }
     }

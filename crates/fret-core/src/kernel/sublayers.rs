@@ -330,4 +330,42 @@ mod tests {
         assert!(matches!(refused, SublayerError::TooSteep { layer: 0, .. }), "{refused}");
         assert_eq!(layered_half_space(&[], Base::Rigid, 1e-4), Err(MaterialError::BareRigidBase.into()));
     }
+
+    #[test]
+    fn the_change_of_a_response_is_its_largest_in_any_part() {
+        // zz and rr by themselves, rz over the mean of both, tt by itself; a tenth of each in turn
+        let exact = Response { zz: 2.0, rr: 8.0, rz: -1.0, tt: 5.0 };
+        for (found, expected) in [
+            (Response { zz: 2.2, ..exact }, 0.1),
+            (Response { rr: 7.2, ..exact }, 0.1),
+            (Response { rz: -1.4, ..exact }, 0.1),
+            (Response { tt: 5.5, ..exact }, 0.1),
+            (Response { zz: 2.2, rr: 6.4, rz: -1.2, tt: 4.5 }, 0.2),
+            (exact, 0.0),
+        ] {
+            assert!((change(found, exact) - expected).abs() < 1e-15, "{found:?}");
+        }
+    }
+
+    #[test]
+    fn the_bound_is_looked_at_from_far_below_the_thickest_to_far_above_the_thinnest_graded_layer() {
+        let graded = |thickness: f64| {
+            let young = YoungGradient::Exponential { top: 1.0, bottom: 2.0 };
+            let coating = GradedCoating::new(young, POISSON, thickness).unwrap();
+            Layer::Graded { coating, sublayers: None }
+        };
+        let level = YoungGradient::Linear { top: 1.0, bottom: 1.0 };
+        let level = GradedCoating::new(level, POISSON, 1e6).unwrap();
+        let level = Layer::Graded { coating: level, sublayers: None };
+        let uniform = Layer::Uniform(Coating::new(material(SUBSTRATE), 1e-6).unwrap());
+        let all: Vec<f64> = wavenumbers(&[graded(0.1), uniform, graded(10.0), level, graded(1.0)]).collect();
+        assert!((all[0] / 1e-4 - 1.0).abs() < 1e-14);
+        assert!((all[all.len() - 1] / 1e4 - 1.0).abs() < 1e-14);
+        // neighbours a share of a decade apart, the last ones perhaps nearer
+        let apart = 10.0_f64.powf(1.0 / f64::from(PER_DECADE));
+        let ratios: Vec<f64> = all.windows(2).map(|pair| pair[1] / pair[0]).collect();
+        let (inner, last) = ratios.split_at(ratios.len() - 1);
+        assert!(inner.iter().all(|ratio| (ratio / apart - 1.0).abs() < 1e-12), "{ratios:?}");
+        assert!((1.0 - 1e-12..apart).contains(&last[0]), "{last:?}");
+    }
 }
