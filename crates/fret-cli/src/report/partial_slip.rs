@@ -204,16 +204,12 @@ impl State {
             }
             Self::Line { history, datum, at_datum, stretched } => {
                 history.push(force).ok()?;
-                match stretched {
-                    Some(stretched) => {
-                        let (sense, parts) = (stretched.sense, stretched.parts(history)?);
-                        Some(PartialSlip::Stretched { force, sense, parts })
-                    }
-                    None => {
-                        let shift = datum.map(|depth| history.shift(depth, *at_datum));
-                        Some(PartialSlip::Line(history.clone(), shift))
-                    }
+                if let Some(stretched) = stretched {
+                    let (sense, parts) = (stretched.sense, stretched.parts(history)?);
+                    return Some(PartialSlip::Stretched { force, sense, parts });
                 }
+                let shift = datum.map(|depth| history.shift(depth, *at_datum));
+                Some(PartialSlip::Line(history.clone(), shift))
             }
         }
     }
