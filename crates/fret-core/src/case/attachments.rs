@@ -65,3 +65,34 @@ pub fn unreadable(error: &io::Error) -> String {
         _ => format!("cannot be read: {error}"),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_ordinary_files_that_are_not_too_long_are_read() {
+        let folder = std::env::temp_dir().join(format!("fretting-attachments-{}", std::process::id()));
+        fs::create_dir_all(&folder).unwrap();
+        let path = |name: &str| folder.join(name);
+        fs::write(path("short"), b"1 2 3").unwrap();
+        // a file of holes: its length without its bytes
+        fs::File::create(path("long")).unwrap().set_len(MOST_BYTES + 1).unwrap();
+        let found = ["short", "long", "none", "."].map(|name| content(&path(name)));
+        fs::remove_dir_all(&folder).unwrap();
+        let [short, long, none, itself] = found;
+        assert_eq!(short.unwrap(), b"1 2 3");
+        assert_eq!(long.unwrap_err(), "1024 MB long; at most 1024 MB are read");
+        assert_eq!(none.unwrap_err(), "no such file");
+        assert_eq!(itself.unwrap_err(), "no ordinary file");
+    }
+
+    #[test]
+    fn why_a_file_cannot_be_read_is_told_in_a_few_words() {
+        let words = |kind: io::ErrorKind| unreadable(&io::Error::from(kind));
+        assert_eq!(words(io::ErrorKind::NotFound), "no such file");
+        assert_eq!(words(io::ErrorKind::PermissionDenied), "no permission to read it");
+        assert_eq!(words(io::ErrorKind::OutOfMemory), "there is no memory to read it into");
+        assert!(words(io::ErrorKind::TimedOut).starts_with("cannot be read: "));
+    }
+}

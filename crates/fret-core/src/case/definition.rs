@@ -184,3 +184,51 @@ impl Case {
         self.stages.iter().map(Stage::increments_in_all).sum()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::case::check::tests::{BALL, ROLLER, read};
+
+    const MORE: &str = "increments = 5\n[[load]]\ntangential_force = [1e-3, 0.0]\ncycles = 2\nincrements = 4";
+
+    #[test]
+    fn kept_are_every_so_many_increments_and_the_last_of_a_stage() {
+        let kept = |output: &str| {
+            let case =
+                read(BALL, &[("increments = 1", MORE), ("[friction]", &format!("{output}[friction]"))]);
+            assert_eq!(case.increments(), 13);
+            case.kept_increments()
+        };
+        assert_eq!(kept(""), [4, 12]);
+        // of five increments the second, the fourth and the last; of eight every second
+        assert_eq!(kept("[output]\nevery = 2\n"), [1, 3, 4, 6, 8, 10, 12]);
+        assert_eq!(kept("[output]\nevery = 3\n"), [2, 4, 7, 10, 12]);
+    }
+
+    #[test]
+    fn a_history_is_open_ended_when_something_may_end_it() {
+        let open = |changes: &[(&str, &str)]| read(BALL, changes).is_open_ended();
+        let wear = |words: &str| format!("[wear]\ncoefficient = 1e-3\n{words}\n[friction]");
+        let steady = "increments = 1\n[[load]]\ntangential_force = [1e-3, 0.0]\nincrements = 4\n\
+                      until_steady = { tolerance = 1e-3, most_cycles = 3 }";
+        assert!(!open(&[]) && !open(&[("increments = 1", MORE)]));
+        assert!(open(&[("increments = 1", steady)]));
+        assert!(!open(&[("increments = 1", MORE), ("[friction]", &wear(""))]));
+        assert!(!open(&[("increments = 1", MORE), ("[friction]", &wear("every = 1"))]));
+        assert!(open(&[("increments = 1", MORE), ("[friction]", &wear("every = 2"))]));
+        assert!(open(&[("increments = 1", MORE), ("[friction]", &wear("limit = 0.5"))]));
+    }
+
+    #[test]
+    fn tilts_and_lines_are_known() {
+        let tilted = |words: &str| {
+            let stage = format!("increments = 1\n[[load]]\nincrements = 1\n{words}");
+            let case = read(BALL, &[("increments = 1", &stage)]);
+            [case.tilts(0), case.tilts(1)]
+        };
+        assert_eq!(tilted("shift = [1e-3, 0.0]"), [false, false]);
+        assert_eq!(tilted("tilt = [1e-3, \"held\"]"), [true, false]);
+        assert_eq!(tilted("tilt_moment = [\"held\", 1e-6]"), [false, true]);
+        assert!(read(ROLLER, &[]).is_line() && !read(BALL, &[]).is_line());
+    }
+}

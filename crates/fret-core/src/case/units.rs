@@ -171,4 +171,50 @@ mod tests {
         assert_eq!(Units::after(Some(&units), "-", false), "");
         assert_eq!(Units::after(None, "force", false), "");
     }
+
+    #[test]
+    fn pressures_are_told_in_pascals_where_their_units_are_of_si() {
+        for (length, force, pascals, word) in [
+            ("um", "N", Some(1e12), "TPa"),
+            ("mm", "N", Some(1e6), "MPa"),
+            ("m", "kN", Some(1e3), "kPa"),
+            ("m", "N", Some(1.0), "Pa"),
+            ("m", "mN", Some(1e-3), "mPa"),
+            ("cm", "N", Some(1e4), "N/cm^2"),
+            ("in", "lbf", None, "lbf/in^2"),
+            ("mm", "lbf", None, "lbf/mm^2"),
+        ] {
+            let units = Units::new(length, force);
+            // a power of ten is right to rounding
+            let right = match (units.pascals(), pascals) {
+                (Some(found), Some(exact)) => (found / exact - 1.0_f64).abs() < 1e-15,
+                (found, exact) => found == exact,
+            };
+            assert!(
+                right && units.pressure == word,
+                "{length} {force}: {:?} {}",
+                units.pascals(),
+                units.pressure
+            );
+        }
+    }
+
+    #[test]
+    fn units_of_a_case_are_short_words() {
+        use crate::case::check::tests::{BALL, read, refused};
+        let units = |length: &str| format!("[units]\nlength = \"{length}\"\nforce = \"N\"\n[grid]");
+        for length in ["mm", "µm", "twelve_marks", "\u{b0}"] {
+            assert_eq!(read(BALL, &[("[grid]", &units(length))]).units, Some(Units::new(length, "N")));
+        }
+        for length in ["", "thirteen_mark", "m m", "m,"] {
+            let place = format!("\"{length}\"");
+            refused(
+                BALL,
+                &[("[grid]", &units(length))],
+                "must be the symbol of a unit, of 1 to 12 letters",
+                &place,
+            );
+        }
+        assert_eq!(read(BALL, &[]).units, None);
+    }
 }

@@ -91,8 +91,8 @@ fn a_body_may_be_hollow_when_the_gap_still_opens() {
     for hollow in [
         "sphere]\nradius = -1.0",
         "sphere]\nradius = -0.5",
-        "ellipsoid]\nradius_x = -0.5\nradius_y = -20.0",
-        "ellipsoid]\nradius_x = -20.0\nradius_y = -0.5",
+        "ellipsoid]\nradius_x = -0.8\nradius_y = -20.0",
+        "ellipsoid]\nradius_x = -20.0\nradius_y = -0.8",
     ] {
         let error = crate::case::Case::from_toml(&BALL.replacen(SPHERE, &bodies(hollow), 1), "case.toml")
             .unwrap_err();

@@ -77,6 +77,24 @@ fn coatings_are_measured_by_the_longer_side_of_a_cell() {
 }
 
 #[test]
+fn moduli_are_told_by_that_of_diamond_where_their_unit_is_known() {
+    // in mm and N moduli are in MPa; diamond 1.25e6
+    let stiff = |lower: &str, units: &str| {
+        let press = "[[load]]\nnormal_force = 13e3\nincrements = 1\n";
+        expecting(plan(lower, BALL, &format!("{press}{units}")), [1.5, 1.5], 0.01)
+    };
+    let units = |length: &str| format!("[units]\nlength = \"{length}\"\nforce = \"N\"\n");
+    let body = "substrate = { young = 1.3e6, poisson = 0.3 }";
+    same(&stiff(body, &units("mm")), &[(Concern::StifferThanDiamond, 1.04)]);
+    same(&stiff(&body.replace("1.3e6", "1.2e6"), &units("mm")), &[]);
+    same(&stiff(body, &units("m")), &[]);
+    same(&stiff(body, &units("in")), &[]);
+    same(&stiff(body, ""), &[]);
+    let coated = format!("coatings = [{{ young = 2.5e6, poisson = 0.3, thickness = 0.5 }}]\n{body}");
+    same(&stiff(&coated, &units("mm")), &[(Concern::StifferThanDiamond, 2.0)]);
+}
+
+#[test]
 fn the_largest_shift_of_any_stage_counts() {
     let loads = format!(
         "{PRESS}[[load]]\nshift = [0.3, 0.4]\nincrements = 2\n[[load]]\nshift = [0.0, 0.0]\nincrements = 2\n"

@@ -291,6 +291,12 @@ pub(super) fn kinds(random: &mut Random, cells: &Cells, kind: usize) -> Asked {
             }
         }
         8 => asked.friction[0] = 0.0,
+        9 => {
+            asked.strength = random.between(0.1, 0.3);
+            asked.rotates = true;
+            asked.by_force = [true; 3];
+            asked.resultant = [0, 1, 2].map(|_| random.between(-0.1, 0.1));
+        }
         _ => {}
     }
     for mode in 0..3 {
@@ -301,4 +307,4 @@ pub(super) fn kinds(random: &mut Random, cells: &Cells, kind: usize) -> Asked {
     asked
 }
 
-pub(super) const KINDS: usize = 9;
+pub(super) const KINDS: usize = 10;

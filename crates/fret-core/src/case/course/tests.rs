@@ -1,0 +1,218 @@
+use super::{KnownLoads, Path, Stage, Waveform, walk};
+use crate::case::{Attachments, Case};
+use crate::model::Control::{self, FarEnd, Force, Motion};
+use crate::model::LoadStep;
+
+const WAVES: [Waveform; 3] = [Waveform::Triangle, Waveform::Sine, Waveform::Trapezoid { dwell: 0.2 }];
+
+#[test]
+fn a_wave_meets_its_turns_for_any_number_of_increments_and_any_phase() {
+    for wave in WAVES {
+        for increments in wave.fewest_increments()..40 {
+            for phase in [0.0, 0.25, 0.1, -0.4, 0.75] {
+                let values: Vec<f64> = (1..=increments).map(|k| wave.at(k, increments, phase)).collect();
+                assert!(
+                    values.contains(&1.0) && values.contains(&-1.0),
+                    "{wave:?} {increments} {phase}: {values:?}"
+                );
+                assert!(values.iter().all(|value| value.abs() <= 1.0));
+                assert_eq!(wave.at(increments, increments, phase), wave.at(0, increments, phase));
+            }
+        }
+    }
+}
+
+#[test]
+fn a_wave_without_phase_ends_at_zero() {
+    for wave in WAVES {
+        for increments in wave.fewest_increments()..40 {
+            assert_eq!(wave.at(increments, increments, 0.0), 0.0, "{wave:?} {increments}");
+        }
+    }
+}
+
+#[test]
+fn waves_are_what_their_names_say() {
+    for k in 0..48 {
+        let share = k as f64 / 48.0;
+        let sine = (std::f64::consts::TAU * (share + 0.125)).sin();
+        // Rounding of the sine's argument.
+        assert!((Waveform::Sine.at(k, 48, 0.125) - sine).abs() < 1e-14);
+        let triangle = (std::f64::consts::TAU * share).sin().asin() / std::f64::consts::FRAC_PI_2;
+        // The inverse sine loses half of the digits at the turns.
+        assert!((Waveform::Triangle.at(k, 48, 0.0) - triangle).abs() < 1e-7);
+        let trapezoid = (triangle / (1.0 - 4.0 * 0.125)).clamp(-1.0, 1.0);
+        assert!((Waveform::Trapezoid { dwell: 0.25 }.at(k, 48, 0.0) - trapezoid).abs() < 1e-7);
+    }
+}
+
+#[test]
+fn a_trapezoid_needs_an_increment_for_its_shorter_piece() {
+    for (dwell, fewest) in [(0.25, 4), (0.2, 5), (0.3, 5), (0.1, 10), (0.375, 8)] {
+        assert_eq!(Waveform::Trapezoid { dwell }.fewest_increments(), fewest, "{dwell}");
+    }
+    assert_eq!([Waveform::Triangle, Waveform::Sine].map(Waveform::fewest_increments), [4, 4]);
+}
+
+#[test]
+fn turns_halfway_between_increments_are_met_at_the_even_one() {
+    // a quarter of six increments is 1.5, three quarters 4.5
+    let values: Vec<f64> = (0..6).map(|k| Waveform::Triangle.at(k, 6, 0.0)).collect();
+    assert_eq!(values, [0.0, 0.5, 1.0, 0.0, -1.0, -0.5]);
+    // a sine between its turns at 0, 2, 3, 4 and 6
+    let half = (std::f64::consts::FRAC_PI_4).sin();
+    let values = [1, 5].map(|k| Waveform::Sine.at(k, 6, 0.0));
+    assert!((values[0] - half).abs() < 1e-15 && (values[1] + half).abs() < 1e-15, "{values:?}");
+    // phases that rounding has moved off a half: 1.5 +- 1e-9 increments are 1.5
+    for small in [1e-10, -1e-10] {
+        assert_eq!(Waveform::Triangle.at(2, 6, small), 1.0);
+    }
+}
+
+/// The stages of a case with these tables [[load]] behind its first.
+fn stages(loads: &str, table: &str) -> Vec<Stage> {
+    let text = format!(
+        "[grid]\ncells = [16, 16]\nsize = [3.0, 3.0]\n[upper]\nsubstrate = {{ young = 1.0, poisson = 0.3 }}\n[lower]\n\
+         substrate = {{ young = 1.0, poisson = 0.3 }}\n[profile.sphere]\nradius = 100.0\n\
+         [friction]\ncoefficient = 0.5\n[rig]\nnormal_stiffness = 1.0\ntangential_stiffness = 1.0\n\
+         [[load]]\nnormal_force = 64.0\nincrements = 4\nramp = \"cubic\"\n{loads}"
+    );
+    let files = |_: &str| Ok(table.as_bytes().to_vec());
+    Case::from_toml_with(&text, "case.toml", Attachments::files(&files)).unwrap().stages
+}
+
+fn normal(stage: &Stage, start: f64) -> Vec<f64> {
+    let control = stage.normal.as_ref().unwrap();
+    (1..=stage.increments_in_all()).map(|k| stage.value(control, start, k)).collect()
+}
+
+#[test]
+fn ramps_go_from_where_the_stage_starts_to_their_end() {
+    let stages = stages(
+        "[[load]]\napproach = 32.0\nincrements = 4\nramp = \"cubic\"\n[[load]]\nnormal_force = 5.0\nincrements = 4\n\
+         [[load]]\nactuator_approach = 16.0\nincrements = 4\nramp = \"cubic\"\n",
+        "",
+    );
+    // forces with the third power, motions with the second, straight lines with the first
+    assert_eq!(normal(&stages[0], 0.0), [1.0, 8.0, 27.0, 64.0]);
+    assert_eq!(normal(&stages[1], 16.0), [17.0, 20.0, 25.0, 32.0]);
+    assert_eq!(normal(&stages[2], 3.0), [3.5, 4.0, 4.5, 5.0]);
+    assert_eq!(normal(&stages[3], 0.0), [1.0, 4.0, 9.0, 16.0]);
+    for stage in &stages {
+        assert_eq!((stage.increments_in_all(), stage.cycles()), (4, None));
+        assert!((1..=4).all(|k| !stage.ends_cycle(k)));
+    }
+}
+
+#[test]
+fn waves_grow_with_their_envelope_and_start_where_the_control_is() {
+    let stages = stages(
+        "[[load]]\nnormal_force = 8.0\nincrements = 4\ncycles = 2\nenvelope = [0.5, 1.5]\n\
+         [[load]]\nnormal_force = 8.0\nincrements = 4\ncycles = 2\nenvelope = [0.5, 1.5]\nphase = { normal_force = 90.0 }\n",
+        "",
+    );
+    // shares of 5/8, 6/8, ... of a wave of 8
+    assert_eq!(normal(&stages[1], 40.0), [45.0, 40.0, 33.0, 40.0, 49.0, 40.0, 29.0, 40.0]);
+    // a quarter ahead: from the top, 0.5 * 8 above the middle
+    assert_eq!(normal(&stages[2], 40.0), [36.0, 30.0, 36.0, 44.0, 36.0, 26.0, 36.0, 48.0]);
+    assert_eq!(stages[1].increments_in_all(), 8);
+    let ends: Vec<usize> = (1..=8).filter(|&k| stages[1].ends_cycle(k)).collect();
+    assert_eq!(ends, [4, 8]);
+    assert_eq!(stages[1].cycles().unwrap().most, 2);
+}
+
+#[test]
+fn tables_are_followed_from_row_to_row_and_again() {
+    let stages = stages(
+        "[[load]]\ntable = \"path.csv\"\nincrements = 2\n[[load]]\ntable = \"path.csv\"\nincrements = 2\ncycles = 2\n",
+        "normal_force,twist\n10,1\n4,0\n6,3\n",
+    );
+    assert_eq!(stages[1].increments, 6);
+    assert_eq!(normal(&stages[1], 2.0), [6.0, 10.0, 7.0, 4.0, 5.0, 6.0]);
+    // the second cycle starts from the last row
+    let twice = [6.0, 10.0, 7.0, 4.0, 5.0, 6.0, 8.0, 10.0, 7.0, 4.0, 5.0, 6.0];
+    assert_eq!(normal(&stages[2], 2.0), twice);
+}
+
+#[test]
+fn a_stage_prescribes_its_controls_and_leaves_the_others() {
+    let stages = stages(
+        "[[load]]\ntangential_force = [4.0, \"held\"]\nshift = [\"held\", 8.0]\ntwist_moment = 2.0\ntilt = [\"held\", 6.0]\n\
+         bulk_stress = [10.0, \"held\"]\nupper_bulk_stress = [\"held\", 20.0]\nincrements = 2\n\
+         [[load]]\nactuator = [2.0, 4.0]\nincrements = 2\n",
+        "",
+    );
+    let before = LoadStep {
+        normal: Motion(7.0),
+        tangential: [Force(2.0), Motion(4.0)],
+        twist: Force(0.0),
+        tilt: [Force(1.0), Motion(2.0)],
+        bulk_stress: [[2.0, 3.0], [4.0, 5.0]],
+    };
+    let half = LoadStep {
+        normal: Motion(7.0),
+        tangential: [Force(3.0), Motion(6.0)],
+        twist: Force(1.0),
+        tilt: [Force(1.0), Motion(4.0)],
+        bulk_stress: [[6.0, 3.0], [4.0, 12.5]],
+    };
+    assert_eq!(stages[1].load(&before, 1), half);
+    assert_eq!(stages[2].load(&before, 2).tangential, [FarEnd(2.0), FarEnd(4.0)]);
+    let counts: Vec<usize> = stages.iter().map(|stage| stage.controls().count()).collect();
+    assert_eq!(counts, [1, 6, 2]);
+    let motions: Vec<bool> =
+        stages[1..].iter().flat_map(Stage::controls).map(super::StageControl::is_motion).collect();
+    assert_eq!(motions, [false, true, false, true, false, false, true, true]);
+    let words = |stage: &Stage| (stage.is_tangential(), stage.tilts(), stage.stretches());
+    assert_eq!(words(&stages[0]), (false, false, false));
+    assert_eq!(words(&stages[1]), (true, true, true));
+    assert_eq!(words(&stages[2]), (true, false, false));
+    // what a stage leaves is not written
+    let written = |stage: &Stage| serde_json::to_string(stage).unwrap();
+    for key in ["\"tilt\"", "\"bulk_stress\""] {
+        assert!(written(&stages[1]).contains(key) && !written(&stages[0]).contains(key));
+    }
+}
+
+#[test]
+fn paths_of_zeros_are_zero() {
+    assert!(Path::To(0.0).is_zero() && !Path::To(1.0).is_zero());
+    for (amplitude, zero) in [(0.0, true), (0.5, false)] {
+        assert_eq!(Path::Wave { amplitude, phase: 0.5 }.is_zero(), zero);
+        assert_eq!(Path::Through(vec![0.0, amplitude, 0.0]).is_zero(), zero);
+    }
+}
+
+/// What a walk sees of one control.
+fn seen(start: Option<&LoadStep>, stages: &[Stage], index: usize) -> Vec<(usize, Option<Control>)> {
+    let mut all = Vec::new();
+    walk(start, stages, |number, loads: &KnownLoads| all.push((number, loads[index])));
+    all
+}
+
+#[test]
+fn a_walk_knows_what_follows_from_the_case() {
+    let stages = stages(
+        "[[load]]\napproach = 2.0\nincrements = 2\n[[load]]\napproach = 3.0\nincrements = 4\ncycles = 5\n\
+         [[load]]\ntable = \"path.csv\"\nincrements = 2\n[[load]]\nnormal_force = 4.0\nincrements = 4\ncycles = 1\n",
+        "normal_force\n10\n4\n",
+    );
+    let force = |value: f64| Some(Force(value));
+    let motion = |value: f64| Some(Motion(value));
+    let first = [1.0, 8.0, 27.0, 64.0].map(|value| (0, force(value)));
+    // where the approach begins nobody knows; where it ends, the case says
+    let second = [(1, None), (1, motion(2.0))];
+    // of five cycles the first and the last
+    let third = [5.0, 2.0, -1.0, 2.0].map(|value| (2, motion(value)));
+    // a force by rows, from a motion: from the first row on
+    let fourth = [None, force(10.0), force(7.0), force(4.0)].map(|value| (3, value));
+    let fifth = [8.0, 4.0, 0.0, 4.0].map(|value| (4, force(value)));
+    let all = [&first[..], &second, &third, &third, &fourth, &fifth].concat();
+    assert_eq!(seen(None, &stages, 0), all);
+    // from a solved state: forces of 10 in x
+    let start = LoadStep { tangential: [Force(10.0), Force(0.0)], ..LoadStep::FREE };
+    assert!(seen(Some(&start), &stages, 1).iter().all(|(_, x)| *x == force(10.0)));
+    // a wave of another kind than what was held has no known middle
+    let moved = LoadStep { normal: Motion(1.0), ..LoadStep::FREE };
+    assert_eq!(seen(Some(&moved), &stages[4..], 0), [(0, None); 4]);
+}
