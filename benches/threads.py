@@ -7,7 +7,7 @@ Wants numpy, and a machine that does nothing else. Runs on one thread and on N t
 cells a side on), files of results included. Two runs side by side on one thread each say what the machine gives at the most.
 With `--only` the rows of the other scenes stay as they are. *stress*: after the coupled loop, of its last increment; *fatigue*: of all its
 increments, with the parameters of fatigue over its cycle; *line*: examples/cylinder_on_flat.toml with 4 increments of pressing and three cycles
-of 32. Writes docs/data/threads.json; `docs/data/render.py` makes the table of docs/trust/performance.md from it.
+of 32, on one thread. Writes docs/data/threads.json; `docs/data/render.py` makes the table of docs/trust/performance.md from it.
 """
 
 import argparse
@@ -57,12 +57,13 @@ def medians(command, scene, cells, threads, folder):
     if below:
         subprocess.run([command, "run", "case.toml", "--quiet", "--force", "--out", "results"], check=True, cwd=folder)
     repeats = 5 if cells < 1024 else 3
-    walls = {number: [] for number in (1, threads)}
+    alone = scene == "line"
+    walls = {number: [] for number in ((1,) if alone else (1, threads))}
     for _ in range(repeats):
         for number, found in walls.items():
             found.append(timed(words(number), folder)[0]["wall_s"])
     at_once = []
-    if not below:
+    if not below and not alone:
         for _ in range(repeats):
             begun = time.perf_counter()
             running = [subprocess.Popen(words(1, f"results{place}"), cwd=folder) for place in range(2)]
@@ -70,7 +71,7 @@ def medians(command, scene, cells, threads, folder):
             at_once.append(time.perf_counter() - begun)
     return {
         "one_s": statistics.median(walls[1]),
-        "more_s": statistics.median(walls[threads]),
+        "more_s": None if alone else statistics.median(walls[threads]),
         "two_at_once_s": statistics.median(at_once) if at_once else None,
     }
 

@@ -242,8 +242,8 @@ def threads() -> str:
             + ("" if row["scene"] == "line" else f" x {row['cells']}")
             + ("*" if "measured" in row else ""),
             _seconds(row["one_s"]),
-            _seconds(row["more_s"]),
-            f"{row['one_s'] / row['more_s']:.2f}",
+            "-" if row["more_s"] is None else _seconds(row["more_s"]),
+            "-" if row["more_s"] is None else f"{row['one_s'] / row['more_s']:.2f}",
             "-" if row["two_at_once_s"] is None else f"{2 * row['one_s'] / row['two_at_once_s']:.2f}",
         ]
         for row in of["rows"]
