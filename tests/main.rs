@@ -39,6 +39,7 @@ mod refinement;
 mod rig;
 mod rough_surfaces;
 mod second_order;
+mod severity;
 mod shear_strength;
 mod sliding;
 mod subsurface;

@@ -9,6 +9,7 @@ their script carries. A test fails when a page differs from what this script wou
 
 import ast
 import json
+import math
 import os
 import re
 from collections.abc import Callable
@@ -233,19 +234,31 @@ def large() -> str:
 def threads() -> str:
     """Return the table of the times on one thread and on two."""
     of = data("threads")
-    names = {"loop": "coated loop, 8 + 8 increments", "hertz": "Hertz", "stress": "stresses at eight depths"}
+    names = {"loop": "coated loop, 8 + 8 increments", "hertz": "Hertz", "stress": "stresses at eight depths", "fatigue": "stresses and fatigue at eight depths, 17 increments",
+             "line": "line contact, 4 + 96 increments"}  # fmt: skip
     rows = [
         [
-            f"{names[row['scene']]}, {row['cells']} x {row['cells']}",
+            f"{names[row['scene']]}, {row['cells']}"
+            + ("" if row["scene"] == "line" else f" x {row['cells']}")
+            + ("*" if "measured" in row else ""),
             _seconds(row["one_s"]),
-            _seconds(row["more_s"]),
-            f"{row['one_s'] / row['more_s']:.2f}",
+            "-" if row["more_s"] is None else _seconds(row["more_s"]),
+            "-" if row["more_s"] is None else f"{row['one_s'] / row['more_s']:.2f}",
             "-" if row["two_at_once_s"] is None else f"{2 * row['one_s'] / row['two_at_once_s']:.2f}",
         ]
         for row in of["rows"]
     ]
     head = ["run", "one thread [s]", "two threads [s]", "faster by", "two runs at once on one thread each: faster by"]
-    return _table(head, rows, of)
+    apart = sorted(
+        {f"{row['measured']['date']}, commit {row['measured']['commit']}" for row in of["rows"] if "measured" in row}
+    )
+    return _table(head, rows, of) + (f"\n\n\\* {'; '.join(apart)}." if apart else "")
+
+
+def _line_seconds() -> str:
+    """Return the time of a line contact, rounded up to a tenth of a second."""
+    row = next(row for row in data("threads")["rows"] if row["scene"] == "line")
+    return f"{math.ceil(10 * row['one_s']) / 10:g}"
 
 
 def _random(column: int) -> Callable[[], str]:
@@ -281,6 +294,7 @@ NUMBERS: dict[str, Callable[[], str]] = {
     "random_unsolved": _random(4),
     "random_wrong": _random(5),
     "extremes_slowest": _slowest,
+    "line_seconds": _line_seconds,
     "sliding_stick": _sliding("last_stick", 2),
     "sliding_far": _sliding("far", 4),
 }

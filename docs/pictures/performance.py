@@ -1,6 +1,6 @@
 """Wall time of large contacts on two threads.
 
-(a) Frictionless: a sphere in free space, a rigid flat on a rough surface in a period with 1 % of it in contact;
+(a) Frictionless: a sphere, a rigid flat on a rough surface in a period with 1 % of it in contact;
 fretting, aspher and tamaas (the sphere in a period). (b) With friction: Cattaneo and Mindlin in one step, coated loop
 of 8 + 8 increments with pressure and shear coupled. Dashed: fretting without simplifications (no symmetry, the whole
 grid, double precision). The data are those of the table below.

@@ -31,6 +31,7 @@ __all__ = [
     "hertz_line",
     "identify",
     "influence_coefficients",
+    "line_history",
     "memory_needed",
     "mindlin_deresiewicz",
     "mindlin_deresiewicz_at",
@@ -51,6 +52,7 @@ __all__ = [
     "study",
     "subsurface_stress",
     "surface_temperature",
+    "tangential_history",
     "thick_layer",
     "thin_layer",
     "tilted_line_punch",
@@ -227,6 +229,16 @@ def mindlin_deresiewicz_at(
     amplitude: float,
     branch: str,
     tangential_force: float,
+) -> Solution: ...
+def tangential_history(
+    sphere: tuple[float, float, float], friction: float, shear_modulus: float, forces: list[float]
+) -> Solution: ...
+def line_history(
+    cylinder: tuple[float, float, float],
+    friction: float,
+    compliance: float,
+    forces: list[float],
+    datum: tuple[float, float] | None,
 ) -> Solution: ...
 def cattaneo_line(
     cylinder: tuple[float, float, float], friction: float, tangential_force: float, strain: float

@@ -106,3 +106,70 @@ def test_closed_forms_have_their_numbers() -> None:
     )
     with pytest.raises(ValueError, match="friction holds at most"):
         analytic.cattaneo_line(line, friction_coefficient=0.4, tangential_force=1e-4)
+
+
+def test_a_history_of_a_line_contact_is_that_of_a_run() -> None:
+    """Another way: the program, of second order in 256 cells and in its increments."""
+    line = analytic.hertz_line(radius=1.0, line_force=1e-4, modulus=1.0)
+    assert line.half_width == pytest.approx(np.sqrt(4e-4 / np.pi), rel=1e-12)
+    sliding = 0.4e-4
+    forces = sliding * np.array([0.6, -0.3, 0.3, -0.6, 0.6])
+    material = {"young": 2 * (1 - 0.3**2), "poisson": 0.3}
+    case = {
+        "grid": {"cells": 256, "size": 2.6 * line.half_width, "datum": 0.1},
+        "upper": {"substrate": material},
+        "lower": {"substrate": material},
+        "profile": {"cylinder": {"radius": 1.0, "axis": "y"}},
+        "friction": {"coefficient": 0.4},
+        "load": [{"normal_force": 1e-4, "increments": 1}]
+        + [{"tangential_force": [force, 0.0], "increments": 16} for force in forces],
+    }
+    run = fretting.run(case)
+    ends = [16 * (number + 1) for number in range(len(forces))]
+    shear_modulus = material["young"] / 2.6
+    exact = analytic.line_history(
+        line,
+        friction_coefficient=0.4,
+        tangential_forces=forces,
+        shear_compliance=2 / shear_modulus,
+        datum=0.1,
+    )
+    assert run.increments["shift_x"][ends] == pytest.approx(exact.shift, rel=1e-4)  # found: 4e-5
+    assert run.increments["dissipated_energy"][ends] == pytest.approx(exact.dissipated_energy, rel=1e-3)  # found: 6e-4
+    assert exact.stick_half_width[0] == pytest.approx(line.half_width * np.sqrt(0.4), rel=1e-12)
+    # the loop has closed: shift and shear are those of the first push
+    first = analytic.line_history(line, friction_coefficient=0.4, tangential_forces=forces[:1])
+    assert first.shift is None
+    places = np.linspace(-1.1, 1.1, 23) * line.half_width
+    assert exact.shear(places) == pytest.approx(first.shear(places), rel=1e-12, abs=1e-20)
+    pushed = analytic.cattaneo_line(line, friction_coefficient=0.4, tangential_force=forces[0])
+    assert first.shear(places) == pytest.approx(pushed.shear(places), rel=1e-12, abs=1e-20)
+    # along the axis the slip obeys the same law with the shear compliance
+    along = analytic.line_history(
+        line, friction_coefficient=0.4, tangential_forces=forces, shear_compliance=2.0, along_axis=True, datum=0.1
+    )
+    assert along.dissipated_energy == pytest.approx(exact.dissipated_energy, rel=1e-12)
+    for words, wrong in (
+        ("shear_compliance", {"datum": 1.0}),
+        ("positive depth", {"datum": -1.0, "shear_compliance": 1.0}),
+        ("friction holds at most", {"tangential_forces": [2 * sliding]}),
+        ("dimensions", {"tangential_forces": [[0.1 * sliding]]}),
+    ):
+        with pytest.raises(ValueError, match=words):
+            analytic.line_history(line, **({"friction_coefficient": 0.4, "tangential_forces": forces} | wrong))
+
+
+def test_a_history_of_a_sphere_meets_its_loop() -> None:
+    sphere = analytic.hertz(radius=10e-3, force=10.0, modulus=115e9)
+    given = {"friction_coefficient": 0.5, "shear_modulus": 24e9}
+    history = analytic.tangential_history(sphere, **given, tangential_forces=[3.0, 1.0, 2.0, -3.0, 1.5])
+    loop = analytic.mindlin_deresiewicz(sphere, **given, amplitude=3.0)
+    for place, (branch, force) in enumerate((("loading", 3.0), ("unloading", 1.0))):
+        point = loop.at(branch, force)
+        assert history.shift[place] == pytest.approx(point.shift, rel=1e-12)
+        assert history.stick_radius[place] == pytest.approx(point.stick_radius, rel=1e-12)
+    # the small loop is forgotten
+    end = loop.at("reloading", 1.5)
+    assert history.shift[4] == pytest.approx(end.shift, rel=1e-12)
+    r = np.linspace(0.0, 1.2, 13) * sphere.contact_radius
+    assert history.shear(r) == pytest.approx(end.shear(r), rel=1e-12, abs=1e-6)

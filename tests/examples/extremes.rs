@@ -27,6 +27,9 @@ cases. The cases of [Extreme cases](extremes.md) vary one parameter at a time; t
   lift-off and renewed contact; friction that changes between stages;
 - cells from 1:8 to 8:1, 16 to 40 per side; tolerances of 1e-6 and 1e-8;
 - some have torsion, wear, periodicity, or a coefficient of friction per patch.
+
+Line contacts, stretched and tilted, are drawn by a test of their own (`tests/line_extremes.rs`): every case is certified, or refused:
+contact at the edge of the grid.
 ";
 
 fn main() -> Result<ExitCode, Box<dyn Error>> {

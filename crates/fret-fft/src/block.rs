@@ -2,6 +2,7 @@
 
 use ndarray::{ArrayView1, ArrayView2, s};
 
+use super::lanes::pieces;
 use super::{Mirrors, Parity};
 
 /// One kernel, given by its quadrant of offsets: `values[[i, j]]` belongs to the offset of `i >= 0` cells in `x`
@@ -132,9 +133,7 @@ impl Terms {
         if blocks.is_empty() {
             return Err(ConvolutionError::NoBlocks);
         }
-        for (index, kernel) in kernels.iter().enumerate() {
-            check_quadrant(index, &kernel.values, quadrant)?;
-        }
+        check_quadrants(kernels, quadrant)?;
         for (index, block) in blocks.iter().enumerate() {
             if block.kernel >= kernels.len() {
                 let (block, kernel, kernels) = (index, block.kernel, kernels.len());
@@ -177,6 +176,28 @@ impl Terms {
             assert!(found == cells, "field of {found} values passed to a product on a {nx} x {ny} grid");
         }
     }
+}
+
+/// Checks all kernels; the first that fails is told, whatever the threads.
+fn check_quadrants(kernels: &[Kernel<'_>], quadrant: [usize; 2]) -> Result<(), ConvolutionError> {
+    fn check(
+        first: usize,
+        kernels: &[Kernel<'_>],
+        quadrant: [usize; 2],
+        pieces: usize,
+    ) -> Result<(), ConvolutionError> {
+        if pieces > 1 && kernels.len() > 1 {
+            let (one, other) = kernels.split_at(kernels.len() / 2);
+            let right = pieces - pieces / 2;
+            let (one, other) = crate::join(
+                || check(first, one, quadrant, pieces / 2),
+                || check(first + kernels.len() / 2, other, quadrant, right),
+            );
+            return one.and(other);
+        }
+        (first..).zip(kernels).try_for_each(|(index, kernel)| check_quadrant(index, &kernel.values, quadrant))
+    }
+    check(0, kernels, quadrant, pieces(quadrant, kernels.len().max(1)))
 }
 
 fn check_quadrant(

@@ -2,9 +2,9 @@
 
 use fret_core::analytic::{
     AnalyticError, Branch, CattaneoLine, CattaneoMindlin, Cone, EffectiveModuli, EquibiaxialSphere,
-    FlatPunch, Hertz, HertzEllipse, HertzLine, MindlinDeresiewicz, NoSlipPunch, NoSlipSphere, RoundedPunch,
-    SPENCE_TABLE, SlidingCylinder, StretchedLine, StretchedSphere, ThickLayer, ThinLayer, TiltedLinePunch,
-    TiltedPunch, Torsion, Westergaard,
+    FlatPunch, Hertz, HertzEllipse, HertzLine, LineHistory, MindlinDeresiewicz, NoSlipPunch, NoSlipSphere,
+    RoundedPunch, SPENCE_TABLE, SlidingCylinder, StretchedLine, StretchedSphere, TangentialHistory,
+    ThickLayer, ThinLayer, TiltedLinePunch, TiltedPunch, Torsion, Westergaard,
 };
 use fret_core::model::{Coating, ElasticMaterial};
 use numpy::{IntoPyArray, PyArray1, PyReadonlyArray1};
@@ -209,6 +209,59 @@ pub fn mindlin_deresiewicz_at(
         "stick_radius": point.stick_radius(),
     });
     Ok(solution(numbers, vec![("shear", Box::new(move |r| point.shear(r)))]))
+}
+
+/// Sphere pushed through any sequence of tangential forces.
+#[pyfunction]
+pub fn tangential_history(
+    sphere: HertzNumbers,
+    friction: f64,
+    shear_modulus: f64,
+    forces: Vec<f64>,
+) -> PyResult<Solution> {
+    let mut history = TangentialHistory::new(&hertz_of(sphere)?, friction, shear_modulus).map_err(refused)?;
+    let mut found: [Vec<f64>; 3] = Default::default();
+    for force in &forces {
+        history.push(*force).map_err(refused)?;
+        found[0].push(history.shift());
+        found[1].push(history.stick_radius());
+        found[2].push(history.dissipated_energy());
+    }
+    let [shift, stick_radius, dissipated_energy] = found;
+    let numbers = json!({
+        "tangential_forces": forces,
+        "shift": shift,
+        "stick_radius": stick_radius,
+        "dissipated_energy": dissipated_energy,
+    });
+    Ok(solution(numbers, vec![("shear", Box::new(move |r| history.shear(r)))]))
+}
+
+/// Cylinder pushed through any sequence of tangential forces per length; `datum` is its depth and what a unit force moves it by.
+#[pyfunction]
+pub fn line_history(
+    cylinder: HertzNumbers,
+    friction: f64,
+    compliance: f64,
+    forces: Vec<f64>,
+    datum: Option<(f64, f64)>,
+) -> PyResult<Solution> {
+    let mut history = LineHistory::new(&hertz_line_of(cylinder)?, friction, compliance).map_err(refused)?;
+    let mut found: [Vec<f64>; 3] = Default::default();
+    for force in &forces {
+        history.push(*force).map_err(refused)?;
+        found[0].extend(datum.map(|(depth, at_datum)| history.shift(depth, at_datum)));
+        found[1].push(history.stick_half_width());
+        found[2].push(history.dissipated_energy());
+    }
+    let [shift, stick_half_width, dissipated_energy] = found;
+    let numbers = json!({
+        "tangential_forces": forces,
+        "shift": datum.map(|_| shift),
+        "stick_half_width": stick_half_width,
+        "dissipated_energy": dissipated_energy,
+    });
+    Ok(solution(numbers, vec![("shear", Box::new(move |x| history.shear(x)))]))
 }
 
 /// Sphere twisted about the normal for the first time.

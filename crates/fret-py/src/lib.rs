@@ -30,9 +30,10 @@ mod _core {
     #[pymodule_export]
     use crate::analytic::{
         Solution, cattaneo_line, cattaneo_mindlin, cone, effective_moduli, equibiaxial_sphere, flat_punch,
-        hertz, hertz_ellipse, hertz_line, mindlin_deresiewicz, mindlin_deresiewicz_at, no_slip_punch,
-        no_slip_sphere, rounded_punch, sliding_cylinder, spence_table, stretched_line, stretched_sphere,
-        thick_layer, thin_layer, tilted_line_punch, tilted_punch, torsion, westergaard,
+        hertz, hertz_ellipse, hertz_line, line_history, mindlin_deresiewicz, mindlin_deresiewicz_at,
+        no_slip_punch, no_slip_sphere, rounded_punch, sliding_cylinder, spence_table, stretched_line,
+        stretched_sphere, tangential_history, thick_layer, thin_layer, tilted_line_punch, tilted_punch,
+        torsion, westergaard,
     };
     #[pymodule_export]
     use crate::case::Case;

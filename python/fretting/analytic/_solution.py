@@ -42,6 +42,16 @@ def numbers_of(solution: _core.Solution) -> dict[str, Any]:
     return numbers
 
 
+def of_each(numbers: dict[str, Any]) -> dict[str, Any]:
+    """Turn lists, one number for each force, into arrays."""
+    return {name: None if values is None else np.array(values, dtype=np.float64) for name, values in numbers.items()}
+
+
+def forces_of(tangential_forces: npt.ArrayLike) -> list[float]:
+    found: list[float] = real_array("tangential_forces", tangential_forces, dimensions=1).tolist()
+    return found
+
+
 def curve(solution: _core.Solution, name: str, at: npt.ArrayLike) -> Reals:
     places = real_array(name, at)
     return solution.curve(name, places.ravel()).reshape(places.shape)

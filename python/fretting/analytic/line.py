@@ -2,11 +2,12 @@
 
 from dataclasses import dataclass, field
 
+import numpy as np
 import numpy.typing as npt
 
 from fretting import _core
 from fretting._arrays import Reals
-from fretting.analytic._solution import curve, numbers_of
+from fretting.analytic._solution import curve, forces_of, numbers_of, of_each
 
 
 @dataclass(frozen=True)
@@ -99,6 +100,76 @@ def cattaneo_line(
     """
     solution = _core.cattaneo_line(_line_numbers(cylinder), friction_coefficient, tangential_force, strain)
     return CattaneoLine(**numbers_of(solution), _solution=solution)
+
+
+@dataclass(frozen=True)
+class LineHistory:
+    """A Hertz line contact taken through any sequence of tangential forces, at constant normal force."""
+
+    tangential_forces: Reals
+    """Tangential forces per length in their order [force/length]."""
+    shift: Reals | None
+    """Relative tangential displacement of points at the datum at each force [length]; None without a datum."""
+    stick_half_width: Reals
+    """Half-width of what has not slipped since the force last turned, at each force [length]."""
+    dissipated_energy: Reals
+    """Energy dissipated by friction per length since the start, at each force [force]."""
+    _solution: _core.Solution = field(repr=False, compare=False)
+
+    def shear(self, x: npt.ArrayLike) -> Reals:
+        """Shear at the last force at `x` from the middle [pressure], along the force; zero outside the contact."""
+        return curve(self._solution, "shear", x)
+
+
+def line_history(
+    cylinder: HertzLine,
+    *,
+    friction_coefficient: float,
+    tangential_forces: npt.ArrayLike,
+    shear_compliance: float | None = None,
+    along_axis: bool = False,
+    datum: float | None = None,
+) -> LineHistory:
+    """Take a Hertz line contact through tangential forces, in any order.
+
+    Loops that close are forgotten (Masing's rule). For bodies that do not couple.
+
+    Parameters
+    ----------
+    cylinder : HertzLine
+        The normal contact.
+    friction_coefficient : float
+        Friction coefficient [-].
+    tangential_forces : array_like
+        Tangential forces per length, one after the other from zero on, shape ``(n,)`` [force/length]; between them the
+        force is monotone. None is more than friction times normal force.
+    shear_compliance : float, optional
+        Sum of ``1/G`` of the bodies that deform [1/pressure]; needed along the axis and with a datum.
+    along_axis : bool, optional
+        Whether the forces act along the axis of the cylinder (antiplane), not across it.
+    datum : float, optional
+        Depth below the surfaces of the points whose displacement is asked for [length], far greater than the
+        half-width.
+
+    References
+    ----------
+    Cattaneo (1938); Mindlin (1949); Jäger (1993), *Arch. Appl. Mech.* 63, 402.
+    """
+    if shear_compliance is None and (along_axis or datum is not None):
+        raise ValueError("shear_compliance: along the axis and with a datum the sum of 1/G of the bodies is needed")
+    if datum is not None and not (np.isfinite(datum) and datum > 0):
+        raise ValueError(f"datum = {datum!r}: must be a positive depth")
+    of_bodies = 0.0 if shear_compliance is None else float(shear_compliance)
+    compliance = of_bodies if along_axis else 2 / cylinder.modulus
+    at_datum = 0.0 if along_axis else -of_bodies / (2 * np.pi)
+    solution = _core.line_history(
+        _line_numbers(cylinder),
+        friction_coefficient,
+        compliance,
+        forces_of(tangential_forces),
+        None if datum is None else (float(datum), at_datum),
+    )
+    return LineHistory(**of_each(numbers_of(solution)), _solution=solution)
 
 
 @dataclass(frozen=True)

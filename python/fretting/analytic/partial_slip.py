@@ -6,7 +6,7 @@ import numpy.typing as npt
 
 from fretting import _core
 from fretting._arrays import Reals
-from fretting.analytic._solution import Branch, curve, numbers_of, surface
+from fretting.analytic._solution import Branch, curve, forces_of, numbers_of, of_each, surface
 from fretting.analytic.normal import Hertz, hertz_numbers
 
 
@@ -157,6 +157,64 @@ def mindlin_deresiewicz(
         peak=CattaneoMindlin(**numbers_of(peak), _solution=peak),
         **numbers_of(fretting_loop),
     )
+
+
+@dataclass(frozen=True)
+class TangentialHistory:
+    """A Hertz contact taken through any sequence of tangential forces, at constant normal force."""
+
+    tangential_forces: Reals
+    """Tangential forces in their order [force]."""
+    shift: Reals
+    """Relative tangential displacement of the bodies at each force [length]."""
+    stick_radius: Reals
+    """Radius of the disc that has not slipped since the force last turned, at each force [length]."""
+    dissipated_energy: Reals
+    """Energy dissipated by friction since the start, at each force [force x length]."""
+    _solution: _core.Solution = field(repr=False, compare=False)
+
+    def shear(self, r: npt.ArrayLike) -> Reals:
+        """Shear at the last force at distances `r` from the middle [pressure], along the force; zero outside."""
+        return curve(self._solution, "shear", r)
+
+
+def tangential_history(
+    sphere: Hertz, *, friction_coefficient: float, shear_modulus: float, tangential_forces: npt.ArrayLike
+) -> TangentialHistory:
+    """Take a Hertz contact through tangential forces along one line, in any order.
+
+    Loops that close are forgotten (Masing's rule). Limits as for :func:`cattaneo_mindlin`.
+
+    Parameters
+    ----------
+    sphere : Hertz
+        The normal contact.
+    friction_coefficient : float
+        Friction coefficient [-].
+    shear_modulus : float
+        Effective shear modulus G* [pressure].
+    tangential_forces : array_like
+        Tangential forces, one after the other from zero on, shape ``(n,)`` [force]; between them the force is monotone.
+        None is more than friction times normal force.
+
+    References
+    ----------
+    Mindlin & Deresiewicz (1953); Jäger (1993), *Arch. Appl. Mech.* 63, 402.
+
+    Examples
+    --------
+    >>> from fretting import analytic
+    >>> sphere = analytic.hertz(radius=10e-3, force=10.0, modulus=115e9)
+    >>> history = analytic.tangential_history(
+    ...     sphere, friction_coefficient=0.5, shear_modulus=24e9, tangential_forces=[3.0, -3.0, 3.0]
+    ... )
+    >>> bool(history.shift[2] == history.shift[0])
+    True
+    """
+    solution = _core.tangential_history(
+        hertz_numbers(sphere), friction_coefficient, shear_modulus, forces_of(tangential_forces)
+    )
+    return TangentialHistory(**of_each(numbers_of(solution)), _solution=solution)
 
 
 @dataclass(frozen=True)

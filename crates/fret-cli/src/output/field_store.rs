@@ -14,6 +14,7 @@ use fret_core::history::{FIELDS, Field, FieldValues, KeptFields, ZONE_WORDS};
 use fret_core::model::{SurfaceGrid, Zone};
 use fret_core::plan::Plan;
 use ndarray::Array2;
+use rayon::prelude::{IntoParallelRefIterator, ParallelIterator};
 use serde_json::{Value, json};
 
 use super::whole_file::write_whole;
@@ -114,18 +115,16 @@ impl FieldStore {
         }
     }
 
-    /// Writes the fields of one increment.
+    /// Writes the fields of one increment, side by side: each waits for the disk.
     pub fn keep(&mut self, kept: &KeptFields) -> Result<(), Unwritten> {
         let step = self.position(kept.increment)?;
-        for array in &self.arrays {
+        self.arrays.par_iter().try_for_each(|array| {
             let bytes = (array.values)(kept).map(|values| match values {
                 FieldValues::Reals(values) => numbers(values),
                 FieldValues::Zones(values) => zones(values),
             });
-            if let Some(bytes) = bytes {
-                self.write(&chunk(&self.grid, array.name, step), &bytes)?;
-            }
-        }
+            bytes.map_or(Ok(()), |bytes| self.write(&chunk(&self.grid, array.name, step), &bytes))
+        })?;
         self.kept = step + 1;
         Ok(())
     }

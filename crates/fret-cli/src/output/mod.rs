@@ -86,6 +86,8 @@ pub struct ResultFolder {
     fields: FieldStore,
     states: StateStore,
     checkpoints: CheckpointFolder,
+    /// Increments of the whole run, at the most.
+    increments: usize,
 }
 
 impl ResultFolder {
@@ -170,6 +172,7 @@ impl ResultFolder {
             question: run_record::question(plan),
             record,
             checkpoints,
+            increments: plan.case.increments(),
         })
     }
 
@@ -226,6 +229,7 @@ impl ResultFolder {
             question,
             record,
             checkpoints,
+            increments: plan.case.increments(),
         };
         Ok(Some(Taken { folder, stored, passed_over, ended }))
     }
@@ -246,8 +250,12 @@ impl ResultFolder {
         self.cycles.add_cycle(record)
     }
 
-    /// Writes down where the run stands, after everything about it has been kept.
+    /// Writes down where the run stands, after everything about it has been kept; nothing after its last increment, which is solved
+    /// again should the process end before the run is closed.
     pub fn reached(&mut self, waypoint: &Waypoint<'_>, tally: &Tally, wall_s: f64) -> Result<(), Failure> {
+        if waypoint.solved() >= self.increments {
+            return Ok(());
+        }
         let head = Head {
             version: env!("CARGO_PKG_VERSION").to_owned(),
             question: self.question.clone(),

@@ -1,16 +1,11 @@
-//! Which closed forms speak about a run, and what they say. They need a sphere, an ellipsoid, or a cylinder in a line contact, on
-//! homogeneous bodies; those of
-//! friction a sphere, one coefficient for all stages, one line of force, a normal force that stays, bodies whose pressure and shear
-//! do not act on each other, and a contact that sticks somewhere.
+//! Which closed forms of the frictionless contact speak about a run, and what they say. They need a sphere, an ellipsoid, or a cylinder in
+//! a line contact, on homogeneous bodies that do not tilt.
 
-use fret_core::analytic::{EffectiveModuli, Hertz, HertzEllipse, HertzLine, TangentialHistory};
+use fret_core::analytic::{EffectiveModuli, Hertz, HertzEllipse, HertzLine};
 use fret_core::model::{Body, ContactPair};
 use serde_json::Value;
 
 use crate::results::Results;
-
-/// Share of the largest load below which a change of the load, or a load across, is none.
-const STEADY: f64 = 1e-4;
 
 /// Undeformed gaps whose contact has a closed form; radii [length].
 #[derive(Debug, Clone, Copy)]
@@ -28,9 +23,9 @@ pub struct NormalForm {
     /// Moduli of the pair.
     pub moduli: EffectiveModuli,
     /// Depth of the datum of a line contact [length].
-    datum: Option<f64>,
+    pub datum: Option<f64>,
     /// Sum of `1/G` of the bodies that deform [1/pressure].
-    shear_compliance: f64,
+    pub shear_compliance: f64,
 }
 
 /// One load of the frictionless contact.
@@ -48,7 +43,9 @@ impl NormalForm {
     /// The closed form of a run, where it has one.
     pub fn of(results: &Results) -> Option<Self> {
         let wears = results.planned::<Value>("/case/wear").is_some_and(|wear| !wear.is_null());
-        if wears || results.planned::<bool>("/case/periodic")? {
+        let stages: Vec<Value> = results.planned("/case/stages")?;
+        let tilts = stages.iter().any(|stage| !stage["tilt"].is_null());
+        if wears || tilts || results.planned::<bool>("/case/periodic")? {
             return None;
         }
         let bodies: ContactPair = results.planned("/case/bodies")?;
@@ -133,62 +130,6 @@ impl Pressed {
     }
 }
 
-/// Partial slip in closed form along the history of a run.
-#[derive(Debug)]
-pub struct TangentialForm {
-    /// After each increment, as long as the closed form can follow.
-    after: Vec<Option<TangentialHistory>>,
-}
-
-impl TangentialForm {
-    /// The closed form of a run whose tangential force acts along `direction`, where it has one.
-    pub fn of(results: &Results, normal: &NormalForm, direction: [f64; 2]) -> Option<Self> {
-        let Shape::Sphere(radius) = normal.shape else { return None };
-        let friction: f64 = results.planned("/case/friction/coefficient/uniform")?;
-        if results.planned::<Value>("/case/friction/max_shear").is_some() {
-            return None;
-        }
-        let stages: Vec<Value> = results.planned("/case/stages")?;
-        let other_friction = stages.iter().any(|stage| !stage["friction"].is_null());
-        if other_friction || results.planned::<String>("/coupling")? == "coupled" {
-            return None;
-        }
-        let table = &results.table;
-        let [along, across] = components(results, direction);
-        let largest = along.iter().fold(0.0, |most: f64, force| most.max(force.abs()));
-        let is_twisted = table.column("twist").iter().any(|twist| *twist != 0.0);
-        if is_twisted || across.iter().any(|force| force.abs() > STEADY * largest) {
-            return None;
-        }
-        let forces = table.column("normal_force");
-        let start = along.iter().position(|force| force.abs() > STEADY * largest)?;
-        let pressed = forces[start];
-        let hertz = Hertz::sphere(radius, pressed, normal.moduli.normal).ok()?;
-        let mut history = TangentialHistory::new(&hertz, friction, normal.moduli.shear).ok()?;
-        let mut after = vec![None; start];
-        let slides =
-            |row: usize| results.table.regimes().get(row).is_some_and(|regime| regime == "gross_slip");
-        for (row, (force, tangential)) in forces.iter().zip(&along).enumerate().skip(start) {
-            let is_steady = (force - pressed).abs() <= STEADY * pressed;
-            // At the onset of sliding the shift is no longer a matter of the force.
-            let holds = tangential.abs() < friction * pressed * (1.0 - 1e-6);
-            if !is_steady || !holds || slides(row) || history.push(*tangential).is_err() {
-                break;
-            }
-            after.push(Some(history.clone()));
-        }
-        let rows = table.rows();
-        let any = after.iter().any(Option::is_some);
-        after.resize(rows, None);
-        any.then_some(Self { after })
-    }
-
-    /// The closed form after an increment.
-    pub fn after(&self, increment: usize) -> Option<&TangentialHistory> {
-        self.after.get(increment)?.as_ref()
-    }
-}
-
 /// The shape of the undeformed gap, where it is one and nothing else.
 fn lone_shape(results: &Results) -> Option<Value> {
     let profile: Value = results.planned("/case/profile")?;
@@ -199,14 +140,4 @@ fn lone_shape(results: &Results) -> Option<Value> {
         Some(_) => None,
         None => Some(profile),
     }
-}
-
-/// Tangential force of every increment along a direction and across it.
-pub fn components(results: &Results, [cosine, sine]: [f64; 2]) -> [Vec<f64>; 2] {
-    let table = &results.table;
-    let forces = || table.column("tangential_force_x").iter().zip(table.column("tangential_force_y"));
-    [
-        forces().map(|(x, y)| cosine * x + sine * y).collect(),
-        forces().map(|(x, y)| cosine * y - sine * x).collect(),
-    ]
 }

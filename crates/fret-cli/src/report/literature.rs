@@ -4,6 +4,7 @@ use maud::{Markup, html};
 
 use super::closed_form::Pressed;
 use super::overview::Overview;
+use super::partial_slip::PartialSlip;
 
 const LAYERS: &str = "T. C. O'Sullivan, R. B. King: Sliding contact stress field due to a spherical indenter on a layered \
                       elastic half-space. J. Tribol. 110 (1988) 235–240.";
@@ -25,6 +26,8 @@ const MINDLIN: &str =
     "R. D. Mindlin: Compliance of elastic bodies in contact. J. Appl. Mech. 16 (1949) 259–268.";
 const DERESIEWICZ: &str = "R. D. Mindlin, H. Deresiewicz: Elastic spheres in contact under varying oblique forces. J. Appl. \
                            Mech. 20 (1953) 327–344.";
+const NOWELL: &str =
+    "D. Nowell, D. A. Hills: Mechanics of fretting fatigue tests. Int. J. Mech. Sci. 29 (1987) 355–365.";
 const JOHNSON: &str = "K. L. Johnson: Contact Mechanics. Cambridge University Press (1985).";
 
 /// The chapter.
@@ -37,6 +40,11 @@ pub fn chapter(view: &Overview<'_>) -> Markup {
     let periodic = view.results.planned::<bool>("/case/periodic") == Some(true);
     let pressed = view.normal_form.and_then(|form| form.under(1.0));
     let partial_slip = view.tangential_form.is_some();
+    let is_line = view.results.fields.is_line();
+    let is_stretched = view
+        .tangential_form
+        .as_ref()
+        .is_some_and(|form| form.any(|slip| matches!(slip, PartialSlip::Stretched { .. })));
     let works = [
         (coated, COATED),
         (coated, LAYERS),
@@ -47,7 +55,8 @@ pub fn chapter(view: &Overview<'_>) -> Markup {
         (matches!(pressed, Some(Pressed::Sphere(_) | Pressed::Ellipsoid(_) | Pressed::Line(..))), HERTZ),
         (partial_slip, CATTANEO),
         (partial_slip, MINDLIN),
-        (partial_slip && !view.cycles().is_empty(), DERESIEWICZ),
+        (is_stretched, NOWELL),
+        (partial_slip && !is_line && !view.cycles().is_empty(), DERESIEWICZ),
         (pressed.is_some(), JOHNSON),
     ];
     let version = view.results.record["version"].as_str().unwrap_or_default();

@@ -4,8 +4,9 @@ use fret_core::case::Units;
 use fret_core::history::CycleRecord;
 use serde_json::Value;
 
-use super::closed_form::{NormalForm, TangentialForm, components};
+use super::closed_form::NormalForm;
 use super::html::{given, number};
+use super::partial_slip::{TangentialForm, components};
 use crate::drawing::scale::Label;
 use crate::results::Results;
 

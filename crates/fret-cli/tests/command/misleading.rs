@@ -121,3 +121,48 @@ fn a_report_of_torsion_draws_moment_over_twist() {
     assert!(page.contains("Dissipated energy"), "no energy");
     assert!(!page.contains("tangential force over relative displacement"));
 }
+
+/// Like line contacts have one too, also under a bulk stress in step with the force, but not in another step, nor under a bulk stress so
+/// large that both edges slip; the numbers beside it are near.
+#[test]
+fn a_report_of_a_line_contact_shows_cattaneo_where_it_holds() {
+    let bench = Bench::new("line-forms");
+    let line =
+        include_str!("../../../../examples/cylinder_on_flat.toml").replace("cells = 512", "cells = 128");
+    let pull = "tangential_force = [2.5e5, 0.0]";
+    let bulk = |words: &str| line.replace(pull, &format!("{pull}\n{words}"));
+    // e/a = sigma / (4 mu p0): 0.1 for 171 MPa; moderate up to Q / (2 mu P) = 0.25
+    let cases = [
+        ("plain", line.clone(), [true, true]),
+        ("back", line.replace("[2.5e5, 0.0]", "[-2.5e5, 0.0]"), [true, true]),
+        ("along", line.replace("[2.5e5, 0.0]", "[0.0, 2.5e5]"), [true, true]),
+        ("in_step", bulk("bulk_stress = 171e6"), [true, false]),
+        ("large", bulk("bulk_stress = 600e6"), [false, false]),
+        ("out_of_step", bulk("bulk_stress = 171e6\nphase = { bulk_stress = 45.0 }"), [false, false]),
+        (
+            "coupled",
+            line.replace("young = 210e9", "young = 800e9").replacen("young = 800e9", "young = 210e9", 1),
+            [false; 2],
+        ),
+    ];
+    for (name, case, [has_form, knows_shift]) in cases {
+        let file = format!("{name}.toml");
+        let answer = bench.file(&file, &case).fret(&["run", &file]);
+        assert_eq!(answer.code, Some(0), "{name}: {}", answer.err);
+        assert_eq!(bench.fret(&["report", &format!("results/{name}")]).code, Some(0));
+        let page = bench.text(&format!("results/{name}/report.html"));
+        assert_eq!(page.contains("dashed the closed form (Cattaneo)"), has_form, "{name}");
+        let shift = "Dashed: the closed form for the same forces (Cattaneo), relative to the datum.";
+        assert_eq!(page.contains(shift), knows_shift, "{name}");
+        let off = |what: &str| -> Option<f64> {
+            let row = page.split(&format!("<td>{what}</td>")).nth(1)?;
+            let cell = row.split("</td>").nth(2)?.trim_start_matches("<td>");
+            cell.replace('−', "-").trim_end_matches(" %").parse().ok()
+        };
+        let found = [off("width of stick"), off("displacement")];
+        assert_eq!(found.map(|found| found.is_some()), [has_form, knows_shift], "{name}: {found:?}");
+        // whole cells: two of the 66 that stick; displacement of second order
+        assert!(found[0].is_none_or(|off| off.abs() < 3.1), "{name}: {found:?}");
+        assert!(found[1].is_none_or(|off| off.abs() < 0.3), "{name}: {found:?}");
+    }
+}

@@ -79,6 +79,16 @@ impl LineHistory {
         Ok(())
     }
 
+    /// Tangential force per length Q' it is at [force/length].
+    pub fn tangential_force(&self) -> f64 {
+        self.force
+    }
+
+    /// Forces per length at which it turned and which it remembers [force/length].
+    pub fn turning_points(&self) -> &[f64] {
+        &self.turning_points
+    }
+
     /// What is not slipped of the sliding force on a first loading, over it: `1 − |Q'|/μP'`.
     fn left(&self, force: f64) -> f64 {
         (1.0 - force.abs() / self.sliding_force).max(0.0)

@@ -207,36 +207,47 @@ pub(super) fn coefficients<Q: Quartets<N>, const N: usize, const C: usize, const
 
 /// Fills the offsets `j > i` from those with x and y exchanged, block by block.
 fn mirror<const C: usize>(values: &mut [f64], n: usize, kernels: usize, exchanged: [usize; C]) {
+    let partner = |kernel: usize| [0, 2, 1][kernel / C] * C + exchanged[kernel % C];
+    mirror_rows(values, 0, n, &(0..kernels).map(partner).collect::<Vec<_>>());
+}
+
+/// The same in a square of rows and columns from `first` on, of which `values` are the rows: the square above the middle on all threads, then
+/// both halves of the diagonal.
+fn mirror_rows(values: &mut [f64], first: usize, n: usize, partners: &[usize]) {
     const BLOCK: usize = 8;
-    let exchanged = |kernel: usize| [0, 2, 1][kernel / C] * C + exchanged[kernel % C];
-    let stride = kernels * n;
-    for first in (0..n).step_by(BLOCK) {
-        let last = (first + BLOCK).min(n);
-        let (upper, lower) = values.split_at_mut(last * stride);
-        let upper = &mut upper[first * stride..];
-        // the block on the diagonal
-        for kernel in 0..kernels {
-            let [own, partner] = [kernel, exchanged(kernel)].map(|kernel| kernel * n + first);
-            for i in 0..last - first {
-                for j in i + 1..last - first {
-                    upper[i * stride + own + j] = upper[j * stride + partner + i];
+    let stride = partners.len() * n;
+    let rows = values.len() / stride;
+    if rows <= BLOCK {
+        for (kernel, partner) in partners.iter().enumerate() {
+            let [own, partner] = [kernel, *partner].map(|kernel| kernel * n + first);
+            for i in 0..rows {
+                for j in i + 1..rows {
+                    values[i * stride + own + j] = values[j * stride + partner + i];
                 }
             }
         }
-        for (number, rows) in lower.chunks(BLOCK * stride).enumerate() {
-            let place = last + number * BLOCK;
-            let count = rows.len() / stride;
-            for kernel in 0..kernels {
-                let [own, partner] = [kernel, exchanged(kernel)].map(|kernel| kernel * n);
+        return;
+    }
+    let middle = (rows / 2).next_multiple_of(BLOCK);
+    let (upper, lower) = values.split_at_mut(middle * stride);
+    upper.par_chunks_mut(BLOCK * stride).enumerate().for_each(|(number, upper)| {
+        for (block, rows) in lower.chunks(BLOCK * stride).enumerate() {
+            let place = first + middle + block * BLOCK;
+            for (kernel, partner) in partners.iter().enumerate() {
                 for (i, row) in upper.chunks_exact_mut(stride).enumerate() {
-                    let values = &mut row[own + place..own + place + count];
-                    for (value, row) in values.iter_mut().zip(rows.chunks_exact(stride)) {
-                        *value = row[partner + first + i];
+                    let from = partner * n + first + number * BLOCK + i;
+                    let to = &mut row[kernel * n + place..][..rows.len() / stride];
+                    for (value, row) in to.iter_mut().zip(rows.chunks_exact(stride)) {
+                        *value = row[from];
                     }
                 }
             }
         }
-    }
+    });
+    rayon::join(
+        || mirror_rows(upper, first, n, partners),
+        || mirror_rows(lower, first + middle, n, partners),
+    );
 }
 
 /// Displacement of the surface by unit traction on a cell: zz, xx, yy, xy, zx, zy.

@@ -32,27 +32,33 @@ const WAITING: usize = 32 << 20;
 /// Bytes a cell of heights or of a friction map: as they are held, and in the gap.
 const EACH_CELL: usize = 16;
 
-/// Bytes a cell of `[the whole grid, what the solver holds in front of the mirrors]`.
+/// Bytes a cell of `[the whole grid, what the solver holds in front of the mirrors, what it remembers]`.
 ///
-/// The whole: the state before and after, the gap, the influence coefficients. In front of the mirrors: the transformed kernels of each operator in double and single precision, their work space, and the fields of the
-/// iterations. In a case that repeats nothing is padded, and the inverse is exact.
-fn bytes_per_cell(coupling: Coupling, periodic: bool) -> [usize; 2] {
+/// The whole: the state before and after, the gap, the influence coefficients. In front of the mirrors: the transformed kernels of each
+/// operator in double and single precision, their work space, and the fields of the iterations. In a case that repeats nothing is
+/// padded, and the inverse is exact. Remembered, of the whole: increments before the last, from the [third](REMEMBERING) one on.
+fn bytes_per_cell(coupling: Coupling, periodic: bool) -> [usize; 3] {
     match (coupling, periodic) {
-        (Coupling::Frictionless, _) => [150, 190],
-        (Coupling::Uncoupled, false) => [210, 600],
-        (Coupling::Uncoupled, true) => [206, 320],
-        (Coupling::Coupled, false) => [400, 700],
-        (Coupling::Coupled, true) => [240, 320],
+        (Coupling::Frictionless, false) => [105, 200, 32],
+        (Coupling::Frictionless, true) => [118, 58, 32],
+        (Coupling::Uncoupled, false) => [165, 490, 30],
+        (Coupling::Uncoupled, true) => [176, 320, 30],
+        (Coupling::Coupled, false) => [185, 700, 115],
+        (Coupling::Coupled, true) => [60, 280, 90],
     }
 }
+
+/// Increments of a run that remembers more than the state it goes on from.
+const REMEMBERING: usize = 3;
 
 /// Memory of a run at the most [bytes], without kept fields: of the process, of the fields of the whole grid, of the operators and
 /// fields of the solver in front of the mirrors.
 ///
-/// Within a tenth of what runs of 512 to 4096 cells a side took whose contact fills the automatic grid; on fewer cells what the process
+/// Within about a tenth of what runs of 512 to 4096 cells a side took whose contact fills the automatic grid; on fewer cells what the process
 /// itself takes decides, and a contact that leaves more room takes less.
 pub fn of_run(case: &Case, grid: &SurfaceGrid, coupling: Coupling, symmetry: Symmetry) -> usize {
-    let [whole, in_front] = bytes_per_cell(coupling, case.periodic);
+    let [whole, in_front, remembered] = bytes_per_cell(coupling, case.periodic);
+    let remembered = if case.increments() >= REMEMBERING { remembered } else { 0 };
     let worn = case.wear.as_ref().map_or(0, |wear| match wear.thinning_tolerance {
         None => WEAR,
         Some(_) => WEAR + THINNING,
@@ -61,11 +67,13 @@ pub fn of_run(case: &Case, grid: &SurfaceGrid, coupling: Coupling, symmetry: Sym
     let frictions = case.stages.iter().filter_map(|stage| stage.friction.as_ref()).chain([&case.friction]);
     let maps = frictions.filter(|friction| friction.is_map()).count() + case.profile.heights.len();
     let in_front = in_front + tilt(case);
-    let solving = grid.len() * (whole + worn + evolving + EACH_CELL * maps + in_front / symmetry.copies());
+    let solving =
+        grid.len() * (whole + remembered + worn + evolving + EACH_CELL * maps + in_front / symmetry.copies());
     let stressed = case.stress.as_ref().map_or(0, |stress| {
         of_stress(grid.len(), case.kept_increments().len().div_ceil(stress.every.max(1)))
     });
-    PROCESS + (grid.len() * CHECKPOINT).min(WAITING) + solving.max(stressed)
+    let waiting = if case.increments() > 1 { (grid.len() * CHECKPOINT).min(WAITING) } else { 0 };
+    PROCESS + waiting + solving.max(stressed)
 }
 
 /// Bytes a cell of what tilts in front of the mirrors.

@@ -1,6 +1,7 @@
 //! Mean stress over the thickness of the outermost coating, and the energy that its cracks would release.
 
 use ndarray::Array2;
+use rayon::prelude::*;
 use serde::Serialize;
 
 use super::coating_fracture::{Film, Released};
@@ -44,19 +45,22 @@ impl FilmStress {
             return;
         }
         let [xx, yy, _, xy, ..] = &field.components;
-        let here = [xx.clone(), yy.clone(), xy.clone()];
+        let here = [xx, yy, xy];
         let Some((depth, above)) = self.last.get_mut(surface) else {
             if point.depth == 0.0 && self.last.len() == surface {
-                self.integrals.push(here.clone().map(|part| part * 0.0));
-                self.last.push((0.0, here));
+                self.integrals.push(here.map(|part| Array2::zeros(part.dim())));
+                self.last.push((0.0, here.map(Array2::clone)));
             }
             return;
         };
         let half = 0.5 * (point.depth - *depth);
-        for ((integral, above), here) in self.integrals[surface].iter_mut().zip(&*above).zip(&here) {
-            ndarray::Zip::from(integral).and(above).and(here).for_each(|sum, a, b| *sum += half * (a + b));
-        }
-        (*depth, *above) = (point.depth, here);
+        self.integrals[surface].par_iter_mut().zip(above).zip(here).for_each(|((integral, above), here)| {
+            ndarray::Zip::from(integral).and(above).and(here).for_each(|sum, above, &here| {
+                *sum += half * (*above + here);
+                *above = here;
+            });
+        });
+        *depth = point.depth;
     }
 
     /// The largest tension and the largest compression of the film; none where the depths do not go from the surface to its lower face.

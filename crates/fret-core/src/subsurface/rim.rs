@@ -25,9 +25,14 @@ pub struct AtRim {
 /// Within 2 % on Hertz contacts that slide, from 20 cells in the radius on; first order in the cell, where centres alone have an order
 /// of a half.
 pub fn at_rims(values: &[f64], pressure: &[f64]) -> Vec<AtRim> {
-    let n = values.len().min(pressure.len());
+    at_rims_of(|cell| values[cell], &pressure[..values.len().min(pressure.len())])
+}
+
+/// The same with values that are asked for where they are needed.
+pub(super) fn at_rims_of(value: impl Fn(usize) -> f64, pressure: &[f64]) -> Vec<AtRim> {
+    let n = pressure.len();
     let mut found = Vec::new();
-    for (cell, &p) in pressure.iter().enumerate().take(n) {
+    for (cell, &p) in pressure.iter().enumerate() {
         if p <= 0.0 {
             continue;
         }
@@ -41,7 +46,7 @@ pub fn at_rims(values: &[f64], pressure: &[f64]) -> Vec<AtRim> {
                 continue;
             }
             let inside = [-1, -2, -3].map(|k| at(k).map_or(0.0, |place| pressure[place]));
-            let outside = [1, 2, 3, 4].map(|k| at(k).map_or(0.0, |place| values[place]));
+            let outside = [1, 2, 3, 4].map(|k| at(k).map_or(0.0, &value));
             if let Some((off, value)) = cusp(inside, outside) {
                 found.push(AtRim { cell, off: outwards as f64 * off, value });
             }

@@ -17,6 +17,10 @@ use crate::model::{Base, Coating, ElasticMaterial, HalfSpace};
 
 /// Cells whose bound is a smaller fraction of the largest value of a depth are not evaluated where only large values count.
 const FAR_BELOW: f64 = 0.6;
+/// Cells evaluated at once where the largest value is looked for; then twice as many, and so on.
+const FIRST_TOGETHER: usize = 64;
+/// Fewest cells that are worth a thread where little is computed.
+const FEWEST: usize = 1024;
 
 /// The largest value of a parameter in one layer, and where.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -110,7 +114,7 @@ impl<'a> Severity<'a> {
     pub fn look(&mut self, point: usize, surface: usize, field: &StressField) {
         let Some(place) = self.cycle.iter().position(|&index| index == surface) else { return };
         match self.here.get_mut(place) {
-            Some(kept) => kept.clone_from(field),
+            Some(kept) => kept.copy_from(field),
             None => self.here.push(field.clone()),
         }
         if place + 1 == self.cycle.len() {
@@ -123,6 +127,7 @@ impl<'a> Severity<'a> {
         let material = material_of(self.half_space, place.layer);
         let constants = constants_of(self.half_space, self.constants, place.layer);
         let is_surface = place.depth == 0.0;
+        let bounds = material.map_or_else(Vec::new, |material| bounds_of(&self.here, &material));
         for index in 0..self.fields.len() {
             let parameter = self.fields[index].0;
             let (Some(material), true) = (material, parameter.is_given(&constants)) else {
@@ -133,7 +138,7 @@ impl<'a> Severity<'a> {
                 || self.row.is_none()
                 || self.distances.as_ref().is_some_and(|distances| distances.want(parameter, place.depth));
             let known = self.known(parameter, place.layer).map_or(f64::NEG_INFINITY, |found| found.value);
-            let look = Look { parameter, material, constants };
+            let look = Look { parameter, material, constants, bounds: &bounds };
             let values;
             if whole {
                 let all = look.everywhere(&self.here, self.row.is_none());
@@ -178,7 +183,7 @@ impl<'a> Severity<'a> {
         }
         if place.depth == 0.0 {
             for &surface in &self.cycle {
-                for rim in along_lines(values, &self.surfaces[surface].pressure) {
+                for rim in along_lines(|cell| values[cell], &self.surfaces[surface].pressure) {
                     if best.is_none_or(|(most, ..)| rim.0 > most) {
                         best = Some(rim);
                     }
@@ -267,13 +272,15 @@ fn cycle_at(fields: &[StressField], [i, j]: [usize; 2]) -> Vec<StressTensor> {
 }
 
 /// A parameter in the material of a depth.
-struct Look {
+struct Look<'a> {
     parameter: Parameter,
     material: ElasticMaterial,
     constants: FatigueConstants,
+    /// Of the cycle under every cell, row by row.
+    bounds: &'a [Bounds],
 }
 
-impl Look {
+impl Look<'_> {
     fn value(&self, cycle: &[StressTensor]) -> f64 {
         let found: Option<Evaluated> = self.parameter.of(cycle, &self.material, &self.constants);
         found.map_or(0.0, |found| found.value)
@@ -283,7 +290,7 @@ impl Look {
     /// takes its bound: never too small.
     fn everywhere(&self, fields: &[StressField], exactly: bool) -> Array2<f64> {
         let (nx, ny) = fields.first().map_or((0, 0), |field| field.components[0].dim());
-        let bounds = if exactly { Vec::new() } else { self.bounds(fields) };
+        let bounds = if exactly { Vec::new() } else { self.bounds() };
         let largest = self.largest_within(fields, &bounds, f64::NEG_INFINITY);
         let floor = largest.map_or(f64::NEG_INFINITY, |(_, value)| FAR_BELOW * value);
         let value = |cell: usize| match bounds.get(cell) {
@@ -304,20 +311,17 @@ impl Look {
 
     /// The largest value above a known one, and its cell.
     fn largest(&self, fields: &[StressField], known: f64) -> Option<([usize; 2], f64)> {
-        self.largest_within(fields, &self.bounds(fields), known)
+        self.largest_within(fields, &self.bounds(), known)
     }
 
     /// Bounds of the values under all cells, row by row.
-    fn bounds(&self, fields: &[StressField]) -> Vec<f64> {
-        let (nx, ny) = fields.first().map_or((0, 0), |field| field.components[0].dim());
-        let bound = |cell: usize| {
-            let cycle = cycle_at(fields, [cell / ny, cell % ny]);
-            Bounds::of(&cycle, &self.material).on(self.parameter, &self.material, &self.constants)
-        };
-        (0..nx * ny).into_par_iter().map(bound).collect()
+    fn bounds(&self) -> Vec<f64> {
+        let bound = |bounds: &Bounds| bounds.on(self.parameter, &self.material, &self.constants);
+        self.bounds.par_iter().with_min_len(FEWEST).map(bound).collect()
     }
 
-    /// The same with the bounds of all cells: those that lie below are passed over, the most promising cell comes first.
+    /// The same with the bounds of all cells: the most promising cells come first, and those whose bound lies below what is found are
+    /// passed over. Of equal values that of the first cell.
     fn largest_within(
         &self,
         fields: &[StressField],
@@ -325,36 +329,51 @@ impl Look {
         known: f64,
     ) -> Option<([usize; 2], f64)> {
         let ny = fields.first().map_or(0, |field| field.components[0].ncols());
-        let place = |cell: usize| [cell / ny, cell % ny];
-        let (promising, bound) = bounds
-            .iter()
-            .copied()
-            .enumerate()
-            .reduce(|most, next| if next.1 > most.1 { next } else { most })?;
+        let value = |cell: usize| self.value(&cycle_at(fields, [cell / ny, cell % ny]));
+        let most = |one: (f64, usize), other: (f64, usize)| if other.0 > one.0 { other } else { one };
+        let (bound, promising) = bounds.iter().copied().zip(0..).reduce(most)?;
         if bound <= known {
             return None;
         }
-        let first = self.value(&cycle_at(fields, place(promising)));
+        let first = value(promising);
+        let mut best = (first > known).then_some((first, promising));
         let least = first.max(known);
-        let in_line = |line: usize| {
-            let mut best: Option<(usize, f64)> = None;
-            for cell in line * ny..(line + 1) * ny {
-                let least = best.map_or(least, |(_, value)| value);
-                if bounds[cell] > least {
-                    let value = self.value(&cycle_at(fields, place(cell)));
-                    if value > least {
-                        best = Some((cell, value));
-                    }
+        let mut others: Vec<(f64, usize)> = bounds
+            .iter()
+            .copied()
+            .zip(0..)
+            .filter(|(bound, cell)| *bound > least && *cell != promising)
+            .collect();
+        others.sort_unstable_by(|one, other| other.0.total_cmp(&one.0).then(one.1.cmp(&other.1)));
+        let (mut rest, mut count) = (others.as_slice(), FIRST_TOGETHER);
+        while !rest.is_empty() {
+            let (here, behind) = rest.split_at(count.min(rest.len()));
+            let least = best.map_or(known, |(value, _)| value);
+            let here = &here[..here.partition_point(|(bound, _)| *bound > least)];
+            if here.is_empty() {
+                break;
+            }
+            let values: Vec<f64> = here.par_iter().map(|(_, cell)| value(*cell)).collect();
+            for (value, (_, cell)) in values.into_iter().zip(here) {
+                let is_more = |(most, at): (f64, usize)| value > most || (value == most && *cell < at);
+                if best.map_or(value > known, is_more) {
+                    best = Some((value, *cell));
                 }
             }
-            best
-        };
-        let lines: Vec<_> = (0..bounds.len() / ny).into_par_iter().map(in_line).collect();
-        let start = (first > known).then_some((promising, first));
-        let best = lines.into_iter().flatten().fold(start, |best, next| match best {
-            Some(best) if best.1 >= next.1 => Some(best),
-            _ => Some(next),
-        });
-        best.map(|(cell, value)| (place(cell), value))
+            (rest, count) = (behind, 2 * count);
+        }
+        best.map(|(value, cell)| ([cell / ny, cell % ny], value))
     }
+}
+
+/// Bounds of the cycles under all cells, row by row.
+fn bounds_of(fields: &[StressField], material: &ElasticMaterial) -> Vec<Bounds> {
+    let (nx, ny) = fields.first().map_or((0, 0), |field| field.components[0].dim());
+    let cells = (0..nx * ny).into_par_iter().with_min_len(FEWEST);
+    let bounds = |cycle: &mut Vec<StressTensor>, cell: usize| {
+        cycle.clear();
+        cycle.extend(fields.iter().map(|field| field.at(cell / ny, cell % ny)));
+        Bounds::of(cycle, material)
+    };
+    cells.map_init(Vec::new, bounds).collect()
 }

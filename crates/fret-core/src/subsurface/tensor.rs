@@ -1,6 +1,7 @@
 //! Stress at a point and on a plane of points, and the single numbers engineers judge it by.
 
 use ndarray::Array2;
+use rayon::prelude::*;
 use serde::Serialize;
 
 /// Components xx, yy, zz, xy, xz, yz of a stress [pressure], tension positive.
@@ -114,6 +115,11 @@ impl StressField {
                 *component += stress;
             }
         }
+    }
+
+    /// Takes the numbers of another field of the same shape.
+    pub(super) fn copy_from(&mut self, other: &Self) {
+        self.components.par_iter_mut().zip(&other.components).for_each(|(to, from)| to.clone_from(from));
     }
 
     /// Stress at a cell.

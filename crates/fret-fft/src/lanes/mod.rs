@@ -30,3 +30,4 @@ mod x86;
 pub(super) use instruction_set::InstructionSet;
 pub(super) use memory::AlignedNumbers;
 pub(super) use product::LaneProduct;
+pub(super) use threads::pieces;

@@ -99,11 +99,14 @@ impl LaneProduct<f64> {
         let transform = KernelTransform::new(set, terms.shape, lengths);
         let scale = 1.0 / (2.0 * lengths[0] as f64 * lengths[1] as f64);
         let (width, count) = (set.width::<f64>(), product.kernel_count);
-        transform.each_strip(kernels, scale, |kernel, strip, values| {
-            let all = &mut product.kernels.as_mut_slice()[strip * lengths[0] * count * width..];
-            for (group, values) in values.chunks_exact(4 * width).enumerate() {
-                all[(group * count + kernel) * 4 * width..][..4 * width].copy_from_slice(values);
-            }
+        transform.each_kernel(kernels, scale, |kernel, strips| {
+            let all = product.kernels.as_mut_slice();
+            strips.each_part(all, lengths[0] * count * width, |values, to| {
+                let groups = to.chunks_exact_mut(4 * width).skip(kernel).step_by(count);
+                groups
+                    .zip(values.chunks_exact(4 * width))
+                    .for_each(|(to, values)| to.copy_from_slice(values));
+            });
         });
         product
     }

@@ -4,6 +4,7 @@ use maud::{Markup, html};
 
 use crate::report::html::{chapter, deviation, table};
 use crate::report::overview::Overview;
+use crate::report::partial_slip::PartialSlip;
 
 /// Numbers against the closed form at the end of each stage.
 pub fn comparison(view: &Overview<'_>) -> Markup {
@@ -32,9 +33,16 @@ pub fn comparison(view: &Overview<'_>) -> Markup {
             .filter(|row| form.after(*row).is_some())
             .max_by(|a, b| view.tangential[*a].abs().total_cmp(&view.tangential[*b].abs()));
         if let Some((row, after)) = farthest.and_then(|row| form.after(row).map(|after| (row, after))) {
-            add(view.called(row), "displacement", "length", view.shift[row], after.shift());
-            let stuck = (history.at("stick_area", row) / std::f64::consts::PI).sqrt();
-            add(view.called(row), "radius of stick", "length", stuck, after.stick_radius());
+            if let Some(shift) = after.shift() {
+                add(view.called(row), "displacement", "length", view.shift[row], shift);
+            }
+            let areas = [history.at("stick_area", row), after.stick_area()];
+            if is_line {
+                add(view.called(row), "width of stick", "length^2", areas[0], areas[1]);
+            } else {
+                let [stuck, exact] = areas.map(|area| (area / std::f64::consts::PI).sqrt());
+                add(view.called(row), "radius of stick", "length", stuck, exact);
+            }
         }
     }
     if rows.is_empty() {
@@ -63,6 +71,6 @@ fn words(view: &Overview<'_>, coupling: f64) -> Markup {
     let cells = width / dx;
     html! {
         (format!("The contact is {cells:.0} cells wide at the end; its edge is known to about half a cell."))
-        @if view.tangential_form.is_some() { " The closed form of partial slip neglects the slip across the force." }
+        @if view.tangential_form.as_ref().is_some_and(|form| form.any(PartialSlip::neglects_slip_across)) { " The closed form of partial slip neglects the slip across the force." }
     }
 }

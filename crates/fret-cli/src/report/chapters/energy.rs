@@ -1,12 +1,12 @@
 //! Dissipated energy, over the increments and by cycle.
 
-use fret_core::analytic::TangentialHistory;
 use maud::{Markup, html};
 
 use crate::drawing::chart::{Chart, Curve};
 use crate::drawing::scale::Label;
 use crate::report::html::{chapter, deviation, figure_of, side_by_side, table};
 use crate::report::overview::Overview;
+use crate::report::partial_slip::{PartialSlip, TangentialForm};
 
 /// Cycles listed one by one.
 const MOST_CYCLES: usize = 12;
@@ -26,10 +26,8 @@ pub fn energy(view: &Overview<'_>) -> Markup {
     if view.results.cycles.iter().any(|cycle| cycle.stands_for > 1) {
         caption += " The end of a computed cycle has the energy of all cycles that it stands for.";
     }
-    if let Some(form) = &view.tangential_form {
-        let exact: Vec<f64> = (0..history.rows())
-            .map(|row| form.after(row).map_or(f64::NAN, TangentialHistory::dissipated_energy))
-            .collect();
+    if let Some(form) = form_of(view) {
+        let exact: Vec<f64> = (0..history.rows()).map(|row| at(form, row)).collect();
         curves.push(Curve::dashed(points(&exact), "closed form", 1));
         caption += " Dashed: the closed form.";
     }
@@ -40,6 +38,16 @@ pub fn energy(view: &Overview<'_>) -> Markup {
     chapter("Dissipated energy", &side_by_side(&parts))
 }
 
+/// The closed form, where it knows the energy.
+fn form_of<'a>(view: &'a Overview<'_>) -> Option<&'a TangentialForm> {
+    view.tangential_form.as_ref().filter(|form| form.any(|slip| slip.dissipated_energy().is_some()))
+}
+
+/// Energy after an increment in closed form; not a number, which is not drawn, where there is none.
+fn at(form: &TangentialForm, row: usize) -> f64 {
+    form.after(row).and_then(PartialSlip::dissipated_energy).unwrap_or(f64::NAN)
+}
+
 /// The energy of each cycle, with the closed form where there is one.
 fn account(view: &Overview<'_>) -> Option<Markup> {
     let cycles = &view.results.cycles;
@@ -48,7 +56,7 @@ fn account(view: &Overview<'_>) -> Option<Markup> {
     }
     let skipped = cycles.len().saturating_sub(MOST_CYCLES);
     let mut head = vec!["cycle", "dissipated in one"];
-    if view.tangential_form.is_some() {
+    if form_of(view).is_some() {
         head.extend(["closed form", "difference"]);
     }
     let shown = cycles.iter().take(1).chain(cycles.iter().skip(1 + skipped));
@@ -64,11 +72,11 @@ fn account(view: &Overview<'_>) -> Option<Markup> {
                 format!("{}, {which}", view.stage_name(cycle.stage)),
                 view.number(computed, "force x length"),
             ];
-            if let Some(form) = &view.tangential_form {
-                let at = |row: usize| form.after(row).map_or(f64::NAN, TangentialHistory::dissipated_energy);
+            if let Some(form) = form_of(view) {
                 // Before its first increment the closed form has dissipated nothing.
-                let started = before.map_or(0.0, |before| form.after(before).map_or(0.0, |_| at(before)));
-                let exact = at(last) - started;
+                let started =
+                    before.map_or(0.0, |before| form.after(before).map_or(0.0, |_| at(form, before)));
+                let exact = at(form, last) - started;
                 row.extend(if exact.is_finite() {
                     [view.number(exact, "force x length"), deviation(computed, exact)]
                 } else {

@@ -6,6 +6,7 @@ use crate::drawing::chart::{Chart, Curve, Stroke};
 use crate::drawing::scale::Label;
 use crate::report::html::{chapter, figure_of, side_by_side};
 use crate::report::overview::{Cycle, Overview};
+use crate::report::partial_slip::{PartialSlip, TangentialForm};
 
 /// Earlier cycles that are drawn behind the last one.
 const MOST_BEHIND: usize = 8;
@@ -74,13 +75,19 @@ pub fn fretting_loop(view: &Overview<'_>) -> Markup {
         "Tangential force over relative displacement, both along the load.".to_owned()
     };
     let mut curves = loop_curves(view);
-    if let (Some(form), false) = (&view.tangential_form, view.twists) {
+    let knows_shift = |form: &&TangentialForm| form.any(|slip| slip.shift().is_some());
+    if let (Some(form), false) = (view.tangential_form.as_ref().filter(knows_shift), view.twists) {
         let points = (0..view.results.table.rows()).map(|row| {
-            form.after(row).map_or([f64::NAN; 2], |after| [after.shift(), after.tangential_force()])
+            let slip = form.after(row);
+            slip.and_then(|slip| Some([slip.shift()?, slip.tangential_force()])).unwrap_or([f64::NAN; 2])
         });
         curves.push(Curve::dashed(points.collect(), "closed form", 1));
-        caption += " Dashed: the closed form for the same forces (Cattaneo, Mindlin and Deresiewicz). It neglects the slip \
-                    across the force, and so gives a displacement that is some percent off.";
+        caption += if form.any(PartialSlip::neglects_slip_across) {
+            " Dashed: the closed form for the same forces (Cattaneo, Mindlin and Deresiewicz). It neglects the slip \
+             across the force, and so gives a displacement that is some percent off."
+        } else {
+            " Dashed: the closed form for the same forces (Cattaneo), relative to the datum."
+        };
     }
     let figures = [figure_of(&Chart::new(&what, axes, curves).in_page(), &caption), stick_fraction(view)];
     chapter("Fretting loop", &side_by_side(&figures))
@@ -122,9 +129,7 @@ fn stick_fraction(view: &Overview<'_>) -> Markup {
             .map(|row| {
                 let (after, force) = (form.after(row), table.at("normal_force", row));
                 let pressed = view.normal_form.and_then(|form| form.under(force));
-                after.zip(pressed).map_or(f64::NAN, |(after, pressed)| {
-                    std::f64::consts::PI * after.stick_radius().powi(2) / pressed.area()
-                })
+                after.zip(pressed).map_or(f64::NAN, |(after, pressed)| after.stick_area() / pressed.area())
             })
             .collect();
         curves.push(Curve::dashed(over_number(&exact), "closed form", 1));

@@ -151,7 +151,7 @@ fn shear_section(view: &Overview<'_>, section: &Section) -> Result<Markup, Failu
     })?;
     let form = |step: usize| {
         let after = view.tangential_form.as_ref().filter(|_| !view.twists)?.after(step)?.clone();
-        Some(Box::new(move |x: f64, y: f64| after.shear(x.hypot(y))) as Box<dyn Fn(f64, f64) -> f64>)
+        Some(Box::new(move |x: f64, y: f64| after.shear(x, y)) as Box<dyn Fn(f64, f64) -> f64>)
     };
     let curves = section_curves(view, section, &chosen, form);
     let has_form = curves.iter().any(|curve| curve.stroke == Stroke::Dashed);
@@ -159,7 +159,8 @@ fn shear_section(view: &Overview<'_>, section: &Section) -> Result<Markup, Failu
     let chart = Chart::new("shear along a line through the contact", axes, curves);
     let first = format!("{}{}", name[..1].to_uppercase(), &name[1..]);
     let mut caption = if has_form {
-        format!("{first}: dots cell by cell, dashed the closed form (Cattaneo, Mindlin and Deresiewicz).")
+        let works = if fields.is_line() { "Cattaneo" } else { "Cattaneo, Mindlin and Deresiewicz" };
+        format!("{first}: dots cell by cell, dashed the closed form ({works}).")
     } else {
         format!("{first}.")
     };

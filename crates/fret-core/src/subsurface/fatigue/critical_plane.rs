@@ -2,6 +2,7 @@
 
 use std::sync::LazyLock;
 
+use pulp::{Arch, Simd, WithSimd};
 use serde::Serialize;
 
 use crate::model::ElasticMaterial;
@@ -28,17 +29,29 @@ pub fn smith_watson_topper(cycle: &[StressTensor], material: &ElasticMaterial) -
     // a free surface has no stress across it but for rounding, which is no tension
     let rounding =
         1e-12 * cycle.iter().flat_map(|stress| stress.0).fold(0.0, |most, part| part.abs().max(most));
-    largest_over_planes(|n, _| {
-        let (mut least, mut most, mut stress_most) = (f64::INFINITY, f64::NEG_INFINITY, 0.0_f64);
-        for stress in cycle {
-            let normal = normal_stress(stress, n);
-            let strain = per_young * ((1.0 + nu) * normal - 3.0 * nu * stress.hydrostatic());
-            least = least.min(strain);
-            most = most.max(strain);
-            stress_most = stress_most.max(normal);
-        }
-        if stress_most > rounding { stress_most * 0.5 * (most - least) } else { 0.0 }
-    })
+    Arch::new().dispatch(OverPlanes(
+        #[inline(always)]
+        |planes: &Planes, _| {
+            let (mut least, mut most) = ([f64::INFINITY; LANES], [f64::NEG_INFINITY; LANES]);
+            let mut stress_most = [0.0_f64; LANES];
+            for stress in cycle {
+                let across = planes.normal_stress(stress);
+                let mean = 3.0 * nu * stress.hydrostatic();
+                for lane in 0..LANES {
+                    let strain = per_young * ((1.0 + nu) * across[lane] - mean);
+                    least[lane] = smaller(least[lane], strain);
+                    most[lane] = larger(most[lane], strain);
+                    stress_most[lane] = larger(stress_most[lane], across[lane]);
+                }
+            }
+            let mut values = [0.0; LANES];
+            for lane in 0..LANES {
+                let product = stress_most[lane] * 0.5 * (most[lane] - least[lane]);
+                values[lane] = if stress_most[lane] > rounding { product } else { 0.0 };
+            }
+            values
+        },
+    ))
 }
 
 /// Fatemi and Socie's parameter on the critical plane [-]: amplitude of the shear strain times `1 + k sigma_n,max / sigma_y`,
@@ -54,44 +67,122 @@ pub fn fatemi_socie(
 ) -> CriticalPlane {
     let per_shear = 1.0 / material.shear_modulus();
     let mut path = Vec::with_capacity(cycle.len());
-    largest_over_planes(|n, best| {
-        path.clear();
-        let mut stress_most = 0.0_f64;
-        let mut bounds = [[f64::INFINITY, f64::NEG_INFINITY]; 3];
-        for stress in cycle {
-            let traction = stress.on_plane(n);
-            let normal = traction[0] * n[0] + traction[1] * n[1] + traction[2] * n[2];
-            stress_most = stress_most.max(normal);
-            let shear: [f64; 3] = std::array::from_fn(|axis| traction[axis] - normal * n[axis]);
-            for axis in 0..3 {
-                bounds[axis] = [bounds[axis][0].min(shear[axis]), bounds[axis][1].max(shear[axis])];
+    Arch::new().dispatch(OverPlanes(
+        #[inline(always)]
+        |planes: &Planes, mut best: f64| {
+            path.clear();
+            let mut stress_most = [0.0_f64; LANES];
+            let mut bounds = [[[f64::INFINITY; LANES], [f64::NEG_INFINITY; LANES]]; 3];
+            for stress in cycle {
+                let (across, shear) = planes.traction(stress);
+                for lane in 0..LANES {
+                    stress_most[lane] = larger(stress_most[lane], across[lane]);
+                }
+                for ([low, high], shear) in bounds.iter_mut().zip(&shear) {
+                    for lane in 0..LANES {
+                        low[lane] = smaller(low[lane], shear[lane]);
+                        high[lane] = larger(high[lane], shear[lane]);
+                    }
+                }
+                path.push(shear);
             }
-            path.push(shear);
-        }
-        let factor = 0.5 * per_shear * (1.0 + sensitivity * stress_most / yield_strength);
-        // no chord is longer than the diagonal of the box around the path
-        let box_square: f64 = bounds.iter().map(|[low, high]| (high - low) * (high - low)).sum();
-        if factor * box_square.sqrt() <= best {
-            return f64::NEG_INFINITY;
-        }
-        let mut chord = 0.0_f64;
-        for (index, one) in path.iter().enumerate() {
-            for other in &path[..index] {
-                let square: f64 = one.iter().zip(other).map(|(a, b)| (a - b) * (a - b)).sum();
-                chord = chord.max(square);
+            let mut values = [f64::NEG_INFINITY; LANES];
+            for (lane, value) in values.iter_mut().enumerate() {
+                let factor = 0.5 * per_shear * (1.0 + sensitivity * stress_most[lane] / yield_strength);
+                // no chord is longer than the diagonal of the box around the path
+                let side = |[low, high]: &[[f64; LANES]; 2]| high[lane] - low[lane];
+                let box_square: f64 = bounds.iter().map(|bounds| side(bounds) * side(bounds)).sum();
+                if factor * box_square.sqrt() <= best {
+                    continue;
+                }
+                let mut chord = 0.0_f64;
+                for (index, one) in path.iter().enumerate() {
+                    for other in &path[..index] {
+                        let [a, b, c] = [0, 1, 2].map(|axis| one[axis][lane] - other[axis][lane]);
+                        chord = larger(chord, a * a + b * b + c * c);
+                    }
+                }
+                *value = factor * chord.sqrt();
+                best = larger(best, *value);
             }
-        }
-        factor * chord.sqrt()
-    })
+            values
+        },
+    ))
 }
 
-fn normal_stress(stress: &StressTensor, n: [f64; 3]) -> f64 {
-    let traction = stress.on_plane(n);
-    traction[0] * n[0] + traction[1] * n[1] + traction[2] * n[2]
+/// The search over planes for the largest value of a parameter.
+struct OverPlanes<F>(F);
+
+impl<F: FnMut(&Planes, f64) -> [f64; LANES]> WithSimd for OverPlanes<F> {
+    type Output = CriticalPlane;
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) -> CriticalPlane {
+        largest_over_planes(self.0)
+    }
+}
+
+/// Planes that are looked at together.
+const LANES: usize = 8;
+
+#[inline(always)]
+fn larger(one: f64, other: f64) -> f64 {
+    if other > one { other } else { one }
+}
+
+#[inline(always)]
+fn smaller(one: f64, other: f64) -> f64 {
+    if other < one { other } else { one }
+}
+
+/// Unit normals of some planes: their parts along x, y, z.
+#[derive(Clone, Copy)]
+struct Planes([[f64; LANES]; 3]);
+
+impl Planes {
+    fn of(normals: &[[f64; 3]]) -> Self {
+        let last = normals.len().saturating_sub(1);
+        Self(std::array::from_fn(|axis| std::array::from_fn(|lane| normals[lane.min(last)][axis])))
+    }
+
+    #[inline(always)]
+    fn normal(&self, lane: usize) -> [f64; 3] {
+        self.0.map(|part| part[lane])
+    }
+
+    /// Normal stress on each plane [pressure].
+    #[inline(always)]
+    fn normal_stress(&self, stress: &StressTensor) -> [f64; LANES] {
+        let ([xx, yy, zz, xy, xz, yz], [nx, ny, nz]) = (stress.0, &self.0);
+        let mut across = [0.0; LANES];
+        for l in 0..LANES {
+            across[l] = nx[l] * (xx * nx[l] + 2.0 * (xy * ny[l] + xz * nz[l]))
+                + ny[l] * (yy * ny[l] + 2.0 * yz * nz[l])
+                + zz * nz[l] * nz[l];
+        }
+        across
+    }
+
+    /// Normal stress on each plane, and shear traction along x, y, z [pressure].
+    #[inline(always)]
+    fn traction(&self, stress: &StressTensor) -> ([f64; LANES], [[f64; LANES]; 3]) {
+        let (mut across, mut shear) = ([0.0; LANES], [[0.0; LANES]; 3]);
+        let ([xx, yy, zz, xy, xz, yz], [nx, ny, nz]) = (stress.0, &self.0);
+        for l in 0..LANES {
+            let x = xx * nx[l] + xy * ny[l] + xz * nz[l];
+            let y = xy * nx[l] + yy * ny[l] + yz * nz[l];
+            let z = xz * nx[l] + yz * ny[l] + zz * nz[l];
+            across[l] = x * nx[l] + y * ny[l] + z * nz[l];
+            shear[0][l] = x - across[l] * nx[l];
+            shear[1][l] = y - across[l] * ny[l];
+            shear[2][l] = z - across[l] * nz[l];
+        }
+        (across, shear)
+    }
 }
 
 /// Normals over half the sphere, every ten degrees.
-static COARSE: LazyLock<Vec<[f64; 3]>> = LazyLock::new(|| {
+static COARSE: LazyLock<Vec<Planes>> = LazyLock::new(|| {
     const STEP: f64 = 10.0;
     let mut normals = Vec::new();
     for ring in 0..=9 {
@@ -103,33 +194,34 @@ static COARSE: LazyLock<Vec<[f64; 3]>> = LazyLock::new(|| {
             normals.push([polar.sin() * turn.cos(), polar.sin() * turn.sin(), polar.cos()]);
         }
     }
-    normals
+    normals.chunks(LANES).map(Planes::of).collect()
 });
 
 /// Largest value over the half sphere of normals: every ten degrees, then closer and closer around the best to a thousandth of
 /// a degree. The parameter may return minus infinity where it cannot reach the second argument, the best so far.
-fn largest_over_planes(mut parameter: impl FnMut([f64; 3], f64) -> f64) -> CriticalPlane {
+#[inline(always)]
+fn largest_over_planes(mut parameter: impl FnMut(&Planes, f64) -> [f64; LANES]) -> CriticalPlane {
     let mut best = (f64::NEG_INFINITY, [0.0, 0.0, 1.0]);
-    for &normal in COARSE.iter() {
-        let value = parameter(normal, best.0);
-        if value > best.0 {
-            best = (value, normal);
-        }
+    for planes in COARSE.iter() {
+        look(&mut parameter, planes, &mut best);
     }
     let mut step = 5.0_f64.to_radians();
     while step > 1e-3_f64.to_radians() {
         let (centre, before) = (best.1, best.0);
         let [one, other] = tangents(centre);
-        for (a, b) in DIRECTIONS {
-            let moved: [f64; 3] =
-                std::array::from_fn(|axis| centre[axis] + step * (a * one[axis] + b * other[axis]));
-            let length = moved.iter().map(|part| part * part).sum::<f64>().sqrt();
-            let normal = moved.map(|part| part / length);
-            let value = parameter(normal, best.0);
-            if value > best.0 {
-                best = (value, normal);
+        let [a, b] = DIRECTIONS;
+        let mut moved = Planes([[0.0; LANES]; 3]);
+        for axis in 0..3 {
+            for lane in 0..LANES {
+                moved.0[axis][lane] = centre[axis] + step * (a[lane] * one[axis] + b[lane] * other[axis]);
             }
         }
+        for lane in 0..LANES {
+            let [x, y, z] = moved.normal(lane);
+            let length = (x * x + y * y + z * z).sqrt();
+            moved.0.iter_mut().for_each(|part| part[lane] /= length);
+        }
+        look(&mut parameter, &moved, &mut best);
         if best.0 == before {
             step *= 0.5;
         }
@@ -137,9 +229,23 @@ fn largest_over_planes(mut parameter: impl FnMut([f64; 3], f64) -> f64) -> Criti
     CriticalPlane { value: best.0, normal: best.1 }
 }
 
+/// Takes the best of some planes where it is better than the best so far.
+#[inline(always)]
+fn look(
+    parameter: &mut impl FnMut(&Planes, f64) -> [f64; LANES],
+    planes: &Planes,
+    best: &mut (f64, [f64; 3]),
+) {
+    for (lane, value) in parameter(planes, best.0).into_iter().enumerate() {
+        if value > best.0 {
+            *best = (value, planes.normal(lane));
+        }
+    }
+}
+
 /// Where a better normal is looked for around the best.
-const DIRECTIONS: [(f64, f64); 8] =
-    [(1.0, 0.0), (-1.0, 0.0), (0.0, 1.0), (0.0, -1.0), (0.7, 0.7), (0.7, -0.7), (-0.7, 0.7), (-0.7, -0.7)];
+const DIRECTIONS: [[f64; LANES]; 2] =
+    [[1.0, -1.0, 0.0, 0.0, 0.7, 0.7, -0.7, -0.7], [0.0, 0.0, 1.0, -1.0, 0.7, -0.7, 0.7, -0.7]];
 
 /// Two unit vectors at right angles to a normal and to each other; those along and across its meridian.
 fn tangents([x, y, z]: [f64; 3]) -> [[f64; 3]; 2] {

@@ -44,20 +44,22 @@ impl LaneProduct<f64> {
             along_x.into_iter().map(|(second, x)| (second, (x / 4 * count * 4 + x % 4) * width)).collect();
         let strip_len = lengths[0] * count * width;
         let scale = 0.25 / (lengths[0] as f64 * lengths[1] as f64);
-        transform.each_strip(kernels, scale, |kernel, strip, values| {
+        transform.each_kernel(kernels, scale, |kernel, strips| {
             let (parity, first) = (kernels[kernel].parity, kernel * tables(axes));
-            let columns = &along_y[strip * width..along_y.len().min((strip + 1) * width)];
-            for (lane, &(second_y, y)) in columns.iter().enumerate() {
-                let to = &mut product.kernels.as_mut_slice()[y / width * strip_len + y % width..];
-                let tables = [false, true].map(|second_x| {
-                    let second = [second_x, second_y];
-                    ((first + table_of_second(axes, second)) * 4 * width, sign_of(parity, second))
-                });
-                for (values, &(second_x, at)) in values.chunks_exact(width).zip(&along_x) {
-                    let (table, sign) = tables[usize::from(second_x)];
-                    to[at + table] = sign * values[lane];
+            strips.in_turn(|strip, values| {
+                let columns = &along_y[strip * width..along_y.len().min((strip + 1) * width)];
+                for (lane, &(second_y, y)) in columns.iter().enumerate() {
+                    let to = &mut product.kernels.as_mut_slice()[y / width * strip_len + y % width..];
+                    let tables = [false, true].map(|second_x| {
+                        let second = [second_x, second_y];
+                        ((first + table_of_second(axes, second)) * 4 * width, sign_of(parity, second))
+                    });
+                    for (values, &(second_x, at)) in values.chunks_exact(width).zip(&along_x) {
+                        let (table, sign) = tables[usize::from(second_x)];
+                        to[at + table] = sign * values[lane];
+                    }
                 }
-            }
+            });
         });
         product
     }
