@@ -198,7 +198,7 @@ mod tests {
         ] {
             assert_eq!(ways(shape, none, &one), [expected, ["lines", "lines"]], "{shape:?}");
         }
-        // Mirrors do not change that, but a line before one is two for the lanes.
+        // In front of a mirror the lanes take a single line, too.
         assert_eq!(ways([8, 1], [true, false], &one), [["lanes", "unfolded"], ["unfolded"; 2]]);
         assert_eq!(ways([8, 12], [false, true], &one), [["lanes"; 2], ["unfolded"; 2]]);
     }

@@ -108,3 +108,46 @@ fn a_kernel_shorter_than_half_a_period_has_no_symbol_along_x() {
     let values = Array2::ones([3, 3]);
     PeriodicProduct::symbol_of([6, 4], &Kernel { values: values.view(), parity: Parity::EvenEven });
 }
+
+/// Large enough to be looked through by several threads at once.
+#[test]
+fn of_several_broken_kernels_the_first_is_named_on_any_number_of_threads()
+-> Result<(), rayon::ThreadPoolBuildError> {
+    let shape = [120, 130];
+    let whole = Array2::<f64>::ones(shape);
+    let broken = |value: f64| {
+        let mut values = whole.clone();
+        values[[100, 7]] = value;
+        values
+    };
+    let (infinite, negative) = (broken(f64::INFINITY), broken(f64::NEG_INFINITY));
+    for threads in [1, 2, 3] {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build()?;
+        for count in 1..=5 {
+            for first in 0..=count {
+                for second in first + 1..=count {
+                    let kernels: Vec<Kernel<'_>> = (0..count)
+                        .map(|index| {
+                            let values = match index {
+                                _ if index == first => &infinite,
+                                _ if index == second => &negative,
+                                _ => &whole,
+                            };
+                            Kernel { values: values.view(), parity: Parity::EvenEven }
+                        })
+                        .collect();
+                    let one = [block(0, 0, 0, 1.0)];
+                    let found = pool.install(|| Convolution::new(shape, &kernels, &one)).err();
+                    let refused =
+                        ConvolutionError::NotFinite { kernel: first, value: f64::INFINITY, x: 100, y: 7 };
+                    assert_eq!(
+                        found,
+                        (first < count).then_some(refused),
+                        "{threads} threads, {count} kernels"
+                    );
+                }
+            }
+        }
+    }
+    Ok(())
+}
