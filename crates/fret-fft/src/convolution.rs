@@ -118,6 +118,19 @@ mod tests {
     use super::super::{Parity, PeriodicProduct, Symbol};
     use super::*;
 
+    /// Applies a product to a field in the memory that it made.
+    fn check(
+        mut workspace: Workspace,
+        shape: [usize; 2],
+        apply: impl Fn(&mut Workspace, &[f64], &mut [f64]),
+    ) {
+        let memory = workspace.memory_bytes();
+        assert!(memory >= 8 * shape[0] * shape[1], "room for a field at least");
+        let input = vec![1.0; shape[0] * shape[1]];
+        apply(&mut workspace, &input, &mut vec![0.0; input.len()]);
+        assert_eq!(workspace.memory_bytes(), memory);
+    }
+
     /// What `workspace()` makes is what a product works in: it grows only when another product or a larger pool comes.
     #[test]
     fn a_product_works_in_the_workspace_that_it_made() -> Result<(), rayon::ThreadPoolBuildError> {
@@ -125,15 +138,6 @@ mod tests {
         let kernel = Kernel { values: values.view(), parity: Parity::EvenEven };
         let symbol = Symbol { values: values.view(), parity: Parity::EvenEven };
         let blocks = [block(0, 0, 0, 1.0)];
-        let check = |mut workspace: Workspace,
-                     shape: [usize; 2],
-                     apply: &dyn Fn(&mut Workspace, &[f64], &mut [f64])| {
-            let memory = workspace.memory_bytes();
-            assert!(memory >= 8 * shape[0] * shape[1], "room for a field at least");
-            let input = vec![1.0; shape[0] * shape[1]];
-            apply(&mut workspace, &input, &mut vec![0.0; input.len()]);
-            assert_eq!(workspace.memory_bytes(), memory);
-        };
         for threads in [1, 2, 3] {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build()?;
             pool.install(|| {
@@ -144,12 +148,12 @@ mod tests {
                         let mirrors = Mirrors { axes, inputs: vec![Parity::OddEven] };
                         let product =
                             Convolution::on(engine, shape, &[kernel], &blocks, mirrors.clone()).unwrap();
-                        check(product.workspace(), shape, &|workspace, input, output| {
+                        check(product.workspace(), shape, |workspace, input, output| {
                             product.apply(workspace, &[input], &mut [output]);
                         });
                         let product =
                             PeriodicProduct::on(engine, shape, &[symbol], &blocks, mirrors).unwrap();
-                        check(product.workspace(), shape, &|workspace, input, output| {
+                        check(product.workspace(), shape, |workspace, input, output| {
                             product.apply(workspace, &[input], &mut [output]);
                         });
                     }

@@ -118,7 +118,9 @@ mod tests {
                     &|field, first, run: &mut [f64], scratch: &mut [f64]| {
                         assert_eq!(scratch.len(), PIECE);
                         for (index, chunk) in (first..).zip(run.chunks_mut(CHUNK)) {
-                            chunk.iter_mut().for_each(|number| *number += (100 * field + index) as f64 + 0.5);
+                            for number in chunk {
+                                *number += (100 * field + index) as f64 + 0.5;
+                            }
                             scratch[0] += 1.0;
                         }
                     },
