@@ -270,7 +270,9 @@ def main():
         help="a program that took longer with fewer cells is not run with more [s]",
     )
     given = parser.parse_args()
-    known = json.loads(RESULT.read_text(encoding="utf-8"))["rows"] if RESULT.exists() else []
+    measured = origin()
+    before = json.loads(RESULT.read_text(encoding="utf-8")) if RESULT.exists() else {"measured": measured, "rows": []}
+    known = before["rows"]
     rows = {(row["scene"], row["cells"], row["program"]): row for row in known}
     scenes = ["hertz", *MEAN_PRESSURES, "cattaneo", "loop"]
     command = str(given.command.resolve())
@@ -307,11 +309,12 @@ def main():
                     "program": program,
                     "threads": given.threads,
                     **row,
+                    "measured": measured,
                 }
                 print(rows[scene, cells, program], flush=True)
                 RESULT.write_text(
                     json.dumps(
-                        {"measured": origin(), "by": "python benches/large_contacts.py", "rows": list(rows.values())},
+                        {"measured": before["measured"], "by": "python benches/large_contacts.py", "rows": list(rows.values())},
                         indent=1,
                     )
                     + "\n",

@@ -216,7 +216,7 @@ def large() -> str:
         errors = us.get("errors", {})
         rows.append(
             [
-                f"{SCENES[scene]}, {cells} x {cells}",
+                f"{SCENES[scene]}, {cells} x {cells}" + ("*" if "measured" in us else ""),
                 f"{_seconds(us['wall_s'])} ({_seconds(us['cpu_s'])})",
                 _seconds(whole and whole["wall_s"]),
                 *(_seconds(other and other["solver_s"]) for other in others),
@@ -228,7 +228,15 @@ def large() -> str:
         )
     head = ["contact", "wall (CPU) [s]", "without simplifications [s]", "aspher [s]", "tamaas [s]", "memory [MB]", "applications an increment", "residual",
             "largest error"]  # fmt: skip
-    return _table(head, rows, of)
+    return _table(head, rows, of) + _apart(of)
+
+
+def _apart(of: dict[str, Any]) -> str:
+    """Return when and with what the rows with a star were measured."""
+    apart = {
+        f"{row['measured']['date']}, commit {row['measured']['commit']}" for row in of["rows"] if "measured" in row
+    }
+    return f"\n\n\\* {'; '.join(sorted(apart))}." if apart else ""
 
 
 def threads() -> str:
@@ -249,10 +257,7 @@ def threads() -> str:
         for row in of["rows"]
     ]
     head = ["run", "one thread [s]", "two threads [s]", "faster by", "two runs at once on one thread each: faster by"]
-    apart = sorted(
-        {f"{row['measured']['date']}, commit {row['measured']['commit']}" for row in of["rows"] if "measured" in row}
-    )
-    return _table(head, rows, of) + (f"\n\n\\* {'; '.join(apart)}." if apart else "")
+    return _table(head, rows, of) + _apart(of)
 
 
 def _line_seconds() -> str:
