@@ -258,6 +258,7 @@ mod tests {
                 let columns = if width == 1 { 48 } else { 25_usize.next_multiple_of(width) };
                 is(repeating.memory_bytes(), count * 64 * columns);
                 assert_eq!(repeating.shape(), shape);
+                assert_eq!(repeating.in_single_precision().is_some(), width > 1);
                 match (free_space.in_single_precision(), width) {
                     (None, 1) => {}
                     (Some(single), 2..) => {

@@ -279,9 +279,12 @@ mod tests {
         let (kernels, blocks) = full_blocks();
         // Pressure even, shear as its kernels from pressure.
         let inputs = [Parity::EvenEven, Parity::OddEven, Parity::EvenOdd];
-        for axes in AXES {
-            free_space([20, 36], axes, &inputs, &kernels, &blocks);
-            periodic([20, 36], axes, &inputs, &kernels, &blocks);
+        // Lines of two passes, and of three.
+        for shape in [[20, 36], [48, 60]] {
+            for axes in AXES {
+                free_space(shape, axes, &inputs, &kernels, &blocks);
+                periodic(shape, axes, &inputs, &kernels, &blocks);
+            }
         }
     }
 
