@@ -150,6 +150,7 @@ def band_map(
     if axes is None:
         axes = tuple(plot._pyplot().subplots(1, 2, figsize=(8.4, 3.4), layout="constrained")[1])
     edges = [plot._edges(np.asarray(dataset[axis].values, dtype=np.float64), axis) for axis in (x, y)]
+    pictures: list[tuple[Any, str, dict[str, Any]] | None]
     if values.dtype.kind == "f":
         low, middle, high = _quantiles(values.values)
         pictures = [(middle, f"{label}: median", {}), (high - low, "width of the band of 95 %", {})]

@@ -3,6 +3,7 @@ contacts.
 """
 
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -155,8 +156,9 @@ def test_a_history_of_a_line_contact_is_that_of_a_run() -> None:
         ("friction holds at most", {"tangential_forces": [2 * sliding]}),
         ("dimensions", {"tangential_forces": [[0.1 * sliding]]}),
     ):
+        given: dict[str, Any] = {"friction_coefficient": 0.4, "tangential_forces": forces} | wrong
         with pytest.raises(ValueError, match=words):
-            analytic.line_history(line, **({"friction_coefficient": 0.4, "tangential_forces": forces} | wrong))
+            analytic.line_history(line, **given)
 
 
 def test_a_history_of_a_sphere_meets_its_loop() -> None:
@@ -164,8 +166,7 @@ def test_a_history_of_a_sphere_meets_its_loop() -> None:
     given = {"friction_coefficient": 0.5, "shear_modulus": 24e9}
     history = analytic.tangential_history(sphere, **given, tangential_forces=[3.0, 1.0, 2.0, -3.0, 1.5])
     loop = analytic.mindlin_deresiewicz(sphere, **given, amplitude=3.0)
-    for place, (branch, force) in enumerate((("loading", 3.0), ("unloading", 1.0))):
-        point = loop.at(branch, force)
+    for place, point in enumerate((loop.at("loading", 3.0), loop.at("unloading", 1.0))):
         assert history.shift[place] == pytest.approx(point.shift, rel=1e-12)
         assert history.stick_radius[place] == pytest.approx(point.stick_radius, rel=1e-12)
     # the small loop is forgotten

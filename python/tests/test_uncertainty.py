@@ -84,7 +84,7 @@ def test_maps_of_samples_show_their_middle_and_how_far_they_lie_apart() -> None:
     axes = {"load.press.normal_force": [5.0, 10.0, 20.0], "profile.sphere.radius": [5e-3, 10e-3]}
     answer = fretting.sweep(hertz_case(), {**axes, "lower.substrate.young": fretting.Uniform(190e9, 230e9)}, samples=8)
     left, right = fretting.plot.band_map(answer, "max_pressure", x="load.press.normal_force", y="profile.sphere.radius")
-    middle, width = (place.collections[0].get_array() for place in (left, right))
+    middle, width = (np.asarray(place.collections[0].get_array()) for place in (left, right))
     assert middle.shape == width.shape == (2, 3)
     # Hertz: p0 = (6 P E*^2 / (pi^3 R^2))^(1/3); the grid is the same in cells at every point, so that ratios are exact.
     force, radius = np.array(axes["load.press.normal_force"]), np.array(axes["profile.sphere.radius"])
@@ -100,7 +100,7 @@ def test_maps_of_samples_show_their_middle_and_how_far_they_lie_apart() -> None:
     case = hertz_case()
     case |= {"friction": {"coefficient": 0.3}}
     case["load"].append({"name": "rub", "shift": [0.2e-6, 0.0], "increments": 8, "cycles": 1})
-    sweep = {
+    sweep: dict[str, Any] = {
         "friction.coefficient": fretting.Uniform(0.1, 0.9),
         "load.press.normal_force": [2.0, 20.0],
         "load.rub.shift.0": [0.05e-6, 0.2e-6, 0.8e-6],
@@ -111,7 +111,7 @@ def test_maps_of_samples_show_their_middle_and_how_far_they_lie_apart() -> None:
         answer, "cycle_regime", x="load.rub.shift.0", y="load.press.normal_force", axes=tuple(pair)
     )
     regimes = answer["cycle_regime"].transpose("sample", "load.press.normal_force", "load.rub.shift.0").values
-    share = right.collections[0].get_array()
+    share = np.asarray(right.collections[0].get_array())
     counted = [
         [max((regimes[:, i, j] == word).mean() for word in set(regimes[:, i, j])) for j in range(3)] for i in range(2)
     ]
