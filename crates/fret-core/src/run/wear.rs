@@ -179,7 +179,7 @@ impl Wearing {
             })
             .fold(0.0, f64::max)
             * self.rule.largest_rate()
-            / self.stiffest.displacement(&state.pressure);
+            / self.stiffest.displacement(&self.collected.path);
         if softening > STABLE_SHARE {
             return Err(TooFast { share: softening });
         }
