@@ -118,7 +118,7 @@ fn a_very_thin_or_very_thick_coating_is_no_coating() {
 /// moves that rim by about as much, which is a part of a cell.
 #[test]
 fn the_area_of_a_foundation_like_contact_is_read_between_the_cells() {
-    for cells in [48, 64, 96, 192] {
+    for cells in [11, 12, 13, 14, 15, 16, 17, 18, 20, 28, 48, 64, 96, 192] {
         let text = format!(
             "[grid]\ncells = [{cells}, {cells}]\nsize = [2.3, 2.3]\n[upper]\nrigid = true\n[lower]\nbase = \"rigid\"\n\
              coatings = [{{ thickness = 0.003, young = 1.0, poisson = 0.3 }}]\n[profile.sphere]\nradius = 100.0\n\
@@ -127,7 +127,7 @@ fn the_area_of_a_foundation_like_contact_is_read_between_the_cells() {
         let step = &solved(&text).steps[0];
         let off = ((step.contact_area / std::f64::consts::PI).sqrt() - 1.0) * f64::from(cells) / 2.3;
         println!("{cells} cells: radius off by {off:.3} cells");
-        // With the root of a half-space in its place: -0.20 to -0.23 cells.
-        assert!(off.abs() < 0.06, "{cells} cells: {off}");
+        // With the root of a half-space in its place: -0.20 to -0.23 cells; as a straight line -0.10 to 0.08 below eight cells in the radius.
+        assert!(off.abs() < 0.04, "{cells} cells: {off}");
     }
 }

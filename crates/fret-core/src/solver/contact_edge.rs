@@ -4,7 +4,7 @@
 
 use std::array::from_fn;
 
-use ndarray::{Array2, ArrayView2};
+use ndarray::{Array2, ArrayView1, ArrayView2};
 
 /// The zero line of half-spaces lies this share of a cell inside the true edge (measured on Hertz contacts, confirmed on coated ones).
 const OFFSET: f64 = 0.024;
@@ -19,56 +19,47 @@ const STEP: f64 = 2.0;
 struct Rise {
     /// Power of the pressure that is linear in the distance: 2 of half-spaces, 1 of foundations.
     power: f64,
+    /// How many times as steep the level is between the first two open cells as between the last two loaded ones.
+    steeper: f64,
 }
 
 impl Rise {
-    const ROOT: Self = Self { power: 2.0 };
+    const ROOT: Self = Self { power: 2.0, steeper: 1.0 };
 
     /// Read off the pressure: the power with which three loaded cells in a row at the edge lie on a line, in the median of all edges
     /// along grid lines. Between a foundation and a half-space: a layer about as thin as a cell.
-    fn of(pressure: &ArrayView2<'_, f64>) -> Self {
-        let mut threes: Vec<[f64; 2]> = Vec::new();
-        for lines in [pressure.view(), pressure.t()] {
-            for line in lines.rows() {
-                for k in 0..line.len().saturating_sub(3) {
-                    if (line[k] > 0.0) == (line[k + 3] > 0.0) {
-                        continue;
-                    }
-                    let four = [line[k], line[k + 1], line[k + 2], line[k + 3]];
-                    let [a, b, c, d] =
-                        if four[0] > 0.0 { four } else { [four[3], four[2], four[1], four[0]] };
-                    if a > b && b > c && c > 0.0 && d <= 0.0 {
-                        threes.push([b / a, c / a]);
-                    }
-                }
-            }
+    ///
+    /// Under a round body the power of the pressure is linear in the square of the distance from the middle of a grid line's loaded cells,
+    /// so that it bends along the line, and goes on more steeply outside: by a seventh from cell to cell where six cells are in the radius.
+    /// Half-spaces are told from layers without that, since there the bend only makes them more certain.
+    fn of(pressure: &ArrayView2<'_, f64>, mirrored: [bool; 2]) -> Self {
+        let mut edges: Vec<EdgeOfLine> = Vec::new();
+        for (lines, mirrored) in [(pressure.t(), mirrored[0]), (pressure.view(), mirrored[1])] {
+            lines.rows().into_iter().for_each(|line| edges_of(&line, mirrored, &mut edges));
         }
-        // Positive where the power is too high: the bend of a power of a rising line.
-        let mut bends = Vec::with_capacity(threes.len());
-        let mut bend = |power: f64| {
+        let mut bends = Vec::with_capacity(edges.len());
+        let mut bend = |power: f64, of: fn(&EdgeOfLine, f64) -> f64| {
             bends.clear();
-            bends.extend(threes.iter().map(|[b, c]| {
-                let (b, c) = (libm::pow(*b, power), libm::pow(*c, power));
-                (1.0 - 2.0 * b + c) / (1.0 - c)
-            }));
+            bends.extend(edges.iter().map(|edge| of(edge, power)));
             median(&mut bends).unwrap_or(0.0)
         };
         let (mut low, mut high) = (1.0, Self::ROOT.power);
-        if bend(high) <= 0.0 {
+        if bend(high, EdgeOfLine::bend) <= 0.0 {
             return Self::ROOT;
-        }
-        if bend(low) >= 0.0 {
-            return Self { power: low };
         }
         for _ in 0..20 {
             let middle = 0.5 * (low + high);
-            if bend(middle) > 0.0 {
+            if bend(middle, EdgeOfLine::bend_over_squares) > 0.0 {
                 high = middle;
             } else {
                 low = middle;
             }
         }
-        Self { power: 0.5 * (low + high) }
+        let power = 0.5 * (low + high);
+        let mut across: Vec<f64> = edges.iter().filter_map(|edge| edge.across).collect();
+        let steeper = median(&mut across).map_or(1.0, |cells| (cells + 2.0) / (cells - 2.0));
+        // that of half-spaces is in their offset
+        Self { power, steeper: libm::pow(steeper, Self::ROOT.power - power) }
     }
 
     /// The level of a pressure.
@@ -85,9 +76,67 @@ impl Rise {
         }
     }
 
-    /// By how much the zero line lies inside the true edge [cells].
+    /// By how much the zero line lies inside the true edge [cells]: of half-spaces as measured; of foundations since between the centres
+    /// of cells a parabola over a circle of radius `a` is above what is linear between them, in the mean over both axes by `1/(6 a)` of its
+    /// slope, where grid lines have `sqrt(3) a` loaded cells in the median.
     fn offset(self) -> f64 {
-        OFFSET * (self.power - 1.0)
+        let of_a_line = 0.5 * (self.steeper - 1.0) / (self.steeper + 1.0);
+        OFFSET * (self.power - 1.0) + 3.0_f64.sqrt() / 6.0 * of_a_line
+    }
+}
+
+/// An edge of contact along a grid line.
+#[derive(Debug, Clone, Copy)]
+struct EdgeOfLine {
+    /// Pressures of the last two loaded cells over that of the one before.
+    pressures: [f64; 2],
+    /// How many cells in a row are loaded, where they are more than four and have open ones on both sides.
+    across: Option<f64>,
+}
+
+impl EdgeOfLine {
+    /// Bend of a power of the pressure from cell to cell, over its rise: positive where the power is too high.
+    fn bend(&self, power: f64) -> f64 {
+        let [b, c] = self.pressures.map(|pressure| libm::pow(pressure, power));
+        (1.0 - 2.0 * b + c) / (1.0 - c)
+    }
+
+    /// The same over the square of the distance from the middle of the loaded cells, where that is known.
+    fn bend_over_squares(&self, power: f64) -> f64 {
+        let Some(loaded) = self.across else { return self.bend(power) };
+        let [b, c] = self.pressures.map(|pressure| libm::pow(pressure, power));
+        ((1.0 - b) / (loaded - 4.0) - (b - c) / (loaded - 2.0)) * (loaded - 3.0) / (1.0 - c)
+    }
+}
+
+/// Notes the edges of a grid line towards which the pressure of three cells falls. `mirrored`: the line begins at a mirror.
+fn edges_of(line: &ArrayView1<'_, f64>, mirrored: bool, edges: &mut Vec<EdgeOfLine>) {
+    let is_loaded = |cell: usize| line[cell] > 0.0;
+    let mut start = 0;
+    while start < line.len() {
+        if !is_loaded(start) {
+            start += 1;
+            continue;
+        }
+        let end = (start..line.len()).find(|cell| !is_loaded(*cell)).unwrap_or(line.len());
+        let loaded = end - start;
+        let whole = if mirrored && start == 0 { 2 * loaded } else { loaded };
+        let is_known = whole > 4 && (start > 0 || mirrored) && end < line.len();
+        let across = is_known.then_some(whole as f64);
+        if loaded >= 3 {
+            let mut note = |[a, b, c]: [f64; 3]| {
+                if a > b && b > c {
+                    edges.push(EdgeOfLine { pressures: [b / a, c / a], across });
+                }
+            };
+            if start > 0 {
+                note([line[start + 2], line[start + 1], line[start]]);
+            }
+            if end < line.len() {
+                note([line[end - 3], line[end - 2], line[end - 1]]);
+            }
+        }
+        start = end;
     }
 }
 
@@ -95,7 +144,7 @@ impl Rise {
 const NEAR: usize = 2;
 
 /// One function for both sides of the edge: `p^2` where there is pressure, `-kappa gap^(2/3)` outside; kappa makes the median
-/// slopes of both along grid lines across the edge equal. Farther out than two cells it is just negative. `None` when no grid
+/// slopes of both along grid lines across the edge equal (of foundations those of a parabola). Farther out than two cells it is just negative. `None` when no grid
 /// line crosses an edge. Cells with a gap wider than `beyond`, where a body has ended, tell nothing about the edge.
 pub fn level_function(
     pressure: &ArrayView2<'_, f64>,
@@ -135,7 +184,7 @@ fn level_of(
         slopes.read([four[0], four[ny], four[2 * ny], four[3 * ny]]);
     }
     let reach = median(&mut slopes.reaches)?;
-    let kappa = slopes.ratio()?;
+    let kappa = slopes.ratio()? * rise.steeper;
     let mut lowest = 0.0_f64;
     for value in &mut level {
         if *value <= 0.0 && *value > f64::NEG_INFINITY {
@@ -209,10 +258,15 @@ fn spread(marks: &mut [bool], stride: usize, before: &mut [bool]) {
 /// Contact area in units of one cell, from pressure and gap on a grid (or a box of it). Good to about 0.05 cells along the
 /// perimeter for smooth contacts, of half-spaces and of layers much thinner than a cell alike; a contact without an edge inside the
 /// grid, and one whose pressure ends in a step, are counted by cells.
-/// Where the gap is wider than `beyond`, a body has ended, at the border of the cell.
-pub fn contact_cells(pressure: &ArrayView2<'_, f64>, gap: &ArrayView2<'_, f64>, beyond: f64) -> f64 {
+/// Where the gap is wider than `beyond`, a body has ended, at the border of the cell. `mirrored`: axes whose first cells lie at a mirror.
+pub fn contact_cells(
+    pressure: &ArrayView2<'_, f64>,
+    gap: &ArrayView2<'_, f64>,
+    beyond: f64,
+    mirrored: [bool; 2],
+) -> f64 {
     let (nx, ny) = pressure.dim();
-    let rise = Rise::of(pressure);
+    let rise = Rise::of(pressure, mirrored);
     let level = match level_of(rise, pressure, gap, beyond) {
         Some((level, reach)) if reach <= STEP => level,
         _ => return pressure.iter().filter(|p| **p > 0.0).count() as f64,

@@ -77,7 +77,10 @@ impl ContactSolver<'_> {
         let [dx, dy] = self.grid.spacing();
         let beyond = 0.5 * BEYOND_THE_BODY * (cells_x as f64 * dx).hypot(cells_y as f64 * dy);
         // At a mirror the edge goes on as it does at a side of the region: with the same value in the next cell.
-        let cells = contact_edge::contact_cells(&pressure, &gap, beyond) * self.symmetry.copies() as f64;
+        let axes = self.symmetry.axes();
+        let mirrored = [0, 1].map(|axis| axes[axis] && region.origin[axis] == 0);
+        let cells = contact_edge::contact_cells(&pressure, &gap, beyond, mirrored);
+        let cells = cells * self.symmetry.copies() as f64;
         cells * self.grid.cell_area()
     }
 

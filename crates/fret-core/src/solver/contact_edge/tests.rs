@@ -45,19 +45,19 @@ fn the_power_with_which_pressure_rises_is_read_off_its_edges() {
                 })
             };
             for keep in 0..5 {
-                let found = Rise::of(&lone(keep).view()).power;
+                let found = Rise::of(&lone(keep).view(), [false; 2]).power;
                 // Twenty halvings of the interval from 1 to 2.
                 assert!((found - expected).abs() < 2e-6, "{power}, turned {kind}, {keep}: {found}");
             }
         }
     }
-    assert_eq!(Rise::of(&Array2::zeros((4, 4)).view()), Rise::ROOT);
+    assert_eq!(Rise::of(&Array2::zeros((4, 4)).view(), [false; 2]), Rise::ROOT);
 }
 
 #[test]
 fn levels_are_linear_in_the_distance_between_foundations_and_half_spaces() {
     for (power, of_gap, offset) in [(1.0, 1.0, 0.0), (1.5, 5.0 / 6.0, 0.012), (2.0, 2.0 / 3.0, 0.024)] {
-        let rise = Rise { power };
+        let rise = Rise { power, steeper: 1.0 };
         for distance in [0.3_f64, 1.0, 2.7] {
             let inside = rise.inside(distance.powf(1.0 / power));
             let outside = rise.outside(distance.powf(1.0 / of_gap));
@@ -170,7 +170,7 @@ fn areas_of_straight_strips_are_exact() {
         let pressure = columns(9, |x| 3.0 * (edge - x).max(0.0).powf(rise));
         let gap = columns(9, |x| 7.0 * (x - edge).max(0.0).powf(gap_power));
         for (pressure, gap) in turned(&pressure).iter().zip(turned(&gap)) {
-            let area = contact_cells(&pressure.view(), &gap.view(), f64::INFINITY);
+            let area = contact_cells(&pressure.view(), &gap.view(), f64::INFINITY, [false; 2]);
             assert!((area - 5.0 * (edge + 0.5 + offset)).abs() < 1e-5, "{rise}: {area}");
         }
     }
@@ -179,13 +179,13 @@ fn areas_of_straight_strips_are_exact() {
     let pressure = columns(9, |x| if x < 6.5 { (x - edge).max(0.0).sqrt() } else { 0.0 });
     let gap = columns(9, |x| if x < 6.5 { (edge - x).max(0.0).powf(1.5) } else { 1e3 });
     for (pressure, gap) in turned(&pressure).iter().zip(turned(&gap)) {
-        let area = contact_cells(&pressure.view(), &gap.view(), 999.0);
+        let area = contact_cells(&pressure.view(), &gap.view(), 999.0, [false; 2]);
         assert!((area - 5.0 * (6.5 - edge + 0.024)).abs() < 1e-5, "{area}");
     }
     // Without an edge cells are counted.
     let full = columns(9, |_| 1.0);
-    assert_eq!(contact_cells(&full.view(), &columns(9, |_| 0.0).view(), f64::INFINITY), 45.0);
-    assert_eq!(contact_cells(&columns(9, |_| 0.0).view(), &full.view(), f64::INFINITY), 0.0);
+    assert_eq!(contact_cells(&full.view(), &columns(9, |_| 0.0).view(), f64::INFINITY, [false; 2]), 45.0);
+    assert_eq!(contact_cells(&columns(9, |_| 0.0).view(), &full.view(), f64::INFINITY, [false; 2]), 0.0);
 }
 
 /// A round contact off the middles of the cells, whole and cut by the end of a body: to 0.05 cells along its edge.
@@ -202,7 +202,7 @@ fn areas_of_discs_and_of_their_segments_are_near() {
     for (rise, (of_pressure, of_gap)) in pressures.into_iter().zip(gaps).enumerate() {
         let pressure = Array2::from_shape_fn((33, 32), |(i, j)| of_pressure(ratio(i, j)));
         let gap = Array2::from_shape_fn((33, 32), |(i, j)| of_gap(ratio(i, j)));
-        let area = contact_cells(&pressure.view(), &gap.view(), f64::INFINITY);
+        let area = contact_cells(&pressure.view(), &gap.view(), f64::INFINITY, [false; 2]);
         let off = (area - std::f64::consts::PI * radius * radius) / (std::f64::consts::TAU * radius);
         println!("{rise}: {off:.3} cells");
         assert!(off.abs() < 0.05, "{rise}: {off}");
@@ -215,7 +215,7 @@ fn areas_of_discs_and_of_their_segments_are_near() {
         let whole =
             radius * radius * (-chord / radius).acos() + chord * (radius * radius - chord * chord).sqrt();
         for (pressure, gap) in turned(&cut).iter().zip(turned(&open)) {
-            let area = contact_cells(&pressure.view(), &gap.view(), 999.0);
+            let area = contact_cells(&pressure.view(), &gap.view(), 999.0, [false; 2]);
             let off = (area - whole) / (std::f64::consts::TAU * radius);
             println!("{rise}, cut: {off:.3} cells");
             assert!(off.abs() < 0.05, "{rise}, cut: {off}");
@@ -242,7 +242,7 @@ fn pressure_that_ends_in_a_step_is_counted_by_cells() {
             Array2::from_shape_fn((21, 21), |(i, j)| if at(i, j) < radius { of(at(i, j)) } else { 0.0 });
         let gap = Array2::from_shape_fn((21, 21), |(i, j)| 0.1 * (at(i, j) - radius).max(0.0));
         let cells = pressure.iter().filter(|p| **p > 0.0).count() as f64;
-        (contact_cells(&pressure.view(), &gap.view(), f64::INFINITY), cells)
+        (contact_cells(&pressure.view(), &gap.view(), f64::INFINITY, [false; 2]), cells)
     };
     for of in [&|_: f64| 1.0_f64, &|r: f64| 1.0 - 0.001 * r, &|r: f64| 1.0 / (64.0 - r * r).sqrt()]
         as [&dyn Fn(f64) -> f64; 3]
@@ -256,4 +256,25 @@ fn pressure_that_ends_in_a_step_is_counted_by_cells() {
         found != cells && (found / (std::f64::consts::PI * radius * radius) - 1.0).abs() < 0.02,
         "{found}"
     );
+}
+
+/// Under a sphere a foundation's pressure is a parabola: power and area are found of round contacts anywhere on the cells, whole or in front of
+/// mirrors.
+#[test]
+fn areas_of_parabolas_are_met_on_few_cells() {
+    for (radius, off) in [(5.3, [0.0, 0.0]), (6.1, [0.3, -0.2]), (8.4, [0.45, 0.1]), (15.2, [0.2, 0.3])] {
+        let level = Array2::from_shape_fn((40, 40), |(i, j)| {
+            let [x, y] = [i as f64 - 19.5 - off[0], j as f64 - 19.5 - off[1]];
+            radius * radius - x * x - y * y
+        });
+        let [pressure, gap] = [1.0, -1.0].map(|sign| level.mapv(|level| f64::max(sign * level, 0.0)));
+        let area = contact_cells(&pressure.view(), &gap.view(), f64::INFINITY, [false; 2]);
+        let error = (area / std::f64::consts::PI).sqrt() - radius;
+        assert!(error.abs() < 0.01, "{radius}: {error}");
+        if off == [0.0; 2] {
+            let [pressure, gap] = [&pressure, &gap].map(|field| field.slice(ndarray::s![20.., 20..]));
+            let quarter = contact_cells(&pressure, &gap, f64::INFINITY, [true; 2]);
+            assert!((4.0 * quarter / area - 1.0).abs() < 1e-12, "{area} {quarter}");
+        }
+    }
 }
