@@ -136,7 +136,7 @@ fn tables_that_a_case_cannot_do_without_are_all_asked_for() {
     told(&text, &[("missing key `grid`", "")]);
     // a wrong type beside it is told
     let text = text.replacen("young = 1.0", "young = \"soft\"", 1);
-    told(&text, &[("found the text \"soft\"", "soft"), ("missing key `grid`", "")]);
+    told(&text, &[("missing key `grid`", ""), ("found the text \"soft\"", "soft")]);
 }
 
 #[test]
