@@ -208,6 +208,8 @@ mod tests {
         for (words, more, message) in [
             ([upper, "", substrate, every], heat, "lower.coatings[0]: no thermal_conductivity"),
             ([upper, coating, "", every], "", "lower.substrate: no thermal_conductivity"),
+            // that no other part conducts is not told beside it
+            (["", "", substrate, every], heat, "lower.coatings[0]: no thermal_conductivity"),
             ([upper, coating, ", thermal_conductivity = -5.0", every], "", "must be positive"),
             (["thermal_conductivity = inf", coating, substrate, every], "", "must be positive"),
             ([upper, coating, substrate, every], "[thermal]\nfrequency = 0.0\n", "thermal.frequency"),
