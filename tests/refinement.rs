@@ -133,3 +133,40 @@ fn impossible_ladders_are_refused() {
     );
     assert_eq!(Resolutions::new(&plan, &[], &[], &[0.5]), Err(ResolutionError::Tolerance(0.5)));
 }
+
+/// The edge of a line contact is two points, whose places between the centres of cells decide its errors: they change their sign from grid to
+/// grid, and nothing is extrapolated from them.
+#[test]
+fn of_line_contacts_nothing_is_extrapolated() {
+    let plan = planned(
+        "[grid]\ncells = 128\nsize = 3.0\ndatum = 10.0\n[upper]\nrigid = true\n[lower]\nsubstrate = { young = 1.0, poisson = 0.3 }\n\
+         [profile.cylinder]\nradius = 100.0\naxis = \"y\"\n[[load]]\nnormal_force = 7e-3\nincrements = 1\n",
+    );
+    let study = solved(&plan, Resolutions::new(&plan, &[32, 64, 128], &[], &[]).unwrap());
+    let reference = Reference::closed(ClosedForm::of(&plan).unwrap());
+    let exact = reference.of(Quantity::Approach)[0].unwrap()[0];
+    let levels = [0, 1, 2].map(|cells| study.level([cells, 0, 0]).unwrap().ends[0].approach - exact);
+    assert!(levels[0] < 0.0 && levels[1] > 0.0, "{levels:?}");
+    for level in &line(&study.judged(&reference), Kind::Cells).levels {
+        let of = |form| level.errors.of(form)[Quantity::Approach as usize];
+        assert!(of(Form::Extrapolated).is_none_or(|error| Some(error) == of(Form::Between)));
+    }
+    let limit = study.limit().unwrap();
+    let off = (limit.of(Quantity::Approach)[0].unwrap()[0] - exact).abs();
+    assert!(off <= levels[2].abs(), "the limit is the finest level: {off:e}");
+}
+
+/// A level that could not be solved is left out with its count: the limit is that of the levels that were.
+#[test]
+fn a_limit_passes_over_levels_that_are_missing() {
+    let plan = planned(&Sphere::default().pressed(1.0, 1, "linear"));
+    let resolutions = Resolutions::new(&plan, &[16, 24, 48], &[], &[]).unwrap();
+    let whole = solved(&plan, Resolutions::new(&plan, &[16, 48], &[], &[]).unwrap());
+    let levels = [0, 2].map(|cells| {
+        let place = [cells, 0, 0];
+        (place, solved_level(&resolutions.at(place).planned(&plan).unwrap(), &mut Silent).unwrap())
+    });
+    let holed = RefinementStudy::new(resolutions, levels.into());
+    let approach = |study: &RefinementStudy| study.limit().unwrap().of(Quantity::Approach)[0].unwrap()[0];
+    assert_eq!(approach(&holed), approach(&whole));
+}

@@ -14,7 +14,7 @@ fn the_most_severe_cells_are_those_of_all_cells_one_by_one() {
     let material = |young, poisson| ElasticMaterial::new(young, poisson).unwrap();
     let coating = Coating::new(material(4.0, 0.25), 0.5).unwrap();
     let body = HalfSpace::new(vec![coating], Base::Elastic(material(1.0, 0.3))).unwrap();
-    let points = depth_points(&body, &[0.1, 0.5, 0.9]).unwrap();
+    let points = depth_points(&body, &[0.0, 0.1, 0.5, 0.9]).unwrap();
     let round = |shift: f64, radius: f64| {
         Array2::from_shape_fn((cells[0], cells[1]), |(i, j)| {
             let [x, y] = [grid.centre(0, i) - shift, grid.centre(1, j)];
@@ -34,6 +34,7 @@ fn the_most_severe_cells_are_those_of_all_cells_one_by_one() {
         yield_strength: Some(2.0),
         torsion_limit: Some(0.5),
         tension_limit: Some(0.8),
+        critical_distance: Some(0.3),
         ..FatigueConstants::default()
     });
     let judged = |threads: usize, row: Option<usize>| {
@@ -52,6 +53,13 @@ fn the_most_severe_cells_are_those_of_all_cells_one_by_one() {
     let [looked_for, evaluated] = [judged(1, Some(30)), judged(1, None)];
     assert_eq!(looked_for.found.len(), 10); // five parameters in two layers
     assert_eq!(looked_for.found, evaluated.found);
+    assert_eq!(looked_for.at_surface, evaluated.at_surface);
+    assert!(
+        looked_for.at_surface.iter().any(|found| found.off != [0.0; 2]),
+        "a rim is the most severe place"
+    );
+    assert_eq!(looked_for.at_distance, evaluated.at_distance);
+    assert_eq!(looked_for.at_distance.len(), 4); // all but shakedown
     for threads in [2, 3, 5] {
         assert_eq!(judged(threads, Some(30)), looked_for, "{threads} threads");
     }

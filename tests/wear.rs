@@ -208,3 +208,21 @@ fn a_scar_worn_far_in_gross_slip_is_a_cap_under_even_pressure() {
     // What the mark has not yet worn off its first pressure, which was three times and a half the mean in the middle and none at the rim.
     assert!(least > 0.98 && most < 1.02, "{least} {most}");
 }
+
+/// Wear spreads the load of a sphere over ever more cells, so the largest pressure falls from cycle to cycle. A nearly incompressible film is
+/// stiffer against long waves of pressure than against pressure that alternates from cell to cell: steps of 120 cycles, which the latter
+/// would allow here, let the largest pressure jump up and down by a third.
+#[test]
+fn on_a_nearly_incompressible_film_the_pressure_falls_all_the_time() {
+    let history = solved(
+        "[grid]\ncells = [32, 32]\nsize = [6.0, 6.0]\n[upper]\nrigid = true\n[lower]\nbase = \"rigid\"\n\
+         coatings = [{ thickness = 0.08, young = 1.0, poisson = 0.4999 }]\n[profile.sphere]\nradius = 20.0\n[friction]\n\
+         coefficient = 0.3\n[wear]\nlaw = \"archard\"\ncoefficient = 3e-4\nevery = 1000\nlargest_step = 1.0\n[[load]]\n\
+         normal_force = 1.0\nincrements = 1\n[[load]]\nshift = [0.3, 0.0]\nincrements = 4\ncycles = 450\n",
+    );
+    let pressures: Vec<f64> = history.steps.iter().step_by(4).map(|step| step.max_pressure).collect();
+    assert!((50..90).contains(&pressures.len()), "cycles are jumped over: {}", pressures.len());
+    // Cells that come into contact one by one: a hundredth.
+    assert!(pressures.windows(2).all(|pair| pair[1] < 1.01 * pair[0]), "{pressures:?}");
+    assert!(pressures[pressures.len() - 1] < 0.2 * pressures[0]);
+}

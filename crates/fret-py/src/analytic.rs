@@ -1,15 +1,15 @@
 //! Closed-form solutions: their numbers as JSON text, their curves evaluated on arrays. `fretting.analytic` gives them names.
 
 use fret_core::analytic::{
-    AnalyticError, Branch, CattaneoLine, CattaneoMindlin, Cone, EffectiveModuli, EquibiaxialSphere,
-    FlatPunch, Hertz, HertzEllipse, HertzLine, LineHistory, MindlinDeresiewicz, NoSlipPunch, NoSlipSphere,
-    RoundedPunch, SPENCE_TABLE, SlidingCylinder, StretchedLine, StretchedSphere, TangentialHistory,
-    ThickLayer, ThinLayer, TiltedLinePunch, TiltedPunch, Torsion, Westergaard,
+    Branch, CattaneoLine, CattaneoMindlin, Cone, EffectiveModuli, EquibiaxialSphere, FlatPunch, Hertz,
+    HertzEllipse, HertzLine, LineHistory, MindlinDeresiewicz, NoSlipPunch, NoSlipSphere, RoundedPunch,
+    SPENCE_TABLE, SlidingCylinder, StretchedLine, StretchedSphere, TangentialHistory, ThickLayer, ThinLayer,
+    TiltedLinePunch, TiltedPunch, Torsion, Westergaard,
 };
 use fret_core::model::{Coating, ElasticMaterial};
 use numpy::{IntoPyArray, PyArray1, PyReadonlyArray1};
 use pyo3::exceptions::{PyKeyError, PyValueError};
-use pyo3::prelude::{Bound, PyErr, PyResult, Python, pyclass, pyfunction, pymethods};
+use pyo3::prelude::{Bound, PyResult, Python, pyclass, pyfunction, pymethods};
 use serde_json::{Value, json};
 
 use crate::error::bad_value;
@@ -58,8 +58,11 @@ impl Solution {
         y: PyReadonlyArray1<'py, f64>,
     ) -> PyResult<Bound<'py, PyArray1<f64>>> {
         let surface = self.surface.as_ref().ok_or_else(|| PyKeyError::new_err("no function of a point"))?;
-        let points = x.as_slice()?.iter().zip(y.as_slice()?);
-        let values: Vec<f64> = points.map(|(&x, &y)| surface(x, y)).collect();
+        let (x, y) = (x.as_slice()?, y.as_slice()?);
+        if x.len() != y.len() {
+            return Err(PyValueError::new_err(format!("x has {} points, y has {}", x.len(), y.len())));
+        }
+        let values: Vec<f64> = x.iter().zip(y).map(|(&x, &y)| surface(x, y)).collect();
         Ok(values.into_pyarray(py))
     }
 }
@@ -73,19 +76,15 @@ fn solution_of_points(numbers: Value, surface: Surface) -> Solution {
 }
 
 fn hertz_line_of((radius, line_force, modulus): HertzNumbers) -> PyResult<HertzLine> {
-    HertzLine::cylinder(radius, line_force, modulus).map_err(refused)
+    HertzLine::cylinder(radius, line_force, modulus).map_err(bad_value)
 }
 
 fn numbers(of: impl serde::Serialize) -> PyResult<Value> {
     serde_json::to_value(of).map_err(bad_value)
 }
 
-fn refused(error: AnalyticError) -> PyErr {
-    bad_value(error)
-}
-
 fn hertz_of((radius, force, modulus): HertzNumbers) -> PyResult<Hertz> {
-    Hertz::sphere(radius, force, modulus).map_err(refused)
+    Hertz::sphere(radius, force, modulus).map_err(bad_value)
 }
 
 /// Effective moduli of two bodies `(young, poisson)`; a rigid upper body when `None`.
@@ -110,35 +109,35 @@ pub fn hertz(sphere: HertzNumbers) -> PyResult<Solution> {
 /// Ellipsoid without friction.
 #[pyfunction]
 pub fn hertz_ellipse(radii: [f64; 2], force: f64, modulus: f64) -> PyResult<Solution> {
-    let ellipse = HertzEllipse::ellipsoid(radii, force, modulus).map_err(refused)?;
+    let ellipse = HertzEllipse::ellipsoid(radii, force, modulus).map_err(bad_value)?;
     Ok(solution(numbers(ellipse)?, vec![]))
 }
 
 /// Cylinder without friction.
 #[pyfunction]
 pub fn hertz_line(radius: f64, line_force: f64, modulus: f64) -> PyResult<Solution> {
-    let line = HertzLine::cylinder(radius, line_force, modulus).map_err(refused)?;
+    let line = hertz_line_of((radius, line_force, modulus))?;
     Ok(solution(numbers(line)?, vec![("pressure", Box::new(move |x| line.pressure(x)))]))
 }
 
 /// Flat circular punch without friction.
 #[pyfunction]
 pub fn flat_punch(radius: f64, force: f64, modulus: f64) -> PyResult<Solution> {
-    let punch = FlatPunch::new(radius, force, modulus).map_err(refused)?;
+    let punch = FlatPunch::new(radius, force, modulus).map_err(bad_value)?;
     Ok(solution(numbers(punch)?, vec![("pressure", Box::new(move |r| punch.pressure(r)))]))
 }
 
 /// Cone without friction.
 #[pyfunction]
 pub fn cone(slope: f64, force: f64, modulus: f64) -> PyResult<Solution> {
-    let cone = Cone::new(slope, force, modulus).map_err(refused)?;
+    let cone = Cone::new(slope, force, modulus).map_err(bad_value)?;
     Ok(solution(numbers(cone)?, vec![("pressure", Box::new(move |r| cone.pressure(r)))]))
 }
 
 /// Sinusoidal surface without friction.
 #[pyfunction]
 pub fn westergaard(amplitude: f64, wavelength: f64, mean_pressure: f64, modulus: f64) -> PyResult<Solution> {
-    let wave = Westergaard::new(amplitude, wavelength, mean_pressure, modulus).map_err(refused)?;
+    let wave = Westergaard::new(amplitude, wavelength, mean_pressure, modulus).map_err(bad_value)?;
     Ok(solution(numbers(wave)?, vec![("pressure", Box::new(move |x| wave.pressure(x)))]))
 }
 
@@ -160,7 +159,7 @@ pub fn cattaneo_mindlin(
     tangential_force: f64,
 ) -> PyResult<Solution> {
     let contact = CattaneoMindlin::new(&hertz_of(sphere)?, friction, shear_modulus, tangential_force);
-    partial_slip(contact.map_err(refused)?)
+    partial_slip(contact.map_err(bad_value)?)
 }
 
 /// Sphere pushed to and fro: the numbers of the whole loop, and the contact at its first peak.
@@ -172,7 +171,7 @@ pub fn mindlin_deresiewicz(
     amplitude: f64,
 ) -> PyResult<(Solution, Solution)> {
     let fretting_loop =
-        MindlinDeresiewicz::new(&hertz_of(sphere)?, friction, shear_modulus, amplitude).map_err(refused)?;
+        MindlinDeresiewicz::new(&hertz_of(sphere)?, friction, shear_modulus, amplitude).map_err(bad_value)?;
     let numbers = json!({
         "dissipated_energy_per_cycle": fretting_loop.dissipated_energy_per_cycle(),
         "energy_ratio": fretting_loop.energy_ratio(),
@@ -202,7 +201,7 @@ pub fn mindlin_deresiewicz_at(
     };
     let point = MindlinDeresiewicz::new(&hertz_of(sphere)?, friction, shear_modulus, amplitude)
         .and_then(|fretting_loop| fretting_loop.at(branch, tangential_force))
-        .map_err(refused)?;
+        .map_err(bad_value)?;
     let numbers = json!({
         "tangential_force": point.tangential_force(),
         "shift": point.shift(),
@@ -219,10 +218,11 @@ pub fn tangential_history(
     shear_modulus: f64,
     forces: Vec<f64>,
 ) -> PyResult<Solution> {
-    let mut history = TangentialHistory::new(&hertz_of(sphere)?, friction, shear_modulus).map_err(refused)?;
+    let mut history =
+        TangentialHistory::new(&hertz_of(sphere)?, friction, shear_modulus).map_err(bad_value)?;
     let mut found: [Vec<f64>; 3] = Default::default();
     for force in &forces {
-        history.push(*force).map_err(refused)?;
+        history.push(*force).map_err(bad_value)?;
         found[0].push(history.shift());
         found[1].push(history.stick_radius());
         found[2].push(history.dissipated_energy());
@@ -246,10 +246,10 @@ pub fn line_history(
     forces: Vec<f64>,
     datum: Option<(f64, f64)>,
 ) -> PyResult<Solution> {
-    let mut history = LineHistory::new(&hertz_line_of(cylinder)?, friction, compliance).map_err(refused)?;
+    let mut history = LineHistory::new(&hertz_line_of(cylinder)?, friction, compliance).map_err(bad_value)?;
     let mut found: [Vec<f64>; 3] = Default::default();
     for force in &forces {
-        history.push(*force).map_err(refused)?;
+        history.push(*force).map_err(bad_value)?;
         found[0].extend(datum.map(|(depth, at_datum)| history.shift(depth, at_datum)));
         found[1].push(history.stick_half_width());
         found[2].push(history.dissipated_energy());
@@ -268,7 +268,7 @@ pub fn line_history(
 #[pyfunction]
 pub fn torsion(sphere: HertzNumbers, friction: f64, shear_modulus: f64, moment: f64) -> PyResult<Solution> {
     let torsion =
-        Torsion::under_moment(&hertz_of(sphere)?, friction, shear_modulus, moment).map_err(refused)?;
+        Torsion::under_moment(&hertz_of(sphere)?, friction, shear_modulus, moment).map_err(bad_value)?;
     Ok(solution(numbers(torsion)?, vec![("shear", Box::new(move |r| torsion.shear(r)))]))
 }
 
@@ -282,7 +282,7 @@ pub fn cattaneo_line(
 ) -> PyResult<Solution> {
     let contact =
         CattaneoLine::new(&hertz_line_of(cylinder)?, friction, cylinder.2, tangential_force, strain)
-            .map_err(refused)?;
+            .map_err(bad_value)?;
     Ok(solution(numbers(contact)?, vec![("shear", Box::new(move |x| contact.shear(x)))]))
 }
 
@@ -290,7 +290,7 @@ pub fn cattaneo_line(
 #[pyfunction]
 pub fn stretched_line(cylinder: HertzNumbers, friction: f64, strain: f64) -> PyResult<Solution> {
     let contact =
-        StretchedLine::new(&hertz_line_of(cylinder)?, friction, cylinder.2, strain).map_err(refused)?;
+        StretchedLine::new(&hertz_line_of(cylinder)?, friction, cylinder.2, strain).map_err(bad_value)?;
     Ok(solution(numbers(contact)?, vec![]))
 }
 
@@ -304,14 +304,15 @@ pub fn stretched_sphere(
     strain: f64,
 ) -> PyResult<Solution> {
     let contact = StretchedSphere::new(&hertz_of(sphere)?, friction, shear_modulus, tangential_force, strain)
-        .map_err(refused)?;
+        .map_err(bad_value)?;
     Ok(solution_of_points(numbers(contact)?, Box::new(move |x, y| contact.shear(x, y))))
 }
 
 /// Sphere on a body that is stretched alike in all directions.
 #[pyfunction]
 pub fn equibiaxial_sphere(sphere: HertzNumbers, friction: f64, strain: f64) -> PyResult<Solution> {
-    let contact = EquibiaxialSphere::new(&hertz_of(sphere)?, friction, sphere.2, strain).map_err(refused)?;
+    let contact =
+        EquibiaxialSphere::new(&hertz_of(sphere)?, friction, sphere.2, strain).map_err(bad_value)?;
     Ok(solution(numbers(contact)?, vec![]))
 }
 
@@ -324,46 +325,42 @@ pub fn sliding_cylinder(
     coupling: f64,
     friction: f64,
 ) -> PyResult<Solution> {
-    let contact = SlidingCylinder::new(radius, line_force, modulus, coupling, friction).map_err(refused)?;
-    let mut numbers = numbers(contact)?;
-    if let Some(numbers) = numbers.as_object_mut() {
-        numbers.remove("scale");
-    }
-    Ok(solution(numbers, vec![("pressure", Box::new(move |x| contact.pressure(x)))]))
+    let contact = SlidingCylinder::new(radius, line_force, modulus, coupling, friction).map_err(bad_value)?;
+    Ok(solution(numbers(contact)?, vec![("pressure", Box::new(move |x| contact.pressure(x)))]))
 }
 
 /// Flat circular punch under a force and a slope.
 #[pyfunction]
 pub fn tilted_punch(radius: f64, force: f64, modulus: f64, tilt: f64) -> PyResult<Solution> {
-    let punch = TiltedPunch::new(radius, force, modulus, tilt).map_err(refused)?;
+    let punch = TiltedPunch::new(radius, force, modulus, tilt).map_err(bad_value)?;
     Ok(solution_of_points(numbers(punch)?, Box::new(move |x, y| punch.pressure(x, y))))
 }
 
 /// Flat punch of infinite length under a force and a slope.
 #[pyfunction]
 pub fn tilted_line_punch(half_width: f64, line_force: f64, modulus: f64, tilt: f64) -> PyResult<Solution> {
-    let punch = TiltedLinePunch::new(half_width, line_force, modulus, tilt).map_err(refused)?;
+    let punch = TiltedLinePunch::new(half_width, line_force, modulus, tilt).map_err(bad_value)?;
     Ok(solution(numbers(punch)?, vec![("pressure", Box::new(move |x| punch.pressure(x)))]))
 }
 
 /// Flat punch with a rounded edge, without friction.
 #[pyfunction]
 pub fn rounded_punch(flat_radius: f64, edge_radius: f64, force: f64, modulus: f64) -> PyResult<Solution> {
-    let punch = RoundedPunch::new(flat_radius, edge_radius, force, modulus).map_err(refused)?;
+    let punch = RoundedPunch::new(flat_radius, edge_radius, force, modulus).map_err(bad_value)?;
     Ok(solution(numbers(punch)?, vec![("pressure", Box::new(move |r| punch.pressure(r)))]))
 }
 
 /// Flat circular punch that sticks completely.
 #[pyfunction]
 pub fn no_slip_punch(radius: f64, force: f64, modulus: f64, coupling: f64) -> PyResult<Solution> {
-    let punch = NoSlipPunch::new(radius, force, modulus, coupling).map_err(refused)?;
+    let punch = NoSlipPunch::new(radius, force, modulus, coupling).map_err(bad_value)?;
     Ok(solution(numbers(punch)?, vec![]))
 }
 
 /// Sphere that sticks as it touches.
 #[pyfunction]
 pub fn no_slip_sphere(radius: f64, force: f64, modulus: f64, coupling: f64) -> PyResult<Solution> {
-    let sphere = NoSlipSphere::new(radius, force, modulus, coupling).map_err(refused)?;
+    let sphere = NoSlipSphere::new(radius, force, modulus, coupling).map_err(bad_value)?;
     Ok(solution(numbers(sphere)?, vec![]))
 }
 
@@ -376,14 +373,14 @@ fn layer_of((young, poisson, thickness): (f64, f64, f64)) -> PyResult<Coating> {
 /// Rigid sphere on a thin bonded layer.
 #[pyfunction]
 pub fn thin_layer(radius: f64, force: f64, layer: (f64, f64, f64)) -> PyResult<Solution> {
-    let contact = ThinLayer::sphere(radius, force, &layer_of(layer)?).map_err(refused)?;
+    let contact = ThinLayer::sphere(radius, force, &layer_of(layer)?).map_err(bad_value)?;
     Ok(solution(numbers(contact)?, vec![("pressure", Box::new(move |r| contact.pressure(r)))]))
 }
 
 /// Rigid sphere on a thick bonded layer, touching over a disc of a radius.
 #[pyfunction]
 pub fn thick_layer(radius: f64, contact_radius: f64, layer: (f64, f64, f64)) -> PyResult<Solution> {
-    let contact = ThickLayer::sphere(radius, contact_radius, &layer_of(layer)?).map_err(refused)?;
+    let contact = ThickLayer::sphere(radius, contact_radius, &layer_of(layer)?).map_err(bad_value)?;
     Ok(solution(numbers(contact)?, vec![]))
 }
 

@@ -23,6 +23,14 @@ struct Quantity {
     indices: Option<Vec<Sensitivity>>,
 }
 
+impl Quantity {
+    /// Whether the number varies by more than rounding.
+    fn varies(&self) -> bool {
+        let Statistics { deviation, min, max, .. } = self.statistics;
+        deviation > ROUNDING * min.abs().max(max.abs())
+    }
+}
+
 /// What the samples say about every number of the answers, at each point of the axes beside them.
 pub struct Spread<'a> {
     keys: &'a [String],
@@ -52,8 +60,11 @@ impl<'a> Spread<'a> {
         let each = design.points();
         let quantity = |(name, values): (&String, &[f64])| {
             let statistics = statistics(&values[..own.min(values.len())])?;
-            let indices = design.indices.then(|| sensitivity(values, design.count)).flatten();
-            Some(Quantity { name: name.clone(), statistics, indices })
+            let mut quantity = Quantity { name: name.clone(), statistics, indices: None };
+            if design.indices && quantity.varies() {
+                quantity.indices = sensitivity(values, design.count);
+            }
+            Some(quantity)
         };
         let at_point = |(place, values): (usize, Values)| {
             let part = |values: &'a [f64]| values.chunks(each).nth(place).unwrap_or_default();
@@ -113,14 +124,14 @@ impl<'a> Spread<'a> {
     }
 
     fn part(&self, point: &AtPoint) -> String {
-        let mut table = format!("{:<NAMES$}", format!("{} samples", self.design.count));
+        let varying = || point.quantities.iter().filter(|quantity| quantity.varies());
+        let samples = varying().map(|quantity| quantity.statistics.count).max().unwrap_or(0);
+        let mut table = format!("{:<NAMES$}", format!("{samples} samples"));
         for head in ["mean", "deviation", "2.5 %", "median", "97.5 %"] {
             let _ = write!(table, "{head:<COLUMN$}");
         }
         table.truncate(table.trim_end().len());
         table.push('\n');
-        let varies = |of: &Statistics| of.deviation > ROUNDING * of.min.abs().max(of.max.abs());
-        let varying = || point.quantities.iter().filter(|quantity| varies(&quantity.statistics));
         for Quantity { name, statistics, .. } in varying() {
             let [low, _, median, _, high] = statistics.quantiles;
             let _ = write!(table, "{name:<NAMES$}");

@@ -25,6 +25,7 @@ pub struct SlidingCylinder {
     /// Largest pressure [pressure].
     pub max_pressure: f64,
     /// `E*/(2R)` [pressure / length].
+    #[serde(skip)]
     scale: f64,
 }
 

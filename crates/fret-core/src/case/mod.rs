@@ -25,8 +25,6 @@ mod numbers;
 mod output;
 mod pair;
 mod phases;
-#[cfg(test)]
-mod ranges;
 mod read;
 mod refusal;
 mod repeating;

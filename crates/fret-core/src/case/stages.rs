@@ -385,3 +385,6 @@ impl Stage {
         self.tangential.iter().flatten().any(|control| !rests(control)) || self.twist.is_some()
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -17,14 +17,12 @@ pub enum SurfaceResponse {
 }
 
 impl SurfaceResponse {
-    /// Normal displacement by unit pressure whose sign changes from each cell to the next [length/pressure]: the least of all patterns of
-    /// pressure. Of line contacts, too, it does not know the datum.
+    /// Normal displacement by unit pressure whose sign changes from each cell to the next [length/pressure]: on half-spaces the least of
+    /// all patterns of pressure. Of line contacts, too, it does not know the datum.
     pub fn alternating_normal(&self) -> f64 {
         match self {
             Self::FreeSpace(coefficients) => coefficients.zz.as_ref().map_or(0.0, alternating_sum),
-            Self::Periodic(symbols) => {
-                symbols.zz.as_ref().and_then(|zz| zz.last().copied()).map_or(0.0, f64::abs)
-            }
+            Self::Periodic(symbols) => symbols.zz.as_ref().and_then(|zz| zz.last().copied()).unwrap_or(0.0),
         }
     }
 
@@ -132,7 +130,7 @@ pub(crate) fn mirrors(symmetry: Symmetry, fields: &[usize]) -> Mirrors {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::kernel::{Components, influence_coefficients, line_coefficients};
+    use crate::kernel::{Components, influence_coefficients, line_coefficients, periodic_symbols};
     use crate::model::{Body, ContactPair, ElasticMaterial, HalfSpace};
 
     /// Alternating strips of side 1 on a half-space of `E* = 1`: pressure `Sum 4/(pi m) cos(pi m x)` over odd m, displacement
@@ -162,5 +160,19 @@ mod tests {
         let coefficients = influence_coefficients(&pair, [64, 64], [1.0, 1.0], Components::NORMAL);
         let found = SurfaceResponse::FreeSpace(coefficients).alternating_normal();
         assert!((found - squares).abs() < 1e-4, "{found} {squares}");
+    }
+
+    /// In a period a wave of unit pressure displaces by `2/(E* k)` times the cell's factor `2/pi` along each axis that it alternates along.
+    #[test]
+    fn in_a_period_alternating_pressure_is_one_wave() {
+        let elastic = HalfSpace::homogeneous(ElasticMaterial::new(1.0, 0.0).unwrap());
+        let pair = ContactPair::new(Body::Rigid, Body::Elastic(elastic)).unwrap();
+        let factor = 2.0 / std::f64::consts::PI;
+        let squares = factor.powi(3) * std::f64::consts::FRAC_1_SQRT_2;
+        for (cells, expected) in [([64, 1], factor.powi(2)), ([64, 32], squares)] {
+            let symbols = periodic_symbols(&pair, cells, [1.0, 1.0], Components::NORMAL, 0);
+            let found = SurfaceResponse::Periodic(symbols).alternating_normal();
+            assert!((found - expected).abs() < 1e-14, "{found} {expected}");
+        }
     }
 }

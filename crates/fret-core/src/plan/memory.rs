@@ -54,7 +54,7 @@ const REMEMBERING: usize = 3;
 /// Memory of a run at the most [bytes], without kept fields: of the process, of the fields of the whole grid, of the operators and
 /// fields of the solver in front of the mirrors.
 ///
-/// Within about a tenth of what runs of 512 to 4096 cells a side took whose contact fills the automatic grid; on fewer cells what the process
+/// Within about a tenth of what runs of 512 to 4096 cells per side took whose contact fills the automatic grid; on fewer cells what the process
 /// itself takes decides, and a contact that leaves more room takes less.
 pub fn of_run(case: &Case, grid: &SurfaceGrid, coupling: Coupling, symmetry: Symmetry) -> usize {
     let [whole, in_front, remembered] = bytes_per_cell(coupling, case.periodic);

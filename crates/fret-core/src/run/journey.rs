@@ -12,6 +12,7 @@ use super::recording::{copied, kept, record};
 use super::refinement::{DivisionError, Refinement, Span, in_halves};
 use super::run_error::{RunError, run_error, too_thin};
 use super::stepping::StageSteps;
+use super::stiffest_wave::StiffestWave;
 use super::surfaces::{Block, Surfaces};
 use super::thinning::{LayersWorn, bodies_left, due, layers_worn};
 use super::wear::{Wearing, worn};
@@ -294,7 +295,7 @@ impl<'a> Journey<'a> {
         let case = &self.plan.case;
         let bodies = bodies_left(self.plan, depths).map_err(|reason| too_thin(case, &self.place, reason))?;
         let compliance = PairCompliance::of_bodies(self.plan, &bodies);
-        wearing.set_thinned(depths, compliance.response.alternating_normal());
+        wearing.set_thinned(depths, StiffestWave::new(&compliance, &self.plan.grid));
         self.solver.set_response(compliance.response, compliance.table);
         Ok(())
     }

@@ -15,6 +15,7 @@ mod run_error;
 mod simulation;
 mod slip_increment;
 mod stepping;
+mod stiffest_wave;
 mod surfaces;
 mod thinning;
 mod wear;

@@ -17,7 +17,7 @@ use crate::plan::{Coupling, Plan, Simplification};
 pub struct PairCompliance {
     /// Over cells.
     pub response: SurfaceResponse,
-    /// Over wavenumbers, for the starts on coarse grids; none of a periodic case.
+    /// Over wavenumbers; none of a periodic case.
     pub table: Option<ResponseTable>,
 }
 

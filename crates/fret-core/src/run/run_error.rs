@@ -103,14 +103,14 @@ pub enum RunError {
     },
     /// A cycle wears the surfaces more than the grid can follow.
     #[error(
-        "increment {increment} ({stage}): this cycle alone wears off {share:.2} of a cell's pressure; choose a smaller wear.coefficient (with more cycles), or coarser cells"
+        "increment {increment} ({stage}): this cycle alone wears off {share:.2} of the stiffest wave of pressure; choose a smaller wear.coefficient (with more cycles), or coarser cells"
     )]
     WearTooFast {
         /// Number of the cycle's last increment, from 0.
         increment: usize,
         /// Name of its stage.
         stage: String,
-        /// Share of a pressure that alternates from cell to cell.
+        /// Share of the stiffest wave of pressure.
         share: f64,
     },
     /// Layers are worn so thin that their elastic response cannot be followed.

@@ -11,6 +11,7 @@ use super::observer::Observer;
 use super::pair_compliance::PairCompliance;
 use super::plausibility::Gauge;
 use super::run_error::{RunError, too_thin};
+use super::stiffest_wave::StiffestWave;
 use super::surfaces::Surfaces;
 use super::thinning::bodies_left;
 use super::wear::{Collected, Wearing};
@@ -134,14 +135,14 @@ impl<'a> Simulation<'a> {
             Some(compliance) => PairCompliance::clone(compliance),
             None => PairCompliance::of(plan),
         };
-        let alternating = compliance.response.alternating_normal();
+        let stiffest = case.wear.is_some().then(|| StiffestWave::new(&compliance, &plan.grid));
         let unworn = case.profile.gap(&plan.grid);
         let mut solver = self.solver(compliance, unworn.clone());
         if let Some(depth) = &history.state.worn_depth {
             solver.set_gap(&unworn + depth);
         }
-        let wearing = case.wear.clone().zip(wear).map(|(rule, collected)| {
-            Wearing::new(rule, alternating, unworn, case.friction.clone(), collected)
+        let wearing = case.wear.clone().zip(wear).zip(stiffest).map(|((rule, collected), stiffest)| {
+            Wearing::new(rule, stiffest, unworn, case.friction.clone(), collected)
         });
         let evolution = case.friction_evolution.clone().zip(slip).zip(history.state.accumulated.as_ref());
         let evolving = evolution.map(|((rule, collected), slipped)| {

@@ -4,17 +4,18 @@ use ndarray::{Array2, Zip};
 use serde::{Deserialize, Serialize};
 
 use super::slip_increment::{add_path, add_wear};
+use super::stiffest_wave::StiffestWave;
 use crate::fields::stored;
 use crate::model::{ContactState, CoulombFriction, SurfaceGrid, WearLaw, WearLayers, WearRule};
 
-/// Share of a pressure that changes its sign from each cell to the next that a block may take off at the most. Above 2 such a pressure
-/// would grow with every block: neighbouring cells would take turns in carrying the load.
+/// Share of the stiffest wave of pressure that a block may take off at the most. Above 2 such a wave would grow with every block: on
+/// half-spaces neighbouring cells, on nearly incompressible films wider regions would take turns in carrying the load.
 const STABLE_SHARE: f64 = 1.0;
 
 /// The wear of one block of cycles is more than the grid can follow.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TooFast {
-    /// Share of an alternating pressure that one cycle takes off.
+    /// Share of the stiffest wave of pressure that one cycle takes off.
     pub share: f64,
 }
 
@@ -92,8 +93,8 @@ fn deeper(layers: Option<&WearLayers>, worn: f64, wear: f64) -> f64 {
 #[derive(Debug, Clone)]
 pub struct Wearing {
     rule: WearRule,
-    /// Normal displacement by unit pressure that alternates from cell to cell [length/pressure].
-    alternating: f64,
+    /// What bounds the wear of one step.
+    stiffest: StiffestWave,
     /// Gap of the unworn surfaces [length].
     unworn: Array2<f64>,
     /// Friction law in force.
@@ -115,16 +116,15 @@ pub struct Block {
 }
 
 impl Wearing {
-    /// Goes on from what was collected; `alternating`: normal displacement by unit pressure that alternates from cell to cell [length/pressure],
-    /// `unworn`: gap of the unworn surfaces [length].
+    /// Goes on from what was collected; `unworn`: gap of the unworn surfaces [length].
     pub fn new(
         rule: WearRule,
-        alternating: f64,
+        stiffest: StiffestWave,
         unworn: Array2<f64>,
         friction: CoulombFriction,
         collected: Collected,
     ) -> Self {
-        Self { rule, alternating, unworn, friction, collected }
+        Self { rule, stiffest, unworn, friction, collected }
     }
 
     /// Another friction law from now on.
@@ -137,10 +137,10 @@ impl Wearing {
         &self.rule
     }
 
-    /// The bodies are found anew, for mean depths off the lower and the upper one; `alternating`: as in [`Wearing::new`].
-    pub fn set_thinned(&mut self, depths: [f64; 2], alternating: f64) {
+    /// The bodies are found anew, for mean depths off the lower and the upper one.
+    pub fn set_thinned(&mut self, depths: [f64; 2], stiffest: StiffestWave) {
         self.collected.thinned = depths;
-        self.alternating = alternating;
+        self.stiffest = stiffest;
     }
 
     /// Another stage: its cycles tell nothing of the jumps before.
@@ -167,7 +167,7 @@ impl Wearing {
     /// The block that the wear collected so far stands for, at the most `most` cycles; collecting starts anew.
     ///
     /// # Errors
-    /// When a single cycle takes off more than the pressures of neighbouring cells can follow.
+    /// When a single cycle takes off more than the stiffest wave of pressure can follow.
     pub fn block(&mut self, state: &ContactState, most: usize) -> Result<Block, TooFast> {
         let softening = self
             .collected
@@ -179,7 +179,7 @@ impl Wearing {
             })
             .fold(0.0, f64::max)
             * self.rule.largest_rate()
-            / self.alternating;
+            / self.stiffest.displacement(&self.collected.path);
         if softening > STABLE_SHARE {
             return Err(TooFast { share: softening });
         }

@@ -7,6 +7,7 @@ use super::level::Level;
 use super::quantities::Quantity;
 use super::reference::{Reference, has_order};
 use super::resolutions::{Kind, Place, Resolutions};
+use crate::case::check::MOST_CELLS;
 
 /// Cells and increments for an accuracy of every quantity of interest.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -49,7 +50,10 @@ pub fn advice<'a>(
         accuracy / 2.0,
     );
     let increments = choose(
-        &increments_line.iter().map(|[_, j, _]| largest(&resolutions.increments[*j])).collect::<Vec<_>>(),
+        &increments_line
+            .iter()
+            .map(|[_, j, _]| resolutions.refined(*j).max().unwrap_or(1))
+            .collect::<Vec<_>>(),
         &increments_line.iter().map(|place| between(by_increments(place).as_ref())).collect::<Vec<_>>(),
         Kind::Increments,
         accuracy / 2.0,
@@ -60,10 +64,6 @@ pub fn advice<'a>(
         increments: increments.map(|choice| choice.count),
         concluded: cells.iter().chain(&increments).any(|choice| choice.is_beyond),
     }
-}
-
-fn largest(counts: &[usize]) -> usize {
-    counts.iter().copied().max().unwrap_or(1)
 }
 
 /// Errors of the quantities of interest; none of a level that was not solved.
@@ -99,14 +99,15 @@ fn choose(counts: &[usize], errors: &[[Option<f64>; 6]], kind: Kind, bound: f64)
     let of = |quantity: Quantity| {
         let errors: Vec<Option<f64>> = errors.iter().map(|errors| errors[quantity as usize]).collect();
         let converges = has_order(quantity, kind) && errors.last().is_some_and(Option::is_some);
-        if converges { by_order(counts, &errors, bound) } else { by_scatter(counts, &errors, bound) }
+        if converges { by_order(counts, &errors, kind, bound) } else { by_scatter(counts, &errors, bound) }
     };
     let choices: Option<Vec<Choice>> = Quantity::ALL.into_iter().filter(known).map(of).collect();
     choices?.into_iter().max_by_key(|choice| choice.count)
 }
 
-/// The choice for errors that converge: within the counts as it was seen, beyond them from the order of the last two.
-fn by_order(counts: &[usize], errors: &[Option<f64>], bound: f64) -> Option<Choice> {
+/// The choice for errors that converge: within the counts as it was seen, beyond them from the order of the last two, at most the second.
+/// Cells are rounded up to eights; increments to what divides all counts, since the rows of tables must.
+fn by_order(counts: &[usize], errors: &[Option<f64>], kind: Kind, bound: f64) -> Option<Choice> {
     if let Some(count) = within(counts, errors, bound) {
         return Some(Choice { count, is_beyond: false });
     }
@@ -120,8 +121,20 @@ fn by_order(counts: &[usize], errors: &[Option<f64>], bound: f64) -> Option<Choi
         return None;
     }
     let wanted = *n1 as f64 * (e1 / bound).powf(order.min(2.0).recip());
-    let count = (wanted / 8.0).ceil() as usize * 8;
-    (wanted <= FARTHEST * *n1 as f64).then_some(Choice { count, is_beyond: true })
+    if wanted > FARTHEST * *n1 as f64 {
+        return None;
+    }
+    let (step, most) = match kind {
+        Kind::Increments => (counts.iter().copied().fold(0, divisor), usize::MAX),
+        _ => (8, MOST_CELLS),
+    };
+    let count = (wanted / step as f64).ceil() as usize * step;
+    (count <= most).then_some(Choice { count, is_beyond: true })
+}
+
+/// The greatest common divisor.
+fn divisor(a: usize, b: usize) -> usize {
+    if b == 0 { a } else { divisor(b, a % b) }
 }
 
 /// The choice for errors that scatter, and for those of a quantity whose finest level is its own reference: a count may be right by
@@ -169,16 +182,23 @@ mod tests {
     }
 
     #[test]
-    fn counts_are_chosen_from_the_ladder_and_concluded_beyond_it() {
+    fn counts_are_chosen_from_those_of_the_study_and_concluded_beyond_them() {
         let counts = [16, 32, 64];
         let errors = [Some(0.04), Some(0.01), Some(0.0025)];
         let seen = |count| Some(Choice { count, is_beyond: false });
-        assert_eq!(by_order(&counts, &errors, 0.01), seen(32));
+        assert_eq!(by_order(&counts, &errors, Kind::Cells, 0.01), seen(32));
         let beyond = Some(Choice { count: 128, is_beyond: true });
-        assert_eq!(by_order(&counts, &errors, 0.0025 / 4.0), beyond); // second order
-        assert_eq!(by_order(&counts, &errors, 1e-7), None); // 10119 cells: too far from 64
-        assert_eq!(by_order(&counts, &[Some(0.01), Some(0.001), Some(0.02)], 0.01), None);
-        assert_eq!(by_order(&counts, &[Some(0.01), Some(0.01), Some(0.01)], 0.005), None); // no order
+        assert_eq!(by_order(&counts, &errors, Kind::Cells, 0.0025 / 4.0), beyond); // second order
+        assert_eq!(by_order(&counts, &errors, Kind::Cells, 1e-7), None); // 10119 cells: too far from 64
+        assert_eq!(by_order(&counts, &[Some(0.01), Some(0.001), Some(0.02)], Kind::Cells, 0.01), None);
+        assert_eq!(by_order(&counts, &[Some(0.01), Some(0.01), Some(0.01)], Kind::Cells, 0.005), None); // no order
+        // a table of five rows takes 5, 10, 15 ... increments; 4096 times three cells is still a grid, times five not
+        let rows = by_order(&[5, 10, 20], &errors, Kind::Increments, 0.0025 / 1.5);
+        assert_eq!(rows, Some(Choice { count: 25, is_beyond: true }));
+        let large = [1024, 2048, 4096];
+        let count = |bound: f64| by_order(&large, &errors, Kind::Cells, bound).map(|choice| choice.count);
+        assert_eq!(count(0.0025 / 9.0), Some(3 * 4096));
+        assert_eq!(count(0.0025 / 25.0), None);
     }
 
     /// The area of 32 cells is right by chance (as that of a coated sphere is: 5e-7 between 1e-3 and 1e-4): no order of 11, and no

@@ -6,7 +6,7 @@ use super::level::Level;
 use super::quantities::{Quantity, StageQuantities};
 use super::reference::Reference;
 
-/// Share below which a motion or an energy is none.
+/// Fraction below which a motion or an energy is none.
 const NOTHING: f64 = 1e-9;
 /// Errors below this are rounding, and show no order.
 const ROUNDING: f64 = 1e-12;
@@ -89,12 +89,13 @@ pub fn errors(reference: &Reference, level: &Level, coarser: Option<&Level>) -> 
     }
 }
 
-/// A quantity of interest with its error of second order taken off; only pressure and approach have one of a known order and sign.
+/// A quantity of interest with its error of second order taken off; only pressure and approach have one of a known order and sign, and of a
+/// line contact not even they: two points are its edge, and where they lie between the centres of cells does not even out.
 pub(super) fn extrapolated(fine: &StageQuantities, coarse: &StageQuantities, quantity: Quantity) -> [f64; 2] {
     let value = fine.between(quantity);
     let factor = coarse.cell_area / fine.cell_area - 1.0;
     match quantity {
-        Quantity::MaxPressure | Quantity::Approach if factor > 0.0 => {
+        Quantity::MaxPressure | Quantity::Approach if factor > 0.0 && !fine.is_line => {
             let other = coarse.between(quantity);
             [0, 1].map(|axis| value[axis] + (value[axis] - other[axis]) / factor)
         }
@@ -114,7 +115,7 @@ fn error(
     let largest =
         |values: &[Option<[f64; 2]>]| values.iter().flatten().map(|[x, y]| x.hypot(*y)).reduce(f64::max);
     let scale = largest(scale_from)?;
-    // Beside these a shift or an energy is none: what rounding leaves of a symmetric scene.
+    // Beside these a shift or an energy is none: what rounding leaves of a symmetric case.
     let beside = match quantity {
         Quantity::Shift => largest(reference.of(Quantity::Approach)),
         Quantity::DissipatedEnergy => largest(reference.of(Quantity::Approach))

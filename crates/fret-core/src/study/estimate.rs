@@ -186,7 +186,9 @@ impl Scene {
                 // As the radius, to which the stiffness of a body that ends is proportional: half the share of the area.
                 (value, Some(0.5 * END_OF_A_BODY * fine.contact_edge / area * largest))
             }
-            Quantity::MaxPressure | Quantity::Approach if self.is_smooth && !self.is_coupled => {
+            Quantity::MaxPressure | Quantity::Approach
+                if self.is_smooth && !self.is_coupled && !self.is_line =>
+            {
                 (extrapolated(fine, coarse, quantity), Some(least.max(SECOND_ORDER * apart)))
             }
             Quantity::ContactArea => {

@@ -27,15 +27,24 @@ pub fn still_missing(counts: &[f64], values: &[f64], known: Option<f64>) -> Opti
     order.filter(|_| ratio > 1.0).map(|order| step / (ratio.powf(order) - 1.0))
 }
 
-/// The order three values show; none when they do not shrink from one side. Exact where both ratios are alike.
+/// The order `p` three values show: differences as those of `n^-p`; none when the values do not approach a limit from one side, or too slowly.
 fn shown_order(counts: &[f64], values: &[f64]) -> Option<f64> {
     let (before, last) = (values[1] - values[0], values[2] - values[1]);
-    if last == 0.0 || before * last <= 0.0 || before.abs() <= last.abs() {
+    let ratios = [counts[1] / counts[0], counts[2] / counts[1]];
+    if last == 0.0 || before * last <= 0.0 || ratios.iter().any(|ratio| *ratio <= 1.0) {
         return None;
     }
-    let ratio = (counts[2] / counts[0]).sqrt();
-    let order = (before / last).ln() / ratio.ln();
-    (order >= ORDERS[0]).then_some(order.min(ORDERS[1]))
+    // ascends with the order
+    let of_order = |order: f64| (ratios[0].powf(order) - 1.0) / (1.0 - ratios[1].powf(-order));
+    let (mut low, mut high) = (ORDERS[0], ORDERS[1]);
+    if before / last < of_order(low) * (1.0 - ROUNDING) {
+        return None;
+    }
+    for _ in 0..50 {
+        let middle = low.midpoint(high);
+        if of_order(middle) < before / last { low = middle } else { high = middle }
+    }
+    Some(high)
 }
 
 #[cfg(test)]
@@ -44,8 +53,9 @@ mod tests {
 
     #[test]
     fn the_limit_of_a_pure_power_is_exact() {
-        for order in [0.5_f64, 1.0, 1.5, 2.0] {
-            let counts = [8.0_f64, 16.0, 32.0];
+        let orders = [0.5_f64, 1.0, 1.5, 2.0];
+        let studies = [[8.0_f64, 16.0, 32.0], [32.0, 64.0, 96.0], [32.0, 48.0, 64.0], [16.0, 32.0, 128.0]];
+        for (order, counts) in orders.iter().flat_map(|order| studies.map(|counts| (*order, counts))) {
             let values = counts.map(|n| 3.0 + 5.0 * n.powf(-order));
             let limit = values[2] + still_missing(&counts, &values, None).unwrap();
             assert!((limit - 3.0).abs() < 1e-12, "{order}: {limit}");

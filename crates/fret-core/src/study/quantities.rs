@@ -83,8 +83,10 @@ pub struct StageQuantities {
     pub contact_edge: f64,
     /// The same for the edge of what sticks [length^2].
     pub stick_edge: f64,
-    /// Area of one cell [length^2].
+    /// Area of one cell [length^2]; of a line contact, of a unit of its length [length].
     pub cell_area: f64,
+    /// Whether the contact is that of a line.
+    pub is_line: bool,
     /// Cells in the contact radius; `None` for a contact without an edge.
     pub radius_cells: Option<f64>,
 }
@@ -109,6 +111,7 @@ impl StageQuantities {
             contact_edge: cell * edge_cells(&state.zone, |zone| zone != Zone::Open),
             stick_edge: cell * edge_cells(&state.zone, |zone| zone == Zone::Stick),
             cell_area: cell,
+            is_line: grid.is_line(),
             radius_cells: record.footprint.radius,
         }
     }

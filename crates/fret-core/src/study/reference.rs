@@ -67,12 +67,10 @@ impl Reference {
         let mut reference = Self::finest(finest);
         let lines = [Kind::Cells, Kind::Increments].map(|kind| {
             let places = resolutions.line(kind);
-            let count = |[i, j, _]: &Place| match kind {
-                Kind::Cells => resolutions.cells[*i][0] as f64,
-                _ => resolutions.increments[*j].iter().sum::<usize>() as f64,
-            };
-            let counts: Vec<f64> = places.iter().map(count).collect();
-            let levels: Vec<&Level> = places.iter().filter_map(|place| level(*place)).collect();
+            // levels that could not be solved are missing
+            let solved =
+                places.iter().filter_map(|place| Some((resolutions.count(kind, *place), level(*place)?)));
+            let (counts, levels): (Vec<f64>, Vec<&Level>) = solved.unzip();
             (kind, counts, levels)
         });
         for (quantity, (values, source)) in Quantity::ALL.iter().zip(&mut reference.numbers) {
@@ -80,7 +78,7 @@ impl Reference {
             for (end, value) in values.iter_mut().enumerate() {
                 let Some(value) = value else { continue };
                 for (kind, counts, levels) in lines.iter().filter(|(kind, ..)| has_order(*quantity, *kind)) {
-                    let order = known_order(*quantity, *kind);
+                    let order = known_order(*quantity, *kind).filter(|_| !finest.grid.is_line());
                     for (axis, part) in value.iter_mut().enumerate() {
                         let along: Vec<f64> = levels
                             .iter()
@@ -196,7 +194,7 @@ impl Fields {
     }
 }
 
-/// Order that is known beforehand: pressure and approach fall with the cell squared. The order of increments is read off the levels:
+/// Order that is known beforehand: pressure and approach fall with the cell squared, but those of line contacts. The order of increments is read off the levels:
 /// that of the second-order rule too lies between 1 and 2 where a contact grows.
 fn known_order(quantity: Quantity, kind: Kind) -> Option<f64> {
     match (quantity, kind) {

@@ -104,7 +104,7 @@ impl RefinementStudy {
             let places: Vec<Place> = self.resolutions.line(kind);
             let solved: Vec<usize> =
                 places.iter().filter_map(|place| all.iter().position(|(at, _)| at == place)).collect();
-            let counts: Vec<f64> = solved.iter().map(|k| self.count(kind, all[*k].0)).collect();
+            let counts: Vec<f64> = solved.iter().map(|k| self.resolutions.count(kind, all[*k].0)).collect();
             let along = |error: &dyn Fn(&Errors) -> Option<f64>| {
                 orders(&counts, &solved.iter().map(|k| error(&all[*k].1)).collect::<Vec<_>>())
             };
@@ -149,14 +149,5 @@ impl RefinementStudy {
             &|place| self.errors(reference, place),
             accuracy,
         )
-    }
-
-    /// What an order is counted in: cells along x, increments of all stages, the inverse of the tolerance.
-    fn count(&self, kind: Kind, [i, j, k]: Place) -> f64 {
-        match kind {
-            Kind::Cells | Kind::Together => self.resolutions.cells[i][0] as f64,
-            Kind::Increments => self.resolutions.increments[j].iter().sum::<usize>() as f64,
-            Kind::Tolerance => self.resolutions.tolerances[k].recip(),
-        }
     }
 }

@@ -190,6 +190,24 @@ impl Resolutions {
         places
     }
 
+    /// What an order is counted in: cells along x, increments of all stages that are refined, the inverse of the tolerance.
+    pub fn count(&self, kind: Kind, [i, j, k]: Place) -> f64 {
+        match kind {
+            Kind::Cells | Kind::Together => self.cells[i][0] as f64,
+            Kind::Increments => self.refined(j).sum::<usize>() as f64,
+            Kind::Tolerance => self.tolerances[k].recip(),
+        }
+    }
+
+    /// Increments of the stages that are refined: those whose number differs from list to list; of all, where none does.
+    pub(super) fn refined(&self, list: usize) -> impl Iterator<Item = usize> {
+        let differs =
+            |stage: usize| self.increments.iter().any(|counts| counts[stage] != self.increments[0][stage]);
+        let own = &self.increments[list];
+        let some = (0..own.len()).any(differs);
+        own.iter().enumerate().filter(move |(stage, _)| !some || differs(*stage)).map(|(_, count)| *count)
+    }
+
     /// Resolution at a place.
     pub fn at(&self, [i, j, k]: Place) -> Variation {
         Variation {

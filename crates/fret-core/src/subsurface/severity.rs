@@ -1,6 +1,8 @@
 //! How severe a cycle is at every cell and depth: parameters of fatigue, their largest values with places, means over the critical
 //! distance.
 
+use std::cell::RefCell;
+
 use ndarray::Array2;
 use rayon::prelude::*;
 use serde::Serialize;
@@ -110,7 +112,7 @@ impl<'a> Severity<'a> {
         }
     }
 
-    /// Takes the stress at one depth in one increment.
+    /// Takes the stress at one depth in one increment: at each depth all increments of the cycle, in its order, before the next depth.
     pub fn look(&mut self, point: usize, surface: usize, field: &StressField) {
         let Some(place) = self.cycle.iter().position(|&index| index == surface) else { return };
         match self.here.get_mut(place) {
@@ -128,20 +130,20 @@ impl<'a> Severity<'a> {
         let constants = constants_of(self.half_space, self.constants, place.layer);
         let is_surface = place.depth == 0.0;
         let bounds = material.map_or_else(Vec::new, |material| bounds_of(&self.here, &material));
+        let beside_rims = if is_surface { self.beside_rims() } else { Vec::new() };
         for index in 0..self.fields.len() {
             let parameter = self.fields[index].0;
             let (Some(material), true) = (material, parameter.is_given(&constants)) else {
                 self.fields[index].1.push(None);
                 continue;
             };
-            let whole = is_surface
-                || self.row.is_none()
-                || self.distances.as_ref().is_some_and(|distances| distances.want(parameter, place.depth));
+            let wanted = |distances: &Distances| distances.want(parameter, place.depth);
+            let exactly = self.row.is_none() || self.distances.as_ref().is_some_and(wanted);
             let known = self.known(parameter, place.layer).map_or(f64::NEG_INFINITY, |found| found.value);
             let look = Look { parameter, material, constants, bounds: &bounds };
             let values;
-            if whole {
-                let all = look.everywhere(&self.here, self.row.is_none());
+            if exactly || is_surface {
+                let all = look.everywhere(&self.here, |cell| exactly || beside_rims[cell]);
                 if let Some(distances) = &mut self.distances {
                     distances.take(parameter, place.depth, &all);
                 }
@@ -167,6 +169,20 @@ impl<'a> Severity<'a> {
         if is_surface {
             self.ruiz = self.ruiz_of_surface();
         }
+    }
+
+    /// Which cells the values at rims are found from, in any increment of the cycle; row by row.
+    fn beside_rims(&self) -> Vec<bool> {
+        let (nx, ny) = self.here.first().map_or((0, 0), |field| field.components[0].dim());
+        let cells = RefCell::new(vec![false; nx * ny]);
+        for &surface in &self.cycle {
+            let note = |[i, j]: [usize; 2]| {
+                cells.borrow_mut()[i * ny + j] = true;
+                0.0
+            };
+            along_lines(note, &self.surfaces[surface].pressure);
+        }
+        cells.into_inner()
     }
 
     fn known(&self, parameter: Parameter, layer: usize) -> Option<&MostSevere> {
@@ -286,15 +302,15 @@ impl Look<'_> {
         found.map_or(0.0, |found| found.value)
     }
 
-    /// Values under all cells. Unless they are asked for `exactly`, a cell whose bound is less than [`FAR_BELOW`] times the largest value
+    /// Values under all cells. But for cells that are wanted `exactly`, one whose bound is less than [`FAR_BELOW`] times the largest value
     /// takes its bound: never too small.
-    fn everywhere(&self, fields: &[StressField], exactly: bool) -> Array2<f64> {
+    fn everywhere(&self, fields: &[StressField], exactly: impl Fn(usize) -> bool + Sync) -> Array2<f64> {
         let (nx, ny) = fields.first().map_or((0, 0), |field| field.components[0].dim());
-        let bounds = if exactly { Vec::new() } else { self.bounds() };
+        let bounds = if (0..nx * ny).all(&exactly) { Vec::new() } else { self.bounds() };
         let largest = self.largest_within(fields, &bounds, f64::NEG_INFINITY);
         let floor = largest.map_or(f64::NEG_INFINITY, |(_, value)| FAR_BELOW * value);
         let value = |cell: usize| match bounds.get(cell) {
-            Some(&bound) if floor > 0.0 && bound <= floor => bound,
+            Some(&bound) if floor > 0.0 && bound <= floor && !exactly(cell) => bound,
             _ => self.value(&cycle_at(fields, [cell / ny, cell % ny])),
         };
         let values: Vec<f64> = (0..nx * ny).into_par_iter().map(value).collect();

@@ -1,4 +1,5 @@
 use super::{KnownLoads, Path, Stage, Waveform, walk};
+use crate::case::check::tests::{BALL, read};
 use crate::case::{Attachments, Case};
 use crate::model::Control::{self, FarEnd, Force, Motion};
 use crate::model::LoadStep;
@@ -236,4 +237,19 @@ fn a_walk_knows_what_follows_from_the_case() {
     // a wave of another kind than what was held has no known middle
     let moved = LoadStep { normal: Motion(1.0), ..LoadStep::FREE };
     assert_eq!(seen(Some(&moved), &stages[4..], 0), [(0, None); 4]);
+}
+
+#[test]
+fn a_walk_visits_the_first_and_the_last_cycle() {
+    let stage =
+        "[[load]]\ntangential_force = [0.002, 0.0]\nincrements = 4\ncycles = 5\nenvelope = [0.25, 1.0]\n";
+    let case = read(&format!("{BALL}{stage}"), &[]);
+    let mut forces = Vec::new();
+    walk(case.start.as_ref(), &case.stages, |stage, [_, x, ..]| {
+        if let (1, Some(Force(force))) = (stage, x) {
+            forces.push((force / 0.002 * 80.0).round());
+        }
+    });
+    // the triangle 1, 0, -1, 0 times a share that grows from a quarter by 3/80 an increment
+    assert_eq!(forces, [23.0, 0.0, -29.0, 0.0, 71.0, 0.0, -77.0, 0.0]);
 }

@@ -83,8 +83,9 @@ impl KernelTransform {
         }
     }
 
-    /// Writes a group of rows of a quadrant: twice the values, but those on the axes once, since its transform stands for all four
-    /// quadrants. Tells how many rows there are; none behind the last.
+    /// Writes a group of rows of a quadrant times `scale`, as often as its transform stands for values of all four quadrants: four times the
+    /// values, on an axis twice, at the origin once; negative where a kernel is odd along both axes, `i` times `i`. Tells how many rows
+    /// there are; none behind the last.
     fn quadrant(&self, kernel: &Kernel<'_>, scale: f64, group: usize, field: &mut [f64]) -> Option<usize> {
         let ([cells_x, cells_y], width) = (self.layout.shape, self.set.width::<f64>());
         let first = group * width;
