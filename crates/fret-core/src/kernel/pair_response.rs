@@ -203,7 +203,7 @@ mod tests {
     #[test]
     fn a_film_that_only_short_waves_feel_couples() {
         for length in [1e-6, 1.0, 1e6] {
-            let body = |nu: f64| stack(&[(1.0, nu, 1e-12 * length), (1.0, 0.3, length)], Some((1.0, 0.3)));
+            let body = |nu: f64| stack(&[(1.0, nu, 1e-12 * length), (2.0, 0.3, length)], Some((1.0, 0.3)));
             assert!(!two(&body(0.2), &body(0.3)).is_uncoupled(), "{length:e}");
             assert!(two(&body(0.2), &body(0.2)).is_uncoupled(), "{length:e}");
         }
