@@ -182,3 +182,20 @@ fn null_means_not_given() {
     assert!(toml_of(&serde_json::json!(3)).unwrap_err().contains("not a case"));
     assert!(Case::from_json("{", "case.json").unwrap_err().to_string().contains("not readable as JSON"));
 }
+
+#[test]
+fn mistakes_of_several_kinds_are_told_together() {
+    let text = changed("cells = [16, 32]", "cells = [16]")
+        .replacen("size = [3.0, 3.0]", "size = \"automatic\"", 1)
+        .replacen("radius = 100.0", "radius = -100.0", 1)
+        .replacen("increments = 1", "increments = 1\ntangential_force = 0.05", 1);
+    told(
+        &text,
+        &[
+            ("found 1 value, expected a list of two values", "[16]"),
+            ("automatic", "automatic"),
+            ("-100.0", "-100.0"),
+            ("found 0.05", "0.05"),
+        ],
+    );
+}
