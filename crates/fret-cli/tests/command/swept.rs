@@ -155,7 +155,7 @@ fn samples_at_every_point_of_an_axis_are_those_of_a_sweep_for_each() {
     let together = bench.file("case.toml", SPHERE).file("many.toml", &format!("{axes}{drawn}"));
     let answer = together.fret(&["sweep", "many.toml"]);
     assert_eq!(answer.code, Some(0), "{}", answer.err);
-    assert!(answer.out.contains("profile.sphere.radius = 0.02\n4 samples"), "{}", answer.out);
+    assert!(answer.out.contains("profile.sphere.radius = 0.02\n8 samples"), "{}", answer.out);
     let told = |name: &str| -> Value {
         serde_json::from_str(&bench.text(&format!("results/{name}/uncertainty.json"))).unwrap()
     };

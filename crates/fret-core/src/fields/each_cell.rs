@@ -19,7 +19,7 @@ pub trait CellRule<const READ: usize, const WRITE: usize, const SUMS: usize> {
 
 /// `to = factor * from`, in the precision of `to`.
 pub fn convert<A: Number, B: Number>(from: &[A], factor: f64, to: &mut [B]) {
-    convert_in(pieces(to.len() / PORTION), from, factor, to);
+    convert_in(pieces(to.len(), 2), from, factor, to);
 }
 
 fn convert_in<A: Number, B: Number>(pieces: usize, from: &[A], factor: f64, to: &mut [B]) {
@@ -64,7 +64,7 @@ where
     let are_whole = (0..READ).all(|field| read[field].len() == len || lacks(field));
     assert!(are_whole && write.iter().all(|field| field.len() == len), "fields of one length");
     let mut sums = vec![[0.0; SUMS]; len.div_ceil(PORTION)];
-    in_portions(rule, read, write, &mut sums, pieces(len / PORTION));
+    in_portions(rule, read, write, &mut sums, pieces(len, READ + WRITE));
     sums.iter().fold([0.0; SUMS], |total, part| std::array::from_fn(|sum| total[sum] + part[sum]))
 }
 
@@ -224,7 +224,7 @@ pub fn largest_of<N: Number, R: CellSize<READ> + Sync, const READ: usize>(
 ) -> f64 {
     let len = read[0].len();
     assert!(read.iter().all(|field| field.len() == len), "fields of one length");
-    largest_in(pieces(len / PORTION), size, read)
+    largest_in(pieces(len, READ), size, read)
 }
 
 fn largest_in<N: Number, R: CellSize<READ> + Sync, const READ: usize>(

@@ -9,6 +9,6 @@ mod tangential;
 
 pub use arithmetic::{add_scaled, dot, largest, lower, norm, sum};
 pub use each_cell::{CellRule, CellSize, convert, each_cell, largest_of};
-pub use portions::{PORTION, pieces};
+pub use portions::pieces;
 pub use registers::{Number, Reals};
 pub use tangential::TangentialField;

@@ -2,17 +2,18 @@
 //! sums over cells, taken portion by portion, do not either.
 
 /// Cells of a portion.
-pub const PORTION: usize = 1 << 12;
-/// Portions that pay for a second thread that is awake. Measured, a pass over three fields in single precision, one thread and two: 2.8 and 2.2
-/// microseconds for 32,768 cells, 6.6 and 4.0 for 65,536, 58 and 31 for 524,288; with fewer than 20,000 a contact of 128 x 128 cells gets slower.
-const FEWEST: usize = 5;
+pub const PORTION: usize = 1 << 11;
+/// Numbers that a pass must read and write to pay for a second thread that is awake. Measured, a pass over three fields in single precision,
+/// one thread and two: 2.8 and 2.2 microseconds for 32,768 cells, 6.6 and 4.0 for 65,536, 58 and 31 for 524,288; three fields of 16,384 cells,
+/// which are the whole of a grid of 128 x 128, get slower.
+const FEWEST_NUMBERS: usize = 52_000;
 
-/// Pieces worth making of so many portions: one outside of a pool, and where they are few.
-pub fn pieces(portions: usize) -> usize {
-    if portions < FEWEST || rayon::current_thread_index().is_none() {
+/// Pieces worth making of so many cells when a pass takes up so many numbers in each: one outside of a pool, and where they are few.
+pub fn pieces(cells: usize, numbers: usize) -> usize {
+    if cells * numbers < FEWEST_NUMBERS || rayon::current_thread_index().is_none() {
         1
     } else {
-        rayon::current_num_threads().min(portions)
+        rayon::current_num_threads().min(cells / PORTION).max(1)
     }
 }
 

@@ -4,8 +4,11 @@ use std::ops::Range;
 
 use pulp::Arch;
 
-use crate::fields::{Number, PORTION, pieces};
+use crate::fields::{Number, pieces};
 use crate::model::TangentialField;
+
+/// Numbers of straight passes that take as long as a cell of a run: its two fields are read in pieces.
+const NUMBERS: usize = 5;
 
 /// Cells in contact, as runs along the rows of the region.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
@@ -69,12 +72,12 @@ impl ContactSet {
 
     /// Packs `factor` times a field of the region, into any precision.
     pub fn gather<A: Number, B: Number>(&self, field: &[A], factor: f64, packed: &mut [B]) {
-        gather_runs(pieces(self.len / PORTION), &self.runs, field, factor, packed);
+        gather_runs(pieces(self.len, NUMBERS), &self.runs, field, factor, packed);
     }
 
     /// Writes `factor` times a packed field into one of the region, which keeps what it holds elsewhere, in any precision.
     pub fn place<A: Number, B: Number>(&self, packed: &[A], factor: f64, field: &mut [B]) {
-        place_runs(pieces(self.len / PORTION), (&self.runs, 0), packed, factor, field);
+        place_runs(pieces(self.len, NUMBERS), (&self.runs, 0), packed, factor, field);
     }
 
     /// Writes a packed field into one of the region, which is zero elsewhere.
@@ -200,7 +203,7 @@ mod tests {
 
     #[test]
     fn large_fields_go_the_same_way_on_many_threads() {
-        let cells = 8 * PORTION;
+        let cells = 16_384;
         let contact = ContactSet::of(cells, |cell| cell % 97 < 80);
         let field: Vec<f64> = (0..cells).map(|cell| cell as f64).collect();
         rayon::ThreadPoolBuilder::new().num_threads(3).build().unwrap().install(|| {
