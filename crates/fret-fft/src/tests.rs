@@ -380,11 +380,19 @@ fn the_content_and_the_origin_of_a_workspace_do_not_matter() {
             let found = small.apply(|input, output| small_product.apply(&mut workspace, input, output));
             assert_eq!(found, small.convolve(engine));
         }
-        // Whatever a field of infinities leaves behind must not reach the next product.
+        // Whatever a field of infinities leaves behind must not reach the next product; also where lines are longer than the grid by
+        // parts, or by groups of rows, that have no cells.
+        for shape in [[24, 40], [81, 20], [20, 81], [2, 24], [24, 2], [5, 20], [9, 12]] {
+            let problem = Problem::new(shape, shape, &parities, &blocks, 17);
+            let product = plan(&problem);
+            let infinite = vec![f64::INFINITY; 96 * 100];
+            large.apply(|_, output| large_product.apply(&mut workspace, &[infinite.as_slice(); 3], output));
+            let cells = shape[0] * shape[1];
+            problem.apply(|_, output| product.apply(&mut workspace, &[&infinite[..cells]; 3], output));
+            let found = problem.apply(|input, output| product.apply(&mut workspace, input, output));
+            assert_eq!(found, problem.convolve(engine), "{engine:?} {shape:?}");
+        }
         let infinite = vec![f64::INFINITY; 24 * 40];
-        small.apply(|_, output| small_product.apply(&mut workspace, &[infinite.as_slice(); 3], output));
-        let found = small.apply(|input, output| small_product.apply(&mut workspace, input, output));
-        assert_eq!(found, small.convolve(engine));
         let periodic =
             PeriodicProduct::on(engine, small.shape, &small.symbols(), &small.blocks, Mirrors::NONE).unwrap();
         let clean = small.apply(|input, output| periodic.apply(&mut periodic.workspace(), input, output));

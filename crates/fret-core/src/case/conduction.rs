@@ -208,9 +208,17 @@ mod tests {
         for (words, more, message) in [
             ([upper, "", substrate, every], heat, "lower.coatings[0]: no thermal_conductivity"),
             ([upper, coating, "", every], "", "lower.substrate: no thermal_conductivity"),
+            // that no other part conducts is not told beside it
+            (["", "", substrate, every], heat, "lower.coatings[0]: no thermal_conductivity"),
             ([upper, coating, ", thermal_conductivity = -5.0", every], "", "must be positive"),
             (["thermal_conductivity = inf", coating, substrate, every], "", "must be positive"),
             ([upper, coating, substrate, every], "[thermal]\nfrequency = 0.0\n", "thermal.frequency"),
+            ([upper, coating, substrate, every], "[thermal]\nfrequency = inf\n", "thermal.frequency"),
+            (
+                ["", ", electrical_resistivity = 1.1e100", ", electrical_resistivity = 1.0", every],
+                "",
+                "between 1e-100",
+            ),
             (["", "", "", every], heat, "neither body conducts heat"),
             ([upper, coating, substrate, "2"], heat, "which are not kept"),
             (
@@ -221,6 +229,20 @@ mod tests {
         ] {
             let error = read(words, more).unwrap_err();
             assert!(error.contains(message), "{words:?} {more}: {error}");
+            assert_eq!(error.matches("error: ").count(), 1, "{error}");
+        }
+    }
+
+    #[test]
+    fn the_heat_of_a_cycle_needs_its_tractions_and_its_slip() {
+        let fields = |names: &str| {
+            let [upper, coating, substrate, _] = CONDUCTS;
+            let every = format!("1\nfields = {names}");
+            read([upper, coating, substrate, &every], "[thermal]\nfrequency = 20.0\n")
+        };
+        fields("[\"slip\", \"gap\", \"shear\", \"pressure\"]").unwrap();
+        for names in ["[\"shear\", \"slip\"]", "[\"pressure\", \"slip\"]", "[\"pressure\", \"shear\"]"] {
+            assert!(fields(names).unwrap_err().contains("which are not kept"), "{names}");
         }
     }
 }

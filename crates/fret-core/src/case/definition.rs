@@ -217,6 +217,13 @@ mod tests {
         assert!(!open(&[("increments = 1", MORE), ("[friction]", &wear("every = 1"))]));
         assert!(open(&[("increments = 1", MORE), ("[friction]", &wear("every = 2"))]));
         assert!(open(&[("increments = 1", MORE), ("[friction]", &wear("limit = 0.5"))]));
+        let evolving = |every: usize| {
+            let law = format!(
+                "coefficient = 0.3\nevolution = {{ by = \"energy\", last = 0.4, scale = 1.0, every = {every} }}"
+            );
+            open(&[("increments = 1", MORE), ("coefficient = 0.3", &law)])
+        };
+        assert_eq!([1, 2].map(evolving), [false, true]);
     }
 
     #[test]
@@ -230,5 +237,64 @@ mod tests {
         assert_eq!(tilted("tilt = [1e-3, \"held\"]"), [true, false]);
         assert_eq!(tilted("tilt_moment = [\"held\", 1e-6]"), [false, true]);
         assert!(read(ROLLER, &[]).is_line() && !read(BALL, &[]).is_line());
+    }
+
+    /// A case from a state that was reached with a tilt along y.
+    #[test]
+    fn a_case_that_starts_from_a_state_knows_its_tilt() {
+        use crate::case::{Attachments, Case};
+        use crate::model::{Control, LoadStep};
+        let start = LoadStep { tilt: [LoadStep::FREE.tilt[0], Control::Motion(1e-3)], ..LoadStep::FREE };
+        let attachments = Attachments::none().starting_from(Some(start));
+        let case = Case::from_toml_with(BALL, "case.toml", attachments).unwrap();
+        assert_eq!((case.start, [case.tilts(0), case.tilts(1)]), (Some(start), [false, true]));
+        let case = Case::from_toml_with(BALL, "case.toml", Attachments::none()).unwrap();
+        assert_eq!((case.start, [case.tilts(0), case.tilts(1)]), (None, [false, false]));
+    }
+
+    #[test]
+    fn a_history_is_frictionless_when_no_stage_has_friction() {
+        let none = ("coefficient = 0.3", "coefficient = 0.0");
+        let later = |value: &str| format!("increments = 1\n[[load]]\nfriction = {value}\nincrements = 1");
+        assert!(read(BALL, &[none]).is_frictionless() && !read(BALL, &[]).is_frictionless());
+        assert!(read(BALL, &[none, ("increments = 1", &later("0.0"))]).is_frictionless());
+        assert!(!read(BALL, &[none, ("increments = 1", &later("0.1"))]).is_frictionless());
+    }
+
+    #[test]
+    fn a_machine_without_springs_is_rigid() {
+        let rig = "[rig]\nnormal_stiffness = 2.0\ntangential_stiffness = 3.0\n[friction]";
+        assert_eq!(read(BALL, &[]).springs(), crate::model::Rig::RIGID);
+        let case = read(BALL, &[("[friction]", rig)]);
+        assert_eq!(Some(case.springs()), case.rig);
+        assert_ne!(case.springs(), crate::model::Rig::RIGID);
+    }
+
+    /// What bodies do not have does not stand in what a run keeps of its case.
+    #[test]
+    fn a_case_is_written_without_what_it_does_not_have() {
+        let keys = |changes: &[(&str, &str)]| {
+            let value = serde_json::to_value(read(BALL, changes)).unwrap();
+            ["residual_stress", "fatigue", "conduction"].map(|key| value.get(key).is_some())
+        };
+        let substrate = "poisson = 0.3 }";
+        assert_eq!(keys(&[]), [false; 3]);
+        assert_eq!(keys(&[(substrate, "poisson = 0.3, residual_stress = -1.0 }")]), [true, false, false]);
+        let constants = "poisson = 0.3, fatigue = { yield_strength = 1.0 } }";
+        assert_eq!(keys(&[(substrate, constants)]), [false, true, false]);
+    }
+
+    #[test]
+    fn a_state_of_another_setting_is_refused_at_the_table_that_differs() {
+        use crate::case::Difference;
+        let case = read(BALL, &[]);
+        let difference =
+            |key: &str| Difference { key: key.to_owned(), case: "1".to_owned(), state: "2".to_owned() };
+        let error =
+            case.refuse_start(&["profile.sphere.radius", "grid.cells", "lower[0].young"].map(difference));
+        let places: Vec<_> =
+            error.mistakes().iter().map(|one| BALL[one.span.clone().unwrap()].to_owned()).collect();
+        assert_eq!(places, ["grid", "lower", "profile"]);
+        assert_eq!(error.mistakes()[0].message, "grid.cells = 1: the state to start from has 2");
     }
 }

@@ -205,6 +205,11 @@ mod tests {
             ("table = [[0, 0.3], [2, 0.4]]", "starts with 0.3, friction.coefficient is 0.2"),
             ("last = 0.8, scale = 1.0, every = 0", "every = 0: must lie between 1"),
             ("last = 0.8, scale = 1.0, tolerance = 2.0", "tolerance = 2.0: must lie above 0"),
+            ("last = 0.8, scale = 1.0, tolerance = 0.0", "tolerance = 0.0: must lie above 0"),
+            ("last = inf, scale = 1.0", "last = inf: must be a positive finite number"),
+            ("table = [[0, 0.2], [2, inf]]", "[1]: coefficient inf"),
+            ("table = [[0, 0.2], [inf, 0.3]]", "[1]: driver inf"),
+            ("table = [[0, 0.2], [2, 0.3], [1, 0.4]]", "[2]: driver 1.0"),
         ] {
             let found = refused(&law(rest), "");
             assert!(found.contains(words), "{rest}: {found}");
@@ -222,5 +227,23 @@ mod tests {
             let found = refused(&law(good), &format!("[[load]]\n{load}"));
             assert!(found.contains(words), "{found}");
         }
+    }
+
+    #[test]
+    fn cycles_stand_for_others_where_these_are_alike() {
+        let read = |every: &str, envelope: &str| {
+            let friction = format!(
+                "coefficient = 0.2\nevolution = {{ by = \"energy\", last = 0.8, scale = 1.0, tolerance = 1.0, every = {every} }}"
+            );
+            let load =
+                format!("[[load]]\nshift = [1e-5, 0.0]\nincrements = 8\ncycles = 4\nenvelope = {envelope}\n");
+            Case::from_toml(&text(&friction, &load), "case.toml").map_err(|error| error.to_string())
+        };
+        for (every, envelope) in [("1", "[1.0, 0.5]"), ("1", "[1.0, 1.0]"), ("2", "[0.5, 0.5]")] {
+            let evolution = read(every, envelope).unwrap().friction_evolution.unwrap();
+            assert_eq!((evolution.every.to_string().as_str(), evolution.tolerance), (every, 1.0));
+        }
+        let found = read("2", "[1.0, 0.5]").unwrap_err();
+        assert!(found.contains("load[1]: amplitudes that change from cycle to cycle"), "{found}");
     }
 }

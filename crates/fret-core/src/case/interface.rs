@@ -197,4 +197,13 @@ mod tests {
             .is_ok()
         );
     }
+
+    /// A coating of modulus 2 and thickness 1/2 has a stiffness of 4, of which a spring has a billionth at the least.
+    #[test]
+    fn springs_are_weighed_against_the_layer_above_them() {
+        let bound = super::WEAKEST * 4.0;
+        read(&format!("{{ shear_stiffness = {:e} }}", 1.01 * bound));
+        let (found, _) = refused(&text(&format!("{{ shear_stiffness = {:e} }}", 0.99 * bound), ""));
+        assert!(found.contains("holds nothing"), "{found}");
+    }
 }

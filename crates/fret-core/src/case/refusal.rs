@@ -109,3 +109,33 @@ impl std::fmt::Display for CaseError {
 }
 
 impl std::error::Error for CaseError {}
+
+#[cfg(test)]
+mod tests {
+    use super::{CaseError, Mistake};
+
+    #[test]
+    fn a_refusal_knows_its_case_and_the_places_of_its_mistakes() {
+        let text = "a = 1\nµm = 2\n\nlast";
+        let mistake = |at: usize| Mistake { message: "wrong".to_owned(), help: None, span: Some(at..at + 1) };
+        let starts = [0, 4, 5, 6, 8, text.find("= 2").unwrap(), text.find("last").unwrap()];
+        let error = CaseError::new("case.toml", text, starts.into_iter().rev().map(mistake).collect());
+        assert_eq!(error.name(), "case.toml");
+        // by lines and letters, the end of a line among its letters; in the order of the text
+        let places: Vec<_> = error.mistakes().iter().map(|mistake| error.place(mistake).unwrap()).collect();
+        assert_eq!(places, [(1, 1), (1, 5), (1, 6), (2, 1), (2, 2), (2, 4), (4, 1)]);
+        assert_eq!(error.place(&Mistake { span: None, ..mistake(0) }), None);
+        assert!(!error.lacks_memory() && error.clone().for_memory().lacks_memory());
+        assert_eq!(error.clone().for_memory().mistakes(), error.mistakes());
+        // with its line where it has a place in the text
+        let [first, last] = [0, 6].map(|index| {
+            let one = vec![error.mistakes()[index].clone()];
+            CaseError::new("case.toml", text, one).render(false)
+        });
+        assert!(first.contains("case.toml:1:1") && first.contains("a = 1"), "{first}");
+        assert!(last.contains("case.toml:4:1") && last.contains("last"), "{last}");
+        let beyond = CaseError::new("case.toml", text, vec![mistake(text.len())]).render(false);
+        assert_eq!(beyond, "error: case.toml: wrong");
+        assert_eq!(CaseError::plain("b", "no").render(false), "error: b: no");
+    }
+}

@@ -164,6 +164,15 @@ mod tests {
         // to rounding: a tenth has no last digit
         let tenth = WAVE.1.replacen("1.5", "0.1", 1);
         read(BALL, &[PERIODIC, (WAVE.0, &tenth)]);
+        // to 1e-9 of all of them: 3000 waves, of which 6e-7 and 6e-6 are missing
+        let many = |length: &str| WAVE.1.replacen("1.5", length, 1);
+        read(BALL, &[PERIODIC, (WAVE.0, &many("0.0010000000002"))]);
+        refused(
+            BALL,
+            &[PERIODIC, (WAVE.0, &many("0.001000000002"))],
+            "holds 2999.999994 waves",
+            "[3.0, 3.0]",
+        );
         refused(BALL, &[PERIODIC, ("[3.0, 3.0]", "\"auto\"")], "the period must be given", "\"auto\"");
     }
 

@@ -85,12 +85,36 @@ mod tests {
         assert_eq!(pair.residual_stress[0].at(body, 1, 0.5), [0.0, 0.0]);
     }
 
+    /// Layers count from the surface down, their tables from their own upper faces to the lower ones.
+    #[test]
+    fn each_layer_of_a_stack_has_its_own_table() {
+        let second =
+            "}, { thickness = 0.25, young = 3.0, poisson = 0.3, residual_stress = [[0.0, 4.0], [0.25, 8.0]]";
+        let case =
+            read(", residual_stress = 6", &format!(", residual_stress = [[0.0, 1.0], [0.5, 3.0]]{second}"))
+                .unwrap();
+        let crate::model::Body::Elastic(body) = case.bodies.lower() else { panic!("elastic") };
+        let [stress, _] = &case.residual_stress;
+        for (layer, depth, exact) in
+            [(0, 0.25, 2.0), (1, 0.5, 4.0), (1, 0.625, 6.0), (1, 0.75, 8.0), (2, 0.9, 6.0)]
+        {
+            assert_eq!(stress.at(body, layer, depth), [exact; 2], "layer {layer}, depth {depth}");
+        }
+    }
+
     #[test]
     fn what_is_no_residual_stress_is_refused_where_it_stands() {
         for (coating, words) in [
             (", residual_stress = inf", "must be finite"),
             (", residual_stress = [[0.0, 1.0], [0.0, 2.0]]", "depths must rise"),
             (", residual_stress = [[0.0, 1.0], [0.7, 2.0]]", "to its thickness"),
+            (", residual_stress = [[0.0, 1.0], [0.501, 2.0]]", "to its thickness"),
+            (", residual_stress = [[-0.1, 1.0], [0.5, 2.0]]", "to its thickness"),
+            (", residual_stress = [[0.3, 1.0], [0.2, 2.0]]", "depths must rise"),
+            (", residual_stress = [[0.0, 1.0, inf], [0.5, 2.0, 1.0]]", "must be finite"),
+            (", residual_stress = [[0.0, inf, 1.0], [0.5, 2.0, 1.0]]", "must be finite"),
+            (", residual_stress = [[inf, 1.0, 1.0]]", "must be finite"),
+            (", residual_stress = []", "rows [[depth, stress], ...]"),
             (", residual_stress = [1.0]", "rows [[depth, stress], ...]"),
             (", residual_stress = \"high\"", "a stress, two of them"),
         ] {

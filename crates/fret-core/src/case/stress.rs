@@ -215,6 +215,7 @@ mod tests {
             refused(&format!("normal_stress_sensitivity = {value}"), "must be zero or positive", value);
         }
         refused("every = 0", "stress.every = 0", "0");
+        refused("depths = \"deep\"", "found the text \"deep\"", "\"deep\"");
         refused("depths = [-1.0]", "stress.depths", "[-1.0]");
         refused("body = \"upper\"", "the upper body is rigid", "\"upper\"");
     }

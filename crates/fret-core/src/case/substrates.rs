@@ -127,3 +127,85 @@ fn without_substrate(judge: &mut Judge, place: &str, key: &str, body: &Body, spa
         "bulk stress is the remote stress of a substrate",
     );
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::case::check::tests::{BALL, ROLLER, read, refused};
+
+    const SUBSTRATE: &str = "substrate = { young = 1.0, poisson = 0.3 }";
+    const ON_RIGID: &str = "coatings = [{ thickness = 1.0, young = 1.0, poisson = 0.3 }]\nbase = \"rigid\"";
+
+    #[test]
+    fn tilt_and_bulk_stress_have_a_value_for_each_axis() {
+        let stage = |words: &str| format!("increments = 1\n{words}");
+        for key in ["tilt", "tilt_moment", "bulk_stress"] {
+            let [one, two] = ["1e-3", "[1e-3, 0.0]"];
+            read(BALL, &[("increments = 1", &stage(&format!("{key} = {two}")))]);
+            read(ROLLER, &[("increments = 1", &stage(&format!("{key} = {one}")))]);
+            let words = "one number, but the contact has two axes";
+            refused(BALL, &[("increments = 1", &stage(&format!("{key} = {one}")))], words, one);
+            let words = "two values in a line contact";
+            refused(ROLLER, &[("increments = 1", &stage(&format!("{key} = {two}")))], words, two);
+        }
+    }
+
+    #[test]
+    fn only_a_substrate_is_stretched() {
+        let stage = |key: &str| format!("increments = 1\n{key} = [1e-3, 0.0]");
+        let place = "[1e-3, 0.0]";
+        refused(BALL, &[("increments = 1", &stage("upper_bulk_stress"))], "this body is rigid", place);
+        let layer = (SUBSTRATE, ON_RIGID);
+        refused(BALL, &[layer, ("increments = 1", &stage("bulk_stress"))], "lie on a rigid base", place);
+        read(BALL, &[("rigid = true", SUBSTRATE), ("increments = 1", &stage("upper_bulk_stress"))]);
+    }
+
+    #[test]
+    fn neither_a_strain_nor_a_tilt_is_periodic_or_on_a_grid_of_no_size() {
+        let periodic = ("[3.0, 3.0]", "[3.0, 3.0]\nperiodic = true");
+        let auto = ("[3.0, 3.0]", "\"auto\"");
+        for key in ["tilt", "bulk_stress"] {
+            let stage = format!("increments = 1\n{key} = [1e-3, 0.0]");
+            let words = format!("load[0].{key} in a periodic case");
+            refused(BALL, &[periodic, ("increments = 1", &stage)], &words, "[1e-3, 0.0]");
+        }
+        let tilted = ("increments = 1", "increments = 1\ntilt = [1e-3, 0.0]");
+        refused(BALL, &[auto, tilted], "the contact moves sideways", "\"auto\"");
+        read(BALL, &[auto, ("increments = 1", "increments = 1\nbulk_stress = [1e-3, 0.0]")]);
+    }
+
+    /// Tables prescribe the same as numbers do.
+    #[test]
+    fn a_table_stretches_and_tilts_no_more_than_a_stage_may() {
+        use crate::case::{Attachments, Case};
+        let found = |text: &str, head: &str| {
+            let text =
+                text.replacen("normal_force = 0.01\nincrements = 1", "table = \"a.csv\"\nincrements = 1", 1);
+            let table = format!("normal_force,{head}\n0.01,1e-3\n");
+            let file = |_: &str| Ok(table.clone().into_bytes());
+            let error = Case::from_toml_with(&text, "case.toml", Attachments::files(&file)).err();
+            error.map(|error| {
+                error.mistakes().iter().map(|one| one.message.clone()).collect::<Vec<_>>().join("; ")
+            })
+        };
+        for (text, head) in [
+            (BALL, "tilt_x"),
+            (BALL, "tilt_moment_y"),
+            (BALL, "bulk_stress_y"),
+            (ROLLER, "bulk_stress_x"),
+            (ROLLER, "tilt_x"),
+        ] {
+            assert_eq!(found(text, head), None, "{head}");
+        }
+        for head in ["tilt_y", "tilt_moment_y", "bulk_stress_y"] {
+            let message = found(ROLLER, head).unwrap();
+            assert!(message.contains("along y in a line contact along y"), "{head}: {message}");
+        }
+        let message = found(BALL, "upper_bulk_stress_x").unwrap();
+        assert!(message.contains("upper_bulk_stress_x or _y: this body is rigid"), "{message}");
+        let periodic = BALL.replacen("[3.0, 3.0]", "[3.0, 3.0]\nperiodic = true", 1);
+        for (head, key) in [("tilt_x", "a tilt"), ("bulk_stress_x", "bulk_stress")] {
+            let message = found(&periodic, head).unwrap();
+            assert!(message.contains(&format!("load[0].{key} in a periodic case")), "{head}: {message}");
+        }
+    }
+}

@@ -128,6 +128,20 @@ mod tests {
             ("{ young = 210e9, poisson = 0.3 }", "210e9", "found 210000000000.0, expected a table"),
             ("{ young = 210e9, poisson = 0.3 }", "{ young = 210e9 }", "missing key `poisson`"),
             ("[grid]", "[gird]", "unknown key `gird`"),
+            ("increments = 4", "increments = 4\ntable = 'a'\ncolumns = 3", "found 3, expected a table"),
+            ("[lower]", "[lower]\ncoatings = 3", "found 3, expected a list"),
+            ("10e-3", "{ a = 1 }", "found a table, expected a number"),
+            ("increments = 4", "increments = 4\nname = 3", "found 3, expected a text in quotes"),
+            (
+                "increments = 4",
+                "increments = 4\nenvelope = [1, 1, 1]\ncycles = 1",
+                "found 3 values, expected a list of two values",
+            ),
+            (
+                "increments = 4",
+                "increments = 4\nenvelope = [1, 1, 1, 1]\ncycles = 1",
+                "found 4 values, expected a list of two values",
+            ),
         ] {
             let message = said(good, bad);
             assert!(message.contains(words), "{bad}: {message}");

@@ -238,4 +238,22 @@ mod tests {
             }
         }
     }
+
+    /// Near and far cells are told by lengths of sides and depths: powers of two change no bit of a stress.
+    #[test]
+    fn stresses_are_the_same_in_every_unit() {
+        let of = |length: f64, modulus: f64, depth: f64| {
+            let half_space = stack(&[(3.0 * modulus, 0.25, 0.5 * length)], Some((modulus, 0.3)));
+            let response = DepthResponse::new(&half_space, usize::from(depth > 0.5), depth * length);
+            stress_coefficients(&response, [30, 30], [0.125 * length; 2], true, Vec::new()).values
+        };
+        for depth in [0.25, 2.5] {
+            let before = of(1.0, 1.0, depth);
+            for (length, modulus) in
+                [(2.0_f64.powi(-20), 2.0_f64.powi(40)), (2.0_f64.powi(10), 2.0_f64.powi(-7))]
+            {
+                assert!(of(length, modulus, depth) == before, "depth {depth}, {length:e}");
+            }
+        }
+    }
 }

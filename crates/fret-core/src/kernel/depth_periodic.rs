@@ -198,6 +198,7 @@ mod tests {
             for a in 0..=4 {
                 for b in 0..=3 {
                     let (_, averaged) = wave([a, b]);
+                    assert_eq!(stress.kernel(0, 0).dim(), (5, 4));
                     for (load, own) in [(0, 2), (1, 4), (2, 5)] {
                         for k in [2, 4, 5] {
                             let exact = if k == own { -averaged } else { 0.0 };

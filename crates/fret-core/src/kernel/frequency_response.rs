@@ -249,6 +249,25 @@ mod tests {
         }
     }
 
+    /// Shear across the wave on a layer of modulus mu on a half-space of modulus 1: `(1 + tanh x/mu)/(1 + mu tanh x)`.
+    #[test]
+    fn a_hundred_thousand_layers_answer_as_one_of_their_thickness() {
+        let count = 100_000;
+        let (mu, shear) = (7.0, 2.6);
+        let split =
+            unjoined(&vec![(mu * shear, 0.3, 1.0 / f64::from(count)); count as usize], Some((shear, 0.3)));
+        let whole = unjoined(&[(mu * shear, 0.3, 1.0)], Some((shear, 0.3)));
+        for k in [1e-4, 0.01, 0.3, 1.0, 3.0] {
+            let (found, one) = (split.times_k(k), whole.times_k(k));
+            let t = libm::tanh(k);
+            let exact = (1.0 + t / mu) / (1.0 + mu * t);
+            // each thickness is a rounding off, all to one side: 1e-16 of tanh; and some roundings of the compensated sum
+            assert!((found.tt / exact - 1.0).abs() < 5e-16, "k = {k}: {:.1e}", found.tt / exact - 1.0);
+            let error = difference(found, one);
+            assert!(error < 2e-15, "k = {k}: {error:.1e}");
+        }
+    }
+
     #[test]
     fn thousands_of_layers_agree_with_the_layers_they_split() {
         let mut random = Random::seeded(7);

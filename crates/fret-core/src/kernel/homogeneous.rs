@@ -168,7 +168,9 @@ mod tests {
     fn the_general_way_gives_the_same() {
         // by radial table and other Gauss rules, judged itself by Love's solution
         let pair = pair(&[], Some((2.6, 0.3)));
-        for (cells, spacing) in [([70, 70], [1.0, 1.0]), ([260, 5], [1.0, 1.0]), ([40, 60], [1.0, 1.9])] {
+        for (cells, spacing) in
+            [([70, 70], [1.0, 1.0]), ([260, 5], [1.0, 1.0]), ([40, 60], [1.0, 1.9]), ([40, 40], [1.9, 1.0])]
+        {
             let fast = influence_coefficients(&pair, cells, spacing, Components::NORMAL).zz.unwrap();
             let general = influence_coefficients(&pair, cells, spacing, Components::ALL).zz.unwrap();
             for ((i, j), value) in general.indexed_iter() {
@@ -187,6 +189,19 @@ mod tests {
                 let [short, long] = sides.map(|side| unit * side);
                 assert_eq!([serves([short, long]), serves([long, short])], [served; 2], "{sides:?} {unit}");
             }
+        }
+    }
+
+    /// Near, farther and far cells are told by lengths of sides: powers of two change no bit.
+    #[test]
+    fn the_same_in_every_unit() {
+        let of = |unit: f64| {
+            let pair = pair(&[], Some((2.6, 0.3)));
+            influence_coefficients(&pair, [40, 30], [unit, 1.5 * unit], Components::NORMAL).zz.unwrap()
+        };
+        let before = of(1.0);
+        for unit in [2.0_f64.powi(-20), 2.0_f64.powi(13)] {
+            assert_eq!(of(unit) / unit, before);
         }
     }
 }

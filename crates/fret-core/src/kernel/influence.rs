@@ -194,10 +194,13 @@ mod tests {
         let (length, modulus) = (2.0_f64.powi(-17), 2.0_f64.powi(38));
         let layers = [(3.0, 0.25, 0.7), (0.2, 0.5, 1.3)];
         let scaled = layers.map(|(e, nu, h)| (e * modulus, nu, h * length));
-        let before = coefficients(&layers, Some((1.0, 0.3)), [0.5, 0.75]);
-        let after = coefficients(&scaled, Some((modulus, 0.3)), [0.5 * length, 0.75 * length]);
-        for (before, after) in all(&before).iter().zip(all(&after)) {
-            assert!(before.iter().zip(after).all(|(before, after)| *before == after * modulus / length));
+        // square cells, too, of which the far ones go another way
+        for sides in [[0.5, 0.75], [0.5, 0.5]] {
+            let before = coefficients(&layers, Some((1.0, 0.3)), sides);
+            let after = coefficients(&scaled, Some((modulus, 0.3)), sides.map(|side| side * length));
+            for (before, after) in all(&before).iter().zip(all(&after)) {
+                assert!(before.iter().zip(after).all(|(before, after)| *before == after * modulus / length));
+            }
         }
     }
 

@@ -368,4 +368,19 @@ mod tests {
         );
         assert!((by_steps.tt - by_increments.tt).modulus() < 2e-15 * by_steps.tt.modulus());
     }
+
+    #[test]
+    fn a_sum_and_its_rounding_error_are_exact() {
+        let small = 2.0_f64.powi(-60);
+        for (a, b, sum, low) in [
+            (1.0, small, 1.0, small),
+            (small, 1.0, 1.0, small),
+            (1.0, -small, 1.0, -small),
+            (3.0, 0.25, 3.25, 0.0),
+            // half of the last digit and a bit more goes up
+            (1.0, 1.5 * f64::EPSILON, 1.0 + 2.0 * f64::EPSILON, -0.5 * f64::EPSILON),
+        ] {
+            assert_eq!(two_sum(a, b), (sum, low), "{a:e} + {b:e}");
+        }
+    }
 }

@@ -241,4 +241,36 @@ mod tests {
             }
         }
     }
+
+    /// Displacement per pressure goes with the length over the modulus. Powers of two round nothing, and the logarithms of the lattice
+    /// are of ratios; a homogeneous half-space and layers.
+    #[test]
+    fn strips_are_the_same_in_every_unit() {
+        let layers: [&[(f64, f64, f64)]; 2] = [&[], &[(4.0, 0.2, 1.5)]];
+        for layers in layers {
+            let of = |length: f64, modulus: f64| {
+                let layers: Vec<_> = layers.iter().map(|(e, nu, h)| (e * modulus, *nu, h * length)).collect();
+                line_coefficients(
+                    &pair(&layers, Some((modulus, 0.3))),
+                    40,
+                    0.5 * length,
+                    20.0 * length,
+                    Components::ALL,
+                )
+            };
+            let before = of(1.0, 1.0);
+            for (length, modulus) in
+                [(2.0_f64.powi(-17), 2.0_f64.powi(38)), (2.0_f64.powi(12), 2.0_f64.powi(-9))]
+            {
+                let after = of(length, modulus);
+                for i in 0..40 {
+                    assert_eq!(
+                        lanes(&after, i).map(|value| value * modulus / length),
+                        lanes(&before, i),
+                        "{i}"
+                    );
+                }
+            }
+        }
+    }
 }

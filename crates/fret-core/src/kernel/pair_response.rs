@@ -199,6 +199,22 @@ mod tests {
         }
     }
 
+    /// What only waves near a film's own thickness feel is looked for there; what rounding leaves is not found in any unit.
+    #[test]
+    fn a_film_that_only_short_waves_feel_couples() {
+        for length in [1e-6, 1.0, 1e6] {
+            let body = |nu: f64| stack(&[(1.0, nu, 1e-12 * length), (2.0, 0.3, length)], Some((1.0, 0.3)));
+            assert!(!two(&body(0.2), &body(0.3)).is_uncoupled(), "{length:e}");
+            assert!(two(&body(0.2), &body(0.2)).is_uncoupled(), "{length:e}");
+        }
+        for modulus in [1e-16, 1.0, 1e16] {
+            // as above: G doubled by the ratio of 1 - 2 nu
+            let of = |young: f64, nu: f64| HalfSpace::homogeneous(material((young * modulus, nu)));
+            let [one, other] = [of(1.0, 0.3), of(0.2 / 0.4 * 1.4 / 1.3, 0.4)];
+            assert!(two(&one, &other).is_uncoupled(), "{modulus:e}");
+        }
+    }
+
     /// Temperature times k1/(q a) at the centre of a heated disc of radius 1 on a layer, by images at the depths 2 n h: of a uniform flux,
     /// and of `sqrt(1 - r^2)`.
     fn by_images(ratio: f64, thickness: f64) -> [f64; 2] {

@@ -313,4 +313,15 @@ mod tests {
         assert_eq!(upper.simplified().coatings().len(), 1);
         assert_eq!(upper.simplified().coatings()[0].thickness(), 0.2);
     }
+
+    /// Whatever the units: layers of moduli far above and far below their thickness.
+    #[test]
+    fn an_interface_without_friction_makes_no_length() {
+        for (thickness, young) in [(1e-6, 2.6e9), (3.0, 0.26), (0.25, 26.0), (1e6, 2.6e-9)] {
+            let bonded = stack(&[(young, 0.3, thickness)], Some((2.0 * young, 0.3)));
+            let free = on_springs(&bonded, &[Some((None, Some(0.0)))]);
+            let found = FrequencyResponse::new(&free).longest_length();
+            assert!((found / (2.0 * thickness) - 1.0).abs() < 1e-14, "{thickness:e} {young:e}: {found:e}");
+        }
+    }
 }

@@ -315,6 +315,20 @@ mod tests {
         assert!(change < 1e-3, "{change:e}");
     }
 
+    /// Below a layer a thousand times as thick a coating is not felt: the upper one is cut as if it were alone and asked for half.
+    #[test]
+    fn two_graded_coatings_share_the_bound() {
+        let uniform = Layer::Uniform(Coating::new(material((2.0, 0.2)), 1e3).unwrap());
+        let steep = graded(&exponential(8.0, 0.5), None);
+        let count = |layers: &[Layer], bound: f64| {
+            let found = layered_half_space(layers, elastic(), bound).unwrap();
+            found.coatings().iter().position(|coating| coating.thickness() > 100.0).unwrap()
+        };
+        let alone = [1e-3, 5e-4].map(|bound| count(&[steep.clone(), uniform.clone()], bound));
+        assert!(alone[1] > alone[0], "{alone:?}");
+        assert_eq!(count(&[steep.clone(), uniform, steep], 1e-3), alone[1]);
+    }
+
     #[test]
     fn a_uniform_gradient_is_the_uniform_coating() {
         let layers = [graded(&exponential(3.0, 3.0), None)];

@@ -34,6 +34,10 @@ fn what_cannot_be_planned_is_refused_with_the_reason() {
     let broken = Kernel { values: broken.view(), parity: Parity::EvenEven };
     assert!(matches!(error([4, 4], &[broken], &one), ConvolutionError::NotFinite { x: 1, y: 2, .. }));
     assert!(Convolution::new([1, 2], &[broken], &one).is_ok(), "values that are not used do not matter");
+    let mut twice = values.clone();
+    (twice[[1, 0]], twice[[1, 2]]) = (f64::NAN, f64::INFINITY);
+    let twice = Kernel { values: twice.view(), parity: Parity::EvenEven };
+    assert!(matches!(error([4, 4], &[twice], &one), ConvolutionError::NotFinite { x: 1, y: 0, .. }));
 }
 
 #[test]
@@ -107,6 +111,14 @@ fn a_kernel_shorter_than_half_a_period_has_no_symbol_along_y() {
 fn a_kernel_shorter_than_half_a_period_has_no_symbol_along_x() {
     let values = Array2::ones([3, 3]);
     PeriodicProduct::symbol_of([6, 4], &Kernel { values: values.view(), parity: Parity::EvenEven });
+}
+
+#[test]
+fn a_symbol_has_half_the_wavenumbers_of_a_period_and_zero() {
+    let values = Array2::ones([4, 3]);
+    let symbol =
+        PeriodicProduct::symbol_of([6, 4], &Kernel { values: values.view(), parity: Parity::EvenEven });
+    assert_eq!(symbol.dim(), (4, 3));
 }
 
 /// Large enough to be looked through by several threads at once.

@@ -123,6 +123,20 @@ fn waves_grow_with_their_envelope_and_start_where_the_control_is() {
 }
 
 #[test]
+fn the_two_axes_of_a_control_have_their_own_phases() {
+    let stages = stages(
+        "[[load]]\ntangential_force = [8.0, \"held\"]\nshift = [\"held\", 4.0]\nincrements = 4\ncycles = 1\n\
+         phase = { tangential_force = [90.0, 33.0], shift = [66.0, 180.0] }\n",
+        "",
+    );
+    let start = LoadStep { tangential: [Force(40.0), Motion(20.0)], ..LoadStep::FREE };
+    let found: Vec<_> = (1..=4).map(|k| stages[1].load(&start, k).tangential).collect();
+    // from the crest down by 8 a quarter; from the middle down first
+    let exact = [[32.0, 16.0], [24.0, 20.0], [32.0, 24.0], [40.0, 20.0]];
+    assert_eq!(found, exact.map(|[force, motion]| [Force(force), Motion(motion)]));
+}
+
+#[test]
 fn tables_are_followed_from_row_to_row_and_again() {
     let stages = stages(
         "[[load]]\ntable = \"path.csv\"\nincrements = 2\n[[load]]\ntable = \"path.csv\"\nincrements = 2\ncycles = 2\n",
@@ -133,6 +147,13 @@ fn tables_are_followed_from_row_to_row_and_again() {
     // the second cycle starts from the last row
     let twice = [6.0, 10.0, 7.0, 4.0, 5.0, 6.0, 8.0, 10.0, 7.0, 4.0, 5.0, 6.0];
     assert_eq!(normal(&stages[2], 2.0), twice);
+}
+
+#[test]
+fn between_the_rows_of_a_table_controls_run_straight() {
+    let stages =
+        stages("[[load]]\ntable = \"path.csv\"\nincrements = 4\n", "normal_force,twist\n10,1\n2,0\n");
+    assert_eq!(normal(&stages[1], 2.0), [4.0, 6.0, 8.0, 10.0, 8.0, 6.0, 4.0, 2.0]);
 }
 
 #[test]

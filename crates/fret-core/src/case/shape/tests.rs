@@ -99,6 +99,10 @@ fn a_body_may_be_hollow_when_the_gap_still_opens() {
         assert!(error.to_string().contains("it must open away from the middle"), "{error}");
         assert_eq!(error.mistakes().len(), 1);
     }
+    // one that is hollow by itself
+    let alone = BALL.replacen(SPHERE, "[lower.profile.sphere]\nradius = -2.0", 1);
+    let error = crate::case::Case::from_toml(&alone, "case.toml").unwrap_err();
+    assert!(error.to_string().contains("it must open away from the middle"), "{error}");
     for wrong in ["0.0", "nan", "inf"] {
         refused(
             BALL,

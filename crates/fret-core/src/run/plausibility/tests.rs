@@ -303,3 +303,15 @@ fn contacts_that_are_not_round_have_no_one_radius() {
     assert!(!round("[profile.ellipsoid]\nradius_x = 49.0\nradius_y = 100.0"));
     assert!(!round("[profile.flat_punch]\nradius = 1.0"));
 }
+
+#[test]
+fn on_a_rough_surface_the_approach_has_no_radius_to_be_compared_with() {
+    let body = "substrate = { young = 1.0, poisson = 0.5 }";
+    let height = |i: usize, j: usize| -0.01 * ((i as f64 - 19.5).powi(2) + 4.0 * (j as f64 - 9.5).powi(2));
+    let rows: Vec<Vec<f64>> = (0..40).map(|i| (0..20).map(|j| height(i, j)).collect()).collect();
+    let rough = plan(body, &format!("[profile.heights]\nvalues = {rows:?}"), PRESS);
+    for (plan, tells) in [(&plan(body, BALL, PRESS), true), (&rough, false)] {
+        let found = gauged(plan, &[StepRecord { approach: 0.5, ..record(plan) }]);
+        assert_eq!(found.iter().any(|(name, ..)| *name == ApproachOverContactRadius), tells, "{found:?}");
+    }
+}

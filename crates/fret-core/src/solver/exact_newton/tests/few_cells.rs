@@ -145,6 +145,20 @@ impl Asked {
         }
     }
 
+    /// The same with lengths and tractions so many times as large: without turned paths.
+    pub(super) fn in_units(mut self, unit: f64) -> Self {
+        let fields = [&mut self.gap, &mut self.before.x, &mut self.before.y];
+        fields.into_iter().flatten().for_each(|value| *value *= unit);
+        self.strength *= unit;
+        self.total = self.total.map(|total| total * unit);
+        self.approach *= unit;
+        for mode in 0..3 {
+            self.motion[mode] *= unit;
+            self.resultant[mode] *= unit;
+        }
+        self
+    }
+
     pub(super) fn positions(&self, cells: &Cells) -> CellPositions {
         let [nx, ny] = cells.shape;
         let x = (0..nx).map(|i| cells.middle(i * ny)[0]).collect();

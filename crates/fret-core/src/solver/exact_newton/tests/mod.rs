@@ -80,6 +80,41 @@ fn a_newton_step_solves_the_equations_linearised_by_difference_quotients() {
 }
 
 #[test]
+fn a_part_of_a_step_is_that_part_of_every_unknown() {
+    let point = |start: f64| {
+        let mut next = start;
+        let mut values = |count: usize| -> Vec<f64> {
+            (0..count)
+                .map(|_| {
+                    next += 1.0;
+                    next * next
+                })
+                .collect()
+        };
+        let shear = TangentialField { x: values(2), y: values(2) };
+        let tangential = TangentialField { x: values(2), y: values(2) };
+        Point {
+            tractions: Tractions { pressure: values(2), shear },
+            displacements: Displacements { normal: values(2), tangential },
+            approach: values(1)[0],
+            motion: [0, 1, 2].map(|_| values(1)[0]),
+        }
+    };
+    let numbers = |point: &Point| {
+        let parts = point.tractions.parts().into_iter().chain(point.displacements.parts());
+        let fields: Vec<f64> = parts.flatten().copied().collect();
+        fields.into_iter().chain([point.approach]).chain(point.motion).collect::<Vec<_>>()
+    };
+    let (here, there) = (point(0.0), point(40.0));
+    // whole numbers and a quarter: nothing is rounded
+    let found = numbers(&here.towards(&there, 0.25));
+    let exact: Vec<f64> =
+        numbers(&here).iter().zip(numbers(&there)).map(|(a, b)| 0.75 * a + 0.25 * b).collect();
+    assert_eq!(found, exact);
+    assert_eq!(found.len(), 16);
+}
+
+#[test]
 fn from_a_solution_nothing_is_solved_again() {
     let mut random = Random::seeded(174);
     let settings = SolverSettings::new(1e-8);
@@ -105,6 +140,37 @@ fn from_a_solution_nothing_is_solved_again() {
                 assert!((again.1[mode] - motion[mode]).abs() < 1e-8, "kind {kind}: {:?} {motion:?}", again.1);
             }
         });
+    }
+}
+
+/// Elasticity is linear and friction has no scale: heights, motions and forces a power of two larger or smaller bring tractions
+/// that are so many times larger or smaller, to the bit and in as many steps.
+#[test]
+fn the_same_steps_in_every_unit() {
+    let cells = Cells::new([3, 3], 0.3);
+    for kind in [0, 1, 2, 3, 5, 6, 9] {
+        let solved = |unit: f64| {
+            let asked = kinds(&mut Random::seeded(176 + kind as u64), &cells, kind).in_units(unit);
+            asked.problem(&cells, |problem| {
+                let (response, mut operators) = (cells.cell_response(), cells.operators());
+                let mut tractions = Tractions { pressure: vec![0.5 * unit; 9], ..Tractions::zeros(9) };
+                let settings = SolverSettings::new(1e-8);
+                let mut residuals = Vec::new();
+                let mut attempt = Attempt::new(problem, &tractions, &response, &mut operators);
+                let note: IterationCallback<'_> = &mut |_, residual| {
+                    residuals.push(residual);
+                    ControlFlow::Continue(())
+                };
+                let found = attempt.iterate(&mut tractions, &mut operators, &settings, note).unwrap();
+                let parts =
+                    tractions.parts().map(|part| part.iter().map(|value| value / unit).collect::<Vec<_>>());
+                (found, residuals, parts)
+            })
+        };
+        let plain = solved(1.0);
+        for unit in [2.0_f64.powi(-40), 2.0_f64.powi(30)] {
+            assert_eq!(solved(unit), plain, "kind {kind}, unit {unit:e}");
+        }
     }
 }
 
