@@ -305,7 +305,7 @@ COSTS = {
 
 
 def cost() -> dict[str, Any]:
-    """Time the built command on the examples, one thread, with and without automatic simplifications: least of three."""
+    """Time the built command on the examples, one thread, with and without simplifications: least of three."""
     rows = []
     for name, what in COSTS.items():
         case = ROOT / "examples" / name
