@@ -8,7 +8,8 @@ import time
 import pytest
 
 LONG_RUN = """
-import fretting, sys, time
+import fretting, signal, sys, time
+signal.signal(signal.SIGINT, signal.default_int_handler)  # a shell starts what runs behind it without
 print("ready", flush=True)
 told = False
 def on_step(step):
