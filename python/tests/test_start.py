@@ -157,7 +157,8 @@ def test_what_progress_raises_carries_the_history(case: dict[str, Any]) -> None:
 
 
 INTERRUPTED = """
-import fretting, pickle, sys
+import fretting, pickle, signal, sys
+signal.signal(signal.SIGINT, signal.default_int_handler)  # a shell starts what runs behind it without
 CASE = {
     "grid": {"cells": [48, 48], "size": [300e-6, 300e-6]}, "upper": {"rigid": True},
     "lower": {"substrate": {"young": 210e9, "poisson": 0.3}}, "profile": {"sphere": {"radius": 10e-3}},
