@@ -103,7 +103,7 @@ pub enum RunError {
     },
     /// A cycle wears the surfaces more than the grid can follow.
     #[error(
-        "increment {increment} ({stage}): this cycle alone wears off {share:.2} of the stiffest wave of pressure; choose a smaller wear.coefficient (with more cycles), or coarser cells"
+        "increment {increment} ({stage}): this cycle alone wears off {share:.2} of the stiffest wave of pressure; choose a smaller wear.coefficient (with more cycles), or coarser cells, which do not help a nearly incompressible film"
     )]
     WearTooFast {
         /// Number of the cycle's last increment, from 0.

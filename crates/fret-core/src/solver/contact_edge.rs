@@ -144,8 +144,9 @@ fn edges_of(line: &ArrayView1<'_, f64>, mirrored: bool, edges: &mut Vec<EdgeOfLi
 const NEAR: usize = 2;
 
 /// One function for both sides of the edge: `p^2` where there is pressure, `-kappa gap^(2/3)` outside; kappa makes the median
-/// slopes of both along grid lines across the edge equal (of foundations those of a parabola). Farther out than two cells it is just negative. `None` when no grid
-/// line crosses an edge. Cells with a gap wider than `beyond`, where a body has ended, tell nothing about the edge.
+/// slopes of both along grid lines across the edge equal (of foundations those of a parabola). Farther out than two cells it is just
+/// negative. `None` when no grid line crosses an edge. Cells with a gap wider than `beyond`, where a body has ended, tell nothing about
+/// the edge.
 pub fn level_function(
     pressure: &ArrayView2<'_, f64>,
     gap: &ArrayView2<'_, f64>,

@@ -194,8 +194,8 @@ impl Fields {
     }
 }
 
-/// Order that is known beforehand: pressure and approach fall with the cell squared, but those of line contacts. The order of increments is read off the levels:
-/// that of the second-order rule too lies between 1 and 2 where a contact grows.
+/// Order that is known beforehand: pressure and approach fall with the cell squared, but those of line contacts. The order of increments
+/// is read off the levels: that of the second-order rule too lies between 1 and 2 where a contact grows.
 fn known_order(quantity: Quantity, kind: Kind) -> Option<f64> {
     match (quantity, kind) {
         (Quantity::MaxPressure | Quantity::Approach, Kind::Cells) => Some(2.0),

@@ -233,3 +233,25 @@ pub(super) fn only_one_grid(plan: &Plan) -> Result<(), ResolutionError> {
     }
     Ok(())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::{Kind, Resolutions};
+
+    /// A table that cannot be halved stands beside a stage that is: an order is counted in the increments of the latter.
+    #[test]
+    fn increments_are_counted_over_the_stages_that_are_refined() {
+        let of = |increments: [[usize; 2]; 3]| {
+            let increments = increments.map(Vec::from).to_vec();
+            Resolutions { cells: vec![[8, 8], [16, 16]], increments, tolerances: vec![1e-8] }
+        };
+        let counts =
+            |resolutions: &Resolutions| [0, 1, 2].map(|j| resolutions.count(Kind::Increments, [0, j, 0]));
+        let one = of([[40, 8], [40, 16], [40, 32]]);
+        assert_eq!(counts(&one), [8.0, 16.0, 32.0]);
+        assert_eq!(one.refined(2).max(), Some(32));
+        assert_eq!(counts(&of([[4, 8], [8, 16], [16, 32]])), [12.0, 24.0, 48.0]);
+        assert_eq!(counts(&of([[4, 8]; 3])), [12.0; 3]);
+        assert_eq!(one.count(Kind::Cells, [1, 0, 0]), 16.0);
+    }
+}

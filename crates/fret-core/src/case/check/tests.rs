@@ -60,6 +60,11 @@ fn a_grid_has_a_size_that_can_be_computed_with() {
     for sides in [[16.0, 32e6], [16e6, 32.0]] {
         assert_eq!(read(BALL, &[("[3.0, 3.0]", &format!("{sides:?}"))]).size, GridSize::Given(sides));
     }
+    // 1e-100 itself is not the inverse of 1e100 to the last digit
+    for side in [1e100, 1.000_001e-100] {
+        read(BALL, &[("[3.0, 3.0]", &format!("[{side:e}, {side:e}]"))]);
+        read(ROLLER, &[("3.0", &format!("{side:e}"))]);
+    }
     for sides in ["[16.0, 32.001e6]", "[16.001e6, 32.0]"] {
         refused(BALL, &[("[3.0, 3.0]", sides)], "1e6 times as long as wide", sides);
     }
