@@ -69,9 +69,9 @@ fn a_coated_wave_in_full_contact_answers_like_its_wavenumber() {
     }
     // A wave of the grid is an eigenvector; the solver's tolerance of 1e-8 is what is left.
     assert!(worst < 1e-7 * amplitude, "{:e}", worst / amplitude);
-    // Without an iteration: the pressure of full contact is the first guess.
     assert_eq!(history.steps[0].contact_cells, 64 * 64);
-    assert!(history.steps[0].work.convolutions <= 2, "{:?}", history.steps[0].work);
+    // An eigenvector of the preconditioner, too: one step from the pressure of coarser grids, and the gap in the end, on a quarter of the grid.
+    assert!(history.steps[0].work.full_grid_convolutions < 0.75, "{:?}", history.steps[0].work);
 }
 
 #[test]

@@ -102,6 +102,18 @@ mod tests {
         one + other
     }
 
+    /// Whether all threads of a pool leave every call in the end: one that stays awake for a while may answer from inside its last one.
+    fn all_are_outside(pool: &rayon::ThreadPool) -> bool {
+        let begun = Instant::now();
+        while begun.elapsed() < Duration::from_secs(20) {
+            if pool.broadcast(|_| INSIDE.get()).iter().all(|inside| *inside == 0) {
+                return true;
+            }
+            std::thread::sleep(2 * AWAKE);
+        }
+        false
+    }
+
     /// `n (n - 1) / 2`, again and again, on threads that are awake, that fall asleep between and that are more than the machine has.
     #[test]
     fn both_pieces_are_done_on_any_number_of_threads() -> Result<(), rayon::ThreadPoolBuildError> {
@@ -115,7 +127,7 @@ mod tests {
                     }
                 }
             });
-            assert_eq!(pool.broadcast(|_| INSIDE.get()), vec![0; threads]);
+            assert!(all_are_outside(&pool));
         }
         Ok(())
     }
@@ -150,7 +162,7 @@ mod tests {
             let caught = std::panic::catch_unwind(both);
             assert!(caught.is_err());
             assert_eq!(pool.install(|| join(|| 1, || 2)), (1, 2));
-            assert_eq!(pool.broadcast(|_| INSIDE.get()), [0, 0]);
+            assert!(all_are_outside(&pool));
         }
         Ok(())
     }

@@ -1,25 +1,20 @@
 //! The pressure of an increment with its shear left as it is: first guess and solution.
 
 use super::increment_problem::IncrementProblem;
-use super::normal::{NormalSolution, first_pressure, full_contact_pressure, solve_normal};
+use super::normal::{NormalSolution, first_pressure, solve_normal};
 use super::operators::RegionOperators;
 use super::settings::{IterationCallback, SolveError, SolverSettings};
 use super::tractions::{Displacements, Tractions};
 use crate::compliance::SurfaceCompliance;
 
 impl IncrementProblem<'_> {
-    /// A first pressure [pressure]; exact at once where a periodic problem is in full contact.
-    pub fn first_pressure(&self, operators: &mut RegionOperators) -> Vec<f64> {
+    /// A first pressure [pressure].
+    pub fn first_pressure(&self, operators: &RegionOperators) -> Vec<f64> {
         if let Some(start) = &self.start {
             return start.clone();
         }
         let equations = self.normal_equations();
-        let full = if self.periodic {
-            full_contact_pressure(&equations, &mut operators.preconditioner)
-        } else {
-            None
-        };
-        full.unwrap_or_else(|| first_pressure(&equations, operators.compliance.self_influence().normal))
+        first_pressure(&equations, operators.compliance.self_influence().normal)
     }
 
     /// Solves the frictionless problem from the pressure there is; `displacements` are those of the solution, along the normal.

@@ -83,10 +83,9 @@ impl ContactSolver<'_> {
     ) -> Result<(Solved, ContactState, Outcome), SolveError> {
         let grid = self.grid;
         let bodies = (self.rig.of_part(self.symmetry.copies()), self.stretch(state, load));
-        let in_region = (region, self.response.is_periodic());
         let loads = (state, load);
         let mut increment =
-            IncrementProblem::new(&grid, &self.undeformed, &self.friction, loads, bodies, in_region);
+            IncrementProblem::new(&grid, &self.undeformed, &self.friction, loads, bodies, region);
         if let Some(solved) = increment.apart() {
             let (after, outcome) = settle(&increment, &solved, 0.0);
             return Ok((solved, after, outcome));

@@ -33,8 +33,6 @@ pub struct IncrementProblem<'a> {
     /// What is prescribed at the end.
     pub load: &'a LoadStep,
     pub region: Region,
-    /// Whether the problem repeats beyond the region, which is then its period.
-    pub periodic: bool,
     pub friction: FrictionLaw,
     pub positions: CellPositions,
     /// Gap before deformation [length].
@@ -68,7 +66,7 @@ impl<'a> IncrementProblem<'a> {
         friction: &CoulombFriction,
         (state, load): (&'a ContactState, &'a LoadStep),
         (rig, stretch): (Rig, Stretch),
-        (region, periodic): (Region, bool),
+        region: Region,
     ) -> Self {
         let centres = |axis: usize| -> Vec<f64> {
             (0..region.shape[axis]).map(|index| grid.centre(axis, region.origin[axis] + index)).collect()
@@ -81,7 +79,6 @@ impl<'a> IncrementProblem<'a> {
             state,
             load,
             region,
-            periodic,
             friction: FrictionLaw::in_region(friction, region),
             positions: positions.with_springs(prescribed.by_force, prescribed.spring),
             undeformed: region.gather(undeformed),

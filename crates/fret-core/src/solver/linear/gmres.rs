@@ -1,8 +1,8 @@
-//! GMRES (Saad & Schultz 1986): the combination of Krylov directions whose residual is least. Orthogonalisation by Gram-Schmidt in
-//! groups of four directions, modified from group to group; sums in double precision whatever the vectors are.
+//! GMRES (Saad & Schultz 1986): the combination of Krylov directions whose residual is least. Orthogonalisation by
+//! modified Gram-Schmidt; sums in double precision whatever the vectors are.
 
 use super::super::contact_vector::ContactVector;
-use crate::fields::{CellRule, Number, Reals, add_scaled, dot, each_cell};
+use crate::fields::{Number, add_scaled, dot};
 
 /// Memory of the method: it is used again.
 #[derive(Debug, Default)]
@@ -66,25 +66,16 @@ impl<N: Number> Gmres<N> {
     }
 }
 
-/// Takes the parts along the known directions off a vector; returns them.
+/// Takes the parts along the known directions off a vector, one after the other; returns them.
 fn orthogonalise<N: Number>(vector: &mut ContactVector<N>, known: &[ContactVector<N>]) -> Vec<f64> {
-    let mut parts = Vec::with_capacity(known.len());
-    for group in known.chunks(4) {
-        if let [a, b, c, d] = group {
-            let group = [a, b, c, d].map(ContactVector::values);
-            let [one, two, three, four] = group;
-            let products = each_cell(&FourProducts, [vector.values(), one, two, three, four], []);
-            each_cell(&WithoutFour(products), group, [vector.values_mut()]);
-            parts.extend(products);
-        } else {
-            for other in group {
-                let part = dot(vector.values(), other.values());
-                add_scaled(vector.values_mut(), -part, other.values());
-                parts.push(part);
-            }
-        }
-    }
-    parts
+    known
+        .iter()
+        .map(|direction| {
+            let part = dot(vector.values(), direction.values());
+            add_scaled(vector.values_mut(), -part, direction.values());
+            part
+        })
+        .collect()
 }
 
 /// Solves the upper triangle.
@@ -95,26 +86,6 @@ fn back_substituted(columns: &[Vec<f64>], right: &[f64]) -> Vec<f64> {
         amounts[row] = (right[row] - known) / columns[row][row];
     }
     amounts
-}
-
-struct FourProducts;
-
-impl CellRule<5, 0, 4> for FourProducts {
-    #[inline(always)]
-    fn at<R: Reals>(&self, [v, a, b, c, d]: [R; 5], _: &mut [R; 0]) -> [R; 4] {
-        [v * a, v * b, v * c, v * d]
-    }
-}
-
-struct WithoutFour([f64; 4]);
-
-impl CellRule<4, 1, 0> for WithoutFour {
-    #[inline(always)]
-    fn at<R: Reals>(&self, [a, b, c, d]: [R; 4], [v]: &mut [R; 1]) -> [R; 0] {
-        let parts = self.0;
-        *v = *v - (a * parts[0] + b * parts[1]) - (c * parts[2] + d * parts[3]);
-        []
-    }
 }
 
 #[cfg(test)]
@@ -157,7 +128,7 @@ mod tests {
         assert!(before < 1e-13, "{before}");
     }
 
-    /// Twenty-one unknowns of a matrix that is neither symmetric nor definite, beyond several groups of four directions: the residual of
+    /// Twenty-one unknowns of a matrix that is neither symmetric nor definite: the residual of
     /// each number of applications is the least over the Krylov space, found by normal equations on an orthonormal basis that is made
     /// one direction at a time; a target ends the search as soon as it is reached.
     #[test]

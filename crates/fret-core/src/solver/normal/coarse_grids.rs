@@ -26,8 +26,6 @@ const SHIFT: f64 = 0.05;
 const SHIFT_STIFF: f64 = 0.15;
 /// Cells kept free around the predicted contact.
 pub const MARGIN: usize = 2;
-/// A periodic problem starts from the pressure of full contact where that is positive on more of the coarsest grid than this.
-const NEARLY_FULL: f64 = 0.9;
 
 /// One coarse grid.
 struct Level {
@@ -99,9 +97,6 @@ impl CoarseGrids {
         work: &mut Work,
         callback: IterationCallback<'_>,
     ) -> Result<Option<Array2<f64>>, SolveError> {
-        if self.levels.last().is_some_and(|coarsest| coarsest.is_nearly_full(prescribed.total, self.cells)) {
-            return Ok(None);
-        }
         let mut start: Option<Array2<f64>> = None;
         for (index, level) in self.levels.iter().enumerate().rev() {
             let total = prescribed.total.map(|total| total * 0.25_f64.powi(index as i32 + 1));
@@ -139,30 +134,6 @@ struct SolvedLevel {
 impl Level {
     fn cells(&self) -> [usize; 2] {
         self.undeformed.dim().into()
-    }
-
-    /// Whether a periodic problem is in contact nearly everywhere, judged by the pressure that closes all gaps. `total`: sum of
-    /// the pressures over the finest grid's `cells`.
-    fn is_nearly_full(&self, total: Option<f64>, cells: [usize; 2]) -> bool {
-        let (true, Some(total)) = (self.response.is_periodic(), total) else { return false };
-        let mean = total / (cells[0] * cells[1]) as f64;
-        let Ok(mut inverse) = Preconditioner::new(
-            &self.response,
-            None,
-            self.cells(),
-            [true, false],
-            None,
-            self.symmetry,
-            false,
-        ) else {
-            return false;
-        };
-        let undeformed = Region::whole(self.cells()).gather(&self.undeformed);
-        let mut removed = vec![0.0; undeformed.len()];
-        inverse.normal(&undeformed, &mut removed);
-        let mean = mean + removed.iter().sum::<f64>() / removed.len() as f64;
-        let loaded = removed.iter().filter(|part| mean > **part).count();
-        loaded as f64 > NEARLY_FULL * removed.len() as f64
     }
 
     /// Solves the level in a region; on the whole grid when the contact outgrows it.

@@ -10,7 +10,7 @@ use super::laws::complementarity::NormalResidual;
 use super::linear::preconditioner::Preconditioner;
 use super::settings::{IterationCallback, SolveError, SolverSettings};
 use crate::compliance::SurfaceCompliance;
-use crate::fields::{lower, sum};
+use crate::fields::lower;
 
 pub use problem::NormalEquations;
 use problem::{Ending, NormalIteration};
@@ -27,7 +27,7 @@ pub struct NormalSolution {
 }
 
 /// Iterations of projected conjugate gradients that need not halve the residual before the active set is tried.
-const MAX_STALLED: usize = 10;
+const MAX_STALLED: usize = 20;
 
 /// Solves the normal equations from a feasible `pressure` with its `displacement`; both end at the solution.
 ///
@@ -65,30 +65,6 @@ pub fn solve_normal(
         }
         by_active_set = !by_active_set;
     }
-}
-
-/// A first pressure for a periodic problem: the one of full contact, without its tension.
-pub fn full_contact_pressure(
-    task: &NormalEquations<'_>,
-    preconditioner: &mut Preconditioner,
-) -> Option<Vec<f64>> {
-    let mean = task.total? / task.undeformed.len() as f64;
-    let mut removed = vec![0.0; task.undeformed.len()];
-    preconditioner.normal(task.undeformed, &mut removed);
-    // Layers on a rigid base respond to a uniform pressure too; the approach takes that.
-    let level = sum(&removed) / removed.len() as f64;
-    for part in &mut removed {
-        *part -= level;
-    }
-    let mut pressure: Vec<f64> = removed.iter().map(|part| (mean - part).max(0.0)).collect();
-    let found = sum(&pressure);
-    if !(found > 0.0) {
-        return None;
-    }
-    for p in &mut pressure {
-        *p *= mean * task.undeformed.len() as f64 / found;
-    }
-    Some(pressure)
 }
 
 /// A first pressure: uniform over the eighth of the cells with the smallest gap under a force, the self-influences alone under an approach.
