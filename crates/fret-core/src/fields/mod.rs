@@ -11,4 +11,4 @@ pub use arithmetic::{add_scaled, dot, largest, lower, norm, sum};
 pub use each_cell::{CellRule, CellSize, convert, each_cell, largest_of};
 pub use portions::pieces;
 pub use registers::{Number, Reals};
-pub use tangential::TangentialField;
+pub use tangential::{TangentialField, length};

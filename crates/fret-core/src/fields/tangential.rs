@@ -5,6 +5,13 @@ use serde::{Deserialize, Serialize};
 use super::arithmetic::{add_scaled, dot};
 use super::stored;
 
+/// Length of a tangential vector.
+#[inline(always)]
+pub fn length([x, y]: [f64; 2]) -> f64 {
+    // `hypot` takes five times as long, for vectors whose squares are no numbers.
+    (x * x + y * y).sqrt()
+}
+
 /// A tangential field: x and y components.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct TangentialField {

@@ -1,6 +1,6 @@
 //! How the contact lies on the grid: how many cells show it, and how many are left around it.
 
-use ndarray::Array2;
+use ndarray::{Array2, ArrayView2, Zip, s};
 use serde::{Deserialize, Serialize};
 
 use crate::model::Zone;
@@ -21,30 +21,41 @@ impl Footprint {
     /// Reads it off the zones.
     pub fn of(zone: &Array2<Zone>) -> Self {
         let (nx, ny) = zone.dim();
-        let mut cells = 0_usize;
-        let mut faces = [0_usize; 2];
+        let is_loaded = |zone: &Zone| *zone != Zone::Open;
+        let mut cells = 0;
         let (mut least, mut most) = ([nx, ny], [0, 0]);
-        for ((i, j), here) in zone.indexed_iter() {
-            let loaded = *here != Zone::Open;
-            if loaded {
-                cells += 1;
-                least = [least[0].min(i), least[1].min(j)];
-                most = [most[0].max(i), most[1].max(j)];
-            }
-            faces[0] += usize::from(i + 1 < nx && (zone[[i + 1, j]] != Zone::Open) != loaded);
-            faces[1] += usize::from(j + 1 < ny && (zone[[i, j + 1]] != Zone::Open) != loaded);
+        for (i, row) in zone.rows().into_iter().enumerate() {
+            let Some(first) = row.iter().position(is_loaded) else { continue };
+            let last = row.iter().rposition(is_loaded).unwrap_or(first);
+            cells += row.iter().filter(|zone| is_loaded(zone)).count();
+            least = [least[0].min(i), least[1].min(first)];
+            most = [i, most[1].max(last)];
         }
         let axes = if ny == 1 { 0..1 } else { 0..2 };
         if cells == 0 {
             return Self { radius: None, free: axes.map(|axis| [nx, ny][axis]).min().unwrap_or(0) };
         }
         let free = axes.map(|axis| least[axis].min([nx, ny][axis] - 1 - most[axis])).min().unwrap_or(0);
+        let faces = faces_between(zone, is_loaded);
         // Every chord has two ends; a disc's are pi/2 radii long in the mean.
         let by_chords = faces.map(|faces| 4.0 * cells as f64 / (std::f64::consts::PI * faces as f64));
         let narrow = by_chords[0].min(by_chords[1]);
         let circle = if ny == 1 { f64::INFINITY } else { (cells as f64 / std::f64::consts::PI).sqrt() };
         Self { radius: narrow.is_finite().then_some(circle.min(1.1 * narrow)), free }
     }
+}
+
+/// Faces along x and along y between a cell that lies within and one that does not.
+pub fn faces_between(zone: &Array2<Zone>, is_within: impl Fn(&Zone) -> bool) -> [usize; 2] {
+    let count = |ones: ArrayView2<'_, Zone>, others: ArrayView2<'_, Zone>| {
+        let add =
+            |faces: usize, one: &Zone, other: &Zone| faces + usize::from(is_within(one) != is_within(other));
+        Zip::from(ones).and(others).fold(0, add)
+    };
+    [
+        count(zone.slice(s![1.., ..]), zone.slice(s![..-1, ..])),
+        count(zone.slice(s![.., 1..]), zone.slice(s![.., ..-1])),
+    ]
 }
 
 #[cfg(test)]

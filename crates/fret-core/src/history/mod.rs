@@ -16,6 +16,7 @@ pub use cycle::{CycleRecord, CycleRegime, Drive, RunningCondition, SLIDING_ENERG
 pub use cycle_columns::CYCLE_COLUMNS;
 pub use field_names::{FIELDS, Field, FieldValues, ZONE_WORDS};
 pub use footprint::Footprint;
+pub(crate) use footprint::faces_between;
 pub use records::{History, KeptFields, StepRecord, WornByLayer, WornThrough};
 pub use start::Start;
 pub(crate) use start::{setting, way_of_solving};

@@ -5,7 +5,7 @@ use ndarray::Array2;
 use super::laws::slip_path::SlipPath;
 use super::memory::{Before, Drift, SolverMemory};
 use super::region::Region;
-use crate::fields::TangentialField;
+use crate::fields::{TangentialField, length};
 use crate::model::{ContactState, Zone};
 
 /// A cell whose slip falls by half or more from increment to increment has, when it comes to rest, gone on by this fraction of its last slip
@@ -46,7 +46,7 @@ pub fn slip_path(
         Some((drift, region.gather(&before.tractions.pressure)))
     });
     let zones = region.gather_map(&state.zone, |zone| *zone);
-    let slip = |cell: usize| drift.at(cell)[0].hypot(drift.at(cell)[1]);
+    let slip = |cell: usize| length(drift.at(cell));
     let slipping = (0..region.len()).filter(|&cell| zones[cell] == Zone::Slip);
     let largest = slipping.clone().map(slip).fold(0.0, f64::max);
     for cell in slipping {

@@ -14,9 +14,10 @@ pub fn peak_pressure(pressure: &ArrayView2<'_, f64>) -> f64 {
 /// The first of the largest cells, and its pressure.
 fn largest_cell(pressure: &ArrayView2<'_, f64>) -> Option<([usize; 2], f64)> {
     let mut found: Option<([usize; 2], f64)> = None;
-    for ((i, j), p) in pressure.indexed_iter() {
-        if *p > found.map_or(0.0, |(_, largest)| largest) {
-            found = Some(([i, j], *p));
+    for (i, row) in pressure.rows().into_iter().enumerate() {
+        let largest = row.fold(0.0, |largest: f64, p| largest.max(*p));
+        if largest > found.map_or(0.0, |(_, largest)| largest) {
+            found = row.iter().position(|p| *p == largest).map(|j| ([i, j], largest));
         }
     }
     found

@@ -4,7 +4,7 @@ use ndarray::Array2;
 use serde::{Deserialize, Serialize};
 
 use super::peak::peak_pressure;
-use crate::history::StepRecord;
+use crate::history::{StepRecord, faces_between};
 use crate::model::{ContactState, SurfaceGrid, Zone};
 
 /// A quantity of interest.
@@ -108,8 +108,8 @@ impl StageQuantities {
                 contact_area: record.contact_cells as f64 * cell,
                 stick_area: record.stick_cells as f64 * cell,
             },
-            contact_edge: cell * edge_cells(&state.zone, |zone| zone != Zone::Open),
-            stick_edge: cell * edge_cells(&state.zone, |zone| zone == Zone::Stick),
+            contact_edge: cell * edge_cells(&state.zone, |zone| *zone != Zone::Open),
+            stick_edge: cell * edge_cells(&state.zone, |zone| *zone == Zone::Stick),
             cell_area: cell,
             is_line: grid.is_line(),
             radius_cells: record.footprint.radius,
@@ -141,18 +141,12 @@ impl StageQuantities {
 
 /// Length of the edge of a zone in cells, from the cell faces it crosses: for every direction alike a line crosses
 /// `4 / pi` faces a cell (Cauchy and Crofton).
-fn edge_cells(zone: &Array2<Zone>, within: impl Fn(Zone) -> bool) -> f64 {
-    let (nx, ny) = zone.dim();
-    let mut faces = 0_usize;
-    for ((i, j), here) in zone.indexed_iter() {
-        let here = within(*here);
-        faces += usize::from(i + 1 < nx && within(zone[[i + 1, j]]) != here);
-        faces += usize::from(j + 1 < ny && within(zone[[i, j + 1]]) != here);
+fn edge_cells(zone: &Array2<Zone>, is_within: impl Fn(&Zone) -> bool) -> f64 {
+    let [along_x, along_y] = faces_between(zone, is_within);
+    if zone.ncols() == 1 {
+        return along_x as f64; // of a line contact: its ends
     }
-    if ny == 1 {
-        return faces as f64; // of a line contact: its ends
-    }
-    std::f64::consts::FRAC_PI_4 * faces as f64
+    std::f64::consts::FRAC_PI_4 * (along_x + along_y) as f64
 }
 
 #[cfg(test)]
@@ -166,7 +160,7 @@ mod tests {
             let r = (i as f64 - 24.5).hypot(j as f64 - 24.5);
             if r < 20.0 { Zone::Stick } else { Zone::Open }
         });
-        let length = edge_cells(&zone, |zone| zone == Zone::Stick);
+        let length = edge_cells(&zone, |zone| *zone == Zone::Stick);
         assert!((length / (40.0 * std::f64::consts::PI) - 1.0).abs() < 0.01, "{length}");
     }
 }

@@ -7,7 +7,7 @@
 
 use ndarray::Array2;
 
-use crate::fields::{CellRule, Reals, each_cell};
+use crate::fields::{CellRule, Reals, each_cell, length};
 use crate::model::{CellValues, CoulombFriction};
 
 use super::super::contact_set::ContactSet;
@@ -123,20 +123,20 @@ impl CellRule<3, 2, 0> for CoulombToStrength {
 
 /// Energy that friction takes from a cell that slips, per area: the mean of its bounds before and after the increment, along the slip.
 pub fn dissipation([before, after]: [f64; 2], slip: [f64; 2]) -> f64 {
-    0.5 * (before + after) * slip[0].hypot(slip[1])
+    0.5 * (before + after) * length(slip)
 }
 
 /// Whether a cell slips, in a solution: the shear that would hold it, `q + slip / K`, lies outside the disc, by more than the shear lies
 /// inside, which is what the solution is off. `stiffness` is 1 / K of its own influence [pressure/length].
 pub fn slips(shear: [f64; 2], slip: [f64; 2], bound: f64, stiffness: f64) -> bool {
     let trial = [0, 1].map(|axis| shear[axis] + stiffness * slip[axis]);
-    let inside = bound - shear[0].hypot(shear[1]);
-    bound <= 0.0 || trial[0].hypot(trial[1]) - bound > inside.max(bound * ROUNDING)
+    let inside = bound - length(shear);
+    bound <= 0.0 || length(trial) - bound > inside.max(bound * ROUNDING)
 }
 
 /// Whether shear lies inside its friction circle, by more than rounding.
 pub fn is_inside(shear: [f64; 2], bound: f64) -> bool {
-    shear[0].hypot(shear[1]) < bound * ON_CIRCLE
+    length(shear) < bound * ON_CIRCLE
 }
 
 /// Nearest point of the friction disc.

@@ -18,7 +18,7 @@
 //! turns too, and c is the smaller for it. The rule is new; its derivation and its measured orders: `docs/theory/second-order.md`.
 
 use super::super::contact_set::ContactSet;
-use crate::fields::{Reals, TangentialField};
+use crate::fields::{Reals, TangentialField, length};
 
 /// Cosine k of the angle between slip increments (60 degrees) from which on the last one says nothing of this one: the angle from which on the
 /// loads do not continue either. By trial: without it the discrete equations have several solutions much more often; 40 and 50
@@ -50,13 +50,13 @@ impl SlipPath {
     /// A cell goes on from its last slip increment [length], in an increment `ratio` times as long, of which a share `stop` lies before the
     /// moment at which it may come to rest. `weight`: how far its direction is known, 0 to 1.
     pub fn go_on(&mut self, cell: usize, last: [f64; 2], (ratio, stop, weight): (f64, f64, f64)) {
-        let length = last[0].hypot(last[1]);
-        if !(length > 0.0) {
+        let size = length(last);
+        if !(size > 0.0) {
             return;
         }
         let kept = (1.0 + ratio) / (1.0 + 2.0 * ratio);
         let root = (weight / (1.0 - FADED) * (1.0 - kept / (1.0 - stop)).max(0.0)).sqrt();
-        self.turn.set(cell, last.map(|part| part / length * root));
+        self.turn.set(cell, last.map(|part| part / size * root));
         self.ahead.set(cell, last.map(|part| part * ratio * stop));
     }
 
@@ -66,7 +66,7 @@ impl SlipPath {
             return slip;
         }
         let turn = self.turn.at(cell);
-        let straight = slip[0].hypot(slip[1]) * turn[0].hypot(turn[1]);
+        let straight = length(slip) * length(turn);
         let along = (slip[0] * turn[0] + slip[1] * turn[1] - FADED * straight).max(0.0);
         [slip[0] - along * turn[0], slip[1] - along * turn[1]]
     }
@@ -77,7 +77,7 @@ impl SlipPath {
             return across;
         }
         let turn = self.turn.at(cell);
-        let share = FADED * turn[0].hypot(turn[1]) / slip[0].hypot(slip[1]);
+        let share = FADED * length(turn) / length(slip);
         let turned = across[0] * turn[0] + across[1] * turn[1];
         [0, 1].map(|axis| across[axis] - turned * (turn[axis] - share * slip[axis]))
     }
