@@ -150,6 +150,7 @@ impl<'a> Iterate<'a> {
     pub fn find_sets(&mut self) {
         let Self { packed, slip, self_influence: [_, own], .. } = self;
         self.sets.classify(&packed.shear, &slip.at_end, &packed.bound, *own);
+        self.sets.turn(&packed.path, &slip.slip);
     }
 
     /// The step that solves the linearised problem as far as the sets deserve it.

@@ -1,6 +1,7 @@
 //! Stick and slip: what every cell in contact does, as the linearisation of the friction law needs it.
 
 use super::friction::{CellState, FrictionBound};
+use super::slip_path::{SlipPath, row_of_chord};
 use crate::fields::{CellRule, Reals, each_cell, largest};
 use crate::model::TangentialField;
 
@@ -16,6 +17,10 @@ pub struct ActiveSets {
     pub slip: Vec<f64>,
     /// Direction of the shear of cells that do not stick, unit vectors; zero elsewhere.
     pub direction: TangentialField,
+    /// In place of the direction where slip turns: see [`ActiveSets::turn`].
+    turned: TangentialField,
+    /// Whether any does.
+    turns: bool,
     /// Slip stiffness of slipping cells [length/pressure].
     pub stiffness: Vec<f64>,
     /// Weights of the equations of slipping cells, `1 / sqrt(1 + D / K)` with slip stiffness D and self-influence K, zero elsewhere: a
@@ -45,7 +50,7 @@ impl ActiveSets {
         bound: &FrictionBound,
         self_influence: f64,
     ) {
-        let Self { stick, slip, direction, stiffness, slip_weight } = self;
+        let Self { stick, slip, direction, stiffness, slip_weight, .. } = self;
         let [along_x, along_y] = direction.each_mut();
         let mut write = [stick, slip, along_x, along_y, stiffness, slip_weight];
         for field in &mut write {
@@ -55,6 +60,32 @@ impl ActiveSets {
             Classify { least: LEAST_BOUND * largest(&bound.bound), cell_stiffness: 1.0 / self_influence };
         let read = [&q.x[..], &q.y, &slip_increment.x, &slip_increment.y, &bound.bound];
         each_cell(&rule, read, write.map(Vec::as_mut_slice));
+    }
+
+    /// Takes into account how slip turns on its `path`; `slip`: what is not yet turned, packed [length].
+    pub fn turn(&mut self, path: &SlipPath, slip: &TangentialField) {
+        self.turns = path.turns();
+        if !self.turns {
+            return;
+        }
+        let Self { slip: slips, direction, turned, .. } = self;
+        let write = turned.each_mut().map(|field| {
+            field.resize(slips.len(), 0.0);
+            &mut field[..]
+        });
+        let ([along_x, along_y], [turn_x, turn_y]) = (direction.parts(), path.turn.parts());
+        each_cell(&Turned, [slips, &slip.x, &slip.y, turn_x, turn_y, along_x, along_y], write);
+    }
+
+    /// In place of the direction of shear, where slip turns, the vector of the same cell across which a change of slip is as much as that of
+    /// the slip at the end across the shear. `None` where none turns.
+    pub fn turned(&self) -> Option<[&[f64]; 2]> {
+        self.turns.then(|| self.turned.parts())
+    }
+
+    /// These vectors, or the direction of shear.
+    pub fn rows(&self) -> [&[f64]; 2] {
+        self.turned().unwrap_or_else(|| self.direction.parts())
     }
 
     /// Number of cells in contact.
@@ -84,6 +115,24 @@ impl CellRule<5, 6, 0> for Classify {
     }
 }
 
+/// The direction of shear, where the cell slips and turns the one across which its change of slip counts.
+struct Turned;
+
+impl CellRule<7, 2, 0> for Turned {
+    #[inline(always)]
+    fn at<R: Reals>(
+        &self,
+        [slips, slip_x, slip_y, turn_x, turn_y, along_x, along_y]: [R; 7],
+        [x, y]: &mut [R; 2],
+    ) -> [R; 0] {
+        let zero = slips.all(0.0);
+        let [row_x, row_y] = row_of_chord([slip_x, slip_y], [turn_x, turn_y], [along_y * -1.0, along_x]);
+        *x = slips.if_at_most(zero, along_x, row_y);
+        *y = slips.if_at_most(zero, along_y, row_x * -1.0);
+        []
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -103,6 +152,42 @@ mod tests {
         assert_eq!(sets.stiffness, [0.0, 0.15, 0.0, 0.0]);
         // 1 / sqrt(1 + 0.15 / 0.05)
         assert!((sets.slip_weight[1] - 0.5).abs() < 1e-15);
+    }
+
+    /// Differences of the slip at the end, across the shear, of cells that slip and turn: 20 degrees off their last slip, along it, beyond the
+    /// angle from which on nothing turns; of cells that stick or enter the direction of shear. Without a path as if nothing turned.
+    #[test]
+    fn rows_are_those_of_the_slip_at_the_end() {
+        let chords = [[1.0, 0.36], [1.0, 0.0], [-0.3, 1.0], [0.2, 0.1], [0.0, -3.0]];
+        let mut path = SlipPath::straight(chords.len());
+        (0..chords.len()).for_each(|cell| path.go_on(cell, [0.7, 0.0], (1.0, 0.05, 1.0)));
+        let slip = TangentialField { x: chords.map(|c| c[0]).to_vec(), y: chords.map(|c| c[1]).to_vec() };
+        let shear = [[1.2, 1.6], [2.0, 0.0], [0.0, 2.0], [1.0, 0.0], [0.0, 0.0]];
+        let q = TangentialField { x: shear.map(|q| q[0]).to_vec(), y: shear.map(|q| q[1]).to_vec() };
+        let bound = FrictionBound { bound: vec![2.0, 2.0, 2.0, 2.0, 0.0], slope: vec![0.1; 5] };
+        let mut sets = ActiveSets::of(&q, &slip, &bound, 0.05);
+        assert_eq!(sets.rows(), sets.direction.parts());
+        sets.turn(&path, &slip);
+        let [row_x, row_y] = sets.rows();
+        for (cell, chord) in chords.into_iter().enumerate() {
+            let (row, along) = ([-row_y[cell], row_x[cell]], sets.direction.at(cell));
+            let across = [-along[1], along[0]];
+            if sets.slip[cell] == 0.0 {
+                assert_eq!(row, across);
+                continue;
+            }
+            for axis in 0..2 {
+                let mut there = chord;
+                there[axis] += 1e-6;
+                let [one, other] = [chord, there].map(|slip| path.end_of(cell, slip));
+                let change = (0..2).map(|k| across[k] * (other[k] - one[k])).sum::<f64>() / 1e-6;
+                assert!((row[axis] - change).abs() < 1e-5, "{cell}: {row:?} {change}");
+            }
+        }
+        assert!((row_x[0].hypot(row_y[0]) - 1.0).abs() > 0.05);
+        sets.classify(&q, &slip, &bound, 0.05);
+        sets.turn(&SlipPath::default(), &slip);
+        assert_eq!(sets.turned(), None);
     }
 
     /// A cell whose bound is next to nothing is as stiff as one of a millionth of the largest bound.

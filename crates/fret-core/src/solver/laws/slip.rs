@@ -105,11 +105,14 @@ impl SlipIncrement {
         TangentialResidual { motion, residual }
     }
 
-    /// What a step is to remove: the slip of cells that stick, the slip at the end of those that slip [length].
+    /// What a step is to remove [length]: the slip of cells that stick; of those that slip the part across the shear of the slip at the end, as
+    /// a vector whose part across the row of the cell it is.
     pub fn left_over(&self, sets: &ActiveSets) -> TangentialField {
         let mut left = self.slip.clone();
-        for (left, end) in [(&mut left.x, &self.at_end.x), (&mut left.y, &self.at_end.y)] {
-            each_cell(&WhereStuck, [end, &sets.stick], [left]);
+        if let Some([row_x, row_y]) = sets.turned() {
+            let ([end_x, end_y], [along_x, along_y]) = (self.at_end.parts(), sets.direction.parts());
+            let read = [&sets.slip, end_x, end_y, along_x, along_y, row_x, row_y];
+            each_cell(&AcrossRows, read, left.parts_mut());
         }
         left
     }
@@ -157,13 +160,20 @@ impl CellRule<9, 4, 3> for PrescribedSlip {
     }
 }
 
-/// Another value where a cell does not stick.
-struct WhereStuck;
+/// Where a cell slips, the vector whose part across its row is that of the slip at the end across the shear.
+struct AcrossRows;
 
-impl CellRule<2, 1, 0> for WhereStuck {
+impl CellRule<7, 2, 0> for AcrossRows {
     #[inline(always)]
-    fn at<R: Reals>(&self, [other, stick]: [R; 2], [value]: &mut [R; 1]) -> [R; 0] {
-        *value = other + (*value - other) * stick;
+    fn at<R: Reals>(
+        &self,
+        [slips, end_x, end_y, along_x, along_y, row_x, row_y]: [R; 7],
+        [x, y]: &mut [R; 2],
+    ) -> [R; 0] {
+        let zero = slips.all(0.0);
+        let across = (along_x * end_y - along_y * end_x) / (row_x * row_x + row_y * row_y);
+        *x = slips.if_at_most(zero, *x, row_y * across * -1.0);
+        *y = slips.if_at_most(zero, *y, row_x * across);
         []
     }
 }

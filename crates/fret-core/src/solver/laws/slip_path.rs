@@ -108,6 +108,20 @@ pub fn end_of_chord<R: Reals>(slip: [R; 2], turn: [R; 2]) -> [R; 2] {
     [slip[0] - along * turn[0], slip[1] - along * turn[1]]
 }
 
+/// The vector whose product with a change of slip is that of `across` with the change of the slip at the end.
+#[inline(always)]
+pub fn row_of_chord<R: Reals>(slip: [R; 2], turn: [R; 2], across: [R; 2]) -> [R; 2] {
+    let zero = slip[0].all(0.0);
+    let square = slip[0] * slip[0] + slip[1] * slip[1];
+    let lengths = (square * (turn[0] * turn[0] + turn[1] * turn[1])).sqrt() * FADED;
+    let along = slip[0] * turn[0] + slip[1] * turn[1] - lengths;
+    let turned = across[0] * turn[0] + across[1] * turn[1];
+    [0, 1].map(|axis| {
+        let row = across[axis] - turned * (turn[axis] - slip[axis] * (lengths / square));
+        along.if_at_most(zero, across[axis], row)
+    })
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

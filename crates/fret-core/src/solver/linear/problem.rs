@@ -17,6 +17,7 @@ pub struct LinearSets<N> {
     slip: Vec<N>,
     slip_weight: Vec<N>,
     direction: [Vec<N>; 2],
+    row: [Vec<N>; 2],
     /// In units of the problem.
     stiffness: Vec<N>,
     /// Rotation about z; empty when the bodies do not rotate.
@@ -40,6 +41,9 @@ impl<N: Number> LinearSets<N> {
         for (from, to) in sets.direction.parts().into_iter().zip(&mut self.direction) {
             take(from, 1.0, to);
         }
+        for (from, to) in sets.rows().into_iter().zip(&mut self.row) {
+            take(from, 1.0, to);
+        }
         for (from, to) in motions.rotation.parts().into_iter().zip(&mut self.rotation) {
             take(from, 1.0, to);
         }
@@ -50,10 +54,11 @@ impl<N: Number> LinearSets<N> {
         [&self.stick, &self.slip, along_x, along_y, around_x, around_y]
     }
 
-    /// The same with the weights of the equations in slip.
-    fn weighted_fields(&self) -> SetFields<'_, N> {
-        let [stick, _, along_x, along_y, around_x, around_y] = self.fields();
-        [stick, &self.slip_weight, along_x, along_y, around_x, around_y]
+    /// The same of the equations: with their weights and rows in slip.
+    fn fields_of_equations(&self) -> SetFields<'_, N> {
+        let [stick, _, _, _, around_x, around_y] = self.fields();
+        let [row_x, row_y] = &self.row;
+        [stick, &self.slip_weight, row_x, row_y, around_x, around_y]
     }
 }
 
@@ -97,7 +102,7 @@ impl<'a, N: Number> LinearProblem<'a, N> {
         workspace.turning.resize(contact.len(), N::default());
         Self {
             tractions: RigidProjector::new(motions, sets.fields()),
-            equations: RigidProjector::new(motions, sets.weighted_fields()),
+            equations: RigidProjector::new(motions, sets.fields_of_equations()),
             sets,
             workspace,
             preconditioner,
@@ -144,9 +149,9 @@ impl<'a, N: Number> LinearProblem<'a, N> {
         if self.holds_force && !normal.is_empty() {
             remove_mean(normal);
         }
-        let [stick, _, along_x, along_y, around_x, around_y] = sets.fields();
+        let [stick, weight, row_x, row_y, around_x, around_y] = sets.fields_of_equations();
         let turning = &self.workspace.turning;
-        let read = [stick, &sets.slip_weight, along_x, along_y, &sets.stiffness, turning, around_x, around_y];
+        let read = [stick, weight, row_x, row_y, &sets.stiffness, turning, around_x, around_y];
         let found = each_cell(&FreeAndStiff { weight: self.weight }, read, [&mut *x, &mut *y]);
         self.equations.remove([x, y], found);
     }
@@ -168,8 +173,8 @@ pub fn right_side(
     }
     add_scaled(x, weight, slip[0]);
     add_scaled(y, weight, slip[1]);
-    let ([along_x, along_y], [around_x, around_y]) = (sets.direction.parts(), motions.rotation.parts());
-    let fields: SetFields<'_, f64> = [&sets.stick, &sets.slip_weight, along_x, along_y, around_x, around_y];
+    let ([row_x, row_y], [around_x, around_y]) = (sets.rows(), motions.rotation.parts());
+    let fields: SetFields<'_, f64> = [&sets.stick, &sets.slip_weight, row_x, row_y, around_x, around_y];
     RigidProjector::new(motions, fields).keep_free([x, y]);
 }
 
@@ -263,12 +268,12 @@ impl CellRule<8, 2, 3> for FreeAndStiff {
     #[inline(always)]
     fn at<R: Reals>(
         &self,
-        [stick, slip, along_x, along_y, stiffness, turning, around_x, around_y]: [R; 8],
+        [stick, slip, row_x, row_y, stiffness, turning, around_x, around_y]: [R; 8],
         [x, y]: &mut [R; 2],
     ) -> [R; 3] {
-        let turn = slip * (along_x * *y - along_y * *x + stiffness * turning);
-        *x = (stick * *x - along_y * turn) * self.weight;
-        *y = (stick * *y + along_x * turn) * self.weight;
+        let turn = slip * (row_x * *y - row_y * *x + stiffness * turning);
+        *x = (stick * *x - row_y * turn) * self.weight;
+        *y = (stick * *y + row_x * turn) * self.weight;
         products([*x, *y], stick + slip, [around_x, around_y])
     }
 }

@@ -179,7 +179,7 @@ fn motions_slip_and_residual_are_those_of_the_law() {
 }
 
 /// Where slip turns, the law is about the slip at its end: resultants hold for it, the residual is its distance, and what is left
-/// for a step to remove is slip where cells stick and its end where they slip.
+/// for a step to remove is slip where cells stick and, where they slip, the part of its end across the shear.
 #[test]
 fn the_law_is_about_the_slip_at_the_end_of_its_path() {
     let mut random = Random::seeded(23);
@@ -193,16 +193,28 @@ fn the_law_is_about_the_slip_at_the_end_of_its_path() {
             // Motions and turn are found in alternation, four rounds; each leaves a fraction of the turn, which is small here.
             assert!(missing.abs() < 2e-3 * total, "{number}: {:e}", missing / total);
         }
-        let sets =
-            ActiveSets { stick: (0..CELLS).map(|cell| (cell % 2) as f64).collect(), ..ActiveSets::default() };
+        let mut sets = ActiveSets::default();
+        sets.stick = (0..CELLS).map(|cell| (cell % 2) as f64).collect();
+        sets.slip = sets.stick.iter().map(|stick| 1.0 - stick).collect();
+        sets.direction = sample.q.clone();
+        sets.turn(&sample.path, &increment.slip);
         let left = increment.left_over(&sets);
+        let [row_x, row_y] = sets.rows();
+        // What stands across a direction.
+        let across = |along: [f64; 2], of: [f64; 2]| along[0] * of[1] - along[1] * of[0];
         let (mut off, mut squares) = (0.0, 0.0);
         for cell in 0..CELLS {
             let [slip, end, image] = sample.law(found.motion, cell);
             let close = |a: [f64; 2], b: [f64; 2]| (a[0] - b[0]).hypot(a[1] - b[1]) < 1e-14;
             assert!(close(increment.slip.at(cell), slip), "{number}, {cell}");
             assert!(close(increment.at_end.at(cell), end), "{number}, {cell}");
-            assert!(close(left.at(cell), if cell % 2 == 1 { slip } else { end }), "{number}, {cell}");
+            if cell % 2 == 1 {
+                assert!(close(left.at(cell), slip), "{number}, {cell}");
+            } else {
+                let row = [row_x[cell], row_y[cell]];
+                let off = across(row, left.at(cell)) - across(sample.q.at(cell), end);
+                assert!(off.abs() < 1e-14, "{number}, {cell}: {off:e}");
+            }
             turned += usize::from(end != slip);
             let q = sample.q.at(cell);
             off += (q[0] - image[0]).powi(2) + (q[1] - image[1]).powi(2);
@@ -218,6 +230,7 @@ fn the_law_is_about_the_slip_at_the_end_of_its_path() {
             [0.0; 3],
         );
         assert_eq!(increment.at_end, increment.slip);
+        sets.turn(&straight, &increment.slip);
         assert_eq!(increment.left_over(&sets), increment.slip);
     }
     assert!(turned > 100, "{turned}");
