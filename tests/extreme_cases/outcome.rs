@@ -147,8 +147,8 @@ pub(super) fn carried(ended: &Ended) -> Option<f64> {
     Some(sum * ended.plan.grid.cell_area())
 }
 
-/// The moment asked for in the increment that failed, and that of full slip under its force, `sum mu p r dA` about the middle of the grid,
-/// with the pressure of the last solved increment. Where the force falls the contact shrinks at least as that of a thin film does, by
+/// The moment asked for in the increment that failed, and that of full slip under its force, `sum mu p r dA`, about the place where friction
+/// carries the least of it: the middle of the grid, or a cell in contact, with the moment of the tangential force about that. With the pressure of the last solved increment. Where the force falls the contact shrinks at least as that of a thin film does, by
 /// the fourth root of the force: it carries that much less of the moment per force.
 fn moments(ended: &Ended) -> Option<[f64; 2]> {
     let last = ended.run.last()?;
@@ -170,14 +170,29 @@ fn moments(ended: &Ended) -> Option<[f64; 2]> {
     let asked = at_end(&stage.twist, start.twist_moment, last.record.twist_moment)?;
     let falls =
         at_end(&stage.normal, start.normal_force, last.record.normal_force)? / last.record.normal_force;
+    let forces = [0, 1].map(|axis| {
+        at_end(&stage.tangential[axis], start.tangential_force[axis], last.record.tangential_force[axis])
+    });
     let grid = &ended.plan.grid;
-    let turned: f64 = last
-        .fields
-        .pressure
-        .as_ref()?
+    let pressure = last.fields.pressure.as_ref()?;
+    let limits: Vec<([f64; 2], f64)> = pressure
         .indexed_iter()
-        .map(|((i, j), p)| p * case.friction.at(i, j) * grid.centre(0, i).hypot(grid.centre(1, j)))
-        .sum();
-    let carried = turned * grid.cell_area() * falls.powf(1.25);
-    (falls <= 1.0 && stage.friction.is_none()).then_some([asked.abs(), carried])
+        .filter(|(_, p)| **p > 0.0)
+        .map(|((i, j), p)| {
+            let limit = p * case.friction.at(i, j) * grid.cell_area() * falls.powf(1.25);
+            ([grid.centre(0, i), grid.centre(1, j)], limit)
+        })
+        .collect();
+    let about = |[x, y]: [f64; 2], [force_x, force_y]: [f64; 2]| {
+        let carried = limits.iter().map(|([i, j], limit)| limit * (i - x).hypot(j - y)).sum::<f64>();
+        [(asked - x * force_y + y * force_x).abs(), carried]
+    };
+    let middle = about([0.0; 2], [0.0; 2]);
+    let mut centres = vec![middle];
+    // Beside a force the contact turns about another place. Where a motion is prescribed its force is not known.
+    if let [Some(force_x), Some(force_y)] = forces {
+        centres.extend(limits.iter().map(|(at, _)| about(*at, [force_x, force_y])));
+    }
+    let worst = centres.into_iter().max_by(|a, b| (a[0] * b[1]).total_cmp(&(b[0] * a[1])))?;
+    (falls <= 1.0 && stage.friction.is_none()).then_some(worst)
 }
