@@ -1,6 +1,6 @@
 //! Cases drawn at random, far beyond what anybody would compute: every increment that comes back is certified, and what has no
 //! answer is refused for a reason that is true. `cargo xtask extremes` runs five thousand of them;
-//! `FRET_CASES=2000 cargo test --release -p fret-validation random_cases -- --nocapture` as many small ones as one likes.
+//! `FRET_CASES=2000 cargo test --release -p fret-validation random_cases -- --include-ignored --nocapture` as many small ones as one likes.
 
 use std::ops::Range;
 

@@ -148,8 +148,9 @@ pub(super) fn carried(ended: &Ended) -> Option<f64> {
 }
 
 /// The moment asked for in the increment that failed, and that of full slip under its force, `sum mu p r dA`, about the place where friction
-/// carries the least of it: the middle of the grid, or a cell in contact, with the moment of the tangential force about that. With the pressure of the last solved increment. Where the force falls the contact shrinks at least as that of a thin film does, by
-/// the fourth root of the force: it carries that much less of the moment per force.
+/// carries the least of it: the middle of the grid, or a cell in contact, with the moment of the tangential force about that. With the
+/// pressure of the last solved increment. Where the force falls the contact shrinks at least as that of a thin film does, by the fourth
+/// root of the force: it carries that much less of the moment per force.
 fn moments(ended: &Ended) -> Option<[f64; 2]> {
     let last = ended.run.last()?;
     let case = &ended.plan.case;

@@ -8,7 +8,7 @@ use super::stored;
 /// Length of a tangential vector.
 #[inline(always)]
 pub fn length([x, y]: [f64; 2]) -> f64 {
-    // `hypot` takes five times as long, for vectors whose squares are no numbers.
+    // Not `hypot`, which costs more to serve vectors whose squares no number holds: sizes of a case keep far from these.
     (x * x + y * y).sqrt()
 }
 
