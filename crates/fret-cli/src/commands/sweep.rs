@@ -1,5 +1,6 @@
 //! `fret sweep`: many cases on the cores of one machine; finished points are not solved again.
 
+use std::collections::HashMap;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -102,7 +103,10 @@ impl Counts {
 struct Board<'a> {
     question: &'a Question,
     origin: Option<Origin>,
+    /// Points to be solved, of equal ones the first.
     open: Vec<usize>,
+    /// Those equal to an open one, which take its answer.
+    equal: HashMap<usize, Vec<usize>>,
     next: AtomicUsize,
     answers: Mutex<Vec<Option<Answer>>>,
     ended: Mutex<Option<Failure>>,
@@ -133,15 +137,26 @@ impl Drop for AtWork<'_> {
 
 impl<'a> Board<'a> {
     fn new(question: &'a Question, origin: Option<Origin>, known: Vec<Option<Answer>>, quiet: bool) -> Self {
-        let open: Vec<usize> = (0..known.len()).filter(|&number| known[number].is_none()).collect();
+        let mut open = Vec::new();
+        let mut equal = HashMap::new();
+        let mut first_of = HashMap::new();
+        for number in (0..known.len()).filter(|&number| known[number].is_none()) {
+            let first = *first_of.entry(&question.points[number].case_file.text).or_insert(number);
+            if first == number {
+                open.push(number);
+            } else {
+                equal.entry(first).or_insert_with(Vec::new).push(number);
+            }
+        }
         let planned = Planned::of(&question.points, &open, origin.as_ref());
         Self {
             planned,
             question,
             origin,
-            before: known.len() - open.len(),
+            before: known.iter().flatten().count(),
             solved_before: known.iter().flatten().filter(|answer| answer.status() == "solved").count(),
             open,
+            equal,
             next: AtomicUsize::new(0),
             answers: Mutex::new(known),
             ended: Mutex::new(None),
@@ -160,11 +175,15 @@ impl<'a> Board<'a> {
                 String::new()
             };
             let points = counted(self.question.points.len(), "point");
+            let equal = match self.equal.values().flatten().count() {
+                0 => String::new(),
+                count => format!(", {count} equal to another"),
+            };
             let common = match self.planned.common.count() {
                 0 => String::new(),
                 count => format!(", {} solved once", counted(count, "common beginning")),
             };
-            terminal::say(&format!("{points}{found}{common}, on {}", counted(threads, "thread")));
+            terminal::say(&format!("{points}{found}{equal}{common}, on {}", counted(threads, "thread")));
         }
     }
 
@@ -261,6 +280,9 @@ impl<'a> Board<'a> {
         let status = answer.status().to_owned();
         let why = answer.why();
         let mut answers = self.answers.lock().unwrap_or_else(PoisonError::into_inner);
+        for &other in self.equal.get(&number).into_iter().flatten() {
+            answers[other] = Some(answer.clone());
+        }
         answers[number] = Some(answer);
         let done = answers.iter().flatten().count();
         if self.quiet {

@@ -156,6 +156,9 @@ fn samples_at_every_point_of_an_axis_are_those_of_a_sweep_for_each() {
     let answer = together.fret(&["sweep", "many.toml"]);
     assert_eq!(answer.code, Some(0), "{}", answer.err);
     assert!(answer.out.contains("profile.sphere.radius = 0.02\n8 samples"), "{}", answer.out);
+    // of one uncertain key, samples with its value exchanged are those of the other half: four at each radius
+    assert!(answer.err.contains("24 points, 8 equal to another"), "{}", answer.err);
+    assert_eq!(std::fs::read_dir(bench.folder.join("results/many/points")).unwrap().count(), 16);
     let told = |name: &str| -> Value {
         serde_json::from_str(&bench.text(&format!("results/{name}/uncertainty.json"))).unwrap()
     };
