@@ -128,7 +128,7 @@ impl Past {
                         (rates - 1.0).clamp(0.0, 1.0)
                     }
                 };
-                let stop = 0.24 * fall;
+                let stop = 0.27 * fall;
                 let known = f64::min(1.0, length / (0.01 * self.largest_slip));
                 let c = 1.0 - (1.0 + ratio) / (1.0 + 2.0 * ratio) / (1.0 - stop);
                 CellPath {

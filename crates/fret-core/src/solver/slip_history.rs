@@ -9,9 +9,9 @@ use crate::fields::{TangentialField, length};
 use crate::model::{ContactState, Zone};
 
 /// A cell whose slip falls by half or more from increment to increment has, when it comes to rest, gone on by this fraction of its last slip
-/// on average. Where the rate of slip falls with the root of the time left, as beside a stick zone that grows, that is 0.27, where it
-/// falls evenly 0.17; between them by trial: Spence's contact, and loops with much friction.
-const STOP: f64 = 0.24;
+/// on average, where the rate of slip falls with the root of the time left, as beside a stick zone that grows. Where it falls evenly, that is
+/// 0.17; with less than 0.27 the energy of loops with much friction comes out worse.
+const STOP: f64 = 0.27;
 /// A cell that has just entered, whose slip is known from the moment of touch on only, counts so much as one whose slip falls.
 const ENTERED: f64 = 0.5;
 /// The edge of contact goes on to slip by this fraction of its last rate until it comes to a cell. By trial: Spence's contact, and normal and
@@ -195,8 +195,7 @@ mod tests {
             let last: f64 = moments.map(|t: f64| (1.0 + t).powf(power) - t.powf(power)).sum();
             left / last
         };
-        assert!((share(1.5) - 0.273).abs() < 1e-3 && (share(2.0) - 1.0 / 6.0).abs() < 1e-3);
-        assert!((share(2.0)..share(1.5)).contains(&STOP));
+        assert!((share(1.5) - STOP).abs() < 5e-3 && (share(2.0) - 1.0 / 6.0).abs() < 1e-3);
     }
 
     #[test]
