@@ -10,9 +10,21 @@ use super::slip_path::{CellPath, Past};
 use super::{Before, Certificate};
 
 /// The rule by which friction dissipates in a cell, per area: the mean of the friction bounds `[before, after]` the increment times the
-/// slip.
-pub fn dissipated([before, after]: [f64; 2], slip: [f64; 2]) -> f64 {
-    0.5 * (before + after) * hypot(slip)
+/// way.
+pub fn dissipated([before, after]: [f64; 2], way: f64) -> f64 {
+    0.5 * (before + after) * way
+}
+
+/// The way of a slip increment: the arc with it as chord that turns by the angle of the shear, of up to 60 degrees, where a cell slips at
+/// both ends of the increment.
+pub fn way(chord: [f64; 2], shear: [[f64; 2]; 2], zones: [Zone; 2]) -> f64 {
+    let [before, after] = shear;
+    let cosine = dot(before, after) / (hypot(before) * hypot(after));
+    if zones != [Zone::Slip; 2] || !(cosine > 0.5 && cosine < 1.0) {
+        return hypot(chord);
+    }
+    let radius = hypot(chord) / (2.0 * (1.0 - cosine)).sqrt();
+    radius * cosine.acos()
 }
 
 #[derive(Clone, Copy)]
@@ -32,6 +44,7 @@ pub(super) struct Increment<'a> {
     pub(super) influence: &'a Influence,
     pub(super) undeformed: &'a Array2<f64>,
     pub(super) before: &'a Before,
+    pub(super) zone_before: Option<&'a Array2<Zone>>,
     pub(super) record: &'a StepRecord,
     /// There is friction somewhere in the history: slip is followed.
     pub(super) slides: bool,
@@ -107,7 +120,10 @@ impl Increment<'_> {
             let length = hypot(q);
             certificate.excess.raise(over((length - bound).max(0.0), most));
             let kept = [0, 1].map(|axis| slip[axis][at] - self.before.slip[axis][at]);
-            work += dissipated([self.bound_at(at, self.before.pressure[at]), bound], kept);
+            let zones = [self.zone_before.map_or(Zone::Open, |zone| zone[at]), zone];
+            let shear_before = [0, 1].map(|axis| self.before.shear[axis][at]);
+            let bound_before = self.bound_at(at, self.before.pressure[at]);
+            work += dissipated([bound_before, bound], way(kept, [shear_before, q], zones));
             limit += bound * hypot(kept);
             if zone == Zone::Slip {
                 certificate.on_circle.raise(over((bound - length).max(0.0), most));

@@ -161,6 +161,7 @@ impl<'a> Certifier<'a> {
             influence: &self.influence,
             undeformed: &self.undeformed,
             before: &self.before,
+            zone_before: self.past.zone.as_ref(),
             record,
             slides: !case.is_frictionless(),
             jumps: case.wear.is_some() || case.friction_evolution.is_some(),
@@ -192,6 +193,7 @@ impl<'a> Certifier<'a> {
         past.largest_slip = largest_slip;
         past.pressure = Some(before.pressure.clone());
         past.zone = Some(zone.clone());
+        past.shear = Some(q.clone());
         past.ratio = ratio.unwrap_or(1.0);
         before.tangential = [x, y];
         before.pressure.clone_from(p);

@@ -18,6 +18,8 @@ pub(super) struct Past {
     /// Pressure before the last increment.
     pub(super) pressure: Option<Array2<f64>>,
     pub(super) zone: Option<Array2<Zone>>,
+    /// Shear traction after the last increment.
+    pub(super) shear: Option<[Array2<f64>; 2]>,
     /// The largest change of displacement of cells that slipped in the last increment.
     pub(super) largest_slip: f64,
     /// Length of the last increment over that before.
@@ -112,7 +114,16 @@ impl Past {
         let (Some(drift), Some(zone)) = (&self.drift[0], &self.zone) else { return CellPath::STRAIGHT };
         let last = [drift[0][at], drift[1][at]];
         match zone[at] {
-            Zone::Stick => CellPath::STRAIGHT,
+            Zone::Stick => {
+                let shear = [0, 1].map(|axis| self.shear.as_ref().map_or(0.0, |shear| shear[axis][at]));
+                match hypot(shear) {
+                    0.0 => CellPath::STRAIGHT,
+                    size => CellPath {
+                        turn: shear.map(|part| part / size * f64::sqrt((1.0 - 1.0 / 1.277) / (1.0 - 0.5))),
+                        ..CellPath::STRAIGHT
+                    },
+                }
+            }
             Zone::Slip => {
                 let length = hypot(last);
                 if length == 0.0 {

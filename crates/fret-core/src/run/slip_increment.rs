@@ -2,8 +2,8 @@
 
 use ndarray::{Array2, Zip};
 
-use crate::model::{AccumulatedSlip, ContactState, CoulombFriction, WearLaw, WearRule};
-use crate::solver::friction_bounds;
+use crate::model::{AccumulatedSlip, ContactState, CoulombFriction, WearLaw, WearRule, Zone};
+use crate::solver::{dissipation, friction_bounds, length_of_way};
 
 /// Adds what slips between two states that follow each other under a friction law.
 pub fn add_slip(
@@ -16,18 +16,26 @@ pub fn add_slip(
     add_path(before, after, &mut to.distance);
 }
 
-/// Adds the length of slip [length] between two states that follow each other.
+/// Adds the length of the way of slip [length] between two states that follow each other.
 pub fn add_path(before: &ContactState, after: &ContactState, path: &mut Array2<f64>) {
-    let slip_y = &after.slip[1] - &before.slip[1];
-    Zip::from(path)
-        .and(&after.slip[0])
-        .and(&before.slip[0])
-        .and(&slip_y)
-        .for_each(|path, now, then, y| *path += (now - then).hypot(*y));
+    *path += &ways(before, after);
+}
+
+/// Length of the way of slip in every cell [length] between two states that follow each other.
+fn ways(before: &ContactState, after: &ContactState) -> Array2<f64> {
+    Array2::from_shape_fn(after.zone.dim(), |at| {
+        let slip = [0, 1].map(|axis| after.slip[axis][at] - before.slip[axis][at]);
+        if slip == [0.0; 2] {
+            return 0.0;
+        }
+        let slipped = [before, after].iter().all(|state| state.zone[at] == Zone::Slip);
+        let shear = |state: &ContactState| [0, 1].map(|axis| state.shear[axis][at]);
+        length_of_way(slip, slipped.then(|| shear(before)), shear(after))
+    })
 }
 
 /// Adds `factor` times the energy that friction dissipates by area [pressure x length] between two states that follow each other: the
-/// mean of the bounds at both ends along the slip.
+/// mean of the bounds at both ends along the way.
 fn add_dissipation(
     before: &ContactState,
     after: &ContactState,
@@ -35,17 +43,11 @@ fn add_dissipation(
     factor: f64,
     energy: &mut Array2<f64>,
 ) {
-    let slip_y = &after.slip[1] - &before.slip[1];
-    let mut bound = friction_bounds(friction, &before.pressure);
-    bound.zip_mut_with(&friction_bounds(friction, &after.pressure), |bound, now| {
-        *bound = 0.5 * (*bound + now);
+    let [first, last] = [before, after].map(|state| friction_bounds(friction, &state.pressure));
+    let ways = ways(before, after);
+    Zip::from(energy).and(&first).and(&last).and(&ways).for_each(|energy, first, last, way| {
+        *energy += factor * dissipation([*first, *last], *way);
     });
-    Zip::from(energy)
-        .and(&bound)
-        .and(&after.slip[0])
-        .and(&before.slip[0])
-        .and(&slip_y)
-        .for_each(|energy, bound, now, then, y| *energy += factor * bound * (now - then).hypot(*y));
 }
 
 /// Adds the depth [length] worn between two states that follow each other under a friction law; where each layer has a coefficient of
@@ -61,14 +63,12 @@ pub fn add_wear(
     match rule.law {
         WearLaw::Energy => add_dissipation(before, after, friction, k, depth),
         WearLaw::Archard => {
-            let slip_y = &after.slip[1] - &before.slip[1];
-            let pressure = &before.pressure + &after.pressure;
+            let ways = ways(before, after);
             Zip::from(depth)
-                .and(&pressure)
-                .and(&after.slip[0])
-                .and(&before.slip[0])
-                .and(&slip_y)
-                .for_each(|depth, p, now, then, y| *depth += k * 0.5 * p * (now - then).hypot(*y));
+                .and(&before.pressure)
+                .and(&after.pressure)
+                .and(&ways)
+                .for_each(|depth, first, last, way| *depth += k * 0.5 * (first + last) * way);
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use super::contact_set::ContactSet;
 use super::increment_problem::{IncrementProblem, Solved};
-use super::laws::friction::{dissipation, slips};
+use super::laws::friction::{dissipation, length_of_way, slips};
 use super::outcome::{Outcome, Regime, Residual, Resultants};
 use crate::fields::sum;
 use crate::model::{ContactState, Control, Zone};
@@ -49,7 +49,10 @@ pub(super) fn settle(
         for axis in 0..2 {
             state.slip[axis][at] += slip[axis];
         }
-        dissipated += dissipation([bound_before[place], bound[place]], slip);
+        let slipped = before.zone[at] == Zone::Slip && zone == Zone::Slip;
+        let shear_before = slipped.then(|| [0, 1].map(|axis| before.shear[axis][at]));
+        let way = length_of_way(slip, shear_before, q);
+        dissipated += dissipation([bound_before[place], bound[place]], way);
     }
     let area = grid.cell_area();
     state.dissipated_energy += dissipated * area;

@@ -14,6 +14,10 @@ use crate::model::{ContactState, Zone};
 const STOP: f64 = 0.27;
 /// A cell that has just entered, whose slip is known from the moment of touch on only, counts so much as one whose slip falls.
 const ENTERED: f64 = 0.5;
+/// A cell that begins to slip has turned on over its slip by this factor from where the shear that held it points at the start of the increment
+/// to the end, over to the slip increment: on average over all moments at which it may begin, with a rate of slip that grows with the root of
+/// the time since then, as beside a stick zone that shrinks.
+const BEGUN: f64 = 1.277;
 /// The edge of contact goes on to slip by this fraction of its last rate until it comes to a cell. By trial: Spence's contact, and normal and
 /// tangential force that grow together; with more, edges that slip in the coarse increments of a first touch go on to do so.
 const EDGE: f64 = 0.7;
@@ -27,7 +31,7 @@ const KNOWN: f64 = 0.01;
 /// [`EDGE`], and with what it lags behind that, see [`left_of_lag`]. An edge that moves by less than half a cell in an increment says
 /// nothing about moments; from a whole cell on it is believed.
 ///
-/// *Stop.* See [`STOP`]; nothing where slip does not fall, the whole of it where it falls to half, half of it where a cell has just entered.
+/// *Start.* Cells that stick; see [`BEGUN`]. *Stop.* See [`STOP`]; nothing where slip does not fall, the whole of it where it falls to half, half of it where a cell has just entered.
 ///
 /// `beyond` finds the drift of the last increment in the whole region, for cells outside the region of then.
 pub fn slip_path(
@@ -58,6 +62,10 @@ pub fn slip_path(
         };
         let weight = (slip(cell) / (KNOWN * largest)).min(1.0);
         path.go_on(cell, here, (ratio, STOP * fall, weight));
+    }
+    let shear = [0, 1].map(|axis| region.gather(&state.shear[axis]));
+    for cell in (0..region.len()).filter(|&cell| zones[cell] == Zone::Stick) {
+        path.begin(cell, [shear[0][cell], shear[1][cell]], BEGUN);
     }
     if let Some((before, gap)) = before.and_then(|before| Some((before, before.gap.as_ref()?))) {
         let edge = Edge { before: gap, now: &last.gap, ratio };
@@ -196,6 +204,20 @@ mod tests {
             left / last
         };
         assert!((share(1.5) - STOP).abs() < 5e-3 && (share(2.0) - 1.0 / 6.0).abs() < 1e-3);
+    }
+
+    /// The direction turns evenly, from that of the shear at the start of the increment; slip begins at any moment of it and grows with the
+    /// power 3/2 of the time since.
+    #[test]
+    fn slip_that_begins_turns_on() {
+        let moments = (0..10_000).map(|k| (f64::from(k) + 0.5) / 1e4);
+        let turned = moments.map(|start| {
+            let slip = |power: f64| (1.0_f64 - start).powf(power) / power;
+            // Integral of the time over that of the rate: where the slip increment points.
+            let mean = start + slip(2.5) / slip(1.5);
+            1.0 / mean
+        });
+        assert!((turned.sum::<f64>() / 1e4 - BEGUN).abs() < 1e-3);
     }
 
     #[test]

@@ -60,6 +60,15 @@ impl SlipPath {
         self.ahead.set(cell, last.map(|part| part * ratio * stop));
     }
 
+    /// A cell that may begin to slip, held by this shear [pressure]: the angle from that to its slip increment grows by a factor to the end.
+    pub fn begin(&mut self, cell: usize, shear: [f64; 2], growth: f64) {
+        let size = length(shear);
+        if size > 0.0 {
+            let root = ((1.0 - 1.0 / growth) / (1.0 - FADED)).sqrt();
+            self.turn.set(cell, shear.map(|part| part / size * root));
+        }
+    }
+
     /// Slip at the end of the increment, up to a factor, of a cell whose slip less the offset is given.
     pub fn end_of(&self, cell: usize, slip: [f64; 2]) -> [f64; 2] {
         if !self.turns() {
