@@ -57,11 +57,12 @@ fn leaving_out_changes_the_work_and_not_the_answer() {
                 assert_eq!(alone, 0.0, "{name}");
                 assert!(short.fields.iter().flat_map(|kept| kept.shear.iter().flatten()).all(is_nothing));
             }
-            // Other roundings, on a way as long; today within 0.8 %. What it saves is half of the numbers' size.
+            // Other roundings, on a way as long: they may end Newton's method one iteration later in one of the eight increments, which is 2 %;
+            // of the coated contact on 72, 80, 96, 112 cells a side 0 to 1.1 %. What it saves is half of the numbers' size.
             Simplification::Precision => {
                 assert!(planned.single_precision && !planned_without.single_precision, "{name}");
                 assert!(alone > 0.0, "{name}: no other digits");
-                let most = 1.02 * more.full_grid_convolutions;
+                let most = 1.03 * more.full_grid_convolutions;
                 assert!(least.full_grid_convolutions <= most, "{name}: {least:?} {more:?}");
             }
             // The same steps, each of one component less; that component holds roundings, which may end a Krylov iteration one step later.

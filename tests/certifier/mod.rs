@@ -161,7 +161,7 @@ impl<'a> Certifier<'a> {
             influence: &self.influence,
             undeformed: &self.undeformed,
             before: &self.before,
-            zone_before: self.past.zone.as_ref(),
+            zone_before: self.past.zone.as_ref().filter(|_| case.integration == Integration::SecondOrder),
             record,
             slides: !case.is_frictionless(),
             jumps: case.wear.is_some() || case.friction_evolution.is_some(),

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::slip_increment::add_slip;
-use crate::model::{AccumulatedSlip, ContactState, CoulombFriction, FrictionEvolution};
+use crate::model::{AccumulatedSlip, ContactState, CoulombFriction, FrictionEvolution, Integration};
 
 /// What a run knows of the cycle at work and of the cycle jump before it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -75,8 +75,8 @@ impl Evolving {
     }
 
     /// Adds the slip between two states that follow each other.
-    pub fn add(&mut self, before: &ContactState, after: &ContactState) {
-        add_slip(before, after, &self.now, &mut self.collected.of_cycle);
+    pub fn add(&mut self, states: [&ContactState; 2], integration: Integration) {
+        add_slip(states, integration, &self.now, &mut self.collected.of_cycle);
     }
 
     /// Another stage: its cycles tell nothing of the jumps before.

@@ -86,7 +86,7 @@ impl<'a> Journey<'a> {
 
     /// Where the run stands, for another history to start from.
     fn solved_state(&self) -> SolvedState {
-        let Surfaces { wearing, evolving } = &self.surfaces;
+        let Surfaces { wearing, evolving, .. } = &self.surfaces;
         let worn = wearing.as_ref().map(Wearing::collected);
         let slipped = evolving.as_ref().map(Evolving::collected);
         solved_state(&self.place, &self.history.state, worn, slipped)

@@ -148,7 +148,7 @@ impl<'a> Simulation<'a> {
         let evolving = evolution.map(|((rule, collected), slipped)| {
             Evolving::new(rule, case.friction.clone(), slipped, collected)
         });
-        let surfaces = Surfaces { wearing, evolving };
+        let surfaces = Surfaces { wearing, evolving, integration: case.integration };
         solver.set_tilt(history.state.tilt);
         // Last: a new gap makes a solver forget.
         solver.restore_memory(memory);

@@ -2,27 +2,27 @@
 
 use ndarray::{Array2, Zip};
 
-use crate::model::{AccumulatedSlip, ContactState, CoulombFriction, WearLaw, WearRule, Zone};
+use crate::model::{AccumulatedSlip, ContactState, CoulombFriction, Integration, WearLaw, WearRule, Zone};
 use crate::solver::{dissipation, friction_bounds, length_of_way};
 
 /// Adds what slips between two states that follow each other under a friction law.
 pub fn add_slip(
-    before: &ContactState,
-    after: &ContactState,
+    states: [&ContactState; 2],
+    integration: Integration,
     friction: &CoulombFriction,
     to: &mut AccumulatedSlip,
 ) {
-    add_dissipation(before, after, friction, 1.0, &mut to.energy_density);
-    add_path(before, after, &mut to.distance);
+    add_dissipation(states, integration, friction, 1.0, &mut to.energy_density);
+    add_path(states, integration, &mut to.distance);
 }
 
 /// Adds the length of the way of slip [length] between two states that follow each other.
-pub fn add_path(before: &ContactState, after: &ContactState, path: &mut Array2<f64>) {
-    *path += &ways(before, after);
+pub fn add_path(states: [&ContactState; 2], integration: Integration, path: &mut Array2<f64>) {
+    *path += &ways(states, integration);
 }
 
 /// Length of the way of slip in every cell [length] between two states that follow each other.
-fn ways(before: &ContactState, after: &ContactState) -> Array2<f64> {
+fn ways([before, after]: [&ContactState; 2], integration: Integration) -> Array2<f64> {
     Array2::from_shape_fn(after.zone.dim(), |at| {
         let slip = [0, 1].map(|axis| after.slip[axis][at] - before.slip[axis][at]);
         if slip == [0.0; 2] {
@@ -30,21 +30,21 @@ fn ways(before: &ContactState, after: &ContactState) -> Array2<f64> {
         }
         let slipped = [before, after].iter().all(|state| state.zone[at] == Zone::Slip);
         let shear = |state: &ContactState| [0, 1].map(|axis| state.shear[axis][at]);
-        length_of_way(slip, slipped.then(|| shear(before)), shear(after))
+        length_of_way(integration, slip, slipped.then(|| shear(before)), shear(after))
     })
 }
 
 /// Adds `factor` times the energy that friction dissipates by area [pressure x length] between two states that follow each other: the
 /// mean of the bounds at both ends along the way.
 fn add_dissipation(
-    before: &ContactState,
-    after: &ContactState,
+    states: [&ContactState; 2],
+    integration: Integration,
     friction: &CoulombFriction,
     factor: f64,
     energy: &mut Array2<f64>,
 ) {
-    let [first, last] = [before, after].map(|state| friction_bounds(friction, &state.pressure));
-    let ways = ways(before, after);
+    let [first, last] = states.map(|state| friction_bounds(friction, &state.pressure));
+    let ways = ways(states, integration);
     Zip::from(energy).and(&first).and(&last).and(&ways).for_each(|energy, first, last, way| {
         *energy += factor * dissipation([*first, *last], *way);
     });
@@ -53,20 +53,20 @@ fn add_dissipation(
 /// Adds the depth [length] worn between two states that follow each other under a friction law; where each layer has a coefficient of
 /// its own, the work by area [pressure x length] that they wear by. Only slipping cells have slip.
 pub fn add_wear(
-    before: &ContactState,
-    after: &ContactState,
+    states: [&ContactState; 2],
+    integration: Integration,
     friction: &CoulombFriction,
     rule: &WearRule,
     depth: &mut Array2<f64>,
 ) {
     let k = rule.coefficient.unwrap_or(1.0);
     match rule.law {
-        WearLaw::Energy => add_dissipation(before, after, friction, k, depth),
+        WearLaw::Energy => add_dissipation(states, integration, friction, k, depth),
         WearLaw::Archard => {
-            let ways = ways(before, after);
+            let ways = ways(states, integration);
             Zip::from(depth)
-                .and(&before.pressure)
-                .and(&after.pressure)
+                .and(&states[0].pressure)
+                .and(&states[1].pressure)
                 .and(&ways)
                 .for_each(|depth, first, last, way| *depth += k * 0.5 * (first + last) * way);
         }

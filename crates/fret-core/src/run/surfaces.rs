@@ -3,7 +3,7 @@
 
 use super::evolving::{Evolved, Evolving};
 use super::wear::{TooFast, Wearing};
-use crate::model::{ContactState, CoulombFriction};
+use crate::model::{ContactState, CoulombFriction, Integration};
 
 /// Surfaces that may change by slip.
 #[derive(Debug, Clone, Default)]
@@ -12,6 +12,8 @@ pub struct Surfaces {
     pub wearing: Option<Wearing>,
     /// Their friction, where it evolves.
     pub evolving: Option<Evolving>,
+    /// How slip is integrated.
+    pub integration: Integration,
 }
 
 /// A block of equal cycles that is over.
@@ -33,10 +35,10 @@ impl Surfaces {
     /// Adds the slip between two states that follow each other.
     pub fn add(&mut self, before: &ContactState, after: &ContactState) {
         if let Some(wearing) = &mut self.wearing {
-            wearing.add(before, after);
+            wearing.add([before, after], self.integration);
         }
         if let Some(evolving) = &mut self.evolving {
-            evolving.add(before, after);
+            evolving.add([before, after], self.integration);
         }
     }
 
@@ -67,7 +69,7 @@ impl Surfaces {
         state: &mut ContactState,
         (most, of_cycle): (usize, bool),
     ) -> Result<Block, TooFast> {
-        let Self { wearing, evolving } = self;
+        let Self { wearing, evolving, .. } = self;
         let mut most = most;
         if wearing.is_none() && evolving.is_none() {
             most = 1;

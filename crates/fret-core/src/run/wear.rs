@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use super::slip_increment::{add_path, add_wear};
 use super::stiffest_wave::StiffestWave;
 use crate::fields::stored;
-use crate::model::{ContactState, CoulombFriction, SurfaceGrid, WearLaw, WearLayers, WearRule};
+use crate::model::{ContactState, CoulombFriction, Integration, SurfaceGrid, WearLaw, WearLayers, WearRule};
 
 /// Share of the stiffest wave of pressure that a block may take off at the most. Above 2 such a wave would grow with every block: on
 /// half-spaces neighbouring cells, on nearly incompressible films wider regions would take turns in carrying the load.
@@ -159,9 +159,9 @@ impl Wearing {
     }
 
     /// Adds the wear between two states that follow each other.
-    pub fn add(&mut self, before: &ContactState, after: &ContactState) {
-        add_wear(before, after, &self.friction, &self.rule, &mut self.collected.wear);
-        add_path(before, after, &mut self.collected.path);
+    pub fn add(&mut self, states: [&ContactState; 2], integration: Integration) {
+        add_wear(states, integration, &self.friction, &self.rule, &mut self.collected.wear);
+        add_path(states, integration, &mut self.collected.path);
     }
 
     /// The block that the wear collected so far stands for, at the most `most` cycles; collecting starts anew.

@@ -87,7 +87,7 @@ impl ContactSolver<'_> {
         let mut increment =
             IncrementProblem::new(&grid, &self.undeformed, &self.friction, loads, bodies, region);
         if let Some(solved) = increment.apart() {
-            let (after, outcome) = settle(&increment, &solved, 0.0);
+            let (after, outcome) = settle(&increment, &solved, 0.0, self.settings.integration);
             return Ok((solved, after, outcome));
         }
         increment.start = start.map(|pressure| region.gather(pressure));
@@ -106,7 +106,7 @@ impl ContactSolver<'_> {
         self.operators = Some(operators);
         self.memory.region = Some(region);
         let solved = solved?;
-        let (after, outcome) = settle(&increment, &solved, self_influence);
+        let (after, outcome) = settle(&increment, &solved, self_influence, self.settings.integration);
         work.outer_iterations += solved.solution.iterations;
         Ok((solved, after, outcome))
     }

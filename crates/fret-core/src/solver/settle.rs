@@ -2,16 +2,18 @@
 
 use super::contact_set::ContactSet;
 use super::increment_problem::{IncrementProblem, Solved};
-use super::laws::friction::{dissipation, length_of_way, slips};
+use super::laws::friction::{dissipation, slips};
+use super::laws::slip_path::length_of_way;
 use super::outcome::{Outcome, Regime, Residual, Resultants};
 use crate::fields::sum;
-use crate::model::{ContactState, Control, Zone};
+use crate::model::{ContactState, Control, Integration, Zone};
 
 /// The state after an increment, and what happened. `self_influence`: of the shear of a cell [length/pressure].
 pub(super) fn settle(
     problem: &IncrementProblem<'_>,
     solved: &Solved,
     self_influence: f64,
+    integration: Integration,
 ) -> (ContactState, Outcome) {
     let stiffness = if self_influence > 0.0 { 1.0 / self_influence } else { 0.0 };
     let solution = &solved.solution;
@@ -51,7 +53,7 @@ pub(super) fn settle(
         }
         let slipped = before.zone[at] == Zone::Slip && zone == Zone::Slip;
         let shear_before = slipped.then(|| [0, 1].map(|axis| before.shear[axis][at]));
-        let way = length_of_way(slip, shear_before, q);
+        let way = length_of_way(integration, slip, shear_before, q);
         dissipated += dissipation([bound_before[place], bound[place]], way);
     }
     let area = grid.cell_area();

@@ -17,8 +17,6 @@ use super::super::region::Region;
 const ON_CIRCLE: f64 = 1.0 - 1e-10;
 /// Fraction of a bound that is rounding.
 const ROUNDING: f64 = 1e-10;
-/// Half of the angle by which slip turns in an increment, up to which its way is an arc: 30 degrees.
-const ARC: f64 = std::f64::consts::FRAC_PI_6;
 
 /// Parameters of the law in some cells: of a region, or packed over a contact.
 #[derive(Debug, Clone, Default)]
@@ -126,17 +124,6 @@ impl CellRule<3, 2, 0> for CoulombToStrength {
 /// Energy that friction takes from a cell that slips, per area: the mean of its bounds before and after the increment, along its way.
 pub fn dissipation([before, after]: [f64; 2], way: f64) -> f64 {
     0.5 * (before + after) * way
-}
-
-/// Length of the way of a slip increment. The shear points along the slip at both ends of an increment in which a cell slips all the time:
-/// the way is the arc of a circle between these directions, the slip increment its chord; beyond 60 degrees, and of a cell that did not
-/// slip at the start, nothing is known but the chord.
-pub fn length_of_way(slip: [f64; 2], shear_before: Option<[f64; 2]>, shear: [f64; 2]) -> f64 {
-    let chord = length(slip);
-    let Some([x, y]) = shear_before else { return chord };
-    let along = x * shear[0] + y * shear[1];
-    let half = 0.5 * (x * shear[1] - y * shear[0]).abs().atan2(along);
-    if half > 0.0 && half < ARC { chord * half / half.sin() } else { chord }
 }
 
 /// Whether a cell slips, in a solution: the shear that would hold it, `q + slip / K`, lies outside the disc, by more than the shear lies
@@ -278,12 +265,6 @@ mod tests {
     #[test]
     fn what_slip_dissipates_is_the_mean_bound_times_its_length() {
         assert_eq!(dissipation([1.0, 3.0], 0.5), 1.0);
-        // A sixth of a circle is 2 pi / 6 radii long, its chord one; nothing beyond, nothing of a cell that did not slip.
-        let at = |degrees: f64| [3.0 * degrees.to_radians().cos(), 3.0 * degrees.to_radians().sin()];
-        let way = |degrees: f64| length_of_way([0.3, -0.4], Some([7.0, 0.0]), at(degrees));
-        assert!((way(59.999) / 0.5 - std::f64::consts::PI / 3.0).abs() < 1e-4 && way(-20.0) == way(20.0));
-        assert_eq!([way(0.0), way(61.0), way(180.0), length_of_way([0.3, -0.4], None, at(9.0))], [0.5; 4]);
-        assert_eq!(length_of_way([0.3, -0.4], Some([0.0; 2]), at(9.0)), 0.5);
     }
 
     struct Images;

@@ -19,11 +19,15 @@
 
 use super::super::contact_set::ContactSet;
 use crate::fields::{Reals, TangentialField, length};
+use crate::model::Integration;
 
 /// Cosine k of the angle between slip increments (60 degrees) from which on the last one says nothing of this one: the angle from which on the
 /// loads do not continue either. By trial: without it the discrete equations have several solutions much more often; 40 and 50
 /// degrees err more and take more applications.
 const FADED: f64 = 0.5;
+
+/// Half of the angle by which slip turns in an increment, up to which its way is an arc: 30 degrees.
+const ARC: f64 = std::f64::consts::FRAC_PI_6;
 
 /// What is known of the paths before an increment is solved, over the cells of a region or packed over a contact. With empty fields it is
 /// the end-point rule.
@@ -109,6 +113,22 @@ impl SlipPath {
     }
 }
 
+/// Length of the way of a slip increment. The shear points along the slip at both ends of an increment in which a cell slips all the time:
+/// the way is the arc of a circle between these directions, the slip increment its chord; beyond 60 degrees, and of a cell that did not
+/// slip at the start, and for the end-point rule, it is the chord.
+pub fn length_of_way(
+    integration: Integration,
+    slip: [f64; 2],
+    shear_before: Option<[f64; 2]>,
+    shear: [f64; 2],
+) -> f64 {
+    let chord = length(slip);
+    let Some([x, y]) = shear_before.filter(|_| integration == Integration::SecondOrder) else { return chord };
+    let along = x * shear[0] + y * shear[1];
+    let half = 0.5 * (x * shear[1] - y * shear[0]).abs().atan2(along);
+    if half > 0.0 && half < ARC { chord * half / half.sin() } else { chord }
+}
+
 /// The slip at the end of the increment, up to a factor, from the slip less the offset and the vector t.
 #[inline(always)]
 pub fn end_of_chord<R: Reals>(slip: [R; 2], turn: [R; 2]) -> [R; 2] {
@@ -160,6 +180,18 @@ mod tests {
                 assert!(errors[1] < errors[0] / 7.0 && errors[0] < 0.005, "{ratio} {stop}: {errors:?}");
             }
         }
+    }
+
+    #[test]
+    fn slip_that_turns_goes_along_an_arc() {
+        let way_of = |before, after| length_of_way(Integration::SecondOrder, [0.3, -0.4], before, after);
+        // A sixth of a circle is 2 pi / 6 radii long, its chord one; nothing beyond, nothing of a cell that did not slip.
+        let at = |degrees: f64| [3.0 * degrees.to_radians().cos(), 3.0 * degrees.to_radians().sin()];
+        let way = |degrees: f64| way_of(Some([7.0, 0.0]), at(degrees));
+        assert!((way(59.999) / 0.5 - std::f64::consts::PI / 3.0).abs() < 1e-4 && way(-20.0) == way(20.0));
+        assert_eq!([way(0.0), way(61.0), way(180.0), way_of(None, at(9.0))], [0.5; 4]);
+        assert_eq!(way_of(Some([0.0; 2]), at(9.0)), 0.5);
+        assert_eq!(length_of_way(Integration::EndPoint, [0.3, -0.4], Some([7.0, 0.0]), at(20.0)), 0.5);
     }
 
     struct Chord;
