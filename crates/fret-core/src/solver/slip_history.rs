@@ -10,7 +10,7 @@ use crate::model::{ContactState, Zone};
 
 /// A cell whose slip falls by half or more from increment to increment has, when it comes to rest, gone on by this fraction of its last slip
 /// on average, where the rate of slip falls with the root of the time left, as beside a stick zone that grows. Where it falls evenly, that is
-/// 0.17; with less than 0.27 the energy of loops with much friction comes out worse.
+/// 0.17.
 const STOP: f64 = 0.27;
 /// A cell that has just entered, whose slip is known from the moment of touch on only, counts so much as one whose slip falls.
 const ENTERED: f64 = 0.5;
@@ -31,7 +31,8 @@ const KNOWN: f64 = 0.01;
 /// [`EDGE`], and with what it lags behind that, see [`left_of_lag`]. An edge that moves by less than half a cell in an increment says
 /// nothing about moments; from a whole cell on it is believed.
 ///
-/// *Start.* Cells that stick; see [`BEGUN`]. *Stop.* See [`STOP`]; nothing where slip does not fall, the whole of it where it falls to half, half of it where a cell has just entered.
+/// *Start.* Cells that stick; see [`BEGUN`]. *Stop.* See [`STOP`]; nothing where slip does not fall, the whole of it where it falls to half,
+/// half of it where a cell has just entered.
 ///
 /// `beyond` finds the drift of the last increment in the whole region, for cells outside the region of then.
 pub fn slip_path(
