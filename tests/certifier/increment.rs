@@ -15,16 +15,16 @@ pub fn dissipated([before, after]: [f64; 2], way: f64) -> f64 {
     0.5 * (before + after) * way
 }
 
-/// The way of a slip increment: the arc with it as chord that turns by the angle of the shear, of up to 60 degrees, where a cell slips at
-/// both ends of the increment.
+/// The way of a slip increment: where a cell slips at both ends of the increment, the arc with it as chord that turns by the angle of the
+/// shear, faded into the chord as the cosine falls to 1/2.
 pub fn way(chord: [f64; 2], shear: [[f64; 2]; 2], zones: [Zone; 2]) -> f64 {
     let [before, after] = shear;
     let cosine = dot(before, after) / (hypot(before) * hypot(after));
     if zones != [Zone::Slip; 2] || !(cosine > 0.5 && cosine < 1.0) {
         return hypot(chord);
     }
-    let radius = hypot(chord) / (2.0 * (1.0 - cosine)).sqrt();
-    radius * cosine.acos()
+    let arc = cosine.acos() / (2.0 * (1.0 - cosine)).sqrt();
+    hypot(chord) * (arc * (2.0 * cosine - 1.0) + 2.0 * (1.0 - cosine))
 }
 
 #[derive(Clone, Copy)]

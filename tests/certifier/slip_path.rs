@@ -115,13 +115,18 @@ impl Past {
         let last = [drift[0][at], drift[1][at]];
         match zone[at] {
             Zone::Stick => {
-                let shear = [0, 1].map(|axis| self.shear.as_ref().map_or(0.0, |shear| shear[axis][at]));
-                match hypot(shear) {
-                    0.0 => CellPath::STRAIGHT,
-                    size => CellPath {
-                        turn: shear.map(|part| part / size * f64::sqrt((1.0 - 1.0 / 1.277) / (1.0 - 0.5))),
-                        ..CellPath::STRAIGHT
-                    },
+                let Some([x, y]) = &self.shear else { return CellPath::STRAIGHT };
+                let shear = [x[at], y[at]];
+                let size = hypot(shear);
+                if size == 0.0 {
+                    return CellPath::STRAIGHT;
+                }
+                let largest = x.iter().zip(y).map(|(x, y)| x.hypot(*y)).fold(0.0, f64::max);
+                let known = f64::min(1.0, size / (0.01 * largest));
+                let c = 1.0 - 1.0 / 1.277;
+                CellPath {
+                    turn: shear.map(|part| part / size * (known * c / (1.0 - 0.5)).sqrt()),
+                    ..CellPath::STRAIGHT
                 }
             }
             Zone::Slip => {

@@ -2,7 +2,7 @@
 
 use ndarray::{Array2, Zip};
 
-use crate::model::{AccumulatedSlip, ContactState, CoulombFriction, Integration, WearLaw, WearRule, Zone};
+use crate::model::{AccumulatedSlip, ContactState, CoulombFriction, Integration, WearLaw, WearRule};
 use crate::solver::{dissipation, friction_bounds, length_of_way};
 
 /// Adds what slips between two states that follow each other under a friction law.
@@ -28,9 +28,9 @@ fn ways([before, after]: [&ContactState; 2], integration: Integration) -> Array2
         if slip == [0.0; 2] {
             return 0.0;
         }
-        let slipped = [before, after].iter().all(|state| state.zone[at] == Zone::Slip);
-        let shear = |state: &ContactState| [0, 1].map(|axis| state.shear[axis][at]);
-        length_of_way(integration, slip, slipped.then(|| shear(before)), shear(after))
+        let states = [before, after];
+        let shear = states.map(|state| [0, 1].map(|axis| state.shear[axis][at]));
+        length_of_way(integration, slip, states.map(|state| state.zone[at]), shear)
     })
 }
 

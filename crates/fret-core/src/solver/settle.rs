@@ -51,9 +51,8 @@ pub(super) fn settle(
         for axis in 0..2 {
             state.slip[axis][at] += slip[axis];
         }
-        let slipped = before.zone[at] == Zone::Slip && zone == Zone::Slip;
-        let shear_before = slipped.then(|| [0, 1].map(|axis| before.shear[axis][at]));
-        let way = length_of_way(integration, slip, shear_before, q);
+        let shear_before = [0, 1].map(|axis| before.shear[axis][at]);
+        let way = length_of_way(integration, slip, [before.zone[at], zone], [shear_before, q]);
         dissipated += dissipation([bound_before[place], bound[place]], way);
     }
     let area = grid.cell_area();

@@ -8,9 +8,9 @@ use super::region::Region;
 use crate::fields::{TangentialField, length};
 use crate::model::{ContactState, Zone};
 
-/// A cell whose slip falls by half or more from increment to increment has, when it comes to rest, gone on by this fraction of its last slip
-/// on average, where the rate of slip falls with the root of the time left, as beside a stick zone that grows. Where it falls evenly, that is
-/// 0.17.
+/// Slip that cells have still to go when they come to rest, over that of the last increment, summed over all moments of the increment at
+/// which they may: where the rate of slip falls with the root of the time left, as beside a stick zone that grows. Where it falls evenly,
+/// that is 0.17. How it fades out, see [`fall`], is by trial.
 const STOP: f64 = 0.27;
 /// A cell that has just entered, whose slip is known from the moment of touch on only, counts so much as one whose slip falls.
 const ENTERED: f64 = 0.5;
@@ -21,7 +21,7 @@ const BEGUN: f64 = 1.277;
 /// The edge of contact goes on to slip by this fraction of its last rate until it comes to a cell. By trial: Spence's contact, and normal and
 /// tangential force that grow together; with more, edges that slip in the coarse increments of a first touch go on to do so.
 const EDGE: f64 = 0.7;
-/// The direction of a slip increment is known where it is at least this fraction of the largest; below, the less the smaller.
+/// The direction of a slip increment, and of shear, is known where it is at least this fraction of the largest; below, the less the smaller.
 const KNOWN: f64 = 0.01;
 
 /// The paths in the cells of a region, in an increment that is `ratio` times as long as the last; `None` where nothing is known.
@@ -65,8 +65,11 @@ pub fn slip_path(
         path.go_on(cell, here, (ratio, STOP * fall, weight));
     }
     let shear = [0, 1].map(|axis| region.gather(&state.shear[axis]));
+    let held = |cell: usize| [shear[0][cell], shear[1][cell]];
+    let largest_shear = (0..region.len()).map(|cell| length(held(cell))).fold(0.0, f64::max);
     for cell in (0..region.len()).filter(|&cell| zones[cell] == Zone::Stick) {
-        path.begin(cell, [shear[0][cell], shear[1][cell]], BEGUN);
+        let shear = held(cell);
+        path.begin(cell, shear, (BEGUN, (length(shear) / (KNOWN * largest_shear)).min(1.0)));
     }
     if let Some((before, gap)) = before.and_then(|before| Some((before, before.gap.as_ref()?))) {
         let edge = Edge { before: gap, now: &last.gap, ratio };

@@ -1,8 +1,9 @@
 //! The path of slip inside an increment: which part of it the increment's equations do not see, to second order in the increments.
 //!
 //! The friction law holds at the end of the increment, by the slip rate there. The end-point rule (backward Euler) takes for it the
-//! change of displacement over the whole increment, and errs to first order in three ways: slip turns on its way; cells that come into
-//! contact count a way that they went before they touched; cells that come to rest have slipped before that. Here the law takes
+//! change of displacement over the whole increment, and errs to first order in four ways: slip turns on its way; cells that come into
+//! contact count a way that they went before they touched; cells that come to rest have slipped before that; cells that begin to slip
+//! turn from where the shear that held them points. Here the law takes
 //!
 //! ```text
 //! s_end = v - t max(v . t - k |v| |t|, 0),    v = s - a
@@ -14,20 +15,18 @@
 //! of the last increment over the middle of this one to its end, the direction turns on by `rho / (1 + rho)` of the angle between the two
 //! increments, rho the ratio of this one to the last. With the unit direction `l` of the last slip increment, `c = rho / (1 + 2 rho)` and
 //! `t = l sqrt(c / (1 - k))` the tangent of a small angle to l grows by `1 / (1 - c)`, which is that; beyond an angle of cosine `k`
-//! nothing is turned. The rule is continuous and of degree one. *Entry and stop* are offsets `a`: see `slip_history`. An offset along l
-//! turns too, and c is the smaller for it. The rule is new; its derivation and its measured orders: `docs/theory/second-order.md`.
+//! nothing is turned. The rule is continuous and of degree one. *Entry and stop* are offsets `a`, *start* another l and c: see
+//! `slip_history`. An offset along l turns too, and c is the smaller for it. The way of slip is longer than its increment: see
+//! [`length_of_way`]. The rule is new; its derivation and its measured orders: `docs/theory/second-order.md`.
 
 use super::super::contact_set::ContactSet;
 use crate::fields::{Reals, TangentialField, length};
-use crate::model::Integration;
+use crate::model::{Integration, Zone};
 
 /// Cosine k of the angle between slip increments (60 degrees) from which on the last one says nothing of this one: the angle from which on the
 /// loads do not continue either. By trial: without it the discrete equations have several solutions much more often; 40 and 50
 /// degrees err more and take more applications.
 const FADED: f64 = 0.5;
-
-/// Half of the angle by which slip turns in an increment, up to which its way is an arc: 30 degrees.
-const ARC: f64 = std::f64::consts::FRAC_PI_6;
 
 /// What is known of the paths before an increment is solved, over the cells of a region or packed over a contact. With empty fields it is
 /// the end-point rule.
@@ -64,11 +63,12 @@ impl SlipPath {
         self.ahead.set(cell, last.map(|part| part * ratio * stop));
     }
 
-    /// A cell that may begin to slip, held by this shear [pressure]: the angle from that to its slip increment grows by a factor to the end.
-    pub fn begin(&mut self, cell: usize, shear: [f64; 2], growth: f64) {
+    /// A cell that may begin to slip, held by this shear [pressure]: the angle from that to its slip increment grows by a factor to the
+    /// end. `weight`: how far that direction is known, 0 to 1.
+    pub fn begin(&mut self, cell: usize, shear: [f64; 2], (growth, weight): (f64, f64)) {
         let size = length(shear);
         if size > 0.0 {
-            let root = ((1.0 - 1.0 / growth) / (1.0 - FADED)).sqrt();
+            let root = (weight / (1.0 - FADED) * (1.0 - 1.0 / growth)).sqrt();
             self.turn.set(cell, shear.map(|part| part / size * root));
         }
     }
@@ -113,20 +113,29 @@ impl SlipPath {
     }
 }
 
-/// Length of the way of a slip increment. The shear points along the slip at both ends of an increment in which a cell slips all the time:
-/// the way is the arc of a circle between these directions, the slip increment its chord; beyond 60 degrees, and of a cell that did not
-/// slip at the start, and for the end-point rule, it is the chord.
+/// Length of the way of a slip increment, in a run of this integration. At both ends of an increment in which a cell slips the shear points
+/// along the slip: the way is the arc of a circle between these directions, the slip increment its chord. Towards 60 degrees it fades into
+/// the chord, as the turn does; of a cell that sticks at the start or the end, and with end points, it is the chord.
 pub fn length_of_way(
     integration: Integration,
     slip: [f64; 2],
-    shear_before: Option<[f64; 2]>,
-    shear: [f64; 2],
+    zones: [Zone; 2],
+    shear: [[f64; 2]; 2],
 ) -> f64 {
     let chord = length(slip);
-    let Some([x, y]) = shear_before.filter(|_| integration == Integration::SecondOrder) else { return chord };
-    let along = x * shear[0] + y * shear[1];
-    let half = 0.5 * (x * shear[1] - y * shear[0]).abs().atan2(along);
-    if half > 0.0 && half < ARC { chord * half / half.sin() } else { chord }
+    if integration == Integration::EndPoint || zones != [Zone::Slip; 2] {
+        return chord;
+    }
+    let [before, after] = shear;
+    let along = before[0] * after[0] + before[1] * after[1];
+    let across = (before[0] * after[1] - before[1] * after[0]).abs();
+    let angle = across.atan2(along);
+    if angle == 0.0 {
+        return chord;
+    }
+    let known = ((angle.cos() - FADED) / (1.0 - FADED)).max(0.0);
+    let arc = 0.5 * angle / (0.5 * angle).sin();
+    chord * (1.0 + known * (arc - 1.0))
 }
 
 /// The slip at the end of the increment, up to a factor, from the slip less the offset and the vector t.
@@ -184,14 +193,43 @@ mod tests {
 
     #[test]
     fn slip_that_turns_goes_along_an_arc() {
-        let way_of = |before, after| length_of_way(Integration::SecondOrder, [0.3, -0.4], before, after);
-        // A sixth of a circle is 2 pi / 6 radii long, its chord one; nothing beyond, nothing of a cell that did not slip.
         let at = |degrees: f64| [3.0 * degrees.to_radians().cos(), 3.0 * degrees.to_radians().sin()];
-        let way = |degrees: f64| way_of(Some([7.0, 0.0]), at(degrees));
-        assert!((way(59.999) / 0.5 - std::f64::consts::PI / 3.0).abs() < 1e-4 && way(-20.0) == way(20.0));
-        assert_eq!([way(0.0), way(61.0), way(180.0), way_of(None, at(9.0))], [0.5; 4]);
-        assert_eq!(way_of(Some([0.0; 2]), at(9.0)), 0.5);
-        assert_eq!(length_of_way(Integration::EndPoint, [0.3, -0.4], Some([7.0, 0.0]), at(20.0)), 0.5);
+        let way_of = |integration, zones, degrees| {
+            length_of_way(integration, [0.3, -0.4], zones, [[7.0, 0.0], at(degrees)])
+        };
+        let slips = [Zone::Slip; 2];
+        let way = |degrees: f64| way_of(Integration::SecondOrder, slips, degrees);
+        // The 36th of a circle is 2 pi / 36 radii long, its chord 2 sin(5 degrees); of the difference less than a thirtieth is faded
+        // away, 2 (1 - cos(10 degrees)).
+        let arc = std::f64::consts::PI / 36.0 / 5f64.to_radians().sin();
+        let faded = (way(10.0) / 0.5 - 1.0) / (arc - 1.0);
+        assert!((faded - (2.0 * 10f64.to_radians().cos() - 1.0)).abs() < 1e-9, "{faded}");
+        assert!((way(59.999) / 0.5 - 1.0).abs() < 1e-5 && way(-20.0) == way(20.0));
+        assert_eq!([way(0.0), way(61.0), way(180.0)], [0.5; 3]);
+        // Nothing of a cell that sticks at either end, nothing with end points, nothing without shear.
+        for zones in [[Zone::Stick, Zone::Slip], [Zone::Slip, Zone::Stick], [Zone::Open, Zone::Slip]] {
+            assert_eq!(way_of(Integration::SecondOrder, zones, 20.0), 0.5);
+        }
+        assert_eq!(way_of(Integration::EndPoint, slips, 20.0), 0.5);
+        assert_eq!(length_of_way(Integration::SecondOrder, [0.3, -0.4], slips, [[0.0; 2], at(9.0)]), 0.5);
+    }
+
+    /// Slip a small angle off the shear that held the cell: the tangent grows by the factor, whatever the size of that shear; a direction
+    /// that is not known turns nothing.
+    #[test]
+    fn slip_that_begins_turns_from_the_shear_before() {
+        for (size, weight) in [(1.0, 1.0), (7.0, 1.0), (1.0, 0.0)] {
+            let mut path = SlipPath::straight(2);
+            path.begin(0, [0.6 * size, 0.8 * size], (1.25, weight));
+            path.begin(1, [0.0; 2], (1.25, weight));
+            assert_eq!(path.turn.at(1), [0.0; 2]);
+            assert_eq!(path.ahead.at(0), [0.0; 2]);
+            let off = 1e-5;
+            let end = path.end_of(0, [0.6 - 0.8 * off, 0.8 + 0.6 * off]);
+            let tangent = (0.6 * end[1] - 0.8 * end[0]) / (0.6 * end[0] + 0.8 * end[1]);
+            let growth = if weight > 0.0 { 1.25 } else { 1.0 };
+            assert!((tangent / off - growth).abs() < 1e-4, "{tangent}");
+        }
     }
 
     struct Chord;
