@@ -255,7 +255,8 @@ impl Fit<'_> {
         let [length, force] = self.units;
         let mut notes = Vec::new();
         let reached = force / now.normal_force;
-        if !now.slips || !constants[0].told {
+        // A loop that sticks is a line, whose ends a noisy one does not tell; friction is told by what is missing from it at its ends.
+        if !now.slips || !constants[0].told || !constants[2].told {
             constants[0].told = false;
             notes.push(format!(
                 "the contact sticks in this loop: it tells the rig, not friction; mu is more than {reached:.3}"
