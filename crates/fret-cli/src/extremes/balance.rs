@@ -3,7 +3,7 @@
 //! Forces and motions run linearly through an increment, so that with symmetric operators the work of the mean forces is exactly
 //! the rise of `1/2 t . C t`, plus the mean shear times the slip, plus what the pressure does across gaps that open or close.
 //!
-//! A run counts the mean of the friction bound at both ends times the slip, since a cell that slips has its bound while it does. That
+//! A run with end points counts the mean of the friction bound at both ends times the slip, since a cell that slips has its bound while it does. That
 //! is the mean shear times the slip plus `1/2 (mu p - q . n) |s|` of the cells that had not reached their bound when the increment
 //! began: never less, and the same where a cell slips on as it did.
 

@@ -98,7 +98,7 @@ fn press_then_rub_from_there_is_press_and_rub_in_one_run() {
 }
 
 #[test]
-fn any_kept_increment_of_a_finished_run_can_be_started_from() {
+fn kept_increments_of_a_finished_run_can_be_started_from() {
     let bench = Bench::new("from-a-kept-increment");
     solved(&bench, &format!("{HEAD}{PRESS}{RUB}"), &["whole"]);
     // Increment 11 is the turning point of the first cycle, from which on nothing is known of what went before, in one run or in two.
@@ -110,6 +110,21 @@ fn any_kept_increment_of_a_finished_run_can_be_started_from() {
     let [unbroken, branch] =
         ["unbroken", "branch"].map(|folder| bench.text(&format!("{folder}/history.csv")));
     assert_goes_on(&unbroken, &branch);
+
+    // Increment 17 is the middle of the second cycle, where the force passes zero on its way down. End points ask for nothing that is not
+    // kept there; the second order would begin with an increment of the first.
+    let rub = RUB.replace("[output]\n", "[solver]\nintegration = \"end_point\"\n[output]\n");
+    let going = "[[load]]\ntangential_force = [-0.1, -0.05]\nincrements = 2\n\
+        [solver]\nintegration = \"end_point\"\n";
+    solved(&bench, &format!("{HEAD}{PRESS}{rub}"), &["rubbed"]);
+    let whole_cycle = RUB.replace("cycles = 2", "cycles = 1").replace("[output]\nevery = 3\n", "");
+    let to_middle = "[[load]]\ntangential_force = [0.1, 0.05]\nincrements = 2\n\
+        [[load]]\ntangential_force = [0.0, 0.0]\nincrements = 2\n";
+    solved(&bench, &format!("{HEAD}{PRESS}{whole_cycle}{to_middle}{going}"), &["straight"]);
+    solved(&bench, &format!("{HEAD}{going}"), &["--from", "rubbed:17", "middle"]);
+    let [straight, middle] =
+        ["straight", "middle"].map(|folder| bench.text(&format!("{folder}/history.csv")));
+    assert_goes_on(&straight, &middle);
 
     let refused = bench.fret(&["run", "branch.toml", "--out", "other", "--from", "whole:15"]);
     assert_eq!(refused.code, Some(1));

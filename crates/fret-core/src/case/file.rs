@@ -231,8 +231,9 @@ pub(super) struct SolverFile {
     /// scheme), for comparison. Default: "monolithic".
     #[schemars(with = "Option<Scheme>")]
     pub scheme: Option<Spanned<Scheme>>,
-    /// "`second_order`": the friction law at the end of an increment takes the direction that slip has there; "`end_point`": the direction
-    /// of the whole slip increment (backward Euler, of first order), for comparison. Default: "`second_order`".
+    /// "`second_order`": the friction law at the end of an increment takes the direction that slip has there, and slip that turns goes
+    /// along an arc; "`end_point`": the direction of the whole slip increment, and straight (backward Euler, of first order), for
+    /// comparison. Default: "`second_order`".
     #[schemars(with = "Option<Integration>")]
     pub integration: Option<Spanned<Integration>>,
 }

@@ -19,7 +19,8 @@ pub enum Scheme {
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Integration {
-    /// Of second order in the increments: the friction law at the end of an increment by the direction of slip there.
+    /// Of second order in the increments: the friction law at the end of an increment by the direction of slip there; dissipated energy,
+    /// slip distance and wear along the arc of slip that turns.
     #[default]
     SecondOrder,
     /// Of first order, for comparison: by the direction of the whole slip increment (backward Euler).

@@ -51,7 +51,7 @@ fn add_dissipation(
 }
 
 /// Adds the depth [length] worn between two states that follow each other under a friction law; where each layer has a coefficient of
-/// its own, the work by area [pressure x length] that they wear by. Only slipping cells have slip.
+/// its own, the work by area [pressure x length] that they wear by. Cells that stick at both ends have no slip.
 pub fn add_wear(
     states: [&ContactState; 2],
     integration: Integration,
