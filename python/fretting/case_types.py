@@ -372,8 +372,9 @@ class Solver(TypedDict):
     """
     integration: NotRequired[Integration]
     """
-    "`second_order`": the friction law at the end of an increment takes the direction that slip has there; "`end_point`": the direction
-    of the whole slip increment (backward Euler, of first order), for comparison. Default: "`second_order`".
+    "`second_order`": the friction law at the end of an increment takes the direction that slip has there, and slip that turns goes
+    along an arc; "`end_point`": the direction of the whole slip increment, and straight (backward Euler, of first order), for
+    comparison. Default: "`second_order`".
     """
     scheme: NotRequired[Scheme]
     """
