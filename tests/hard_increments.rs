@@ -194,7 +194,7 @@ fn contact_that_nearly_fills_its_period_is_certified_in_a_bounded_number_of_iter
                 &ended
             )
         );
-        // Once 36 times as many; now 7.5 at the most.
+        // Once 36 times as many; now 6.9 at the most.
         assert!(times < 10.0, "{ratio} : 1, pressed by {pressed}: {times}");
     }
 }

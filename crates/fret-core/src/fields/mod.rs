@@ -4,6 +4,7 @@ mod arithmetic;
 mod each_cell;
 mod portions;
 mod registers;
+mod room;
 pub(crate) mod stored;
 mod tangential;
 
@@ -11,4 +12,5 @@ pub use arithmetic::{add_scaled, dot, largest, lower, norm, sum};
 pub use each_cell::{CellRule, CellSize, convert, each_cell, largest_of};
 pub use portions::pieces;
 pub use registers::{Number, Reals};
+pub use room::{clear, reset};
 pub use tangential::{TangentialField, length};

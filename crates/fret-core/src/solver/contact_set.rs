@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use pulp::Arch;
 
-use crate::fields::{Number, pieces};
+use crate::fields::{Number, pieces, reset};
 use crate::model::TangentialField;
 
 /// Numbers of straight passes that take as long as a cell of a run: its two fields are read in pieces.
@@ -60,7 +60,7 @@ impl ContactSet {
 
     /// Packs a field of the region into one of any length, keeping the memory.
     pub fn pack(&self, field: &[f64], packed: &mut Vec<f64>) {
-        packed.resize(self.len, 0.0);
+        reset(packed, self.len);
         self.gather(field, 1.0, packed);
     }
 

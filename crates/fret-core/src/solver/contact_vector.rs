@@ -2,7 +2,7 @@
 //! acts on a whole region.
 
 use super::contact_set::ContactSet;
-use crate::fields::{Number, convert, norm};
+use crate::fields::{Number, clear, convert, norm, reset};
 
 /// Both components of shear, after the pressure where that is unknown too; or what goes with them. Packed, one field after the other.
 #[derive(Debug, Clone, Default)]
@@ -15,7 +15,7 @@ impl<N: Number> ContactVector<N> {
     /// Makes room for 2 or 3 fields of so many cells; what it held is lost.
     pub fn reset(&mut self, fields: usize, cells: usize) {
         self.cells = cells;
-        self.values.resize(fields * cells, N::default());
+        reset(&mut self.values, fields * cells);
     }
 
     /// All zero.
@@ -27,7 +27,7 @@ impl<N: Number> ContactVector<N> {
     /// Makes room for the same as another one.
     pub fn reset_like(&mut self, other: &Self) {
         self.cells = other.cells;
-        self.values.resize(other.values.len(), N::default());
+        reset(&mut self.values, other.values.len());
     }
 
     /// All zero, with room for the same as another one.
@@ -86,7 +86,7 @@ impl<N: Number> ContactVector<N> {
     /// Takes over `factor` times another vector, of any precision.
     pub fn convert<A: Number>(&mut self, from: &ContactVector<A>, factor: f64) {
         self.cells = from.cells;
-        self.values.resize(from.values.len(), N::default());
+        reset(&mut self.values, from.values.len());
         convert(&from.values, factor, &mut self.values);
     }
 }
@@ -105,13 +105,12 @@ impl<N: Number> RegionFields<N> {
     pub fn begin(&mut self, contact: &ContactSet, cells: usize) {
         if self.contact != *contact || self.tractions[0].len() != cells {
             for field in &mut self.tractions {
-                field.clear();
-                field.resize(cells, N::default());
+                clear(field, cells);
             }
             self.contact.clone_from(contact);
         }
         for field in &mut self.displacements {
-            field.resize(cells, N::default());
+            reset(field, cells);
         }
     }
 

@@ -44,18 +44,18 @@ pub fn solve(
     let problem = increment.contact_problem(Pressure::Unknown, &counted_from);
     newton::make_shear_feasible(&problem, &mut tractions, operators);
     operators.compliance.full(tractions.parts(), displacements.parts_mut());
-    let start = tractions.clone();
+    let start = (!increment.path.turns()).then(|| tractions.clone());
     let solve = match settings.scheme {
         Scheme::Monolithic => newton::solve,
         Scheme::Staggered => staggered::solve,
     };
     let mut solution = solve(&problem, &mut tractions, &mut displacements, operators, settings, callback);
-    if let (Err(SolveError::NotConverged { .. }), Scheme::Monolithic, false) =
-        (&solution, settings.scheme, increment.path.turns())
+    if let (Err(SolveError::NotConverged { .. }), Scheme::Monolithic, Some(start)) =
+        (&solution, settings.scheme, &start)
     {
-        let frictionless = without_friction(increment, &start, operators, settings, callback)?;
+        let frictionless = without_friction(increment, start, operators, settings, callback)?;
         increment.check_limit(&frictionless)?;
-        let starts = [&start, &frictionless];
+        let starts = [start, &frictionless];
         let ends = (&mut tractions, &mut displacements);
         if let Some(exact) = exact_newton::solve(&problem, starts, ends, operators, method, callback)? {
             solution = Ok(exact);

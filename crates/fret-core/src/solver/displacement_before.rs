@@ -19,17 +19,20 @@ use crate::model::TangentialField;
 impl IncrementProblem<'_> {
     /// Tangential displacement of the state before [length], less that by the bulk stresses: slip counts its increment alone. `last`: the
     /// displacements of the state before, when they are known.
-    pub fn displacement_before(
+    pub fn displacement_before<'b>(
         &self,
-        last: Option<&Displacements>,
+        last: Option<&'b Displacements>,
         operators: &mut RegionOperators,
         coupling: Coupling,
-    ) -> TangentialField {
-        let mut before = last
-            .map_or_else(|| self.displacement_of_state(operators, coupling), |last| last.tangential.clone());
+    ) -> Cow<'b, TangentialField> {
+        let before = last.map_or_else(
+            || Cow::Owned(self.displacement_of_state(operators, coupling)),
+            |last| Cow::Borrowed(&last.tangential),
+        );
         if self.stretch.is_none() {
             return before;
         }
+        let mut before = before.into_owned();
         let columns = self.region.shape[1];
         for cell in 0..self.region.len() {
             let at = [self.region.origin[0] + cell / columns, self.region.origin[1] + cell % columns];
@@ -37,7 +40,7 @@ impl IncrementProblem<'_> {
             before.x[cell] -= x;
             before.y[cell] -= y;
         }
-        before
+        Cow::Owned(before)
     }
 
     /// Tangential displacement of the tractions of the state before [length].

@@ -24,6 +24,7 @@ impl ContactSolver<'_> {
         let whole = Region::whole(cells);
         let mut gap = Array2::zeros(cells);
         if region == whole {
+            self.full_grid = None;
             whole.scatter(&solved.solution.gap, &mut gap);
             return Ok(gap);
         }

@@ -7,13 +7,15 @@ pub struct ForcingTerm {
     last: f64,
     /// Smallest residual so far.
     pub best: f64,
+    /// Iterations since then.
+    pub without_gain: usize,
     /// Iterations in a row that did not pay.
     stalled: i32,
 }
 
 impl Default for ForcingTerm {
     fn default() -> Self {
-        Self { last: f64::INFINITY, best: f64::INFINITY, stalled: 0 }
+        Self { last: f64::INFINITY, best: f64::INFINITY, without_gain: 0, stalled: 0 }
     }
 }
 
@@ -37,6 +39,7 @@ impl ForcingTerm {
         let ratio = residual / self.last;
         self.stalled = if ratio > Self::NO_GAIN { self.stalled + 1 } else { 0 };
         self.last = residual;
+        self.without_gain = if residual < self.best { 0 } else { self.without_gain + 1 };
         self.best = self.best.min(residual);
         let falling =
             if ratio > 0.0 { (Self::GAMMA * ratio).clamp(Self::LEAST, Self::MOST) } else { Self::MOST };
@@ -96,7 +99,10 @@ mod tests {
         assert!(forcing.wants_double_precision());
         // Near the tolerance no further than the next residual needs.
         assert!((forcing.next(4e-8, 1e-8) - 0.2).abs() < 1e-15);
-        assert_eq!(forcing.best, 4e-8);
+        assert_eq!((forcing.best, forcing.without_gain), (4e-8, 0));
+        forcing.next(5e-8, 1e-8);
+        forcing.next(4e-8, 1e-8);
+        assert_eq!((forcing.best, forcing.without_gain), (4e-8, 2));
     }
 
     #[test]

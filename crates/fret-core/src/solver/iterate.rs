@@ -16,7 +16,7 @@ use super::operators::RegionOperators;
 use super::settings::SolverSettings;
 use super::tractions::{Displacements, Tractions};
 use crate::compliance::SurfaceCompliance;
-use crate::fields::{CellRule, Reals, TangentialField, add_scaled, each_cell, largest, lower, sum};
+use crate::fields::{CellRule, Reals, TangentialField, add_scaled, each_cell, largest, lower, reset, sum};
 
 /// Tractions on their way to the solution, with everything that follows from them.
 pub struct Iterate<'a> {
@@ -35,6 +35,8 @@ pub struct Iterate<'a> {
     tangential: TangentialResidual,
     slip: SlipIncrement,
     sets: ActiveSets,
+    /// The contact that they are of.
+    contact_of_sets: ContactSet,
     step: ContactVector<f64>,
     /// Resultants that the next projection restores [pressure].
     to_restore: [f64; 3],
@@ -97,6 +99,7 @@ impl<'a> Iterate<'a> {
             tangential: TangentialResidual { motion: [0.0; 3], residual: 0.0 },
             slip: SlipIncrement::default(),
             sets: ActiveSets::default(),
+            contact_of_sets: ContactSet::default(),
             step: ContactVector::default(),
             to_restore: problem.resultant,
             packed: Packed::default(),
@@ -121,7 +124,7 @@ impl<'a> Iterate<'a> {
         let mut worst = 0.0;
         if problem.pressure == Pressure::Unknown {
             let Self { gap, tractions, displacements, .. } = self;
-            gap.resize(problem.undeformed.len(), 0.0);
+            reset(gap, problem.undeformed.len());
             each_cell(&Height, [&displacements.normal, problem.undeformed], [gap]);
             let approach = problem.approach_under(&tractions.pressure);
             let [own, _] = self.self_influence;
@@ -151,6 +154,7 @@ impl<'a> Iterate<'a> {
         let Self { packed, slip, self_influence: [_, own], .. } = self;
         self.sets.classify(&packed.shear, &slip.at_end, &packed.bound, *own);
         self.sets.turn(&packed.path, &slip.slip);
+        self.contact_of_sets.clone_from(&self.contact);
     }
 
     /// The step that solves the linearised problem as far as the sets deserve it.
@@ -207,7 +211,7 @@ impl<'a> Iterate<'a> {
         self.project_shear();
         let Self { contact, packed, tractions, last, .. } = self;
         std::mem::swap(last, *tractions);
-        tractions.resize(last.pressure.len());
+        tractions.reset(last.pressure.len());
         contact.scatter(&packed.pressure, &mut tractions.pressure);
         contact.scatter_tangential(&packed.shear, &mut tractions.shear);
         true
@@ -260,31 +264,44 @@ impl<'a> Iterate<'a> {
         }
     }
 
-    /// To the middle between here and where the last step began, as far as the contact is the same; what slipped there is put back on
-    /// its circle.
+    /// To the middle between here and where the last step began, with the contact of then; what slipped there is put back on its circle.
     pub fn go_halfway_back(&mut self, operators: &mut RegionOperators) {
         self.tractions.average_with(&self.last);
-        if self.sets.len() == self.contact.len() {
-            let Self { contact, packed, tractions, .. } = self;
-            contact.pack(&tractions.pressure, &mut packed.pressure);
-            contact.pack_tangential(&tractions.shear, &mut packed.shear);
-            packed.law.find_bound(&packed.pressure, &mut packed.bound);
-            self.to_restore = self.problem.to_restore(&packed.shear, &packed.bound.bound);
-            self.project_shear();
-            self.contact.scatter_tangential(&self.packed.shear, &mut self.tractions.shear);
+        if self.contact != self.contact_of_sets {
+            self.change_contact(self.contact_of_sets.clone());
         }
+        let Self { contact, packed, tractions, .. } = self;
+        contact.pack(&tractions.pressure, &mut packed.pressure);
+        contact.pack_tangential(&tractions.shear, &mut packed.shear);
+        packed.law.find_bound(&packed.pressure, &mut packed.bound);
+        self.to_restore = self.problem.to_restore(&packed.shear, &packed.bound.bound);
+        self.project_shear();
+        self.contact.scatter_tangential(&self.packed.shear, &mut self.tractions.shear);
         self.find_displacements(operators);
     }
 
     pub fn solution(self, iterations: usize) -> Solution {
-        let scattered = |packed: &TangentialField| {
-            let mut field = TangentialField::zeros(self.tractions.pressure.len());
-            self.contact.scatter_tangential(packed, &mut field);
+        let Self {
+            tractions,
+            contact,
+            normal,
+            tangential,
+            gap,
+            slip,
+            last,
+            sets,
+            step,
+            packed,
+            projection,
+            ..
+        } = self;
+        drop((last, sets, step, packed, projection)); // before memory for the next fields is taken
+        let scattered = |packed: TangentialField| {
+            let mut field = TangentialField::zeros(tractions.pressure.len());
+            contact.scatter_tangential(&packed, &mut field);
             field
         };
-        let slip = scattered(&self.slip.slip);
-        let end_slip = scattered(&self.slip.at_end);
-        let Self { normal, tangential, gap, .. } = self;
+        let [slip, end_slip] = [slip.slip, slip.at_end].map(scattered);
         Solution { normal, tangential, gap, slip, end_slip, iterations }
     }
 }
@@ -298,3 +315,6 @@ impl CellRule<2, 1, 0> for Height {
         []
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -12,6 +12,8 @@ mod contact_vector;
 mod coupled;
 mod displacement_before;
 mod exact_newton;
+#[cfg(test)]
+mod few_cells;
 mod frictionless;
 mod full_grid_check;
 mod globalisation;
@@ -64,7 +66,7 @@ pub struct ContactSolver<'a> {
     response: SurfaceResponse,
     settings: SolverSettings,
     operators: Option<RegionOperators>,
-    /// Normal displacement of the whole grid, to check what lies outside the region.
+    /// Normal displacement of the whole grid, to check what lies outside the region; none while the region is the grid.
     full_grid: Option<SpectralCompliance>,
     /// Where all operators work.
     workspace: SharedWorkspace,

@@ -23,6 +23,8 @@ const LOST_AFTER: usize = 15;
 const MOST_ROUNDS_TO_CIRCLES: usize = 3;
 /// A residual at which the sets are not yet those of the solution.
 const FAR: f64 = 0.1;
+/// They are lost, too, when so many iterations have brought no smaller residual: they go in circles.
+const LOST_WITHOUT_GAIN: usize = 10;
 
 /// Solves the equations from feasible `tractions` with their `displacements`; both end at the solution, or at what was reached.
 ///
@@ -62,10 +64,11 @@ pub fn solve(
             iterate.go_halfway_back(operators);
             continue;
         }
-        if iteration >= LOST_AFTER && forcing.best > FAR {
+        let target = forcing.next(residual, settings.tolerance);
+        let is_far = iteration >= LOST_AFTER && forcing.best > FAR;
+        if is_far || forcing.without_gain >= LOST_WITHOUT_GAIN {
             break;
         }
-        let target = forcing.next(residual, settings.tolerance);
         if forcing.wants_double_precision() {
             operators.linear.avoid_single_precision();
         }

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::fields::{CellRule, Reals, each_cell, stored};
+use crate::fields::{CellRule, Reals, each_cell, reset, stored};
 use crate::model::TangentialField;
 
 /// Pressure and shear.
@@ -30,10 +30,10 @@ impl Tractions {
         Self { pressure: vec![0.0; len], shear: TangentialField::zeros(len) }
     }
 
-    /// Makes room for so many cells.
-    pub fn resize(&mut self, len: usize) {
+    /// Makes room for so many cells; what was in it is lost.
+    pub fn reset(&mut self, len: usize) {
         for field in [&mut self.pressure, &mut self.shear.x, &mut self.shear.y] {
-            field.resize(len, 0.0);
+            reset(field, len);
         }
     }
 

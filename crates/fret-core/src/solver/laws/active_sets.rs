@@ -2,7 +2,7 @@
 
 use super::friction::{CellState, FrictionBound};
 use super::slip_path::{SlipPath, row_of_chord};
-use crate::fields::{CellRule, Reals, each_cell, largest};
+use crate::fields::{CellRule, Reals, each_cell, largest, reset};
 use crate::model::TangentialField;
 
 /// Fraction of the largest bound below which slip stiffness grows no more: cells at the edge carry next to nothing.
@@ -54,7 +54,7 @@ impl ActiveSets {
         let [along_x, along_y] = direction.each_mut();
         let mut write = [stick, slip, along_x, along_y, stiffness, slip_weight];
         for field in &mut write {
-            field.resize(bound.bound.len(), 0.0);
+            reset(field, bound.bound.len());
         }
         let rule =
             Classify { least: LEAST_BOUND * largest(&bound.bound), cell_stiffness: 1.0 / self_influence };
@@ -70,7 +70,7 @@ impl ActiveSets {
         }
         let Self { slip: slips, direction, turned, .. } = self;
         let write = turned.each_mut().map(|field| {
-            field.resize(slips.len(), 0.0);
+            reset(field, slips.len());
             &mut field[..]
         });
         let ([along_x, along_y], [turn_x, turn_y]) = (direction.parts(), path.turn.parts());

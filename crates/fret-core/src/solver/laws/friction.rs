@@ -7,7 +7,7 @@
 
 use ndarray::Array2;
 
-use crate::fields::{CellRule, Reals, each_cell, length};
+use crate::fields::{CellRule, Reals, each_cell, length, reset};
 use crate::model::{CellValues, CoulombFriction};
 
 use super::super::contact_set::ContactSet;
@@ -72,8 +72,8 @@ impl FrictionLaw {
     /// The same, keeping the memory.
     pub fn find_bound(&self, pressure: &[f64], found: &mut FrictionBound) {
         let FrictionBound { bound, slope } = found;
-        bound.resize(pressure.len(), 0.0);
-        slope.resize(pressure.len(), 0.0);
+        reset(bound, pressure.len());
+        reset(slope, pressure.len());
         bounds_under(pressure, (&self.coefficient, &self.max_shear), [bound, slope]);
     }
 }

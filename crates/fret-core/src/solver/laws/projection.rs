@@ -3,7 +3,7 @@
 use super::active_sets::ActiveSets;
 use super::rigid_motions::RigidMotions;
 use super::slip::TangentialProblem;
-use crate::fields::{CellRule, Reals, TangentialField, each_cell, sum};
+use crate::fields::{CellRule, Reals, TangentialField, clear, each_cell, reset, sum};
 
 /// Cuts tension off and restores the total pressure by scaling, which keeps the shape of the edge.
 /// False when nothing is left to scale.
@@ -46,8 +46,7 @@ impl ShearProjection {
         sets: &ActiveSets,
         problem: &TangentialProblem<'_>,
     ) {
-        self.on_circle.clear();
-        self.on_circle.resize(sets.len(), 0.0);
+        clear(&mut self.on_circle, sets.len());
         let motions = problem.motions;
         let read = [
             problem.bound,
@@ -117,7 +116,7 @@ impl ShearProjection {
     ) -> Balance {
         let Self { on_circle, trial, trial_on } = self;
         for field in [&mut trial.x, &mut trial.y, &mut *trial_on] {
-            field.resize(problem.bound.len(), 0.0);
+            reset(field, problem.bound.len());
         }
         let RigidMotions { rotation, .. } = problem.motions;
         let read = [problem.bound, &shear.x, &shear.y, on_circle, &rotation.x, &rotation.y];

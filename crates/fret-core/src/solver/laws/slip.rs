@@ -6,7 +6,7 @@ use super::friction::onto_disc;
 use super::motion_by_force::{MotionByForce, Scale, size};
 use super::rigid_motions::RigidMotions;
 use super::slip_path::{SlipPath, end_of_chord};
-use crate::fields::{CellRule, Reals, TangentialField, each_cell};
+use crate::fields::{CellRule, Reals, TangentialField, each_cell, reset};
 
 /// Rounds in which motions and the turn of slip are found in alternation. What is left over after them is part of the residual.
 const MOST_TURNS: usize = 4;
@@ -65,7 +65,7 @@ impl SlipIncrement {
         let stiffness = 1.0 / problem.self_influence;
         let Self { slip, trial, .. } = self;
         for part in [&mut slip.x, &mut slip.y, &mut trial.x, &mut trial.y] {
-            part.resize(bound.len(), 0.0);
+            reset(part, bound.len());
         }
         let rotation = motions.rotation.parts();
         let read = [&u.x, &u.y, &before.x, &before.y, &q.x, &q.y, bound, rotation[0], rotation[1]];
@@ -92,8 +92,8 @@ impl SlipIncrement {
             }
         }
         let Self { slip, at_end, .. } = self;
-        at_end.x.resize(bound.len(), 0.0);
-        at_end.y.resize(bound.len(), 0.0);
+        reset(&mut at_end.x, bound.len());
+        reset(&mut at_end.y, bound.len());
         let straight = vec![0.0; if problem.path.turns() { 0 } else { bound.len() }];
         let turn = if problem.path.turns() { problem.path.turn.parts() } else { [&straight[..]; 2] };
         let read = [&q.x, &q.y, bound, turn[0], turn[1], rotation[0], rotation[1]];

@@ -21,7 +21,7 @@ impl<N: Number> Gmres<N> {
         combination: &mut ContactVector<N>,
     ) {
         self.basis.resize_with(self.basis.len().max(1), ContactVector::default);
-        self.basis[0].clone_from(right);
+        self.basis[0].convert(right, 1.0);
         // Columns of the upper triangle, rotations that made it one, and the rotated right side.
         let mut columns: Vec<Vec<f64>> = Vec::new();
         let mut rotations: Vec<[f64; 2]> = Vec::new();

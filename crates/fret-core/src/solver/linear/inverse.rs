@@ -2,7 +2,7 @@
 
 use super::super::contact_set::ContactSet;
 use crate::compliance::SharedWorkspace;
-use crate::fields::{Number, convert, dot, norm};
+use crate::fields::{Number, clear, convert, dot, norm, reset};
 use fret_fft::{PeriodicProduct, SingleProduct};
 
 /// A product of one or two fields that approximates the inverse of an operator.
@@ -34,11 +34,10 @@ struct Sides<B> {
 impl<B: Number> Sides<B> {
     fn clear(&mut self, cells: usize) {
         for field in &mut self.before {
-            field.clear();
-            field.resize(cells, B::default());
+            clear(field, cells);
         }
         for field in &mut self.after {
-            field.resize(cells, B::default());
+            reset(field, cells);
         }
     }
 
@@ -122,7 +121,7 @@ impl Inverse {
             Self::Single(product) => {
                 let Sides { before: [before, _], after: [after, _] } = &mut fields.single;
                 for field in [&mut *before, &mut *after] {
-                    field.resize(right.len(), 0.0);
+                    reset(field, right.len());
                 }
                 let unit = unit_of(norm(right));
                 convert(right, 1.0 / unit, before);

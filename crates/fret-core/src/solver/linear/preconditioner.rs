@@ -7,7 +7,7 @@ use ndarray::{Array2, s};
 use super::super::contact_set::ContactSet;
 use super::inverse::{Inverse, InverseFields};
 use crate::compliance::{SharedWorkspace, SurfaceResponse, mirrors};
-use crate::fields::{CellRule, Number, Reals, each_cell};
+use crate::fields::{CellRule, Number, Reals, clear, each_cell};
 use crate::kernel::ResponseTable;
 use crate::model::Symmetry;
 use fret_fft::{Block, ConvolutionError, Kernel, Parity, PeriodicProduct, Symbol};
@@ -180,8 +180,7 @@ impl Preconditioner {
         let [weighted_x, weighted_y] = weighted;
         let [part_x, part_y] = part;
         for field in [&mut *elastic, &mut *slip, weighted_x, weighted_y, part_x, part_y] {
-            field.clear(); // where shear acts along one axis nobody writes the other component
-            field.resize(stiffness.len(), N::default());
+            clear(field, stiffness.len()); // where shear acts along one axis nobody writes the other component
         }
         each_cell(&Weights { softest: self.softest / compliance }, [stiffness], [elastic, slip]);
         weights.compliance = compliance;

@@ -8,7 +8,7 @@ use super::super::laws::active_sets::ActiveSets;
 use super::super::laws::rigid_motions::RigidMotions;
 use super::preconditioner::{Preconditioner, SlipWeights};
 use super::rigid_projector::{RigidProjector, SetFields, free_part, products, rigid};
-use crate::fields::{CellRule, Number, Reals, add_scaled, convert, each_cell, lower, sum};
+use crate::fields::{CellRule, Number, Reals, add_scaled, convert, each_cell, lower, reset, sum};
 
 /// Active sets and what goes with them, packed, in the precision of a linear problem.
 #[derive(Debug, Default)]
@@ -30,7 +30,7 @@ impl<N: Number> LinearSets<N> {
     /// Takes over active sets, rotation and slopes; `compliance` is the unit of slip stiffness [length/pressure].
     pub fn take(&mut self, sets: &ActiveSets, motions: &RigidMotions, slope: &[f64], compliance: f64) {
         let take = |from: &[f64], factor: f64, to: &mut Vec<N>| {
-            to.resize(from.len(), N::default());
+            reset(to, from.len());
             convert(from, factor, to);
         };
         take(&sets.stick, 1.0, &mut self.stick);
@@ -97,9 +97,9 @@ impl<'a, N: Number> LinearProblem<'a, N> {
     ) -> Self {
         preconditioner.prepare(contact, &sets.stiffness, compliance, &mut workspace.slip_weights);
         for field in &mut workspace.unweighted {
-            field.resize(contact.len(), N::default());
+            reset(field, contact.len());
         }
-        workspace.turning.resize(contact.len(), N::default());
+        reset(&mut workspace.turning, contact.len());
         Self {
             tractions: RigidProjector::new(motions, sets.fields()),
             equations: RigidProjector::new(motions, sets.fields_of_equations()),

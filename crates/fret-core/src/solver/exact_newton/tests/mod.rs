@@ -1,12 +1,11 @@
-mod few_cells;
 mod solutions;
 
 use std::ops::ControlFlow;
 
+use super::super::few_cells::{Asked, Cells, KINDS, by_cell, kinds, size, tractions_of};
 use super::super::settings::Coupling;
 use super::*;
 use crate::random::Random;
-use few_cells::{Asked, Cells, KINDS, by_cell, kinds, size, tractions_of};
 
 #[test]
 fn a_newton_step_solves_the_equations_linearised_by_difference_quotients() {

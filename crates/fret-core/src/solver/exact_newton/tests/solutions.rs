@@ -2,11 +2,11 @@
 
 use std::ops::ControlFlow;
 
+use super::super::super::few_cells::{Asked, Cells, by_cell, size, tractions_of};
 use super::super::super::operators::Method;
 use super::super::super::settings::{Coupling, IterationCallback, SolverSettings};
 use super::super::super::tractions::{Displacements, Tractions};
 use super::super::solve;
-use super::few_cells::{Asked, Cells, by_cell, size, tractions_of};
 use crate::random::Random;
 
 /// Solves `matrix x = right` by elimination with row exchange; `None` where there is no pivot.

@@ -1,14 +1,14 @@
 //! Contacts of a few cells, and what the equations leave of them, written down a second time.
 
-use super::super::super::contact_problem::{ContactProblem, Pressure};
-use super::super::super::laws::friction::FrictionLaw;
-use super::super::super::laws::rigid_motions::CellPositions;
-use super::super::super::laws::slip_path::SlipPath;
-use super::super::super::linear::preconditioner::Preconditioner;
-use super::super::super::linear::solver::LinearSolver;
-use super::super::super::operators::RegionOperators;
-use super::super::super::region::Region;
-use super::super::super::tractions::{Displacements, Tractions};
+use super::contact_problem::{ContactProblem, Pressure};
+use super::laws::friction::FrictionLaw;
+use super::laws::rigid_motions::CellPositions;
+use super::laws::slip_path::SlipPath;
+use super::linear::preconditioner::Preconditioner;
+use super::linear::solver::LinearSolver;
+use super::operators::RegionOperators;
+use super::region::Region;
+use super::tractions::{Displacements, Tractions};
 use crate::compliance::{
     CellResponse, DirectCompliance, OperatorSet, SpectralCompliance, SurfaceCompliance, SurfaceResponse,
 };

@@ -1,0 +1,44 @@
+//! Room of fields that are used again and again: as much as they need.
+
+use super::registers::Number;
+
+/// What a field that must grow is given beyond its length: a sixteenth. Contacts grow little by little, and a vector that grows by
+/// itself takes twice its length.
+const RESERVE: usize = 16;
+
+/// Gives a field so many cells; what was in them is lost.
+pub fn reset<N: Number>(field: &mut Vec<N>, cells: usize) {
+    if field.capacity() < cells {
+        *field = Vec::new();
+        field.reserve_exact(cells + cells / RESERVE);
+    }
+    field.resize(cells, N::default());
+}
+
+/// Gives a field so many cells, all zero.
+pub fn clear<N: Number>(field: &mut Vec<N>, cells: usize) {
+    field.clear();
+    reset(field, cells);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn fields_that_grow_take_little_more_than_they_need() {
+        let mut field = vec![1.0; 64];
+        for cells in [64, 65, 66, 80, 10, 81, 200, 0] {
+            reset(&mut field, cells);
+            assert_eq!(field.len(), cells);
+            assert!(field.capacity() <= 201 + 200 / RESERVE, "{cells}: {}", field.capacity());
+            if cells == 66 {
+                // Room for a little more was there already.
+                assert_eq!(field.capacity(), 65 + 65 / RESERVE);
+            }
+            field.fill(3.0);
+            clear(&mut field, cells);
+            assert_eq!(field, vec![0.0; cells]);
+        }
+    }
+}
