@@ -87,7 +87,7 @@ def plain(value: object, place: str, arrays: list[Reals] | None = None, depth: i
     if (
         arrays is not None
         and isinstance(value, np.ndarray)
-        and place.endswith((".values", ".map", ".friction"))
+        and place.endswith((".values", ".map", ".friction", ".max_shear"))
         and value.ndim > 0
     ):
         arrays.append(_field(value, place))

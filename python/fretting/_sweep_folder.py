@@ -15,7 +15,7 @@ FORMAT = 1
 """Version of the folder's format."""
 
 
-_NAMES_A_FILE = ("file", "map", "friction", "table")
+_NAMES_A_FILE = ("file", "map", "friction", "max_shear", "table")
 """Keys of a case whose words are names of files."""
 
 

@@ -36,6 +36,8 @@ def temperature(history: "History", cycle: int, frequency: float | None, threads
             raise ValueError("temperature: the case has no [thermal] frequency; give frequency=...")
     if not (np.isfinite(frequency) and frequency > 0.0):
         raise ValueError(f"frequency = {frequency}: must be positive and finite")
+    if history.plan["case"]["friction"].get("max_shear") is not None:
+        raise ValueError("temperature: heat by friction under friction.max_shear, a shear strength, is not computed")
     count = len(history.cycles["cycle"])
     if not -count <= cycle < count:
         raise IndexError(f"cycle {cycle}: the history has {count} computed cycles, counted from 0")

@@ -44,6 +44,14 @@ def test_contact_resistance_is_holms(sphere_case: dict[str, Any]) -> None:
     assert abs(thermal / history.contact_resistance() / ((1 / 15 + 1 / 45) / 8e-7) - 1.0) < 1e-9
 
 
+def test_a_shear_strength_is_refused(fretting_case: dict[str, Any]) -> None:
+    case = conducting(fretting_case)
+    case["friction"]["max_shear"] = 1e12
+    history = fretting.run(case)
+    with pytest.raises(ValueError, match="friction.max_shear"):
+        history.temperature(frequency=20.0)
+
+
 def test_what_is_missing_is_said(fretting_case: dict[str, Any]) -> None:
     history = fretting.run(fretting_case)
     with pytest.raises(ValueError, match="frequency"):

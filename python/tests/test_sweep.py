@@ -280,6 +280,24 @@ def test_a_changed_base_case_and_a_damaged_file_are_noticed(case: dict[str, Any]
     np.testing.assert_array_equal(third["approach"].values, second["approach"].values)
 
 
+def test_a_changed_file_of_a_case_makes_other_points(case: dict[str, Any], tmp_path: Path) -> None:
+    strength = tmp_path / "strength.npy"
+    case["friction"]["max_shear"] = str(strength)
+    answers = []
+    for value in (1e12, 1e12, 5e7):
+        np.save(strength, np.full((20, 20), value))
+        answers.append(fretting.sweep(case, {FORCE: [0.5]}, folder=tmp_path / "points"))
+    assert [answer.attrs["solved_before"] for answer in answers] == [0, 1, 0]
+
+
+def test_an_array_of_strengths_is_that_of_its_file(case: dict[str, Any], tmp_path: Path) -> None:
+    values = np.linspace(8e7, 1.2e8, 400).reshape(20, 20)
+    np.save(tmp_path / "strength.npy", values)
+    given = [fretting.run({**case, "friction": {**case["friction"], "max_shear": strength}})
+             for strength in (values, str(tmp_path / "strength.npy"))]  # fmt: skip
+    np.testing.assert_array_equal(*(history.field("shear_x") for history in given))
+
+
 def test_a_folder_of_other_things_is_left_alone(case: dict[str, Any], tmp_path: Path) -> None:
     (tmp_path / "thesis.tex").write_text("years of work")
     with pytest.raises(FileExistsError, match="holds files that are no sweep"):

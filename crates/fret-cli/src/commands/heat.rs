@@ -119,6 +119,12 @@ fn temperature(
     let Some(cycle) = run.cycles.last() else {
         return Err(refuse("no cycle is over, and only of a cycle is the mean power known".to_owned()));
     };
+    if !run.record["plan"]["case"]["friction"]["max_shear"].is_null() {
+        return Err(Failure::Call(
+            format!("{shown}: heat by friction under friction.max_shear, a shear strength, is not computed"),
+            "leave [thermal] frequency out: the contact resistance does not need it".to_owned(),
+        ));
+    }
     let [nx, ny] = run.grid.cells();
     let none = || Array2::zeros((nx, ny));
     let mut increments = Vec::new();

@@ -89,7 +89,8 @@ impl Model {
             _ => self.case.clone(),
         };
         case.friction = CoulombFriction::uniform(friction)
-            .map_err(|error| Failure::Call(format!("friction {error}"), String::new()))?;
+            .map_err(|error| Failure::Call(format!("friction {error}"), String::new()))?
+            .with_max_shear_of(&case.friction);
         let compliance = 1.0 / stiffness;
         case.rig = Some(Rig { normal: case.springs().normal, tangential: [compliance; 2] });
         let pressing: usize = case.stages.iter().map(Stage::increments_in_all).sum();

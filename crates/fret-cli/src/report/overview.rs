@@ -111,6 +111,9 @@ impl<'a> Overview<'a> {
 
     /// What bounds shear in an increment: friction coefficient and shear strength, where they are the same everywhere.
     pub fn friction_at(&self, increment: usize) -> Option<(f64, Option<f64>)> {
+        if self.results.planned::<Value>("/case/friction_evolution").is_some_and(|law| !law.is_null()) {
+            return None;
+        }
         let (stage, _) = self.place(increment);
         let of_stage = format!("/case/stages/{stage}/friction");
         let changed = self.results.planned::<Value>(&of_stage).is_some_and(|friction| !friction.is_null());

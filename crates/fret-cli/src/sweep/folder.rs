@@ -199,7 +199,9 @@ fn files_named(text: &str) -> Vec<String> {
         match value {
             toml::Value::Table(table) => table.iter().for_each(|(key, value)| look(value, key, found)),
             toml::Value::Array(items) => items.iter().for_each(|item| look(item, key, found)),
-            toml::Value::String(name) if matches!(key, "file" | "map" | "friction" | "table") => {
+            toml::Value::String(name)
+                if matches!(key, "file" | "map" | "friction" | "max_shear" | "table") =>
+            {
                 found.push(name.clone());
             }
             _ => {}

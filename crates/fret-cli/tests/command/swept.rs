@@ -84,6 +84,35 @@ fn a_damaged_point_is_solved_again() {
     assert_eq!(bench.text("results/many/summary.csv"), summary);
 }
 
+/// A point is known by what stands in the files that its case names.
+#[test]
+fn a_changed_file_of_a_case_makes_other_points() {
+    let bench = Bench::new("sweep-files");
+    let rows = |value: f64| vec![vec![value.to_string(); 24].join(","); 24].join("\n");
+    for key in ["map", "max_shear"] {
+        let law = if key == "map" {
+            "map = \"values.csv\""
+        } else {
+            "coefficient = 0.1\nmax_shear = \"values.csv\""
+        };
+        let case = SPHERE.replace("coefficient = 0.1", law);
+        bench
+            .file("case.toml", &case)
+            .file("many.toml", "base = 'case.toml'\n[axes]\n'load.fretting.tangential_force.0' = [0.05]\n");
+        let energy = |value: f64, before: &str| {
+            let answer = bench.file("values.csv", &rows(value)).fret(&["sweep", "many.toml"]);
+            assert_eq!(answer.code, Some(0), "{key}: {}", answer.err);
+            assert!(answer.out.contains(before), "{key}: {}", answer.out);
+            column(&bench.text("results/many/summary.csv"), "dissipated_energy")[0].clone()
+        };
+        // Either keeps the contact from sliding as a whole; the second slips more.
+        let values = if key == "map" { [0.1, 0.09] } else { [1e9, 2e7] };
+        let first = energy(values[0], "0 found finished");
+        assert_eq!(energy(values[0], "1 found finished"), first);
+        assert_ne!(energy(values[1], "0 found finished"), first);
+    }
+}
+
 #[test]
 fn points_may_be_listed() {
     let bench = Bench::new("sweep-listed");

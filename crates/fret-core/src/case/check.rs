@@ -103,7 +103,7 @@ pub(super) fn case(
         files,
         file.thermal.as_ref(),
         (stages.as_deref(), output.as_ref()),
-        (frictionless, is_line, periodic),
+        (laws.as_deref(), is_line, periodic),
     );
     match (cells, size, bodies, profile, friction, stages, tolerance, output) {
         (

@@ -7,7 +7,7 @@ use super::course::{Course, Stage};
 use super::file::ThermalFile;
 use super::judge::Judge;
 use super::output::Output;
-use crate::model::{ConductingLayer, Conduction, Conductor};
+use crate::model::{ConductingLayer, Conduction, Conductor, CoulombFriction};
 
 /// What a key of a layer means: its name, and conductivity from its value.
 type Key = (&'static str, fn(f64) -> f64);
@@ -21,7 +21,7 @@ pub(super) fn conduction(
     bodies: [(&str, &BodyFile); 2],
     thermal: Option<&Spanned<ThermalFile>>,
     history: (Option<&[Stage]>, Option<&Output>),
-    (frictionless, is_line, periodic): (bool, bool, bool),
+    (friction, is_line, periodic): (Option<&[&CoulombFriction]>, bool, bool),
 ) -> Conduction {
     let before = judge.mistakes.len();
     let of = |judge: &mut Judge, key: Key| bodies.map(|(which, body)| conductor(judge, which, body, key));
@@ -39,7 +39,7 @@ pub(super) fn conduction(
     if judge.mistakes.len() > before {
         return conduction;
     }
-    if let Some((why, help)) = without_meaning(&conduction, history, (frictionless, is_line, periodic)) {
+    if let Some((why, help)) = without_meaning(&conduction, history, (friction, is_line, periodic)) {
         judge.refuse::<()>(table.span(), format!("thermal: {why}"), help);
     }
     conduction
@@ -49,7 +49,7 @@ pub(super) fn conduction(
 fn without_meaning(
     conduction: &Conduction,
     (stages, output): (Option<&[Stage]>, Option<&Output>),
-    (frictionless, is_line, periodic): (bool, bool, bool),
+    (friction, is_line, periodic): (Option<&[&CoulombFriction]>, bool, bool),
 ) -> Option<(&'static str, &'static str)> {
     let is_cyclic = |stage: &Stage| matches!(stage.course, Course::Cycles(_));
     if conduction.thermal.iter().all(Option::is_none) {
@@ -58,8 +58,14 @@ fn without_meaning(
             "thermal_conductivity = ... in every layer and substrate of a body",
         ));
     }
-    if frictionless {
+    if friction.is_some_and(|laws| laws.iter().all(|law| law.is_frictionless())) {
         return Some(("a contact without friction makes no heat", "[friction] coefficient = ..."));
+    }
+    if friction.is_some_and(|laws| laws.iter().any(|law| law.max_shear().is_some())) {
+        return Some((
+            "heat by friction under friction.max_shear, a shear strength, is not computed",
+            "without max_shear, or without [thermal]: the contact resistance needs none",
+        ));
     }
     if is_line {
         return Some((
@@ -172,8 +178,12 @@ mod tests {
         [[load]]\ntangential_force = [1e-3, 0.0]\nincrements = 8\ncycles = 1\n";
 
     fn read(words: [&str; 4], more: &str) -> Result<Case, String> {
+        read_from(CASE, words, more)
+    }
+
+    fn read_from(case: &str, words: [&str; 4], more: &str) -> Result<Case, String> {
         let [upper, coating, substrate, every] = words;
-        let text = CASE.replace("UPPER", upper).replace("COATING", coating);
+        let text = case.replace("UPPER", upper).replace("COATING", coating);
         let text = text.replace("SUBSTRATE", substrate).replace("EVERY", every);
         Case::from_toml(&format!("{text}{more}"), "case.toml").map_err(|error| error.to_string())
     }
@@ -231,6 +241,18 @@ mod tests {
             assert!(error.contains(message), "{words:?} {more}: {error}");
             assert_eq!(error.matches("error: ").count(), 1, "{error}");
         }
+    }
+
+    /// The bound before an increment does not follow from pressure and shear after it.
+    #[test]
+    fn no_heat_is_told_of_an_interface_with_a_shear_strength() {
+        let with_strength = |heat: &str| {
+            let text = CASE.replace("coefficient = 0.3", "coefficient = 0.3\nmax_shear = 1e-3");
+            read_from(&text, CONDUCTS, heat)
+        };
+        assert!(with_strength("").unwrap().conduction.thermal[0].is_some());
+        let error = with_strength("[thermal]\nfrequency = 20.0\n").unwrap_err();
+        assert!(error.contains("friction.max_shear"), "{error}");
     }
 
     #[test]

@@ -31,8 +31,8 @@ pub struct SlipOfCycle {
 /// Dissipated energy per area over the increments of a cycle, the state before its first included, scaled to the `dissipated_energy` that
 /// the run recorded of it; `None` when the increments give another energy by more than a tenth: some of them are missing.
 ///
-/// `(|q| (p0 + p)/(2 p)) |ds|`: the mean of the friction bound over an increment, for shear q that is at its bound where it slips, along
-/// straight lines. The run itself takes arcs where slip turns, up to 1 % longer in an increment.
+/// `(|q| (p0 + p)/(2 p)) |ds|`: the mean of the friction bound `mu p` over an increment, for shear q that is at its bound where it slips,
+/// along straight lines; not that of an interface with a shear strength. The run itself takes arcs where slip turns, up to 1 % longer in an increment.
 pub fn slip_of_cycle(
     increments: impl IntoIterator<Item = HeatedSurface>,
     dissipated_energy: f64,

@@ -131,9 +131,12 @@ pub static STEP_COLUMNS: &[Column<StepRecord>] = &[
     count("preconditioner_passes", "preconditioner applications", NO_UNIT, |step| {
         step.work.preconditioner_passes
     }),
-    count("outer_iterations", "changes of the contact, stick and slip zones", NO_UNIT, |step| {
-        step.work.outer_iterations
-    }),
+    count(
+        "outer_iterations",
+        "Newton iterations, without coupling with those of the pressure",
+        NO_UNIT,
+        |step| step.work.outer_iterations,
+    ),
     real("wall_s", "time spent on the increment", SECONDS, |step| step.wall_s),
     count("contact_cells", "cells in contact", NO_UNIT, |step| step.contact_cells),
     count("stick_cells", "stick cells", NO_UNIT, |step| step.stick_cells),

@@ -66,7 +66,7 @@ pub fn solve(
     Ok(Solved { tractions, displacements, drift, solution })
 }
 
-/// Brings predicted pressure to what its laws allow. Shear keeps its ratio to the pressure: what was on its circle stays there.
+/// Brings predicted pressure to what its laws allow. Shear keeps its ratio to the pressure, and so a cell under `mu p` stays on its circle.
 fn make_pressure_feasible(tractions: &mut Tractions, total: Option<f64>) {
     if let Some(total) = total {
         let found: f64 = tractions.pressure.iter().map(|p| p.max(0.0)).sum();

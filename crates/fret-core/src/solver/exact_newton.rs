@@ -270,7 +270,7 @@ impl<'a> Attempt<'a> {
             let (bound, slope) = problem.friction.at(cell, augmented);
             let size = trial[0].hypot(trial[1]);
             let along = if size > 0.0 { trial.map(|part| part / size) } else { [1.0, 0.0] };
-            let (stiffness, shear_unknowns) = match (bound > 0.0, size > bound) {
+            let (slip_compliance, shear_unknowns) = match (bound > 0.0, size > bound) {
                 (true, false) => (None, 2),
                 (true, true) => (Some((size - bound) * tangential / bound), 1),
                 (false, _) => (Some(0.0), 0),
@@ -282,8 +282,8 @@ impl<'a> Attempt<'a> {
                 across,
                 turning: problem.path.row_across(cell, self.slip(here, cell), across),
                 slope,
-                offset: if stiffness.is_some() { bound - slope * augmented } else { 0.0 },
-                stiffness,
+                offset: if slip_compliance.is_some() { bound - slope * augmented } else { 0.0 },
+                slip_compliance,
                 first,
                 shear_unknowns,
             });

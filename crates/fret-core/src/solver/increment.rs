@@ -51,7 +51,7 @@ impl ContactSolver<'_> {
                 continue;
             }
             let (solved, after, outcome) = solved?;
-            self.check(load, &after, &outcome)?;
+            self.check(load, &after, &outcome, solved.solution.iterations)?;
             let (gap, contact_area) = self.gap_and_area((region, load), &solved, &after, work)?;
             if self.overlaps_outside(region, &gap) {
                 region = Region::whole(self.grid.cells());
@@ -297,9 +297,15 @@ impl ContactSolver<'_> {
     }
 
     /// Whether what was found is a solution: as far as the equations of the region do not say.
-    fn check(&self, load: &LoadStep, after: &ContactState, outcome: &Outcome) -> Result<(), SolveError> {
-        self.check_equilibrium(load, outcome)?;
-        self.check_across(after)?;
+    fn check(
+        &self,
+        load: &LoadStep,
+        after: &ContactState,
+        outcome: &Outcome,
+        iterations: usize,
+    ) -> Result<(), SolveError> {
+        self.check_equilibrium(load, outcome, iterations)?;
+        self.check_across(after, iterations)?;
         if self.touches_edge(&after.pressure) {
             return Err(SolveError::ContactAtEdge);
         }
@@ -307,18 +313,23 @@ impl ContactSolver<'_> {
     }
 
     /// Whether the forces asked for are those of the solution: with a prescribed approach they may be more than friction carries.
-    fn check_equilibrium(&self, load: &LoadStep, outcome: &Outcome) -> Result<(), SolveError> {
+    fn check_equilibrium(
+        &self,
+        load: &LoadStep,
+        outcome: &Outcome,
+        iterations: usize,
+    ) -> Result<(), SolveError> {
         self.check_friction_carries(load, outcome.resultants.normal, self.settings.tolerance)?;
         let reached = outcome.residual.equilibrium;
         if reached <= self.settings.tolerance {
             return Ok(());
         }
-        Err(SolveError::NotConverged { reached, iterations: self.settings.max_newton_iterations })
+        Err(SolveError::NotConverged { reached, iterations })
     }
 
     /// Whether there is no shear across the one axis along which it acts: its displacement is left out, so that nothing else would
     /// tell.
-    fn check_across(&self, state: &ContactState) -> Result<(), SolveError> {
+    fn check_across(&self, state: &ContactState, iterations: usize) -> Result<(), SolveError> {
         let Some(axis) = self.shear_axis else { return Ok(()) };
         let size = |field: &Array2<f64>| field.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
         let (across, bound) = (size(&state.shear[1 - axis]), self.friction.largest() * size(&state.pressure));
@@ -326,7 +337,7 @@ impl ContactSolver<'_> {
             return Ok(());
         }
         let reached = if bound > 0.0 { across / bound } else { 1.0 };
-        Err(SolveError::NotConverged { reached, iterations: self.settings.max_newton_iterations })
+        Err(SolveError::NotConverged { reached, iterations })
     }
 
     fn check_friction_carries(&self, load: &LoadStep, normal: f64, tolerance: f64) -> Result<(), SolveError> {

@@ -35,7 +35,7 @@ pub struct Iterate<'a> {
     tangential: TangentialResidual,
     slip: SlipIncrement,
     sets: ActiveSets,
-    /// The contact that they are of.
+    /// The contact for which `sets` were found.
     contact_of_sets: ContactSet,
     step: ContactVector<f64>,
     /// Resultants that the next projection restores [pressure].
@@ -149,7 +149,7 @@ impl<'a> Iterate<'a> {
         worst.max(self.tangential.residual)
     }
 
-    /// What every cell in contact does.
+    /// The stick and slip sets.
     pub fn find_sets(&mut self) {
         let Self { packed, slip, self_influence: [_, own], .. } = self;
         self.sets.classify(&packed.shear, &slip.at_end, &packed.bound, *own);
@@ -157,7 +157,7 @@ impl<'a> Iterate<'a> {
         self.contact_of_sets.clone_from(&self.contact);
     }
 
-    /// The step that solves the linearised problem as far as the sets deserve it.
+    /// The step that solves the linearised problem to the forcing term.
     pub fn find_step(&mut self, forcing: f64, settings: &SolverSettings, operators: &mut RegionOperators) {
         let Self { problem, packed, self_influence, .. } = self;
         let Packed { pressure, bound, gap, .. } = packed;
@@ -167,7 +167,7 @@ impl<'a> Iterate<'a> {
         };
         let mut left_over = self.slip.left_over(&self.sets);
         if self.motions.any_spring() {
-            // Of the shear as it is the spring makes another motion than of what the law makes of it.
+            // The displacement of the spring follows from the shear as it is, not from what the law makes of it.
             let parts = [(&mut left_over.x, &packed.shear.x), (&mut left_over.y, &packed.shear.y)];
             for (mode, (slip, shear)) in parts.into_iter().enumerate() {
                 let spring = self.motions.spring[mode];
@@ -227,7 +227,7 @@ impl<'a> Iterate<'a> {
         self.packed.shear = shear;
     }
 
-    /// Puts the shear of cells that slip, and lie inside their circles by what the solution is off, on these. Whether there were any.
+    /// Moves slipping cells that lie inside their friction circles, by what the solution is off, onto these. Whether there were any.
     pub fn puts_slipping_cells_on_their_circles(&mut self) -> bool {
         let [_, own] = self.self_influence;
         let Packed { shear, bound, .. } = &self.packed;

@@ -3,7 +3,7 @@
 //! problem linearised on these sets is solved inexactly by a Krylov method, and what comes out is projected onto what the laws
 //! allow, with exact resultants; until all laws hold. Where the pressure is given, the same for shear alone.
 
-use super::contact_problem::{ContactProblem, Solution};
+use super::contact_problem::{ContactProblem, Pressure, Solution};
 use super::contact_set::ContactSet;
 use super::globalisation::{Backtracking, ForcingTerm};
 use super::iterate::Iterate;
@@ -17,13 +17,13 @@ use super::tractions::{Displacements, Tractions};
 use crate::compliance::SurfaceCompliance;
 use crate::model::TangentialField;
 
-/// The sets are lost when so many iterations have not brought the residual below [`FAR`].
+/// Given up when so many iterations have not brought the residual below [`FAR`].
 const LOST_AFTER: usize = 15;
 /// Shear of slipping cells that a solution leaves inside its circles, by less than the tolerance, is put there so many times.
 const MOST_ROUNDS_TO_CIRCLES: usize = 3;
 /// A residual at which the sets are not yet those of the solution.
 const FAR: f64 = 0.1;
-/// They are lost, too, when so many iterations have brought no smaller residual: they go in circles.
+/// Where the pressure is unknown, given up as well when so many iterations in a row have brought no smaller residual: they go in circles.
 const LOST_WITHOUT_GAIN: usize = 10;
 
 /// Solves the equations from feasible `tractions` with their `displacements`; both end at the solution, or at what was reached.
@@ -43,8 +43,10 @@ pub fn solve(
     let mut backtracking = Backtracking::default();
     let mut circles_left = MOST_ROUNDS_TO_CIRCLES;
     operators.linear.begin();
+    // Shear alone has no exact Newton method to be left to; in the staggered scheme it is half a step.
+    let has_another_resort = problem.pressure == Pressure::Unknown;
     if problem.give() != [0.0; 3] {
-        // A machine that gives much drowns what single precision would leave of the contact's own displacement.
+        // Beside a compliant rig single precision would lose the contact's own displacement.
         operators.linear.avoid_single_precision();
     }
     for iteration in 0..settings.max_newton_iterations {
@@ -66,8 +68,8 @@ pub fn solve(
         }
         let target = forcing.next(residual, settings.tolerance);
         let is_far = iteration >= LOST_AFTER && forcing.best > FAR;
-        if is_far || forcing.without_gain >= LOST_WITHOUT_GAIN {
-            break;
+        if is_far || (has_another_resort && forcing.without_gain >= LOST_WITHOUT_GAIN) {
+            return Err(not_converged(iteration, &forcing));
         }
         if forcing.wants_double_precision() {
             operators.linear.avoid_single_precision();
@@ -75,11 +77,15 @@ pub fn solve(
         iterate.find_sets();
         iterate.find_step(target, settings, operators);
         if !iterate.take_step() {
-            break;
+            return Err(not_converged(iteration, &forcing));
         }
         iterate.find_displacements(operators);
     }
-    Err(SolveError::NotConverged { reached: forcing.best, iterations: settings.max_newton_iterations })
+    Err(not_converged(settings.max_newton_iterations, &forcing))
+}
+
+fn not_converged(iterations: usize, forcing: &ForcingTerm) -> SolveError {
+    SolveError::NotConverged { reached: forcing.best, iterations }
 }
 
 /// The residual of tractions with their `displacements`, and what goes with it.

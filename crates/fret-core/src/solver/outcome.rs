@@ -12,9 +12,10 @@ pub struct Residual {
     /// self-influence of a cell.
     pub complementarity: f64,
     /// `|q - Proj(q + slip / K)| / |b|`, Euclidean norms over the cells in contact; Proj onto the friction disc of radius b, K tangential
-    /// self-influence, slip the slip increment.
+    /// self-influence (the smaller of both axes), slip that at the end of the increment.
     pub coulomb: f64,
-    /// Prescribed forces against the sums of the tractions, relative to the normal force (tangential: to the sum of the bounds).
+    /// Prescribed forces against the sums of the tractions, relative to the normal force (tangential: to the sum of the bounds; torsion: to
+    /// that times the largest coordinate; moments of the pressure: to the normal force times its radius of gyration).
     pub equilibrium: f64,
 }
 
@@ -51,7 +52,7 @@ pub struct Work {
     pub full_grid_convolutions: f64,
     /// Preconditioner applications (unpadded).
     pub preconditioner_passes: usize,
-    /// Outer iterations: changes of the contact, stick and slip zones.
+    /// Newton iterations; without coupling with those of the pressure before them.
     pub outer_iterations: usize,
     /// Iterations of the exact Newton method, the last resort: 0 where the usual way solved the increment.
     #[serde(default)]

@@ -19,8 +19,8 @@ pub struct ActiveCell {
     /// Where it slips: bound and slope at the augmented pressure y, with `bound - slope y`.
     pub slope: f64,
     pub offset: f64,
-    /// Slip stiffness [length/pressure]; `None` where it sticks.
-    pub stiffness: Option<f64>,
+    /// Slip compliance [length/pressure]; `None` where it sticks.
+    pub slip_compliance: Option<f64>,
     /// Place of its pressure among the unknowns; its shear follows, two of them in stick and one in slip.
     pub first: usize,
     /// Unknowns of its shear.
@@ -31,7 +31,7 @@ impl ActiveCell {
     /// The traction `[p, qx, qy]` of a unit of each of its unknowns.
     fn columns(&self) -> [[f64; 3]; 3] {
         let Self { along, across, slope, .. } = self;
-        match self.stiffness {
+        match self.slip_compliance {
             None => [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
             Some(_) => [[1.0, slope * along[0], slope * along[1]], [0.0, across[0], across[1]], [0.0; 3]],
         }
@@ -39,7 +39,7 @@ impl ActiveCell {
 
     /// The displacement that each of its equations is about.
     fn rows(&self) -> [[f64; 3]; 3] {
-        match self.stiffness {
+        match self.slip_compliance {
             None => [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
             Some(_) => [[1.0, 0.0, 0.0], [0.0, self.turning[0], self.turning[1]], [0.0; 3]],
         }
@@ -120,8 +120,8 @@ impl LinearSystem<'_> {
             for (row, vector) in rows.iter().enumerate().take(to.unknowns()).skip(1) {
                 let wanted = vector[1] * (before[0] + moved[0]) + vector[2] * (before[1] + moved[1]);
                 right[(to.first + row, 0)] += wanted / unit;
-                if let Some(stiffness) = to.stiffness {
-                    matrix[(to.first + row, to.first + row)] += stiffness / unit;
+                if let Some(slip_compliance) = to.slip_compliance {
+                    matrix[(to.first + row, to.first + row)] += slip_compliance / unit;
                 }
             }
             let columns = to.columns();

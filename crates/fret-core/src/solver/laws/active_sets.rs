@@ -5,7 +5,7 @@ use super::slip_path::{SlipPath, row_of_chord};
 use crate::fields::{CellRule, Reals, each_cell, largest, reset};
 use crate::model::TangentialField;
 
-/// Fraction of the largest bound below which slip stiffness grows no more: cells at the edge carry next to nothing.
+/// Fraction of the largest bound below which slip compliance grows no more: cells at the edge carry next to nothing.
 const LEAST_BOUND: f64 = 1e-6;
 
 /// Active sets of the cells in contact, packed. A cell that neither sticks nor slips just enters contact, or has no friction.
@@ -21,9 +21,9 @@ pub struct ActiveSets {
     turned: TangentialField,
     /// Whether any does.
     turns: bool,
-    /// Slip stiffness of slipping cells [length/pressure].
-    pub stiffness: Vec<f64>,
-    /// Weights of the equations of slipping cells, `1 / sqrt(1 + D / K)` with slip stiffness D and self-influence K, zero elsewhere: a
+    /// Slip compliance of slipping cells [length/pressure].
+    pub slip_compliance: Vec<f64>,
+    /// Weights of the equations of slipping cells, `1 / sqrt(1 + D / K)` with slip compliance D and self-influence K, zero elsewhere: a
     /// displacement turns the shear of a stiff cell by little, and counts by as much.
     pub slip_weight: Vec<f64>,
 }
@@ -50,9 +50,9 @@ impl ActiveSets {
         bound: &FrictionBound,
         self_influence: f64,
     ) {
-        let Self { stick, slip, direction, stiffness, slip_weight, .. } = self;
+        let Self { stick, slip, direction, slip_compliance, slip_weight, .. } = self;
         let [along_x, along_y] = direction.each_mut();
-        let mut write = [stick, slip, along_x, along_y, stiffness, slip_weight];
+        let mut write = [stick, slip, along_x, along_y, slip_compliance, slip_weight];
         for field in &mut write {
             reset(field, bound.bound.len());
         }
@@ -105,12 +105,12 @@ impl CellRule<5, 6, 0> for Classify {
     fn at<R: Reals>(
         &self,
         [qx, qy, slip_x, slip_y, bound]: [R; 5],
-        [stick, slip, along_x, along_y, stiffness, weight]: &mut [R; 6],
+        [stick, slip, along_x, along_y, slip_compliance, weight]: &mut [R; 6],
     ) -> [R; 0] {
         let cell = CellState::new([qx, qy], [slip_x, slip_y], bound, self.least);
-        [*stick, *slip, *stiffness] = [cell.stick, cell.slip, cell.stiffness];
+        [*stick, *slip, *slip_compliance] = [cell.stick, cell.slip, cell.slip_compliance];
         [*along_x, *along_y] = cell.direction;
-        *weight = cell.slip / (cell.stiffness * self.cell_stiffness + 1.0).sqrt();
+        *weight = cell.slip / (cell.slip_compliance * self.cell_stiffness + 1.0).sqrt();
         []
     }
 }
@@ -149,7 +149,7 @@ mod tests {
         assert_eq!(sets.slip, [0.0, 1.0, 0.0, 0.0]);
         assert_eq!(sets.direction.x, [0.0, 1.0, 0.0, 0.0]);
         assert_eq!(sets.direction.y, [0.0, 0.0, 0.0, -1.0]);
-        assert_eq!(sets.stiffness, [0.0, 0.15, 0.0, 0.0]);
+        assert_eq!(sets.slip_compliance, [0.0, 0.15, 0.0, 0.0]);
         // 1 / sqrt(1 + 0.15 / 0.05)
         assert!((sets.slip_weight[1] - 0.5).abs() < 1e-15);
     }
@@ -192,14 +192,14 @@ mod tests {
 
     /// A cell whose bound is next to nothing is as stiff as one of a millionth of the largest bound.
     #[test]
-    fn stiffness_grows_no_more_below_a_millionth_of_the_largest_bound() {
+    fn slip_compliance_grows_no_more_below_a_millionth_of_the_largest_bound() {
         let q = TangentialField { x: vec![4.0, 4e-9, 8e-6], y: vec![0.0; 3] };
         let slip = TangentialField { x: vec![0.2; 3], y: vec![0.0; 3] };
         let bound = FrictionBound { bound: q.x.clone(), slope: vec![0.1; 3] };
         let sets = ActiveSets::of(&q, &slip, &bound, 1.0);
         let expected = [0.2 / 4.0, 0.2 / 4e-6, 0.2 / 8e-6];
-        for (found, expected) in sets.stiffness.iter().zip(expected) {
-            assert!((found / expected - 1.0).abs() < 1e-14, "{:?}", sets.stiffness);
+        for (found, expected) in sets.slip_compliance.iter().zip(expected) {
+            assert!((found / expected - 1.0).abs() < 1e-14, "{:?}", sets.slip_compliance);
         }
     }
 }

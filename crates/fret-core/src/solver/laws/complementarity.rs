@@ -1,4 +1,4 @@
-//! Complementarity of gap and pressure: `g >= 0`, `p >= 0`, `g p = 0` (Signorini). The one residual of it, for every way of solving.
+//! Complementarity of gap and pressure: `g >= 0`, `p >= 0`, `g p = 0` (Signorini). Its residual, for every way of solving.
 
 use crate::fields::{CellRule, CellSize, Reals, each_cell, largest_of, lower};
 

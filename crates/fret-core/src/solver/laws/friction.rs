@@ -1,6 +1,6 @@
 //! The friction law, whole: the bound on shear, the disc it spans, what a cell does under it, how shear turns with slip, and what
-//! slip dissipates. Another law of the same kind (shear bounded by a function of the pressure, opposed to slip) is written here and
-//! nowhere else.
+//! slip dissipates. Another law of the same kind (shear bounded by a function of the pressure, opposed to slip) is written here; what
+//! outside of the solver assumes a bound of at most `mu p` stands in `docs/developers/extend.md`.
 //!
 //! Coulomb: `|q| <= b(p)`; where `|q| = b` the surfaces may slip, along `q`, the shear on the lower body; elsewhere they stick.
 //! `b = min(mu p, tau)` with the shear strength `tau` of the interface, where it has one.
@@ -186,13 +186,13 @@ pub struct CellState<R> {
     pub slip: R,
     /// Direction of the shear of a cell that does not stick.
     pub direction: [R; 2],
-    /// Slip stiffness `|slip| / b` [length/pressure]: the tangential displacement across the slip by which a unit of shear across it
+    /// Slip compliance `|slip| / b` [length/pressure]: the tangential displacement across the slip by which a unit of shear across it
     /// is turned.
-    pub stiffness: R,
+    pub slip_compliance: R,
 }
 
 impl<R: Reals> CellState<R> {
-    /// On the circle and dragged outward: slips. Dragged inward, or inside the disc: sticks. The stiffness of a bound below `least`
+    /// On the circle and dragged outward: slips. Dragged inward, or inside the disc: sticks. The slip compliance of a bound below `least`
     /// grows no more.
     #[inline(always)]
     pub fn new([qx, qy]: [R; 2], [slip_x, slip_y]: [R; 2], bound: R, least: f64) -> Self {
@@ -213,7 +213,7 @@ impl<R: Reals> CellState<R> {
             stick: one - slip - enters,
             slip,
             direction: [direction(towards[0], entering[0]), direction(towards[1], entering[1])],
-            stiffness: slip.if_at_most(zero, zero, outward / bound.max(bound.all(least))),
+            slip_compliance: slip.if_at_most(zero, zero, outward / bound.max(bound.all(least))),
         }
     }
 }

@@ -1,6 +1,6 @@
 //! An approximate inverse of the elastic response by unpadded transforms on the region, wavenumber by wavenumber (a circulant
 //! preconditioner: Strang 1986, T. Chan 1988): for pressure the frequency response of the pair where it is known; else the kernel
-//! made periodic with the nearest image of each offset only; in slipping cells the slip stiffness takes its part.
+//! made periodic with the nearest image of each offset only; in slipping cells the slip compliance takes its part.
 
 use ndarray::{Array2, s};
 
@@ -42,13 +42,13 @@ pub struct Preconditioner {
     pub passes: usize,
 }
 
-/// Slip stiffness as the preconditioner sees it: where little resists turning the inverse of the elastic response counts, where much
-/// does a cell's own slip stiffness.
+/// Slip compliance as the preconditioner sees it: where little resists turning the inverse of the elastic response counts, where much
+/// does a cell's own slip compliance.
 #[derive(Debug, Default)]
 pub struct SlipWeights<N> {
     /// Weights of the elastic inverse in the cells in contact, on both of its sides.
     elastic: Vec<N>,
-    /// Inverses of slip stiffness, each by its weight [pressure/length].
+    /// Inverses of slip compliance, each by its weight [pressure/length].
     slip: Vec<N>,
     /// Unit of displacements over that of tractions [length/pressure].
     compliance: f64,
@@ -167,12 +167,12 @@ impl Preconditioner {
         }
     }
 
-    /// Prepares [`Preconditioner::shear`] and [`Preconditioner::pressure`] for a contact with its slip `stiffness`, in units of
+    /// Prepares [`Preconditioner::shear`] and [`Preconditioner::pressure`] for a contact with its `slip_compliance`, in units of
     /// `compliance`, that of displacements over that of tractions [length/pressure].
     pub fn prepare<N: Number>(
         &mut self,
         contact: &ContactSet,
-        stiffness: &[N],
+        slip_compliance: &[N],
         compliance: f64,
         weights: &mut SlipWeights<N>,
     ) {
@@ -180,9 +180,9 @@ impl Preconditioner {
         let [weighted_x, weighted_y] = weighted;
         let [part_x, part_y] = part;
         for field in [&mut *elastic, &mut *slip, weighted_x, weighted_y, part_x, part_y] {
-            clear(field, stiffness.len()); // where shear acts along one axis nobody writes the other component
+            clear(field, slip_compliance.len()); // where shear acts along one axis nobody writes the other component
         }
-        each_cell(&Weights { softest: self.softest / compliance }, [stiffness], [elastic, slip]);
+        each_cell(&Weights { softest: self.softest / compliance }, [slip_compliance], [elastic, slip]);
         weights.compliance = compliance;
         if self.contact != *contact {
             self.contact.clone_from(contact);
@@ -218,7 +218,7 @@ impl Preconditioner {
     }
 }
 
-/// Weights of the elastic response and of the slip stiffness D of a cell in the inverse of both: the latter's is
+/// Weights of the elastic response and of the slip compliance D of a cell in the inverse of both: the latter's is
 /// `s = (r - 1) / (r + 2)` with `r = sqrt(1 + D / softest)`, found by trial.
 struct Weights {
     softest: f64,
@@ -226,13 +226,13 @@ struct Weights {
 
 impl CellRule<1, 2, 0> for Weights {
     #[inline(always)]
-    fn at<R: Reals>(&self, [stiffness]: [R; 1], [elastic, slip]: &mut [R; 2]) -> [R; 0] {
-        let one = stiffness.all(1.0);
-        let both = stiffness / self.softest + 1.0;
+    fn at<R: Reals>(&self, [slip_compliance]: [R; 1], [elastic, slip]: &mut [R; 2]) -> [R; 0] {
+        let one = slip_compliance.all(1.0);
+        let both = slip_compliance / self.softest + 1.0;
         let root = both.sqrt();
         let weight = (root - one) / (root + 2.0);
         *elastic = ((one - weight) / both).sqrt();
-        *slip = weight / (stiffness + self.softest);
+        *slip = weight / (slip_compliance + self.softest);
         []
     }
 }

@@ -19,7 +19,7 @@ pub struct LinearSets<N> {
     direction: [Vec<N>; 2],
     row: [Vec<N>; 2],
     /// In units of the problem.
-    stiffness: Vec<N>,
+    slip_compliance: Vec<N>,
     /// Rotation about z; empty when the bodies do not rotate.
     rotation: [Vec<N>; 2],
     /// Derivative of the friction bound by the pressure [-].
@@ -27,7 +27,7 @@ pub struct LinearSets<N> {
 }
 
 impl<N: Number> LinearSets<N> {
-    /// Takes over active sets, rotation and slopes; `compliance` is the unit of slip stiffness [length/pressure].
+    /// Takes over active sets, rotation and slopes; `compliance` is the unit of slip compliance [length/pressure].
     pub fn take(&mut self, sets: &ActiveSets, motions: &RigidMotions, slope: &[f64], compliance: f64) {
         let take = |from: &[f64], factor: f64, to: &mut Vec<N>| {
             reset(to, from.len());
@@ -36,7 +36,7 @@ impl<N: Number> LinearSets<N> {
         take(&sets.stick, 1.0, &mut self.stick);
         take(&sets.slip, 1.0, &mut self.slip);
         take(&sets.slip_weight, 1.0, &mut self.slip_weight);
-        take(&sets.stiffness, 1.0 / compliance, &mut self.stiffness);
+        take(&sets.slip_compliance, 1.0 / compliance, &mut self.slip_compliance);
         take(slope, 1.0, &mut self.slope);
         for (from, to) in sets.direction.parts().into_iter().zip(&mut self.direction) {
             take(from, 1.0, to);
@@ -95,7 +95,7 @@ impl<'a, N: Number> LinearProblem<'a, N> {
         preconditioner: &'a mut Preconditioner,
         workspace: &'a mut LinearWorkspace<N>,
     ) -> Self {
-        preconditioner.prepare(contact, &sets.stiffness, compliance, &mut workspace.slip_weights);
+        preconditioner.prepare(contact, &sets.slip_compliance, compliance, &mut workspace.slip_weights);
         for field in &mut workspace.unweighted {
             reset(field, contact.len());
         }
@@ -151,7 +151,7 @@ impl<'a, N: Number> LinearProblem<'a, N> {
         }
         let [stick, weight, row_x, row_y, around_x, around_y] = sets.fields_of_equations();
         let turning = &self.workspace.turning;
-        let read = [stick, weight, row_x, row_y, &sets.stiffness, turning, around_x, around_y];
+        let read = [stick, weight, row_x, row_y, &sets.slip_compliance, turning, around_x, around_y];
         let found = each_cell(&FreeAndStiff { weight: self.weight }, read, [&mut *x, &mut *y]);
         self.equations.remove([x, y], found);
     }
@@ -256,7 +256,7 @@ impl CellRule<8, 3, 0> for Follow {
     }
 }
 
-/// Keeps the free part of a displacement, adds the slip stiffness times the turning shear, and weights both; sums the products with
+/// Keeps the free part of a displacement, adds the slip compliance times the turning shear, and weights both; sums the products with
 /// the free parts of the motions.
 struct FreeAndStiff {
     weight: f64,
@@ -268,10 +268,10 @@ impl CellRule<8, 2, 3> for FreeAndStiff {
     #[inline(always)]
     fn at<R: Reals>(
         &self,
-        [stick, slip, row_x, row_y, stiffness, turning, around_x, around_y]: [R; 8],
+        [stick, slip, row_x, row_y, slip_compliance, turning, around_x, around_y]: [R; 8],
         [x, y]: &mut [R; 2],
     ) -> [R; 3] {
-        let turn = slip * (row_x * *y - row_y * *x + stiffness * turning);
+        let turn = slip * (row_x * *y - row_y * *x + slip_compliance * turning);
         *x = (stick * *x - row_y * turn) * self.weight;
         *y = (stick * *y + row_x * turn) * self.weight;
         products([*x, *y], stick + slip, [around_x, around_y])

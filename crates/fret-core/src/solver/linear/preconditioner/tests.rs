@@ -45,15 +45,15 @@ fn all() -> ContactSet {
     ContactSet::of(CELLS[0] * CELLS[1], |_| true)
 }
 
-/// What would remove displacements `right` when the cells of a contact have this slip stiffness.
+/// What would remove displacements `right` when the cells of a contact have this slip compliance.
 fn shear_of(
     tested: &mut Preconditioner,
     contact: &ContactSet,
     right: [&[f64]; 2],
-    stiffness: &[f64],
+    slip_compliance: &[f64],
 ) -> [Vec<f64>; 2] {
     let mut weights = SlipWeights::default();
-    tested.prepare(contact, stiffness, 1.0, &mut weights);
+    tested.prepare(contact, slip_compliance, 1.0, &mut weights);
     let (mut x, mut y) = (vec![9.0; right[0].len()], vec![9.0; right[0].len()]);
     tested.shear(right, [&mut x, &mut y], &mut weights);
     [x, y]
@@ -86,19 +86,19 @@ fn waves_on_a_periodic_half_space_are_removed_exactly() {
     }
 }
 
-/// Slip stiffness far above the elastic compliance decides alone: `q = s / D`.
+/// Slip compliance far above the elastic compliance decides alone: `q = s / D`.
 #[test]
-fn much_slip_stiffness_leaves_the_elastic_response_aside() {
+fn much_slip_compliance_leaves_the_elastic_response_aside() {
     let (wave, _) = wave();
     let mut tested = periodic(false);
-    let stiffness = vec![1e10 * tested.softest; wave.len()];
-    let [x, _] = shear_of(&mut tested, &all(), [&wave, &wave], &stiffness);
-    let times: Vec<f64> = x.iter().map(|value| value * stiffness[0]).collect();
+    let slip_compliance = vec![1e10 * tested.softest; wave.len()];
+    let [x, _] = shear_of(&mut tested, &all(), [&wave, &wave], &slip_compliance);
+    let times: Vec<f64> = x.iter().map(|value| value * slip_compliance[0]).collect();
     // The elastic share is 3 / r with r = sqrt(D / softest) = 1e5.
     assert!(worst(&times, &wave) < 1e-4);
 }
 
-/// A preconditioner of conjugate gradients has to be symmetric and positive: with slip stiffness that differs from cell to cell,
+/// A preconditioner of conjugate gradients has to be symmetric and positive: with slip compliance that differs from cell to cell,
 /// on a part of the cells, in either precision.
 #[test]
 fn inverses_are_symmetric_and_positive() {
@@ -110,9 +110,9 @@ fn inverses_are_symmetric_and_positive() {
     };
     for (single, rounding) in [(false, 1e-13), (true, 1e-5)] {
         for tested in [&mut periodic(single), &mut free_space(single)] {
-            let stiffness: Vec<f64> =
+            let slip_compliance: Vec<f64> =
                 (0..contact.len()).map(|cell| (cell % 3) as f64 * 10.0 * tested.softest).collect();
-            let mut apply = |right: [&[f64]; 2]| shear_of(tested, &contact, right, &stiffness);
+            let mut apply = |right: [&[f64]; 2]| shear_of(tested, &contact, right, &slip_compliance);
             let (a, b) = ([field(1), field(2)], [field(3), field(5)]);
             let (m_a, m_b) = (apply([&a[0], &a[1]]), apply([&b[0], &b[1]]));
             let inner = |a: &[Vec<f64>; 2], b: &[Vec<f64>; 2]| dot(&a[0], &b[0]) + dot(&a[1], &b[1]);
