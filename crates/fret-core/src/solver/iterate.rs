@@ -18,6 +18,9 @@ use super::tractions::{Displacements, Tractions};
 use crate::compliance::SurfaceCompliance;
 use crate::fields::{CellRule, Reals, TangentialField, add_scaled, each_cell, largest, lower, reset, sum};
 
+/// A residual of the friction law above which the solution is far. Measured: from 0.1 on, and down to 0, more applications are needed.
+const FAR: f64 = 1e-3;
+
 /// Tractions on their way to the solution, with everything that follows from them.
 pub struct Iterate<'a> {
     problem: &'a ContactProblem<'a>,
@@ -152,7 +155,11 @@ impl<'a> Iterate<'a> {
     /// The stick and slip sets.
     pub fn find_sets(&mut self) {
         let Self { packed, slip, self_influence: [_, own], .. } = self;
-        self.sets.classify(&packed.shear, &slip.at_end, &packed.bound, *own);
+        let far = self.tangential.residual > FAR;
+        self.sets.classify(&packed.shear, &slip.at_end, &packed.bound, (*own, far));
+        if far {
+            self.sets.direct(&mut packed.shear, &packed.bound.bound);
+        }
         self.sets.turn(&packed.path, &slip.slip);
         self.contact_of_sets.clone_from(&self.contact);
     }

@@ -1,12 +1,15 @@
 //! Stick and slip: what every cell in contact does, as the linearisation of the friction law needs it.
 
-use super::friction::{CellState, FrictionBound};
+use super::friction::{CellState, FrictionBound, Limits};
 use super::slip_path::{SlipPath, row_of_chord};
 use crate::fields::{CellRule, Reals, each_cell, largest, reset};
 use crate::model::TangentialField;
 
 /// Fraction of the largest bound below which slip compliance grows no more: cells at the edge carry next to nothing.
 const LEAST_BOUND: f64 = 1e-6;
+/// Fraction of the largest bound below which a cell barely touches: the pressure of a sphere at a twenty-thousandth of the radius from the
+/// edge of contact. Far from a solution such cells are not asked to stick; near it they are, since several of them may have to.
+const BARELY: f64 = 0.01;
 
 /// Active sets of the cells in contact, packed. A cell that neither sticks nor slips just enters contact, or has no friction.
 #[derive(Debug, Clone, Default)]
@@ -38,17 +41,17 @@ impl ActiveSets {
         self_influence: f64,
     ) -> Self {
         let mut sets = Self::default();
-        sets.classify(q, slip, bound, self_influence);
+        sets.classify(q, slip, bound, (self_influence, false));
         sets
     }
 
-    /// The same, keeping the memory.
+    /// The same, keeping the memory; `far` from a solution cells that [barely touch](Limits::barely) do not stick.
     pub fn classify(
         &mut self,
         q: &TangentialField,
         slip_increment: &TangentialField,
         bound: &FrictionBound,
-        self_influence: f64,
+        (self_influence, far): (f64, bool),
     ) {
         let Self { stick, slip, direction, slip_compliance, slip_weight, .. } = self;
         let [along_x, along_y] = direction.each_mut();
@@ -56,10 +59,11 @@ impl ActiveSets {
         for field in &mut write {
             reset(field, bound.bound.len());
         }
-        let rule =
-            Classify { least: LEAST_BOUND * largest(&bound.bound), cell_stiffness: 1.0 / self_influence };
+        let largest = largest(&bound.bound);
+        let barely = if far { BARELY * largest } else { 0.0 };
+        let limits = Limits { least: LEAST_BOUND * largest, barely, stiffness: 1.0 / self_influence };
         let read = [&q.x[..], &q.y, &slip_increment.x, &slip_increment.y, &bound.bound];
-        each_cell(&rule, read, write.map(Vec::as_mut_slice));
+        each_cell(&Classify(limits), read, write.map(Vec::as_mut_slice));
     }
 
     /// Takes into account how slip turns on its `path`; `slip`: what is not yet turned, packed [length].
@@ -88,17 +92,19 @@ impl ActiveSets {
         self.turned().unwrap_or_else(|| self.direction.parts())
     }
 
+    /// Puts shear of cells that neither stick nor slip on their circles, along their slip.
+    pub fn direct(&self, shear: &mut TangentialField, bound: &[f64]) {
+        let [along_x, along_y] = self.direction.parts();
+        each_cell(&Directed, [&self.stick, &self.slip, along_x, along_y, bound], shear.parts_mut());
+    }
+
     /// Number of cells in contact.
     pub fn len(&self) -> usize {
         self.stick.len()
     }
 }
 
-struct Classify {
-    least: f64,
-    /// 1 / K of a cell [pressure/length].
-    cell_stiffness: f64,
-}
+struct Classify(Limits);
 
 impl CellRule<5, 6, 0> for Classify {
     #[inline(always)]
@@ -107,10 +113,24 @@ impl CellRule<5, 6, 0> for Classify {
         [qx, qy, slip_x, slip_y, bound]: [R; 5],
         [stick, slip, along_x, along_y, slip_compliance, weight]: &mut [R; 6],
     ) -> [R; 0] {
-        let cell = CellState::new([qx, qy], [slip_x, slip_y], bound, self.least);
+        let cell = CellState::new([qx, qy], [slip_x, slip_y], bound, &self.0);
         [*stick, *slip, *slip_compliance] = [cell.stick, cell.slip, cell.slip_compliance];
         [*along_x, *along_y] = cell.direction;
-        *weight = cell.slip / (cell.slip_compliance * self.cell_stiffness + 1.0).sqrt();
+        *weight = cell.slip / (cell.slip_compliance * self.0.stiffness + 1.0).sqrt();
+        []
+    }
+}
+
+/// The bound along the direction, where a cell neither sticks nor slips.
+struct Directed;
+
+impl CellRule<5, 2, 0> for Directed {
+    #[inline(always)]
+    fn at<R: Reals>(&self, [stick, slip, along_x, along_y, bound]: [R; 5], [x, y]: &mut [R; 2]) -> [R; 0] {
+        let zero = bound.all(0.0);
+        let either = stick + slip;
+        *x = either.if_at_most(zero, bound * along_x, *x);
+        *y = either.if_at_most(zero, bound * along_y, *y);
         []
     }
 }
@@ -185,9 +205,36 @@ mod tests {
             }
         }
         assert!((row_x[0].hypot(row_y[0]) - 1.0).abs() > 0.05);
-        sets.classify(&q, &slip, &bound, 0.05);
+        sets.classify(&q, &slip, &bound, (0.05, false));
         sets.turn(&SlipPath::default(), &slip);
         assert_eq!(sets.turned(), None);
+    }
+
+    /// Cells under bounds of 100, 1 and 0.9, with 1 / K = 2: of those that barely touch, dragged inward or inside their discs, those stick that
+    /// `q + 2 slip` leaves inside; the others, and what just enters, have their bound along their slip. Near a solution all stick.
+    #[test]
+    fn far_from_a_solution_cells_that_barely_touch_stick_only_inside_their_discs() {
+        let shear = [[50.0, 0.0], [-1.0, 0.0], [0.0, 0.4], [0.9, 0.0], [0.5, 0.0], [0.0, 0.0]];
+        let slips = [[9e3, 0.0], [3.0, 4.0], [0.0, 0.1], [4.0, 0.0], [0.0, -2.0], [0.0, 5.0]];
+        let field = |values: [[f64; 2]; 6]| TangentialField {
+            x: values.map(|value| value[0]).to_vec(),
+            y: values.map(|value| value[1]).to_vec(),
+        };
+        let bound = FrictionBound { bound: vec![100.0, 1.0, 1.0, 0.9, 0.9, 0.0], slope: vec![0.1; 6] };
+        let (mut q, slip) = (field(shear), field(slips));
+        let mut sets = ActiveSets::default();
+        sets.classify(&q, &slip, &bound, (0.5, false));
+        assert_eq!(sets.stick, [1.0, 1.0, 1.0, 0.0, 1.0, 0.0]);
+        sets.classify(&q, &slip, &bound, (0.5, true));
+        assert_eq!(sets.stick, [1.0, 0.0, 1.0, 0.0, 0.0, 0.0]);
+        assert_eq!(sets.slip, [0.0, 0.0, 0.0, 1.0, 0.0, 0.0]);
+        sets.direct(&mut q, &bound.bound);
+        for (cell, expected) in
+            [(0, shear[0]), (1, [0.6, 0.8]), (2, shear[2]), (3, shear[3]), (4, [0.0, -0.9])]
+        {
+            assert!((0..2).all(|axis| (q.at(cell)[axis] - expected[axis]).abs() < 1e-15), "{cell} {q:?}");
+        }
+        assert_eq!((q.at(5), sets.direction.at(5)), ([0.0; 2], [0.0, 1.0]));
     }
 
     /// A cell whose bound is next to nothing is as stiff as one of a millionth of the largest bound.

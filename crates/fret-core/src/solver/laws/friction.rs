@@ -181,8 +181,8 @@ impl<R: Reals> OnDisc<R> {
 pub struct CellState<R> {
     /// 1 where it sticks: both components of its shear are unknown.
     pub stick: R,
-    /// 1 where it slips: its shear is on the circle, grows with the pressure, and can turn. Neither, where there is no bound: what
-    /// just enters contact follows the pressure, along its slip.
+    /// 1 where it slips: its shear is on the circle, grows with the pressure, and can turn. Neither, where there is no bound, or where it
+    /// [barely touches](Limits::barely): what just enters contact follows the pressure, along its slip.
     pub slip: R,
     /// Direction of the shear of a cell that does not stick.
     pub direction: [R; 2],
@@ -191,11 +191,23 @@ pub struct CellState<R> {
     pub slip_compliance: R,
 }
 
+/// Limits of what a cell does, of a whole contact.
+#[derive(Debug, Clone, Copy)]
+pub struct Limits {
+    /// The slip compliance of a bound below this grows no more [pressure].
+    pub least: f64,
+    /// A cell whose bound is below this barely touches: it does not stick as long as the shear that would hold it, `q + slip / K`, lies outside
+    /// its disc. The linearised problem knows no bound of cells that stick, and one at the edge would have to hold what all around it lets
+    /// slip. 0: no such cells [pressure].
+    pub barely: f64,
+    /// 1 / K of a cell [pressure/length].
+    pub stiffness: f64,
+}
+
 impl<R: Reals> CellState<R> {
-    /// On the circle and dragged outward: slips. Dragged inward, or inside the disc: sticks. The slip compliance of a bound below `least`
-    /// grows no more.
+    /// On the circle and dragged outward: slips. Dragged inward, or inside the disc: sticks, unless it barely touches.
     #[inline(always)]
-    pub fn new([qx, qy]: [R; 2], [slip_x, slip_y]: [R; 2], bound: R, least: f64) -> Self {
+    pub fn new([qx, qy]: [R; 2], [slip_x, slip_y]: [R; 2], bound: R, limits: &Limits) -> Self {
         let (zero, one) = (qx.all(0.0), qx.all(1.0));
         let size = (qx * qx + qy * qy).sqrt();
         let towards = [qx / size, qy / size];
@@ -203,7 +215,11 @@ impl<R: Reals> CellState<R> {
         let on_circle = (bound * ON_CIRCLE).if_at_most(size, one, zero);
         let dragged = outward.if_at_most(zero, zero, on_circle);
         let slip = size.if_at_most(zero, zero, bound.if_at_most(zero, zero, dragged));
-        let enters = bound.if_at_most(zero, one, zero);
+        let trial = [qx + slip_x * limits.stiffness, qy + slip_y * limits.stiffness];
+        let holding = (trial[0] * trial[0] + trial[1] * trial[1]).sqrt();
+        let cannot_stick =
+            bound.if_at_most(bound.all(limits.barely), holding.if_at_most(bound, zero, one - slip), zero);
+        let enters = bound.if_at_most(zero, one, cannot_stick);
         let drag = (slip_x * slip_x + slip_y * slip_y).sqrt();
         let entering =
             [drag.if_at_most(zero, one, slip_x / drag), drag.if_at_most(zero, zero, slip_y / drag)];
@@ -213,7 +229,7 @@ impl<R: Reals> CellState<R> {
             stick: one - slip - enters,
             slip,
             direction: [direction(towards[0], entering[0]), direction(towards[1], entering[1])],
-            slip_compliance: slip.if_at_most(zero, zero, outward / bound.max(bound.all(least))),
+            slip_compliance: slip.if_at_most(zero, zero, outward / bound.max(bound.all(limits.least))),
         }
     }
 }
