@@ -10,6 +10,8 @@ pub enum InstructionSet {
     Avx2(pulp::x86::V3),
     #[cfg(target_arch = "x86_64")]
     Avx512(pulp::x86::V4),
+    #[cfg(target_arch = "aarch64")]
+    Neon(pulp::aarch64::Neon),
 }
 
 impl InstructionSet {
@@ -21,6 +23,8 @@ impl InstructionSet {
             available.extend(pulp::x86::V4::try_new().map(Self::Avx512));
             available.extend(pulp::x86::V3::try_new().map(Self::Avx2));
         }
+        #[cfg(target_arch = "aarch64")]
+        available.extend(pulp::aarch64::Neon::try_new().map(Self::Neon));
         available.push(Self::Portable);
         available
     }
@@ -33,6 +37,8 @@ impl InstructionSet {
             Self::Avx2(_) => "AVX2 lanes",
             #[cfg(target_arch = "x86_64")]
             Self::Avx512(_) => "AVX-512 lanes",
+            #[cfg(target_arch = "aarch64")]
+            Self::Neon(_) => "NEON lanes",
         }
     }
 
@@ -44,6 +50,8 @@ impl InstructionSet {
             Self::Avx2(_) => N::Avx2::WIDTH,
             #[cfg(target_arch = "x86_64")]
             Self::Avx512(_) => N::Avx512::WIDTH,
+            #[cfg(target_arch = "aarch64")]
+            Self::Neon(_) => N::Neon::WIDTH,
         }
     }
 }

@@ -33,6 +33,8 @@ macro_rules! enter {
             InstructionSet::Avx2(set) => <$number as Number>::Avx2::from(set).enter($task),
             #[cfg(target_arch = "x86_64")]
             InstructionSet::Avx512(set) => <$number as Number>::Avx512::from(set).enter($task),
+            #[cfg(target_arch = "aarch64")]
+            InstructionSet::Neon(set) => <$number as Number>::Neon::from(set).enter($task),
         }
     };
 }

@@ -8,8 +8,8 @@ use std::ops::IndexMut;
 
 use pulp::bytemuck::Pod;
 
-#[cfg(target_arch = "x86_64")]
-use super::x86;
+#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+use super::vectors::Single;
 
 /// Most lanes of any instruction set.
 pub const MAX_WIDTH: usize = 16;
@@ -30,6 +30,9 @@ pub trait Number: Pod + Default + PartialEq + Send + Sync {
     /// AVX-512.
     #[cfg(target_arch = "x86_64")]
     type Avx512: Lanes<Number = Self> + From<pulp::x86::V4>;
+    /// NEON.
+    #[cfg(target_arch = "aarch64")]
+    type Neon: Lanes<Number = Self> + From<pulp::aarch64::Neon>;
 
     /// Rounded to this precision.
     fn of(value: f64) -> Self;
@@ -159,6 +162,8 @@ impl Number for f64 {
     type Avx2 = pulp::x86::V3;
     #[cfg(target_arch = "x86_64")]
     type Avx512 = pulp::x86::V4;
+    #[cfg(target_arch = "aarch64")]
+    type Neon = pulp::aarch64::Neon;
 
     #[inline(always)]
     fn of(value: f64) -> Self {
@@ -169,9 +174,11 @@ impl Number for f64 {
 impl Number for f32 {
     type Portable = PortableSingle;
     #[cfg(target_arch = "x86_64")]
-    type Avx2 = x86::Single<pulp::x86::V3>;
+    type Avx2 = Single<pulp::x86::V3>;
     #[cfg(target_arch = "x86_64")]
-    type Avx512 = x86::Single<pulp::x86::V4>;
+    type Avx512 = Single<pulp::x86::V4>;
+    #[cfg(target_arch = "aarch64")]
+    type Neon = Single<pulp::aarch64::Neon>;
 
     #[inline(always)]
     #[expect(clippy::cast_possible_truncation, reason = "this is what single precision is")]

@@ -4,89 +4,10 @@ use core::arch::x86_64::{__m256, __m512, __m512d};
 
 use pulp::core_arch::x86::Avx512f;
 use pulp::x86::{V3, V4};
-use pulp::{NullaryFnOnce, cast, f32x8, f32x16, f64x4, f64x8};
+use pulp::{cast, f32x8, f32x16, f64x4, f64x8};
 
 use super::simd::{Lanes, Task};
-
-/// A task waiting to be called inside its instruction set.
-struct Entered<L, T>(L, T);
-
-impl<L: Lanes, T: Task<L>> NullaryFnOnce for Entered<L, T> {
-    type Output = ();
-
-    #[inline(always)]
-    fn call(self) {
-        self.1.run(self.0);
-    }
-}
-
-/// An instruction set on numbers of single precision.
-#[derive(Debug, Clone, Copy)]
-pub struct Single<A>(A);
-
-impl<A> From<A> for Single<A> {
-    fn from(set: A) -> Self {
-        Self(set)
-    }
-}
-
-/// Lanes on the vectors of one instruction set: how to reach its operations, and their names.
-macro_rules! lanes {
-    ($lanes:ty, |$self:ident| $set:expr, $number:ty, $width:literal, $vector:ty, $transpose:ident,
-     [$splat:ident, $add:ident, $sub:ident, $mul:ident, $mul_add:ident, $negate_mul_add:ident]) => {
-        impl Lanes for $lanes {
-            const WIDTH: usize = $width;
-            type Number = $number;
-            type Reals = $vector;
-            type Block = [$vector; $width];
-
-            #[inline(always)]
-            fn enter<T: Task<Self>>($self, task: T) {
-                $set.vectorize(Entered($self, task));
-            }
-
-            #[inline(always)]
-            fn splat($self, value: $number) -> $vector {
-                $set.$splat(value)
-            }
-
-            #[inline(always)]
-            fn block($self, value: $vector) -> Self::Block {
-                [value; $width]
-            }
-
-            #[inline(always)]
-            fn add($self, a: $vector, b: $vector) -> $vector {
-                $set.$add(a, b)
-            }
-
-            #[inline(always)]
-            fn sub($self, a: $vector, b: $vector) -> $vector {
-                $set.$sub(a, b)
-            }
-
-            #[inline(always)]
-            fn mul($self, a: $vector, b: $vector) -> $vector {
-                $set.$mul(a, b)
-            }
-
-            #[inline(always)]
-            fn mul_add($self, a: $vector, b: $vector, c: $vector) -> $vector {
-                $set.$mul_add(a, b, c)
-            }
-
-            #[inline(always)]
-            fn negate_mul_add($self, a: $vector, b: $vector, c: $vector) -> $vector {
-                $set.$negate_mul_add(a, b, c)
-            }
-
-            #[inline(always)]
-            fn transpose($self, block: &mut Self::Block) {
-                $transpose($set, block);
-            }
-        }
-    };
-}
+use super::vectors::{Entered, Single, lanes};
 
 lanes!(
     V3,
