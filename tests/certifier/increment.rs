@@ -10,9 +10,13 @@ use super::slip_path::{CellPath, Past};
 use super::{Before, Certificate};
 
 /// The rule by which friction dissipates in a cell, per area: the mean of the friction bounds `[before, after]` the increment times the
-/// way.
-pub fn dissipated([before, after]: [f64; 2], way: f64) -> f64 {
-    0.5 * (before + after) * way
+/// way. Slip that begins, or ends, in the increment lies on average 5/7 of it away from the end at which the cell sticks.
+pub fn dissipated([before, after]: [f64; 2], way: f64, zones: [Zone; 2]) -> f64 {
+    match zones {
+        [Zone::Stick, Zone::Slip] => (2.0 * before + 5.0 * after) / 7.0 * way,
+        [Zone::Slip, Zone::Stick] => (5.0 * before + 2.0 * after) / 7.0 * way,
+        _ => 0.5 * (before + after) * way,
+    }
 }
 
 /// The way of a slip increment: where a cell slips at both ends of the increment, the arc with it as chord that turns by the angle of the
@@ -123,7 +127,7 @@ impl Increment<'_> {
             let zones = [self.zone_before.map_or(Zone::Open, |zone| zone[at]), zone];
             let shear_before = [0, 1].map(|axis| self.before.shear[axis][at]);
             let bound_before = self.bound_at(at, self.before.pressure[at]);
-            work += dissipated([bound_before, bound], way(kept, [shear_before, q], zones));
+            work += dissipated([bound_before, bound], way(kept, [shear_before, q], zones), zones);
             limit += bound * hypot(kept);
             if zone == Zone::Slip {
                 certificate.on_circle.raise(over((bound - length).max(0.0), most));

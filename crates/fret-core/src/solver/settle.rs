@@ -3,7 +3,7 @@
 use super::contact_set::ContactSet;
 use super::increment_problem::{IncrementProblem, Solved};
 use super::laws::friction::{dissipation, slips};
-use super::laws::slip_path::length_of_way;
+use super::laws::slip_path::{length_of_way, weights_of_ends};
 use super::outcome::{Outcome, Regime, Residual, Resultants};
 use crate::fields::sum;
 use crate::model::{ContactState, Control, Integration, Zone};
@@ -52,8 +52,10 @@ pub(super) fn settle(
             state.slip[axis][at] += slip[axis];
         }
         let shear_before = [0, 1].map(|axis| before.shear[axis][at]);
-        let way = length_of_way(integration, slip, [before.zone[at], zone], [shear_before, q]);
-        dissipated += dissipation([bound_before[place], bound[place]], way);
+        let zones = [before.zone[at], zone];
+        let way = length_of_way(integration, slip, zones, [shear_before, q]);
+        let weights = weights_of_ends(integration, zones);
+        dissipated += dissipation([bound_before[place], bound[place]], weights, way);
     }
     let area = grid.cell_area();
     state.dissipated_energy += dissipated * area;

@@ -121,9 +121,10 @@ impl CellRule<3, 2, 0> for CoulombToStrength {
     }
 }
 
-/// Energy that friction takes from a cell that slips, per area: the mean of its bounds before and after the increment, along its way.
-pub fn dissipation([before, after]: [f64; 2], way: f64) -> f64 {
-    0.5 * (before + after) * way
+/// Energy that friction takes from a cell that slips, per area: the mean of its bounds before and after the increment, of these weights,
+/// along its way.
+pub fn dissipation([before, after]: [f64; 2], [first, last]: [f64; 2], way: f64) -> f64 {
+    (first * before + last * after) * way
 }
 
 /// Whether a cell slips, in a solution: the shear that would hold it, `q + slip / K`, lies outside the disc, by more than the shear lies
@@ -277,10 +278,11 @@ mod tests {
         assert!(is_inside([2.9, 0.0], 3.0) && !is_inside([0.0, 3.0], 3.0) && !is_inside([3.0, 3.0], 3.0));
     }
 
-    /// Work of the mean of two bounds along the way.
+    /// Work of a mean of two bounds along the way.
     #[test]
     fn what_slip_dissipates_is_the_mean_bound_times_its_length() {
-        assert_eq!(dissipation([1.0, 3.0], 0.5), 1.0);
+        assert_eq!(dissipation([1.0, 3.0], [0.5; 2], 0.5), 1.0);
+        assert_eq!(dissipation([1.0, 3.0], [0.25, 0.75], 0.5), 1.25);
     }
 
     struct Images;
