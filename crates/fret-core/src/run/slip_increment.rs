@@ -42,7 +42,7 @@ fn weights([before, after]: [&ContactState; 2], integration: Integration) -> Arr
 }
 
 /// Adds `factor` times the energy that friction dissipates by area [pressure x length] between two states that follow each other: the
-/// mean of the bounds at both ends along the way.
+/// mean of the bounds at both ends, see [`weights_of_ends`], along the way.
 fn add_dissipation(
     states: [&ContactState; 2],
     integration: Integration,
