@@ -4,13 +4,11 @@ use super::contact_problem::{ContactProblem, Pressure};
 use super::laws::friction::FrictionLaw;
 use super::laws::rigid_motions::CellPositions;
 use super::laws::slip_path::SlipPath;
-use super::linear::preconditioner::Preconditioner;
-use super::linear::solver::LinearSolver;
 use super::operators::RegionOperators;
 use super::region::Region;
 use super::tractions::{Displacements, Tractions};
 use crate::compliance::{
-    CellResponse, DirectCompliance, OperatorSet, SpectralCompliance, SurfaceCompliance, SurfaceResponse,
+    CellResponse, DirectCompliance, OperatorSet, SharedWorkspace, SurfaceCompliance, SurfaceResponse,
 };
 use crate::kernel::{Components, InfluenceCoefficients, influence_coefficients};
 use crate::model::{
@@ -70,22 +68,8 @@ impl Cells {
     pub(super) fn operators(&self) -> RegionOperators {
         let (response, shape) = (self.response(), self.shape);
         let wanted = OperatorSet { normal: true, tangential: true, full: true, ..OperatorSet::default() };
-        RegionOperators {
-            region: Region::whole(shape),
-            compliance: SpectralCompliance::new(&response, shape, wanted).unwrap(),
-            preconditioner: Preconditioner::new(
-                &response,
-                None,
-                shape,
-                [true; 2],
-                None,
-                Symmetry::default(),
-                false,
-            )
-            .unwrap(),
-            linear: LinearSolver::default(),
-            direct_solves: 0,
-        }
+        let workspace = SharedWorkspace::default();
+        RegionOperators::new(&response, None, Region::whole(shape), wanted, &workspace).unwrap()
     }
 
     /// Displacements of tractions, cell by cell.

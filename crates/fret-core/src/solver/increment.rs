@@ -5,8 +5,7 @@ use ndarray::Array2;
 
 use super::coupled;
 use super::increment_problem::{IncrementProblem, Solved};
-use super::linear::preconditioner::{CellWaves, Preconditioner};
-use super::linear::solver::LinearSolver;
+use super::linear::preconditioner::CellWaves;
 use super::memory::{Before, Drift, GridTractions, LastIncrement};
 use super::normal::coarse_grids::{CoarseGrids, Prescribed};
 use super::operators::{Method, RegionOperators};
@@ -17,7 +16,7 @@ use super::slip_history::slip_path;
 use super::stretch::Stretch;
 use super::tractions::Tractions;
 use super::{ContactSolver, Coupling, Increment, IterationCallback, Outcome, SolveError, Work};
-use crate::compliance::{CellResponse, OperatorSet, SpectralCompliance, SurfaceCompliance};
+use crate::compliance::{CellResponse, OperatorSet, SurfaceCompliance};
 use crate::model::{ContactState, Control, Integration, LoadStep, Scheme};
 
 /// A normal load changes much when it changes by more than this fraction: starting on coarse grids is then cheaper than from the
@@ -93,7 +92,6 @@ impl ContactSolver<'_> {
         increment.start = start.map(|pressure| region.gather(pressure));
         let tractions = self.predicted(start, (state, load), region);
         let mut operators = self.operators_for(region)?;
-        let before = operators.work();
         if let Some(ratio) = ratio {
             let beyond = |before: &Before, drift: &Drift| {
                 increment.drift_to_here(before, drift, &mut operators, self.coupling)
@@ -101,7 +99,7 @@ impl ContactSolver<'_> {
             increment.path = slip_path(&self.memory, state, (ratio, region), beyond).unwrap_or_default();
         }
         let solved = self.solve_with(&mut operators, &increment, tractions, callback);
-        *work += operators.work_since(before, region.len() as f64 / self.cells_of_whole());
+        *work += operators.take_work(region.len() as f64 / self.cells_of_whole());
         let self_influence = operators.compliance.self_influence().tangential;
         self.operators = Some(operators);
         self.memory.region = Some(region);
@@ -218,34 +216,21 @@ impl ContactSolver<'_> {
             return Ok(operators);
         }
         let waves = self.table.as_ref().map(|table| CellWaves { table, spacing: self.grid.spacing() });
-        let single = self.settings.single_precision;
+        let in_alternation = self.settings.scheme == Scheme::Staggered;
         let operators = OperatorSet {
             normal: true,
-            tangential: self.coupling == Coupling::Uncoupled || self.settings.scheme == Scheme::Staggered,
+            tangential: match self.coupling {
+                Coupling::Frictionless => false,
+                Coupling::Uncoupled => true,
+                Coupling::Coupled => in_alternation,
+            },
             full: self.coupling == Coupling::Coupled,
             normal_from_all: false,
             shear_axis: self.shear_axis,
             symmetry: self.symmetry,
-            single,
+            single: self.settings.single_precision,
         };
-        let tangential = self.coupling != Coupling::Frictionless;
-        Ok(RegionOperators {
-            region,
-            compliance: SpectralCompliance::new(&self.response, region.shape, operators)?
-                .working_in(&self.workspace),
-            preconditioner: Preconditioner::new(
-                &self.response,
-                waves,
-                region.shape,
-                [true, tangential],
-                self.shear_axis,
-                self.symmetry,
-                single,
-            )?
-            .working_in(&self.workspace),
-            linear: LinearSolver::default(),
-            direct_solves: 0,
-        })
+        Ok(RegionOperators::new(&self.response, waves, region, operators, &self.workspace)?)
     }
 
     /// A pressure from coarser grids: for a first contact, and where the normal load changes much.

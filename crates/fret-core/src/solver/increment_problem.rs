@@ -9,12 +9,14 @@ use super::laws::friction::FrictionLaw;
 use super::laws::limit::carried_fraction;
 use super::laws::rigid_motions::{CellPositions, RigidMotions};
 use super::laws::slip_path::SlipPath;
-use super::normal::NormalEquations;
+use super::normal::{NormalEquations, first_pressure};
+use super::operators::RegionOperators;
 use super::prescribed::PrescribedLoads;
 use super::region::Region;
 use super::settings::{SolveError, SolverSettings};
 use super::stretch::Stretch;
 use super::tractions::{Displacements, Tractions};
+use crate::compliance::SurfaceCompliance;
 use crate::model::{ContactState, Control, CoulombFriction, LoadStep, Rig, SurfaceGrid, TangentialField};
 
 /// Friction that carries less than this fraction of what is prescribed is the reason why there is no solution. By the pressure without
@@ -129,6 +131,17 @@ impl<'a> IncrementProblem<'a> {
             positions: &self.positions,
             motion,
             resultant,
+        }
+    }
+
+    /// A first pressure [pressure].
+    pub fn first_pressure(&self, operators: &RegionOperators) -> Vec<f64> {
+        match &self.start {
+            Some(start) => start.clone(),
+            None => {
+                let own = operators.compliance.self_influence().normal;
+                first_pressure(&self.normal_equations(), own)
+            }
         }
     }
 

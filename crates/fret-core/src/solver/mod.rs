@@ -14,7 +14,6 @@ mod displacement_before;
 mod exact_newton;
 #[cfg(test)]
 mod few_cells;
-mod frictionless;
 mod full_grid_check;
 mod globalisation;
 mod increment;

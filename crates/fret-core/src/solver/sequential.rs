@@ -5,7 +5,7 @@ use super::increment_problem::{IncrementProblem, Solved};
 use super::laws::complementarity::normal_residual;
 use super::laws::projection::project_pressure;
 use super::newton;
-use super::normal::NormalSolution;
+use super::normal::{NormalSolution, solve_normal};
 use super::operators::{Method, RegionOperators};
 use super::settings::{Coupling, IterationCallback, SolveError};
 use super::tractions::{Displacements, Tractions};
@@ -37,7 +37,8 @@ pub fn solve(
         if increment.start.is_some() || !increment.touched() || !usable {
             tractions.pressure = increment.first_pressure(operators);
         }
-        increment.solve_pressure(&mut tractions, &mut displacements, operators, settings, callback)?
+        let fields = [&mut tractions.pressure[..], &mut displacements.normal];
+        solve_normal(&increment.normal_equations(), fields, operators, settings, callback)?
     };
     let mut drift = TangentialField::zeros(cells);
     let mut solution = Solution::without_slip(cells, increment.prescribed.motion);

@@ -6,10 +6,9 @@ use ndarray::{Array2, s};
 
 use super::super::contact_set::ContactSet;
 use super::inverse::{Inverse, InverseFields};
-use crate::compliance::{SharedWorkspace, SurfaceResponse, mirrors};
+use crate::compliance::{OperatorSet, SharedWorkspace, SurfaceResponse, mirrors};
 use crate::fields::{CellRule, Number, Reals, clear, each_cell};
 use crate::kernel::ResponseTable;
-use crate::model::Symmetry;
 use fret_fft::{Block, ConvolutionError, Kernel, Parity, PeriodicProduct, Symbol};
 
 /// A pair is stiff at the surface when the longest waves of a region meet this many times the compliance times wavenumber that
@@ -26,7 +25,7 @@ const TANGENTIAL: [Block; 4] = [
 
 /// Approximate inverses for a region.
 pub struct Preconditioner {
-    normal: Option<Inverse>,
+    normal: Inverse,
     shear: Option<Inverse>,
     /// Smallest symbol of the tangential response [length/pressure].
     softest: f64,
@@ -76,8 +75,8 @@ impl CellWaves<'_> {
 }
 
 impl Preconditioner {
-    /// Inverses for a region of `shape` cells; normal, tangential or both. `waves` serves pressure in free space, `shear_axis` is the one
-    /// axis of shear where the other part vanishes; with mirrors the region stands for a larger one; `single`: in single precision.
+    /// Inverses for a region of `shape` cells, of pressure and of what shear its `operators` know. `waves` serves pressure in free space;
+    /// with mirrors the region stands for a larger one.
     ///
     /// # Errors
     /// When a coefficient is missing or does not cover the region.
@@ -85,11 +84,9 @@ impl Preconditioner {
         response: &SurfaceResponse,
         waves: Option<CellWaves<'_>>,
         shape: [usize; 2],
-        [normal, tangential]: [bool; 2],
-        shear_axis: Option<usize>,
-        symmetry: Symmetry,
-        single: bool,
+        operators: OperatorSet,
     ) -> Result<Self, ConvolutionError> {
+        let OperatorSet { tangential, full, shear_axis, symmetry, single, .. } = operators;
         let (part, shape) = (shape, symmetry.whole_of(shape));
         let [zz, xx, yy, xy] = match response {
             SurfaceResponse::FreeSpace(c) => [&c.zz, &c.xx, &c.yy, &c.xy],
@@ -103,19 +100,15 @@ impl Preconditioner {
             let product = PeriodicProduct::mirrored(part, symbols, blocks, mirrors(symmetry, fields))?;
             Ok::<_, ConvolutionError>(Inverse::new(product, single))
         };
-        let normal = if normal {
-            let mut inverse = match (response, waves, zz) {
-                (SurfaceResponse::FreeSpace(_), Some(waves), Some(zz)) => waves_of_cells(zz, waves, shape),
-                _ => symbol(zz, Parity::EvenEven)?,
-            };
-            let least = smallest_positive(&inverse);
-            inverse.mapv_inplace(|value| if value == 0.0 { 0.0 } else { 1.0 / value.max(least) });
-            Some(product(&[Symbol { values: inverse.view(), parity: Parity::EvenEven }], &[0], &NORMAL)?)
-        } else {
-            None
+        let mut normal = match (response, waves, zz) {
+            (SurfaceResponse::FreeSpace(_), Some(waves), Some(zz)) => waves_of_cells(zz, waves, shape),
+            _ => symbol(zz, Parity::EvenEven)?,
         };
+        let least = smallest_positive(&normal);
+        normal.mapv_inplace(|value| if value == 0.0 { 0.0 } else { 1.0 / value.max(least) });
+        let normal = Symbol { values: normal.view(), parity: Parity::EvenEven };
         let mut softest = 0.0;
-        let shear = if tangential {
+        let shear = if tangential || full {
             let xx = symbol(xx, Parity::EvenEven)?;
             let yy = symbol(yy, Parity::EvenEven)?;
             let xy = symbol(xy, Parity::OddOdd)?;
@@ -134,7 +127,7 @@ impl Preconditioner {
             None
         };
         Ok(Self {
-            normal,
+            normal: product(&[normal], &[0], &NORMAL)?,
             shear,
             softest,
             shear_axis,
@@ -160,11 +153,9 @@ impl Preconditioner {
 
     /// Pressures that would remove normal displacements `right`, before any restriction to a set.
     pub fn normal(&mut self, right: &[f64], pressure: &mut [f64]) {
-        if let Some(inverse) = &self.normal {
-            self.passes += 1;
-            self.contact = ContactSet::default(); // its fields are overwritten
-            inverse.apply_to_region(right, pressure, (&mut self.fields, &self.workspace));
-        }
+        self.passes += 1;
+        self.contact = ContactSet::default(); // its fields are overwritten
+        self.normal.apply_to_region(right, pressure, (&mut self.fields, &self.workspace));
     }
 
     /// Prepares [`Preconditioner::shear`] and [`Preconditioner::pressure`] for a contact with its `slip_compliance`, in units of
@@ -187,17 +178,15 @@ impl Preconditioner {
         if self.contact != *contact {
             self.contact.clone_from(contact);
             // All inverses of a region are of one precision.
-            if let Some(inverse) = self.normal.iter().chain(&self.shear).next() {
-                inverse.clear(&mut self.fields, self.cells);
-            }
+            self.normal.clear(&mut self.fields, self.cells);
         }
     }
 
     /// Pressures that would remove normal displacements `right`, packed over the contact prepared last.
     pub fn pressure<N: Number>(&mut self, right: &[N], pressure: &mut [N], weights: &SlipWeights<N>) {
-        let Self { normal: Some(inverse), fields, workspace, contact, .. } = self else { return };
+        let Self { normal, fields, workspace, contact, .. } = self;
         self.passes += 1;
-        inverse.apply(contact, &[right], &mut [pressure], weights.compliance, (fields, workspace));
+        normal.apply(contact, &[right], &mut [pressure], weights.compliance, (fields, workspace));
     }
 
     /// Shears that would remove tangential displacements `right`, before any restriction to what the active sets leave free; packed

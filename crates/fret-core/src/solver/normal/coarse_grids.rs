@@ -3,13 +3,14 @@
 
 use ndarray::Array2;
 
-use super::super::linear::preconditioner::{CellWaves, Preconditioner};
+use super::super::linear::preconditioner::CellWaves;
+use super::super::operators::RegionOperators;
 use super::super::outcome::Work;
 use super::super::region::Region;
 use super::super::settings::{IterationCallback, SolveError, SolverSettings};
 use super::grid_transfer::{coarser_heights, coarser_response, prolonged};
 use super::{NormalEquations, first_pressure, solve_normal};
-use crate::compliance::{OperatorSet, SpectralCompliance, SurfaceCompliance, SurfaceResponse};
+use crate::compliance::{OperatorSet, SharedWorkspace, SurfaceCompliance, SurfaceResponse};
 use crate::kernel::ResponseTable;
 use crate::model::Symmetry;
 use fret_fft::good_length;
@@ -108,10 +109,9 @@ impl CoarseGrids {
                 Err(SolveError::Stopped) => return Err(SolveError::Stopped),
                 Err(_) => return Ok(None),
             };
-            work.convolutions += solved.convolutions;
-            work.preconditioner_passes += solved.passes;
-            work.full_grid_convolutions +=
-                solved.cell_convolutions / (self.cells[0] * self.cells[1] * level.symmetry.copies()) as f64;
+            let cells = (self.cells[0] * self.cells[1] * level.symmetry.copies()) as f64;
+            let full_grid_convolutions = solved.work.full_grid_convolutions / cells;
+            *work += Work { full_grid_convolutions, ..solved.work };
             let Some(finer) = solved.prolonged(above, total) else { return Ok(None) };
             start = Some(finer);
         }
@@ -125,10 +125,8 @@ struct SolvedLevel {
     pressure: Vec<f64>,
     gap: Vec<f64>,
     shift: f64,
-    convolutions: usize,
-    passes: usize,
-    /// Convolutions times the cells of their regions.
-    cell_convolutions: f64,
+    /// What it cost, the whole grid taken for one cell.
+    work: Work,
 }
 
 impl Level {
@@ -155,16 +153,12 @@ impl Level {
             _ => whole,
         };
         let mut start = start;
-        let (mut convolutions, mut passes, mut cell_convolutions) = (0, 0, 0.0);
+        let mut work = Work::default();
         loop {
-            let symmetry = self.symmetry;
-            let operators = OperatorSet { normal: true, symmetry, ..OperatorSet::default() };
-
-            let mut compliance = SpectralCompliance::new(&self.response, region.shape, operators)?;
-            let single = settings.single_precision;
-            let shape = region.shape;
-            let mut preconditioner =
-                Preconditioner::new(&self.response, waves, shape, [true, false], None, symmetry, single)?;
+            let (symmetry, single) = (self.symmetry, settings.single_precision);
+            let wanted = OperatorSet { normal: true, symmetry, single, ..OperatorSet::default() };
+            let workspace = SharedWorkspace::default();
+            let mut operators = RegionOperators::new(&self.response, waves, region, wanted, &workspace)?;
             let undeformed = region.gather(&self.undeformed);
             let task = NormalEquations {
                 undeformed: &undeformed,
@@ -174,25 +168,14 @@ impl Level {
             };
             let mut pressure = match &start {
                 Some(start) => region.gather(start),
-                None => first_pressure(&task, compliance.self_influence().normal),
+                None => first_pressure(&task, operators.compliance.self_influence().normal),
             };
-            let mut displacement = vec![0.0; region.len()];
-            compliance.normal(&pressure, &mut displacement);
-            let stiff = preconditioner.is_stiff();
+            let stiff = operators.preconditioner.is_stiff();
             let tolerance = if stiff { TOLERANCE_STIFF } else { TOLERANCE };
             let coarse = SolverSettings { tolerance: tolerance.max(settings.tolerance), ..*settings };
-            let solution = solve_normal(
-                &task,
-                &mut pressure,
-                &mut displacement,
-                &mut compliance,
-                &mut preconditioner,
-                &coarse,
-                callback,
-            )?;
-            convolutions += compliance.applications;
-            passes += preconditioner.passes;
-            cell_convolutions += (compliance.applications * region.len()) as f64;
+            let fields = [&mut pressure[..], &mut vec![0.0; region.len()]];
+            let solution = solve_normal(&task, fields, &mut operators, &coarse, callback)?;
+            work += operators.take_work(region.len() as f64);
             if region != whole && touches_side(region, self.cells(), &pressure) {
                 let mut found = Array2::zeros(self.cells());
                 region.scatter(&pressure, &mut found);
@@ -202,7 +185,7 @@ impl Level {
             }
             let shift = if stiff { SHIFT_STIFF } else { SHIFT };
             let gap = solution.gap;
-            return Ok(SolvedLevel { region, pressure, gap, shift, convolutions, passes, cell_convolutions });
+            return Ok(SolvedLevel { region, pressure, gap, shift, work });
         }
     }
 }

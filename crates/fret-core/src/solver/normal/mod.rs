@@ -7,9 +7,8 @@ mod problem;
 mod projected_cg;
 
 use super::laws::complementarity::NormalResidual;
-use super::linear::preconditioner::Preconditioner;
+use super::operators::RegionOperators;
 use super::settings::{IterationCallback, SolveError, SolverSettings};
-use crate::compliance::SurfaceCompliance;
 use crate::fields::lower;
 
 pub use problem::NormalEquations;
@@ -29,23 +28,23 @@ pub struct NormalSolution {
 /// Iterations of projected conjugate gradients that need not halve the residual before the active set is tried.
 const MAX_STALLED: usize = 20;
 
-/// Solves the normal equations from a feasible `pressure` with its `displacement`; both end at the solution.
+/// Solves the normal equations from a feasible pressure. Both fields end at the solution: pressure [pressure] and its normal displacement
+/// [length].
 ///
-/// Projected conjugate gradients come first, the active set where the response is stiff (see [`Preconditioner::is_stiff`]); each
-/// takes over when the other stalls.
+/// Projected conjugate gradients come first, the active set where the response is stiff; each takes over when the other stalls.
+///
+/// # Errors
+/// When the iteration does not converge or is stopped.
 pub fn solve_normal(
     task: &NormalEquations<'_>,
-    pressure: &mut [f64],
-    displacement: &mut [f64],
-    compliance: &mut dyn SurfaceCompliance,
-    preconditioner: &mut Preconditioner,
+    fields: [&mut [f64]; 2],
+    operators: &mut RegionOperators,
     settings: &SolverSettings,
     callback: IterationCallback<'_>,
 ) -> Result<NormalSolution, SolveError> {
-    let mut by_active_set = preconditioner.is_stiff();
+    let mut by_active_set = operators.preconditioner.is_stiff();
     let bounds = (settings.tolerance, settings.max_normal_iterations);
-    let fields = [pressure, displacement];
-    let mut problem = NormalIteration::new(task, fields, compliance, preconditioner, bounds, callback);
+    let mut problem = NormalIteration::new(task, fields, operators, bounds, callback);
     let mut max_stalled = MAX_STALLED;
     loop {
         let ending = if by_active_set {

@@ -1,7 +1,7 @@
 //! The frictionless problem in a region: its equations, the fields both iterations work on, and how they report.
 
 use super::super::laws::complementarity::NormalResidual;
-use super::super::linear::preconditioner::Preconditioner;
+use super::super::operators::RegionOperators;
 use super::super::settings::{IterationCallback, SolveError};
 use crate::compliance::SurfaceCompliance;
 use crate::fields::{CellRule, Reals, each_cell, lower, sum};
@@ -57,8 +57,7 @@ pub struct NormalIteration<'a> {
     /// The change before, and its displacement.
     pub last_change: Vec<f64>,
     pub last_image: Vec<f64>,
-    compliance: &'a mut dyn SurfaceCompliance,
-    preconditioner: &'a mut Preconditioner,
+    operators: &'a mut RegionOperators,
     /// Influence of a cell on itself [length/pressure].
     pub self_influence: f64,
     pub tolerance: f64,
@@ -72,16 +71,16 @@ pub struct NormalIteration<'a> {
 }
 
 impl<'a> NormalIteration<'a> {
-    /// The problem from a feasible pressure with its displacement.
+    /// The problem from a feasible pressure; finds its displacement.
     pub fn new(
         task: &'a NormalEquations<'a>,
         [pressure, displacement]: [&'a mut [f64]; 2],
-        compliance: &'a mut dyn SurfaceCompliance,
-        preconditioner: &'a mut Preconditioner,
+        operators: &'a mut RegionOperators,
         (tolerance, most): (f64, usize),
         callback: IterationCallback<'a>,
     ) -> Self {
         let field = || vec![0.0; task.undeformed.len()];
+        operators.compliance.normal(pressure, displacement);
         lower(displacement, -task.given_way(pressure));
         Self {
             gap: field(),
@@ -92,7 +91,7 @@ impl<'a> NormalIteration<'a> {
             image: field(),
             last_change: field(),
             last_image: field(),
-            self_influence: compliance.self_influence().normal,
+            self_influence: operators.compliance.self_influence().normal,
             tolerance,
             iterations: 0,
             most,
@@ -100,8 +99,7 @@ impl<'a> NormalIteration<'a> {
             task,
             pressure,
             displacement,
-            compliance,
-            preconditioner,
+            operators,
             callback,
         }
     }
@@ -124,20 +122,20 @@ impl<'a> NormalIteration<'a> {
     /// `image` becomes the displacement of `change`.
     pub fn convolve_change(&mut self) {
         self.iterations += 1;
-        self.compliance.normal(&self.change, &mut self.image);
+        self.operators.compliance.normal(&self.change, &mut self.image);
         lower(&mut self.image, -self.task.given_way(&self.change));
     }
 
     /// `displacement` becomes that of `pressure`.
     pub fn convolve_pressure(&mut self) {
         self.iterations += 1;
-        self.compliance.normal(self.pressure, self.displacement);
+        self.operators.compliance.normal(self.pressure, self.displacement);
         lower(self.displacement, -self.task.given_way(self.pressure));
     }
 
     /// `steepest` becomes the preconditioned residual, on all cells.
     pub fn precondition(&mut self) {
-        self.preconditioner.normal(&self.residual, &mut self.steepest);
+        self.operators.preconditioner.normal(&self.residual, &mut self.steepest);
     }
 
     /// Height `u + g0` into `gap`; the approach (mean height of the loaded cells under a force) and the mean displacement under
