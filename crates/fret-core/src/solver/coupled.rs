@@ -41,7 +41,7 @@ pub fn solve(
         let fields = [&mut tractions.pressure[..], &mut displacements.normal];
         solve_normal(&increment.normal_equations(), fields, operators, &rough, callback)?;
     }
-    make_pressure_feasible(&mut tractions, increment.prescribed.total);
+    make_pressure_feasible(&mut tractions, increment.normal.total);
     let counted_from = increment.counted_from(&before);
     let problem = increment.contact_problem(Pressure::Unknown, &counted_from);
     newton::make_shear_feasible(&problem, &mut tractions, operators);

@@ -73,7 +73,8 @@ impl IncrementProblem<'_> {
         after: &TangentialField,
         motion: [f64; 3],
     ) -> TangentialField {
-        let motions = self.positions.motions_of(&ContactSet::of(self.region.len(), |_| true));
+        let all = ContactSet::of(self.region.len(), |_| true);
+        let motions = self.positions.motions_of(&all, self.tangential);
         let mut drift = before.clone();
         drift.add_scaled(-1.0, after);
         for cell in 0..self.region.len() {

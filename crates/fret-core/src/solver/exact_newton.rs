@@ -115,14 +115,14 @@ impl<'a> Attempt<'a> {
         let mut attempt = Self {
             problem,
             response,
-            motions: problem.positions.motions_of(&ContactSet::of(cells, |_| true)),
+            motions: problem.motions_of(&ContactSet::of(cells, |_| true)),
             self_influence: [own.normal, own.tangential],
             columns: operators.region.shape[1],
             here: Point {
                 tractions: tractions.clone(),
                 displacements,
-                approach: problem.approach,
-                motion: problem.motion,
+                approach: problem.normal.approach,
+                motion: problem.tangential.motion,
             },
         };
         attempt.guess_motions();
@@ -133,7 +133,7 @@ impl<'a> Attempt<'a> {
     fn guess_motions(&mut self) {
         let Self { problem, self_influence: [_, own], here, .. } = self;
         let contact = ContactSet::loaded(&here.tractions.pressure);
-        if (problem.total.is_some() || problem.approach_give > 0.0) && contact.len() > 0 {
+        if (problem.normal.total.is_some() || problem.normal.give > 0.0) && contact.len() > 0 {
             let heights =
                 contact.cells().map(|cell| here.displacements.normal[cell] + problem.undeformed[cell]);
             here.approach = heights.sum::<f64>() / contact.len() as f64;
@@ -143,9 +143,7 @@ impl<'a> Attempt<'a> {
             bound: &bound.bound,
             before: &contact.packed_tangential(problem.before),
             path: &problem.path.packed(&contact),
-            motions: &problem.positions.motions_of(&contact),
-            motion: problem.motion,
-            resultant: problem.resultant,
+            motions: &problem.motions_of(&contact),
             self_influence: *own,
         };
         let shear = contact.packed_tangential(&here.tractions.shear);
@@ -242,16 +240,17 @@ impl<'a> Attempt<'a> {
             }
         }
         let cells = point.tractions.pressure.iter().filter(|p| **p > 0.0).count().max(1) as f64;
-        if let Some(total) = problem.total {
+        let (normal, loads) = (problem.normal, problem.tangential);
+        if let Some(total) = normal.total {
             square += (sums[0] - total).powi(2) / cells;
-        } else if problem.approach_give > 0.0 {
-            let missing = (problem.approach - point.approach) / problem.approach_give;
+        } else if normal.give > 0.0 {
+            let missing = (normal.approach - point.approach) / normal.give;
             square += (sums[0] - missing).powi(2) / cells;
         }
         for mode in 0..3 {
-            if self.motions.by_force[mode] {
-                let carried = sums[1 + mode] + self.motions.spring[mode] * point.motion[mode];
-                square += (carried - problem.resultant[mode]).powi(2) / cells;
+            if loads.by_force[mode] {
+                let carried = sums[1 + mode] + loads.spring[mode] * point.motion[mode];
+                square += (carried - loads.resultant[mode]).powi(2) / cells;
             }
         }
         square
@@ -307,7 +306,7 @@ impl<'a> Attempt<'a> {
 
     /// Takes away what rounding left of tension and of shear beyond the bound.
     fn project(&self, tractions: &mut Tractions) {
-        project_pressure(&mut tractions.pressure, self.problem.total);
+        project_pressure(&mut tractions.pressure, self.problem.normal.total);
         for cell in 0..tractions.pressure.len() {
             let (bound, _) = self.problem.friction.at(cell, tractions.pressure[cell]);
             let [x, y] = tractions.shear.at(cell);

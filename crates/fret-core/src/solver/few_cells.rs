@@ -5,6 +5,7 @@ use super::laws::friction::FrictionLaw;
 use super::laws::rigid_motions::CellPositions;
 use super::laws::slip_path::SlipPath;
 use super::operators::RegionOperators;
+use super::prescribed::{NormalLoad, TangentialLoads};
 use super::region::Region;
 use super::tractions::{Displacements, Tractions};
 use crate::compliance::{
@@ -147,7 +148,7 @@ impl Asked {
         let [nx, ny] = cells.shape;
         let x = (0..nx).map(|i| cells.middle(i * ny)[0]).collect();
         let y = (0..ny).map(|j| cells.middle(j)[1]).collect();
-        CellPositions::new(x, y, self.rotates, self.by_force).with_springs(self.by_force, self.spring)
+        CellPositions::new(x, y, self.rotates)
     }
 
     pub(super) fn law(&self, cells: &Cells) -> FrictionLaw {
@@ -166,14 +167,16 @@ impl Asked {
             pressure: Pressure::Unknown,
             undeformed: &self.gap,
             friction: &law,
-            total: self.total,
-            approach: self.approach,
-            approach_give: self.give,
+            normal: NormalLoad { total: self.total, approach: self.approach, give: self.give },
+            tangential: TangentialLoads {
+                motion: self.motion,
+                resultant: self.resultant,
+                by_force: self.by_force,
+                spring: self.spring,
+            },
             before: &self.before,
             path: &self.path,
             positions: &positions,
-            motion: self.motion,
-            resultant: self.resultant,
         })
     }
 

@@ -7,8 +7,9 @@ use super::coupled;
 use super::increment_problem::{IncrementProblem, Solved};
 use super::linear::preconditioner::CellWaves;
 use super::memory::{Before, Drift, GridTractions, LastIncrement};
-use super::normal::coarse_grids::{CoarseGrids, Prescribed};
+use super::normal::coarse_grids::CoarseGrids;
 use super::operators::{Method, RegionOperators};
+use super::prescribed::NormalLoad;
 use super::region::Region;
 use super::sequential;
 use super::settle::settle;
@@ -17,7 +18,7 @@ use super::stretch::Stretch;
 use super::tractions::Tractions;
 use super::{ContactSolver, Coupling, Increment, IterationCallback, Outcome, SolveError, Work};
 use crate::compliance::{CellResponse, OperatorSet, SurfaceCompliance};
-use crate::model::{ContactState, Control, Integration, LoadStep, Scheme};
+use crate::model::{ContactState, Control, Integration, LoadStep, Rig, Scheme};
 
 /// A normal load changes much when it changes by more than this fraction: starting on coarse grids is then cheaper than from the
 /// pressure before.
@@ -255,18 +256,20 @@ impl ContactSolver<'_> {
             return Ok(None);
         }
         let lowest = self.undeformed.iter().copied().fold(f64::INFINITY, f64::min);
-        let prescribed = match load.normal {
-            Control::Force(force) if force > 0.0 => {
-                Prescribed { total: Some(force / self.grid.cell_area()), approach: 0.0 }
-            }
-            Control::Motion(approach) if approach > lowest => Prescribed { total: None, approach },
-            _ => return Ok(None),
+        let presses = match load.normal {
+            Control::Force(force) => force > 0.0,
+            Control::Motion(approach) => approach > lowest,
+            Control::FarEnd(_) => false,
         };
+        if !presses {
+            return Ok(None);
+        }
+        let normal = NormalLoad::new(state, load, Rig::RIGID, self.grid.cell_area());
         let spacing = self.grid.spacing();
         let grids = self.coarse.get_or_insert_with(|| {
             CoarseGrids::below(&self.response, &self.undeformed, spacing, self.symmetry)
         });
-        grids.pressure_above(prescribed, self.table.as_ref(), &self.settings, work, callback)
+        grids.pressure_above(normal, self.table.as_ref(), &self.settings, work, callback)
     }
 
     /// By how much more the lower surface is strained than the upper one, in the increment.

@@ -7,11 +7,11 @@ use super::contact_set::ContactSet;
 use super::laws::complementarity::NormalResidual;
 use super::laws::friction::FrictionLaw;
 use super::laws::limit::carried_fraction;
-use super::laws::rigid_motions::{CellPositions, RigidMotions};
+use super::laws::rigid_motions::CellPositions;
 use super::laws::slip_path::SlipPath;
 use super::normal::{NormalEquations, first_pressure};
 use super::operators::RegionOperators;
-use super::prescribed::PrescribedLoads;
+use super::prescribed::{NormalLoad, TangentialLoads};
 use super::region::Region;
 use super::settings::{SolveError, SolverSettings};
 use super::stretch::Stretch;
@@ -39,7 +39,9 @@ pub struct IncrementProblem<'a> {
     pub positions: CellPositions,
     /// Gap before deformation [length].
     pub undeformed: Vec<f64>,
-    pub prescribed: PrescribedLoads,
+    /// What is prescribed along the normal and along the surface.
+    pub normal: NormalLoad,
+    pub tangential: TangentialLoads,
     /// What the bulk stresses do in the increment.
     pub stretch: Stretch,
     /// What is known of the paths of slip.
@@ -74,17 +76,18 @@ impl<'a> IncrementProblem<'a> {
             (0..region.shape[axis]).map(|index| grid.centre(axis, region.origin[axis] + index)).collect()
         };
         let rotates = state.twist != 0.0 || load.twist != Control::Motion(0.0);
-        let positions = CellPositions::new(centres(0), centres(1), rotates, [false; 3]);
-        let prescribed = PrescribedLoads::new(state, load, rig, [positions.length, grid.cell_area()]);
+        let positions = CellPositions::new(centres(0), centres(1), rotates);
+        let area = grid.cell_area();
         Self {
             grid,
             state,
             load,
             region,
             friction: FrictionLaw::in_region(friction, region),
-            positions: positions.with_springs(prescribed.by_force, prescribed.spring),
             undeformed: region.gather(undeformed),
-            prescribed,
+            normal: NormalLoad::new(state, load, rig, area),
+            tangential: TangentialLoads::new(state, load, rig, [positions.length, area]),
+            positions,
             stretch,
             path: SlipPath::default(),
             start: None,
@@ -93,7 +96,7 @@ impl<'a> IncrementProblem<'a> {
 
     /// The solution where the bodies do not touch under these loads.
     pub fn apart(&self) -> Option<Solved> {
-        let PrescribedLoads { total, approach, .. } = self.prescribed;
+        let NormalLoad { total, approach, .. } = self.normal;
         let lowest = self.undeformed.iter().copied().fold(f64::INFINITY, f64::min);
         let (apart, approach) = match total {
             Some(total) => (total <= 0.0, lowest),
@@ -107,7 +110,7 @@ impl<'a> IncrementProblem<'a> {
             solution: Solution {
                 normal: NormalResidual { approach, residual: 0.0 },
                 gap: self.undeformed.iter().map(|gap| gap - approach).collect(),
-                ..Solution::without_slip(len, self.prescribed.motion_apart())
+                ..Solution::without_slip(len, self.tangential.motion_apart())
             },
         })
     }
@@ -118,19 +121,15 @@ impl<'a> IncrementProblem<'a> {
         pressure: Pressure,
         before: &'b TangentialField,
     ) -> ContactProblem<'b> {
-        let PrescribedLoads { total, approach, approach_give, motion, resultant, .. } = self.prescribed;
         ContactProblem {
             pressure,
             undeformed: &self.undeformed,
             friction: &self.friction,
-            total,
-            approach,
-            approach_give,
+            normal: self.normal,
+            tangential: self.tangential,
             before,
             path: &self.path,
             positions: &self.positions,
-            motion,
-            resultant,
         }
     }
 
@@ -147,8 +146,7 @@ impl<'a> IncrementProblem<'a> {
 
     /// Those of the frictionless problem.
     pub fn normal_equations(&self) -> NormalEquations<'_> {
-        let PrescribedLoads { total, approach, approach_give, .. } = self.prescribed;
-        NormalEquations { undeformed: &self.undeformed, total, approach, give: approach_give }
+        NormalEquations { undeformed: &self.undeformed, load: self.normal }
     }
 
     /// Whether the bodies touched in the state before.
@@ -158,10 +156,10 @@ impl<'a> IncrementProblem<'a> {
 
     /// Whether anything asks for shear, or has left some.
     pub fn causes_shear(&self) -> bool {
-        let prescribed = &self.prescribed;
-        prescribed.motion != [0.0; 3]
+        let TangentialLoads { motion, resultant, .. } = self.tangential;
+        motion != [0.0; 3]
             || !self.stretch.is_none()
-            || prescribed.resultant != [0.0; 3]
+            || resultant != [0.0; 3]
             || self.state.shear.iter().any(|shear| shear.iter().any(|q| *q != 0.0))
     }
 
@@ -175,8 +173,9 @@ impl<'a> IncrementProblem<'a> {
     pub fn check_limit(&self, tractions: &Tractions) -> Result<(), SolveError> {
         let contact = ContactSet::loaded(&tractions.pressure);
         let bound = self.friction.packed(&contact).bound(&contact.packed(&tractions.pressure));
-        let motions = RigidMotions { by_force: self.positions.held(), ..self.positions.motions_of(&contact) };
-        let prescribed = motions.only_by_force(self.prescribed.resultant);
+        let loads = TangentialLoads { by_force: self.tangential.held(), ..self.tangential };
+        let motions = self.positions.motions_of(&contact, loads);
+        let prescribed = loads.only_by_force(loads.resultant);
         let fraction = carried_fraction(&bound.bound, &motions, prescribed);
         if fraction > LIMIT {
             return Ok(());

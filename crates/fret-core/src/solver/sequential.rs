@@ -33,7 +33,7 @@ pub fn solve(
         displacements.normal.clone_from(&last.normal);
         pressure_before(increment, &displacements, &tractions, operators)
     } else {
-        let usable = project_pressure(&mut tractions.pressure, increment.prescribed.total);
+        let usable = project_pressure(&mut tractions.pressure, increment.normal.total);
         if increment.start.is_some() || !increment.touched() || !usable {
             tractions.pressure = increment.first_pressure(operators);
         }
@@ -41,7 +41,7 @@ pub fn solve(
         solve_normal(&increment.normal_equations(), fields, operators, settings, callback)?
     };
     let mut drift = TangentialField::zeros(cells);
-    let mut solution = Solution::without_slip(cells, increment.prescribed.motion);
+    let mut solution = Solution::without_slip(cells, increment.tangential.motion);
     if method.coupling == Coupling::Frictionless || settings.skip_unloaded_shear && !increment.causes_shear()
     {
         tractions.shear.clear();
@@ -71,11 +71,10 @@ fn pressure_before(
     tractions: &Tractions,
     operators: &RegionOperators,
 ) -> NormalSolution {
-    let IncrementProblem { undeformed, prescribed, .. } = increment;
+    let IncrementProblem { undeformed, normal, .. } = increment;
     let own = operators.compliance.self_influence().normal;
     let mut gap: Vec<f64> = displacements.normal.iter().zip(undeformed).map(|(u, g)| u + g).collect();
-    let gives = increment.normal_equations().given_way(&tractions.pressure);
-    let approach = prescribed.total.is_none().then_some(prescribed.approach - gives);
+    let approach = normal.approach_under(&tractions.pressure);
     let residual = normal_residual(&tractions.pressure, &mut gap, undeformed, own, approach);
     NormalSolution { residual, gap, iterations: 0 }
 }

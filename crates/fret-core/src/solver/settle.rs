@@ -125,15 +125,15 @@ fn bulk_work(problem: &IncrementProblem<'_>, after: &ContactState) -> f64 {
 
 /// How far resultants are from the prescribed ones, relative to the normal force; the tangential ones to the `limit` of friction.
 fn off_equilibrium(problem: &IncrementProblem<'_>, found: &Resultants, limit: f64) -> f64 {
-    let IncrementProblem { grid, positions, prescribed, .. } = problem;
+    let IncrementProblem { grid, positions, normal, tangential, .. } = problem;
     let area = grid.cell_area();
-    let normal = match prescribed.total {
+    let normal = match normal.total {
         Some(total) if total > 0.0 => (found.normal / (total * area) - 1.0).abs(),
         _ => 0.0,
     };
     let lengths = [1.0, 1.0, positions.length];
     let found = [found.tangential[0], found.tangential[1], found.moment];
-    (0..3).filter(|&mode| limit > 0.0 && positions.held()[mode]).fold(normal, |worst, mode| {
-        worst.max((found[mode] / lengths[mode] - prescribed.resultant[mode] * area).abs() / limit)
+    (0..3).filter(|&mode| limit > 0.0 && tangential.held()[mode]).fold(normal, |worst, mode| {
+        worst.max((found[mode] / lengths[mode] - tangential.resultant[mode] * area).abs() / limit)
     })
 }

@@ -79,16 +79,16 @@ impl LinearSystem<'_> {
     /// Its solution; `None` where the matrix is singular.
     pub fn solve(&self) -> Option<NewtonPoint> {
         let Self { problem, motions, active, unit, .. } = *self;
+        let (normal, loads) = (problem.normal, problem.tangential);
         let unknowns = active.last().map_or(0, |cell| cell.first + cell.unknowns());
-        let motion_unknown: Vec<usize> = (0..3).filter(|&mode| motions.by_force[mode]).collect();
-        let gives = problem.approach_give > 0.0;
-        let approach_unknown = usize::from(problem.total.is_some() || gives);
+        let motion_unknown: Vec<usize> = (0..3).filter(|&mode| loads.by_force[mode]).collect();
+        let gives = normal.give > 0.0;
+        let approach_unknown = usize::from(normal.total.is_some() || gives);
         let size = unknowns + approach_unknown + motion_unknown.len();
         let mut matrix = Mat::<f64>::zeros(size, size);
         let mut right = Mat::<f64>::zeros(size, 1);
         let place = |cell: usize| [cell / self.columns, cell % self.columns];
-        let prescribed =
-            [0, 1, 2].map(|mode| if motions.by_force[mode] { 0.0 } else { problem.motion[mode] });
+        let prescribed = [0, 1, 2].map(|mode| if loads.by_force[mode] { 0.0 } else { loads.motion[mode] });
         let mode_at = |mode: usize, cell: usize| {
             let mut amounts = [0.0; 3];
             amounts[mode] = 1.0;
@@ -110,7 +110,7 @@ impl LinearSystem<'_> {
                     right[(to.first + row, 0)] -= constant * from.offset;
                 }
             }
-            let approach = if approach_unknown == 1 { 0.0 } else { problem.approach };
+            let approach = if approach_unknown == 1 { 0.0 } else { normal.approach };
             right[(to.first, 0)] += (approach - problem.undeformed[to.cell]) / unit;
             if approach_unknown == 1 {
                 matrix[(to.first, unknowns)] = -1.0;
@@ -137,16 +137,16 @@ impl LinearSystem<'_> {
                 right[(at, 0)] -= to.offset * (to.along[0] * along[0] + to.along[1] * along[1]);
             }
         }
-        if let Some(total) = problem.total {
+        if let Some(total) = normal.total {
             right[(unknowns, 0)] = total;
         } else if gives {
-            matrix[(unknowns, unknowns)] = unit / problem.approach_give;
-            right[(unknowns, 0)] = problem.approach / problem.approach_give;
+            matrix[(unknowns, unknowns)] = unit / normal.give;
+            right[(unknowns, 0)] = normal.approach / normal.give;
         }
         for (index, &mode) in motion_unknown.iter().enumerate() {
             let at = unknowns + approach_unknown + index;
-            right[(at, 0)] += problem.resultant[mode];
-            matrix[(at, at)] += motions.spring[mode] * unit;
+            right[(at, 0)] += loads.resultant[mode];
+            matrix[(at, at)] += loads.spring[mode] * unit;
         }
         let solution = matrix.partial_piv_lu().solve(&right);
         let value = |index: usize| solution[(index, 0)];
@@ -162,13 +162,13 @@ impl LinearSystem<'_> {
             tractions.pressure[cell.cell] = found[0];
             tractions.shear.set(cell.cell, [found[1], found[2]]);
         }
-        let mut motion = problem.motion;
+        let mut motion = loads.motion;
         for (index, &mode) in motion_unknown.iter().enumerate() {
             motion[mode] = value(unknowns + approach_unknown + index) * unit;
         }
         Some(NewtonPoint {
             tractions,
-            approach: if approach_unknown == 1 { value(unknowns) * unit } else { problem.approach },
+            approach: if approach_unknown == 1 { value(unknowns) * unit } else { normal.approach },
             motion,
         })
     }

@@ -6,6 +6,7 @@ use ndarray::Array2;
 use super::super::linear::preconditioner::CellWaves;
 use super::super::operators::RegionOperators;
 use super::super::outcome::Work;
+use super::super::prescribed::NormalLoad;
 use super::super::region::Region;
 use super::super::settings::{IterationCallback, SolveError, SolverSettings};
 use super::grid_transfer::{coarser_heights, coarser_response, prolonged};
@@ -40,15 +41,6 @@ struct Level {
 pub struct CoarseGrids {
     levels: Vec<Level>,
     cells: [usize; 2],
-}
-
-/// What is prescribed: sum of the pressures over the cells of the finest grid, or the approach.
-#[derive(Debug, Clone, Copy)]
-pub struct Prescribed {
-    /// Sum of the pressures [pressure].
-    pub total: Option<f64>,
-    /// Approach [length].
-    pub approach: f64,
 }
 
 impl CoarseGrids {
@@ -86,13 +78,14 @@ impl CoarseGrids {
         Self { levels, cells: [nx, ny] }
     }
 
-    /// A pressure for the grid above, close to the solution, or none when coarse grids do not help. `work` counts what it cost.
+    /// A pressure for the grid above under its `load`, close to the solution, or none when coarse grids do not help. `work` counts what
+    /// it cost.
     ///
     /// # Errors
     /// When the caller stopped the iteration.
     pub fn pressure_above(
         &self,
-        prescribed: Prescribed,
+        load: NormalLoad,
         table: Option<&ResponseTable>,
         settings: &SolverSettings,
         work: &mut Work,
@@ -100,11 +93,11 @@ impl CoarseGrids {
     ) -> Result<Option<Array2<f64>>, SolveError> {
         let mut start: Option<Array2<f64>> = None;
         for (index, level) in self.levels.iter().enumerate().rev() {
-            let total = prescribed.total.map(|total| total * 0.25_f64.powi(index as i32 + 1));
+            let total = load.total.map(|total| total * 0.25_f64.powi(index as i32 + 1));
             let above = if index == 0 { self.cells } else { self.levels[index - 1].cells() };
-            let prescribed = Prescribed { total, ..prescribed };
+            let load = NormalLoad { total, ..load };
             let waves = table.map(|table| CellWaves { table, spacing: level.spacing });
-            let solved = match level.solve(start.take(), prescribed, waves, settings, callback) {
+            let solved = match level.solve(start.take(), load, waves, settings, callback) {
                 Ok(solved) => solved,
                 Err(SolveError::Stopped) => return Err(SolveError::Stopped),
                 Err(_) => return Ok(None),
@@ -138,7 +131,7 @@ impl Level {
     fn solve(
         &self,
         start: Option<Array2<f64>>,
-        prescribed: Prescribed,
+        load: NormalLoad,
         waves: Option<CellWaves<'_>>,
         settings: &SolverSettings,
         callback: IterationCallback<'_>,
@@ -160,12 +153,7 @@ impl Level {
             let workspace = SharedWorkspace::default();
             let mut operators = RegionOperators::new(&self.response, waves, region, wanted, &workspace)?;
             let undeformed = region.gather(&self.undeformed);
-            let task = NormalEquations {
-                undeformed: &undeformed,
-                total: prescribed.total,
-                approach: prescribed.approach,
-                give: 0.0,
-            };
+            let task = NormalEquations { undeformed: &undeformed, load };
             let mut pressure = match &start {
                 Some(start) => region.gather(start),
                 None => first_pressure(&task, operators.compliance.self_influence().normal),

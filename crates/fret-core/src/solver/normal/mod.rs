@@ -53,7 +53,7 @@ pub fn solve_normal(
             projected_cg::iterate(&mut problem, max_stalled)?
         };
         if let Ending::Solved(mut residual) = ending {
-            let gives = task.given_way(problem.pressure);
+            let gives = task.load.given_way(problem.pressure);
             lower(problem.displacement, gives);
             residual.approach -= gives;
             let (gap, iterations) = (problem.gap, problem.iterations);
@@ -68,7 +68,7 @@ pub fn solve_normal(
 
 /// A first pressure: uniform over the eighth of the cells with the smallest gap under a force, the self-influences alone under an approach.
 pub fn first_pressure(task: &NormalEquations<'_>, own: f64) -> Vec<f64> {
-    match task.total {
+    match task.load.total {
         Some(total) => {
             let mut gaps: Vec<f64> = task.undeformed.to_vec();
             let eighth = (gaps.len() / 8).max(1);
@@ -77,6 +77,6 @@ pub fn first_pressure(task: &NormalEquations<'_>, own: f64) -> Vec<f64> {
             let count = task.undeformed.iter().filter(|gap| **gap <= limit).count();
             task.undeformed.iter().map(|gap| if *gap <= limit { total / count as f64 } else { 0.0 }).collect()
         }
-        None => task.undeformed.iter().map(|gap| ((task.approach - gap) / own).max(0.0) * 0.1).collect(),
+        None => task.undeformed.iter().map(|gap| ((task.load.approach - gap) / own).max(0.0) * 0.1).collect(),
     }
 }

@@ -2,29 +2,18 @@
 
 use super::super::laws::complementarity::NormalResidual;
 use super::super::operators::RegionOperators;
+use super::super::prescribed::NormalLoad;
 use super::super::settings::{IterationCallback, SolveError};
 use crate::compliance::SurfaceCompliance;
-use crate::fields::{CellRule, Reals, each_cell, lower, sum};
+use crate::fields::{CellRule, Reals, each_cell, lower};
 
 /// What the normal equations of one increment ask for, over the cells of a region.
 #[derive(Debug)]
 pub struct NormalEquations<'a> {
     /// Gap before deformation, with whatever else moves the surfaces at given shear [length].
     pub undeformed: &'a [f64],
-    /// Sum of the pressures over the cells, when the force is prescribed [pressure].
-    pub total: Option<f64>,
-    /// Approach of the body or of the actuator, when it is prescribed [length].
-    pub approach: f64,
-    /// By how much the machine gives under a unit of the summed pressure [length/pressure]: displacements have it in them while the
-    /// problem is solved; 0: the approach is that of the body.
-    pub give: f64,
-}
-
-impl NormalEquations<'_> {
-    /// What the machine gives under pressures, or a change of them [length].
-    pub fn given_way(&self, pressure: &[f64]) -> f64 {
-        if self.give > 0.0 { self.give * sum(pressure) } else { 0.0 }
-    }
+    /// What is prescribed. What the machine gives is in the displacements while the problem is solved.
+    pub load: NormalLoad,
 }
 
 /// How an iteration ended.
@@ -81,7 +70,7 @@ impl<'a> NormalIteration<'a> {
     ) -> Self {
         let field = || vec![0.0; task.undeformed.len()];
         operators.compliance.normal(pressure, displacement);
-        lower(displacement, -task.given_way(pressure));
+        lower(displacement, -task.load.given_way(pressure));
         Self {
             gap: field(),
             active: field(),
@@ -123,14 +112,14 @@ impl<'a> NormalIteration<'a> {
     pub fn convolve_change(&mut self) {
         self.iterations += 1;
         self.operators.compliance.normal(&self.change, &mut self.image);
-        lower(&mut self.image, -self.task.given_way(&self.change));
+        lower(&mut self.image, -self.task.load.given_way(&self.change));
     }
 
     /// `displacement` becomes that of `pressure`.
     pub fn convolve_pressure(&mut self) {
         self.iterations += 1;
         self.operators.compliance.normal(self.pressure, self.displacement);
-        lower(self.displacement, -self.task.given_way(self.pressure));
+        lower(self.displacement, -self.task.load.given_way(self.pressure));
     }
 
     /// `steepest` becomes the preconditioned residual, on all cells.
@@ -143,11 +132,11 @@ impl<'a> NormalIteration<'a> {
     pub fn measure(&mut self) -> (f64, Option<f64>) {
         let read = [&*self.displacement, self.task.undeformed, &*self.pressure];
         let [heights, count, work, load] = each_cell(&Measure, read, [&mut self.gap]);
-        let approach = match self.task.total {
+        let approach = match self.task.load.total {
             Some(_) if count > 0.0 => heights / count,
-            _ => self.task.approach,
+            _ => self.task.load.approach,
         };
-        (approach, (load > 0.0).then(|| (work / load - self.task.give * load).abs()))
+        (approach, (load > 0.0).then(|| (work / load - self.task.load.give * load).abs()))
     }
 
     /// Adds `fraction` of the change to pressures and displacements; rounding leaves no tension.

@@ -16,7 +16,7 @@ const LEAVE_BELOW: f64 = 0.15;
 /// When the caller stopped the iteration, or it has gone on for too long.
 pub fn iterate(problem: &mut NormalIteration<'_>, max_stalled: usize) -> Result<Ending, SolveError> {
     let self_influence = problem.self_influence;
-    let by_force = problem.task.total.is_some();
+    let by_force = problem.task.load.total.is_some();
     let mut step = 0.8_f64;
     let mut leave_below = LEAVE_BELOW;
     let mut conjugate = false;
@@ -107,7 +107,7 @@ impl Direction {
         let NormalIteration { steepest, active, last_change, pressure, change, .. } = &mut *problem;
         let target = Target { step, constant, beta };
         let [found] = each_cell(&target, [steepest, active, last_change, pressure], [change]);
-        let fraction = match problem.task.total {
+        let fraction = match problem.task.load.total {
             Some(_) if !(found > 0.0) => return false,
             Some(total) => total / found,
             None => 1.0,
