@@ -11,7 +11,7 @@ use super::laws::projection::{ShearProjection, project_pressure};
 use super::laws::rigid_motions::RigidMotions;
 use super::laws::slip::{SlipIncrement, TangentialProblem, TangentialResidual};
 use super::laws::slip_path::SlipPath;
-use super::linear::solver::Linearised;
+use super::linear::problem::Linearised;
 use super::operators::RegionOperators;
 use super::settings::SolverSettings;
 use super::tractions::{Displacements, Tractions};
@@ -174,6 +174,7 @@ impl<'a> Iterate<'a> {
                 }
             }
         }
+        let steepest = largest(&bound.slope);
         let linearised = Linearised {
             contact: &self.contact,
             sets: &self.sets,
@@ -182,6 +183,7 @@ impl<'a> Iterate<'a> {
             gap,
             slip: left_over.parts(),
             holds_force: problem.normal.total.is_some(),
+            weight: if steepest > 0.0 { 1.0 / steepest } else { 1.0 },
             give: problem.give(),
             forcing,
             most_steps: settings.max_krylov_steps,

@@ -28,6 +28,7 @@ mod operators;
 mod outcome;
 mod prescribed;
 mod region;
+mod region_fields;
 mod sequential;
 mod settings;
 mod settle;

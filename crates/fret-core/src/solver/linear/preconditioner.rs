@@ -34,8 +34,6 @@ pub struct Preconditioner {
     fields: InverseFields,
     workspace: SharedWorkspace,
     cells: usize,
-    /// The contact that fields were last spread from.
-    contact: ContactSet,
     stiff: bool,
     /// Passes so far.
     pub passes: usize,
@@ -134,7 +132,6 @@ impl Preconditioner {
             stiff: waves.is_some_and(|waves| waves.are_stiff(shape)),
             fields: InverseFields::default(),
             workspace: SharedWorkspace::default(),
-            contact: ContactSet::default(),
             cells: part[0] * part[1],
             passes: 0,
         })
@@ -154,7 +151,6 @@ impl Preconditioner {
     /// Pressures that would remove normal displacements `right`, before any restriction to a set.
     pub fn normal(&mut self, right: &[f64], pressure: &mut [f64]) {
         self.passes += 1;
-        self.contact = ContactSet::default(); // its fields are overwritten
         self.normal.apply_to_region(right, pressure, (&mut self.fields, &self.workspace));
     }
 
@@ -175,24 +171,20 @@ impl Preconditioner {
         }
         each_cell(&Weights { softest: self.softest / compliance }, [slip_compliance], [elastic, slip]);
         weights.compliance = compliance;
-        if self.contact != *contact {
-            self.contact.clone_from(contact);
-            // All inverses of a region are of one precision.
-            self.normal.clear(&mut self.fields, self.cells);
-        }
+        self.fields.begin(contact, self.cells);
     }
 
     /// Pressures that would remove normal displacements `right`, packed over the contact prepared last.
     pub fn pressure<N: Number>(&mut self, right: &[N], pressure: &mut [N], weights: &SlipWeights<N>) {
-        let Self { normal, fields, workspace, contact, .. } = self;
+        let Self { normal, fields, workspace, .. } = self;
         self.passes += 1;
-        normal.apply(contact, &[right], &mut [pressure], weights.compliance, (fields, workspace));
+        normal.apply(&[right], &mut [pressure], weights.compliance, (fields, workspace));
     }
 
     /// Shears that would remove tangential displacements `right`, before any restriction to what the active sets leave free; packed
     /// over the contact prepared last.
     pub fn shear<N: Number>(&mut self, right: [&[N]; 2], shear: [&mut [N]; 2], weights: &mut SlipWeights<N>) {
-        let Self { shear: Some(inverse), shear_axis, fields, workspace, contact, .. } = self else { return };
+        let Self { shear: Some(inverse), shear_axis, fields, workspace, .. } = self else { return };
         let SlipWeights { elastic, slip, compliance, weighted, part } = weights;
         let [weighted_x, weighted_y] = &mut *weighted;
         each_cell(&Weighted, [right[0], right[1], elastic], [weighted_x, weighted_y]);
@@ -201,7 +193,7 @@ impl Preconditioner {
         let axes = shear_axis.map_or(0..2, |axis| axis..axis + 1);
         let from = weighted.each_ref().map(Vec::as_slice);
         let mut to = part.each_mut().map(Vec::as_mut_slice);
-        inverse.apply(contact, &from[axes.clone()], &mut to[axes], *compliance, (fields, workspace));
+        inverse.apply(&from[axes.clone()], &mut to[axes], *compliance, (fields, workspace));
         let [part_x, part_y] = part;
         each_cell(&Sum, [part_x, part_y, right[0], right[1], elastic, slip], shear);
     }
