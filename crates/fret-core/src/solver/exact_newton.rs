@@ -24,8 +24,6 @@ use crate::compliance::{CellResponse, SurfaceCompliance};
 use crate::fields::norm;
 use crate::model::TangentialField;
 
-use linear_system::{ActiveCell, LinearSystem};
-
 /// Iterations from one start.
 const MOST_ITERATIONS: usize = 40;
 /// Halvings of a step.
@@ -171,8 +169,7 @@ impl<'a> Attempt<'a> {
                 self.project(tractions);
                 return Ok(true);
             }
-            let active = self.active_cells();
-            let unknowns = active.last().map_or(0, |cell| cell.first + cell.unknowns());
+            let (active, unknowns) = self.active_cells();
             if unknowns == 0 || unknowns > settings.max_direct_unknowns || !residual.is_finite() {
                 return Ok(false);
             }
@@ -254,54 +251,6 @@ impl<'a> Attempt<'a> {
             }
         }
         square
-    }
-
-    /// Cells in contact by their augmented pressure, and what they do.
-    fn active_cells(&self) -> Vec<ActiveCell> {
-        let Self { problem, self_influence: [_, tangential], here, .. } = self;
-        let mut active = Vec::new();
-        let mut first = 0;
-        for cell in 0..problem.undeformed.len() {
-            let (_, augmented, trial) = self.cell(here, cell);
-            if augmented <= 0.0 {
-                continue;
-            }
-            let (bound, slope) = problem.friction.at(cell, augmented);
-            let size = trial[0].hypot(trial[1]);
-            let along = if size > 0.0 { trial.map(|part| part / size) } else { [1.0, 0.0] };
-            let (slip_compliance, shear_unknowns) = match (bound > 0.0, size > bound) {
-                (true, false) => (None, 2),
-                (true, true) => (Some((size - bound) * tangential / bound), 1),
-                (false, _) => (Some(0.0), 0),
-            };
-            let across = [-along[1], along[0]];
-            active.push(ActiveCell {
-                cell,
-                along,
-                across,
-                turning: problem.path.row_across(cell, self.slip(here, cell), across),
-                slope,
-                offset: if slip_compliance.is_some() { bound - slope * augmented } else { 0.0 },
-                slip_compliance,
-                first,
-                shear_unknowns,
-            });
-            first += 1 + shear_unknowns;
-        }
-        active
-    }
-
-    /// The solution of the equations linearised here; its displacements are left to be found.
-    fn newton_point(&self, active: &[ActiveCell]) -> Option<Point> {
-        let Self { problem, response, motions, columns, self_influence: [unit, _], .. } = self;
-        let system = LinearSystem { problem, response, motions, active, columns: *columns, unit: *unit };
-        let found = system.solve()?;
-        Some(Point {
-            displacements: Displacements::zeros(problem.undeformed.len()),
-            tractions: found.tractions,
-            approach: found.approach,
-            motion: found.motion,
-        })
     }
 
     /// Takes away what rounding left of tension and of shear beyond the bound.

@@ -45,7 +45,7 @@ fn a_newton_step_solves_the_equations_linearised_by_difference_quotients() {
             let here = asked.left(&cells, (&tractions, approach, motion));
             let merit = attempt.merit(&attempt.here);
             assert!((merit - size(&here).powi(2)).abs() < 1e-12 * merit, "kind {kind}: {merit} {here:?}");
-            let active = attempt.active_cells();
+            let (active, _) = attempt.active_cells();
             let next = attempt.newton_point(&active).unwrap();
             let there = by_cell(next.tractions.parts());
             for mode in 0..3 {
