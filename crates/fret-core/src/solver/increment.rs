@@ -140,7 +140,7 @@ impl ContactSolver<'_> {
     ) -> Tractions {
         let coupled = self.coupling == Coupling::Coupled;
         let grown = start.filter(|_| coupled).and_then(|pressure| self.grown_to(pressure, state));
-        let (pressure, shear) = grown.unwrap_or_else(|| self.extrapolated(state, load));
+        let GridTractions { pressure, shear } = grown.unwrap_or_else(|| self.extrapolated(state, load));
         Tractions { pressure: region.gather(&pressure), shear: region.gather_tangential(&shear) }
     }
 
