@@ -33,7 +33,7 @@ pub fn solve(
     let settings = &increment.limited(method.settings);
     let touched = increment.touched();
     let mut displacements = Displacements::zeros(increment.region.len());
-    let before = increment.displacement_before(last.filter(|_| touched), operators, method.coupling);
+    let before = increment.displacement_before(last.filter(|_| touched), operators);
     if !touched {
         tractions.shear.clear();
         tractions.pressure = increment.first_pressure(operators);

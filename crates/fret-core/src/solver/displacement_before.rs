@@ -23,10 +23,9 @@ impl IncrementProblem<'_> {
         &self,
         last: Option<&'b Displacements>,
         operators: &mut RegionOperators,
-        coupling: Coupling,
     ) -> Cow<'b, TangentialField> {
         let before = last.map_or_else(
-            || Cow::Owned(self.displacement_of_state(operators, coupling)),
+            || Cow::Owned(self.displacement_of_state(operators)),
             |last| Cow::Borrowed(&last.tangential),
         );
         if self.stretch.is_none() {
@@ -44,10 +43,10 @@ impl IncrementProblem<'_> {
     }
 
     /// Tangential displacement of the tractions of the state before [length].
-    fn displacement_of_state(&self, operators: &mut RegionOperators, coupling: Coupling) -> TangentialField {
+    fn displacement_of_state(&self, operators: &mut RegionOperators) -> TangentialField {
         let mut moved = Displacements::zeros(self.region.len());
         let shear = self.region.gather_tangential(&self.state.shear);
-        if coupling == Coupling::Coupled && self.touched() {
+        if self.coupling == Coupling::Coupled && self.touched() {
             let pressure = self.region.gather(&self.state.pressure);
             operators.compliance.full([&pressure, &shear.x, &shear.y], moved.parts_mut());
         } else if shear.x.iter().chain(&shear.y).any(|q| *q != 0.0) {
@@ -90,7 +89,6 @@ impl IncrementProblem<'_> {
         before: &Before,
         drift: &Drift,
         operators: &mut RegionOperators,
-        coupling: Coupling,
     ) -> TangentialField {
         let Self { region, grid, state, .. } = self;
         let change = |now: &Array2<f64>, then: &Array2<f64>| {
@@ -101,7 +99,7 @@ impl IncrementProblem<'_> {
         let pressure = change(&state.pressure, &before.tractions.pressure);
         let [x, y] = [0, 1].map(|axis| change(&state.shear[axis], &before.tractions.shear[axis]));
         let mut moved = Displacements::zeros(region.len());
-        if coupling == Coupling::Coupled {
+        if self.coupling == Coupling::Coupled {
             operators.compliance.full([&pressure, &x, &y], moved.parts_mut());
         } else {
             operators.compliance.tangential([&x, &y], moved.tangential.parts_mut());

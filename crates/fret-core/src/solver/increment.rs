@@ -16,7 +16,7 @@ use super::settle::settle;
 use super::slip_history::slip_path;
 use super::stretch::Stretch;
 use super::tractions::Tractions;
-use super::{ContactSolver, Coupling, Increment, IterationCallback, Outcome, SolveError, Work};
+use super::{ContactSolver, Coupling, Increment, IterationCallback, Outcome, SolveError};
 use crate::compliance::{CellResponse, OperatorSet, SurfaceCompliance};
 use crate::model::{ContactState, Control, Integration, LoadStep, Rig, Scheme};
 
@@ -30,29 +30,28 @@ impl ContactSolver<'_> {
         &mut self,
         state: &ContactState,
         load: &LoadStep,
-        work: &mut Work,
         callback: IterationCallback<'_>,
     ) -> Result<Increment, SolveError> {
         if let Control::Force(normal) = load.normal {
             self.check_friction_carries(load, normal, 1e-12)?;
         }
         self.take_last_load_as(load, state);
-        let mut start = self.pressure_from_coarse_grids(state, load, work, callback)?;
+        let mut start = self.pressure_from_coarse_grids(state, load, callback)?;
         let mut region = match &start {
             Some(pressure) => self.region_around(pressure, state),
             None => self.region_for(state, load),
         };
         let mut ratio = self.ratio_to_last(load).filter(|_| self.is_of_second_order());
         loop {
-            let solved = self.solve_in(region, (start.as_ref(), ratio), (state, load), work, callback);
+            let solved = self.solve_in(region, (start.as_ref(), ratio), (state, load), callback);
             if let (Some(_), Err(SolveError::NotConverged { .. })) = (ratio, &solved) {
-                work.end_point_increments += 1;
+                self.work.end_point_increments += 1;
                 ratio = None;
                 continue;
             }
             let (solved, after, outcome) = solved?;
             self.check(load, &after, &outcome, solved.solution.iterations)?;
-            let (gap, contact_area) = self.gap_and_area((region, load), &solved, &after, work)?;
+            let (gap, contact_area) = self.gap_and_area((region, load), &solved, &after)?;
             if self.overlaps_outside(region, &gap) {
                 region = Region::whole(self.grid.cells());
                 start = start.map(|_| after.pressure);
@@ -60,7 +59,8 @@ impl ContactSolver<'_> {
             }
             let fraction = outcome.stick_cells as f64 / outcome.contact_cells.max(1) as f64;
             let stick_area = contact_area * fraction;
-            let increment = Increment { state: after, outcome, contact_area, stick_area, gap, work: *work };
+            let increment =
+                Increment { state: after, outcome, contact_area, stick_area, gap, work: self.work };
             self.remember((state, load), (region, ratio), solved, &increment);
             return Ok(increment);
         }
@@ -78,14 +78,12 @@ impl ContactSolver<'_> {
         region: Region,
         (start, ratio): (Option<&Array2<f64>>, Option<f64>),
         (state, load): (&ContactState, &LoadStep),
-        work: &mut Work,
         callback: IterationCallback<'_>,
     ) -> Result<(Solved, ContactState, Outcome), SolveError> {
         let grid = self.grid;
         let bodies = (self.rig.of_part(self.symmetry.copies()), self.stretch(state, load));
-        let loads = (state, load);
-        let mut increment =
-            IncrementProblem::new(&grid, &self.undeformed, &self.friction, loads, bodies, region);
+        let (loads, surface) = ((state, load), (&*self.friction, self.coupling));
+        let mut increment = IncrementProblem::new(&grid, &self.undeformed, surface, loads, bodies, region);
         if let Some(solved) = increment.apart() {
             let (after, outcome) = settle(&increment, &solved, 0.0, self.settings.integration);
             return Ok((solved, after, outcome));
@@ -94,19 +92,18 @@ impl ContactSolver<'_> {
         let tractions = self.predicted(start, (state, load), region);
         let mut operators = self.operators_for(region)?;
         if let Some(ratio) = ratio {
-            let beyond = |before: &Before, drift: &Drift| {
-                increment.drift_to_here(before, drift, &mut operators, self.coupling)
-            };
+            let beyond =
+                |before: &Before, drift: &Drift| increment.drift_to_here(before, drift, &mut operators);
             increment.path = slip_path(&self.memory, state, (ratio, region), beyond).unwrap_or_default();
         }
         let solved = self.solve_with(&mut operators, &increment, tractions, callback);
-        *work += operators.take_work(region.len() as f64 / self.cells_of_whole());
+        self.work += operators.take_work(region.len() as f64 / self.cells_of_whole());
         let self_influence = operators.compliance.self_influence().tangential;
         self.operators = Some(operators);
         self.memory.region = Some(region);
         let solved = solved?;
         let (after, outcome) = settle(&increment, &solved, self_influence, self.settings.integration);
-        work.outer_iterations += solved.solution.iterations;
+        self.work.outer_iterations += solved.solution.iterations;
         Ok((solved, after, outcome))
     }
 
@@ -122,7 +119,7 @@ impl ContactSolver<'_> {
         let unchanged = last.is_some_and(|last| same_normal_load(&last.load, increment.load));
         let last = last.map(|last| &last.displacements);
         let cells = || Ok(CellResponse::new(&self.response, self.grid.cells(), self.symmetry)?);
-        let method = Method { coupling: self.coupling, settings: &self.settings, cells: &cells };
+        let method = Method { settings: &self.settings, cells: &cells };
         match self.coupling {
             Coupling::Coupled => coupled::solve(increment, tractions, last, operators, &method, callback),
             Coupling::Uncoupled | Coupling::Frictionless => {
@@ -150,7 +147,6 @@ impl ContactSolver<'_> {
         (region, load): (Region, &LoadStep),
         solved: &Solved,
         after: &ContactState,
-        work: &mut Work,
     ) -> Result<(Array2<f64>, f64), SolveError> {
         let keeps_pressure = self.coupling != Coupling::Coupled && self.settings.reuse_pressure;
         let last = self
@@ -161,7 +157,7 @@ impl ContactSolver<'_> {
         if let Some(last) = last {
             return Ok((last.gap.clone(), last.contact_area));
         }
-        Ok((self.gap_everywhere(region, solved, after, work)?, self.contact_area(region, solved)))
+        Ok((self.gap_everywhere(region, solved, after)?, self.contact_area(region, solved)))
     }
 
     /// Remembers an increment that went from a state to a load, for the next one.
@@ -239,7 +235,6 @@ impl ContactSolver<'_> {
         &mut self,
         state: &ContactState,
         load: &LoadStep,
-        work: &mut Work,
         callback: IterationCallback<'_>,
     ) -> Result<Option<Array2<f64>>, SolveError> {
         let touched = state.pressure.iter().any(|p| *p > 0.0);
@@ -269,7 +264,7 @@ impl ContactSolver<'_> {
         let grids = self.coarse.get_or_insert_with(|| {
             CoarseGrids::below(&self.response, &self.undeformed, spacing, self.symmetry)
         });
-        grids.pressure_above(normal, self.table.as_ref(), &self.settings, work, callback)
+        grids.pressure_above(normal, self.table.as_ref(), &self.settings, &mut self.work, callback)
     }
 
     /// By how much more the lower surface is strained than the upper one, in the increment.

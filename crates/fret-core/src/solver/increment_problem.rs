@@ -13,7 +13,7 @@ use super::normal::{NormalEquations, first_pressure};
 use super::operators::RegionOperators;
 use super::prescribed::{NormalLoad, TangentialLoads};
 use super::region::Region;
-use super::settings::{SolveError, SolverSettings};
+use super::settings::{Coupling, SolveError, SolverSettings};
 use super::stretch::Stretch;
 use super::tractions::{Displacements, Tractions};
 use crate::compliance::SurfaceCompliance;
@@ -35,6 +35,8 @@ pub struct IncrementProblem<'a> {
     /// What is prescribed at the end.
     pub load: &'a LoadStep,
     pub region: Region,
+    /// How pressure and shear act on each other.
+    pub coupling: Coupling,
     pub friction: FrictionLaw,
     pub positions: CellPositions,
     /// Gap before deformation [length].
@@ -67,7 +69,7 @@ impl<'a> IncrementProblem<'a> {
     pub fn new(
         grid: &'a SurfaceGrid,
         undeformed: &Array2<f64>,
-        friction: &CoulombFriction,
+        (friction, coupling): (&CoulombFriction, Coupling),
         (state, load): (&'a ContactState, &'a LoadStep),
         (rig, stretch): (Rig, Stretch),
         region: Region,
@@ -83,6 +85,7 @@ impl<'a> IncrementProblem<'a> {
             state,
             load,
             region,
+            coupling,
             friction: FrictionLaw::in_region(friction, region),
             undeformed: region.gather(undeformed),
             normal: NormalLoad::new(state, load, rig, area),

@@ -6,7 +6,7 @@ use super::linear::preconditioner::{CellWaves, Preconditioner};
 use super::linear::solver::LinearSolver;
 use super::outcome::Work;
 use super::region::Region;
-use super::settings::{Coupling, SolveError, SolverSettings};
+use super::settings::{SolveError, SolverSettings};
 use crate::compliance::{CellResponse, OperatorSet, SharedWorkspace, SpectralCompliance, SurfaceResponse};
 use fret_fft::ConvolutionError;
 
@@ -62,7 +62,6 @@ impl RegionOperators {
 
 /// What an increment is solved with besides its operators.
 pub struct Method<'a> {
-    pub coupling: Coupling,
     pub settings: &'a SolverSettings,
     /// The response of a cell to another, for the exact Newton method.
     pub cells: &'a dyn Fn() -> Result<CellResponse, SolveError>,

@@ -42,11 +42,12 @@ pub fn solve(
     };
     let mut drift = TangentialField::zeros(cells);
     let mut solution = Solution::without_slip(cells, increment.tangential.motion);
-    if method.coupling == Coupling::Frictionless || settings.skip_unloaded_shear && !increment.causes_shear()
+    if increment.coupling == Coupling::Frictionless
+        || settings.skip_unloaded_shear && !increment.causes_shear()
     {
         tractions.shear.clear();
     } else {
-        let before = increment.displacement_before(last, operators, method.coupling);
+        let before = increment.displacement_before(last, operators);
         let counted_from = increment.counted_from(&before);
         let problem = increment.contact_problem(Pressure::Given, &counted_from);
         newton::make_shear_feasible(&problem, &mut tractions, operators);

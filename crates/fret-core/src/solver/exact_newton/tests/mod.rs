@@ -3,7 +3,6 @@ mod solutions;
 use std::ops::ControlFlow;
 
 use super::super::few_cells::{Asked, Cells, KINDS, by_cell, kinds, size, tractions_of};
-use super::super::settings::Coupling;
 use super::*;
 use crate::random::Random;
 
@@ -182,7 +181,7 @@ fn what_is_too_large_or_stopped_is_not_solved() {
         let solve = |most: usize, go_on: IterationCallback<'_>| {
             let settings = SolverSettings { max_direct_unknowns: most, ..SolverSettings::new(1e-8) };
             let (response, mut operators) = (|| Ok(cells.cell_response()), cells.operators());
-            let method = Method { coupling: Coupling::Coupled, settings: &settings, cells: &response };
+            let method = Method { settings: &settings, cells: &response };
             let (mut tractions, mut displacements) = (Tractions::zeros(6), Displacements::zeros(6));
             let ends = (&mut tractions, &mut displacements);
             let solved = super::solve(problem, [&start, &start], ends, &mut operators, &method, go_on);
