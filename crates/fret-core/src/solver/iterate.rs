@@ -16,7 +16,7 @@ use super::operators::RegionOperators;
 use super::settings::SolverSettings;
 use super::tractions::{Displacements, Tractions};
 use crate::compliance::SurfaceCompliance;
-use crate::fields::{CellRule, Reals, TangentialField, add_scaled, each_cell, largest, lower, reset, sum};
+use crate::fields::{TangentialField, add_scaled, largest, lower, sum};
 
 /// A residual of the friction law above which the solution is far. Measured: from 0.1 on, and down to 0, more applications are needed.
 const FAR: f64 = 1e-3;
@@ -115,12 +115,10 @@ impl<'a> Iterate<'a> {
         let problem = self.problem;
         let mut worst = 0.0;
         if problem.pressure == Pressure::Unknown {
-            let Self { gap, tractions, displacements, .. } = self;
-            reset(gap, problem.undeformed.len());
-            each_cell(&Height, [&displacements.normal, problem.undeformed], [gap]);
-            let approach = problem.normal.approach_under(&tractions.pressure);
-            let [own, _] = self.self_influence;
-            self.normal = normal_residual(&tractions.pressure, gap, problem.undeformed, own, approach);
+            let Self { gap, tractions, displacements, self_influence: [own, _], .. } = self;
+            let (pressure, displacement) = (&tractions.pressure, &displacements.normal);
+            let approach = problem.normal.approach_under(pressure);
+            self.normal = normal_residual(pressure, displacement, problem.undeformed, *own, approach, gap);
             worst = self.normal.residual;
             let contact =
                 ContactSet::of(gap.len(), |cell| self.tractions.pressure[cell] > 0.0 || self.gap[cell] < 0.0);
@@ -298,16 +296,6 @@ impl<'a> Iterate<'a> {
         };
         let [slip, end_slip] = [slip.slip, slip.at_end].map(scattered);
         Solution { normal, tangential, gap, slip, end_slip, iterations }
-    }
-}
-
-struct Height;
-
-impl CellRule<2, 1, 0> for Height {
-    #[inline(always)]
-    fn at<R: Reals>(&self, [u, g]: [R; 2], [height]: &mut [R; 1]) -> [R; 0] {
-        *height = u + g;
-        []
     }
 }
 

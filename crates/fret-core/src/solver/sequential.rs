@@ -74,8 +74,9 @@ fn pressure_before(
 ) -> NormalSolution {
     let IncrementProblem { undeformed, normal, .. } = increment;
     let own = operators.compliance.self_influence().normal;
-    let mut gap: Vec<f64> = displacements.normal.iter().zip(undeformed).map(|(u, g)| u + g).collect();
+    let mut gap = Vec::new();
     let approach = normal.approach_under(&tractions.pressure);
-    let residual = normal_residual(&tractions.pressure, &mut gap, undeformed, own, approach);
+    let (pressure, displacement) = (&tractions.pressure, &displacements.normal);
+    let residual = normal_residual(pressure, displacement, undeformed, own, approach, &mut gap);
     NormalSolution { residual, gap, iterations: 0 }
 }

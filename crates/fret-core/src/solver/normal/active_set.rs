@@ -35,7 +35,9 @@ struct Violations {
 /// When the caller stopped the iteration, or it has gone on for too long.
 pub fn iterate(problem: &mut NormalIteration<'_>) -> Result<Ending, SolveError> {
     let task = problem.task;
-    each_cell(&Loaded, [&*problem.pressure], [&mut problem.active]);
+    for (active, p) in problem.active.iter_mut().zip(&*problem.pressure) {
+        *active = f64::from(u8::from(*p > 0.0));
+    }
     let mut best = f64::INFINITY;
     let mut changes = 0;
     loop {
@@ -135,16 +137,6 @@ fn give_up(problem: &mut NormalIteration<'_>) -> Ending {
     project_pressure(problem.pressure, problem.task.load.total);
     problem.convolve_pressure();
     Ending::Stalled
-}
-
-struct Loaded;
-
-impl CellRule<1, 1, 0> for Loaded {
-    #[inline(always)]
-    fn at<R: Reals>(&self, [p]: [R; 1], [active]: &mut [R; 1]) -> [R; 0] {
-        *active = p.if_at_most(p.all(0.0), p.all(0.0), p.all(1.0));
-        []
-    }
 }
 
 /// The next change: down the preconditioned residual, conjugate to the last.
