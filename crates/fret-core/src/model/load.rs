@@ -22,6 +22,16 @@ impl Control {
         let (Self::Force(value) | Self::Motion(value) | Self::FarEnd(value)) = self;
         value
     }
+
+    /// The resultant, where that is prescribed.
+    pub fn force(self) -> Option<f64> {
+        if let Self::Force(force) = self { Some(force) } else { None }
+    }
+
+    /// The motion, of the body or of the far end, where that is prescribed.
+    pub fn motion(self) -> Option<f64> {
+        if let Self::Motion(motion) | Self::FarEnd(motion) = self { Some(motion) } else { None }
+    }
 }
 
 /// Loads and motions at the end of one increment.

@@ -32,10 +32,8 @@ impl IncrementProblem<'_> {
             return before;
         }
         let mut before = before.into_owned();
-        let columns = self.region.shape[1];
         for cell in 0..self.region.len() {
-            let at = [self.region.origin[0] + cell / columns, self.region.origin[1] + cell % columns];
-            let [x, y] = self.stretch.at(self.grid, at);
+            let [x, y] = self.stretch.at(self.grid, self.region.at(cell));
             before.x[cell] -= x;
             before.y[cell] -= y;
         }
@@ -107,8 +105,7 @@ impl IncrementProblem<'_> {
         let [shift_x, shift_y, twist] = drift.motion;
         let mut found = moved.tangential;
         for cell in 0..region.len() {
-            let [i, j] =
-                [region.origin[0] + cell / region.shape[1], region.origin[1] + cell % region.shape[1]];
+            let [i, j] = region.at(cell);
             let u = found.at(cell);
             let turned = [-twist * grid.centre(1, j), twist * grid.centre(0, i)];
             let [x, y] = Stretch { strain: drift.strain, ..self.stretch }.at(grid, [i, j]);

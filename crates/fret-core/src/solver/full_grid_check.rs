@@ -23,7 +23,7 @@ impl ContactSolver<'_> {
         let mut gap = Array2::zeros(cells);
         if region == whole {
             self.full_grid = None;
-            whole.scatter(&solved.solution.gap, &mut gap);
+            whole.place(&solved.solution.gap, &mut gap);
             return Ok(gap);
         }
         gap.assign(&self.undeformed);

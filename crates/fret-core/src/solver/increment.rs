@@ -32,7 +32,7 @@ impl ContactSolver<'_> {
         load: &LoadStep,
         callback: IterationCallback<'_>,
     ) -> Result<Increment, SolveError> {
-        if let Control::Force(normal) = load.normal {
+        if let Some(normal) = load.normal.force() {
             self.check_friction_carries(load, normal, 1e-12)?;
         }
         self.take_last_load_as(load, state);
@@ -116,14 +116,14 @@ impl ContactSolver<'_> {
         callback: IterationCallback<'_>,
     ) -> Result<Solved, SolveError> {
         let last = self.memory.last.as_ref().filter(|last| last.region == increment.region);
-        let unchanged = last.is_some_and(|last| same_normal_load(&last.load, increment.load));
+        let keeps_pressure = self.whose_pressure_is_kept(increment.region, increment.load).is_some();
         let last = last.map(|last| &last.displacements);
         let cells = || Ok(CellResponse::new(&self.response, self.grid.cells(), self.symmetry)?);
         let method = Method { settings: &self.settings, cells: &cells };
         match self.coupling {
             Coupling::Coupled => coupled::solve(increment, tractions, last, operators, &method, callback),
             Coupling::Uncoupled | Coupling::Frictionless => {
-                sequential::solve(increment, tractions, (last, unchanged), operators, &method, callback)
+                sequential::solve(increment, tractions, (last, keeps_pressure), operators, &method, callback)
             }
         }
     }
@@ -141,6 +141,15 @@ impl ContactSolver<'_> {
         Tractions { pressure: region.gather(&pressure), shear: region.gather_tangential(&shear) }
     }
 
+    /// The last increment, where its pressure is that under a load, too: nothing but the load along the surface has changed.
+    fn whose_pressure_is_kept(&self, region: Region, load: &LoadStep) -> Option<&LastIncrement> {
+        let may_be_kept = self.coupling != Coupling::Coupled && self.settings.reuse_pressure;
+        self.memory.last.as_ref().filter(|last| {
+            let same = last.load.normal == load.normal && last.load.tilt == load.tilt;
+            may_be_kept && same && last.region == region
+        })
+    }
+
     /// Gap on the whole grid [length] and area of contact [length^2]; those of the last increment where its pressure was kept.
     fn gap_and_area(
         &mut self,
@@ -148,13 +157,7 @@ impl ContactSolver<'_> {
         solved: &Solved,
         after: &ContactState,
     ) -> Result<(Array2<f64>, f64), SolveError> {
-        let keeps_pressure = self.coupling != Coupling::Coupled && self.settings.reuse_pressure;
-        let last = self
-            .memory
-            .last
-            .as_ref()
-            .filter(|last| keeps_pressure && last.region == region && same_normal_load(&last.load, load));
-        if let Some(last) = last {
+        if let Some(last) = self.whose_pressure_is_kept(region, load) {
             return Ok((last.gap.clone(), last.contact_area));
         }
         Ok((self.gap_everywhere(region, solved, after)?, self.contact_area(region, solved)))
@@ -333,16 +336,8 @@ impl ContactSolver<'_> {
     }
 }
 
-/// Whether two loads press the bodies alike.
-fn same_normal_load(one: &LoadStep, other: &LoadStep) -> bool {
-    one.normal == other.normal && one.tilt == other.tilt
-}
-
 /// Size of the prescribed tangential force [force].
 fn tangential_force(load: &LoadStep) -> f64 {
-    let [x, y] = load.tangential.map(|control| match control {
-        Control::Force(force) => force,
-        Control::Motion(_) | Control::FarEnd(_) => 0.0,
-    });
+    let [x, y] = load.tangential.map(|control| control.force().unwrap_or(0.0));
     x.hypot(y)
 }

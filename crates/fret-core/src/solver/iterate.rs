@@ -184,7 +184,6 @@ impl<'a> Iterate<'a> {
             weight: if steepest > 0.0 { 1.0 / steepest } else { 1.0 },
             give: problem.give(),
             forcing,
-            most_steps: settings.max_krylov_steps,
             floor: 0.02 * settings.tolerance * size * own,
         };
         let RegionOperators { compliance, preconditioner, linear, .. } = operators;

@@ -12,15 +12,15 @@ use super::tractions::{Displacements, Tractions};
 use crate::compliance::SurfaceCompliance;
 use crate::model::TangentialField;
 
-/// Solves an increment from predicted `tractions`. `last`: displacements of the state before, when they are known; `unchanged`: its
-/// normal load is the one asked for.
+/// Solves an increment from predicted `tractions`. `last`: displacements of the state before, when they are known;
+/// `keeps_pressure`: its pressure is the one asked for.
 ///
 /// # Errors
 /// When an iteration does not converge, or is stopped.
 pub fn solve(
     increment: &IncrementProblem<'_>,
     mut tractions: Tractions,
-    (last, unchanged): (Option<&Displacements>, bool),
+    (last, keeps_pressure): (Option<&Displacements>, bool),
     operators: &mut RegionOperators,
     method: &Method<'_>,
     callback: IterationCallback<'_>,
@@ -28,7 +28,7 @@ pub fn solve(
     let settings = &increment.limited(method.settings);
     let cells = increment.region.len();
     let mut displacements = Displacements::zeros(cells);
-    let pressure = if let (true, Some(last)) = (unchanged && settings.reuse_pressure, last) {
+    let pressure = if let (true, Some(last)) = (keeps_pressure, last) {
         tractions.pressure = increment.region.gather(&increment.state.pressure);
         displacements.normal.clone_from(&last.normal);
         pressure_before(increment, &displacements, &tractions, operators)

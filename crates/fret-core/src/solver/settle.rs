@@ -6,7 +6,7 @@ use super::laws::friction::{dissipation, slips};
 use super::laws::slip_path::length_of_way;
 use super::outcome::{Outcome, Regime, Residual, Resultants};
 use crate::fields::sum;
-use crate::model::{ContactState, Control, Integration, Zone};
+use crate::model::{ContactState, Integration, Zone};
 
 /// The state after an increment, and what happened. `self_influence`: of the shear of a cell [length/pressure].
 pub(super) fn settle(
@@ -27,13 +27,12 @@ pub(super) fn settle(
     let slip = contact.packed_tangential(&solution.slip);
     let end_slip = contact.packed_tangential(&solution.end_slip);
     let mut state = state_after(problem, solved);
-    let columns = region.shape[1];
     let mut stick_cells = 0;
     let mut moment = 0.0;
     let mut tilt_moment = [0.0; 2];
     let mut dissipated = 0.0;
     for (place, cell) in contact.cells().enumerate() {
-        let at = [region.origin[0] + cell / columns, region.origin[1] + cell % columns];
+        let at = region.at(cell);
         let [q, end] = [shear.at(place), end_slip.at(place)];
         moment += grid.centre(0, at[0]) * q[1] - grid.centre(1, at[1]) * q[0];
         for axis in 0..2 {
@@ -100,10 +99,8 @@ fn state_after(problem: &IncrementProblem<'_>, solved: &Solved) -> ContactState 
     state.shift = [before.shift[0] + shift_x, before.shift[1] + shift_y];
     state.twist = before.twist + turned / problem.positions.length;
     let load = problem.load;
-    state.tilt = load.tilt.map(|tilt| match tilt {
-        Control::Motion(slope) | Control::FarEnd(slope) => slope,
-        Control::Force(_) => 0.0, // the tilt is found outside, and prescribed here
-    });
+    // Where a moment is prescribed the tilt is found outside, and prescribed here.
+    state.tilt = load.tilt.map(|tilt| tilt.motion().unwrap_or(0.0));
     state.bulk_stress = load.bulk_stress;
     state.dissipated_energy = before.dissipated_energy;
     state.bulk_work = before.bulk_work;

@@ -72,12 +72,8 @@ impl ContactSolver<'_> {
         load: &LoadStep,
         callback: IterationCallback<'_>,
     ) -> Result<Increment, SolveError> {
-        let by_moment = load.tilt.map(|control| matches!(control, Control::Force(_)));
-        let tilt = [0, 1].map(|axis| match load.tilt[axis] {
-            Control::Motion(slope) | Control::FarEnd(slope) => slope,
-            Control::Force(_) => state.tilt[axis],
-        });
-        if by_moment == [false; 2] {
+        let tilt = [0, 1].map(|axis| load.tilt[axis].motion().unwrap_or(state.tilt[axis]));
+        if load.tilt.iter().all(|control| control.motion().is_some()) {
             self.set_tilt(tilt);
             return self.solve(state, load, callback);
         }
@@ -111,7 +107,7 @@ impl ContactSolver<'_> {
         (memory, tolerance): (&SolverMemory, f64),
         callback: IterationCallback<'_>,
     ) -> Result<Tried, SolveError> {
-        let axes: Vec<usize> = (0..2).filter(|axis| matches!(load.tilt[*axis], Control::Force(_))).collect();
+        let axes: Vec<usize> = (0..2).filter(|&axis| load.tilt[axis].force().is_some()).collect();
         let mut here = self.at_tilt((state, load), start, memory, callback)?;
         let mut search =
             Search { axes, stiffness: memory.tilt_stiffness, tolerance, solutions: 1, stopped: None };
@@ -159,21 +155,9 @@ impl ContactSolver<'_> {
         self.set_tilt(tilt);
         let at_it = LoadStep { tilt: tilt.map(Control::Motion), ..*load };
         let increment = self.solve(state, &at_it, callback)?;
-        let memory = std::mem::take(&mut self.memory);
-        let mut tried = self.tried(increment, memory);
-        for axis in 0..2 {
-            if let Control::Force(asked) = load.tilt[axis] {
-                tried.off[axis] = tried.increment.outcome.resultants.tilt_moment[axis] - asked;
-            }
-        }
-        Ok(tried)
-    }
-
-    fn tried(&self, increment: Increment, memory: SolverMemory) -> Tried {
         let (grid, middle, area) = (self.grid, self.middle, self.grid.cell_area());
-        let pressure = &increment.state.pressure;
         let (mut force, mut work, mut second) = (0.0, 0.0, [0.0; 2]);
-        for ((i, j), p) in pressure.indexed_iter().filter(|(_, p)| **p > 0.0) {
+        for ((i, j), p) in increment.state.pressure.indexed_iter().filter(|(_, p)| **p > 0.0) {
             let at = [middle[0] + grid.centre(0, i), middle[1] + grid.centre(1, j)];
             force += p;
             work += p * (increment.state.approach - self.undeformed[[i, j]]);
@@ -186,13 +170,14 @@ impl ContactSolver<'_> {
             if force > 0.0 { (second[axis] / force).sqrt().max(0.5 * spacing[axis]) } else { 0.0 }
         });
         let displacement = if force > 0.0 { (work / force).abs() } else { 0.0 };
-        Tried {
+        let moment = increment.outcome.resultants.tilt_moment;
+        Ok(Tried {
+            off: [0, 1].map(|axis| load.tilt[axis].force().map_or(0.0, |asked| moment[axis] - asked)),
             arm: radius.map(|radius| radius * force * area),
             slope: radius.map(|radius| if radius > 0.0 { displacement / radius } else { 0.0 }),
-            off: [0.0; 2],
+            memory: std::mem::take(&mut self.memory),
             increment,
-            memory,
-        }
+        })
     }
 }
 

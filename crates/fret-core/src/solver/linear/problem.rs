@@ -33,8 +33,6 @@ pub struct Linearised<'a> {
     pub give: [f64; 3],
     /// Relative residual at which it is solved well enough.
     pub forcing: f64,
-    /// Krylov steps at the most.
-    pub most_steps: usize,
     /// Size of a residual that is small beside the tolerance [length].
     pub floor: f64,
 }

@@ -12,6 +12,8 @@ use crate::fields::{Number, lower, sum};
 
 /// Relative residual to which a problem is solved in single precision at the most.
 const SINGLE: f64 = 1e-5;
+/// Krylov steps at the most.
+const MOST_STEPS: usize = 30;
 
 /// Solver of linearised problems, with its memory.
 #[derive(Debug, Default)]
@@ -128,7 +130,7 @@ impl<N: Number> Krylov<N> {
             give_way(problem.give.map(|give| give / unit), tractions, to);
             linear.complete(to);
         };
-        gmres.solve(unit_right, apply, (forcing, problem.most_steps), combination);
+        gmres.solve(unit_right, apply, (forcing, MOST_STEPS), combination);
         linear.precondition(combination, step);
     }
 }

@@ -34,13 +34,14 @@ struct Level {
     response: SurfaceResponse,
     undeformed: Array2<f64>,
     spacing: [f64; 2],
-    symmetry: Symmetry,
 }
 
 /// The grids below one, the finest of them first.
 pub struct CoarseGrids {
     levels: Vec<Level>,
+    /// Cells of the grid above, in front of the mirrors.
     cells: [usize; 2],
+    symmetry: Symmetry,
 }
 
 impl CoarseGrids {
@@ -71,11 +72,10 @@ impl CoarseGrids {
                 response,
                 undeformed: coarser_heights(undeformed),
                 spacing: spacing.map(|side| 2.0 * side),
-                symmetry,
             };
             levels.push(level);
         }
-        Self { levels, cells: [nx, ny] }
+        Self { levels, cells: [nx, ny], symmetry }
     }
 
     /// A pressure for the grid above under its `load`, close to the solution, or none when coarse grids do not help. `work` counts what
@@ -97,16 +97,20 @@ impl CoarseGrids {
             let above = if index == 0 { self.cells } else { self.levels[index - 1].cells() };
             let load = NormalLoad { total, ..load };
             let waves = table.map(|table| CellWaves { table, spacing: level.spacing });
-            let solved = match level.solve(start.take(), load, waves, settings, callback) {
+            let solved = match level.solve((start.take(), self.symmetry), load, waves, settings, callback) {
                 Ok(solved) => solved,
                 Err(SolveError::Stopped) => return Err(SolveError::Stopped),
                 Err(_) => return Ok(None),
             };
-            let cells = (self.cells[0] * self.cells[1] * level.symmetry.copies()) as f64;
+            let cells = (self.cells[0] * self.cells[1] * self.symmetry.copies()) as f64;
             let full_grid_convolutions = solved.work.full_grid_convolutions / cells;
             *work += Work { full_grid_convolutions, ..solved.work };
-            let Some(finer) = solved.prolonged(above, total) else { return Ok(None) };
-            start = Some(finer);
+            let SolvedLevel { region, pressure, gap, shift, .. } = solved;
+            let total = total.map(|total| 4.0 * total);
+            start = prolonged((region, &pressure, &gap), shift, above, total);
+            if start.is_none() {
+                return Ok(None);
+            }
         }
         Ok(start)
     }
@@ -130,7 +134,7 @@ impl Level {
     /// Solves the level in a region; on the whole grid when the contact outgrows it.
     fn solve(
         &self,
-        start: Option<Array2<f64>>,
+        (mut start, symmetry): (Option<Array2<f64>>, Symmetry),
         load: NormalLoad,
         waves: Option<CellWaves<'_>>,
         settings: &SolverSettings,
@@ -139,16 +143,13 @@ impl Level {
         let whole = Region::whole(self.cells());
         let mut region = match &start {
             Some(start) if !self.response.is_periodic() => {
-                Region::around(self.cells(), self.symmetry.axes(), MARGIN, good_length, |i, j| {
-                    start[[i, j]] > 0.0
-                })
+                Region::around(self.cells(), symmetry.axes(), MARGIN, good_length, |i, j| start[[i, j]] > 0.0)
             }
             _ => whole,
         };
-        let mut start = start;
         let mut work = Work::default();
         loop {
-            let (symmetry, single) = (self.symmetry, settings.single_precision);
+            let single = settings.single_precision;
             let wanted = OperatorSet { normal: true, symmetry, single, ..OperatorSet::default() };
             let workspace = SharedWorkspace::default();
             let mut operators = RegionOperators::new(&self.response, waves, region, wanted, &workspace)?;
@@ -166,7 +167,7 @@ impl Level {
             work += operators.take_work(region.len() as f64);
             if region != whole && touches_side(region, self.cells(), &pressure) {
                 let mut found = Array2::zeros(self.cells());
-                region.scatter(&pressure, &mut found);
+                region.place(&pressure, &mut found);
                 start = Some(found);
                 region = whole;
                 continue;
@@ -186,12 +187,4 @@ fn touches_side(region: Region, cells: [usize; 2], pressure: &[f64]) -> bool {
     let loaded = |i: usize, j: usize| pressure[i * ny + j] > 0.0;
     (0..ny).any(|j| (low[0] && loaded(0, j)) || (high[0] && loaded(nx - 1, j)))
         || (0..nx).any(|i| (low[1] && loaded(i, 0)) || (high[1] && loaded(i, ny - 1)))
-}
-
-impl SolvedLevel {
-    /// Pressure on a grid twice as fine, of `cells` and with the sum that goes with `total` here.
-    fn prolonged(&self, cells: [usize; 2], total: Option<f64>) -> Option<Array2<f64>> {
-        let Self { region, pressure, gap, shift, .. } = self;
-        prolonged((*region, pressure, gap), *shift, cells, total.map(|total| 4.0 * total))
-    }
 }

@@ -43,8 +43,7 @@ pub fn solve_normal(
     callback: IterationCallback<'_>,
 ) -> Result<NormalSolution, SolveError> {
     let mut by_active_set = operators.preconditioner.is_stiff();
-    let bounds = (settings.tolerance, settings.max_normal_iterations);
-    let mut problem = NormalIteration::new(task, fields, operators, bounds, callback);
+    let mut problem = NormalIteration::new(task, fields, operators, settings.tolerance, callback);
     let mut max_stalled = MAX_STALLED;
     loop {
         let ending = if by_active_set {

@@ -7,6 +7,9 @@ use super::super::settings::{IterationCallback, SolveError};
 use crate::compliance::SurfaceCompliance;
 use crate::fields::{CellRule, Reals, each_cell, lower};
 
+/// Iterations at the most, of both methods together.
+const MOST_ITERATIONS: usize = 8000;
+
 /// What the normal equations of one increment ask for, over the cells of a region.
 #[derive(Debug)]
 pub struct NormalEquations<'a> {
@@ -53,8 +56,6 @@ pub struct NormalIteration<'a> {
     callback: IterationCallback<'a>,
     /// Iterations so far.
     pub iterations: usize,
-    /// Iterations that are allowed.
-    pub most: usize,
     /// Least residual so far.
     pub best: f64,
 }
@@ -65,7 +66,7 @@ impl<'a> NormalIteration<'a> {
         task: &'a NormalEquations<'a>,
         [pressure, displacement]: [&'a mut [f64]; 2],
         operators: &'a mut RegionOperators,
-        (tolerance, most): (f64, usize),
+        tolerance: f64,
         callback: IterationCallback<'a>,
     ) -> Self {
         let field = || vec![0.0; task.undeformed.len()];
@@ -83,7 +84,6 @@ impl<'a> NormalIteration<'a> {
             self_influence: operators.compliance.self_influence().normal,
             tolerance,
             iterations: 0,
-            most,
             best: f64::INFINITY,
             task,
             pressure,
@@ -102,7 +102,7 @@ impl<'a> NormalIteration<'a> {
             return Err(SolveError::Stopped);
         }
         self.best = self.best.min(residual);
-        if self.iterations >= self.most {
+        if self.iterations >= MOST_ITERATIONS {
             return Err(SolveError::NotConverged { reached: self.best, iterations: self.iterations });
         }
         Ok(())

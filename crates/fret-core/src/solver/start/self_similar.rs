@@ -28,8 +28,7 @@ impl SelfSimilarGrowth {
     /// pressures come from the level function of the edge, shears from their ratio to the pressure.
     pub fn of(&self, state: &ContactState, gap: &Array2<f64>) -> GridTractions {
         let pressure = &state.pressure;
-        let level = level_function(&pressure.view(), &gap.view(), f64::INFINITY)
-            .unwrap_or_else(|| pressure.mapv(|p| p * p));
+        let level = level_function(&pressure.view(), &gap.view()).unwrap_or_else(|| pressure.mapv(|p| p * p));
         let (nx, ny) = pressure.dim();
         let middle = self.middle(pressure);
         let along_x = self.samples(nx, middle[0]);
