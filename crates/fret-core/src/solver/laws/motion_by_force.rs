@@ -2,7 +2,7 @@
 //! found by Newton's method with Armijo's rule.
 
 use super::friction::OnDisc;
-use super::rigid_motions::RigidMotions;
+use super::rigid_motions::{RigidMotions, size};
 use crate::fields::{CellRule, Reals, TangentialField, each_cell};
 
 /// What the motions follow from, packed over the cells in contact; all in units of pressure.
@@ -103,11 +103,6 @@ impl MotionByForce<'_> {
         }
         potential
     }
-}
-
-/// Length of a vector of motions or resultants.
-pub fn size(vector: &[f64; 3]) -> f64 {
-    vector.iter().map(|v| v * v).sum::<f64>().sqrt()
 }
 
 /// Sums of the potential, its defect and its curvature under motions.

@@ -1,7 +1,7 @@
 //! Projection of tractions onto what the laws allow: no tension, no shear beyond the friction bound, resultants exact.
 
 use super::active_sets::ActiveSets;
-use super::rigid_motions::RigidMotions;
+use super::rigid_motions::{RigidMotions, size};
 use crate::fields::{CellRule, Reals, TangentialField, clear, each_cell, reset, sum};
 
 /// Cuts tension off and restores the total pressure by scaling, which keeps the shape of the edge.
@@ -69,17 +69,17 @@ impl ShearProjection {
         let goal = 2e-16 * total;
         let mut released = false;
         for _ in 0..40 {
-            let size = length(&balance.defect);
-            if size <= goal {
+            let defect = size(&balance.defect);
+            if defect <= goal {
                 return;
             }
             let change = asked.motions.solve(balance.compliance, balance.defect);
-            let reach = length(&change);
+            let reach = size(&change);
             let mut share = if reach > 0.5 { 0.5 / reach } else { 1.0 };
             let mut accepted = false;
             for _ in 0..12 {
                 let left = self.moved(shear, asked, change.map(|c| c * share));
-                if length(&left.defect) < size * (1.0 - 0.1 * share) {
+                if size(&left.defect) < defect * (1.0 - 0.1 * share) {
                     std::mem::swap(shear, &mut self.trial);
                     std::mem::swap(&mut self.on_circle, &mut self.trial_on);
                     balance = left;
@@ -95,7 +95,7 @@ impl ShearProjection {
                 // Turning alone does not do: cells that were only cut may come off their circles again.
                 released = true;
                 for (on, stick) in self.on_circle.iter_mut().zip(&sets.stick) {
-                    *on = if size < 1e-6 * total { 1.0 - stick } else { 0.0 };
+                    *on = if defect < 1e-6 * total { 1.0 - stick } else { 0.0 };
                 }
                 balance = self.moved(shear, asked, [0.0; 3]);
             }
@@ -128,10 +128,6 @@ impl Asked<'_> {
         let defect = [0, 1, 2].map(|mode| self.resultant[mode] - found[mode]);
         Balance { defect: self.motions.loads.only_by_force(defect), compliance: [xx, yy, rr, xy, xr, yr] }
     }
-}
-
-fn length(vector: &[f64; 3]) -> f64 {
-    vector.iter().map(|v| v * v).sum::<f64>().sqrt()
 }
 
 /// Shear back to its discs: slipping cells to their circles, others where they stick out.

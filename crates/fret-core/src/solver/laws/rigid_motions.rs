@@ -100,6 +100,11 @@ impl RigidMotions {
     }
 }
 
+/// Length of a vector of motions or resultants.
+pub fn size(vector: &[f64; 3]) -> f64 {
+    vector.iter().map(|v| v * v).sum::<f64>().sqrt()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

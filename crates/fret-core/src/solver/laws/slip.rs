@@ -3,8 +3,8 @@
 
 use super::active_sets::ActiveSets;
 use super::friction::onto_disc;
-use super::motion_by_force::{MotionByForce, Scale, size};
-use super::rigid_motions::RigidMotions;
+use super::motion_by_force::{MotionByForce, Scale};
+use super::rigid_motions::{RigidMotions, size};
 use super::slip_path::{SlipPath, end_of_chord};
 use crate::fields::{CellRule, Reals, TangentialField, each_cell, reset};
 

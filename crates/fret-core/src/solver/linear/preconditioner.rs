@@ -6,7 +6,9 @@ use ndarray::{Array2, s};
 
 use super::super::contact_set::ContactSet;
 use super::inverse::{Inverse, InverseFields};
-use crate::compliance::{OperatorSet, SharedWorkspace, SurfaceResponse, mirrors};
+use crate::compliance::{
+    NORMAL_BLOCKS, OperatorSet, SharedWorkspace, SurfaceResponse, TANGENTIAL_BLOCKS, mirrors,
+};
 use crate::fields::{CellRule, Number, Reals, clear, each_cell};
 use crate::kernel::ResponseTable;
 use fret_fft::{Block, ConvolutionError, Kernel, Parity, PeriodicProduct, Symbol};
@@ -14,14 +16,6 @@ use fret_fft::{Block, ConvolutionError, Kernel, Parity, PeriodicProduct, Symbol}
 /// A pair is stiff at the surface when the longest waves of a region meet this many times the compliance times wavenumber that
 /// the shortest ones meet: a thin coating more than about five times stiffer than what lies below.
 const STIFF_ABOVE: f64 = 4.0;
-
-const NORMAL: [Block; 1] = [Block { output: 0, input: 0, kernel: 0, sign: 1.0 }];
-const TANGENTIAL: [Block; 4] = [
-    Block { output: 0, input: 0, kernel: 0, sign: 1.0 },
-    Block { output: 1, input: 1, kernel: 1, sign: 1.0 },
-    Block { output: 0, input: 1, kernel: 2, sign: 1.0 },
-    Block { output: 1, input: 0, kernel: 2, sign: 1.0 },
-];
 
 /// Approximate inverses for a region.
 pub struct Preconditioner {
@@ -118,14 +112,14 @@ impl Preconditioner {
                 Symbol { values: xy.view(), parity: Parity::OddOdd },
             ];
             Some(match shear_axis {
-                Some(axis) => product(&symbols[axis..=axis], &[1 + axis], &NORMAL)?,
-                None => product(&symbols, &[1, 2], &TANGENTIAL)?,
+                Some(axis) => product(&symbols[axis..=axis], &[1 + axis], &NORMAL_BLOCKS)?,
+                None => product(&symbols, &[1, 2], &TANGENTIAL_BLOCKS)?,
             })
         } else {
             None
         };
         Ok(Self {
-            normal: product(&[normal], &[0], &NORMAL)?,
+            normal: product(&[normal], &[0], &NORMAL_BLOCKS)?,
             shear,
             softest,
             shear_axis,
