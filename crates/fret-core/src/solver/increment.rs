@@ -12,8 +12,8 @@ use super::operators::{Method, RegionOperators};
 use super::prescribed::NormalLoad;
 use super::region::Region;
 use super::sequential;
-use super::settle::settle;
 use super::slip_history::slip_path;
+use super::state_after::state_after;
 use super::stretch::Stretch;
 use super::tractions::Tractions;
 use super::{ContactSolver, Coupling, Increment, IterationCallback, Outcome, SolveError};
@@ -85,7 +85,7 @@ impl ContactSolver<'_> {
         let (loads, surface) = ((state, load), (&*self.friction, self.coupling));
         let mut increment = IncrementProblem::new(&grid, &self.undeformed, surface, loads, bodies, region);
         if let Some(solved) = increment.apart() {
-            let (after, outcome) = settle(&increment, &solved, 0.0, self.settings.integration);
+            let (after, outcome) = state_after(&increment, &solved, 0.0, self.settings.integration);
             return Ok((solved, after, outcome));
         }
         increment.start = start.map(|pressure| region.gather(pressure));
@@ -102,7 +102,7 @@ impl ContactSolver<'_> {
         self.operators = Some(operators);
         self.memory.region = Some(region);
         let solved = solved?;
-        let (after, outcome) = settle(&increment, &solved, self_influence, self.settings.integration);
+        let (after, outcome) = state_after(&increment, &solved, self_influence, self.settings.integration);
         self.work.outer_iterations += solved.solution.iterations;
         Ok((solved, after, outcome))
     }

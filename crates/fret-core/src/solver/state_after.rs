@@ -9,7 +9,7 @@ use crate::fields::sum;
 use crate::model::{ContactState, Integration, Zone};
 
 /// The state after an increment, and what happened. `self_influence`: of the shear of a cell [length/pressure].
-pub(super) fn settle(
+pub(super) fn state_after(
     problem: &IncrementProblem<'_>,
     solved: &Solved,
     self_influence: f64,
@@ -26,7 +26,7 @@ pub(super) fn settle(
     let shear = contact.packed_tangential(&solved.tractions.shear);
     let slip = contact.packed_tangential(&solution.slip);
     let end_slip = contact.packed_tangential(&solution.end_slip);
-    let mut state = state_after(problem, solved);
+    let mut state = tractions_and_motions(problem, solved);
     let mut stick_cells = 0;
     let mut moment = 0.0;
     let mut tilt_moment = [0.0; 2];
@@ -81,7 +81,7 @@ pub(super) fn settle(
 }
 
 /// Tractions and motions after an increment; slip, zones and dissipated energy are still those before.
-fn state_after(problem: &IncrementProblem<'_>, solved: &Solved) -> ContactState {
+fn tractions_and_motions(problem: &IncrementProblem<'_>, solved: &Solved) -> ContactState {
     let IncrementProblem { grid, region, state: before, .. } = *problem;
     let mut state = ContactState::untouched(grid.cells());
     state.worn_depth.clone_from(&before.worn_depth);
