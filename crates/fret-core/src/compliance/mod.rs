@@ -15,5 +15,6 @@ pub use direct::DirectCompliance;
 pub use operator::{OperatorSet, SelfInfluence, SinglePrecisionOperator, SurfaceCompliance};
 pub use product::SharedWorkspace;
 pub use spectral::SpectralCompliance;
+pub(crate) use spectral::{NORMAL_BLOCKS, TANGENTIAL_BLOCKS};
 pub use surface_response::SurfaceResponse;
 pub(crate) use surface_response::mirrors;

@@ -46,8 +46,10 @@ fn made<'a>(
     single.as_ref()
 }
 
-const NORMAL_BLOCKS: [Block; 1] = [block(0, 0, 0, 1.0)];
-const TANGENTIAL_BLOCKS: [Block; 4] =
+/// One input and one output.
+pub(crate) const NORMAL_BLOCKS: [Block; 1] = [block(0, 0, 0, 1.0)];
+/// Inputs and outputs x, y; kernels xx, yy, xy.
+pub(crate) const TANGENTIAL_BLOCKS: [Block; 4] =
     [block(0, 0, 0, 1.0), block(1, 1, 1, 1.0), block(0, 1, 2, 1.0), block(1, 0, 2, 1.0)];
 const NORMAL_FROM_ALL_BLOCKS: [Block; 3] = [block(0, 0, 0, 1.0), block(0, 1, 1, 1.0), block(0, 2, 2, 1.0)];
 

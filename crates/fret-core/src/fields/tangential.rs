@@ -34,11 +34,6 @@ impl TangentialField {
         dot(&self.x, &other.x) + dot(&self.y, &other.y)
     }
 
-    /// Euclidean norm.
-    pub fn norm(&self) -> f64 {
-        self.dot(self).sqrt()
-    }
-
     /// `self += factor other`.
     pub fn add_scaled(&mut self, factor: f64, other: &Self) {
         add_scaled(&mut self.x, factor, &other.x);
@@ -75,11 +70,5 @@ impl TangentialField {
     /// Both components, to be resized.
     pub fn each_mut(&mut self) -> [&mut Vec<f64>; 2] {
         [&mut self.x, &mut self.y]
-    }
-
-    /// Takes over another field, keeping the memory.
-    pub fn copy_from(&mut self, other: &Self) {
-        self.x.clone_from(&other.x);
-        self.y.clone_from(&other.y);
     }
 }

@@ -1,5 +1,7 @@
 //! What is prescribed in one increment: a force or a motion, for each rigid degree of freedom.
 
+use std::mem::discriminant;
+
 use serde::{Deserialize, Serialize};
 
 /// What is prescribed for one rigid degree of freedom.
@@ -19,6 +21,16 @@ impl Control {
     pub fn value(self) -> f64 {
         let (Self::Force(value) | Self::Motion(value) | Self::FarEnd(value)) = self;
         value
+    }
+
+    /// The resultant, where that is prescribed.
+    pub fn force(self) -> Option<f64> {
+        if let Self::Force(force) = self { Some(force) } else { None }
+    }
+
+    /// The motion, of the body or of the far end, where that is prescribed.
+    pub fn motion(self) -> Option<f64> {
+        if let Self::Motion(motion) | Self::FarEnd(motion) = self { Some(motion) } else { None }
     }
 }
 
@@ -68,6 +80,27 @@ impl LoadStep {
         tilt: [Control::Motion(0.0); 2],
         bulk_stress: [[0.0; 2]; 2],
     };
+
+    /// All controls: of the normal load, of the tangential loads along x and y, of the twist, of the tilts.
+    fn controls(&self) -> [Control; 6] {
+        let Self { normal, tangential: [x, y], twist, tilt: [along_x, along_y], .. } = *self;
+        [normal, x, y, twist, along_x, along_y]
+    }
+
+    /// Change of what is prescribed to another step that prescribes the same kinds, each in its own unit: normal load, tangential loads, twist,
+    /// tilts, bulk stresses of the lower and the upper body along x and y. `None` where the kinds differ.
+    pub fn change_to(&self, other: &Self) -> Option<[f64; 10]> {
+        let (from, to) = (self.controls(), other.controls());
+        let are_alike = from.iter().zip(&to).all(|(from, to)| discriminant(from) == discriminant(to));
+        let numbers = |controls: [Control; 6], step: &Self| {
+            controls.map(Control::value).into_iter().chain(step.bulk_stress.into_iter().flatten())
+        };
+        let mut change = [0.0; 10];
+        for (change, (to, from)) in change.iter_mut().zip(numbers(to, other).zip(numbers(from, self))) {
+            *change = to - from;
+        }
+        are_alike.then_some(change)
+    }
 
     /// What is prescribed at a share of the straight way from one step to another that prescribes the same kinds.
     pub fn between(from: &Self, to: &Self, share: f64) -> Self {

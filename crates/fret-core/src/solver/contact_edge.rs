@@ -145,18 +145,13 @@ const NEAR: usize = 2;
 
 /// One function for both sides of the edge: `p^2` where there is pressure, `-kappa gap^(2/3)` outside; kappa makes the median
 /// slopes of both along grid lines across the edge equal (of foundations those of a parabola). Farther out than two cells it is just
-/// negative. `None` when no grid line crosses an edge. Cells with a gap wider than `beyond`, where a body has ended, tell nothing about
-/// the edge.
-pub fn level_function(
-    pressure: &ArrayView2<'_, f64>,
-    gap: &ArrayView2<'_, f64>,
-    beyond: f64,
-) -> Option<Array2<f64>> {
-    level_of(Rise::ROOT, pressure, gap, beyond).map(|(level, _)| level)
+/// negative. `None` when no grid line crosses an edge.
+pub fn level_function(pressure: &ArrayView2<'_, f64>, gap: &ArrayView2<'_, f64>) -> Option<Array2<f64>> {
+    level_of(Rise::ROOT, pressure, gap, f64::INFINITY).map(|(level, _)| level)
 }
 
 /// The level function of pressures that rise so, and how many cells beyond its last one pressure would reach zero, in the median of
-/// the edges.
+/// the edges. Cells with a gap wider than `beyond`, where a body has ended, tell nothing about the edge.
 fn level_of(
     rise: Rise,
     pressure: &ArrayView2<'_, f64>,

@@ -1,10 +1,12 @@
 //! What the equations of one increment ask for, over the cells of a region; and what their solution is.
 
+use super::contact_set::ContactSet;
 use super::laws::complementarity::NormalResidual;
 use super::laws::friction::FrictionLaw;
-use super::laws::rigid_motions::CellPositions;
+use super::laws::rigid_motions::{CellPositions, RigidMotions};
 use super::laws::slip::TangentialResidual;
 use super::laws::slip_path::SlipPath;
+use super::prescribed::{NormalLoad, TangentialLoads};
 use crate::fields::{TangentialField, sum};
 
 /// What the equations of one increment ask for, over the cells of a region.
@@ -16,48 +18,41 @@ pub struct ContactProblem<'a> {
     pub undeformed: &'a [f64],
     /// The friction law of every cell.
     pub friction: &'a FrictionLaw,
-    /// Sum of the pressures over the cells, when the force is prescribed [pressure].
-    pub total: Option<f64>,
-    /// Approach of the body or of the actuator, when it is prescribed [length].
-    pub approach: f64,
-    /// By how much the machine gives under a unit of the summed pressure; 0: the approach is that of the body [length/pressure].
-    pub approach_give: f64,
+    /// What is prescribed along the normal.
+    pub normal: NormalLoad,
+    /// What is prescribed along the surface.
+    pub tangential: TangentialLoads,
     /// Tangential displacement before the increment [length].
     pub before: &'a TangentialField,
     /// What is known of the paths of slip.
     pub path: &'a SlipPath,
     /// Where the cells are.
     pub positions: &'a CellPositions,
-    /// Increments of the motions that are prescribed [length].
-    pub motion: [f64; 3],
-    /// Sums over the cells of shear times mode, for motions that follow from a resultant, at no motion [pressure].
-    pub resultant: [f64; 3],
 }
 
 impl ContactProblem<'_> {
-    /// Approach of the body under pressures, where it does not follow from their sum [length].
-    pub fn approach_under(&self, pressure: &[f64]) -> Option<f64> {
-        let gives = if self.approach_give > 0.0 { self.approach_give * sum(pressure) } else { 0.0 };
-        self.total.is_none().then_some(self.approach - gives)
+    /// The rigid motions of the cells in contact.
+    pub fn motions_of(&self, contact: &ContactSet) -> RigidMotions {
+        self.positions.motions_of(contact, self.tangential)
     }
 
     /// By how much the machine gives under a unit of the summed traction, normally and along x and y [length/pressure].
     pub fn give(&self) -> [f64; 3] {
-        let [x, y, _] = self.positions.spring.map(|spring| if spring > 0.0 { 1.0 / spring } else { 0.0 });
-        [self.approach_give, x, y]
+        let [x, y, _] = self.tangential.spring.map(|spring| if spring > 0.0 { 1.0 / spring } else { 0.0 });
+        [self.normal.give, x, y]
     }
 
     /// Resultants that a projection restores: those that are prescribed, and those of `shear` where a spring lets them be, as far as
     /// the friction `bound` carries them.
     pub fn to_restore(self, shear: &TangentialField, bound: &[f64]) -> [f64; 3] {
-        let spring = self.positions.spring;
+        let TangentialLoads { spring, resultant, .. } = self.tangential;
         if spring == [0.0; 3] {
-            return self.resultant;
+            return resultant;
         }
         let found = [sum(&shear.x), sum(&shear.y)];
         let (size, most) = (found[0].hypot(found[1]), sum(bound));
         let fraction = if size > most { most / size } else { 1.0 };
-        [0, 1, 2].map(|mode| if spring[mode] > 0.0 { found[mode] * fraction } else { self.resultant[mode] })
+        [0, 1, 2].map(|mode| if spring[mode] > 0.0 { found[mode] * fraction } else { resultant[mode] })
     }
 }
 

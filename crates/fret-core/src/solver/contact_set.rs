@@ -72,12 +72,12 @@ impl ContactSet {
 
     /// Packs `factor` times a field of the region, into any precision.
     pub fn gather<A: Number, B: Number>(&self, field: &[A], factor: f64, packed: &mut [B]) {
-        gather_runs(pieces(self.len, NUMBERS), &self.runs, field, factor, packed);
+        copy_runs(pieces(self.len, NUMBERS), &self.runs, [Some(0), None], field, factor, packed);
     }
 
     /// Writes `factor` times a packed field into one of the region, which keeps what it holds elsewhere, in any precision.
     pub fn place<A: Number, B: Number>(&self, packed: &[A], factor: f64, field: &mut [B]) {
-        place_runs(pieces(self.len, NUMBERS), (&self.runs, 0), packed, factor, field);
+        copy_runs(pieces(self.len, NUMBERS), &self.runs, [None, Some(0)], packed, factor, field);
     }
 
     /// Writes a packed field into one of the region, which is zero elsewhere.
@@ -99,65 +99,44 @@ fn halved(runs: &[Range<usize>], pieces: usize) -> (&[Range<usize>], &[Range<usi
     (first, others, first.iter().map(ExactSizeIterator::len).sum())
 }
 
-fn gather_runs<A: Number, B: Number>(
-    pieces: usize,
-    runs: &[Range<usize>],
-    field: &[A],
-    factor: f64,
-    packed: &mut [B],
-) {
-    if pieces > 1 {
-        let (first, others, cells) = halved(runs, pieces);
-        let (of_first, of_others) = packed.split_at_mut(cells);
-        fret_fft::join(
-            || gather_runs(pieces / 2, first, field, factor, of_first),
-            || gather_runs(pieces - pieces / 2, others, field, factor, of_others),
-        );
-        return;
-    }
-    Arch::new().dispatch(
-        #[inline(always)]
-        || {
-            let mut first = 0;
-            for run in runs {
-                let to = &mut packed[first..first + run.len()];
-                for (to, from) in to.iter_mut().zip(&field[run.clone()]) {
-                    *to = B::of(*from, factor);
-                }
-                first += run.len();
-            }
-        },
-    );
+/// Where a run lies in a field: in one of the region that begins with the cell `start`, or in a packed one, behind so many cells `before`.
+fn place(start: Option<usize>, run: &Range<usize>, before: usize) -> Range<usize> {
+    let first = start.map_or(before, |start| run.start - start);
+    first..first + run.len()
 }
 
-/// `field` begins with the cell `start` of the region.
-fn place_runs<A: Number, B: Number>(
+/// Copies `factor` times the runs of a field into another one. `starts`: with which cells of the region both begin; `None`: it is packed.
+fn copy_runs<A: Number, B: Number>(
     pieces: usize,
-    (runs, start): (&[Range<usize>], usize),
-    packed: &[A],
+    runs: &[Range<usize>],
+    starts: [Option<usize>; 2],
+    from: &[A],
     factor: f64,
-    field: &mut [B],
+    to: &mut [B],
 ) {
     if pieces > 1 {
         let (first, others, cells) = halved(runs, pieces);
-        let border = others.first().map_or(start + field.len(), |run| run.start);
-        let (of_first, of_others) = field.split_at_mut(border - start);
+        let Some(border) = others.first() else { return };
+        let [split_from, split_to] = starts.map(|start| place(start, border, cells).start);
+        let (from, from_behind) = from.split_at(split_from);
+        let (to, to_behind) = to.split_at_mut(split_to);
+        let behind = starts.map(|start| start.map(|_| border.start));
         fret_fft::join(
-            || place_runs(pieces / 2, (first, start), &packed[..cells], factor, of_first),
-            || place_runs(pieces - pieces / 2, (others, border), &packed[cells..], factor, of_others),
+            || copy_runs(pieces / 2, first, starts, from, factor, to),
+            || copy_runs(pieces - pieces / 2, others, behind, from_behind, factor, to_behind),
         );
         return;
     }
     Arch::new().dispatch(
         #[inline(always)]
         || {
-            let mut first = 0;
+            let mut before = 0;
             for run in runs {
-                let from = &packed[first..first + run.len()];
-                for (to, from) in field[run.start - start..run.end - start].iter_mut().zip(from) {
+                let from = &from[place(starts[0], run, before)];
+                for (to, from) in to[place(starts[1], run, before)].iter_mut().zip(from) {
                     *to = B::of(*from, factor);
                 }
-                first += run.len();
+                before += run.len();
             }
         },
     );

@@ -1,8 +1,6 @@
-//! Vectors over the cells in contact: tractions, the displacements against them, residuals; and their way through an operator that
-//! acts on a whole region.
+//! Vectors over the cells in contact: tractions, the displacements against them, residuals.
 
-use super::contact_set::ContactSet;
-use crate::fields::{Number, clear, convert, norm, reset};
+use crate::fields::{Number, convert, norm, reset};
 
 /// Both components of shear, after the pressure where that is unknown too; or what goes with them. Packed, one field after the other.
 #[derive(Debug, Clone, Default)]
@@ -91,53 +89,6 @@ impl<N: Number> ContactVector<N> {
     }
 }
 
-/// Fields of a region that vectors are spread to: tractions, zero outside the contact, and their displacements.
-#[derive(Debug, Default)]
-pub struct RegionFields<N> {
-    tractions: [Vec<N>; 3],
-    displacements: [Vec<N>; 3],
-    /// The contact outside of which tractions are zero.
-    contact: ContactSet,
-}
-
-impl<N: Number> RegionFields<N> {
-    /// Makes ready for a contact in a region of so many cells.
-    pub fn begin(&mut self, contact: &ContactSet, cells: usize) {
-        if self.contact != *contact || self.tractions[0].len() != cells {
-            for field in &mut self.tractions {
-                clear(field, cells);
-            }
-            self.contact.clone_from(contact);
-        }
-        for field in &mut self.displacements {
-            reset(field, cells);
-        }
-    }
-
-    /// The displacements of tractions, by an operator on as many fields of the region.
-    pub fn apply(
-        &mut self,
-        tractions: &ContactVector<N>,
-        displacements: &mut ContactVector<N>,
-        operator: impl FnOnce(&[&[N]], &mut [&mut [N]]),
-    ) {
-        let Self { tractions: from, displacements: to, contact } = self;
-        let fields = tractions.fields();
-        let first = 3 - fields.len();
-        for (packed, field) in fields.zip(&mut from[first..]) {
-            contact.place(packed, 1.0, field);
-        }
-        operator(
-            &from.each_ref().map(Vec::as_slice)[first..],
-            &mut to.each_mut().map(Vec::as_mut_slice)[first..],
-        );
-        displacements.reset_like(tractions);
-        for (field, packed) in to[first..].iter().zip(displacements.fields_mut()) {
-            contact.gather(field, 1.0, packed);
-        }
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -156,35 +107,6 @@ mod tests {
             assert_eq!(p.len(), pressure.len());
             y[1] = 0.0;
             assert_eq!(vector.values().last(), Some(&0.0));
-        }
-    }
-
-    /// An operator that takes every cell by its number: what another contact or region left behind would be seen, and so would a wrong
-    /// cell.
-    #[test]
-    fn nothing_is_left_of_another_contact() {
-        let mut through = RegionFields::<f64>::default();
-        for (cells, region, fields) in
-            [(&[0, 1][..], 4, 2), (&[1, 3], 4, 2), (&[1, 3], 6, 3), (&[1, 3], 4, 3), (&[0, 2, 3], 4, 3)]
-        {
-            let contact = ContactSet::of(region, |cell| cells.contains(&cell));
-            through.begin(&contact, region);
-            let (mut from, mut to) = (ContactVector::default(), ContactVector::default());
-            from.reset(fields, cells.len());
-            from.values_mut().iter_mut().enumerate().for_each(|(index, value)| *value = 1.0 + index as f64);
-            through.apply(&from, &mut to, |q, u| {
-                assert_eq!((q.len(), u.len()), (fields, fields));
-                for (field, (q, u)) in q.iter().zip(u).enumerate() {
-                    assert_eq!((q.len(), u.len()), (region, region));
-                    assert!((0..region).all(|cell| cells.contains(&cell) || q[cell] == 0.0), "{q:?}");
-                    (0..region).for_each(|cell| u[cell] = q[cell] * (1 + cell + 10 * field) as f64);
-                }
-            });
-            let expected = (0..fields * cells.len()).map(|index| {
-                let (field, place) = (index / cells.len(), index % cells.len());
-                (1 + index) as f64 * (1 + cells[place] + 10 * field) as f64
-            });
-            assert_eq!(to.values(), expected.collect::<Vec<_>>());
         }
     }
 }

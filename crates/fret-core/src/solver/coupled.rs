@@ -5,6 +5,7 @@ use super::exact_newton;
 use super::increment_problem::{IncrementProblem, Solved};
 use super::laws::projection::project_pressure;
 use super::newton;
+use super::normal::solve_normal;
 use super::operators::{Method, RegionOperators};
 use super::settings::{IterationCallback, SolveError, SolverSettings};
 use super::staggered;
@@ -32,14 +33,15 @@ pub fn solve(
     let settings = &increment.limited(method.settings);
     let touched = increment.touched();
     let mut displacements = Displacements::zeros(increment.region.len());
-    let before = increment.displacement_before(last.filter(|_| touched), operators, method.coupling);
+    let before = increment.displacement_before(last.filter(|_| touched), operators);
     if !touched {
         tractions.shear.clear();
         tractions.pressure = increment.first_pressure(operators);
         let rough = SolverSettings { tolerance: ROUGH, ..*settings };
-        increment.solve_pressure(&mut tractions, &mut displacements, operators, &rough, callback)?;
+        let fields = [&mut tractions.pressure[..], &mut displacements.normal];
+        solve_normal(&increment.normal_equations(), fields, operators, &rough, callback)?;
     }
-    make_pressure_feasible(&mut tractions, increment.prescribed.total);
+    make_pressure_feasible(&mut tractions, increment.normal.total);
     let counted_from = increment.counted_from(&before);
     let problem = increment.contact_problem(Pressure::Unknown, &counted_from);
     newton::make_shear_feasible(&problem, &mut tractions, operators);
@@ -89,9 +91,9 @@ fn without_friction(
 ) -> Result<Tractions, SolveError> {
     let mut tractions = start.clone();
     tractions.shear.clear();
-    let mut displacements = Displacements::zeros(increment.region.len());
+    let fields = [&mut tractions.pressure[..], &mut vec![0.0; increment.region.len()]];
     let settings = SolverSettings { tolerance: FRICTIONLESS, ..*settings };
-    match increment.solve_pressure(&mut tractions, &mut displacements, operators, &settings, callback) {
+    match solve_normal(&increment.normal_equations(), fields, operators, &settings, callback) {
         Err(SolveError::Stopped) => Err(SolveError::Stopped),
         _ => Ok(tractions),
     }

@@ -24,8 +24,6 @@ use crate::compliance::{CellResponse, SurfaceCompliance};
 use crate::fields::norm;
 use crate::model::TangentialField;
 
-use linear_system::{ActiveCell, LinearSystem};
-
 /// Iterations from one start.
 const MOST_ITERATIONS: usize = 40;
 /// Halvings of a step.
@@ -115,14 +113,14 @@ impl<'a> Attempt<'a> {
         let mut attempt = Self {
             problem,
             response,
-            motions: problem.positions.motions_of(&ContactSet::of(cells, |_| true)),
+            motions: problem.motions_of(&ContactSet::of(cells, |_| true)),
             self_influence: [own.normal, own.tangential],
             columns: operators.region.shape[1],
             here: Point {
                 tractions: tractions.clone(),
                 displacements,
-                approach: problem.approach,
-                motion: problem.motion,
+                approach: problem.normal.approach,
+                motion: problem.tangential.motion,
             },
         };
         attempt.guess_motions();
@@ -133,7 +131,7 @@ impl<'a> Attempt<'a> {
     fn guess_motions(&mut self) {
         let Self { problem, self_influence: [_, own], here, .. } = self;
         let contact = ContactSet::loaded(&here.tractions.pressure);
-        if (problem.total.is_some() || problem.approach_give > 0.0) && contact.len() > 0 {
+        if (problem.normal.total.is_some() || problem.normal.give > 0.0) && contact.len() > 0 {
             let heights =
                 contact.cells().map(|cell| here.displacements.normal[cell] + problem.undeformed[cell]);
             here.approach = heights.sum::<f64>() / contact.len() as f64;
@@ -143,9 +141,7 @@ impl<'a> Attempt<'a> {
             bound: &bound.bound,
             before: &contact.packed_tangential(problem.before),
             path: &problem.path.packed(&contact),
-            motions: &problem.positions.motions_of(&contact),
-            motion: problem.motion,
-            resultant: problem.resultant,
+            motions: &problem.motions_of(&contact),
             self_influence: *own,
         };
         let shear = contact.packed_tangential(&here.tractions.shear);
@@ -173,8 +169,7 @@ impl<'a> Attempt<'a> {
                 self.project(tractions);
                 return Ok(true);
             }
-            let active = self.active_cells();
-            let unknowns = active.last().map_or(0, |cell| cell.first + cell.unknowns());
+            let (active, unknowns) = self.active_cells();
             if unknowns == 0 || unknowns > settings.max_direct_unknowns || !residual.is_finite() {
                 return Ok(false);
             }
@@ -242,72 +237,25 @@ impl<'a> Attempt<'a> {
             }
         }
         let cells = point.tractions.pressure.iter().filter(|p| **p > 0.0).count().max(1) as f64;
-        if let Some(total) = problem.total {
+        let (normal, loads) = (problem.normal, problem.tangential);
+        if let Some(total) = normal.total {
             square += (sums[0] - total).powi(2) / cells;
-        } else if problem.approach_give > 0.0 {
-            let missing = (problem.approach - point.approach) / problem.approach_give;
+        } else if normal.give > 0.0 {
+            let missing = (normal.approach - point.approach) / normal.give;
             square += (sums[0] - missing).powi(2) / cells;
         }
         for mode in 0..3 {
-            if self.motions.by_force[mode] {
-                let carried = sums[1 + mode] + self.motions.spring[mode] * point.motion[mode];
-                square += (carried - problem.resultant[mode]).powi(2) / cells;
+            if loads.by_force[mode] {
+                let carried = sums[1 + mode] + loads.spring[mode] * point.motion[mode];
+                square += (carried - loads.resultant[mode]).powi(2) / cells;
             }
         }
         square
     }
 
-    /// Cells in contact by their augmented pressure, and what they do.
-    fn active_cells(&self) -> Vec<ActiveCell> {
-        let Self { problem, self_influence: [_, tangential], here, .. } = self;
-        let mut active = Vec::new();
-        let mut first = 0;
-        for cell in 0..problem.undeformed.len() {
-            let (_, augmented, trial) = self.cell(here, cell);
-            if augmented <= 0.0 {
-                continue;
-            }
-            let (bound, slope) = problem.friction.at(cell, augmented);
-            let size = trial[0].hypot(trial[1]);
-            let along = if size > 0.0 { trial.map(|part| part / size) } else { [1.0, 0.0] };
-            let (slip_compliance, shear_unknowns) = match (bound > 0.0, size > bound) {
-                (true, false) => (None, 2),
-                (true, true) => (Some((size - bound) * tangential / bound), 1),
-                (false, _) => (Some(0.0), 0),
-            };
-            let across = [-along[1], along[0]];
-            active.push(ActiveCell {
-                cell,
-                along,
-                across,
-                turning: problem.path.row_across(cell, self.slip(here, cell), across),
-                slope,
-                offset: if slip_compliance.is_some() { bound - slope * augmented } else { 0.0 },
-                slip_compliance,
-                first,
-                shear_unknowns,
-            });
-            first += 1 + shear_unknowns;
-        }
-        active
-    }
-
-    /// The solution of the equations linearised here; its displacements are left to be found.
-    fn newton_point(&self, active: &[ActiveCell]) -> Option<Point> {
-        let Self { problem, response, motions, columns, self_influence: [unit, _], .. } = self;
-        let system = LinearSystem { problem, response, motions, active, columns: *columns, unit: *unit };
-        let found = system.solve()?;
-        Some(Point {
-            displacements: Displacements::zeros(problem.undeformed.len()),
-            tractions: found.tractions,
-            approach: found.approach,
-            motion: found.motion,
-        })
-    }
-
     /// Takes away what rounding left of tension and of shear beyond the bound.
     fn project(&self, tractions: &mut Tractions) {
-        project_pressure(&mut tractions.pressure, self.problem.total);
+        project_pressure(&mut tractions.pressure, self.problem.normal.total);
         for cell in 0..tractions.pressure.len() {
             let (bound, _) = self.problem.friction.at(cell, tractions.pressure[cell]);
             let [x, y] = tractions.shear.at(cell);

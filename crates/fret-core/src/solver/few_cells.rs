@@ -4,13 +4,12 @@ use super::contact_problem::{ContactProblem, Pressure};
 use super::laws::friction::FrictionLaw;
 use super::laws::rigid_motions::CellPositions;
 use super::laws::slip_path::SlipPath;
-use super::linear::preconditioner::Preconditioner;
-use super::linear::solver::LinearSolver;
 use super::operators::RegionOperators;
+use super::prescribed::{NormalLoad, TangentialLoads};
 use super::region::Region;
 use super::tractions::{Displacements, Tractions};
 use crate::compliance::{
-    CellResponse, DirectCompliance, OperatorSet, SpectralCompliance, SurfaceCompliance, SurfaceResponse,
+    CellResponse, DirectCompliance, OperatorSet, SharedWorkspace, SurfaceCompliance, SurfaceResponse,
 };
 use crate::kernel::{Components, InfluenceCoefficients, influence_coefficients};
 use crate::model::{
@@ -70,22 +69,8 @@ impl Cells {
     pub(super) fn operators(&self) -> RegionOperators {
         let (response, shape) = (self.response(), self.shape);
         let wanted = OperatorSet { normal: true, tangential: true, full: true, ..OperatorSet::default() };
-        RegionOperators {
-            region: Region::whole(shape),
-            compliance: SpectralCompliance::new(&response, shape, wanted).unwrap(),
-            preconditioner: Preconditioner::new(
-                &response,
-                None,
-                shape,
-                [true; 2],
-                None,
-                Symmetry::default(),
-                false,
-            )
-            .unwrap(),
-            linear: LinearSolver::default(),
-            direct_solves: 0,
-        }
+        let workspace = SharedWorkspace::default();
+        RegionOperators::new(&response, None, Region::whole(shape), wanted, &workspace).unwrap()
     }
 
     /// Displacements of tractions, cell by cell.
@@ -163,7 +148,7 @@ impl Asked {
         let [nx, ny] = cells.shape;
         let x = (0..nx).map(|i| cells.middle(i * ny)[0]).collect();
         let y = (0..ny).map(|j| cells.middle(j)[1]).collect();
-        CellPositions::new(x, y, self.rotates, self.by_force).with_springs(self.by_force, self.spring)
+        CellPositions::new(x, y, self.rotates)
     }
 
     pub(super) fn law(&self, cells: &Cells) -> FrictionLaw {
@@ -182,14 +167,16 @@ impl Asked {
             pressure: Pressure::Unknown,
             undeformed: &self.gap,
             friction: &law,
-            total: self.total,
-            approach: self.approach,
-            approach_give: self.give,
+            normal: NormalLoad { total: self.total, approach: self.approach, give: self.give },
+            tangential: TangentialLoads {
+                motion: self.motion,
+                resultant: self.resultant,
+                by_force: self.by_force,
+                spring: self.spring,
+            },
             before: &self.before,
             path: &self.path,
             positions: &positions,
-            motion: self.motion,
-            resultant: self.resultant,
         })
     }
 

@@ -5,7 +5,6 @@ use ndarray::{Array2, ArrayView2};
 
 use super::contact_edge;
 use super::increment_problem::Solved;
-use super::outcome::Work;
 use super::region::Region;
 use super::{ContactSolver, Coupling, SolveError};
 use crate::compliance::{OperatorSet, SpectralCompliance, SurfaceCompliance};
@@ -18,14 +17,13 @@ impl ContactSolver<'_> {
         region: Region,
         solved: &Solved,
         state: &ContactState,
-        work: &mut Work,
     ) -> Result<Array2<f64>, SolveError> {
         let cells = self.grid.cells();
         let whole = Region::whole(cells);
         let mut gap = Array2::zeros(cells);
         if region == whole {
             self.full_grid = None;
-            whole.scatter(&solved.solution.gap, &mut gap);
+            whole.place(&solved.solution.gap, &mut gap);
             return Ok(gap);
         }
         gap.assign(&self.undeformed);
@@ -52,8 +50,8 @@ impl ContactSolver<'_> {
         } else {
             operator.normal(&pressure, &mut normal);
         }
-        work.convolutions += 1;
-        work.full_grid_convolutions += 1.0 / self.symmetry.copies() as f64;
+        self.work.convolutions += 1;
+        self.work.full_grid_convolutions += 1.0 / self.symmetry.copies() as f64;
         for (gap, u) in gap.iter_mut().zip(&normal) {
             *gap += u;
         }

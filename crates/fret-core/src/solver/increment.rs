@@ -5,20 +5,20 @@ use ndarray::Array2;
 
 use super::coupled;
 use super::increment_problem::{IncrementProblem, Solved};
-use super::linear::preconditioner::{CellWaves, Preconditioner};
-use super::linear::solver::LinearSolver;
+use super::linear::preconditioner::CellWaves;
 use super::memory::{Before, Drift, GridTractions, LastIncrement};
-use super::normal::coarse_grids::{CoarseGrids, Prescribed};
+use super::normal::coarse_grids::CoarseGrids;
 use super::operators::{Method, RegionOperators};
+use super::prescribed::NormalLoad;
 use super::region::Region;
 use super::sequential;
-use super::settle::settle;
 use super::slip_history::slip_path;
+use super::state_after::state_after;
 use super::stretch::Stretch;
 use super::tractions::Tractions;
-use super::{ContactSolver, Coupling, Increment, IterationCallback, Outcome, SolveError, Work};
-use crate::compliance::{CellResponse, OperatorSet, SpectralCompliance, SurfaceCompliance};
-use crate::model::{ContactState, Control, Integration, LoadStep, Scheme};
+use super::{ContactSolver, Coupling, Increment, IterationCallback, Outcome, SolveError};
+use crate::compliance::{CellResponse, OperatorSet, SurfaceCompliance};
+use crate::model::{ContactState, Control, Integration, LoadStep, Rig, Scheme};
 
 /// A normal load changes much when it changes by more than this fraction: starting on coarse grids is then cheaper than from the
 /// pressure before.
@@ -30,29 +30,28 @@ impl ContactSolver<'_> {
         &mut self,
         state: &ContactState,
         load: &LoadStep,
-        work: &mut Work,
         callback: IterationCallback<'_>,
     ) -> Result<Increment, SolveError> {
-        if let Control::Force(normal) = load.normal {
+        if let Some(normal) = load.normal.force() {
             self.check_friction_carries(load, normal, 1e-12)?;
         }
         self.take_last_load_as(load, state);
-        let mut start = self.pressure_from_coarse_grids(state, load, work, callback)?;
+        let mut start = self.pressure_from_coarse_grids(state, load, callback)?;
         let mut region = match &start {
             Some(pressure) => self.region_around(pressure, state),
             None => self.region_for(state, load),
         };
         let mut ratio = self.ratio_to_last(load).filter(|_| self.is_of_second_order());
         loop {
-            let solved = self.solve_in(region, (start.as_ref(), ratio), (state, load), work, callback);
+            let solved = self.solve_in(region, (start.as_ref(), ratio), (state, load), callback);
             if let (Some(_), Err(SolveError::NotConverged { .. })) = (ratio, &solved) {
-                work.end_point_increments += 1;
+                self.work.end_point_increments += 1;
                 ratio = None;
                 continue;
             }
             let (solved, after, outcome) = solved?;
             self.check(load, &after, &outcome, solved.solution.iterations)?;
-            let (gap, contact_area) = self.gap_and_area((region, load), &solved, &after, work)?;
+            let (gap, contact_area) = self.gap_and_area((region, load), &solved, &after)?;
             if self.overlaps_outside(region, &gap) {
                 region = Region::whole(self.grid.cells());
                 start = start.map(|_| after.pressure);
@@ -60,7 +59,8 @@ impl ContactSolver<'_> {
             }
             let fraction = outcome.stick_cells as f64 / outcome.contact_cells.max(1) as f64;
             let stick_area = contact_area * fraction;
-            let increment = Increment { state: after, outcome, contact_area, stick_area, gap, work: *work };
+            let increment =
+                Increment { state: after, outcome, contact_area, stick_area, gap, work: self.work };
             self.remember((state, load), (region, ratio), solved, &increment);
             return Ok(increment);
         }
@@ -78,36 +78,32 @@ impl ContactSolver<'_> {
         region: Region,
         (start, ratio): (Option<&Array2<f64>>, Option<f64>),
         (state, load): (&ContactState, &LoadStep),
-        work: &mut Work,
         callback: IterationCallback<'_>,
     ) -> Result<(Solved, ContactState, Outcome), SolveError> {
         let grid = self.grid;
         let bodies = (self.rig.of_part(self.symmetry.copies()), self.stretch(state, load));
-        let loads = (state, load);
-        let mut increment =
-            IncrementProblem::new(&grid, &self.undeformed, &self.friction, loads, bodies, region);
+        let (loads, surface) = ((state, load), (&*self.friction, self.coupling));
+        let mut increment = IncrementProblem::new(&grid, &self.undeformed, surface, loads, bodies, region);
         if let Some(solved) = increment.apart() {
-            let (after, outcome) = settle(&increment, &solved, 0.0, self.settings.integration);
+            let (after, outcome) = state_after(&increment, &solved, 0.0, self.settings.integration);
             return Ok((solved, after, outcome));
         }
         increment.start = start.map(|pressure| region.gather(pressure));
         let tractions = self.predicted(start, (state, load), region);
         let mut operators = self.operators_for(region)?;
-        let before = operators.work();
         if let Some(ratio) = ratio {
-            let beyond = |before: &Before, drift: &Drift| {
-                increment.drift_to_here(before, drift, &mut operators, self.coupling)
-            };
+            let beyond =
+                |before: &Before, drift: &Drift| increment.drift_to_here(before, drift, &mut operators);
             increment.path = slip_path(&self.memory, state, (ratio, region), beyond).unwrap_or_default();
         }
         let solved = self.solve_with(&mut operators, &increment, tractions, callback);
-        *work += operators.work_since(before, region.len() as f64 / self.cells_of_whole());
+        self.work += operators.take_work(region.len() as f64 / self.cells_of_whole());
         let self_influence = operators.compliance.self_influence().tangential;
         self.operators = Some(operators);
         self.memory.region = Some(region);
         let solved = solved?;
-        let (after, outcome) = settle(&increment, &solved, self_influence, self.settings.integration);
-        work.outer_iterations += solved.solution.iterations;
+        let (after, outcome) = state_after(&increment, &solved, self_influence, self.settings.integration);
+        self.work.outer_iterations += solved.solution.iterations;
         Ok((solved, after, outcome))
     }
 
@@ -120,14 +116,14 @@ impl ContactSolver<'_> {
         callback: IterationCallback<'_>,
     ) -> Result<Solved, SolveError> {
         let last = self.memory.last.as_ref().filter(|last| last.region == increment.region);
-        let unchanged = last.is_some_and(|last| same_normal_load(&last.load, increment.load));
+        let keeps_pressure = self.whose_pressure_is_kept(increment.region, increment.load).is_some();
         let last = last.map(|last| &last.displacements);
         let cells = || Ok(CellResponse::new(&self.response, self.grid.cells(), self.symmetry)?);
-        let method = Method { coupling: self.coupling, settings: &self.settings, cells: &cells };
+        let method = Method { settings: &self.settings, cells: &cells };
         match self.coupling {
             Coupling::Coupled => coupled::solve(increment, tractions, last, operators, &method, callback),
             Coupling::Uncoupled | Coupling::Frictionless => {
-                sequential::solve(increment, tractions, (last, unchanged), operators, &method, callback)
+                sequential::solve(increment, tractions, (last, keeps_pressure), operators, &method, callback)
             }
         }
     }
@@ -141,8 +137,17 @@ impl ContactSolver<'_> {
     ) -> Tractions {
         let coupled = self.coupling == Coupling::Coupled;
         let grown = start.filter(|_| coupled).and_then(|pressure| self.grown_to(pressure, state));
-        let (pressure, shear) = grown.unwrap_or_else(|| self.extrapolated(state, load));
+        let GridTractions { pressure, shear } = grown.unwrap_or_else(|| self.extrapolated(state, load));
         Tractions { pressure: region.gather(&pressure), shear: region.gather_tangential(&shear) }
+    }
+
+    /// The last increment, where its pressure is that under a load, too: nothing but the load along the surface has changed.
+    fn whose_pressure_is_kept(&self, region: Region, load: &LoadStep) -> Option<&LastIncrement> {
+        let may_be_kept = self.coupling != Coupling::Coupled && self.settings.reuse_pressure;
+        self.memory.last.as_ref().filter(|last| {
+            let same = last.load.normal == load.normal && last.load.tilt == load.tilt;
+            may_be_kept && same && last.region == region
+        })
     }
 
     /// Gap on the whole grid [length] and area of contact [length^2]; those of the last increment where its pressure was kept.
@@ -151,18 +156,11 @@ impl ContactSolver<'_> {
         (region, load): (Region, &LoadStep),
         solved: &Solved,
         after: &ContactState,
-        work: &mut Work,
     ) -> Result<(Array2<f64>, f64), SolveError> {
-        let keeps_pressure = self.coupling != Coupling::Coupled && self.settings.reuse_pressure;
-        let last = self
-            .memory
-            .last
-            .as_ref()
-            .filter(|last| keeps_pressure && last.region == region && same_normal_load(&last.load, load));
-        if let Some(last) = last {
+        if let Some(last) = self.whose_pressure_is_kept(region, load) {
             return Ok((last.gap.clone(), last.contact_area));
         }
-        Ok((self.gap_everywhere(region, solved, after, work)?, self.contact_area(region, solved)))
+        Ok((self.gap_everywhere(region, solved, after)?, self.contact_area(region, solved)))
     }
 
     /// Remembers an increment that went from a state to a load, for the next one.
@@ -218,34 +216,21 @@ impl ContactSolver<'_> {
             return Ok(operators);
         }
         let waves = self.table.as_ref().map(|table| CellWaves { table, spacing: self.grid.spacing() });
-        let single = self.settings.single_precision;
+        let in_alternation = self.settings.scheme == Scheme::Staggered;
         let operators = OperatorSet {
             normal: true,
-            tangential: self.coupling == Coupling::Uncoupled || self.settings.scheme == Scheme::Staggered,
+            tangential: match self.coupling {
+                Coupling::Frictionless => false,
+                Coupling::Uncoupled => true,
+                Coupling::Coupled => in_alternation,
+            },
             full: self.coupling == Coupling::Coupled,
             normal_from_all: false,
             shear_axis: self.shear_axis,
             symmetry: self.symmetry,
-            single,
+            single: self.settings.single_precision,
         };
-        let tangential = self.coupling != Coupling::Frictionless;
-        Ok(RegionOperators {
-            region,
-            compliance: SpectralCompliance::new(&self.response, region.shape, operators)?
-                .working_in(&self.workspace),
-            preconditioner: Preconditioner::new(
-                &self.response,
-                waves,
-                region.shape,
-                [true, tangential],
-                self.shear_axis,
-                self.symmetry,
-                single,
-            )?
-            .working_in(&self.workspace),
-            linear: LinearSolver::default(),
-            direct_solves: 0,
-        })
+        Ok(RegionOperators::new(&self.response, waves, region, operators, &self.workspace)?)
     }
 
     /// A pressure from coarser grids: for a first contact, and where the normal load changes much.
@@ -253,7 +238,6 @@ impl ContactSolver<'_> {
         &mut self,
         state: &ContactState,
         load: &LoadStep,
-        work: &mut Work,
         callback: IterationCallback<'_>,
     ) -> Result<Option<Array2<f64>>, SolveError> {
         let touched = state.pressure.iter().any(|p| *p > 0.0);
@@ -270,18 +254,20 @@ impl ContactSolver<'_> {
             return Ok(None);
         }
         let lowest = self.undeformed.iter().copied().fold(f64::INFINITY, f64::min);
-        let prescribed = match load.normal {
-            Control::Force(force) if force > 0.0 => {
-                Prescribed { total: Some(force / self.grid.cell_area()), approach: 0.0 }
-            }
-            Control::Motion(approach) if approach > lowest => Prescribed { total: None, approach },
-            _ => return Ok(None),
+        let presses = match load.normal {
+            Control::Force(force) => force > 0.0,
+            Control::Motion(approach) => approach > lowest,
+            Control::FarEnd(_) => false,
         };
+        if !presses {
+            return Ok(None);
+        }
+        let normal = NormalLoad::new(state, load, Rig::RIGID, self.grid.cell_area());
         let spacing = self.grid.spacing();
         let grids = self.coarse.get_or_insert_with(|| {
             CoarseGrids::below(&self.response, &self.undeformed, spacing, self.symmetry)
         });
-        grids.pressure_above(prescribed, self.table.as_ref(), &self.settings, work, callback)
+        grids.pressure_above(normal, self.table.as_ref(), &self.settings, &mut self.work, callback)
     }
 
     /// By how much more the lower surface is strained than the upper one, in the increment.
@@ -350,16 +336,8 @@ impl ContactSolver<'_> {
     }
 }
 
-/// Whether two loads press the bodies alike.
-fn same_normal_load(one: &LoadStep, other: &LoadStep) -> bool {
-    one.normal == other.normal && one.tilt == other.tilt
-}
-
 /// Size of the prescribed tangential force [force].
 fn tangential_force(load: &LoadStep) -> f64 {
-    let [x, y] = load.tangential.map(|control| match control {
-        Control::Force(force) => force,
-        Control::Motion(_) | Control::FarEnd(_) => 0.0,
-    });
+    let [x, y] = load.tangential.map(|control| control.force().unwrap_or(0.0));
     x.hypot(y)
 }

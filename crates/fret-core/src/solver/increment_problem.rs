@@ -7,14 +7,16 @@ use super::contact_set::ContactSet;
 use super::laws::complementarity::NormalResidual;
 use super::laws::friction::FrictionLaw;
 use super::laws::limit::carried_fraction;
-use super::laws::rigid_motions::{CellPositions, RigidMotions};
+use super::laws::rigid_motions::CellPositions;
 use super::laws::slip_path::SlipPath;
-use super::normal::NormalEquations;
-use super::prescribed::PrescribedLoads;
+use super::normal::{NormalEquations, first_pressure};
+use super::operators::RegionOperators;
+use super::prescribed::{NormalLoad, TangentialLoads};
 use super::region::Region;
-use super::settings::{SolveError, SolverSettings};
+use super::settings::{Coupling, SolveError, SolverSettings};
 use super::stretch::Stretch;
 use super::tractions::{Displacements, Tractions};
+use crate::compliance::SurfaceCompliance;
 use crate::model::{ContactState, Control, CoulombFriction, LoadStep, Rig, SurfaceGrid, TangentialField};
 
 /// Friction that carries less than this fraction of what is prescribed is the reason why there is no solution. By the pressure without
@@ -33,11 +35,15 @@ pub struct IncrementProblem<'a> {
     /// What is prescribed at the end.
     pub load: &'a LoadStep,
     pub region: Region,
+    /// How pressure and shear act on each other.
+    pub coupling: Coupling,
     pub friction: FrictionLaw,
     pub positions: CellPositions,
     /// Gap before deformation [length].
     pub undeformed: Vec<f64>,
-    pub prescribed: PrescribedLoads,
+    /// What is prescribed along the normal and along the surface.
+    pub normal: NormalLoad,
+    pub tangential: TangentialLoads,
     /// What the bulk stresses do in the increment.
     pub stretch: Stretch,
     /// What is known of the paths of slip.
@@ -63,7 +69,7 @@ impl<'a> IncrementProblem<'a> {
     pub fn new(
         grid: &'a SurfaceGrid,
         undeformed: &Array2<f64>,
-        friction: &CoulombFriction,
+        (friction, coupling): (&CoulombFriction, Coupling),
         (state, load): (&'a ContactState, &'a LoadStep),
         (rig, stretch): (Rig, Stretch),
         region: Region,
@@ -72,17 +78,19 @@ impl<'a> IncrementProblem<'a> {
             (0..region.shape[axis]).map(|index| grid.centre(axis, region.origin[axis] + index)).collect()
         };
         let rotates = state.twist != 0.0 || load.twist != Control::Motion(0.0);
-        let positions = CellPositions::new(centres(0), centres(1), rotates, [false; 3]);
-        let prescribed = PrescribedLoads::new(state, load, rig, [positions.length, grid.cell_area()]);
+        let positions = CellPositions::new(centres(0), centres(1), rotates);
+        let area = grid.cell_area();
         Self {
             grid,
             state,
             load,
             region,
+            coupling,
             friction: FrictionLaw::in_region(friction, region),
-            positions: positions.with_springs(prescribed.by_force, prescribed.spring),
             undeformed: region.gather(undeformed),
-            prescribed,
+            normal: NormalLoad::new(state, load, rig, area),
+            tangential: TangentialLoads::new(state, load, rig, [positions.length, area]),
+            positions,
             stretch,
             path: SlipPath::default(),
             start: None,
@@ -91,7 +99,7 @@ impl<'a> IncrementProblem<'a> {
 
     /// The solution where the bodies do not touch under these loads.
     pub fn apart(&self) -> Option<Solved> {
-        let PrescribedLoads { total, approach, .. } = self.prescribed;
+        let NormalLoad { total, approach, .. } = self.normal;
         let lowest = self.undeformed.iter().copied().fold(f64::INFINITY, f64::min);
         let (apart, approach) = match total {
             Some(total) => (total <= 0.0, lowest),
@@ -105,7 +113,7 @@ impl<'a> IncrementProblem<'a> {
             solution: Solution {
                 normal: NormalResidual { approach, residual: 0.0 },
                 gap: self.undeformed.iter().map(|gap| gap - approach).collect(),
-                ..Solution::without_slip(len, self.prescribed.motion_apart())
+                ..Solution::without_slip(len, self.tangential.motion_apart())
             },
         })
     }
@@ -116,26 +124,32 @@ impl<'a> IncrementProblem<'a> {
         pressure: Pressure,
         before: &'b TangentialField,
     ) -> ContactProblem<'b> {
-        let PrescribedLoads { total, approach, approach_give, motion, resultant, .. } = self.prescribed;
         ContactProblem {
             pressure,
             undeformed: &self.undeformed,
             friction: &self.friction,
-            total,
-            approach,
-            approach_give,
+            normal: self.normal,
+            tangential: self.tangential,
             before,
             path: &self.path,
             positions: &self.positions,
-            motion,
-            resultant,
+        }
+    }
+
+    /// A first pressure [pressure].
+    pub fn first_pressure(&self, operators: &RegionOperators) -> Vec<f64> {
+        match &self.start {
+            Some(start) => start.clone(),
+            None => {
+                let own = operators.compliance.self_influence().normal;
+                first_pressure(&self.normal_equations(), own)
+            }
         }
     }
 
     /// Those of the frictionless problem.
     pub fn normal_equations(&self) -> NormalEquations<'_> {
-        let PrescribedLoads { total, approach, approach_give, .. } = self.prescribed;
-        NormalEquations { undeformed: &self.undeformed, total, approach, give: approach_give }
+        NormalEquations { undeformed: &self.undeformed, load: self.normal }
     }
 
     /// Whether the bodies touched in the state before.
@@ -145,10 +159,10 @@ impl<'a> IncrementProblem<'a> {
 
     /// Whether anything asks for shear, or has left some.
     pub fn causes_shear(&self) -> bool {
-        let prescribed = &self.prescribed;
-        prescribed.motion != [0.0; 3]
+        let TangentialLoads { motion, resultant, .. } = self.tangential;
+        motion != [0.0; 3]
             || !self.stretch.is_none()
-            || prescribed.resultant != [0.0; 3]
+            || resultant != [0.0; 3]
             || self.state.shear.iter().any(|shear| shear.iter().any(|q| *q != 0.0))
     }
 
@@ -162,8 +176,9 @@ impl<'a> IncrementProblem<'a> {
     pub fn check_limit(&self, tractions: &Tractions) -> Result<(), SolveError> {
         let contact = ContactSet::loaded(&tractions.pressure);
         let bound = self.friction.packed(&contact).bound(&contact.packed(&tractions.pressure));
-        let motions = RigidMotions { by_force: self.positions.held(), ..self.positions.motions_of(&contact) };
-        let prescribed = motions.only_by_force(self.prescribed.resultant);
+        let loads = TangentialLoads { by_force: self.tangential.held(), ..self.tangential };
+        let motions = self.positions.motions_of(&contact, loads);
+        let prescribed = loads.only_by_force(loads.resultant);
         let fraction = carried_fraction(&bound.bound, &motions, prescribed);
         if fraction > LIMIT {
             return Ok(());

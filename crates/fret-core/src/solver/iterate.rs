@@ -11,12 +11,12 @@ use super::laws::projection::{ShearProjection, project_pressure};
 use super::laws::rigid_motions::RigidMotions;
 use super::laws::slip::{SlipIncrement, TangentialProblem, TangentialResidual};
 use super::laws::slip_path::SlipPath;
-use super::linear::solver::Linearised;
+use super::linear::problem::Linearised;
 use super::operators::RegionOperators;
 use super::settings::SolverSettings;
 use super::tractions::{Displacements, Tractions};
 use crate::compliance::SurfaceCompliance;
-use crate::fields::{CellRule, Reals, TangentialField, add_scaled, each_cell, largest, lower, reset, sum};
+use crate::fields::{TangentialField, add_scaled, largest, lower, sum};
 
 /// A residual of the friction law above which the solution is far. Measured: from 0.1 on, and down to 0, more applications are needed.
 const FAR: f64 = 1e-3;
@@ -41,8 +41,6 @@ pub struct Iterate<'a> {
     /// The contact for which `sets` were found.
     contact_of_sets: ContactSet,
     step: ContactVector<f64>,
-    /// Resultants that the next projection restores [pressure].
-    to_restore: [f64; 3],
     packed: Packed,
     projection: ShearProjection,
 }
@@ -63,19 +61,11 @@ struct Packed {
 impl Packed {
     fn tangential_problem<'a>(
         &'a self,
-        problem: &ContactProblem<'_>,
         motions: &'a RigidMotions,
         self_influence: f64,
     ) -> TangentialProblem<'a> {
-        TangentialProblem {
-            bound: &self.bound.bound,
-            before: &self.before,
-            path: &self.path,
-            motions,
-            motion: problem.motion,
-            resultant: problem.resultant,
-            self_influence,
-        }
+        let Self { bound, before, path, .. } = self;
+        TangentialProblem { bound: &bound.bound, before, path, motions, self_influence }
     }
 }
 
@@ -88,7 +78,7 @@ impl<'a> Iterate<'a> {
     ) -> Self {
         let own = operators.compliance.self_influence();
         let contact = ContactSet::loaded(&tractions.pressure);
-        let motions = problem.positions.motions_of(&contact);
+        let motions = problem.motions_of(&contact);
         let mut iterate = Self {
             problem,
             last: Tractions::default(),
@@ -98,13 +88,12 @@ impl<'a> Iterate<'a> {
             contact: ContactSet::default(),
             motions,
             gap: Vec::new(),
-            normal: NormalResidual { approach: problem.approach, residual: 0.0 },
+            normal: NormalResidual { approach: problem.normal.approach, residual: 0.0 },
             tangential: TangentialResidual { motion: [0.0; 3], residual: 0.0 },
             slip: SlipIncrement::default(),
             sets: ActiveSets::default(),
             contact_of_sets: ContactSet::default(),
             step: ContactVector::default(),
-            to_restore: problem.resultant,
             packed: Packed::default(),
             projection: ShearProjection::default(),
         };
@@ -114,7 +103,7 @@ impl<'a> Iterate<'a> {
 
     fn change_contact(&mut self, contact: ContactSet) {
         let Self { problem, packed, .. } = self;
-        self.motions = problem.positions.motions_of(&contact);
+        self.motions = problem.motions_of(&contact);
         packed.law = problem.friction.packed(&contact);
         contact.pack_tangential(problem.before, &mut packed.before);
         packed.path = problem.path.packed(&contact);
@@ -126,12 +115,10 @@ impl<'a> Iterate<'a> {
         let problem = self.problem;
         let mut worst = 0.0;
         if problem.pressure == Pressure::Unknown {
-            let Self { gap, tractions, displacements, .. } = self;
-            reset(gap, problem.undeformed.len());
-            each_cell(&Height, [&displacements.normal, problem.undeformed], [gap]);
-            let approach = problem.approach_under(&tractions.pressure);
-            let [own, _] = self.self_influence;
-            self.normal = normal_residual(&tractions.pressure, gap, problem.undeformed, own, approach);
+            let Self { gap, tractions, displacements, self_influence: [own, _], .. } = self;
+            let (pressure, displacement) = (&tractions.pressure, &displacements.normal);
+            let approach = problem.normal.approach_under(pressure);
+            self.normal = normal_residual(pressure, displacement, problem.undeformed, *own, approach, gap);
             worst = self.normal.residual;
             let contact =
                 ContactSet::of(gap.len(), |cell| self.tractions.pressure[cell] > 0.0 || self.gap[cell] < 0.0);
@@ -146,7 +133,7 @@ impl<'a> Iterate<'a> {
         contact.pack_tangential(&displacements.tangential, &mut packed.displacement);
         packed.law.find_bound(&packed.pressure, &mut packed.bound);
         let Self { packed, motions, self_influence: [_, own], .. } = self;
-        let equations = packed.tangential_problem(problem, motions, *own);
+        let equations = packed.tangential_problem(motions, *own);
         let Packed { shear, displacement, .. } = &*packed;
         self.tangential = self.slip.find(&equations, shear, displacement, self.tangential.motion);
         worst.max(self.tangential.residual)
@@ -173,17 +160,19 @@ impl<'a> Iterate<'a> {
             Pressure::Given => (largest(&bound.bound), self_influence[1]),
         };
         let mut left_over = self.slip.left_over(&self.sets);
-        if self.motions.any_spring() {
+        let loads = problem.tangential;
+        if loads.any_spring() {
             // The displacement of the spring follows from the shear as it is, not from what the law makes of it.
             let parts = [(&mut left_over.x, &packed.shear.x), (&mut left_over.y, &packed.shear.y)];
             for (mode, (slip, shear)) in parts.into_iter().enumerate() {
-                let spring = self.motions.spring[mode];
+                let spring = loads.spring[mode];
                 if spring > 0.0 {
-                    let motion = (problem.resultant[mode] - sum(shear)) / spring;
+                    let motion = (loads.resultant[mode] - sum(shear)) / spring;
                     lower(slip, self.tangential.motion[mode] - motion);
                 }
             }
         }
+        let steepest = largest(&bound.slope);
         let linearised = Linearised {
             contact: &self.contact,
             sets: &self.sets,
@@ -191,10 +180,10 @@ impl<'a> Iterate<'a> {
             slope: &bound.slope,
             gap,
             slip: left_over.parts(),
-            holds_force: problem.total.is_some(),
+            holds_force: problem.normal.total.is_some(),
+            weight: if steepest > 0.0 { 1.0 / steepest } else { 1.0 },
             give: problem.give(),
             forcing,
-            most_steps: settings.max_krylov_steps,
             floor: 0.02 * settings.tolerance * size * own,
         };
         let RegionOperators { compliance, preconditioner, linear, .. } = operators;
@@ -207,15 +196,15 @@ impl<'a> Iterate<'a> {
         let (step, [x, y]) = self.step.parts();
         add_scaled(&mut shear.x, 1.0, x);
         add_scaled(&mut shear.y, 1.0, y);
-        self.to_restore = self.problem.to_restore(shear, &bound.bound);
+        let resultant = self.problem.to_restore(shear, &bound.bound);
         if self.problem.pressure == Pressure::Unknown {
             add_scaled(pressure, 1.0, step);
-            if !project_pressure(pressure, self.problem.total) {
+            if !project_pressure(pressure, self.problem.normal.total) {
                 return false;
             }
             law.find_bound(pressure, bound);
         }
-        self.project_shear();
+        self.project_shear(resultant);
         let Self { contact, packed, tractions, last, .. } = self;
         std::mem::swap(last, *tractions);
         tractions.reset(last.pressure.len());
@@ -224,14 +213,10 @@ impl<'a> Iterate<'a> {
         true
     }
 
-    /// Brings packed shear to its discs, where it slips to its circles, and to its resultants.
-    fn project_shear(&mut self) {
-        let mut shear = std::mem::take(&mut self.packed.shear);
-        let [_, own] = self.self_influence;
-        let equations = self.packed.tangential_problem(self.problem, &self.motions, own);
-        let equations = TangentialProblem { resultant: self.to_restore, ..equations };
-        self.projection.project(&mut shear, &self.sets, &equations);
-        self.packed.shear = shear;
+    /// Brings packed shear to its discs, where it slips to its circles, and to a `resultant` [pressure].
+    fn project_shear(&mut self, resultant: [f64; 3]) {
+        let Self { packed: Packed { shear, bound, .. }, sets, motions, projection, .. } = self;
+        projection.project(shear, sets, &bound.bound, motions, resultant);
     }
 
     /// Moves slipping cells that lie inside their friction circles, by what the solution is off, onto these. Whether there were any.
@@ -248,12 +233,12 @@ impl<'a> Iterate<'a> {
         if slipping.is_empty() {
             return false;
         }
-        self.to_restore = self.problem.to_restore(&self.packed.shear, &self.packed.bound.bound);
+        let resultant = self.problem.to_restore(shear, &bound.bound);
         self.find_sets();
         for cell in slipping {
             self.sets.stick[cell] = 0.0;
         }
-        self.project_shear();
+        self.project_shear(resultant);
         self.contact.scatter_tangential(&self.packed.shear, &mut self.tractions.shear);
         true
     }
@@ -281,8 +266,8 @@ impl<'a> Iterate<'a> {
         contact.pack(&tractions.pressure, &mut packed.pressure);
         contact.pack_tangential(&tractions.shear, &mut packed.shear);
         packed.law.find_bound(&packed.pressure, &mut packed.bound);
-        self.to_restore = self.problem.to_restore(&packed.shear, &packed.bound.bound);
-        self.project_shear();
+        let resultant = self.problem.to_restore(&packed.shear, &packed.bound.bound);
+        self.project_shear(resultant);
         self.contact.scatter_tangential(&self.packed.shear, &mut self.tractions.shear);
         self.find_displacements(operators);
     }
@@ -310,16 +295,6 @@ impl<'a> Iterate<'a> {
         };
         let [slip, end_slip] = [slip.slip, slip.at_end].map(scattered);
         Solution { normal, tangential, gap, slip, end_slip, iterations }
-    }
-}
-
-struct Height;
-
-impl CellRule<2, 1, 0> for Height {
-    #[inline(always)]
-    fn at<R: Reals>(&self, [u, g]: [R; 2], [height]: &mut [R; 1]) -> [R; 0] {
-        *height = u + g;
-        []
     }
 }
 

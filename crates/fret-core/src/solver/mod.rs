@@ -10,11 +10,9 @@ mod contact_problem;
 mod contact_set;
 mod contact_vector;
 mod coupled;
-mod displacement_before;
 mod exact_newton;
 #[cfg(test)]
 mod few_cells;
-mod frictionless;
 mod full_grid_check;
 mod globalisation;
 mod increment;
@@ -29,12 +27,14 @@ mod operators;
 mod outcome;
 mod prescribed;
 mod region;
+mod region_fields;
+mod relative_displacement;
 mod sequential;
 mod settings;
-mod settle;
 mod slip_history;
 mod staggered;
 mod start;
+mod state_after;
 mod stretch;
 mod tilt;
 mod tractions;
@@ -75,8 +75,8 @@ pub struct ContactSolver<'a> {
     /// Made when they are first asked for.
     coarse: Option<CoarseGrids>,
     memory: SolverMemory,
-    /// Work of increments that were not solved; the next one that is counts it.
-    unsolved_work: Work,
+    /// Work since an increment was solved last: the next one that is counts what was spent on those that were not.
+    work: Work,
     in_region: bool,
     /// The one axis along which shear acts.
     shear_axis: Option<usize>,
@@ -116,7 +116,7 @@ impl<'a> ContactSolver<'a> {
             table: None,
             coarse: None,
             memory: SolverMemory::default(),
-            unsolved_work: Work::default(),
+            work: Work::default(),
             in_region,
             shear_axis: None,
             symmetry: Symmetry::NONE,
@@ -229,23 +229,16 @@ impl<'a> ContactSolver<'a> {
         load: &LoadStep,
         callback: IterationCallback<'_>,
     ) -> Result<Increment, SolveError> {
-        let mut work = std::mem::take(&mut self.unsolved_work);
         let symmetry = self.symmetry;
         let solved = if symmetry.any() {
             let part = symmetry.part_of_state(state);
-            self.solve_tilted(&part, &symmetry.part_of_load(load, state), &mut work, callback)
+            self.solve_tilted(&part, &symmetry.part_of_load(load, state), callback)
                 .map(|increment| increment.of_whole(symmetry))
                 .map_err(|error| error.of_whole(symmetry.copies()))
         } else {
-            self.solve_tilted(state, load, &mut work, callback)
+            self.solve_tilted(state, load, callback)
         };
-        match solved {
-            Ok(increment) => Ok(Increment { work, ..increment }),
-            Err(error) => {
-                self.unsolved_work = work;
-                Err(error)
-            }
-        }
+        solved.map(|increment| Increment { work: std::mem::take(&mut self.work), ..increment })
     }
 }
 

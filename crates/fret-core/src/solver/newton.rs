@@ -9,8 +9,6 @@ use super::globalisation::{Backtracking, ForcingTerm};
 use super::iterate::Iterate;
 use super::laws::active_sets::ActiveSets;
 use super::laws::projection::ShearProjection;
-use super::laws::slip::TangentialProblem;
-use super::laws::slip_path::SlipPath;
 use super::operators::RegionOperators;
 use super::settings::{IterationCallback, SolveError, SolverSettings};
 use super::tractions::{Displacements, Tractions};
@@ -106,21 +104,13 @@ pub fn make_shear_feasible(
     tractions: &mut Tractions,
     operators: &RegionOperators,
 ) {
-    let self_influence = operators.compliance.self_influence().tangential;
     let contact = ContactSet::loaded(&tractions.pressure);
     let bound = problem.friction.packed(&contact).bound(&contact.packed(&tractions.pressure));
     let mut shear = contact.packed_tangential(&tractions.shear);
-    let at_rest = TangentialField::zeros(contact.len());
-    let equations = TangentialProblem {
-        bound: &bound.bound,
-        before: &at_rest,
-        path: &SlipPath::default(),
-        motions: &problem.positions.motions_of(&contact),
-        motion: problem.motion,
-        resultant: problem.to_restore(&shear, &bound.bound),
-        self_influence,
-    };
-    let sets = ActiveSets::of(&shear, &at_rest, &bound, self_influence);
-    ShearProjection::default().project(&mut shear, &sets, &equations);
+    let (at_rest, own) =
+        (TangentialField::zeros(contact.len()), operators.compliance.self_influence().tangential);
+    let sets = ActiveSets::of(&shear, &at_rest, &bound, own);
+    let (motions, resultant) = (problem.motions_of(&contact), problem.to_restore(&shear, &bound.bound));
+    ShearProjection::default().project(&mut shear, &sets, &bound.bound, &motions, resultant);
     contact.scatter_tangential(&shear, &mut tractions.shear);
 }

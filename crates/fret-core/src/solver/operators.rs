@@ -1,11 +1,14 @@
 //! The elastic operators of a region, with what solves linear problems there; and the method they serve.
 
-use super::linear::preconditioner::Preconditioner;
+use std::mem::take;
+
+use super::linear::preconditioner::{CellWaves, Preconditioner};
 use super::linear::solver::LinearSolver;
 use super::outcome::Work;
 use super::region::Region;
-use super::settings::{Coupling, SolveError, SolverSettings};
-use crate::compliance::{CellResponse, SpectralCompliance};
+use super::settings::{SolveError, SolverSettings};
+use crate::compliance::{CellResponse, OperatorSet, SharedWorkspace, SpectralCompliance, SurfaceResponse};
+use fret_fft::ConvolutionError;
 
 /// The operators of a region.
 pub struct RegionOperators {
@@ -17,28 +20,48 @@ pub struct RegionOperators {
     pub preconditioner: Preconditioner,
     /// Solver of linearised problems.
     pub linear: LinearSolver,
-    /// Iterations of the exact Newton method so far.
+    /// Iterations of the exact Newton method since the work was taken last.
     pub direct_solves: usize,
 }
 
 impl RegionOperators {
-    /// Applications, passes of the preconditioner and direct solves so far.
-    pub fn work(&self) -> [usize; 3] {
-        [self.compliance.applications, self.preconditioner.passes, self.direct_solves]
+    /// The operators of a region, at work in a given memory. `waves` serves pressure in free space.
+    ///
+    /// # Errors
+    /// When a coefficient is missing or does not cover the region.
+    pub fn new(
+        response: &SurfaceResponse,
+        waves: Option<CellWaves<'_>>,
+        region: Region,
+        operators: OperatorSet,
+        workspace: &SharedWorkspace,
+    ) -> Result<Self, ConvolutionError> {
+        let compliance = SpectralCompliance::new(response, region.shape, operators)?;
+        let preconditioner = Preconditioner::new(response, waves, region.shape, operators)?;
+        Ok(Self {
+            region,
+            compliance: compliance.working_in(workspace),
+            preconditioner: preconditioner.working_in(workspace),
+            linear: LinearSolver::default(),
+            direct_solves: 0,
+        })
     }
 
-    /// The work since it was `before`; the region is this `fraction` of the whole grid.
-    pub fn work_since(&self, before: [usize; 3], fraction: f64) -> Work {
-        let now = self.work();
-        let [convolutions, preconditioner_passes, direct_solves] = [0, 1, 2].map(|k| now[k] - before[k]);
-        let full_grid_convolutions = convolutions as f64 * fraction;
-        Work { convolutions, full_grid_convolutions, preconditioner_passes, direct_solves, ..Work::default() }
+    /// The work since it was taken last; the region counts as this `fraction` of the whole grid.
+    pub fn take_work(&mut self, fraction: f64) -> Work {
+        let convolutions = take(&mut self.compliance.applications);
+        Work {
+            convolutions,
+            full_grid_convolutions: convolutions as f64 * fraction,
+            preconditioner_passes: take(&mut self.preconditioner.passes),
+            direct_solves: take(&mut self.direct_solves),
+            ..Work::default()
+        }
     }
 }
 
 /// What an increment is solved with besides its operators.
 pub struct Method<'a> {
-    pub coupling: Coupling,
     pub settings: &'a SolverSettings,
     /// The response of a cell to another, for the exact Newton method.
     pub cells: &'a dyn Fn() -> Result<CellResponse, SolveError>,

@@ -35,6 +35,11 @@ impl Region {
         self.shape[0] * self.shape[1]
     }
 
+    /// Where a cell of the part lies on the grid.
+    pub fn at(&self, cell: usize) -> [usize; 2] {
+        [self.origin[0] + cell / self.shape[1], self.origin[1] + cell % self.shape[1]]
+    }
+
     /// The part of a grid field, as flat rows.
     pub fn gather(&self, field: &Array2<f64>) -> Vec<f64> {
         let part = inside(field.view(), self.ranges()).as_standard_layout().into_owned();
@@ -53,12 +58,6 @@ impl Region {
     /// The part of a tangential grid field.
     pub fn gather_tangential(&self, field: &[Array2<f64>; 2]) -> TangentialField {
         TangentialField { x: self.gather(&field[0]), y: self.gather(&field[1]) }
-    }
-
-    /// Writes the part into a grid field that is zero elsewhere.
-    pub fn scatter(&self, part: &[f64], field: &mut Array2<f64>) {
-        field.fill(0.0);
-        self.place(part, field);
     }
 
     /// Writes what is not zero of the part into a grid field of zeros: memory that nobody wrote to costs nothing.
@@ -161,14 +160,15 @@ mod tests {
         assert_eq!(region.len(), 6);
         let part = region.gather(&grid);
         assert_eq!(part, [12.0, 13.0, 14.0, 22.0, 23.0, 24.0]);
+        assert!((0..6).all(|cell| grid[region.at(cell)] == part[cell]));
         // In either order of memory.
         let turned = grid.t().as_standard_layout().into_owned().reversed_axes();
         assert_eq!(region.gather(&turned), part);
         assert_eq!(region.gather_map(&grid, |value| *value as i32 % 10), [2, 3, 4, 2, 3, 4]);
         let both = region.gather_tangential(&[grid.clone(), -&grid]);
         assert_eq!((&both.x, both.y[5]), (&part, -24.0));
-        let mut back = Array2::from_elem((5, 7), 9.0);
-        region.scatter(&part, &mut back);
+        let mut back = Array2::zeros((5, 7));
+        region.place(&part, &mut back);
         for ((i, j), value) in back.indexed_iter() {
             assert_eq!(*value, if region.contains(i, j) { grid[[i, j]] } else { 0.0 });
         }

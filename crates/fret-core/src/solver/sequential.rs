@@ -5,22 +5,22 @@ use super::increment_problem::{IncrementProblem, Solved};
 use super::laws::complementarity::normal_residual;
 use super::laws::projection::project_pressure;
 use super::newton;
-use super::normal::NormalSolution;
+use super::normal::{NormalSolution, solve_normal};
 use super::operators::{Method, RegionOperators};
 use super::settings::{Coupling, IterationCallback, SolveError};
 use super::tractions::{Displacements, Tractions};
 use crate::compliance::SurfaceCompliance;
 use crate::model::TangentialField;
 
-/// Solves an increment from predicted `tractions`. `last`: displacements of the state before, when they are known; `unchanged`: its
-/// normal load is the one asked for.
+/// Solves an increment from predicted `tractions`. `last`: displacements of the state before, when they are known;
+/// `keeps_pressure`: its pressure is the one asked for.
 ///
 /// # Errors
 /// When an iteration does not converge, or is stopped.
 pub fn solve(
     increment: &IncrementProblem<'_>,
     mut tractions: Tractions,
-    (last, unchanged): (Option<&Displacements>, bool),
+    (last, keeps_pressure): (Option<&Displacements>, bool),
     operators: &mut RegionOperators,
     method: &Method<'_>,
     callback: IterationCallback<'_>,
@@ -28,24 +28,26 @@ pub fn solve(
     let settings = &increment.limited(method.settings);
     let cells = increment.region.len();
     let mut displacements = Displacements::zeros(cells);
-    let pressure = if let (true, Some(last)) = (unchanged && settings.reuse_pressure, last) {
+    let pressure = if let (true, Some(last)) = (keeps_pressure, last) {
         tractions.pressure = increment.region.gather(&increment.state.pressure);
         displacements.normal.clone_from(&last.normal);
         pressure_before(increment, &displacements, &tractions, operators)
     } else {
-        let usable = project_pressure(&mut tractions.pressure, increment.prescribed.total);
+        let usable = project_pressure(&mut tractions.pressure, increment.normal.total);
         if increment.start.is_some() || !increment.touched() || !usable {
             tractions.pressure = increment.first_pressure(operators);
         }
-        increment.solve_pressure(&mut tractions, &mut displacements, operators, settings, callback)?
+        let fields = [&mut tractions.pressure[..], &mut displacements.normal];
+        solve_normal(&increment.normal_equations(), fields, operators, settings, callback)?
     };
     let mut drift = TangentialField::zeros(cells);
-    let mut solution = Solution::without_slip(cells, increment.prescribed.motion);
-    if method.coupling == Coupling::Frictionless || settings.skip_unloaded_shear && !increment.causes_shear()
+    let mut solution = Solution::without_slip(cells, increment.tangential.motion);
+    if increment.coupling == Coupling::Frictionless
+        || settings.skip_unloaded_shear && !increment.causes_shear()
     {
         tractions.shear.clear();
     } else {
-        let before = increment.displacement_before(last, operators, method.coupling);
+        let before = increment.displacement_before(last, operators);
         let counted_from = increment.counted_from(&before);
         let problem = increment.contact_problem(Pressure::Given, &counted_from);
         newton::make_shear_feasible(&problem, &mut tractions, operators);
@@ -70,11 +72,11 @@ fn pressure_before(
     tractions: &Tractions,
     operators: &RegionOperators,
 ) -> NormalSolution {
-    let IncrementProblem { undeformed, prescribed, .. } = increment;
+    let IncrementProblem { undeformed, normal, .. } = increment;
     let own = operators.compliance.self_influence().normal;
-    let mut gap: Vec<f64> = displacements.normal.iter().zip(undeformed).map(|(u, g)| u + g).collect();
-    let gives = increment.normal_equations().given_way(&tractions.pressure);
-    let approach = prescribed.total.is_none().then_some(prescribed.approach - gives);
-    let residual = normal_residual(&tractions.pressure, &mut gap, undeformed, own, approach);
+    let mut gap = Vec::new();
+    let approach = normal.approach_under(&tractions.pressure);
+    let (pressure, displacement) = (&tractions.pressure, &displacements.normal);
+    let residual = normal_residual(pressure, displacement, undeformed, own, approach, &mut gap);
     NormalSolution { residual, gap, iterations: 0 }
 }

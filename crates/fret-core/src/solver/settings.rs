@@ -30,10 +30,6 @@ pub struct SolverSettings {
     pub integration: Integration,
     /// Newton iterations, each with new active sets, before an increment is left to the exact Newton method.
     pub max_newton_iterations: usize,
-    /// Krylov steps in each of them.
-    pub max_krylov_steps: usize,
-    /// Iterations of the frictionless solver.
-    pub max_normal_iterations: usize,
     /// Unknowns up to which the exact Newton method, with its dense matrix, is the last resort; 0: never.
     pub max_direct_unknowns: usize,
     /// Linear problems and approximate inverses in single precision. Residuals are found in double precision.
@@ -52,8 +48,6 @@ impl SolverSettings {
             scheme: Scheme::default(),
             integration: Integration::default(),
             max_newton_iterations: 60,
-            max_krylov_steps: 30,
-            max_normal_iterations: 8000,
             max_direct_unknowns: 4500,
             single_precision: false,
             reuse_pressure: true,

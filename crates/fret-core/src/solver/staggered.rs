@@ -42,23 +42,16 @@ pub fn solve(
         let tolerance = (INNER * residual.min(1.0)).max(0.3 * settings.tolerance);
         let inner = SolverSettings { tolerance, ..*settings };
         // Pressure, over the surface that the shear has displaced.
-        let RegionOperators { compliance, preconditioner, .. } = operators;
         let [x, y] = tractions.shear.parts();
-        compliance.full([&unloaded.pressure, x, y], from_shear.parts_mut());
+        operators.compliance.full([&unloaded.pressure, x, y], from_shear.parts_mut());
         let mut undeformed = problem.undeformed.to_vec();
         add_scaled(&mut undeformed, 1.0, &from_shear.normal);
-        let equations = NormalEquations {
-            undeformed: &undeformed,
-            total: problem.total,
-            approach: problem.approach,
-            give: problem.approach_give,
-        };
-        compliance.normal(&tractions.pressure, &mut from_pressure.normal);
-        let (pressure, normal) = (&mut tractions.pressure, &mut from_pressure.normal);
-        solve_normal(&equations, pressure, normal, compliance, preconditioner, &inner, callback)?;
+        let equations = NormalEquations { undeformed: &undeformed, load: problem.normal };
+        let fields = [&mut tractions.pressure[..], &mut from_pressure.normal];
+        solve_normal(&equations, fields, operators, &inner, callback)?;
         // Shear, under that pressure and its tangential displacement.
         let [x, y] = unloaded.shear.parts();
-        compliance.full([&tractions.pressure, x, y], from_pressure.parts_mut());
+        operators.compliance.full([&tractions.pressure, x, y], from_pressure.parts_mut());
         let mut before = problem.before.clone();
         before.add_scaled(-1.0, &from_pressure.tangential);
         let given = ContactProblem { pressure: Pressure::Given, before: &before, ..*problem };

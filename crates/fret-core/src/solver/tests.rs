@@ -2,7 +2,7 @@ use std::ops::ControlFlow;
 
 use super::*;
 use crate::kernel::{Components, influence_coefficients};
-use crate::model::{Base, Body, ContactPair, Control, ElasticMaterial, HalfSpace};
+use crate::model::{Base, Body, ContactPair, Control, ElasticMaterial, HalfSpace, Scheme};
 
 #[test]
 fn shear_across_the_one_axis_is_not_certified() {
@@ -31,4 +31,30 @@ fn shear_across_the_one_axis_is_not_certified() {
     state.shear[1][[15, 16]] = 1e-3;
     state.shear[1][[16, 16]] = -1e-3;
     assert!(matches!(solver.step(&state, &load(0.1), go_on), Err(SolveError::NotConverged { .. })));
+}
+
+/// Without friction there is no shear, and no coefficients for it: how pressure and shear are solved makes no difference.
+#[test]
+fn without_friction_pressure_is_alone_in_either_scheme() {
+    let material = ElasticMaterial::new(1.0, 0.3).unwrap();
+    let lower = Body::Elastic(HalfSpace::new(Vec::new(), Base::Elastic(material)).unwrap());
+    let pair = ContactPair::new(Body::Rigid, lower).unwrap();
+    let (cells, spacing) = ([16; 2], [0.1; 2]);
+    let grid = SurfaceGrid::new(cells, spacing).unwrap();
+    let gap = Array2::from_shape_fn((16, 16), |(i, j)| {
+        0.5 * (grid.centre(0, i).powi(2) + grid.centre(1, j).powi(2))
+    });
+    let friction = CoulombFriction::uniform(0.0).unwrap();
+    let load = LoadStep { normal: Control::Force(0.1), ..LoadStep::FREE };
+    let [monolithic, staggered] = [Scheme::Monolithic, Scheme::Staggered].map(|scheme| {
+        let coefficients = influence_coefficients(&pair, cells, spacing, Components::NORMAL);
+        let response = SurfaceResponse::FreeSpace(coefficients);
+        let settings = SolverSettings { scheme, ..SolverSettings::new(1e-8) };
+        let coupling = Coupling::Frictionless;
+        ContactSolver::new(grid, gap.clone(), &friction, coupling, response, settings, true)
+            .step(&ContactState::untouched(cells), &load, &mut |_, _| ControlFlow::Continue(()))
+            .unwrap()
+            .state
+    });
+    assert_eq!(monolithic, staggered);
 }

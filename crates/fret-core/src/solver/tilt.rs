@@ -4,7 +4,7 @@
 //! about it only rises, and a bracket closes: Newton steps by Broyden's stiffness give the direction, a search along it the length.
 
 use super::settings::{IterationCallback, SolveError};
-use super::{ContactSolver, Increment, SolverMemory, Work};
+use super::{ContactSolver, Increment, SolverMemory};
 use crate::model::{ContactState, Control, LoadStep};
 
 /// Solutions of one increment on the way to its tilt, at the most.
@@ -70,32 +70,26 @@ impl ContactSolver<'_> {
         &mut self,
         state: &ContactState,
         load: &LoadStep,
-        work: &mut Work,
         callback: IterationCallback<'_>,
     ) -> Result<Increment, SolveError> {
-        let by_moment = load.tilt.map(|control| matches!(control, Control::Force(_)));
-        let tilt = [0, 1].map(|axis| match load.tilt[axis] {
-            Control::Motion(slope) | Control::FarEnd(slope) => slope,
-            Control::Force(_) => state.tilt[axis],
-        });
-        if by_moment == [false; 2] {
+        let tilt = [0, 1].map(|axis| load.tilt[axis].motion().unwrap_or(state.tilt[axis]));
+        if load.tilt.iter().all(|control| control.motion().is_some()) {
             self.set_tilt(tilt);
-            return self.solve(state, load, work, callback);
+            return self.solve(state, load, callback);
         }
         let tolerance = self.settings.tolerance;
         let memory = self.memory.clone();
         self.settings.tolerance = FINER * tolerance;
-        let found = self.tilt_by_moment((state, load), tilt, (&memory, tolerance), work, callback);
+        let found = self.tilt_by_moment((state, load), tilt, (&memory, tolerance), callback);
         self.settings.tolerance = tolerance;
         match found {
-            Ok(Tried { mut increment, memory, arm, off, .. }) => {
+            Ok(tried) => {
+                let off = tried.worst();
+                let Tried { mut increment, memory, .. } = tried;
                 self.set_tilt(increment.state.tilt);
                 self.memory = memory;
-                let off = (0..2).fold(0.0, |worst: f64, axis| {
-                    if off[axis] == 0.0 { worst } else { worst.max(off[axis].abs() / arm[axis]) }
-                });
-                increment.outcome.residual.equilibrium = increment.outcome.residual.equilibrium.max(off);
-                increment.work = *work;
+                let residual = &mut increment.outcome.residual;
+                residual.equilibrium = residual.equilibrium.max(off);
                 Ok(increment)
             }
             Err(error) => {
@@ -111,11 +105,10 @@ impl ContactSolver<'_> {
         (state, load): (&ContactState, &LoadStep),
         start: [f64; 2],
         (memory, tolerance): (&SolverMemory, f64),
-        work: &mut Work,
         callback: IterationCallback<'_>,
     ) -> Result<Tried, SolveError> {
-        let axes: Vec<usize> = (0..2).filter(|axis| matches!(load.tilt[*axis], Control::Force(_))).collect();
-        let mut here = self.at_tilt((state, load), start, memory, work, callback)?;
+        let axes: Vec<usize> = (0..2).filter(|&axis| load.tilt[axis].force().is_some()).collect();
+        let mut here = self.at_tilt((state, load), start, memory, callback)?;
         let mut search =
             Search { axes, stiffness: memory.tilt_stiffness, tolerance, solutions: 1, stopped: None };
         while here.worst() > tolerance && here.arm != [0.0; 2] {
@@ -124,15 +117,14 @@ impl ContactSolver<'_> {
                 let change = SMALL * here.slope[axis] * if here.off[axis] > 0.0 { -1.0 } else { 1.0 };
                 let mut beside = here.increment.state.tilt;
                 beside[axis] += change;
-                let there = self.at_tilt((state, load), beside, memory, work, callback)?;
+                let there = self.at_tilt((state, load), beside, memory, callback)?;
                 search.solutions += 1;
                 for row in 0..2 {
                     search.stiffness[row][axis] = (there.off[row] - here.off[row]) / change;
                 }
             }
-            let mut at =
-                |tilt: [f64; 2], work: &mut Work| self.at_tilt((state, load), tilt, memory, work, callback);
-            match search.along_newton(&here, work, &mut at)? {
+            let mut at = |tilt: [f64; 2]| self.at_tilt((state, load), tilt, memory, callback);
+            match search.along_newton(&here, &mut at)? {
                 Some(there) => here = there,
                 None => break,
             }
@@ -157,28 +149,15 @@ impl ContactSolver<'_> {
         (state, load): (&ContactState, &LoadStep),
         tilt: [f64; 2],
         memory: &SolverMemory,
-        work: &mut Work,
         callback: IterationCallback<'_>,
     ) -> Result<Tried, SolveError> {
         self.memory = memory.clone();
         self.set_tilt(tilt);
         let at_it = LoadStep { tilt: tilt.map(Control::Motion), ..*load };
-        let increment = self.solve(state, &at_it, work, callback)?;
-        let memory = std::mem::take(&mut self.memory);
-        let mut tried = self.tried(increment, memory);
-        for axis in 0..2 {
-            if let Control::Force(asked) = load.tilt[axis] {
-                tried.off[axis] = tried.increment.outcome.resultants.tilt_moment[axis] - asked;
-            }
-        }
-        Ok(tried)
-    }
-
-    fn tried(&self, increment: Increment, memory: SolverMemory) -> Tried {
+        let increment = self.solve(state, &at_it, callback)?;
         let (grid, middle, area) = (self.grid, self.middle, self.grid.cell_area());
-        let pressure = &increment.state.pressure;
         let (mut force, mut work, mut second) = (0.0, 0.0, [0.0; 2]);
-        for ((i, j), p) in pressure.indexed_iter().filter(|(_, p)| **p > 0.0) {
+        for ((i, j), p) in increment.state.pressure.indexed_iter().filter(|(_, p)| **p > 0.0) {
             let at = [middle[0] + grid.centre(0, i), middle[1] + grid.centre(1, j)];
             force += p;
             work += p * (increment.state.approach - self.undeformed[[i, j]]);
@@ -191,18 +170,19 @@ impl ContactSolver<'_> {
             if force > 0.0 { (second[axis] / force).sqrt().max(0.5 * spacing[axis]) } else { 0.0 }
         });
         let displacement = if force > 0.0 { (work / force).abs() } else { 0.0 };
-        Tried {
+        let moment = increment.outcome.resultants.tilt_moment;
+        Ok(Tried {
+            off: [0, 1].map(|axis| load.tilt[axis].force().map_or(0.0, |asked| moment[axis] - asked)),
             arm: radius.map(|radius| radius * force * area),
             slope: radius.map(|radius| if radius > 0.0 { displacement / radius } else { 0.0 }),
-            off: [0.0; 2],
+            memory: std::mem::take(&mut self.memory),
             increment,
-            memory,
-        }
+        })
     }
 }
 
 /// Solves the increment at a tilt.
-type Attempt<'a> = &'a mut dyn FnMut([f64; 2], &mut Work) -> Result<Tried, SolveError>;
+type Attempt<'a> = &'a mut dyn FnMut([f64; 2]) -> Result<Tried, SolveError>;
 
 /// The way to the tilts of prescribed moments.
 struct Search {
@@ -248,12 +228,7 @@ impl Search {
 
     /// A solution nearer to the moments along Newton's step. With one moment the bracket is closed until it is met; with two, until what is
     /// off along the step is a fraction of what it was, which lowers the convex function whose gradient the moments are.
-    fn along_newton(
-        &mut self,
-        here: &Tried,
-        work: &mut Work,
-        at: Attempt<'_>,
-    ) -> Result<Option<Tried>, SolveError> {
+    fn along_newton(&mut self, here: &Tried, at: Attempt<'_>) -> Result<Option<Tried>, SolveError> {
         let step = self.direction(here);
         let from = here.increment.state.tilt;
         let along = |tried: &Tried| step[0] * tried.off[0] + step[1] * tried.off[1];
@@ -270,7 +245,7 @@ impl Search {
         while self.solutions < MOST_SOLUTIONS {
             let to = [0, 1].map(|axis| from[axis] + fraction * step[axis]);
             self.solutions += 1;
-            match at(to, work) {
+            match at(to) {
                 Ok(there) if there.arm != [0.0; 2] => {
                     let before = best.as_ref().unwrap_or(here);
                     let change = [0, 1].map(|axis| to[axis] - before.increment.state.tilt[axis]);

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::fields::{CellRule, Reals, each_cell, reset, stored};
+use crate::fields::{reset, stored};
 use crate::model::TangentialField;
 
 /// Pressure and shear.
@@ -45,7 +45,9 @@ impl Tractions {
     /// Goes halfway to other tractions.
     pub fn average_with(&mut self, other: &Self) {
         let [x, y] = self.shear.parts_mut();
-        average([&mut self.pressure, x, y], other.parts());
+        for (field, other) in [&mut self.pressure[..], x, y].into_iter().zip(other.parts()) {
+            field.iter_mut().zip(other).for_each(|(value, other)| *value = (*value + other) * 0.5);
+        }
     }
 }
 
@@ -64,22 +66,6 @@ impl Displacements {
     pub fn parts_mut(&mut self) -> [&mut [f64]; 3] {
         let [x, y] = self.tangential.parts_mut();
         [&mut self.normal, x, y]
-    }
-}
-
-fn average(fields: [&mut [f64]; 3], others: [&[f64]; 3]) {
-    for (field, other) in fields.into_iter().zip(others) {
-        each_cell(&Average, [other], [field]);
-    }
-}
-
-struct Average;
-
-impl CellRule<1, 1, 0> for Average {
-    #[inline(always)]
-    fn at<R: Reals>(&self, [other]: [R; 1], [value]: &mut [R; 1]) -> [R; 0] {
-        *value = (*value + other) * 0.5;
-        []
     }
 }
 

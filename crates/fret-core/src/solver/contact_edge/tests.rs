@@ -76,7 +76,7 @@ fn the_level_goes_on_evenly_outside() {
     let gap = columns(9, |x| 7.0 * (x - edge).max(0.0).powf(1.5));
     let expected = columns(9, |x| 9.0 * (edge - x.min(6.0)));
     for ((pressure, gap), expected) in turned(&pressure).iter().zip(turned(&gap)).zip(turned(&expected)) {
-        let level = level_function(&pressure.view(), &gap.view(), f64::INFINITY).unwrap();
+        let level = level_function(&pressure.view(), &gap.view()).unwrap();
         for (found, expected) in level.iter().zip(&expected) {
             assert!((found - expected).abs() < 1e-12, "{found} {expected}");
         }
@@ -84,16 +84,16 @@ fn the_level_goes_on_evenly_outside() {
     // Where a body has ended nothing is read off: such a cell lies as low as the lowest.
     let mut ended = gap.clone();
     ended[[2, 5]] = 1e3;
-    let level = level_function(&pressure.view(), &ended.view(), 999.0).unwrap();
+    let level = level_of(Rise::ROOT, &pressure.view(), &ended.view(), 999.0).unwrap().0;
     for ((i, j), found) in level.indexed_iter() {
         let expected = if (i, j) == (2, 5) { expected[[2, 6]] } else { expected[[i, j]] };
         assert!((found - expected).abs() < 1e-12, "{i} {j}: {found} {expected}");
     }
     for full in [columns(9, |_| 1.0), columns(9, |_| 0.0)] {
-        assert_eq!(level_function(&full.view(), &gap.view(), f64::INFINITY), None);
+        assert_eq!(level_function(&full.view(), &gap.view()), None);
     }
     // All gaps too wide: no slope outside.
-    assert_eq!(level_function(&pressure.view(), &gap.view(), 1.0), None);
+    assert_eq!(level_of(Rise::ROOT, &pressure.view(), &gap.view(), 1.0), None);
 }
 
 #[test]

@@ -1,6 +1,6 @@
 //! Complementarity of gap and pressure: `g >= 0`, `p >= 0`, `g p = 0` (Signorini). Its residual, for every way of solving.
 
-use crate::fields::{CellRule, CellSize, Reals, each_cell, largest_of, lower};
+use crate::fields::{CellRule, CellSize, Reals, each_cell, largest_of, lower, reset};
 
 /// How well pressure and gap satisfy complementarity, and the approach found on the way.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -11,16 +11,19 @@ pub struct NormalResidual {
     pub residual: f64,
 }
 
-/// Evaluates pressures. `gap` comes as normal displacement + undeformed gap, and becomes the gap. Without a prescribed `approach`
-/// it is the mean of the loaded cells.
+/// Evaluates pressures, from normal displacements and the undeformed gap; finds the gap. Without a prescribed `approach` it is the mean
+/// height of the loaded cells.
 pub fn normal_residual(
     pressure: &[f64],
-    gap: &mut [f64],
+    displacement: &[f64],
     undeformed: &[f64],
     self_influence: f64,
     approach: Option<f64>,
+    gap: &mut Vec<f64>,
 ) -> NormalResidual {
-    let [load, cells, heights, work, undeformed_work] = each_cell(&Loads, [pressure, gap, undeformed], []);
+    reset(gap, pressure.len());
+    let read = [pressure, displacement, undeformed];
+    let [load, cells, heights, work, undeformed_work] = each_cell(&Loads, read, [gap]);
     if load <= 0.0 {
         let lowest = gap.iter().copied().fold(f64::INFINITY, f64::min);
         let approach = approach.unwrap_or(lowest);
@@ -39,14 +42,15 @@ pub fn violation(gap: &[f64], pressure: &[f64], self_influence: f64) -> f64 {
     largest_of(&Violation { self_influence }, [gap, pressure])
 }
 
-/// Sums of pressure, of loaded cells and of their heights, of pressure times height, and of pressure times undeformed gap.
+/// Height; sums of pressure, of loaded cells and of their heights, of pressure times height, and of pressure times undeformed gap.
 struct Loads;
 
-impl CellRule<3, 0, 5> for Loads {
+impl CellRule<3, 1, 5> for Loads {
     #[inline(always)]
-    fn at<R: Reals>(&self, [p, height, undeformed]: [R; 3], _: &mut [R; 0]) -> [R; 5] {
+    fn at<R: Reals>(&self, [p, u, undeformed]: [R; 3], [height]: &mut [R; 1]) -> [R; 5] {
         let (zero, one) = (p.all(0.0), p.all(1.0));
-        [p, p.if_at_most(zero, zero, one), p.if_at_most(zero, zero, height), p * height, p * undeformed]
+        *height = u + undeformed;
+        [p, p.if_at_most(zero, zero, one), p.if_at_most(zero, zero, *height), p * *height, p * undeformed]
     }
 }
 
@@ -73,8 +77,7 @@ mod tests {
     fn every_kind_of_violation_is_seen() {
         let undeformed = [0.0, 0.0, 5.0];
         let residual = |pressure: [f64; 3], displacement: [f64; 3], approach| {
-            let mut gap = [0, 1, 2].map(|cell| undeformed[cell] + displacement[cell]);
-            normal_residual(&pressure, &mut gap, &undeformed, 0.5, approach)
+            normal_residual(&pressure, &displacement, &undeformed, 0.5, approach, &mut Vec::new())
         };
         // Mean displacement under the load: 2.
         assert_eq!(
@@ -88,19 +91,20 @@ mod tests {
 
     #[test]
     fn bodies_apart_are_complementary_and_bodies_through_each_other_are_not() {
-        let mut gap = [1.0, 2.0];
-        assert_eq!(normal_residual(&[0.0; 2], &mut gap, &[1.0, 2.0], 1.0, Some(0.5)).residual, 0.0);
-        assert_eq!(gap, [0.5, 1.5]);
-        assert_eq!(normal_residual(&[0.0; 2], &mut [1.0, 2.0], &[1.0, 2.0], 1.0, Some(1.5)).residual, 1.0);
+        let mut gap = Vec::new();
+        let mut residual =
+            |approach| normal_residual(&[0.0; 2], &[0.0; 2], &[1.0, 2.0], 1.0, approach, &mut gap);
+        assert_eq!(residual(Some(1.5)).residual, 1.0);
         // Without a prescribed approach bodies apart just touch.
-        let touching = normal_residual(&[0.0; 2], &mut [1.0, 2.0], &[1.0, 2.0], 1.0, None);
-        assert_eq!(touching, NormalResidual { approach: 1.0, residual: 0.0 });
+        assert_eq!(residual(None), NormalResidual { approach: 1.0, residual: 0.0 });
+        assert_eq!(residual(Some(0.5)).residual, 0.0);
+        assert_eq!(gap, [0.5, 1.5]);
     }
 
     /// A load that displaces nothing leaves no length to measure by: it is never called solved.
     #[test]
     fn a_load_that_moves_nothing_is_not_solved() {
-        let found = normal_residual(&[1.0, 1.0], &mut [0.0; 2], &[0.0; 2], 1.0, Some(0.0));
+        let found = normal_residual(&[1.0, 1.0], &[0.0; 2], &[0.0; 2], 1.0, Some(0.0), &mut Vec::new());
         assert_eq!(found.residual, f64::INFINITY);
     }
 }

@@ -39,10 +39,8 @@ pub struct FrictionBound {
 impl FrictionLaw {
     /// The law of `friction` in the cells of a region.
     pub fn in_region(friction: &CoulombFriction, region: Region) -> Self {
-        let [_, columns] = region.shape;
-        let at = |cell: usize| [region.origin[0] + cell / columns, region.origin[1] + cell % columns];
         let values = |values: &CellValues| -> Vec<f64> {
-            (0..region.len()).map(|cell| values.at(at(cell)[0], at(cell)[1])).collect()
+            (0..region.len()).map(|cell| region.at(cell)).map(|[i, j]| values.at(i, j)).collect()
         };
         let max_shear = friction.max_shear().map(values).unwrap_or_default();
         Self { coefficient: values(friction.coefficient()), max_shear }

@@ -11,7 +11,7 @@ const MOST_ITERATIONS: usize = 60;
 ///
 /// The least of `sum b |m| / (m . R)` over the motions: iteratively reweighted least squares (Weiszfeld).
 pub fn carried_fraction(bound: &[f64], motions: &RigidMotions, resultant: [f64; 3]) -> f64 {
-    let resultant = motions.only_by_force(resultant);
+    let resultant = motions.loads.only_by_force(resultant);
     let mut motion = resultant;
     let mut least = f64::INFINITY;
     for _ in 0..MOST_ITERATIONS {
@@ -44,16 +44,18 @@ pub fn carried_fraction(bound: &[f64], motions: &RigidMotions, resultant: [f64; 
 #[cfg(test)]
 mod tests {
     use super::super::super::contact_set::ContactSet;
+    use super::super::super::prescribed::TangentialLoads;
     use super::super::rigid_motions::CellPositions;
     use super::*;
 
     /// A square of cells under one bound.
     fn square(by_force: [bool; 3]) -> (Vec<f64>, RigidMotions, f64) {
         let centres: Vec<f64> = (0..40).map(|index| f64::from(index) - 19.5).collect();
-        let positions = CellPositions::new(centres.clone(), centres, true, by_force);
+        let positions = CellPositions::new(centres.clone(), centres, true);
+        let loads = TangentialLoads { by_force, ..TangentialLoads::default() };
         let disc =
             ContactSet::of(1600, |cell| ((cell / 40) as f64 - 19.5).hypot((cell % 40) as f64 - 19.5) < 19.0);
-        (vec![2.0; disc.len()], positions.motions_of(&disc), positions.length)
+        (vec![2.0; disc.len()], positions.motions_of(&disc, loads), positions.length)
     }
 
     #[test]
@@ -104,8 +106,9 @@ mod tests {
     /// A cell in the centre of rotation carries nothing of a moment and does no harm.
     #[test]
     fn a_cell_at_the_centre_of_rotation_carries_no_moment() {
-        let positions = CellPositions::new(vec![-1.0, 0.0, 1.0], vec![0.0], true, [true; 3]);
-        let motions = positions.motions_of(&ContactSet::of(3, |_| true));
+        let positions = CellPositions::new(vec![-1.0, 0.0, 1.0], vec![0.0], true);
+        let loads = TangentialLoads { by_force: [true; 3], ..TangentialLoads::default() };
+        let motions = positions.motions_of(&ContactSet::of(3, |_| true), loads);
         let fraction = carried_fraction(&[2.0, 7.0, 2.0], &motions, [0.0, 0.0, 8.0]);
         assert!((fraction - 0.5).abs() < 1e-12, "{fraction}");
     }

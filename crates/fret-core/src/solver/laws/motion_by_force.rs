@@ -2,7 +2,7 @@
 //! found by Newton's method with Armijo's rule.
 
 use super::friction::OnDisc;
-use super::rigid_motions::RigidMotions;
+use super::rigid_motions::{RigidMotions, size};
 use crate::fields::{CellRule, Reals, TangentialField, each_cell};
 
 /// What the motions follow from, packed over the cells in contact; all in units of pressure.
@@ -12,10 +12,8 @@ pub struct MotionByForce<'a> {
     pub trial: &'a TangentialField,
     /// Friction bound.
     pub bound: &'a [f64],
-    /// Rigid motions.
+    /// Rigid motions, with what is prescribed of them.
     pub motions: &'a RigidMotions,
-    /// Sums over the cells of shear times mode, at no motion.
-    pub resultant: [f64; 3],
     /// Influence of a cell's shear on its own displacement [length/pressure]: what a motion of a unit of pressure moves.
     pub self_influence: f64,
 }
@@ -40,7 +38,7 @@ impl MotionByForce<'_> {
     /// Root of `sum Proj(trial + motion) . mode + spring x motion = resultant`, from a guess.
     pub fn find(&self, scale: Scale, guess: [f64; 3]) -> [f64; 3] {
         let motions = self.motions;
-        let mut motion = motions.only_by_force(guess);
+        let mut motion = motions.loads.only_by_force(guess);
         let mut here = self.potential(motion);
         if size(&here.defect) > 0.5 * scale.total {
             // A guess far off: nothing moved may be nearer.
@@ -89,15 +87,15 @@ impl MotionByForce<'_> {
 
     fn potential(&self, motion: [f64; 3]) -> Potential {
         let Self { trial, bound, motions, .. } = *self;
-        let [around_x, around_y] = motions.rotation.parts();
+        let (loads, [around_x, around_y]) = (motions.loads, motions.rotation.parts());
         let read = [&trial.x, &trial.y, bound, around_x, around_y];
         let [value, x, y, r, xx, yy, rr, xy, xr, yr] = each_cell(&OnDiscs(motion), read, []);
         let mut potential = Potential { value, defect: [x, y, r], curvature: [xx, yy, rr, xy, xr, yr] };
         for mode in 0..3 {
-            if motions.by_force[mode] {
-                let spring = motions.spring[mode] * self.self_influence;
-                potential.value += motion[mode] * (0.5 * spring * motion[mode] - self.resultant[mode]);
-                potential.defect[mode] += spring * motion[mode] - self.resultant[mode];
+            if loads.by_force[mode] {
+                let spring = loads.spring[mode] * self.self_influence;
+                potential.value += motion[mode] * (0.5 * spring * motion[mode] - loads.resultant[mode]);
+                potential.defect[mode] += spring * motion[mode] - loads.resultant[mode];
                 potential.curvature[mode] += spring;
             } else {
                 potential.defect[mode] = 0.0;
@@ -105,11 +103,6 @@ impl MotionByForce<'_> {
         }
         potential
     }
-}
-
-/// Length of a vector of motions or resultants.
-pub fn size(vector: &[f64; 3]) -> f64 {
-    vector.iter().map(|v| v * v).sum::<f64>().sqrt()
 }
 
 /// Sums of the potential, its defect and its curvature under motions.

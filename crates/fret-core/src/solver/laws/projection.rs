@@ -1,8 +1,7 @@
 //! Projection of tractions onto what the laws allow: no tension, no shear beyond the friction bound, resultants exact.
 
 use super::active_sets::ActiveSets;
-use super::rigid_motions::RigidMotions;
-use super::slip::TangentialProblem;
+use super::rigid_motions::{RigidMotions, size};
 use crate::fields::{CellRule, Reals, TangentialField, clear, each_cell, reset, sum};
 
 /// Cuts tension off and restores the total pressure by scaling, which keeps the shape of the edge.
@@ -38,28 +37,24 @@ struct Balance {
 }
 
 impl ShearProjection {
-    /// Brings shear back to its discs and to its resultants. A slipping cell stays on its circle; a cell that was just cut
+    /// Brings shear back to its discs of radius `bound` and to a `resultant` of the motions by force [pressure]. A slipping cell stays on its circle; a cell that was just cut
     /// moves along its tangent only, since pulling it back would undo the slip zone.
     pub fn project(
         &mut self,
         shear: &mut TangentialField,
         sets: &ActiveSets,
-        problem: &TangentialProblem<'_>,
+        bound: &[f64],
+        motions: &RigidMotions,
+        resultant: [f64; 3],
     ) {
         clear(&mut self.on_circle, sets.len());
-        let motions = problem.motions;
-        let read = [
-            problem.bound,
-            &sets.stick,
-            &sets.direction.x,
-            &sets.direction.y,
-            &motions.rotation.x,
-            &motions.rotation.y,
-        ];
+        let ([along_x, along_y], [around_x, around_y]) = (sets.direction.parts(), motions.rotation.parts());
+        let read = [bound, &sets.stick, along_x, along_y, around_x, around_y];
         let write = [&mut shear.x[..], &mut shear.y, &mut self.on_circle];
         let found = each_cell(&ToDiscs, read, write);
-        if motions.any_by_force() {
-            self.restore_resultants(shear, balance(found, problem), sets, problem);
+        if motions.loads.any_by_force() {
+            let asked = Asked { bound, motions, resultant };
+            self.restore_resultants(shear, asked.balance(found), sets, &asked);
         }
     }
 
@@ -68,23 +63,23 @@ impl ShearProjection {
         shear: &mut TangentialField,
         mut balance: Balance,
         sets: &ActiveSets,
-        problem: &TangentialProblem<'_>,
+        asked: &Asked<'_>,
     ) {
-        let total = sum(problem.bound);
+        let total = sum(asked.bound);
         let goal = 2e-16 * total;
         let mut released = false;
         for _ in 0..40 {
-            let size = length(&balance.defect);
-            if size <= goal {
+            let defect = size(&balance.defect);
+            if defect <= goal {
                 return;
             }
-            let change = problem.motions.solve(balance.compliance, balance.defect);
-            let reach = length(&change);
+            let change = asked.motions.solve(balance.compliance, balance.defect);
+            let reach = size(&change);
             let mut share = if reach > 0.5 { 0.5 / reach } else { 1.0 };
             let mut accepted = false;
             for _ in 0..12 {
-                let left = self.moved(shear, problem, change.map(|c| c * share));
-                if length(&left.defect) < size * (1.0 - 0.1 * share) {
+                let left = self.moved(shear, asked, change.map(|c| c * share));
+                if size(&left.defect) < defect * (1.0 - 0.1 * share) {
                     std::mem::swap(shear, &mut self.trial);
                     std::mem::swap(&mut self.on_circle, &mut self.trial_on);
                     balance = left;
@@ -100,39 +95,39 @@ impl ShearProjection {
                 // Turning alone does not do: cells that were only cut may come off their circles again.
                 released = true;
                 for (on, stick) in self.on_circle.iter_mut().zip(&sets.stick) {
-                    *on = if size < 1e-6 * total { 1.0 - stick } else { 0.0 };
+                    *on = if defect < 1e-6 * total { 1.0 - stick } else { 0.0 };
                 }
-                balance = self.moved(shear, problem, [0.0; 3]);
+                balance = self.moved(shear, asked, [0.0; 3]);
             }
         }
     }
 
     /// The trial: `shear` after a push by rigid motions, back on its discs.
-    fn moved(
-        &mut self,
-        shear: &TangentialField,
-        problem: &TangentialProblem<'_>,
-        amounts: [f64; 3],
-    ) -> Balance {
+    fn moved(&mut self, shear: &TangentialField, asked: &Asked<'_>, amounts: [f64; 3]) -> Balance {
         let Self { on_circle, trial, trial_on } = self;
         for field in [&mut trial.x, &mut trial.y, &mut *trial_on] {
-            reset(field, problem.bound.len());
+            reset(field, asked.bound.len());
         }
-        let RigidMotions { rotation, .. } = problem.motions;
-        let read = [problem.bound, &shear.x, &shear.y, on_circle, &rotation.x, &rotation.y];
+        let RigidMotions { rotation, .. } = asked.motions;
+        let read = [asked.bound, &shear.x, &shear.y, on_circle, &rotation.x, &rotation.y];
         let write = [&mut trial.x[..], &mut trial.y, trial_on];
-        balance(each_cell(&Push(amounts), read, write), problem)
+        asked.balance(each_cell(&Push(amounts), read, write))
     }
 }
 
-fn balance([x, y, r, xx, yy, rr, xy, xr, yr]: [f64; 9], problem: &TangentialProblem<'_>) -> Balance {
-    let found = [x, y, r];
-    let defect = [0, 1, 2].map(|mode| problem.resultant[mode] - found[mode]);
-    Balance { defect: problem.motions.only_by_force(defect), compliance: [xx, yy, rr, xy, xr, yr] }
+/// Resultants that shear is to have under its bounds.
+struct Asked<'a> {
+    bound: &'a [f64],
+    motions: &'a RigidMotions,
+    resultant: [f64; 3],
 }
 
-fn length(vector: &[f64; 3]) -> f64 {
-    vector.iter().map(|v| v * v).sum::<f64>().sqrt()
+impl Asked<'_> {
+    fn balance(&self, [x, y, r, xx, yy, rr, xy, xr, yr]: [f64; 9]) -> Balance {
+        let found = [x, y, r];
+        let defect = [0, 1, 2].map(|mode| self.resultant[mode] - found[mode]);
+        Balance { defect: self.motions.loads.only_by_force(defect), compliance: [xx, yy, rr, xy, xr, yr] }
+    }
 }
 
 /// Shear back to its discs: slipping cells to their circles, others where they stick out.

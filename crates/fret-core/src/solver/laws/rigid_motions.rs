@@ -1,6 +1,7 @@
-//! Rigid tangential motions: shift along x and y, twist about z; which are prescribed and which follow from a resultant.
+//! Rigid tangential motions: shift along x and y, twist about z.
 
 use super::super::contact_set::ContactSet;
+use super::super::prescribed::TangentialLoads;
 use crate::model::TangentialField;
 
 /// The three rigid tangential motions of the cells in contact: fields (1, 0), (0, 1) and (-y, x) / length.
@@ -10,11 +11,8 @@ pub struct RigidMotions {
     pub rotation: TangentialField,
     /// Whether the bodies may rotate.
     pub rotates: bool,
-    /// Which motions follow from a prescribed resultant, or from one that falls with the motion.
-    pub by_force: [bool; 3],
-    /// By how much the resultant falls with the motion [pressure/length]: `sum q . mode + spring x motion = resultant`; 0 of a
-    /// resultant that is prescribed.
-    pub spring: [f64; 3],
+    /// What is prescribed of them.
+    pub loads: TangentialLoads,
 }
 
 /// Where the cells of a region are, and how the bodies may move.
@@ -25,33 +23,18 @@ pub struct CellPositions {
     /// Length that makes the rotation field of order one [length].
     pub length: f64,
     rotates: bool,
-    /// As in [`RigidMotions`].
-    pub by_force: [bool; 3],
-    /// As in [`RigidMotions`].
-    pub spring: [f64; 3],
 }
 
 impl CellPositions {
     /// Positions in a region with cell centres at `x` and `y`; `rotates` when twist may differ from zero.
-    pub fn new(x: Vec<f64>, y: Vec<f64>, rotates: bool, by_force: [bool; 3]) -> Self {
+    pub fn new(x: Vec<f64>, y: Vec<f64>, rotates: bool) -> Self {
         let largest = x.iter().chain(&y).fold(0.0_f64, |most, value| most.max(value.abs()));
         let length = if largest > 0.0 { largest } else { 1.0 };
-        Self { x, y, length, rotates, by_force, spring: [0.0; 3] }
+        Self { x, y, length, rotates }
     }
 
-    /// The same with springs between the bodies and what is driven.
-    #[must_use]
-    pub fn with_springs(self, by_force: [bool; 3], spring: [f64; 3]) -> Self {
-        Self { by_force, spring, ..self }
-    }
-
-    /// Which motions follow from a resultant that is prescribed as it is.
-    pub fn held(&self) -> [bool; 3] {
-        [0, 1, 2].map(|mode| self.by_force[mode] && self.spring[mode] == 0.0)
-    }
-
-    /// The motions of the cells in contact.
-    pub fn motions_of(&self, contact: &ContactSet) -> RigidMotions {
+    /// The motions of the cells in contact, with what is prescribed of them.
+    pub fn motions_of(&self, contact: &ContactSet, loads: TangentialLoads) -> RigidMotions {
         let mut rotation = TangentialField::default();
         if self.rotates {
             rotation = TangentialField::zeros(contact.len());
@@ -60,26 +43,11 @@ impl CellPositions {
                 rotation.set(place, [-y / self.length, x / self.length]);
             }
         }
-        RigidMotions { rotation, rotates: self.rotates, by_force: self.by_force, spring: self.spring }
+        RigidMotions { rotation, rotates: self.rotates, loads }
     }
 }
 
 impl RigidMotions {
-    /// Whether any motion follows from a resultant.
-    pub fn any_by_force(&self) -> bool {
-        self.by_force.iter().any(|&by_force| by_force)
-    }
-
-    /// Which motions follow from a resultant that is prescribed as it is.
-    pub fn held(&self) -> [bool; 3] {
-        [0, 1, 2].map(|mode| self.by_force[mode] && self.spring[mode] == 0.0)
-    }
-
-    /// Whether the far end of a spring is prescribed.
-    pub fn any_spring(&self) -> bool {
-        self.spring != [0.0; 3]
-    }
-
     /// A motion of these amounts at a cell.
     pub fn at(&self, [x, y, turned]: [f64; 3], cell: usize) -> [f64; 2] {
         if !self.rotates {
@@ -89,15 +57,10 @@ impl RigidMotions {
         [x + turned * around[0], y + turned * around[1]]
     }
 
-    /// Amounts of the motions that follow from a resultant; the others zero.
-    pub fn only_by_force(&self, amounts: [f64; 3]) -> [f64; 3] {
-        [0, 1, 2].map(|mode| if self.by_force[mode] { amounts[mode] } else { 0.0 })
-    }
-
     /// Solves the symmetric system `[xx, yy, rr, xy, xr, yr]` of the force-controlled modes, others zero; a singular
     /// matrix gets a relative 1e-13 on its diagonal.
     pub fn solve(&self, matrix: [f64; 6], right: [f64; 3]) -> [f64; 3] {
-        Self::solve_of(self.by_force, matrix, right)
+        Self::solve_of(self.loads.by_force, matrix, right)
     }
 
     /// The same of some modes.
@@ -137,15 +100,21 @@ impl RigidMotions {
     }
 }
 
+/// Length of a vector of motions or resultants.
+pub fn size(vector: &[f64; 3]) -> f64 {
+    vector.iter().map(|v| v * v).sum::<f64>().sqrt()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
 
     /// Four cells at the corners of a rectangle of 6 by 2.
     fn rectangle(rotates: bool, by_force: [bool; 3]) -> RigidMotions {
-        let positions = CellPositions::new(vec![-3.0, 3.0], vec![-1.0, 1.0], rotates, by_force);
+        let positions = CellPositions::new(vec![-3.0, 3.0], vec![-1.0, 1.0], rotates);
         assert_eq!(positions.length, 3.0);
-        positions.motions_of(&ContactSet::of(4, |_| true))
+        let loads = TangentialLoads { by_force, ..TangentialLoads::default() };
+        positions.motions_of(&ContactSet::of(4, |_| true), loads)
     }
 
     /// The rotation field is `(-y, x)` over the length, of the cells in contact alone.
@@ -155,23 +124,15 @@ mod tests {
         // Cells in the order of rows along y: (-3, -1), (-3, 1), (3, -1), (3, 1).
         assert_eq!(motions.at([0.0, 0.0, 3.0], 1), [-1.0, -3.0]);
         assert_eq!(motions.at([10.0, 20.0, 3.0], 2), [11.0, 23.0]);
-        let positions = CellPositions::new(vec![-3.0, 3.0], vec![-1.0, 1.0], true, [true; 3]);
-        let one = positions.motions_of(&ContactSet::of(4, |cell| cell == 2));
+        let positions = CellPositions::new(vec![-3.0, 3.0], vec![-1.0, 1.0], true);
+        let one = positions.motions_of(&ContactSet::of(4, |cell| cell == 2), TangentialLoads::default());
         assert_eq!((one.rotation.x.as_slice(), one.rotation.y.as_slice()), (&[1.0 / 3.0][..], &[1.0][..]));
         // Without rotation its amount does not matter, and there is no field.
         let straight = rectangle(false, [true; 3]);
         assert_eq!(straight.at([1.0, 2.0, 5.0], 3), [1.0, 2.0]);
         assert!(straight.rotation.x.is_empty());
         // A single cell at the origin has no length: one is as good as any.
-        assert_eq!(CellPositions::new(vec![0.0], vec![0.0], true, [true; 3]).length, 1.0);
-    }
-
-    #[test]
-    fn motions_that_are_prescribed_follow_from_no_force() {
-        let motions = rectangle(true, [false, true, false]);
-        assert!(motions.any_by_force());
-        assert!(!rectangle(true, [false; 3]).any_by_force());
-        assert_eq!(motions.only_by_force([1.0, 2.0, 3.0]), [0.0, 2.0, 0.0]);
+        assert_eq!(CellPositions::new(vec![0.0], vec![0.0], true).length, 1.0);
     }
 
     /// A Gram matrix times known amounts: the amounts come back, those of prescribed motions as zero.
@@ -202,20 +163,6 @@ mod tests {
             rectangle(true, [true, true, false]).solve([1.0, 1.0, 0.0, 1.0, 0.0, 0.0], [2.0, 2.0, 0.0]);
         // x + y = 2 to the part in 1e-13 that makes it solvable.
         assert!((found[0] + found[1] - 2.0).abs() < 1e-9 && found[0].abs() < 10.0, "{found:?}");
-    }
-
-    /// A motion whose resultant falls with it follows from a force but is not held at one; without springs all that follow from a
-    /// force are held.
-    #[test]
-    fn springs_take_motions_from_those_that_are_held() {
-        let positions = CellPositions::new(vec![-3.0, 3.0], vec![-1.0, 1.0], true, [false; 3]);
-        let free = positions.motions_of(&ContactSet::of(4, |_| true));
-        assert!(positions.held() == [false; 3] && free.held() == [false; 3] && !free.any_spring());
-        let positions = positions.with_springs([true, true, false], [0.0, 2.5, 0.0]);
-        let motions = positions.motions_of(&ContactSet::of(4, |_| true));
-        assert!(positions.held() == [true, false, false] && motions.held() == [true, false, false]);
-        assert_eq!((motions.by_force, motions.spring), ([true, true, false], [0.0, 2.5, 0.0]));
-        assert!(motions.any_spring() && positions.length == 3.0);
     }
 
     /// What makes a singular matrix solvable is added to its diagonal, not taken off: the amounts of a force that it makes stay on its

@@ -3,8 +3,8 @@
 
 use super::active_sets::ActiveSets;
 use super::friction::onto_disc;
-use super::motion_by_force::{MotionByForce, Scale, size};
-use super::rigid_motions::RigidMotions;
+use super::motion_by_force::{MotionByForce, Scale};
+use super::rigid_motions::{RigidMotions, size};
 use super::slip_path::{SlipPath, end_of_chord};
 use crate::fields::{CellRule, Reals, TangentialField, each_cell, reset};
 
@@ -22,12 +22,8 @@ pub struct TangentialProblem<'a> {
     pub before: &'a TangentialField,
     /// What is known of the paths of slip.
     pub path: &'a SlipPath,
-    /// Rigid motions.
+    /// Rigid motions, with what is prescribed of them.
     pub motions: &'a RigidMotions,
-    /// Increments of the motions that are prescribed [length]; 0 for the others.
-    pub motion: [f64; 3],
-    /// Sums over the cells of shear times mode, for the motions that follow from a resultant, at no motion [pressure].
-    pub resultant: [f64; 3],
     /// Influence of a cell's shear on its own displacement [length/pressure].
     pub self_influence: f64,
 }
@@ -62,6 +58,7 @@ impl SlipIncrement {
         guess: [f64; 3],
     ) -> TangentialResidual {
         let TangentialProblem { bound, before, motions, .. } = *problem;
+        let loads = motions.loads;
         let stiffness = 1.0 / problem.self_influence;
         let Self { slip, trial, .. } = self;
         for part in [&mut slip.x, &mut slip.y, &mut trial.x, &mut trial.y] {
@@ -70,16 +67,16 @@ impl SlipIncrement {
         let rotation = motions.rotation.parts();
         let read = [&u.x, &u.y, &before.x, &before.y, &q.x, &q.y, bound, rotation[0], rotation[1]];
         let write = [&mut slip.x[..], &mut slip.y, &mut trial.x, &mut trial.y];
-        let rule = PrescribedSlip { motion: problem.motion, stiffness };
+        let rule = PrescribedSlip { motion: loads.motion, stiffness };
         let [trial_squares, bounds, bound_squares] = each_cell(&rule, read, write);
         // Without anything to carry a force a spring keeps its length.
         let mut found = [0, 1, 2].map(|mode| {
-            if motions.spring[mode] > 0.0 { problem.resultant[mode] / motions.spring[mode] } else { 0.0 }
+            if loads.spring[mode] > 0.0 { loads.resultant[mode] / loads.spring[mode] } else { 0.0 }
         });
-        if motions.any_by_force() && bounds > 0.0 {
+        if loads.any_by_force() && bounds > 0.0 {
             let count = bound.len() as f64;
             let scale = Scale { total: bounds, spread: (trial_squares / count).sqrt() + bounds / count };
-            let mut guess = motions.only_by_force(guess);
+            let mut guess = loads.only_by_force(guess);
             for _ in 0..MOST_TURNS {
                 self.find_trial_at_end(problem, q, guess);
                 found = self.by_force(problem).find(scale, guess.map(|motion| stiffness * motion));
@@ -100,7 +97,7 @@ impl SlipIncrement {
         let write = [&mut slip.x[..], &mut slip.y, &mut at_end.x, &mut at_end.y];
         let [off] = each_cell(&OffLaw { motion: found, stiffness }, read, write);
         let motion =
-            [0, 1, 2].map(|mode| if motions.by_force[mode] { found[mode] } else { problem.motion[mode] });
+            [0, 1, 2].map(|mode| if loads.by_force[mode] { found[mode] } else { loads.motion[mode] });
         let residual = if bound_squares > 0.0 { (off / bound_squares).sqrt() } else { 0.0 };
         TangentialResidual { motion, residual }
     }
@@ -118,8 +115,8 @@ impl SlipIncrement {
     }
 
     fn by_force<'a>(&'a self, problem: &TangentialProblem<'a>) -> MotionByForce<'a> {
-        let TangentialProblem { bound, motions, resultant, self_influence, .. } = *problem;
-        MotionByForce { trial: &self.trial, bound, motions, resultant, self_influence }
+        let TangentialProblem { bound, motions, self_influence, .. } = *problem;
+        MotionByForce { trial: &self.trial, bound, motions, self_influence }
     }
 
     /// The trial vectors whose slip is turned on as far as it is with motions `guess`: of a path that does not turn as they are.

@@ -4,6 +4,6 @@
 mod gmres;
 mod inverse;
 pub mod preconditioner;
-mod problem;
+pub mod problem;
 mod rigid_projector;
 pub mod solver;

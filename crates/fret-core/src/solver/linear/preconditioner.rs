@@ -6,27 +6,20 @@ use ndarray::{Array2, s};
 
 use super::super::contact_set::ContactSet;
 use super::inverse::{Inverse, InverseFields};
-use crate::compliance::{SharedWorkspace, SurfaceResponse, mirrors};
+use crate::compliance::{
+    NORMAL_BLOCKS, OperatorSet, SharedWorkspace, SurfaceResponse, TANGENTIAL_BLOCKS, mirrors,
+};
 use crate::fields::{CellRule, Number, Reals, clear, each_cell};
 use crate::kernel::ResponseTable;
-use crate::model::Symmetry;
 use fret_fft::{Block, ConvolutionError, Kernel, Parity, PeriodicProduct, Symbol};
 
 /// A pair is stiff at the surface when the longest waves of a region meet this many times the compliance times wavenumber that
 /// the shortest ones meet: a thin coating more than about five times stiffer than what lies below.
 const STIFF_ABOVE: f64 = 4.0;
 
-const NORMAL: [Block; 1] = [Block { output: 0, input: 0, kernel: 0, sign: 1.0 }];
-const TANGENTIAL: [Block; 4] = [
-    Block { output: 0, input: 0, kernel: 0, sign: 1.0 },
-    Block { output: 1, input: 1, kernel: 1, sign: 1.0 },
-    Block { output: 0, input: 1, kernel: 2, sign: 1.0 },
-    Block { output: 1, input: 0, kernel: 2, sign: 1.0 },
-];
-
 /// Approximate inverses for a region.
 pub struct Preconditioner {
-    normal: Option<Inverse>,
+    normal: Inverse,
     shear: Option<Inverse>,
     /// Smallest symbol of the tangential response [length/pressure].
     softest: f64,
@@ -35,8 +28,6 @@ pub struct Preconditioner {
     fields: InverseFields,
     workspace: SharedWorkspace,
     cells: usize,
-    /// The contact that fields were last spread from.
-    contact: ContactSet,
     stiff: bool,
     /// Passes so far.
     pub passes: usize,
@@ -76,8 +67,8 @@ impl CellWaves<'_> {
 }
 
 impl Preconditioner {
-    /// Inverses for a region of `shape` cells; normal, tangential or both. `waves` serves pressure in free space, `shear_axis` is the one
-    /// axis of shear where the other part vanishes; with mirrors the region stands for a larger one; `single`: in single precision.
+    /// Inverses for a region of `shape` cells, of pressure and of what shear its `operators` know. `waves` serves pressure in free space;
+    /// with mirrors the region stands for a larger one.
     ///
     /// # Errors
     /// When a coefficient is missing or does not cover the region.
@@ -85,11 +76,9 @@ impl Preconditioner {
         response: &SurfaceResponse,
         waves: Option<CellWaves<'_>>,
         shape: [usize; 2],
-        [normal, tangential]: [bool; 2],
-        shear_axis: Option<usize>,
-        symmetry: Symmetry,
-        single: bool,
+        operators: OperatorSet,
     ) -> Result<Self, ConvolutionError> {
+        let OperatorSet { tangential, full, shear_axis, symmetry, single, .. } = operators;
         let (part, shape) = (shape, symmetry.whole_of(shape));
         let [zz, xx, yy, xy] = match response {
             SurfaceResponse::FreeSpace(c) => [&c.zz, &c.xx, &c.yy, &c.xy],
@@ -103,19 +92,15 @@ impl Preconditioner {
             let product = PeriodicProduct::mirrored(part, symbols, blocks, mirrors(symmetry, fields))?;
             Ok::<_, ConvolutionError>(Inverse::new(product, single))
         };
-        let normal = if normal {
-            let mut inverse = match (response, waves, zz) {
-                (SurfaceResponse::FreeSpace(_), Some(waves), Some(zz)) => waves_of_cells(zz, waves, shape),
-                _ => symbol(zz, Parity::EvenEven)?,
-            };
-            let least = smallest_positive(&inverse);
-            inverse.mapv_inplace(|value| if value == 0.0 { 0.0 } else { 1.0 / value.max(least) });
-            Some(product(&[Symbol { values: inverse.view(), parity: Parity::EvenEven }], &[0], &NORMAL)?)
-        } else {
-            None
+        let mut normal = match (response, waves, zz) {
+            (SurfaceResponse::FreeSpace(_), Some(waves), Some(zz)) => waves_of_cells(zz, waves, shape),
+            _ => symbol(zz, Parity::EvenEven)?,
         };
+        let least = smallest_positive(&normal);
+        normal.mapv_inplace(|value| if value == 0.0 { 0.0 } else { 1.0 / value.max(least) });
+        let normal = Symbol { values: normal.view(), parity: Parity::EvenEven };
         let mut softest = 0.0;
-        let shear = if tangential {
+        let shear = if tangential || full {
             let xx = symbol(xx, Parity::EvenEven)?;
             let yy = symbol(yy, Parity::EvenEven)?;
             let xy = symbol(xy, Parity::OddOdd)?;
@@ -127,21 +112,20 @@ impl Preconditioner {
                 Symbol { values: xy.view(), parity: Parity::OddOdd },
             ];
             Some(match shear_axis {
-                Some(axis) => product(&symbols[axis..=axis], &[1 + axis], &NORMAL)?,
-                None => product(&symbols, &[1, 2], &TANGENTIAL)?,
+                Some(axis) => product(&symbols[axis..=axis], &[1 + axis], &NORMAL_BLOCKS)?,
+                None => product(&symbols, &[1, 2], &TANGENTIAL_BLOCKS)?,
             })
         } else {
             None
         };
         Ok(Self {
-            normal,
+            normal: product(&[normal], &[0], &NORMAL_BLOCKS)?,
             shear,
             softest,
             shear_axis,
             stiff: waves.is_some_and(|waves| waves.are_stiff(shape)),
             fields: InverseFields::default(),
             workspace: SharedWorkspace::default(),
-            contact: ContactSet::default(),
             cells: part[0] * part[1],
             passes: 0,
         })
@@ -160,11 +144,8 @@ impl Preconditioner {
 
     /// Pressures that would remove normal displacements `right`, before any restriction to a set.
     pub fn normal(&mut self, right: &[f64], pressure: &mut [f64]) {
-        if let Some(inverse) = &self.normal {
-            self.passes += 1;
-            self.contact = ContactSet::default(); // its fields are overwritten
-            inverse.apply_to_region(right, pressure, (&mut self.fields, &self.workspace));
-        }
+        self.passes += 1;
+        self.normal.apply_to_region(right, pressure, (&mut self.fields, &self.workspace));
     }
 
     /// Prepares [`Preconditioner::shear`] and [`Preconditioner::pressure`] for a contact with its `slip_compliance`, in units of
@@ -184,26 +165,20 @@ impl Preconditioner {
         }
         each_cell(&Weights { softest: self.softest / compliance }, [slip_compliance], [elastic, slip]);
         weights.compliance = compliance;
-        if self.contact != *contact {
-            self.contact.clone_from(contact);
-            // All inverses of a region are of one precision.
-            if let Some(inverse) = self.normal.iter().chain(&self.shear).next() {
-                inverse.clear(&mut self.fields, self.cells);
-            }
-        }
+        self.fields.begin(contact, self.cells);
     }
 
     /// Pressures that would remove normal displacements `right`, packed over the contact prepared last.
     pub fn pressure<N: Number>(&mut self, right: &[N], pressure: &mut [N], weights: &SlipWeights<N>) {
-        let Self { normal: Some(inverse), fields, workspace, contact, .. } = self else { return };
+        let Self { normal, fields, workspace, .. } = self;
         self.passes += 1;
-        inverse.apply(contact, &[right], &mut [pressure], weights.compliance, (fields, workspace));
+        normal.apply(&[right], &mut [pressure], weights.compliance, (fields, workspace));
     }
 
     /// Shears that would remove tangential displacements `right`, before any restriction to what the active sets leave free; packed
     /// over the contact prepared last.
     pub fn shear<N: Number>(&mut self, right: [&[N]; 2], shear: [&mut [N]; 2], weights: &mut SlipWeights<N>) {
-        let Self { shear: Some(inverse), shear_axis, fields, workspace, contact, .. } = self else { return };
+        let Self { shear: Some(inverse), shear_axis, fields, workspace, .. } = self else { return };
         let SlipWeights { elastic, slip, compliance, weighted, part } = weights;
         let [weighted_x, weighted_y] = &mut *weighted;
         each_cell(&Weighted, [right[0], right[1], elastic], [weighted_x, weighted_y]);
@@ -212,7 +187,7 @@ impl Preconditioner {
         let axes = shear_axis.map_or(0..2, |axis| axis..axis + 1);
         let from = weighted.each_ref().map(Vec::as_slice);
         let mut to = part.each_mut().map(Vec::as_mut_slice);
-        inverse.apply(contact, &from[axes.clone()], &mut to[axes], *compliance, (fields, workspace));
+        inverse.apply(&from[axes.clone()], &mut to[axes], *compliance, (fields, workspace));
         let [part_x, part_y] = part;
         each_cell(&Sum, [part_x, part_y, right[0], right[1], elastic, slip], shear);
     }

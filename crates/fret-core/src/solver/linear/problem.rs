@@ -10,6 +10,33 @@ use super::preconditioner::{Preconditioner, SlipWeights};
 use super::rigid_projector::{RigidProjector, SetFields, free_part, products, rigid};
 use crate::fields::{CellRule, Number, Reals, add_scaled, convert, each_cell, lower, reset, sum};
 
+/// A linearised problem.
+#[derive(Debug, Clone, Copy)]
+pub struct Linearised<'a> {
+    /// Cells in contact.
+    pub contact: &'a ContactSet,
+    /// What they do.
+    pub sets: &'a ActiveSets,
+    /// Rigid motions.
+    pub motions: &'a RigidMotions,
+    /// Derivative of the friction bound by the pressure, packed [-].
+    pub slope: &'a [f64],
+    /// Gap on the contact [length]; empty where the pressure is given.
+    pub gap: &'a [f64],
+    /// Slip increment on the contact [length].
+    pub slip: [&'a [f64]; 2],
+    /// The normal force is prescribed: the mean gap follows.
+    pub holds_force: bool,
+    /// Weight of the tangential equations: shear counts in units of the pressure that carries it [-].
+    pub weight: f64,
+    /// Displacement that the machine gives by a unit of the summed traction, normally and along x and y [length/pressure].
+    pub give: [f64; 3],
+    /// Relative residual at which it is solved well enough.
+    pub forcing: f64,
+    /// Size of a residual that is small beside the tolerance [length].
+    pub floor: f64,
+}
+
 /// Active sets and what goes with them, packed, in the precision of a linear problem.
 #[derive(Debug, Default)]
 pub struct LinearSets<N> {
@@ -28,7 +55,8 @@ pub struct LinearSets<N> {
 
 impl<N: Number> LinearSets<N> {
     /// Takes over active sets, rotation and slopes; `compliance` is the unit of slip compliance [length/pressure].
-    pub fn take(&mut self, sets: &ActiveSets, motions: &RigidMotions, slope: &[f64], compliance: f64) {
+    pub fn take(&mut self, linearised: &Linearised<'_>, compliance: f64) {
+        let Linearised { sets, motions, slope, .. } = *linearised;
         let take = |from: &[f64], factor: f64, to: &mut Vec<N>| {
             reset(to, from.len());
             convert(from, factor, to);
@@ -74,27 +102,24 @@ pub struct LinearWorkspace<N> {
 
 /// The linear problem in one precision.
 pub struct LinearProblem<'a, N> {
+    linearised: &'a Linearised<'a>,
     sets: &'a LinearSets<N>,
     workspace: &'a mut LinearWorkspace<N>,
     preconditioner: &'a mut Preconditioner,
-    /// The normal force is prescribed: the mean gap follows.
-    holds_force: bool,
-    /// Weight of the tangential equations: shear counts in units of the pressure that carries it [-].
-    weight: f64,
     tractions: RigidProjector<'a, N>,
     equations: RigidProjector<'a, N>,
 }
 
 impl<'a, N: Number> LinearProblem<'a, N> {
-    /// The problem on `sets` of a contact; `compliance` is the unit of displacements over that of tractions [length/pressure].
+    /// The problem on the `sets` taken over from it; `compliance` is the unit of displacements over that of tractions [length/pressure].
     pub fn new(
-        (contact, sets): (&'a ContactSet, &'a LinearSets<N>),
-        motions: &'a RigidMotions,
-        (holds_force, weight): (bool, f64),
+        linearised: &'a Linearised<'a>,
+        sets: &'a LinearSets<N>,
         compliance: f64,
         preconditioner: &'a mut Preconditioner,
         workspace: &'a mut LinearWorkspace<N>,
     ) -> Self {
+        let Linearised { contact, motions, .. } = linearised;
         preconditioner.prepare(contact, &sets.slip_compliance, compliance, &mut workspace.slip_weights);
         for field in &mut workspace.unweighted {
             reset(field, contact.len());
@@ -103,11 +128,10 @@ impl<'a, N: Number> LinearProblem<'a, N> {
         Self {
             tractions: RigidProjector::new(motions, sets.fields()),
             equations: RigidProjector::new(motions, sets.fields_of_equations()),
+            linearised,
             sets,
             workspace,
             preconditioner,
-            holds_force,
-            weight,
         }
     }
 
@@ -120,7 +144,7 @@ impl<'a, N: Number> LinearProblem<'a, N> {
         let (normal, [x, y]) = residual.parts();
         let [unweighted_x, unweighted_y] = unweighted;
         let read = [stick, slip, &sets.slip_weight, x, y, around_x, around_y];
-        let rule = Unweigh { unweight: 1.0 / self.weight };
+        let rule = Unweigh { unweight: 1.0 / self.linearised.weight };
         let left = each_cell(&rule, read, [&mut *unweighted_x, &mut *unweighted_y]);
         self.tractions.remove([&mut *unweighted_x, &mut *unweighted_y], left);
 
@@ -133,7 +157,7 @@ impl<'a, N: Number> LinearProblem<'a, N> {
             return;
         }
         preconditioner.pressure(normal, pressure, slip_weights);
-        if self.holds_force {
+        if self.linearised.holds_force {
             remove_mean(pressure);
         }
         let read = [stick, slip, along_x, along_y, &sets.slope, &*pressure, around_x, around_y];
@@ -144,27 +168,22 @@ impl<'a, N: Number> LinearProblem<'a, N> {
 
     /// Makes of the displacements of the tractions preconditioned last the left side of the equations.
     pub fn complete(&self, displacements: &mut ContactVector<N>) {
-        let sets = self.sets;
+        let Self { linearised, sets, .. } = self;
         let (normal, [x, y]) = displacements.parts_mut();
-        if self.holds_force && !normal.is_empty() {
+        if linearised.holds_force && !normal.is_empty() {
             remove_mean(normal);
         }
         let [stick, weight, row_x, row_y, around_x, around_y] = sets.fields_of_equations();
         let turning = &self.workspace.turning;
         let read = [stick, weight, row_x, row_y, &sets.slip_compliance, turning, around_x, around_y];
-        let found = each_cell(&FreeAndStiff { weight: self.weight }, read, [&mut *x, &mut *y]);
+        let found = each_cell(&FreeAndStiff { weight: linearised.weight }, read, [&mut *x, &mut *y]);
         self.equations.remove([x, y], found);
     }
 }
 
-/// The right side of the equations in double precision, from gap and slip on the contact; gap empty where the pressure is given.
-pub fn right_side(
-    (gap, slip): (&[f64], [&[f64]; 2]),
-    sets: &ActiveSets,
-    motions: &RigidMotions,
-    (holds_force, weight): (bool, f64),
-    right: &mut ContactVector<f64>,
-) {
+/// The right side of the equations in double precision.
+pub fn right_side(linearised: &Linearised<'_>, right: &mut ContactVector<f64>) {
+    let Linearised { sets, motions, gap, slip, holds_force, weight, .. } = *linearised;
     right.clear(if gap.is_empty() { 2 } else { 3 }, sets.len());
     let (normal, [x, y]) = right.parts_mut();
     add_scaled(normal, -1.0, gap);

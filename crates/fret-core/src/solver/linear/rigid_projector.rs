@@ -37,7 +37,7 @@ pub struct RigidProjector<'a, N> {
 impl<'a, N: Number> RigidProjector<'a, N> {
     /// Projector on active sets. Of equations: with their weights for the slip.
     pub fn new(motions: &RigidMotions, sets: SetFields<'a, N>) -> Self {
-        let held = motions.held();
+        let held = motions.loads.held();
         let gram = if held.contains(&true) { each_cell(&Gram, sets, []) } else { [0.0; 6] };
         Self { sets, gram, held }
     }
@@ -130,6 +130,7 @@ impl CellRule<6, 2, 0> for RemoveRigid {
 mod tests {
     use super::super::super::contact_set::ContactSet;
     use super::super::super::laws::rigid_motions::CellPositions;
+    use super::super::super::prescribed::TangentialLoads;
     use super::*;
 
     /// Twelve cells: sticking, slipping in different directions with weights, and neither.
@@ -156,10 +157,9 @@ mod tests {
             ([true, true, true], [0.0, 1.0, 0.0]),
             ([false; 3], [0.0; 3]),
         ] {
-            let motions =
-                CellPositions::new(vec![-1.0, -0.2, 0.9], vec![-0.8, -0.1, 0.4, 1.1], held[2], held)
-                    .with_springs(held, spring)
-                    .motions_of(&ContactSet::of(12, |_| true));
+            let loads = TangentialLoads { by_force: held, spring, ..TangentialLoads::default() };
+            let motions = CellPositions::new(vec![-1.0, -0.2, 0.9], vec![-0.8, -0.1, 0.4, 1.1], held[2])
+                .motions_of(&ContactSet::of(12, |_| true), loads);
             let [around_x, around_y] = motions.rotation.parts();
             let fields: SetFields<'_, f64> = [&stick, &slip, &along_x, &along_y, around_x, around_y];
             // Of slipping cells with weights the free part carries the weight.
@@ -207,7 +207,7 @@ mod tests {
             // With weights the amounts of a motion's own products are those of the motion.
             let weighted = RigidProjector::new(&motions, fields);
             let amounts =
-                [0, 1, 2].map(|mode| if motions.held()[mode] { 0.4 - 0.5 * mode as f64 } else { 0.0 });
+                [0, 1, 2].map(|mode| if loads.held()[mode] { 0.4 - 0.5 * mode as f64 } else { 0.0 });
             let mut products = [0.0; 3];
             for cell in 0..12 {
                 let [a, b] = if held[2] { motions.rotation.at(cell) } else { [0.0; 2] };

@@ -2,45 +2,18 @@
 //! back, in double precision; between the two everything may be single (iterative refinement: what is left over is found again by
 //! the next evaluation of the nonlinear residual).
 
-use super::super::contact_set::ContactSet;
-use super::super::contact_vector::{ContactVector, RegionFields};
-use super::super::laws::active_sets::ActiveSets;
-use super::super::laws::rigid_motions::RigidMotions;
+use super::super::contact_vector::ContactVector;
+use super::super::region_fields::RegionFields;
 use super::gmres::Gmres;
 use super::preconditioner::Preconditioner;
-use super::problem::{LinearProblem, LinearSets, LinearWorkspace, right_side};
+use super::problem::{LinearProblem, LinearSets, LinearWorkspace, Linearised, right_side};
 use crate::compliance::SurfaceCompliance;
-use crate::fields::{Number, largest, lower, sum};
+use crate::fields::{Number, lower, sum};
 
 /// Relative residual to which a problem is solved in single precision at the most.
 const SINGLE: f64 = 1e-5;
-
-/// A linearised problem.
-#[derive(Debug)]
-pub struct Linearised<'a> {
-    /// Cells in contact.
-    pub contact: &'a ContactSet,
-    /// What they do.
-    pub sets: &'a ActiveSets,
-    /// Rigid motions.
-    pub motions: &'a RigidMotions,
-    /// Derivative of the friction bound by the pressure, packed [-].
-    pub slope: &'a [f64],
-    /// Gap on the contact [length]; empty where the pressure is given.
-    pub gap: &'a [f64],
-    /// Slip increment on the contact [length].
-    pub slip: [&'a [f64]; 2],
-    /// The normal force is prescribed.
-    pub holds_force: bool,
-    /// Displacement that the machine gives by a unit of the summed traction, normally and along x and y [length/pressure].
-    pub give: [f64; 3],
-    /// Relative residual at which it is solved well enough.
-    pub forcing: f64,
-    /// Krylov steps at the most.
-    pub most_steps: usize,
-    /// Size of a residual that is small beside the tolerance [length].
-    pub floor: f64,
-}
+/// Krylov steps at the most.
+const MOST_STEPS: usize = 30;
 
 /// Solver of linearised problems, with its memory.
 #[derive(Debug, Default)]
@@ -75,9 +48,7 @@ impl LinearSolver {
         step: &mut ContactVector<f64>,
     ) {
         let Self { right, double, single, double_only } = self;
-        let steepest = largest(problem.slope);
-        let weights = (problem.holds_force, if steepest > 0.0 { 1.0 / steepest } else { 1.0 });
-        right_side((problem.gap, problem.slip), problem.sets, problem.motions, weights, right);
+        right_side(problem, right);
         let size = right.norm();
         if !(size > 0.0) {
             return step.clear_like(right);
@@ -95,14 +66,8 @@ impl LinearSolver {
         if let Some(mut operator) = operator {
             let unit = operator.unit();
             let apply = |q: &[&[f32]], u: &mut [&mut [f32]]| operator.apply(q, u);
-            single.solve(
-                problem,
-                (right, size, weights),
-                (unit, forcing.max(SINGLE)),
-                nx * ny,
-                apply,
-                preconditioner,
-            );
+            let forcing = forcing.max(SINGLE);
+            single.solve(problem, (right, size), (unit, forcing), nx * ny, apply, preconditioner);
             step.convert(&single.step, size / unit);
         } else {
             let apply = |q: &[&[f64]], u: &mut [&mut [f64]]| match (q, u) {
@@ -110,7 +75,7 @@ impl LinearSolver {
                 ([qx, qy], [ux, uy]) => compliance.tangential([qx, qy], [ux, uy]),
                 _ => {}
             };
-            double.solve(problem, (right, size, weights), (1.0, forcing), nx * ny, apply, preconditioner);
+            double.solve(problem, (right, size), (1.0, forcing), nx * ny, apply, preconditioner);
             step.convert(&double.step, size);
         }
     }
@@ -145,7 +110,7 @@ impl<N: Number> Krylov<N> {
     fn solve(
         &mut self,
         problem: &Linearised<'_>,
-        (right, size, weights): (&ContactVector<f64>, f64, (bool, f64)),
+        (right, size): (&ContactVector<f64>, f64),
         (unit, forcing): (f64, f64),
         cells: usize,
         mut operator: impl FnMut(&[&[N]], &mut [&mut [N]]),
@@ -153,23 +118,19 @@ impl<N: Number> Krylov<N> {
     ) {
         let Self { gmres, sets, workspace, fields, right: unit_right, combination, tractions, step } = self;
         unit_right.convert(right, 1.0 / size);
-        sets.take(problem.sets, problem.motions, problem.slope, unit);
+        sets.take(problem, unit);
         fields.begin(problem.contact, cells);
-        let mut linear = LinearProblem::new(
-            (problem.contact, sets),
-            problem.motions,
-            weights,
-            unit,
-            preconditioner,
-            workspace,
-        );
+        let mut linear = LinearProblem::new(problem, sets, unit, preconditioner, workspace);
         let apply = |from: &ContactVector<N>, to: &mut ContactVector<N>| {
             linear.precondition(from, tractions);
-            fields.apply(tractions, to, &mut operator);
+            to.reset_like(tractions);
+            let packed: Vec<&[N]> = tractions.fields().collect();
+            let mut results: Vec<&mut [N]> = to.fields_mut().collect();
+            fields.carry(&packed, &mut results, [1.0; 2], &mut operator);
             give_way(problem.give.map(|give| give / unit), tractions, to);
             linear.complete(to);
         };
-        gmres.solve(unit_right, apply, (forcing, problem.most_steps), combination);
+        gmres.solve(unit_right, apply, (forcing, MOST_STEPS), combination);
         linear.precondition(combination, step);
     }
 }

@@ -35,7 +35,9 @@ struct Violations {
 /// When the caller stopped the iteration, or it has gone on for too long.
 pub fn iterate(problem: &mut NormalIteration<'_>) -> Result<Ending, SolveError> {
     let task = problem.task;
-    each_cell(&Loaded, [&*problem.pressure], [&mut problem.active]);
+    for (active, p) in problem.active.iter_mut().zip(&*problem.pressure) {
+        *active = f64::from(u8::from(*p > 0.0));
+    }
     let mut best = f64::INFINITY;
     let mut changes = 0;
     loop {
@@ -44,7 +46,7 @@ pub fn iterate(problem: &mut NormalIteration<'_>) -> Result<Ending, SolveError> 
             return Ok(give_up(problem));
         }
         let mut here = examine(problem);
-        let mut slope = steepest(problem, task.total.map(|_| count));
+        let mut slope = steepest(problem, task.load.total.map(|_| count));
         each_cell(&Descend { beta: 0.0 }, [&problem.steepest], [&mut problem.change]);
         let mut steps = 0;
         loop {
@@ -67,7 +69,7 @@ pub fn iterate(problem: &mut NormalIteration<'_>) -> Result<Ending, SolveError> 
             add_scaled(problem.displacement, length, &problem.image);
             here = examine(problem);
             let before = slope;
-            slope = steepest(problem, task.total.map(|_| count));
+            slope = steepest(problem, task.load.total.map(|_| count));
             let beta = slope / before;
             each_cell(&Descend { beta }, [&problem.steepest], [&mut problem.change]);
             steps += 1;
@@ -88,13 +90,14 @@ fn examine(problem: &mut NormalIteration<'_>) -> Violations {
     let own = problem.self_influence;
     let read = [&*problem.displacement, problem.task.undeformed, &*problem.pressure, &problem.active];
     let [heights, count, work, load] = each_cell(&Heights, read, [&mut problem.gap]);
-    let approach = if problem.task.total.is_some() { heights / count } else { problem.task.approach };
+    let approach =
+        if problem.task.load.total.is_some() { heights / count } else { problem.task.load.approach };
     let NormalIteration { gap, residual, active, pressure, .. } = &mut *problem;
     let rule = Examine { approach, own };
     let [inner_square, outer_square, tense] = each_cell(&rule, [pressure, active], [gap, residual]);
     let inner = largest_of(&Size, [residual]);
     let outer = largest_of(&Violation { own }, [gap, pressure, active]);
-    let scale = if load > 0.0 { (work / load - problem.task.give * load).abs() } else { 0.0 };
+    let scale = if load > 0.0 { (work / load - problem.task.load.give * load).abs() } else { 0.0 };
     let relative = |size: f64| if scale > 0.0 { size / scale } else { f64::INFINITY };
     Violations {
         approach,
@@ -122,7 +125,7 @@ fn change_contact(problem: &mut NormalIteration<'_>, any_tense: bool) {
     if !any_tense {
         return;
     }
-    if let Some(total) = problem.task.total {
+    if let Some(total) = problem.task.load.total {
         let lift = if count > 0.0 { (total - kept) / count } else { 0.0 };
         add_scaled(problem.pressure, lift, &problem.active);
     }
@@ -131,19 +134,9 @@ fn change_contact(problem: &mut NormalIteration<'_>, any_tense: bool) {
 
 /// Leaves pressures feasible, with their displacements.
 fn give_up(problem: &mut NormalIteration<'_>) -> Ending {
-    project_pressure(problem.pressure, problem.task.total);
+    project_pressure(problem.pressure, problem.task.load.total);
     problem.convolve_pressure();
     Ending::Stalled
-}
-
-struct Loaded;
-
-impl CellRule<1, 1, 0> for Loaded {
-    #[inline(always)]
-    fn at<R: Reals>(&self, [p]: [R; 1], [active]: &mut [R; 1]) -> [R; 0] {
-        *active = p.if_at_most(p.all(0.0), p.all(0.0), p.all(1.0));
-        []
-    }
 }
 
 /// The next change: down the preconditioned residual, conjugate to the last.

@@ -3,13 +3,15 @@
 
 use ndarray::Array2;
 
-use super::super::linear::preconditioner::{CellWaves, Preconditioner};
+use super::super::linear::preconditioner::CellWaves;
+use super::super::operators::RegionOperators;
 use super::super::outcome::Work;
+use super::super::prescribed::NormalLoad;
 use super::super::region::Region;
 use super::super::settings::{IterationCallback, SolveError, SolverSettings};
 use super::grid_transfer::{coarser_heights, coarser_response, prolonged};
 use super::{NormalEquations, first_pressure, solve_normal};
-use crate::compliance::{OperatorSet, SpectralCompliance, SurfaceCompliance, SurfaceResponse};
+use crate::compliance::{OperatorSet, SharedWorkspace, SurfaceCompliance, SurfaceResponse};
 use crate::kernel::ResponseTable;
 use crate::model::Symmetry;
 use fret_fft::good_length;
@@ -32,22 +34,14 @@ struct Level {
     response: SurfaceResponse,
     undeformed: Array2<f64>,
     spacing: [f64; 2],
-    symmetry: Symmetry,
 }
 
 /// The grids below one, the finest of them first.
 pub struct CoarseGrids {
     levels: Vec<Level>,
+    /// Cells of the grid above, in front of the mirrors.
     cells: [usize; 2],
-}
-
-/// What is prescribed: sum of the pressures over the cells of the finest grid, or the approach.
-#[derive(Debug, Clone, Copy)]
-pub struct Prescribed {
-    /// Sum of the pressures [pressure].
-    pub total: Option<f64>,
-    /// Approach [length].
-    pub approach: f64,
+    symmetry: Symmetry,
 }
 
 impl CoarseGrids {
@@ -78,20 +72,20 @@ impl CoarseGrids {
                 response,
                 undeformed: coarser_heights(undeformed),
                 spacing: spacing.map(|side| 2.0 * side),
-                symmetry,
             };
             levels.push(level);
         }
-        Self { levels, cells: [nx, ny] }
+        Self { levels, cells: [nx, ny], symmetry }
     }
 
-    /// A pressure for the grid above, close to the solution, or none when coarse grids do not help. `work` counts what it cost.
+    /// A pressure for the grid above under its `load`, close to the solution, or none when coarse grids do not help. `work` counts what
+    /// it cost.
     ///
     /// # Errors
     /// When the caller stopped the iteration.
     pub fn pressure_above(
         &self,
-        prescribed: Prescribed,
+        load: NormalLoad,
         table: Option<&ResponseTable>,
         settings: &SolverSettings,
         work: &mut Work,
@@ -99,21 +93,24 @@ impl CoarseGrids {
     ) -> Result<Option<Array2<f64>>, SolveError> {
         let mut start: Option<Array2<f64>> = None;
         for (index, level) in self.levels.iter().enumerate().rev() {
-            let total = prescribed.total.map(|total| total * 0.25_f64.powi(index as i32 + 1));
+            let total = load.total.map(|total| total * 0.25_f64.powi(index as i32 + 1));
             let above = if index == 0 { self.cells } else { self.levels[index - 1].cells() };
-            let prescribed = Prescribed { total, ..prescribed };
+            let load = NormalLoad { total, ..load };
             let waves = table.map(|table| CellWaves { table, spacing: level.spacing });
-            let solved = match level.solve(start.take(), prescribed, waves, settings, callback) {
+            let solved = match level.solve((start.take(), self.symmetry), load, waves, settings, callback) {
                 Ok(solved) => solved,
                 Err(SolveError::Stopped) => return Err(SolveError::Stopped),
                 Err(_) => return Ok(None),
             };
-            work.convolutions += solved.convolutions;
-            work.preconditioner_passes += solved.passes;
-            work.full_grid_convolutions +=
-                solved.cell_convolutions / (self.cells[0] * self.cells[1] * level.symmetry.copies()) as f64;
-            let Some(finer) = solved.prolonged(above, total) else { return Ok(None) };
-            start = Some(finer);
+            let cells = (self.cells[0] * self.cells[1] * self.symmetry.copies()) as f64;
+            let full_grid_convolutions = solved.work.full_grid_convolutions / cells;
+            *work += Work { full_grid_convolutions, ..solved.work };
+            let SolvedLevel { region, pressure, gap, shift, .. } = solved;
+            let total = total.map(|total| 4.0 * total);
+            start = prolonged((region, &pressure, &gap), shift, above, total);
+            if start.is_none() {
+                return Ok(None);
+            }
         }
         Ok(start)
     }
@@ -125,10 +122,8 @@ struct SolvedLevel {
     pressure: Vec<f64>,
     gap: Vec<f64>,
     shift: f64,
-    convolutions: usize,
-    passes: usize,
-    /// Convolutions times the cells of their regions.
-    cell_convolutions: f64,
+    /// What it cost, the whole grid taken for one cell.
+    work: Work,
 }
 
 impl Level {
@@ -139,8 +134,8 @@ impl Level {
     /// Solves the level in a region; on the whole grid when the contact outgrows it.
     fn solve(
         &self,
-        start: Option<Array2<f64>>,
-        prescribed: Prescribed,
+        (mut start, symmetry): (Option<Array2<f64>>, Symmetry),
+        load: NormalLoad,
         waves: Option<CellWaves<'_>>,
         settings: &SolverSettings,
         callback: IterationCallback<'_>,
@@ -148,61 +143,38 @@ impl Level {
         let whole = Region::whole(self.cells());
         let mut region = match &start {
             Some(start) if !self.response.is_periodic() => {
-                Region::around(self.cells(), self.symmetry.axes(), MARGIN, good_length, |i, j| {
-                    start[[i, j]] > 0.0
-                })
+                Region::around(self.cells(), symmetry.axes(), MARGIN, good_length, |i, j| start[[i, j]] > 0.0)
             }
             _ => whole,
         };
-        let mut start = start;
-        let (mut convolutions, mut passes, mut cell_convolutions) = (0, 0, 0.0);
+        let mut work = Work::default();
         loop {
-            let symmetry = self.symmetry;
-            let operators = OperatorSet { normal: true, symmetry, ..OperatorSet::default() };
-
-            let mut compliance = SpectralCompliance::new(&self.response, region.shape, operators)?;
             let single = settings.single_precision;
-            let shape = region.shape;
-            let mut preconditioner =
-                Preconditioner::new(&self.response, waves, shape, [true, false], None, symmetry, single)?;
+            let wanted = OperatorSet { normal: true, symmetry, single, ..OperatorSet::default() };
+            let workspace = SharedWorkspace::default();
+            let mut operators = RegionOperators::new(&self.response, waves, region, wanted, &workspace)?;
             let undeformed = region.gather(&self.undeformed);
-            let task = NormalEquations {
-                undeformed: &undeformed,
-                total: prescribed.total,
-                approach: prescribed.approach,
-                give: 0.0,
-            };
+            let task = NormalEquations { undeformed: &undeformed, load };
             let mut pressure = match &start {
                 Some(start) => region.gather(start),
-                None => first_pressure(&task, compliance.self_influence().normal),
+                None => first_pressure(&task, operators.compliance.self_influence().normal),
             };
-            let mut displacement = vec![0.0; region.len()];
-            compliance.normal(&pressure, &mut displacement);
-            let stiff = preconditioner.is_stiff();
+            let stiff = operators.preconditioner.is_stiff();
             let tolerance = if stiff { TOLERANCE_STIFF } else { TOLERANCE };
             let coarse = SolverSettings { tolerance: tolerance.max(settings.tolerance), ..*settings };
-            let solution = solve_normal(
-                &task,
-                &mut pressure,
-                &mut displacement,
-                &mut compliance,
-                &mut preconditioner,
-                &coarse,
-                callback,
-            )?;
-            convolutions += compliance.applications;
-            passes += preconditioner.passes;
-            cell_convolutions += (compliance.applications * region.len()) as f64;
+            let fields = [&mut pressure[..], &mut vec![0.0; region.len()]];
+            let solution = solve_normal(&task, fields, &mut operators, &coarse, callback)?;
+            work += operators.take_work(region.len() as f64);
             if region != whole && touches_side(region, self.cells(), &pressure) {
                 let mut found = Array2::zeros(self.cells());
-                region.scatter(&pressure, &mut found);
+                region.place(&pressure, &mut found);
                 start = Some(found);
                 region = whole;
                 continue;
             }
             let shift = if stiff { SHIFT_STIFF } else { SHIFT };
             let gap = solution.gap;
-            return Ok(SolvedLevel { region, pressure, gap, shift, convolutions, passes, cell_convolutions });
+            return Ok(SolvedLevel { region, pressure, gap, shift, work });
         }
     }
 }
@@ -215,12 +187,4 @@ fn touches_side(region: Region, cells: [usize; 2], pressure: &[f64]) -> bool {
     let loaded = |i: usize, j: usize| pressure[i * ny + j] > 0.0;
     (0..ny).any(|j| (low[0] && loaded(0, j)) || (high[0] && loaded(nx - 1, j)))
         || (0..nx).any(|i| (low[1] && loaded(i, 0)) || (high[1] && loaded(i, ny - 1)))
-}
-
-impl SolvedLevel {
-    /// Pressure on a grid twice as fine, of `cells` and with the sum that goes with `total` here.
-    fn prolonged(&self, cells: [usize; 2], total: Option<f64>) -> Option<Array2<f64>> {
-        let Self { region, pressure, gap, shift, .. } = self;
-        prolonged((*region, pressure, gap), *shift, cells, total.map(|total| 4.0 * total))
-    }
 }

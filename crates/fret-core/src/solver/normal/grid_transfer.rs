@@ -18,7 +18,7 @@ pub fn prolonged(
     total: Option<f64>,
 ) -> Option<Array2<f64>> {
     let view = |field| ArrayView2::from_shape(region.shape, field).ok();
-    let level = level_function(&view(pressure)?, &view(gap)?, f64::INFINITY)?;
+    let level = level_function(&view(pressure)?, &view(gap)?)?;
     let fine = Region {
         origin: region.origin.map(|first| 2 * first),
         shape: [0, 1]

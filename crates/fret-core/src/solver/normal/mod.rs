@@ -7,9 +7,8 @@ mod problem;
 mod projected_cg;
 
 use super::laws::complementarity::NormalResidual;
-use super::linear::preconditioner::Preconditioner;
+use super::operators::RegionOperators;
 use super::settings::{IterationCallback, SolveError, SolverSettings};
-use crate::compliance::SurfaceCompliance;
 use crate::fields::lower;
 
 pub use problem::NormalEquations;
@@ -29,23 +28,22 @@ pub struct NormalSolution {
 /// Iterations of projected conjugate gradients that need not halve the residual before the active set is tried.
 const MAX_STALLED: usize = 20;
 
-/// Solves the normal equations from a feasible `pressure` with its `displacement`; both end at the solution.
+/// Solves the normal equations from a feasible pressure. Both fields end at the solution: pressure [pressure] and its normal displacement
+/// [length].
 ///
-/// Projected conjugate gradients come first, the active set where the response is stiff (see [`Preconditioner::is_stiff`]); each
-/// takes over when the other stalls.
+/// Projected conjugate gradients come first, the active set where the response is stiff; each takes over when the other stalls.
+///
+/// # Errors
+/// When the iteration does not converge or is stopped.
 pub fn solve_normal(
     task: &NormalEquations<'_>,
-    pressure: &mut [f64],
-    displacement: &mut [f64],
-    compliance: &mut dyn SurfaceCompliance,
-    preconditioner: &mut Preconditioner,
+    fields: [&mut [f64]; 2],
+    operators: &mut RegionOperators,
     settings: &SolverSettings,
     callback: IterationCallback<'_>,
 ) -> Result<NormalSolution, SolveError> {
-    let mut by_active_set = preconditioner.is_stiff();
-    let bounds = (settings.tolerance, settings.max_normal_iterations);
-    let fields = [pressure, displacement];
-    let mut problem = NormalIteration::new(task, fields, compliance, preconditioner, bounds, callback);
+    let mut by_active_set = operators.preconditioner.is_stiff();
+    let mut problem = NormalIteration::new(task, fields, operators, settings.tolerance, callback);
     let mut max_stalled = MAX_STALLED;
     loop {
         let ending = if by_active_set {
@@ -54,7 +52,7 @@ pub fn solve_normal(
             projected_cg::iterate(&mut problem, max_stalled)?
         };
         if let Ending::Solved(mut residual) = ending {
-            let gives = task.given_way(problem.pressure);
+            let gives = task.load.given_way(problem.pressure);
             lower(problem.displacement, gives);
             residual.approach -= gives;
             let (gap, iterations) = (problem.gap, problem.iterations);
@@ -69,7 +67,7 @@ pub fn solve_normal(
 
 /// A first pressure: uniform over the eighth of the cells with the smallest gap under a force, the self-influences alone under an approach.
 pub fn first_pressure(task: &NormalEquations<'_>, own: f64) -> Vec<f64> {
-    match task.total {
+    match task.load.total {
         Some(total) => {
             let mut gaps: Vec<f64> = task.undeformed.to_vec();
             let eighth = (gaps.len() / 8).max(1);
@@ -78,6 +76,6 @@ pub fn first_pressure(task: &NormalEquations<'_>, own: f64) -> Vec<f64> {
             let count = task.undeformed.iter().filter(|gap| **gap <= limit).count();
             task.undeformed.iter().map(|gap| if *gap <= limit { total / count as f64 } else { 0.0 }).collect()
         }
-        None => task.undeformed.iter().map(|gap| ((task.approach - gap) / own).max(0.0) * 0.1).collect(),
+        None => task.undeformed.iter().map(|gap| ((task.load.approach - gap) / own).max(0.0) * 0.1).collect(),
     }
 }

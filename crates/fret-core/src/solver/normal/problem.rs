@@ -1,30 +1,22 @@
 //! The frictionless problem in a region: its equations, the fields both iterations work on, and how they report.
 
 use super::super::laws::complementarity::NormalResidual;
-use super::super::linear::preconditioner::Preconditioner;
+use super::super::operators::RegionOperators;
+use super::super::prescribed::NormalLoad;
 use super::super::settings::{IterationCallback, SolveError};
 use crate::compliance::SurfaceCompliance;
-use crate::fields::{CellRule, Reals, each_cell, lower, sum};
+use crate::fields::{CellRule, Reals, each_cell, lower};
+
+/// Iterations at the most, of both methods together.
+const MOST_ITERATIONS: usize = 8000;
 
 /// What the normal equations of one increment ask for, over the cells of a region.
 #[derive(Debug)]
 pub struct NormalEquations<'a> {
     /// Gap before deformation, with whatever else moves the surfaces at given shear [length].
     pub undeformed: &'a [f64],
-    /// Sum of the pressures over the cells, when the force is prescribed [pressure].
-    pub total: Option<f64>,
-    /// Approach of the body or of the actuator, when it is prescribed [length].
-    pub approach: f64,
-    /// By how much the machine gives under a unit of the summed pressure [length/pressure]: displacements have it in them while the
-    /// problem is solved; 0: the approach is that of the body.
-    pub give: f64,
-}
-
-impl NormalEquations<'_> {
-    /// What the machine gives under pressures, or a change of them [length].
-    pub fn given_way(&self, pressure: &[f64]) -> f64 {
-        if self.give > 0.0 { self.give * sum(pressure) } else { 0.0 }
-    }
+    /// What is prescribed. What the machine gives is in the displacements while the problem is solved.
+    pub load: NormalLoad,
 }
 
 /// How an iteration ended.
@@ -57,32 +49,29 @@ pub struct NormalIteration<'a> {
     /// The change before, and its displacement.
     pub last_change: Vec<f64>,
     pub last_image: Vec<f64>,
-    compliance: &'a mut dyn SurfaceCompliance,
-    preconditioner: &'a mut Preconditioner,
+    operators: &'a mut RegionOperators,
     /// Influence of a cell on itself [length/pressure].
     pub self_influence: f64,
     pub tolerance: f64,
     callback: IterationCallback<'a>,
     /// Iterations so far.
     pub iterations: usize,
-    /// Iterations that are allowed.
-    pub most: usize,
     /// Least residual so far.
     pub best: f64,
 }
 
 impl<'a> NormalIteration<'a> {
-    /// The problem from a feasible pressure with its displacement.
+    /// The problem from a feasible pressure; finds its displacement.
     pub fn new(
         task: &'a NormalEquations<'a>,
         [pressure, displacement]: [&'a mut [f64]; 2],
-        compliance: &'a mut dyn SurfaceCompliance,
-        preconditioner: &'a mut Preconditioner,
-        (tolerance, most): (f64, usize),
+        operators: &'a mut RegionOperators,
+        tolerance: f64,
         callback: IterationCallback<'a>,
     ) -> Self {
         let field = || vec![0.0; task.undeformed.len()];
-        lower(displacement, -task.given_way(pressure));
+        operators.compliance.normal(pressure, displacement);
+        lower(displacement, -task.load.given_way(pressure));
         Self {
             gap: field(),
             active: field(),
@@ -92,16 +81,14 @@ impl<'a> NormalIteration<'a> {
             image: field(),
             last_change: field(),
             last_image: field(),
-            self_influence: compliance.self_influence().normal,
+            self_influence: operators.compliance.self_influence().normal,
             tolerance,
             iterations: 0,
-            most,
             best: f64::INFINITY,
             task,
             pressure,
             displacement,
-            compliance,
-            preconditioner,
+            operators,
             callback,
         }
     }
@@ -115,7 +102,7 @@ impl<'a> NormalIteration<'a> {
             return Err(SolveError::Stopped);
         }
         self.best = self.best.min(residual);
-        if self.iterations >= self.most {
+        if self.iterations >= MOST_ITERATIONS {
             return Err(SolveError::NotConverged { reached: self.best, iterations: self.iterations });
         }
         Ok(())
@@ -124,20 +111,20 @@ impl<'a> NormalIteration<'a> {
     /// `image` becomes the displacement of `change`.
     pub fn convolve_change(&mut self) {
         self.iterations += 1;
-        self.compliance.normal(&self.change, &mut self.image);
-        lower(&mut self.image, -self.task.given_way(&self.change));
+        self.operators.compliance.normal(&self.change, &mut self.image);
+        lower(&mut self.image, -self.task.load.given_way(&self.change));
     }
 
     /// `displacement` becomes that of `pressure`.
     pub fn convolve_pressure(&mut self) {
         self.iterations += 1;
-        self.compliance.normal(self.pressure, self.displacement);
-        lower(self.displacement, -self.task.given_way(self.pressure));
+        self.operators.compliance.normal(self.pressure, self.displacement);
+        lower(self.displacement, -self.task.load.given_way(self.pressure));
     }
 
     /// `steepest` becomes the preconditioned residual, on all cells.
     pub fn precondition(&mut self) {
-        self.preconditioner.normal(&self.residual, &mut self.steepest);
+        self.operators.preconditioner.normal(&self.residual, &mut self.steepest);
     }
 
     /// Height `u + g0` into `gap`; the approach (mean height of the loaded cells under a force) and the mean displacement under
@@ -145,11 +132,11 @@ impl<'a> NormalIteration<'a> {
     pub fn measure(&mut self) -> (f64, Option<f64>) {
         let read = [&*self.displacement, self.task.undeformed, &*self.pressure];
         let [heights, count, work, load] = each_cell(&Measure, read, [&mut self.gap]);
-        let approach = match self.task.total {
+        let approach = match self.task.load.total {
             Some(_) if count > 0.0 => heights / count,
-            _ => self.task.approach,
+            _ => self.task.load.approach,
         };
-        (approach, (load > 0.0).then(|| (work / load - self.task.give * load).abs()))
+        (approach, (load > 0.0).then(|| (work / load - self.task.load.give * load).abs()))
     }
 
     /// Adds `fraction` of the change to pressures and displacements; rounding leaves no tension.

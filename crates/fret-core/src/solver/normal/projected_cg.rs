@@ -5,7 +5,7 @@
 use super::super::laws::complementarity::{NormalResidual, violation};
 use super::super::settings::SolveError;
 use super::problem::{Ending, NormalIteration};
-use crate::fields::{CellRule, CellSize, Reals, each_cell, largest_of};
+use crate::fields::{CellRule, CellSize, Reals, add_scaled, dot, each_cell, largest_of};
 
 /// A loaded cell leaves when its own pressure could close less than this fraction of its gap.
 const LEAVE_BELOW: f64 = 0.15;
@@ -16,7 +16,7 @@ const LEAVE_BELOW: f64 = 0.15;
 /// When the caller stopped the iteration, or it has gone on for too long.
 pub fn iterate(problem: &mut NormalIteration<'_>, max_stalled: usize) -> Result<Ending, SolveError> {
     let self_influence = problem.self_influence;
-    let by_force = problem.task.total.is_some();
+    let by_force = problem.task.load.total.is_some();
     let mut step = 0.8_f64;
     let mut leave_below = LEAVE_BELOW;
     let mut conjugate = false;
@@ -42,7 +42,7 @@ pub fn iterate(problem: &mut NormalIteration<'_>, max_stalled: usize) -> Result<
         }
         let mean = if by_force { gaps / count.max(1.0) } else { 0.0 };
         if mean != 0.0 {
-            each_cell(&WithoutMean(mean), [&problem.active], [&mut problem.residual]);
+            add_scaled(&mut problem.residual, -mean, &problem.active);
         }
         problem.precondition();
         let along = Direction::new(problem, conjugate, by_force.then_some(count.max(1.0)));
@@ -53,7 +53,7 @@ pub fn iterate(problem: &mut NormalIteration<'_>, max_stalled: usize) -> Result<
         // feasible and the displacement stays linear in it.
         problem.convolve_change();
         let NormalIteration { change, image, gap, pressure, .. } = &mut *problem;
-        let [curvature, slope] = each_cell(&Along, [change, image, gap], []);
+        let (curvature, slope) = (dot(change, image), dot(gap, change));
         let steepest_fall = largest_of(&Fall, [change, pressure]);
         let exact = -slope / curvature;
         if !(curvature > 0.0 && exact > 0.0) {
@@ -107,7 +107,7 @@ impl Direction {
         let NormalIteration { steepest, active, last_change, pressure, change, .. } = &mut *problem;
         let target = Target { step, constant, beta };
         let [found] = each_cell(&target, [steepest, active, last_change, pressure], [change]);
-        let fraction = match problem.task.total {
+        let fraction = match problem.task.load.total {
             Some(_) if !(found > 0.0) => return false,
             Some(total) => total / found,
             None => 1.0,
@@ -134,26 +134,6 @@ impl CellRule<1, 3, 2> for Sets {
         *active = p.if_at_most(zero, overlaps, stays);
         *residual = *active * *gap;
         [*residual, *active]
-    }
-}
-
-struct WithoutMean(f64);
-
-impl CellRule<1, 1, 0> for WithoutMean {
-    #[inline(always)]
-    fn at<R: Reals>(&self, [active]: [R; 1], [residual]: &mut [R; 1]) -> [R; 0] {
-        *residual = *residual - active * self.0;
-        []
-    }
-}
-
-/// Curvature and slope along a change.
-struct Along;
-
-impl CellRule<3, 0, 2> for Along {
-    #[inline(always)]
-    fn at<R: Reals>(&self, [change, image, gap]: [R; 3], _: &mut [R; 0]) -> [R; 2] {
-        [change * image, gap * change]
     }
 }
 

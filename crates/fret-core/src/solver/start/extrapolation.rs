@@ -1,113 +1,35 @@
-//! What an increment starts from: tractions that go on as they did, and the region they will stay in.
+//! Tractions that an increment starts from: they go on as they did.
 
 use std::mem::discriminant;
 
 use ndarray::Array2;
 
-use super::super::memory::Before;
-use super::super::normal::coarse_grids::MARGIN;
-use super::super::region::Region;
-use super::super::{ContactSolver, Coupling};
+use super::super::ContactSolver;
+use super::super::memory::{Before, GridTractions};
 use super::self_similar::{SelfSimilarGrowth, sum_of};
 use crate::model::{ContactState, Control, LoadStep, Reached};
-use fret_fft::good_length;
-
-/// Cells kept free around a contact: this fraction of its width, and no less than [`LEAST_MARGIN`].
-const MARGIN_FRACTION: usize = 12;
-const LEAST_MARGIN: usize = 3;
 
 impl ContactSolver<'_> {
-    /// The region of an increment that starts from a pressure on coarser grids. What sheared the surfaces before lies inside: slip is
-    /// counted from its displacements.
-    pub(in super::super) fn region_around(&self, pressure: &Array2<f64>, state: &ContactState) -> Region {
-        let cells = self.grid.cells();
-        if !self.in_region || self.response.is_periodic() {
-            return Region::whole(cells);
-        }
-        let has_friction = self.coupling != Coupling::Frictionless;
-        let loaded =
-            |i: usize, j: usize| pressure[[i, j]] > 0.0 || has_friction && state.pressure[[i, j]] > 0.0;
-        let axes = self.symmetry.axes();
-        let margin = if self.coupling == Coupling::Coupled {
-            (self.width(&Region::around(cells, axes, 1, |n| n, loaded)) / MARGIN_FRACTION).max(MARGIN)
-        } else {
-            MARGIN
-        };
-        Region::around(cells, axes, margin, good_length, loaded)
-    }
-
-    /// The region of an increment: around the contact with room to go on growing, the last one while that fits.
-    pub(in super::super) fn region_for(&self, state: &ContactState, load: &LoadStep) -> Region {
-        let whole = Region::whole(self.grid.cells());
-        let touched = state.pressure.iter().any(|p| *p > 0.0);
-        if !self.in_region || !touched || self.response.is_periodic() {
-            return whole;
-        }
-        let (cells, axes) = (self.grid.cells(), self.symmetry.axes());
-        let around = |margin: usize, good: fn(usize) -> usize| {
-            Region::around(cells, axes, margin, good, |i, j| state.pressure[[i, j]] > 0.0)
-        };
-        let growth = self.cells_of_growth(state, load);
-        let least = around(growth + 1, |n| n);
-        let margin = (self.width(&around(1, |n| n)) / MARGIN_FRACTION).max(LEAST_MARGIN);
-        let wanted = around(margin.max(growth + 2), good_length);
-        match self.memory.region {
-            Some(now) if now.contains_all(&least) && now.len() as f64 <= 1.6 * wanted.len() as f64 => now,
-            _ => wanted,
-        }
-    }
-
-    /// The larger side of a region, with what lies behind the mirrors [cells].
-    fn width(&self, region: &Region) -> usize {
-        let [x, y] = self.symmetry.whole_of(region.shape);
-        x.max(y)
-    }
-
-    /// Cells by which the contact will grow on one side when it goes on as in the last increment.
-    fn cells_of_growth(&self, state: &ContactState, load: &LoadStep) -> usize {
-        let (Some(before), Some(fraction)) = (&self.memory.before, self.continuation(load)) else {
-            return 0;
-        };
-        let (cells, axes) = (self.grid.cells(), self.symmetry.axes());
-        let extent = |pressure: &Array2<f64>| Region::extent(cells, axes, |i, j| pressure[[i, j]] > 0.0);
-        let (Some(then), Some(now)) = (extent(&before.tractions.pressure), extent(&state.pressure)) else {
-            return 0;
-        };
-        let grown = (0..2).map(|axis| {
-            then[axis].start.saturating_sub(now[axis].start).max(now[axis].end.saturating_sub(then[axis].end))
-        });
-        (grown.max().unwrap_or(0) as f64 * fraction).ceil() as usize
-    }
-
     /// Tractions to start from while the load keeps its direction: those of a contact that goes on growing without changing its
     /// shape, or extrapolated linearly in the load where the normal load stays.
-    pub(in super::super) fn extrapolated(
-        &self,
-        state: &ContactState,
-        load: &LoadStep,
-    ) -> (Array2<f64>, [Array2<f64>; 2]) {
+    pub(in super::super) fn extrapolated(&self, state: &ContactState, load: &LoadStep) -> GridTractions {
         let (Some(before), Some(fraction)) = (&self.memory.before, self.continuation(load)) else {
-            return (state.pressure.clone(), state.shear.clone());
+            return GridTractions::of(state);
         };
         if let Some(grown) = self.grown(state, before, load) {
             return grown;
         }
         let then = &before.tractions;
         let extrapolate = |now: &Array2<f64>, then: &Array2<f64>| now + &((now - then) * fraction);
-        (
-            extrapolate(&state.pressure, &then.pressure).mapv(|p| p.max(0.0)),
-            [extrapolate(&state.shear[0], &then.shear[0]), extrapolate(&state.shear[1], &then.shear[1])],
-        )
+        GridTractions {
+            pressure: extrapolate(&state.pressure, &then.pressure).mapv(|p| p.max(0.0)),
+            shear: [0, 1].map(|axis| extrapolate(&state.shear[axis], &then.shear[axis])),
+        }
     }
 
     /// Tractions of a contact whose area and force go on growing by the powers of the load by which they grew last, everything
     /// else alike; `None` where the normal load stays, or nothing is known of such powers.
-    fn grown(
-        &self,
-        state: &ContactState,
-        before: &Before,
-        load: &LoadStep,
-    ) -> Option<(Array2<f64>, [Array2<f64>; 2])> {
+    fn grown(&self, state: &ContactState, before: &Before, load: &LoadStep) -> Option<GridTractions> {
         let last_solved = self.memory.last.as_ref()?;
         let last = self.memory.last_load.as_ref()?;
         let loads = [before.load.normal, last.normal, load.normal].map(Control::value);
@@ -117,19 +39,8 @@ impl ContactSolver<'_> {
         let forces = [sum_of(&before.tractions.pressure), sum_of(&state.pressure)];
         let areas = [before.contact_area, last_solved.contact_area];
         let way = (loads[2] / loads[1]).ln() / (loads[1] / loads[0]).ln();
-        let on = |[then, now]: [f64; 2]| (now / then).powf(way);
-        let (area, force) = (on(areas), on(forces));
-        if !(area.is_finite() && force.is_finite() && area > 0.0 && area < 4.0 && force > 0.0) {
-            return None;
-        }
-        Some(
-            SelfSimilarGrowth {
-                widening: area.sqrt(),
-                strengthening: force / area,
-                mirrored: self.symmetry.axes(),
-            }
-            .of(state, &last_solved.gap),
-        )
+        let [area, force] = [areas, forces].map(|[then, now]| (now / then).powf(way));
+        (area < 4.0).then(|| self.grown_by(area, force, state)).flatten()
     }
 
     /// Tractions of a contact that grows or shrinks for the first time, to the area and force of a `pressure` from coarser grids without
@@ -138,23 +49,26 @@ impl ContactSolver<'_> {
         &self,
         pressure: &Array2<f64>,
         state: &ContactState,
-    ) -> Option<(Array2<f64>, [Array2<f64>; 2])> {
-        let last_solved = self.memory.last.as_ref()?;
+    ) -> Option<GridTractions> {
         let cells = |field: &Array2<f64>| field.iter().filter(|p| **p > 0.0).count() as f64;
         let area = cells(pressure) / cells(&state.pressure);
-        let force = sum_of(pressure) / sum_of(&state.pressure);
-        (area.is_finite() && area > 0.0 && force > 0.0).then(|| {
-            SelfSimilarGrowth {
-                widening: area.sqrt(),
-                strengthening: force / area,
-                mirrored: self.symmetry.axes(),
-            }
-            .of(state, &last_solved.gap)
-        })
+        self.grown_by(area, sum_of(pressure) / sum_of(&state.pressure), state)
+    }
+
+    /// Tractions of a contact whose area and force have grown by these factors; `None` where one of them says nothing.
+    fn grown_by(&self, area: f64, force: f64, state: &ContactState) -> Option<GridTractions> {
+        let last_solved = self.memory.last.as_ref()?;
+        let growth = SelfSimilarGrowth {
+            widening: area.sqrt(),
+            strengthening: force / area,
+            mirrored: self.symmetry.axes(),
+        };
+        let grows = area.is_finite() && force.is_finite() && area > 0.0 && force > 0.0;
+        grows.then(|| growth.of(state, &last_solved.gap))
     }
 
     /// Ratio of this load increment to the last one when it goes on in the same direction.
-    fn continuation(&self, load: &LoadStep) -> Option<f64> {
+    pub(super) fn continuation(&self, load: &LoadStep) -> Option<f64> {
         let [old, both, new] = self.increments_to(load)?;
         (both > 0.5 * (old * new).sqrt()).then(|| (both / old).min(3.0))
     }
@@ -194,18 +108,18 @@ impl ContactSolver<'_> {
                 | [Control::Motion(_), Control::Motion(_)]
                 | [Control::FarEnd(_), Control::FarEnd(_)]
         );
-        Some(products(change(before, last)?, change(last, load)?, are_alike))
+        Some(products(before.change_to(last)?, last.change_to(load)?, are_alike))
     }
 }
 
 /// Squares of the lengths of two increments and their product, each of the normal load, the tangential loads, the twist, the tilt and the
 /// bulk stresses by itself in units of the longer one. Loads along x and y go together where `are_alike`.
-fn products(older: Loads, newer: Loads, are_alike: bool) -> [f64; 3] {
+fn products(older: [f64; 10], newer: [f64; 10], are_alike: bool) -> [f64; 3] {
     let tangential: &[&[usize]] = if are_alike { &[&[1, 2]] } else { &[&[1], &[2]] };
     let others: &[&[usize]] = &[&[0], &[3], &[4, 5], &[6, 7], &[8, 9]];
     let mut found = [0.0; 3];
     for group in tangential.iter().chain(others) {
-        let product = |a: &Loads, b: &Loads| group.iter().map(|&k| a[k] * b[k]).sum::<f64>();
+        let product = |a: &[f64], b: &[f64]| group.iter().map(|&k| a[k] * b[k]).sum::<f64>();
         let [old, both, new] = [product(&older, &older), product(&older, &newer), product(&newer, &newer)];
         let unit = old.max(new);
         if unit > 0.0 {
@@ -213,30 +127,4 @@ fn products(older: Loads, newer: Loads, are_alike: bool) -> [f64; 3] {
         }
     }
     found
-}
-
-/// Normal load, tangential loads, twist, tilts, bulk stresses of the lower and the upper body.
-type Loads = [f64; 10];
-
-/// Loads as numbers, when both name the same controls.
-fn change(from: &LoadStep, to: &LoadStep) -> Option<Loads> {
-    let difference = |a: Control, b: Control| match (a, b) {
-        (Control::Force(a), Control::Force(b))
-        | (Control::Motion(a), Control::Motion(b))
-        | (Control::FarEnd(a), Control::FarEnd(b)) => Some(b - a),
-        _ => None,
-    };
-    let bulk = |body: usize, axis: usize| to.bulk_stress[body][axis] - from.bulk_stress[body][axis];
-    Some([
-        difference(from.normal, to.normal)?,
-        difference(from.tangential[0], to.tangential[0])?,
-        difference(from.tangential[1], to.tangential[1])?,
-        difference(from.twist, to.twist)?,
-        difference(from.tilt[0], to.tilt[0])?,
-        difference(from.tilt[1], to.tilt[1])?,
-        bulk(0, 0),
-        bulk(0, 1),
-        bulk(1, 0),
-        bulk(1, 1),
-    ])
 }

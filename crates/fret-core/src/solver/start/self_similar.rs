@@ -4,6 +4,7 @@
 use ndarray::Array2;
 
 use super::super::contact_edge::level_function;
+use super::super::memory::GridTractions;
 use crate::model::ContactState;
 
 /// How a contact grows.
@@ -25,15 +26,15 @@ pub fn sum_of(field: &Array2<f64>) -> f64 {
 impl SelfSimilarGrowth {
     /// Pressure and shear of the grown contact, from those of `state` and its `gap` [length]. The edge moves by parts of a cell:
     /// pressures come from the level function of the edge, shears from their ratio to the pressure.
-    pub fn of(&self, state: &ContactState, gap: &Array2<f64>) -> (Array2<f64>, [Array2<f64>; 2]) {
+    pub fn of(&self, state: &ContactState, gap: &Array2<f64>) -> GridTractions {
         let pressure = &state.pressure;
-        let level = level_function(&pressure.view(), &gap.view(), f64::INFINITY)
-            .unwrap_or_else(|| pressure.mapv(|p| p * p));
+        let level = level_function(&pressure.view(), &gap.view()).unwrap_or_else(|| pressure.mapv(|p| p * p));
         let (nx, ny) = pressure.dim();
         let middle = self.middle(pressure);
         let along_x = self.samples(nx, middle[0]);
         let along_y = self.samples(ny, middle[1]);
-        let mut grown = (Array2::zeros((nx, ny)), [Array2::zeros((nx, ny)), Array2::zeros((nx, ny))]);
+        let zeros = || Array2::zeros((nx, ny));
+        let mut grown = GridTractions { pressure: zeros(), shear: [zeros(), zeros()] };
         let sheared = state.shear.iter().any(|shear| shear.iter().any(|q| *q != 0.0));
         for (i, x) in along_x.iter().enumerate() {
             for (j, y) in along_y.iter().enumerate() {
@@ -48,7 +49,7 @@ impl SelfSimilarGrowth {
                     continue;
                 }
                 let p = self.strengthening * height.sqrt();
-                grown.0[[i, j]] = p;
+                grown.pressure[[i, j]] = p;
                 if !sheared {
                     continue;
                 }
@@ -68,7 +69,7 @@ impl SelfSimilarGrowth {
                     // Where all slip, so does what lies between.
                     let slips = least > most * (1.0 - 1e-9);
                     let size = if slips { most * (1.0 + 1e-9) } else { size / weights };
-                    for (shear, ratio) in grown.1.iter_mut().zip(ratio) {
+                    for (shear, ratio) in grown.shear.iter_mut().zip(ratio) {
                         shear[[i, j]] = p * size * ratio / length;
                     }
                 }
@@ -142,7 +143,7 @@ mod tests {
             let (then, gap) = hertz(32, middle, 10.0, 1.0);
             let (exact, _) = hertz(32, middle, 11.7, 1.17);
             let growth = SelfSimilarGrowth { widening: 1.17, strengthening: 1.17, mirrored: [mirrored; 2] };
-            let (found, _) = growth.of(&state(&then), &gap);
+            let found = growth.of(&state(&then), &gap).pressure;
             let norm = |field: &Array2<f64>| field.iter().map(|p| p * p).sum::<f64>().sqrt();
             // An edge off by a tenth of a cell changes the pressures of the outermost cells, a fifth of all, by a tenth of them,
             // which are a third of the mean: 1e-2. Lines between squares of pressures, which are parabolas, miss less.
@@ -168,7 +169,7 @@ mod tests {
             }
         }
         let growth = SelfSimilarGrowth { widening: 1.1, strengthening: 1.05, mirrored: [false; 2] };
-        let (grown, shear) = growth.of(&before, &gap);
+        let GridTractions { pressure: grown, shear } = growth.of(&before, &gap);
         for ((i, j), p) in grown.indexed_iter().filter(|(_, p)| **p > 0.0) {
             let arm = [i as f64 - 15.5, j as f64 - 15.5];
             let radius = arm[0].hypot(arm[1]);

@@ -3,7 +3,6 @@ mod solutions;
 use std::ops::ControlFlow;
 
 use super::super::few_cells::{Asked, Cells, KINDS, by_cell, kinds, size, tractions_of};
-use super::super::settings::Coupling;
 use super::*;
 use crate::random::Random;
 
@@ -45,7 +44,7 @@ fn a_newton_step_solves_the_equations_linearised_by_difference_quotients() {
             let here = asked.left(&cells, (&tractions, approach, motion));
             let merit = attempt.merit(&attempt.here);
             assert!((merit - size(&here).powi(2)).abs() < 1e-12 * merit, "kind {kind}: {merit} {here:?}");
-            let active = attempt.active_cells();
+            let (active, _) = attempt.active_cells();
             let next = attempt.newton_point(&active).unwrap();
             let there = by_cell(next.tractions.parts());
             for mode in 0..3 {
@@ -182,7 +181,7 @@ fn what_is_too_large_or_stopped_is_not_solved() {
         let solve = |most: usize, go_on: IterationCallback<'_>| {
             let settings = SolverSettings { max_direct_unknowns: most, ..SolverSettings::new(1e-8) };
             let (response, mut operators) = (|| Ok(cells.cell_response()), cells.operators());
-            let method = Method { coupling: Coupling::Coupled, settings: &settings, cells: &response };
+            let method = Method { settings: &settings, cells: &response };
             let (mut tractions, mut displacements) = (Tractions::zeros(6), Displacements::zeros(6));
             let ends = (&mut tractions, &mut displacements);
             let solved = super::solve(problem, [&start, &start], ends, &mut operators, &method, go_on);

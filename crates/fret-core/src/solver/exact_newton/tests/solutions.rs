@@ -4,7 +4,7 @@ use std::ops::ControlFlow;
 
 use super::super::super::few_cells::{Asked, Cells, by_cell, size, tractions_of};
 use super::super::super::operators::Method;
-use super::super::super::settings::{Coupling, IterationCallback, SolverSettings};
+use super::super::super::settings::{IterationCallback, SolverSettings};
 use super::super::super::tractions::{Displacements, Tractions};
 use super::super::solve;
 use crate::random::Random;
@@ -118,7 +118,7 @@ fn a_row_of_cells_is_solved_as_one_of_all_its_contact_sets() {
         let all = enumerated(&cells, &asked);
         asked.problem(&cells, |problem| {
             let (response, mut operators) = (|| Ok(cells.cell_response()), cells.operators());
-            let method = Method { coupling: Coupling::Coupled, settings: &settings, cells: &response };
+            let method = Method { settings: &settings, cells: &response };
             let mut start = Tractions::zeros(count);
             start.pressure.iter_mut().for_each(|p| *p = random.between(0.0, 1.0));
             let other = Tractions { pressure: vec![1.0; count], ..Tractions::zeros(count) };
@@ -191,7 +191,7 @@ fn oblique_shear_is_where_a_projected_iteration_ends() {
         let frictionless = tractions_of(&by_fixed_point(&cells, &asked, 0.0));
         asked.problem(&cells, |problem| {
             let (response, mut operators) = (|| Ok(cells.cell_response()), cells.operators());
-            let method = Method { coupling: Coupling::Coupled, settings: &settings, cells: &response };
+            let method = Method { settings: &settings, cells: &response };
             let start = Tractions { pressure: vec![0.5; 9], ..Tractions::zeros(9) };
             let (mut tractions, mut displacements) = (Tractions::zeros(9), Displacements::zeros(9));
             let ends = (&mut tractions, &mut displacements);

@@ -1,4 +1,5 @@
 use super::super::super::contact_set::ContactSet;
+use super::super::super::prescribed::TangentialLoads;
 use super::super::rigid_motions::CellPositions;
 use super::*;
 use crate::random::Random;
@@ -19,17 +20,12 @@ fn defect_and_curvature_are_derivatives_of_the_potential() {
         (0..CELLS).for_each(|cell| trial.set(cell, [random.between(-2.0, 3.0), random.between(-2.0, 2.0)]));
         let bound: Vec<f64> = (0..CELLS).map(|_| random.log_uniform(0.3, 1.5)).collect();
         let spring = [0, 1, 2].map(|mode| if springs && by_force[mode] { 0.5 + mode as f64 } else { 0.0 });
-        let motions = CellPositions::new(vec![-1.0, 0.0, 1.3], vec![-0.7, 0.1, 0.9], by_force[2], by_force)
-            .with_springs(by_force, spring)
-            .motions_of(&ContactSet::of(CELLS, |_| true));
-        let sought = MotionByForce {
-            trial: &trial,
-            bound: &bound,
-            motions: &motions,
-            resultant: [0, 1, 2].map(|_| random.between(-3.0, 3.0)),
-            self_influence: 0.25,
-        };
-        let motion = motions.only_by_force([0, 1, 2].map(|_| random.between(-1.0, 1.0)));
+        let resultant = [0, 1, 2].map(|_| random.between(-3.0, 3.0));
+        let loads = TangentialLoads { by_force, spring, resultant, ..TangentialLoads::default() };
+        let motions = CellPositions::new(vec![-1.0, 0.0, 1.3], vec![-0.7, 0.1, 0.9], by_force[2])
+            .motions_of(&ContactSet::of(CELLS, |_| true), loads);
+        let sought = MotionByForce { trial: &trial, bound: &bound, motions: &motions, self_influence: 0.25 };
+        let motion = loads.only_by_force([0, 1, 2].map(|_| random.between(-1.0, 1.0)));
         let [xx, yy, rr, xy, xr, yr] = sought.potential(motion).curvature;
         let curvature = [[xx, xy, xr], [xy, yy, yr], [xr, yr, rr]];
         let step = 1e-5;

@@ -1,7 +1,7 @@
 use super::super::super::contact_set::ContactSet;
+use super::super::super::prescribed::TangentialLoads;
 use super::super::friction::FrictionBound;
 use super::super::rigid_motions::CellPositions;
-use super::super::slip_path::SlipPath;
 use super::*;
 use crate::random::Random;
 
@@ -30,8 +30,9 @@ const CELLS: usize = 25;
 impl Scene {
     fn new(by_force: [bool; 3], resultant: [f64; 3]) -> Self {
         let centres: Vec<f64> = (-2..=2).map(f64::from).collect();
-        let positions = CellPositions::new(centres.clone(), centres, true, by_force);
-        let motions = positions.motions_of(&ContactSet::of(CELLS, |_| true));
+        let loads = TangentialLoads { by_force, ..TangentialLoads::default() };
+        let motions = CellPositions::new(centres.clone(), centres, true)
+            .motions_of(&ContactSet::of(CELLS, |_| true), loads);
         let bound = (0..CELLS).map(|cell| 1.0 + 0.5 * f64::from(u8::try_from(cell % 3).unwrap())).collect();
         Self { bound, motions, resultant }
     }
@@ -59,18 +60,9 @@ impl Scene {
             (sets.slip[cell], sets.stick[cell], sets.direction.x[cell]) = (slips, 1.0 - slips, slips);
             sets.direction.y[cell] = 0.0;
         }
-        let (before, path) = (TangentialField::zeros(CELLS), SlipPath::default());
-        let problem = TangentialProblem {
-            bound: &self.bound,
-            before: &before,
-            path: &path,
-            motions: &self.motions,
-            motion: [0.0; 3],
-            resultant: self.resultant,
-            self_influence: 1.0,
-        };
+        let Self { bound, motions, resultant } = self;
         let mut projected = shear.clone();
-        ShearProjection::default().project(&mut projected, &sets, &problem);
+        ShearProjection::default().project(&mut projected, &sets, bound, motions, *resultant);
         projected
     }
 
@@ -225,10 +217,10 @@ fn resultants_that_friction_carries_are_held_from_any_start() {
         };
         let (carried, given) = (any(0.9), any(1.5));
         let slipping: Vec<bool> = (0..CELLS).map(|_| random.chance(0.4)).collect();
-        scene.resultant = scene.motions.only_by_force(scene.found(&carried));
+        scene.resultant = scene.motions.loads.only_by_force(scene.found(&carried));
         let found = scene.project(&given, |cell| slipping[cell]);
         let total: f64 = scene.bound.iter().sum();
-        for mode in (0..3).filter(|&mode| scene.motions.by_force[mode]) {
+        for mode in (0..3).filter(|&mode| scene.motions.loads.by_force[mode]) {
             let off = (scene.found(&found)[mode] - scene.resultant[mode]) / total;
             // Rounding of the sums.
             assert!(off.abs() < 1e-14, "{number}, {mode}: {off:e}");

@@ -1,4 +1,5 @@
 use super::super::super::contact_set::ContactSet;
+use super::super::super::prescribed::TangentialLoads;
 use super::super::rigid_motions::CellPositions;
 use super::*;
 use crate::random::Random;
@@ -8,16 +9,18 @@ use crate::random::Random;
 #[test]
 fn motion_follows_from_the_force() {
     let contact = ContactSet::of(2, |_| true);
-    let positions = CellPositions::new(vec![0.0, 1.0], vec![0.0], false, [true, true, false]);
-    let motions = positions.motions_of(&contact);
+    let loads = TangentialLoads {
+        by_force: [true, true, false],
+        resultant: [2.0, 0.0, 0.0],
+        ..TangentialLoads::default()
+    };
+    let motions = CellPositions::new(vec![0.0, 1.0], vec![0.0], false).motions_of(&contact, loads);
     let field = |x: [f64; 2]| TangentialField { x: x.to_vec(), y: vec![0.0; 2] };
     let problem = TangentialProblem {
         bound: &[1.0, 3.0],
         before: &TangentialField::zeros(2),
         path: &SlipPath::default(),
         motions: &motions,
-        motion: [0.0; 3],
-        resultant: [2.0, 0.0, 0.0],
         self_influence: 0.5,
     };
     let mut increment = SlipIncrement::default();
@@ -38,8 +41,6 @@ struct Sample {
     before: TangentialField,
     path: SlipPath,
     motions: RigidMotions,
-    motion: [f64; 3],
-    resultant: [f64; 3],
     self_influence: f64,
     q: TangentialField,
     u: TangentialField,
@@ -59,9 +60,9 @@ impl Sample {
         let (q, u, before, last) = (field(-0.6, 0.6), field(-0.2, 0.2), field(-0.2, 0.2), field(0.1, 0.4));
         let bound: Vec<f64> = (0..CELLS).map(|_| random.log_uniform(0.3, 1.5)).collect();
         let spring = [0, 1, 2].map(|mode| if springs && by_force[mode] { 0.5 + mode as f64 } else { 0.0 });
-        let motions = CellPositions::new(vec![-1.0, 0.0, 1.3], vec![-0.7, 0.1, 0.9], by_force[2], by_force)
-            .with_springs(by_force, spring)
-            .motions_of(&ContactSet::of(CELLS, |_| true));
+        let loads = TangentialLoads { by_force, spring, ..TangentialLoads::default() };
+        let mut motions = CellPositions::new(vec![-1.0, 0.0, 1.3], vec![-0.7, 0.1, 0.9], by_force[2])
+            .motions_of(&ContactSet::of(CELLS, |_| true), loads);
         // Resultants that shear within the bounds has.
         let mut resultant = [0.0; 3];
         for cell in 0..CELLS {
@@ -79,8 +80,9 @@ impl Sample {
             (0..CELLS).for_each(|cell| path.go_on(cell, last.at(cell), (0.4, 0.0, 0.6)));
         }
         let prescribed = [0.3, -0.2, 0.0].map(|part| part * random.uniform());
-        let motion = [0, 1, 2].map(|mode| if by_force[mode] { 0.0 } else { prescribed[mode] });
-        Self { bound, before, path, motions, motion, resultant, self_influence: 0.25, q, u }
+        motions.loads.motion = [0, 1, 2].map(|mode| if by_force[mode] { 0.0 } else { prescribed[mode] });
+        motions.loads.resultant = resultant;
+        Self { bound, before, path, motions, self_influence: 0.25, q, u }
     }
 
     fn problem(&self) -> TangentialProblem<'_> {
@@ -89,8 +91,6 @@ impl Sample {
             before: &self.before,
             path: &self.path,
             motions: &self.motions,
-            motion: self.motion,
-            resultant: self.resultant,
             self_influence: self.self_influence,
         }
     }
@@ -108,8 +108,8 @@ impl Sample {
 
     /// By how much the resultants of the projected shear, with what springs take, differ from those that are asked for.
     fn missing(&self, motion: [f64; 3]) -> [f64; 3] {
-        let mut missing =
-            [0, 1, 2].map(|mode| self.motions.spring[mode] * motion[mode] - self.resultant[mode]);
+        let loads = self.motions.loads;
+        let mut missing = [0, 1, 2].map(|mode| loads.spring[mode] * motion[mode] - loads.resultant[mode]);
         for cell in 0..CELLS {
             let [_, _, image] = self.law(motion, cell);
             let around = if self.motions.rotates { self.motions.rotation.at(cell) } else { [0.0; 2] };
@@ -117,7 +117,7 @@ impl Sample {
             missing[1] += image[1];
             missing[2] += image[0] * around[0] + image[1] * around[1];
         }
-        self.motions.only_by_force(missing)
+        loads.only_by_force(missing)
     }
 }
 
@@ -160,14 +160,17 @@ fn motions_slip_and_residual_are_those_of_the_law() {
             y: field.y.iter().map(|value| value * unit).collect(),
         };
         let mut motions = sample.motions.clone();
-        motions.spring = motions.spring.map(|spring| spring * (stress / length));
+        motions.loads = TangentialLoads {
+            motion: motions.loads.motion.map(|part| part * length),
+            resultant: motions.loads.resultant.map(|part| part * stress),
+            spring: motions.loads.spring.map(|spring| spring * (stress / length)),
+            ..motions.loads
+        };
         let other = Sample {
             bound: sample.bound.iter().map(|bound| bound * stress).collect(),
             before: of(&sample.before, length),
             path: SlipPath::default(),
             motions,
-            motion: sample.motion.map(|part| part * length),
-            resultant: sample.resultant.map(|part| part * stress),
             self_influence: sample.self_influence * (length / stress),
             q: of(&sample.q, stress),
             u: of(&sample.u, length),
@@ -241,8 +244,8 @@ fn the_law_is_about_the_slip_at_the_end_of_its_path() {
 fn without_bounds_a_spring_keeps_its_length() {
     let mut sample = Sample::of(&mut Random::seeded(3), [true, true, false], false, false);
     sample.bound.fill(0.0);
-    sample.motions.spring = [0.5, 0.0, 0.0];
-    sample.resultant = [3.0, 0.0, 0.0];
+    sample.motions.loads.spring = [0.5, 0.0, 0.0];
+    sample.motions.loads.resultant = [3.0, 0.0, 0.0];
     let found = SlipIncrement::default().find(&sample.problem(), &sample.q, &sample.u, [0.2; 3]);
     assert_eq!(found, TangentialResidual { motion: [6.0, 0.0, 0.0], residual: 0.0 });
 }

@@ -17,7 +17,8 @@ fn pair() -> ContactPair {
 }
 
 fn preconditioner(response: &SurfaceResponse, single: bool) -> Preconditioner {
-    Preconditioner::new(response, None, CELLS, [true; 2], None, Symmetry::default(), single).unwrap()
+    let operators = OperatorSet { tangential: true, single, ..OperatorSet::default() };
+    Preconditioner::new(response, None, CELLS, operators).unwrap()
 }
 
 fn periodic(single: bool) -> Preconditioner {

@@ -6,10 +6,10 @@ use super::laws::friction::{dissipation, slips};
 use super::laws::slip_path::{length_of_way, weights_of_ends};
 use super::outcome::{Outcome, Regime, Residual, Resultants};
 use crate::fields::sum;
-use crate::model::{ContactState, Control, Integration, Zone};
+use crate::model::{ContactState, Integration, Zone};
 
 /// The state after an increment, and what happened. `self_influence`: of the shear of a cell [length/pressure].
-pub(super) fn settle(
+pub(super) fn state_after(
     problem: &IncrementProblem<'_>,
     solved: &Solved,
     self_influence: f64,
@@ -26,14 +26,13 @@ pub(super) fn settle(
     let shear = contact.packed_tangential(&solved.tractions.shear);
     let slip = contact.packed_tangential(&solution.slip);
     let end_slip = contact.packed_tangential(&solution.end_slip);
-    let mut state = state_after(problem, solved);
-    let columns = region.shape[1];
+    let mut state = tractions_and_motions(problem, solved);
     let mut stick_cells = 0;
     let mut moment = 0.0;
     let mut tilt_moment = [0.0; 2];
     let mut dissipated = 0.0;
     for (place, cell) in contact.cells().enumerate() {
-        let at = [region.origin[0] + cell / columns, region.origin[1] + cell % columns];
+        let at = region.at(cell);
         let [q, end] = [shear.at(place), end_slip.at(place)];
         moment += grid.centre(0, at[0]) * q[1] - grid.centre(1, at[1]) * q[0];
         for axis in 0..2 {
@@ -84,7 +83,7 @@ pub(super) fn settle(
 }
 
 /// Tractions and motions after an increment; slip, zones and dissipated energy are still those before.
-fn state_after(problem: &IncrementProblem<'_>, solved: &Solved) -> ContactState {
+fn tractions_and_motions(problem: &IncrementProblem<'_>, solved: &Solved) -> ContactState {
     let IncrementProblem { grid, region, state: before, .. } = *problem;
     let mut state = ContactState::untouched(grid.cells());
     state.worn_depth.clone_from(&before.worn_depth);
@@ -102,10 +101,8 @@ fn state_after(problem: &IncrementProblem<'_>, solved: &Solved) -> ContactState 
     state.shift = [before.shift[0] + shift_x, before.shift[1] + shift_y];
     state.twist = before.twist + turned / problem.positions.length;
     let load = problem.load;
-    state.tilt = load.tilt.map(|tilt| match tilt {
-        Control::Motion(slope) | Control::FarEnd(slope) => slope,
-        Control::Force(_) => 0.0, // the tilt is found outside, and prescribed here
-    });
+    // Where a moment is prescribed the tilt is found outside, and prescribed here.
+    state.tilt = load.tilt.map(|tilt| tilt.motion().unwrap_or(0.0));
     state.bulk_stress = load.bulk_stress;
     state.dissipated_energy = before.dissipated_energy;
     state.bulk_work = before.bulk_work;
@@ -127,15 +124,15 @@ fn bulk_work(problem: &IncrementProblem<'_>, after: &ContactState) -> f64 {
 
 /// How far resultants are from the prescribed ones, relative to the normal force; the tangential ones to the `limit` of friction.
 fn off_equilibrium(problem: &IncrementProblem<'_>, found: &Resultants, limit: f64) -> f64 {
-    let IncrementProblem { grid, positions, prescribed, .. } = problem;
+    let IncrementProblem { grid, positions, normal, tangential, .. } = problem;
     let area = grid.cell_area();
-    let normal = match prescribed.total {
+    let normal = match normal.total {
         Some(total) if total > 0.0 => (found.normal / (total * area) - 1.0).abs(),
         _ => 0.0,
     };
     let lengths = [1.0, 1.0, positions.length];
     let found = [found.tangential[0], found.tangential[1], found.moment];
-    (0..3).filter(|&mode| limit > 0.0 && positions.held()[mode]).fold(normal, |worst, mode| {
-        worst.max((found[mode] / lengths[mode] - prescribed.resultant[mode] * area).abs() / limit)
+    (0..3).filter(|&mode| limit > 0.0 && tangential.held()[mode]).fold(normal, |worst, mode| {
+        worst.max((found[mode] / lengths[mode] - tangential.resultant[mode] * area).abs() / limit)
     })
 }

@@ -23,20 +23,17 @@ impl IncrementProblem<'_> {
         &self,
         last: Option<&'b Displacements>,
         operators: &mut RegionOperators,
-        coupling: Coupling,
     ) -> Cow<'b, TangentialField> {
         let before = last.map_or_else(
-            || Cow::Owned(self.displacement_of_state(operators, coupling)),
+            || Cow::Owned(self.displacement_of_state(operators)),
             |last| Cow::Borrowed(&last.tangential),
         );
         if self.stretch.is_none() {
             return before;
         }
         let mut before = before.into_owned();
-        let columns = self.region.shape[1];
         for cell in 0..self.region.len() {
-            let at = [self.region.origin[0] + cell / columns, self.region.origin[1] + cell % columns];
-            let [x, y] = self.stretch.at(self.grid, at);
+            let [x, y] = self.stretch.at(self.grid, self.region.at(cell));
             before.x[cell] -= x;
             before.y[cell] -= y;
         }
@@ -44,10 +41,10 @@ impl IncrementProblem<'_> {
     }
 
     /// Tangential displacement of the tractions of the state before [length].
-    fn displacement_of_state(&self, operators: &mut RegionOperators, coupling: Coupling) -> TangentialField {
+    fn displacement_of_state(&self, operators: &mut RegionOperators) -> TangentialField {
         let mut moved = Displacements::zeros(self.region.len());
         let shear = self.region.gather_tangential(&self.state.shear);
-        if coupling == Coupling::Coupled && self.touched() {
+        if self.coupling == Coupling::Coupled && self.touched() {
             let pressure = self.region.gather(&self.state.pressure);
             operators.compliance.full([&pressure, &shear.x, &shear.y], moved.parts_mut());
         } else if shear.x.iter().chain(&shear.y).any(|q| *q != 0.0) {
@@ -73,7 +70,8 @@ impl IncrementProblem<'_> {
         after: &TangentialField,
         motion: [f64; 3],
     ) -> TangentialField {
-        let motions = self.positions.motions_of(&ContactSet::of(self.region.len(), |_| true));
+        let all = ContactSet::of(self.region.len(), |_| true);
+        let motions = self.positions.motions_of(&all, self.tangential);
         let mut drift = before.clone();
         drift.add_scaled(-1.0, after);
         for cell in 0..self.region.len() {
@@ -89,7 +87,6 @@ impl IncrementProblem<'_> {
         before: &Before,
         drift: &Drift,
         operators: &mut RegionOperators,
-        coupling: Coupling,
     ) -> TangentialField {
         let Self { region, grid, state, .. } = self;
         let change = |now: &Array2<f64>, then: &Array2<f64>| {
@@ -100,7 +97,7 @@ impl IncrementProblem<'_> {
         let pressure = change(&state.pressure, &before.tractions.pressure);
         let [x, y] = [0, 1].map(|axis| change(&state.shear[axis], &before.tractions.shear[axis]));
         let mut moved = Displacements::zeros(region.len());
-        if coupling == Coupling::Coupled {
+        if self.coupling == Coupling::Coupled {
             operators.compliance.full([&pressure, &x, &y], moved.parts_mut());
         } else {
             operators.compliance.tangential([&x, &y], moved.tangential.parts_mut());
@@ -108,8 +105,7 @@ impl IncrementProblem<'_> {
         let [shift_x, shift_y, twist] = drift.motion;
         let mut found = moved.tangential;
         for cell in 0..region.len() {
-            let [i, j] =
-                [region.origin[0] + cell / region.shape[1], region.origin[1] + cell % region.shape[1]];
+            let [i, j] = region.at(cell);
             let u = found.at(cell);
             let turned = [-twist * grid.centre(1, j), twist * grid.centre(0, i)];
             let [x, y] = Stretch { strain: drift.strain, ..self.stretch }.at(grid, [i, j]);
