@@ -48,7 +48,7 @@ def test_a_shear_strength_is_refused(fretting_case: dict[str, Any]) -> None:
     case = conducting(fretting_case)
     case["friction"]["max_shear"] = 1e12
     history = fretting.run(case)
-    with pytest.raises(ValueError, match="friction.max_shear"):
+    with pytest.raises(ValueError, match=r"friction\.max_shear"):
         history.temperature(frequency=20.0)
 
 
