@@ -301,7 +301,7 @@ class Phase(TypedDict):
     """
 
 
-Ramp: TypeAlias = Literal["linear", "cubic"]
+Ramp: TypeAlias = Literal["linear", "square", "cubic"]
 """
 How a ramp runs.
 """

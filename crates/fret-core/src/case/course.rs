@@ -62,7 +62,9 @@ pub enum StageControl {
 pub enum Course {
     /// Equal steps to the target, or from row to row of a table.
     Linear,
-    /// Forces with the third power of the share done, approach with the second: a sphere's contact radius grows evenly.
+    /// Forces with the second power of the share done, motions with the power 4/3: a sphere goes through the same contacts by either.
+    Square,
+    /// Forces with the third power of the share done, motions with the second: a sphere's contact radius grows evenly.
     Cubic,
     /// The same again and again.
     Cycles(Cycles),
@@ -189,7 +191,7 @@ impl Stage {
     pub fn increments_in_all(&self) -> usize {
         match self.course {
             Course::Cycles(cycles) => self.increments * cycles.most,
-            Course::Linear | Course::Cubic => self.increments,
+            Course::Linear | Course::Square | Course::Cubic => self.increments,
         }
     }
 
@@ -197,7 +199,7 @@ impl Stage {
     pub fn cycles(&self) -> Option<&Cycles> {
         match &self.course {
             Course::Cycles(cycles) => Some(cycles),
-            Course::Linear | Course::Cubic => None,
+            Course::Linear | Course::Square | Course::Cubic => None,
         }
     }
 
@@ -212,12 +214,15 @@ impl Stage {
         match (path, &self.course) {
             (Path::To(target), _) if k == self.increments => *target,
             (Path::To(target), course) => {
-                let power = match (course, control) {
-                    (Course::Cubic, StageControl::Force(_)) => 3,
-                    (Course::Cubic, StageControl::Motion(_) | StageControl::FarEnd(_)) => 2,
-                    _ => 1,
+                let done = k as f64 / self.increments as f64;
+                let share = match (course, control) {
+                    (Course::Cubic, StageControl::Force(_)) => done.powi(3),
+                    (Course::Cubic, StageControl::Motion(_) | StageControl::FarEnd(_))
+                    | (Course::Square, StageControl::Force(_)) => done.powi(2),
+                    (Course::Square, StageControl::Motion(_) | StageControl::FarEnd(_)) => done * done.cbrt(),
+                    (Course::Linear | Course::Cycles(_), _) => done,
                 };
-                start + (target - start) * (k as f64 / self.increments as f64).powi(power)
+                start + (target - start) * share
             }
             (Path::Wave { amplitude, phase }, Course::Cycles(cycles)) => {
                 let [first, last] = cycles.envelope;

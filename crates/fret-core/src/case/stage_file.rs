@@ -152,7 +152,9 @@ impl<'de> Deserialize<'de> for IncrementsFile {
 pub(super) enum RampFile {
     /// Equal increments.
     Linear,
-    /// Forces with (k/n)^3, approach with (k/n)^2: a sphere's contact radius grows evenly.
+    /// Forces with (k/n)^2, motions with (k/n)^(4/3): for a contact that grows from nothing.
+    Square,
+    /// Forces with (k/n)^3, motions with (k/n)^2: a sphere's contact radius grows evenly.
     Cubic,
 }
 

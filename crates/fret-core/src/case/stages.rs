@@ -259,6 +259,7 @@ fn ramp(judge: &mut Judge, place: &str, file: &StageFile) -> Option<Course> {
         ),
         (Some(ramp), None) => Some(match ramp.get_ref() {
             RampFile::Linear => Course::Linear,
+            RampFile::Square => Course::Square,
             RampFile::Cubic => Course::Cubic,
         }),
         (None, _) => Some(Course::Linear),

@@ -195,7 +195,7 @@ impl Concern {
             }
             Self::ContactNearEdge => "a larger grid",
             Self::PressingInFewIncrements => {
-                "more increments of that stage, or increments = \"auto\"; where it is \"auto\", a smaller solver.history_tolerance"
+                "more increments of that stage, or \"auto\"; from no contact ramp = \"square\" instead of \"linear\"; where increments are \"auto\", a smaller solver.history_tolerance"
             }
         }
     }

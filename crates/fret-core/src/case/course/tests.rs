@@ -106,6 +106,37 @@ fn ramps_go_from_where_the_stage_starts_to_their_end() {
 }
 
 #[test]
+fn a_square_ramp_takes_forces_and_motions_through_the_same_contacts_of_a_sphere() {
+    let stages = stages(
+        "[[load]]\nnormal_force = 80.0\ntangential_force = [16.0, -32.0]\nincrements = 4\nramp = \"square\"\n\
+         [[load]]\napproach = 162.0\nshift = [32.0, \"held\"]\nincrements = 8\nramp = \"square\"\n\
+         [[load]]\nactuator_approach = 16.0\nincrements = 8\nramp = \"square\"\n\
+         [[load]]\nnormal_force = 64.0\nincrements = 16\nramp = \"square\"\n\
+         [[load]]\napproach = 16.0\nincrements = 16\nramp = \"square\"\n",
+        "",
+    );
+    // forces with the second power, from where they were, each control its own way
+    assert_eq!(normal(&stages[1], 64.0), [65.0, 68.0, 73.0, 80.0]);
+    let start = LoadStep { normal: Force(64.0), ..LoadStep::FREE };
+    let pulled: Vec<_> = (1..=4).map(|k| stages[1].load(&start, k).tangential).collect();
+    assert_eq!(pulled, [[1.0, -2.0], [4.0, -8.0], [9.0, -18.0], [16.0, -32.0]].map(|both| both.map(Force)));
+    // motions with the power 4/3: an eighth of the way is a sixteenth of the motion, exactly, as the cube root of 1/8 is a half
+    assert_eq!(normal(&stages[2], 2.0)[0], 12.0);
+    assert_eq!(normal(&stages[2], 2.0)[7], 162.0);
+    assert_eq!(stages[2].load(&start, 1).tangential, [Motion(2.0), Force(0.0)]);
+    assert_eq!(normal(&stages[3], 0.0)[0], 1.0);
+    // Hertz: the force goes with the power 3/2 of the approach, at every increment; to rounding
+    for (force, approach) in normal(&stages[4], 0.0).into_iter().zip(normal(&stages[5], 0.0)) {
+        assert!((approach.powf(1.5) / force - 1.0).abs() < 1e-14, "{force} {approach}");
+    }
+    for stage in &stages[1..] {
+        assert_eq!((stage.increments_in_all(), stage.cycles()), (stage.increments, None));
+    }
+    // The run's resolved case tells the word.
+    assert_eq!(serde_json::to_value(&stages[1]).unwrap()["course"], "square");
+}
+
+#[test]
 fn waves_grow_with_their_envelope_and_start_where_the_control_is() {
     let stages = stages(
         "[[load]]\nnormal_force = 8.0\nincrements = 4\ncycles = 2\nenvelope = [0.5, 1.5]\n\
