@@ -138,13 +138,10 @@ impl<'a> IncrementProblem<'a> {
 
     /// A first pressure [pressure].
     pub fn first_pressure(&self, operators: &RegionOperators) -> Vec<f64> {
-        match &self.start {
-            Some(start) => start.clone(),
-            None => {
-                let own = operators.compliance.self_influence().normal;
-                first_pressure(&self.normal_equations(), own)
-            }
+        if let Some(start) = &self.start {
+            return start.clone();
         }
+        first_pressure(&self.normal_equations(), operators.compliance.self_influence().normal)
     }
 
     /// Those of the frictionless problem.

@@ -21,7 +21,7 @@ fn defect_and_curvature_are_derivatives_of_the_potential() {
         let bound: Vec<f64> = (0..CELLS).map(|_| random.log_uniform(0.3, 1.5)).collect();
         let spring = [0, 1, 2].map(|mode| if springs && by_force[mode] { 0.5 + mode as f64 } else { 0.0 });
         let resultant = [0, 1, 2].map(|_| random.between(-3.0, 3.0));
-        let loads = TangentialLoads { by_force, spring, resultant, ..TangentialLoads::default() };
+        let loads = TangentialLoads { resultant, by_force, spring, ..TangentialLoads::default() };
         let motions = CellPositions::new(vec![-1.0, 0.0, 1.3], vec![-0.7, 0.1, 0.9], by_force[2])
             .motions_of(&ContactSet::of(CELLS, |_| true), loads);
         let sought = MotionByForce { trial: &trial, bound: &bound, motions: &motions, self_influence: 0.25 };
