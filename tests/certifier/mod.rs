@@ -11,6 +11,8 @@ mod measure;
 mod run;
 mod slip_path;
 
+use std::cell::OnceCell;
+
 use fret_core::case::Stage;
 use fret_core::history::{KeptFields, StepRecord};
 use fret_core::model::{Base, Body, ContactPair, Control, CoulombFriction, Integration, LoadStep, Zone};
@@ -193,6 +195,7 @@ impl<'a> Certifier<'a> {
         past.largest_slip = largest_slip;
         past.pressure = Some(before.pressure.clone());
         past.zone = Some(zone.clone());
+        past.edge_slip = OnceCell::new();
         past.shear = Some(q.clone());
         past.ratio = ratio.unwrap_or(1.0);
         before.tangential = [x, y];

@@ -1,6 +1,8 @@
 //! The rule of second order as `docs/theory/second-order.md` states it, cell by cell: which slip the friction law of an increment is about,
 //! and which of it counts.
 
+use std::cell::OnceCell;
+
 use fret_core::model::{Control, LoadStep, Zone};
 use ndarray::Array2;
 
@@ -18,6 +20,8 @@ pub(super) struct Past {
     /// Pressure before the last increment.
     pub(super) pressure: Option<Array2<f64>>,
     pub(super) zone: Option<Array2<Zone>>,
+    /// The slip of the edge in the last increment, carried outward to open cells; found when it is first wanted.
+    pub(super) edge_slip: OnceCell<[Array2<f64>; 2]>,
     /// Shear traction after the last increment.
     pub(super) shear: Option<[Array2<f64>; 2]>,
     /// The largest change of displacement of cells that slipped in the last increment.
@@ -169,11 +173,8 @@ impl Past {
                 }
                 let touch = (2.0 * way / steepest - 1.0).clamp(0.0, 1.0) * f64::min(1.0, now / way);
                 let steps = touch * ratio;
-                let beside = edge_beside(at, gap, zone);
-                let slid = match zone[beside] {
-                    Zone::Slip => [drift[0][beside], drift[1][beside]],
-                    _ => [0.0; 2],
-                };
+                let slid = self.edge_slip.get_or_init(|| edge_slip(gap, zone, drift));
+                let slid = [slid[0][at], slid[1][at]];
                 let lag = steps.powf(1.5) / ((1.0 + steps).powf(1.5) - steps.powf(1.5));
                 CellPath {
                     ahead: [0, 1].map(|axis| 0.7 * steps * slid[axis] + lag * (last[axis] - slid[axis])),
@@ -184,21 +185,37 @@ impl Past {
     }
 }
 
-/// The first cell in contact down the gap from an open one.
-fn edge_beside(at: [usize; 2], gap: &Array2<f64>, zone: &Array2<Zone>) -> [usize; 2] {
-    let mut here = at;
-    loop {
-        let mut lowest = here;
-        for (axis, step) in [(0, usize::MAX), (0, 1), (1, usize::MAX), (1, 1)] {
-            let mut next = here;
-            next[axis] = here[axis].wrapping_add(step);
-            if gap.get(next).is_some_and(|gap_there| *gap_there < gap[lowest]) {
-                lowest = next;
+/// The slip of cells in contact, carried outward: cell by cell, from the least gap on, an open cell takes the mean of the neighbours that are
+/// nearer to the contact, by how much nearer.
+fn edge_slip(gap: &Array2<f64>, zone: &Array2<Zone>, drift: &[Array2<f64>; 2]) -> [Array2<f64>; 2] {
+    let height = |at: [usize; 2]| match zone[at] {
+        Zone::Open => gap[at].max(0.0).powf(2.0 / 3.0),
+        _ => 0.0,
+    };
+    let mut open = Vec::new();
+    let mut slid = [Array2::zeros(gap.dim()), Array2::zeros(gap.dim())];
+    for ((i, j), zone) in zone.indexed_iter() {
+        match zone {
+            Zone::Open => open.push([i, j]),
+            Zone::Slip => (0..2).for_each(|axis| slid[axis][[i, j]] = drift[axis][[i, j]]),
+            Zone::Stick => {}
+        }
+    }
+    open.sort_by(|a, b| height(*a).total_cmp(&height(*b)));
+    for at in open {
+        let (mut total, mut sums) = (0.0, [0.0; 2]);
+        for (axis, step) in [(0, 1), (0, usize::MAX), (1, 1), (1, usize::MAX)] {
+            let mut next = at;
+            next[axis] = at[axis].wrapping_add(step);
+            if gap.get(next).is_some() && height(next) < height(at) {
+                let weight = height(at) - height(next);
+                total += weight;
+                (0..2).for_each(|axis| sums[axis] += weight * slid[axis][next]);
             }
         }
-        if lowest == here || zone[lowest] != Zone::Open {
-            return lowest;
+        if total > 0.0 {
+            (0..2).for_each(|axis| slid[axis][at] = sums[axis] / total);
         }
-        here = lowest;
     }
+    slid
 }
