@@ -43,7 +43,7 @@ fn bytes_per_cell(coupling: Coupling, periodic: bool) -> [usize; 3] {
         (Coupling::Frictionless, true) => [118, 58, 32],
         (Coupling::Uncoupled, false) => [165, 490, 30],
         (Coupling::Uncoupled, true) => [176, 320, 30],
-        (Coupling::Coupled, false) => [185, 590, 47],
+        (Coupling::Coupled, false) => [185, 650, 60],
         (Coupling::Coupled, true) => [60, 280, 90],
     }
 }
