@@ -18,7 +18,8 @@ use super::tractions::{Displacements, Tractions};
 use crate::compliance::SurfaceCompliance;
 use crate::fields::{TangentialField, add_scaled, largest, lower, sum};
 
-/// A residual of the friction law above which the solution is far. Measured: from 0.1 on, and down to 0, more applications are needed.
+/// A residual of the friction law above which the solution is far. By trial: coated loops of 256 to 1024
+/// cells per side take up to 3 % more applications with 0.1 and 0.01; with 0, groups of cells go to and fro and increments fail.
 const FAR: f64 = 1e-3;
 
 /// Tractions on their way to the solution, with everything that follows from them.

@@ -281,7 +281,7 @@ mod tests {
         }
     }
 
-    /// Around a disc whose edge slips as the cosine and the sine of the angle, or sticks in a half: the slip outside is that in the same
+    /// Around a disc whose edge slips as the cosine and the sine of the angle: the slip outside is that in the same
     /// direction, and the same image in mirrors and across the diagonal. Cells without contact down the gap have none.
     #[test]
     fn the_slip_of_the_edge_is_carried_outward() {
