@@ -5,6 +5,8 @@
 //! Coulomb: `|q| <= b(p)`; where `|q| = b` the surfaces may slip, along `q`, the shear on the lower body; elsewhere they stick.
 //! `b = min(mu p, tau)` with the shear strength `tau` of the interface, where it has one.
 
+use std::ops::Range;
+
 use ndarray::Array2;
 
 use crate::fields::{CellRule, Reals, each_cell, length, reset};
@@ -21,7 +23,9 @@ const ROUNDING: f64 = 1e-10;
 /// Parameters of the law in some cells: of a region, or packed over a contact.
 #[derive(Debug, Clone, Default)]
 pub struct FrictionLaw {
-    /// Friction coefficient mu [-].
+    /// Friction coefficient mu [-] where it is the same everywhere and nothing else bounds shear.
+    uniform: Option<f64>,
+    /// Else that of every cell.
     coefficient: Vec<f64>,
     /// Shear strength tau of the interface [pressure]; empty where it has none.
     max_shear: Vec<f64>,
@@ -39,24 +43,31 @@ pub struct FrictionBound {
 impl FrictionLaw {
     /// The law of `friction` in the cells of a region.
     pub fn in_region(friction: &CoulombFriction, region: Region) -> Self {
+        if let (CellValues::Uniform(coefficient), None) = (friction.coefficient(), friction.max_shear()) {
+            return Self { uniform: Some(*coefficient), ..Self::default() };
+        }
         let values = |values: &CellValues| -> Vec<f64> {
             (0..region.len()).map(|cell| region.at(cell)).map(|[i, j]| values.at(i, j)).collect()
         };
         let max_shear = friction.max_shear().map(values).unwrap_or_default();
-        Self { coefficient: values(friction.coefficient()), max_shear }
+        Self { uniform: None, coefficient: values(friction.coefficient()), max_shear }
     }
 
     /// The law in the cells of a contact.
     pub fn packed(&self, contact: &ContactSet) -> Self {
-        let max_shear = if self.max_shear.is_empty() { Vec::new() } else { contact.packed(&self.max_shear) };
-        Self { coefficient: contact.packed(&self.coefficient), max_shear }
+        let packed =
+            |of_cells: &[f64]| if of_cells.is_empty() { Vec::new() } else { contact.packed(of_cells) };
+        Self {
+            uniform: self.uniform,
+            coefficient: packed(&self.coefficient),
+            max_shear: packed(&self.max_shear),
+        }
     }
 
     /// Bound [pressure] and its slope [-] of one cell under a pressure that is not negative.
     pub fn at(&self, cell: usize, pressure: f64) -> (f64, f64) {
         let (mut bound, mut slope) = ([0.0], [0.0]);
-        let strength = self.max_shear.get(cell..=cell).unwrap_or_default();
-        bounds_under(&[pressure], (&self.coefficient[cell..=cell], strength), [&mut bound, &mut slope]);
+        self.bounds_in(cell..cell + 1, &[pressure], [&mut bound, &mut slope]);
         (bound[0], slope[0])
     }
 
@@ -72,7 +83,19 @@ impl FrictionLaw {
         let FrictionBound { bound, slope } = found;
         reset(bound, pressure.len());
         reset(slope, pressure.len());
-        bounds_under(pressure, (&self.coefficient, &self.max_shear), [bound, slope]);
+        self.bounds_in(0..pressure.len(), pressure, [bound, slope]);
+    }
+
+    /// Bounds and their slopes in a range of cells.
+    fn bounds_in(&self, cells: Range<usize>, pressure: &[f64], to: [&mut [f64]; 2]) {
+        let Self { uniform, coefficient, max_shear } = self;
+        if let Some(coefficient) = *uniform {
+            each_cell(&UniformCoulomb { coefficient }, [pressure], to);
+        } else if max_shear.is_empty() {
+            each_cell(&Coulomb, [pressure, &coefficient[cells]], to);
+        } else {
+            each_cell(&CoulombToStrength, [pressure, &coefficient[cells.clone()], &max_shear[cells]], to);
+        }
     }
 }
 
@@ -85,12 +108,17 @@ pub fn bounds_on_grid(friction: &CoulombFriction, pressure: &Array2<f64>) -> Arr
     field
 }
 
-/// Bounds and their slopes; a `strength` that is empty bounds nothing.
-fn bounds_under(pressure: &[f64], (coefficient, strength): (&[f64], &[f64]), to: [&mut [f64]; 2]) {
-    if strength.is_empty() {
-        each_cell(&Coulomb, [pressure, coefficient], to);
-    } else {
-        each_cell(&CoulombToStrength, [pressure, coefficient, strength], to);
+/// The bound `mu p` with one mu for all cells.
+struct UniformCoulomb {
+    coefficient: f64,
+}
+
+impl CellRule<1, 2, 0> for UniformCoulomb {
+    #[inline(always)]
+    fn at<R: Reals>(&self, [pressure]: [R; 1], [bound, slope]: &mut [R; 2]) -> [R; 0] {
+        *slope = pressure.all(self.coefficient);
+        *bound = *slope * pressure;
+        []
     }
 }
 
@@ -255,9 +283,13 @@ mod tests {
     /// `min(mu p, tau)`, its slope mu below the strength and 0 above it; without a strength `mu p` throughout.
     #[test]
     fn the_bound_follows_the_pressure_up_to_the_shear_strength() {
-        let coulomb = FrictionLaw { coefficient: vec![0.5; 3], max_shear: Vec::new() };
-        let FrictionBound { bound, slope } = coulomb.bound(&[0.0, 2.0, 100.0]);
-        assert_eq!((bound, slope), (vec![0.0, 1.0, 50.0], vec![0.5; 3]));
+        let coulomb = FrictionLaw { coefficient: vec![0.5; 3], ..FrictionLaw::default() };
+        let uniform = FrictionLaw { uniform: Some(0.5), ..FrictionLaw::default() };
+        for law in [&coulomb, &uniform] {
+            let FrictionBound { bound, slope } = law.bound(&[0.0, 2.0, 100.0]);
+            assert_eq!((bound, slope), (vec![0.0, 1.0, 50.0], vec![0.5; 3]));
+            assert_eq!(law.at(2, 4.0), (2.0, 0.5));
+        }
         let capped = FrictionLaw { max_shear: vec![3.0, 3.0, 0.0], ..coulomb };
         let mut found = FrictionBound { bound: vec![9.0; 5], slope: vec![9.0] };
         capped.find_bound(&[4.0, 8.0, 8.0], &mut found);

@@ -1,54 +1,60 @@
 //! GMRES (Saad & Schultz 1986): the combination of Krylov directions whose residual is least. Orthogonalisation by
 //! modified Gram-Schmidt; sums in double precision whatever the vectors are.
 
+use std::iter;
+
 use super::super::contact_vector::ContactVector;
 use crate::fields::{Number, add_scaled, dot};
 
 /// Memory of the method: it is used again.
 #[derive(Debug, Default)]
 pub struct Gmres<N> {
+    /// The right side, of unit length: the first direction.
+    right: ContactVector<N>,
+    /// The directions after it.
     basis: Vec<ContactVector<N>>,
 }
 
 impl<N: Number> Gmres<N> {
-    /// Finds `combination` so that `apply(combination)` is near `right`, a vector of unit length: to `target`, in `most` applications at
-    /// the most.
+    /// The right side, for the caller to fill with a vector of unit length.
+    pub fn right(&mut self) -> &mut ContactVector<N> {
+        &mut self.right
+    }
+
+    /// Finds `combination` so that `apply(combination)` is near the right side: to `target`, in `most` applications at the most.
     pub fn solve(
         &mut self,
-        right: &ContactVector<N>,
         mut apply: impl FnMut(&ContactVector<N>, &mut ContactVector<N>),
         (target, most): (f64, usize),
         combination: &mut ContactVector<N>,
     ) {
-        self.basis.resize_with(self.basis.len().max(1), ContactVector::default);
-        self.basis[0].convert(right, 1.0);
+        let Self { right, basis } = self;
         // Columns of the upper triangle, rotations that made it one, and the rotated right side.
         let mut columns: Vec<Vec<f64>> = Vec::new();
         let mut rotations: Vec<[f64; 2]> = Vec::new();
         let mut rotated = vec![1.0];
         while columns.len() < most {
-            let used = columns.len() + 1;
-            self.basis.resize_with(self.basis.len().max(used + 1), ContactVector::default);
-            let (known, rest) = self.basis.split_at_mut(used);
-            let (Some(newest), Some(next)) = (known.last(), rest.first_mut()) else { break };
-            apply(newest, next);
+            let used = columns.len();
+            basis.resize_with(basis.len().max(used + 1), ContactVector::default);
+            let (known, rest) = basis.split_at_mut(used);
+            let Some(next) = rest.first_mut() else { break };
+            apply(known.last().unwrap_or(right), next);
             let size_before = next.norm();
-            let mut column = orthogonalise(next, known);
+            let mut column = orthogonalise(next, iter::once(&*right).chain(&*known));
             let size = next.norm();
             for (index, [cosine, sine]) in rotations.iter().enumerate() {
                 let [upper, lower] = [column[index], column[index + 1]];
                 column[index] = cosine * upper + sine * lower;
                 column[index + 1] = cosine * lower - sine * upper;
             }
-            let last = used - 1;
-            let length = column[last].hypot(size);
+            let length = column[used].hypot(size);
             if !(length > 0.0 && length.is_finite()) {
                 break;
             }
-            let [cosine, sine] = [column[last] / length, size / length];
-            column[last] = length;
-            let left = rotated[last];
-            rotated[last] = cosine * left;
+            let [cosine, sine] = [column[used] / length, size / length];
+            column[used] = length;
+            let left = rotated[used];
+            rotated[used] = cosine * left;
             rotated.push(-sine * left);
             rotations.push([cosine, sine]);
             columns.push(column);
@@ -60,16 +66,18 @@ impl<N: Number> Gmres<N> {
         }
         let amounts = back_substituted(&columns, &rotated);
         combination.clear_like(right);
-        for (amount, direction) in amounts.iter().zip(&self.basis) {
+        for (amount, direction) in amounts.iter().zip(iter::once(&*right).chain(&*basis)) {
             add_scaled(combination.values_mut(), *amount, direction.values());
         }
     }
 }
 
 /// Takes the parts along the known directions off a vector, one after the other; returns them.
-fn orthogonalise<N: Number>(vector: &mut ContactVector<N>, known: &[ContactVector<N>]) -> Vec<f64> {
+fn orthogonalise<'a, N: Number>(
+    vector: &mut ContactVector<N>,
+    known: impl Iterator<Item = &'a ContactVector<N>>,
+) -> Vec<f64> {
     known
-        .iter()
         .map(|direction| {
             let part = dot(vector.values(), direction.values());
             add_scaled(vector.values_mut(), -part, direction.values());
@@ -92,6 +100,13 @@ fn back_substituted(columns: &[Vec<f64>], right: &[f64]) -> Vec<f64> {
 mod tests {
     use super::*;
     use crate::random::Random;
+
+    /// A solver of this right side.
+    fn solver(right: &ContactVector<f64>) -> Gmres<f64> {
+        let mut solver = Gmres::default();
+        solver.right().clone_from(right);
+        solver
+    }
 
     /// A matrix that is neither symmetric nor definite, on 6 unknowns: solved in 6 applications, to rounding; and in fewer as far as is
     /// possible, the residual never growing.
@@ -119,7 +134,7 @@ mod tests {
             let mut found = ContactVector::default();
             let apply =
                 |from: &ContactVector<f64>, to: &mut ContactVector<f64>| *to = vector(product(from.values()));
-            Gmres::default().solve(&unit, apply, (0.0, most), &mut found);
+            solver(&unit).solve(apply, (0.0, most), &mut found);
             let image = product(found.values());
             let left: f64 = image.iter().zip(unit.values()).map(|(a, b)| (a - b).powi(2)).sum::<f64>().sqrt();
             assert!(left <= before * (1.0 + 1e-12), "{most}: {left} {before}");
@@ -178,14 +193,14 @@ mod tests {
             let removed: f64 = images.iter().map(|image| dot(image, &right).powi(2)).sum();
             least.push((1.0 - removed).max(0.0).sqrt());
         }
-        let mut solver = Gmres::default();
+        let mut solver = solver(&vector(&right));
         let mut solve = |target: f64, most: usize| {
             let (mut found, mut count) = (ContactVector::default(), 0);
             let apply = |from: &ContactVector<f64>, to: &mut ContactVector<f64>| {
                 count += 1;
                 *to = vector(&product(from.values()));
             };
-            solver.solve(&vector(&right), apply, (target, most), &mut found);
+            solver.solve(apply, (target, most), &mut found);
             let image = product(found.values());
             let left: f64 = image.iter().zip(&right).map(|(a, b)| (a - b).powi(2)).sum::<f64>().sqrt();
             (left, count)
@@ -213,7 +228,7 @@ mod tests {
             to.clone_from(from);
             to.scale(-4.0);
         };
-        Gmres::default().solve(&right, apply, (0.0, 10), &mut found);
+        solver(&right).solve(apply, (0.0, 10), &mut found);
         assert_eq!((count, found.values()), (1, &[0.0, 0.0, 0.0, 0.0, -0.25, 0.0][..]));
         // What rounding leaves of a direction is nothing new, in any unit: parts that are no powers of two, times a number that is none.
         let parts = [0.1, 0.3, -0.7, 0.9, 0.2, -0.6];
@@ -226,19 +241,14 @@ mod tests {
                 to.clone_from(from);
                 to.scale(unit);
             };
-            Gmres::default().solve(&right, apply, (0.0, 10), &mut found);
+            solver(&right).solve(apply, (0.0, 10), &mut found);
             assert_eq!(count, 1, "{unit:e}");
             for (found, part) in found.values().iter().zip(right.values()) {
                 assert!((found * unit - part).abs() < 1e-15, "{unit:e}: {found} {part}");
             }
         }
         // An operator that makes nothing of it leaves nothing to combine.
-        Gmres::default().solve(
-            &right,
-            |from, to: &mut ContactVector<f64>| to.clear_like(from),
-            (0.0, 10),
-            &mut found,
-        );
+        solver(&right).solve(|from, to| to.clear_like(from), (0.0, 10), &mut found);
         assert_eq!(found.values(), [0.0; 6]);
     }
 }

@@ -19,18 +19,36 @@ pub fn unit_of(size: f64) -> f64 {
     if size > 0.0 && size.is_finite() { size.log2().floor().exp2() } else { 1.0 }
 }
 
-/// Fields of the region that inverses work on.
+/// Fields of the region that operators and their inverses work on, in either precision.
 #[derive(Default)]
-pub struct InverseFields {
+pub struct FieldsOfRegion {
     double: RegionFields<f64>,
     single: RegionFields<f32>,
 }
 
-impl InverseFields {
+impl FieldsOfRegion {
     /// Makes ready for a contact in a region of so many cells.
     pub fn begin(&mut self, contact: &ContactSet, cells: usize) {
         self.double.begin(contact, cells);
         self.single.begin(contact, cells);
+    }
+}
+
+/// A precision of linear problems.
+pub trait Precision: Number {
+    /// The fields in this precision.
+    fn fields(of_region: &mut FieldsOfRegion) -> &mut RegionFields<Self>;
+}
+
+impl Precision for f64 {
+    fn fields(of_region: &mut FieldsOfRegion) -> &mut RegionFields<Self> {
+        &mut of_region.double
+    }
+}
+
+impl Precision for f32 {
+    fn fields(of_region: &mut FieldsOfRegion) -> &mut RegionFields<Self> {
+        &mut of_region.single
     }
 }
 
@@ -50,7 +68,7 @@ impl Inverse {
         right: &[&[N]],
         left: &mut [&mut [N]],
         factor: f64,
-        (fields, workspace): (&mut InverseFields, &SharedWorkspace),
+        (fields, workspace): (&mut FieldsOfRegion, &SharedWorkspace),
     ) {
         match self {
             Self::Double(product) => {
@@ -75,7 +93,7 @@ impl Inverse {
         &self,
         right: &[f64],
         left: &mut [f64],
-        (fields, workspace): (&mut InverseFields, &SharedWorkspace),
+        (fields, workspace): (&mut FieldsOfRegion, &SharedWorkspace),
     ) {
         match self {
             Self::Double(product) => workspace.lend(|work| product.apply(work, &[right], &mut [left])),

@@ -5,11 +5,12 @@
 use ndarray::{Array2, s};
 
 use super::super::contact_set::ContactSet;
-use super::inverse::{Inverse, InverseFields};
+use super::super::region_fields::RegionFields;
+use super::inverse::{FieldsOfRegion, Inverse, Precision};
 use crate::compliance::{
     NORMAL_BLOCKS, OperatorSet, SharedWorkspace, SurfaceResponse, TANGENTIAL_BLOCKS, mirrors,
 };
-use crate::fields::{CellRule, Number, Reals, clear, each_cell};
+use crate::fields::{CellRule, Number, Reals, clear, each_cell, reset};
 use crate::kernel::ResponseTable;
 use fret_fft::{Block, ConvolutionError, Kernel, Parity, PeriodicProduct, Symbol};
 
@@ -25,7 +26,7 @@ pub struct Preconditioner {
     softest: f64,
     /// The one axis along which shear acts.
     shear_axis: Option<usize>,
-    fields: InverseFields,
+    fields: FieldsOfRegion,
     workspace: SharedWorkspace,
     cells: usize,
     stiff: bool,
@@ -43,7 +44,7 @@ pub struct SlipWeights<N> {
     slip: Vec<N>,
     /// Unit of displacements over that of tractions [length/pressure].
     compliance: f64,
-    weighted: [Vec<N>; 2],
+    /// What the elastic inverse makes of a displacement.
     part: [Vec<N>; 2],
 }
 
@@ -124,7 +125,7 @@ impl Preconditioner {
             softest,
             shear_axis,
             stiff: waves.is_some_and(|waves| waves.are_stiff(shape)),
-            fields: InverseFields::default(),
+            fields: FieldsOfRegion::default(),
             workspace: SharedWorkspace::default(),
             cells: part[0] * part[1],
             passes: 0,
@@ -157,15 +158,21 @@ impl Preconditioner {
         compliance: f64,
         weights: &mut SlipWeights<N>,
     ) {
-        let SlipWeights { elastic, slip, weighted, part, .. } = weights;
-        let [weighted_x, weighted_y] = weighted;
-        let [part_x, part_y] = part;
-        for field in [&mut *elastic, &mut *slip, weighted_x, weighted_y, part_x, part_y] {
-            clear(field, slip_compliance.len()); // where shear acts along one axis nobody writes the other component
-        }
+        let SlipWeights { elastic, slip, part: [part_x, part_y], .. } = weights;
+        let cells = slip_compliance.len();
+        reset(elastic, cells);
+        reset(slip, cells);
+        // Where shear acts along one axis nobody writes the other component.
+        clear(part_x, cells);
+        clear(part_y, cells);
         each_cell(&Weights { softest: self.softest / compliance }, [slip_compliance], [elastic, slip]);
         weights.compliance = compliance;
         self.fields.begin(contact, self.cells);
+    }
+
+    /// Fields of the region for an operator, ready for the contact prepared last.
+    pub fn fields<N: Precision>(&mut self) -> &mut RegionFields<N> {
+        N::fields(&mut self.fields)
     }
 
     /// Pressures that would remove normal displacements `right`, packed over the contact prepared last.
@@ -179,17 +186,17 @@ impl Preconditioner {
     /// over the contact prepared last.
     pub fn shear<N: Number>(&mut self, right: [&[N]; 2], shear: [&mut [N]; 2], weights: &mut SlipWeights<N>) {
         let Self { shear: Some(inverse), shear_axis, fields, workspace, .. } = self else { return };
-        let SlipWeights { elastic, slip, compliance, weighted, part } = weights;
-        let [weighted_x, weighted_y] = &mut *weighted;
-        each_cell(&Weighted, [right[0], right[1], elastic], [weighted_x, weighted_y]);
+        let SlipWeights { elastic, slip, compliance, part } = weights;
+        let [x, y] = shear;
+        each_cell(&Weighted, [right[0], right[1], elastic], [&mut *x, &mut *y]);
         self.passes += 1;
         // Where shear acts along one axis the other component stays zero.
         let axes = shear_axis.map_or(0..2, |axis| axis..axis + 1);
-        let from = weighted.each_ref().map(Vec::as_slice);
+        let from = [&*x, &*y];
         let mut to = part.each_mut().map(Vec::as_mut_slice);
         inverse.apply(&from[axes.clone()], &mut to[axes], *compliance, (fields, workspace));
         let [part_x, part_y] = part;
-        each_cell(&Sum, [part_x, part_y, right[0], right[1], elastic, slip], shear);
+        each_cell(&Sum, [part_x, part_y, right[0], right[1], elastic, slip], [x, y]);
     }
 }
 

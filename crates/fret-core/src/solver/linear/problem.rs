@@ -6,6 +6,7 @@ use super::super::contact_set::ContactSet;
 use super::super::contact_vector::ContactVector;
 use super::super::laws::active_sets::ActiveSets;
 use super::super::laws::rigid_motions::RigidMotions;
+use super::inverse::Precision;
 use super::preconditioner::{Preconditioner, SlipWeights};
 use super::rigid_projector::{RigidProjector, SetFields, free_part, products, rigid};
 use crate::fields::{CellRule, Number, Reals, add_scaled, convert, each_cell, lower, reset, sum};
@@ -164,6 +165,21 @@ impl<'a, N: Number> LinearProblem<'a, N> {
         let resultant = each_cell(&FreeAndFollow, read, [&mut *x, &mut *y]);
         let amounts = self.tractions.amounts(resultant);
         each_cell(&Follow(amounts), read, [x, y, turning]);
+    }
+
+    /// Carries packed `tractions` through the `operator` of the region: their displacements on the contact.
+    pub fn displace(
+        &mut self,
+        tractions: &ContactVector<N>,
+        displacements: &mut ContactVector<N>,
+        operator: impl FnOnce(&[&[N]], &mut [&mut [N]]),
+    ) where
+        N: Precision,
+    {
+        displacements.reset_like(tractions);
+        let packed: Vec<&[N]> = tractions.fields().collect();
+        let mut results: Vec<&mut [N]> = displacements.fields_mut().collect();
+        self.preconditioner.fields().carry(&packed, &mut results, [1.0; 2], operator);
     }
 
     /// Makes of the displacements of the tractions preconditioned last the left side of the equations.

@@ -3,8 +3,8 @@
 //! the next evaluation of the nonlinear residual).
 
 use super::super::contact_vector::ContactVector;
-use super::super::region_fields::RegionFields;
 use super::gmres::Gmres;
+use super::inverse::Precision;
 use super::preconditioner::Preconditioner;
 use super::problem::{LinearProblem, LinearSets, LinearWorkspace, Linearised, right_side};
 use crate::compliance::SurfaceCompliance;
@@ -18,7 +18,6 @@ const MOST_STEPS: usize = 30;
 /// Solver of linearised problems, with its memory.
 #[derive(Debug, Default)]
 pub struct LinearSolver {
-    right: ContactVector<f64>,
     double: Krylov<f64>,
     single: Krylov<f32>,
     /// Nothing is left to chance any more: everything in double precision.
@@ -47,15 +46,14 @@ impl LinearSolver {
         preconditioner: &mut Preconditioner,
         step: &mut ContactVector<f64>,
     ) {
-        let Self { right, double, single, double_only } = self;
-        right_side(problem, right);
-        let size = right.norm();
+        let Self { double, single, double_only } = self;
+        right_side(problem, step);
+        let size = step.norm();
         if !(size > 0.0) {
-            return step.clear_like(right);
+            return step.values_mut().fill(0.0);
         }
         let coupled = !problem.gap.is_empty();
         let forcing = problem.forcing.max(problem.floor / size);
-        let [nx, ny] = compliance.shape();
         let operator = if *double_only {
             None
         } else if coupled {
@@ -67,16 +65,18 @@ impl LinearSolver {
             let unit = operator.unit();
             let apply = |q: &[&[f32]], u: &mut [&mut [f32]]| operator.apply(q, u);
             let forcing = forcing.max(SINGLE);
-            single.solve(problem, (right, size), (unit, forcing), nx * ny, apply, preconditioner);
-            step.convert(&single.step, size / unit);
+            single.gmres.right().convert(step, 1.0 / size);
+            single.solve(problem, (unit, forcing), apply, preconditioner);
+            step.convert(&single.tractions, size / unit);
         } else {
             let apply = |q: &[&[f64]], u: &mut [&mut [f64]]| match (q, u) {
                 ([p, qx, qy], [uz, ux, uy]) => compliance.full([p, qx, qy], [uz, ux, uy]),
                 ([qx, qy], [ux, uy]) => compliance.tangential([qx, qy], [ux, uy]),
                 _ => {}
             };
-            double.solve(problem, (right, size), (1.0, forcing), nx * ny, apply, preconditioner);
-            step.convert(&double.step, size);
+            double.gmres.right().convert(step, 1.0 / size);
+            double.solve(problem, (1.0, forcing), apply, preconditioner);
+            step.convert(&double.tractions, size);
         }
     }
 }
@@ -98,39 +98,30 @@ struct Krylov<N> {
     gmres: Gmres<N>,
     sets: LinearSets<N>,
     workspace: LinearWorkspace<N>,
-    fields: RegionFields<N>,
-    right: ContactVector<N>,
     combination: ContactVector<N>,
+    /// Of the newest direction; at the end the step for a right side of length one, in units of the problem.
     tractions: ContactVector<N>,
-    /// The step for a right side of length one, in units of the problem.
-    step: ContactVector<N>,
 }
 
-impl<N: Number> Krylov<N> {
+impl<N: Precision> Krylov<N> {
+    /// Finds the tractions of the problem whose right side the method holds.
     fn solve(
         &mut self,
         problem: &Linearised<'_>,
-        (right, size): (&ContactVector<f64>, f64),
         (unit, forcing): (f64, f64),
-        cells: usize,
         mut operator: impl FnMut(&[&[N]], &mut [&mut [N]]),
         preconditioner: &mut Preconditioner,
     ) {
-        let Self { gmres, sets, workspace, fields, right: unit_right, combination, tractions, step } = self;
-        unit_right.convert(right, 1.0 / size);
+        let Self { gmres, sets, workspace, combination, tractions } = self;
         sets.take(problem, unit);
-        fields.begin(problem.contact, cells);
         let mut linear = LinearProblem::new(problem, sets, unit, preconditioner, workspace);
         let apply = |from: &ContactVector<N>, to: &mut ContactVector<N>| {
             linear.precondition(from, tractions);
-            to.reset_like(tractions);
-            let packed: Vec<&[N]> = tractions.fields().collect();
-            let mut results: Vec<&mut [N]> = to.fields_mut().collect();
-            fields.carry(&packed, &mut results, [1.0; 2], &mut operator);
+            linear.displace(tractions, to, &mut operator);
             give_way(problem.give.map(|give| give / unit), tractions, to);
             linear.complete(to);
         };
-        gmres.solve(unit_right, apply, (forcing, MOST_STEPS), combination);
-        linear.precondition(combination, step);
+        gmres.solve(apply, (forcing, MOST_STEPS), combination);
+        linear.precondition(combination, tractions);
     }
 }
