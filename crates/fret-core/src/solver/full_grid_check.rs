@@ -39,7 +39,7 @@ impl ContactSolver<'_> {
                     symmetry: self.symmetry,
                     ..OperatorSet::default()
                 };
-                let operator = SpectralCompliance::new(&self.response, cells, operators)?;
+                let operator = SpectralCompliance::new(self.response.get(), cells, operators)?;
                 none.insert(operator.working_in(&self.workspace))
             }
         };

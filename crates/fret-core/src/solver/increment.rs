@@ -118,7 +118,7 @@ impl ContactSolver<'_> {
         let last = self.memory.last.as_ref().filter(|last| last.region == increment.region);
         let keeps_pressure = self.whose_pressure_is_kept(increment.region, increment.load).is_some();
         let last = last.map(|last| &last.displacements);
-        let cells = || Ok(CellResponse::new(&self.response, self.grid.cells(), self.symmetry)?);
+        let cells = || Ok(CellResponse::new(self.response.get(), self.grid.cells(), self.symmetry)?);
         let method = Method { settings: &self.settings, cells: &cells };
         match self.coupling {
             Coupling::Coupled => coupled::solve(increment, tractions, last, operators, &method, callback),
@@ -213,6 +213,7 @@ impl ContactSolver<'_> {
             && operators.region.shape == region.shape
         {
             operators.region = region;
+            self.response.give_back();
             return Ok(operators);
         }
         let waves = self.table.as_ref().map(|table| CellWaves { table, spacing: self.grid.spacing() });
@@ -230,7 +231,7 @@ impl ContactSolver<'_> {
             symmetry: self.symmetry,
             single: self.settings.single_precision,
         };
-        Ok(RegionOperators::new(&self.response, waves, region, operators, &self.workspace)?)
+        Ok(RegionOperators::new(self.response.get(), waves, region, operators, &self.workspace)?)
     }
 
     /// A pressure from coarser grids: for a first contact, and where the normal load changes much.
@@ -265,7 +266,7 @@ impl ContactSolver<'_> {
         let normal = NormalLoad::new(state, load, Rig::RIGID, self.grid.cell_area());
         let spacing = self.grid.spacing();
         let grids = self.coarse.get_or_insert_with(|| {
-            CoarseGrids::below(&self.response, &self.undeformed, spacing, self.symmetry)
+            CoarseGrids::below(self.response.get(), &self.undeformed, spacing, self.symmetry)
         });
         grids.pressure_above(normal, self.table.as_ref(), &self.settings, &mut self.work, callback)
     }

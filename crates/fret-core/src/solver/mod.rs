@@ -15,6 +15,7 @@ mod exact_newton;
 mod few_cells;
 mod full_grid_check;
 mod globalisation;
+mod held_response;
 mod increment;
 mod increment_problem;
 mod iterate;
@@ -54,6 +55,8 @@ pub(crate) use outcome::worst;
 pub use outcome::{Increment, Outcome, Regime, Residual, Resultants, Work};
 pub use settings::{Coupling, IterationCallback, SolveError, SolverSettings};
 
+use held_response::HeldResponse;
+pub use held_response::ResponseMaker;
 use normal::coarse_grids::CoarseGrids;
 use operators::RegionOperators;
 
@@ -63,7 +66,7 @@ pub struct ContactSolver<'a> {
     undeformed: Array2<f64>,
     friction: Cow<'a, CoulombFriction>,
     coupling: Coupling,
-    response: SurfaceResponse,
+    response: HeldResponse<'a>,
     settings: SolverSettings,
     operators: Option<RegionOperators>,
     /// Normal displacement of the whole grid, to check what lies outside the region; none while the region is the grid.
@@ -108,7 +111,7 @@ impl<'a> ContactSolver<'a> {
             undeformed,
             friction: Cow::Borrowed(friction),
             coupling,
-            response,
+            response: HeldResponse::Kept(response),
             settings,
             operators: None,
             full_grid: None,
@@ -145,6 +148,13 @@ impl<'a> ContactSolver<'a> {
     #[must_use]
     pub fn with_response_table(self, table: ResponseTable) -> Self {
         Self { table: Some(table), ..self }
+    }
+
+    /// The same solver, which gives the memory of the response back while no operators have to be made of it, and has it made again with the
+    /// same bits: for large grids.
+    #[must_use]
+    pub fn with_response_made_by(self, make: ResponseMaker<'a>) -> Self {
+        Self { response: self.response.made_again_by(make), ..self }
     }
 
     /// The same solver for a contact whose shear acts along one axis (0: x, 1: y) alone: nothing loads the other, and the bodies
@@ -210,7 +220,7 @@ impl<'a> ContactSolver<'a> {
     /// Goes on with bodies that respond otherwise; `table`: their frequency response, where it is used. As with another gap, the displacements
     /// known so far hold no longer.
     pub fn set_response(&mut self, response: SurfaceResponse, table: Option<ResponseTable>) {
-        self.response = response;
+        self.response = HeldResponse::Kept(response);
         self.table = table;
         self.operators = None;
         self.full_grid = None;
