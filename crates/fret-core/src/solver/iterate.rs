@@ -160,7 +160,7 @@ impl<'a> Iterate<'a> {
             Pressure::Unknown => (largest(pressure), self_influence[0]),
             Pressure::Given => (largest(&bound.bound), self_influence[1]),
         };
-        let mut left_over = self.slip.left_over(&self.sets);
+        let left_over = self.slip.left_over(&self.sets);
         let loads = problem.tangential;
         if loads.any_spring() {
             // The displacement of the spring follows from the shear as it is, not from what the law makes of it.

@@ -104,8 +104,11 @@ impl SlipIncrement {
 
     /// What a step is to remove [length]: the slip of cells that stick; of those that slip the part across the shear of the slip at the end, as
     /// a vector whose part across the row of the cell it is.
-    pub fn left_over(&self, sets: &ActiveSets) -> TangentialField {
-        let mut left = self.slip.clone();
+    /// It lies where the trial vectors were, which are found anew with the next slip.
+    pub fn left_over(&mut self, sets: &ActiveSets) -> &mut TangentialField {
+        let left = &mut self.trial;
+        left.x.clone_from(&self.slip.x);
+        left.y.clone_from(&self.slip.y);
         if let Some([row_x, row_y]) = sets.turned() {
             let ([end_x, end_y], [along_x, along_y]) = (self.at_end.parts(), sets.direction.parts());
             let read = [&sets.slip, end_x, end_y, along_x, along_y, row_x, row_y];
