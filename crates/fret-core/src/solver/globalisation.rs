@@ -31,8 +31,10 @@ impl ForcingTerm {
     const ENOUGH: f64 = 0.8;
     /// An iteration does not pay when it leaves more than this of the residual.
     const NO_GAIN: f64 = 0.9;
-    /// After so many iterations without progress linear problems are to be solved in double precision.
+    /// After so many iterations without progress linear problems are to be solved in double precision,
     const MAX_STALLED: i32 = 3;
+    /// unless the residual is larger than this: then the active sets are what stands in the way.
+    const FAR: f64 = 0.1;
 
     /// The forcing term after a residual.
     pub fn next(&mut self, residual: f64, tolerance: f64) -> f64 {
@@ -49,7 +51,7 @@ impl ForcingTerm {
 
     /// Whether single precision may be what stands in the way.
     pub fn wants_double_precision(&self) -> bool {
-        self.stalled >= Self::MAX_STALLED
+        self.stalled >= Self::MAX_STALLED && self.last < Self::FAR
     }
 }
 
@@ -103,6 +105,12 @@ mod tests {
         forcing.next(5e-8, 1e-8);
         forcing.next(4e-8, 1e-8);
         assert_eq!((forcing.best, forcing.without_gain), (4e-8, 2));
+        // Far from the solution a stall says nothing of precision.
+        let mut far = ForcingTerm::default();
+        for _ in 0..6 {
+            far.next(0.5, 1e-8);
+            assert!(!far.wants_double_precision());
+        }
     }
 
     #[test]
