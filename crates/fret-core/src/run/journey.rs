@@ -79,7 +79,7 @@ impl<'a> Journey<'a> {
     /// The history that ends here.
     fn ended(self) -> History {
         let Self { plan, solver, surfaces, state, records, gauge, place, .. } = self;
-        drop(solver); // its memory is what the whole state takes
+        drop(solver); // room for the whole state
         let Surfaces { wearing, evolving, .. } = &surfaces;
         let collected =
             (wearing.as_ref().map(Wearing::collected), evolving.as_ref().map(Evolving::collected));
