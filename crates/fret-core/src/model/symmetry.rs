@@ -78,7 +78,9 @@ impl Symmetry {
     pub fn part<T: Clone>(&self, field: &Array2<T>) -> Array2<T> {
         let (nx, ny) = field.dim();
         let [mx, my] = self.part_of([nx, ny]);
-        field.slice(s![nx - mx.., ny - my..]).as_standard_layout().into_owned()
+        let (_, rows) = field.view().split_at(Axis(0), nx - mx);
+        let (_, part) = rows.split_at(Axis(1), ny - my);
+        part.as_standard_layout().into_owned()
     }
 
     /// The whole of a field that goes on behind the mirrors, with the other sign along axes where it is odd.
