@@ -89,6 +89,53 @@ fn leaving_out_changes_the_work_and_not_the_answer() {
     }
 }
 
+/// The numbers of surfaces that wear and whose friction evolves are those of the whole contact, with and without mirrors: a half is
+/// solved of a coated pair, a quarter of two alike bodies.
+#[test]
+fn a_mirror_changes_no_number_of_surfaces_that_change() {
+    let body = "substrate = { young = 1.0, poisson = 0.3 }";
+    for (lower, copies) in [("coatings = [{ thickness = 0.3, young = 3.0, poisson = 0.25 }]\n", 2), ("", 4)] {
+        let text = format!(
+            "[grid]\ncells = [32, 32]\nsize = [3.0, 3.0]\n[upper]\n{body}\n[lower]\n{lower}{body}\n\
+             [profile.sphere]\nradius = 1.0\n[solver]\ntolerance = {TOLERANCE}\n[friction]\ncoefficient = 0.3\n\
+             evolution = {{ by = \"energy\", last = 0.5, scale = 1e-3, every = 3, tolerance = 0.05 }}\n\
+             [wear]\ncoefficient = 0.05\nevery = 3\n\
+             [[load]]\nnormal_force = 0.5\nincrements = 4\n\
+             [[load]]\ntangential_force = [0.1, 0.0]\nincrements = 8\ncycles = 6\n"
+        );
+        let [short, full] = [LeaveOut::ALL, LeaveOut::all_but(Simplification::Mirror)].map(|leave_out| {
+            let plan = Plan::leaving_out(Case::from_toml(&text, "case.toml").unwrap(), leave_out).unwrap();
+            (plan.symmetry.copies(), solved(&text, leave_out).history)
+        });
+        assert_eq!((short.0, full.0), (copies, 1));
+        let (short, full) = (short.1, full.1);
+        let off = difference(&short, &full);
+        assert!(off < AGREES, "{copies}: {off:e}");
+        let near = |name: &str, one: f64, other: f64| {
+            assert!((one - other).abs() <= 1e-6 * other.abs(), "{copies}: {name} {one:e} {other:e}");
+        };
+        assert!(full.cycles.iter().any(|cycle| cycle.stands_for > 1 && cycle.friction_change > Some(0.0)));
+        for (one, other) in short.steps.iter().zip(&full.steps) {
+            assert_eq!(one.footprint, other.footprint);
+            assert_eq!([one.contact_cells, one.stick_cells], [other.contact_cells, other.stick_cells]);
+            near("normal force", one.normal_force, other.normal_force);
+            near("dissipated energy", one.dissipated_energy, other.dissipated_energy);
+            near("worn volume", one.worn_volume, other.worn_volume);
+            near("worn depth", one.max_worn_depth, other.max_worn_depth);
+            near("friction", one.friction_coefficient, other.friction_coefficient);
+        }
+        for (one, other) in short.cycles.iter().zip(&full.cycles) {
+            assert_eq!(one.stands_for, other.stands_for);
+            assert!(
+                (one.closure - other.closure).abs() < 1e-6,
+                "{copies}: {} {}",
+                one.closure,
+                other.closure
+            );
+        }
+    }
+}
+
 /// Best times of the coefficients of pressure of a plain body: as what it is, and through its layers.
 fn seconds_of_coefficients(bodies: &ContactPair) -> [f64; 2] {
     let (cells, spacing, wanted) = ([64, 64], [0.1, 0.1], Components::NORMAL);

@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 
 use fret_core::case::Case;
 use fret_core::history::{History, Start, StepRecord};
-use fret_core::plan::Plan;
+use fret_core::plan::{LeaveOut, Plan, Simplification};
 use fret_core::run::{Checkpoint, CheckpointError, Observer, RunError, Silent, Simulation, Waypoint};
 
 /// Pressed with 1 N: contact radius 32e-6, approach 0.1e-6.
@@ -78,6 +78,17 @@ fn plan(text: &str) -> Plan {
 
 fn coated() -> String {
     HEAD.replace("[lower]\n", "[lower]\ncoatings = [{ thickness = 20e-6, young = 400e9, poisson = 0.25 }]\n")
+}
+
+/// Pulled along x alone, on a coating or between two alike bodies: a half and a quarter of the grid are solved.
+fn mirrored(loads: &str) -> [(String, usize); 2] {
+    let alike = HEAD.replace("rigid = true", "substrate = { young = 210e9, poisson = 0.3 }");
+    [(coated(), 2), (alike, 4)].map(|(head, copies)| {
+        let head = head.replace("[16, 14]", "[16, 16]").replace("140e-6", "160e-6");
+        let text = head + &loads.replace("0.1, 0.05]", "0.1, 0.0]").replace("30e-9, 20e-9]", "30e-9, 0.0]");
+        assert_eq!(plan(&text).symmetry.copies(), copies);
+        (text, copies)
+    })
 }
 
 /// Keeps the bytes of every waypoint.
@@ -213,10 +224,42 @@ fn with_increments_divided_by_the_program() {
 
 #[test]
 fn with_surfaces_that_are_worn_through() {
-    let whole = taken_up_anywhere(&(HEAD.to_owned() + WORN + "limit = 1e-9\n"));
-    let worn = whole.worn_through.unwrap();
-    assert_eq!((worn.stage, worn.increment + 1), (1, whole.steps.len()));
-    assert!(worn.cycles < 14, "{worn:?}");
+    let thin = WORN.to_owned() + "limit = 0.3e-9\n";
+    let [(half, _), (quarter, _)] = mirrored(&thin);
+    for text in [HEAD.to_owned() + &thin, half, quarter] {
+        let whole = taken_up_anywhere(&text);
+        let worn = whole.worn_through.unwrap();
+        assert_eq!((worn.stage, worn.increment + 1), (1, whole.steps.len()));
+        assert!(worn.cycles < 14, "{worn:?}");
+        let depth = whole.state.worn_depth.as_ref().unwrap();
+        assert_eq!(depth.iter().copied().fold(0.0, f64::max), depth[worn.cell]);
+        assert_eq!(worn.place, [0, 1].map(|axis| whole.grid.centre(axis, worn.cell[axis])));
+    }
+}
+
+/// In front of mirrors, with wear and friction that evolves. What is told of the contact is whole: its fields are their own mirror images,
+/// and those that are kept at the end are those of the last state.
+#[test]
+fn with_surfaces_that_change_in_front_of_mirrors() {
+    let evolution = "coefficient = 0.2\nevolution = { by = \"energy\", last = 0.6, scale = 5.0, every = 3, tolerance = 0.2 }";
+    for (text, copies) in mirrored(WORN) {
+        let whole = taken_up_anywhere(&text.replace("coefficient = 0.2", evolution));
+        let symmetry = plan(&text).symmetry;
+        assert!(symmetry.keeps_state(&whole.state), "{copies} parts");
+        assert!(whole.state.is_sound([16, 16]) && whole.end.state.worn_depth == whole.state.worn_depth);
+        let last = whole.fields.last().unwrap();
+        for name in ["pressure", "shear_x", "shear_y", "slip_x", "slip_y"] {
+            assert_eq!(last.field(name), whole.state.field(name), "{name}");
+        }
+        assert_eq!(last.zone.as_ref(), Some(&whole.state.zone));
+        assert_eq!(last.worn_depth, whole.state.worn_depth);
+        assert_eq!(last.gap.as_ref().unwrap().dim(), (16, 16));
+        let (step, area) = (whole.steps.last().unwrap(), whole.grid.cell_area());
+        let volume = last.worn_depth.as_ref().unwrap().sum() * area;
+        assert!((step.worn_volume / volume - 1.0).abs() < 1e-12, "{} {volume}", step.worn_volume);
+        let force = last.pressure.as_ref().unwrap().sum() * area;
+        assert!((step.normal_force / force - 1.0).abs() < 1e-12, "{} {force}", step.normal_force);
+    }
 }
 
 /// Stops a run after so many increments.
@@ -232,10 +275,15 @@ impl Observer for Stopper {
 /// so far is not yet taken off the surfaces of the run itself but is of the state that another history starts from.
 #[test]
 fn a_state_within_a_cycle_has_what_that_cycle_wore_so_far() {
-    let text = (HEAD.to_owned() + WORN).replace("every = 3", "every = 1").replace("every = 4", "every = 1");
-    let text = text.replace("cycles = 14", "cycles = 2");
-    let plan = plan(&text);
-    let whole = Simulation::new(&plan).run(&mut Silent).unwrap();
+    let [(half, _), (quarter, _)] = mirrored(WORN);
+    for text in [HEAD.to_owned() + WORN, half, quarter] {
+        let text = text.replace("every = 3", "every = 1").replace("every = 4", "every = 1");
+        assert_states_hold_what_was_worn(&plan(&text.replace("cycles = 14", "cycles = 2")));
+    }
+}
+
+fn assert_states_hold_what_was_worn(plan: &Plan) {
+    let whole = Simulation::new(plan).run(&mut Silent).unwrap();
     let assert_worn = |history: &History, increment: usize| {
         let start = Start::of(history, increment).unwrap();
         let depth = start.solved.state.worn_depth.unwrap();
@@ -251,14 +299,14 @@ fn a_state_within_a_cycle_has_what_that_cycle_wore_so_far() {
         assert_worn(&whole, increment);
     }
     // A run that is stopped within a cycle has its last state too, and all before it.
-    let (broken, outcome) = Simulation::new(&plan).follow(Checkpoint::start(&plan), &mut Stopper(3 + 6 + 4));
+    let (broken, outcome) = Simulation::new(plan).follow(Checkpoint::start(plan), &mut Stopper(3 + 6 + 4));
     assert_eq!(outcome, Err(RunError::Interrupted { increment: 13 }));
     assert_eq!(timeless(&broken.steps), timeless(&whole.steps[..13]));
     assert_eq!(broken.fields, whole.fields[..13]);
     assert_worn(&broken, 12);
     // So has its checkpoint, without what the solver remembers of the gap before.
     let mut keeper = Keeper(Vec::new());
-    Simulation::new(&plan).run(&mut keeper).unwrap();
+    Simulation::new(plan).run(&mut keeper).unwrap();
     let stored = Checkpoint::start_of(&keeper.0[12], &plan.to_json()).unwrap();
     assert_eq!(stored, Start::of(&broken, 12).unwrap());
     let state = broken.state.worn_depth.as_ref().unwrap().sum();
@@ -275,6 +323,13 @@ fn a_checkpoint_of_another_course_is_refused() {
     for other in [unworn, HEAD.to_owned() + WORN.replace("cycles = 14\n", "").as_str()] {
         assert_eq!(Checkpoint::read(within_a_cycle, &plan(&other)), Err(CheckpointError::Foreign));
     }
+    // Fields in front of a mirror are no fields of the whole grid.
+    let [(half, _), _] = mirrored(WORN);
+    Simulation::new(&plan(&half)).run(&mut keeper).unwrap();
+    let everywhere = LeaveOut::all_but(Simplification::Mirror);
+    let everywhere = Plan::leaving_out(Case::from_toml(&half, "case.toml").unwrap(), everywhere).unwrap();
+    let in_front = keeper.0.last().unwrap();
+    assert_eq!(Checkpoint::read(in_front, &everywhere), Err(CheckpointError::Foreign));
 }
 
 #[test]

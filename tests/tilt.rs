@@ -6,7 +6,7 @@ use std::ops::ControlFlow;
 use fret_core::analytic::{EffectiveModuli, TiltedLinePunch, TiltedPunch};
 use fret_core::case::Case;
 use fret_core::history::{History, KeptFields, StepRecord};
-use fret_core::model::{ContactState, ElasticMaterial};
+use fret_core::model::{ElasticMaterial, MirroredState};
 use fret_core::plan::Plan;
 use fret_core::run::{Checkpoint, Observer, RunError, Silent, Simulation, Waypoint};
 use fret_validation::certifier::run_certified;
@@ -172,7 +172,7 @@ impl Observer for Keeper {
         ControlFlow::Continue(())
     }
 
-    fn solved(&mut self, _: &StepRecord, _: &ContactState, _: Option<&KeptFields>) -> ControlFlow<()> {
+    fn solved(&mut self, _: &StepRecord, _: MirroredState<'_>, _: Option<&KeptFields>) -> ControlFlow<()> {
         ControlFlow::Continue(())
     }
 }

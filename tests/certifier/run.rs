@@ -4,7 +4,7 @@ use std::ops::ControlFlow;
 
 use fret_core::case::{Attachments, Case, CaseError};
 use fret_core::history::{KeptFields, StepRecord};
-use fret_core::model::ContactState;
+use fret_core::model::MirroredState;
 use fret_core::plan::Plan;
 use fret_core::run::{Iteration, Observer, RunError, Simulation};
 use ndarray::Array2;
@@ -82,7 +82,7 @@ impl Observer for Witness {
     fn solved(
         &mut self,
         record: &StepRecord,
-        _: &ContactState,
+        _: MirroredState<'_>,
         kept: Option<&KeptFields>,
     ) -> ControlFlow<()> {
         if let Some(fields) = kept {

@@ -6,7 +6,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
 use fret_core::history::{KeptFields, StepRecord};
-use fret_core::model::ContactState;
+use fret_core::model::MirroredState;
 use fret_core::run::{Iteration, Observer};
 
 use crate::failure::INTERRUPTED;
@@ -45,7 +45,7 @@ impl Observer for Listener {
         go_on()
     }
 
-    fn solved(&mut self, _: &StepRecord, _: &ContactState, _: Option<&KeptFields>) -> ControlFlow<()> {
+    fn solved(&mut self, _: &StepRecord, _: MirroredState<'_>, _: Option<&KeptFields>) -> ControlFlow<()> {
         go_on()
     }
 

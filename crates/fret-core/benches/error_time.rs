@@ -112,7 +112,7 @@ fn line(scene: &Scene, n: usize, extension: usize) -> Answer<()> {
         "{method},\"{}\",{n},{seconds:e},{:e},{:e},{:e},{:e}",
         scene.name,
         error(largest, scene.exact[0]),
-        error(peak_pressure(&pressure.view()), scene.exact[0]),
+        error(peak_pressure(pressure), scene.exact[0]),
         error(solved.state.approach, scene.exact[1]),
         scene.hertz.as_ref().map_or(f64::NAN, |hertz| mean_square(pressure, hertz, &grid)),
     );

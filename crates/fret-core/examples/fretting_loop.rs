@@ -11,7 +11,7 @@ use std::ops::ControlFlow;
 
 use fretting::case::Case;
 use fretting::history::{KeptFields, StepRecord};
-use fretting::model::ContactState;
+use fretting::model::MirroredState;
 use fretting::plan::Plan;
 use fretting::run::{Observer, Simulation};
 
@@ -41,7 +41,7 @@ increments = 24
 struct Loop(Vec<[f64; 2]>);
 
 impl Observer for Loop {
-    fn solved(&mut self, step: &StepRecord, _: &ContactState, _: Option<&KeptFields>) -> ControlFlow<()> {
+    fn solved(&mut self, step: &StepRecord, _: MirroredState<'_>, _: Option<&KeptFields>) -> ControlFlow<()> {
         self.0.push([step.shift[0], step.tangential_force[0]]);
         ControlFlow::Continue(()) // Break would end the run here, with all that is solved
     }

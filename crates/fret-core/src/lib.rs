@@ -130,8 +130,8 @@ pub mod uncertainty;
 pub use case::{Case, CaseError};
 pub use history::{CycleRecord, History, KeptFields, Start, StepRecord, Warning};
 pub use model::{
-    Body, Coating, ContactPair, ContactState, CoulombFriction, ElasticMaterial, HalfSpace, LoadStep, Profile,
-    SurfaceGrid, Zone,
+    Body, Coating, ContactPair, ContactState, CoulombFriction, ElasticMaterial, HalfSpace, LoadStep,
+    MirroredState, Profile, SurfaceGrid, Zone,
 };
 pub use plan::Plan;
 pub use run::{Checkpoint, Iteration, Observer, RunError, Silent, Simulation};

@@ -12,7 +12,7 @@ use std::time::Duration;
 
 use fret_cli::embedded;
 use fret_core::history::{CycleRecord, KeptFields, StepRecord};
-use fret_core::model::{ContactState, SurfaceGrid};
+use fret_core::model::{MirroredState, SurfaceGrid};
 use fret_core::plan::{Advance, Plan};
 use fret_core::run::{Checkpoint, Iteration, Observer, Simulation};
 use fret_core::study::StageQuantities;
@@ -81,7 +81,7 @@ impl Observer for Reporter<'_> {
     fn solved(
         &mut self,
         record: &StepRecord,
-        state: &ContactState,
+        state: MirroredState<'_>,
         _: Option<&KeptFields>,
     ) -> ControlFlow<()> {
         self.advance.solved(record);

@@ -4,7 +4,7 @@ use std::ops::ControlFlow;
 use std::time::Instant;
 
 use fret_core::history::{CycleRecord, KeptFields, StepRecord};
-use fret_core::model::{ContactState, SurfaceGrid};
+use fret_core::model::{MirroredState, SurfaceGrid};
 use fret_core::run::{Iteration, Observer, Waypoint};
 use fret_core::study::StageQuantities;
 
@@ -61,7 +61,7 @@ impl Observer for RunObserver<'_> {
     fn solved(
         &mut self,
         record: &StepRecord,
-        state: &ContactState,
+        state: MirroredState<'_>,
         kept: Option<&KeptFields>,
     ) -> ControlFlow<()> {
         let writing = self.folder.keep(record, kept);

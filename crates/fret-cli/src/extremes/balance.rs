@@ -12,7 +12,7 @@ use std::ops::ControlFlow;
 use fret_core::compliance::{OperatorSet, SpectralCompliance, SurfaceCompliance, SurfaceResponse};
 use fret_core::history::{KeptFields, StepRecord};
 use fret_core::kernel::{Components, influence_coefficients, periodic_symbols};
-use fret_core::model::{ContactState, TangentialField};
+use fret_core::model::{ContactState, MirroredState, TangentialField};
 use fret_core::plan::Plan;
 use fret_core::run::{Iteration, Observer};
 use fret_fft::ConvolutionError;
@@ -170,10 +170,11 @@ impl Observer for Accounts {
     fn solved(
         &mut self,
         record: &StepRecord,
-        state: &ContactState,
+        state: MirroredState<'_>,
         _: Option<&KeptFields>,
     ) -> ControlFlow<()> {
-        let now = self.moment(state);
+        let state = state.whole();
+        let now = self.moment(&state);
         let before = &self.before;
         let motions =
             [now.approach - before.approach, now.shift[0] - before.shift[0], now.shift[1] - before.shift[1]];
@@ -182,7 +183,7 @@ impl Observer for Accounts {
         let done: f64 = works.iter().sum();
         self.work[0] += done;
         self.work[1] += works.iter().map(|work| work.abs()).sum::<f64>();
-        self.mirror = worse(self.mirror, mirrored(state));
+        self.mirror = worse(self.mirror, mirrored(&state));
         if record.parts > 1 {
             // Its two ends do not tell where the parts between them slid, nor under which shear.
             self.dissipated = record.dissipated_energy;

@@ -432,9 +432,9 @@ fn two_runs_do_not_write_into_one_folder() {
 fn a_full_disk_ends_a_run_and_with_room_it_goes_on() {
     let bench = Bench::new("full");
     solve_whole(&bench, &long_sphere());
-    // The first checkpoint, without a state before it, has room in 84 half-kilobytes; the second one has not.
+    // The first checkpoint, without a state before it, has room in 60 half-kilobytes; a later one has not.
     let limited = format!(
-        "trap '' XFSZ; ulimit -f 84; exec '{}' run case.toml --out broken --quiet",
+        "trap '' XFSZ; ulimit -f 60; exec '{}' run case.toml --out broken --quiet",
         env!("CARGO_BIN_EXE_fret")
     );
     let mut shell = std::process::Command::new("sh");

@@ -3,7 +3,7 @@
 use ndarray::{Array2, ArrayView2, Zip, s};
 use serde::{Deserialize, Serialize};
 
-use crate::model::Zone;
+use crate::model::{Symmetry, Zone};
 
 /// The contact as the cells see it.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
@@ -18,9 +18,10 @@ pub struct Footprint {
 }
 
 impl Footprint {
-    /// Reads it off the zones.
-    pub fn of(zone: &Array2<Zone>) -> Self {
+    /// Reads it off the zones in front of mirrors.
+    pub fn of(zone: &Array2<Zone>, symmetry: Symmetry) -> Self {
         let (nx, ny) = zone.dim();
+        let mirrored = symmetry.axes();
         let is_loaded = |zone: &Zone| *zone != Zone::Open;
         let mut cells = 0;
         let (mut least, mut most) = ([nx, ny], [0, 0]);
@@ -33,10 +34,14 @@ impl Footprint {
         }
         let axes = if ny == 1 { 0..1 } else { 0..2 };
         if cells == 0 {
-            return Self { radius: None, free: axes.map(|axis| [nx, ny][axis]).min().unwrap_or(0) };
+            let cells = symmetry.whole_of([nx, ny]);
+            return Self { radius: None, free: axes.map(|axis| cells[axis]).min().unwrap_or(0) };
         }
-        let free = axes.map(|axis| least[axis].min([nx, ny][axis] - 1 - most[axis])).min().unwrap_or(0);
-        let faces = faces_between(zone, is_loaded);
+        // The first cells of a mirrored axis lie at its mirror.
+        let before = |axis: usize| if mirrored[axis] { usize::MAX } else { least[axis] };
+        let free = axes.map(|axis| before(axis).min([nx, ny][axis] - 1 - most[axis])).min().unwrap_or(0);
+        let faces = faces_between(zone, symmetry, is_loaded);
+        let cells = cells * symmetry.copies();
         // Every chord has two ends; a disc's are pi/2 radii long in the mean.
         let by_chords = faces.map(|faces| 4.0 * cells as f64 / (std::f64::consts::PI * faces as f64));
         let narrow = by_chords[0].min(by_chords[1]);
@@ -45,12 +50,17 @@ impl Footprint {
     }
 }
 
-/// Faces along x and along y between a cell that lies within and one that does not.
-pub fn faces_between(zone: &Array2<Zone>, is_within: impl Fn(&Zone) -> bool) -> [usize; 2] {
+/// Faces along x and along y between a cell that lies within and one that does not, of the whole contact. At a mirror there is none: a cell
+/// is as its image.
+pub fn faces_between(
+    zone: &Array2<Zone>,
+    symmetry: Symmetry,
+    is_within: impl Fn(&Zone) -> bool,
+) -> [usize; 2] {
     let count = |ones: ArrayView2<'_, Zone>, others: ArrayView2<'_, Zone>| {
         let add =
             |faces: usize, one: &Zone, other: &Zone| faces + usize::from(is_within(one) != is_within(other));
-        Zip::from(ones).and(others).fold(0, add)
+        symmetry.copies() * Zip::from(ones).and(others).fold(0, add)
     };
     [
         count(zone.slice(s![1.., ..]), zone.slice(s![..-1, ..])),
@@ -72,26 +82,36 @@ mod tests {
         )
     }
 
+    /// The footprint of a contact whose halves and quarters, where they are its mirror images, have the same one.
+    fn footprint(zone: &Array2<Zone>) -> Footprint {
+        let whole = Footprint::of(zone, Symmetry::NONE);
+        for odd_shear in [[None, Some(1)], [Some(0), None], [Some(0), Some(1)]] {
+            let symmetry = Symmetry { odd_shear };
+            assert_eq!(Footprint::of(&symmetry.part(zone), symmetry), whole, "{symmetry:?}");
+        }
+        whole
+    }
+
     /// Discs, strips and patches whose sizes are known: pixels leave a third of a cell.
     #[test]
     fn the_radius_of_discs_strips_and_patches_is_found_in_cells() {
         for radius in [3.0, 6.0, 6.6, 20.0] {
-            let found = Footprint::of(&zones([64, 64], |x, y| x.hypot(y) < radius));
+            let found = footprint(&zones([64, 64], |x, y| x.hypot(y) < radius));
             assert!((found.radius.unwrap() - radius).abs() < 0.35, "{radius}: {found:?}");
             assert_eq!(found.free, 32 - (radius + 0.5).floor() as usize);
         }
-        let strip = Footprint::of(&zones([64, 64], |x, y| x.abs() < 5.0 && y.abs() < 28.0));
+        let strip = footprint(&zones([64, 64], |x, y| x.abs() < 5.0 && y.abs() < 28.0));
         assert!((strip.radius.unwrap() / 5.0 - 1.4).abs() < 0.01, "{strip:?}");
-        let across = Footprint::of(&zones([64, 64], |x, y| y.abs() < 5.0 && x.abs() < 28.0));
+        let across = footprint(&zones([64, 64], |x, y| y.abs() < 5.0 && x.abs() < 28.0));
         assert_eq!(strip.radius, across.radius);
         // Sixteen discs of four cells' radius.
         let patches = |x: f64, y: f64| {
             let off = |u: f64| (u + 32.0).rem_euclid(16.0) - 8.0;
             off(x).hypot(off(y)) < 4.0
         };
-        let found = Footprint::of(&zones([64, 64], patches));
+        let found = footprint(&zones([64, 64], patches));
         assert!((found.radius.unwrap() / 4.0 - 1.0).abs() < 0.15, "{found:?}");
-        assert_eq!(Footprint::of(&zones([8, 8], |_, _| true)).radius, None);
-        assert_eq!(Footprint::of(&zones([8, 8], |_, _| false)).radius, None);
+        assert_eq!(footprint(&zones([8, 8], |_, _| true)).radius, None);
+        assert_eq!(footprint(&zones([8, 8], |_, _| false)).radius, None);
     }
 }

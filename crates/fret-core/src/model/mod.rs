@@ -12,6 +12,7 @@ pub mod half_space;
 pub mod heights;
 pub mod interface;
 pub mod load;
+pub mod mirrored_state;
 pub mod profile;
 pub mod residual;
 pub mod rig;
@@ -35,6 +36,7 @@ pub use half_space::{Base, Body, Coating, ContactPair, ElasticMaterial, HalfSpac
 pub use heights::{Detrend, Heights};
 pub use interface::{Interface, InterfaceError};
 pub use load::{Control, LoadStep, Reached};
+pub use mirrored_state::MirroredState;
 pub use profile::{BEYOND_THE_BODY, Profile};
 pub use residual::{ResidualLayer, ResidualStress};
 pub use rig::Rig;

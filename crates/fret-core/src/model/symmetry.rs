@@ -1,17 +1,19 @@
 //! Mirror symmetry of a scene: the part of the grid in front of its mirrors stands for the whole.
 
+use std::borrow::Cow;
+
 use ndarray::{Array2, ArrayView1, ArrayView2, Axis, Zip, s};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::friction::CoulombFriction;
 use super::load::{Control, LoadStep};
-use super::state::ContactState;
+use super::state::{ContactState, Zone};
 
 /// Planes through the middle of the grid at which scene and load are their own mirror image.
 ///
 /// Behind a plane gap and pressure go on as they are; of the shear one component goes on as it is, the other with the other sign.
 /// The part in front of the mirrors are the cells of the second half along each mirrored axis.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub struct Symmetry {
     /// For a mirror along x and y the component of shear that changes its sign behind it (0: x, 1: y); `None` without.
     pub odd_shear: [Option<usize>; 2],
@@ -72,33 +74,56 @@ impl Symmetry {
         even && (!axes[0] || kept_along_x()) && (!axes[1] || kept_along_y())
     }
 
-    /// Whether a state of the whole grid is its own mirror image, to the bit.
-    pub fn is_kept_by_state(&self, state: &ContactState) -> bool {
-        let (nx, ny) = state.pressure.dim();
-        let even = [nx, ny].iter().zip(self.axes()).all(|(cells, mirrored)| !mirrored || cells % 2 == 0);
-        even && self.whole_state(&self.part_of_state(state)) == *state
-    }
-
     /// The part of a field in front of the mirrors.
     pub fn part<T: Clone>(&self, field: &Array2<T>) -> Array2<T> {
         let (nx, ny) = field.dim();
         let [mx, my] = self.part_of([nx, ny]);
-        field.slice(s![nx - mx.., ny - my..]).as_standard_layout().into_owned()
+        let (_, rows) = field.view().split_at(Axis(0), nx - mx);
+        let (_, part) = rows.split_at(Axis(1), ny - my);
+        part.as_standard_layout().into_owned()
     }
 
     /// The whole of a field that goes on behind the mirrors, with the other sign along axes where it is odd.
     pub fn whole(&self, part: &Array2<f64>, odd: [bool; 2]) -> Array2<f64> {
         // Zeros that nobody wrote to take no memory.
-        let zeros = Array2::zeros(self.whole_of(part.dim().into()));
+        self.whole_in(Array2::zeros(self.whole_of(part.dim().into())), part, odd)
+    }
+
+    /// The same in an array that is there for it, of the whole's shape and zero everywhere.
+    pub fn whole_in(&self, zeros: Array2<f64>, part: &Array2<f64>, odd: [bool; 2]) -> Array2<f64> {
         made_whole(part, zeros, |value, behind| {
             let turns = (behind[0] && odd[0]) != (behind[1] && odd[1]);
             if turns && value != 0.0 { -value } else { value }
         })
     }
 
-    /// The part of a friction law.
-    pub fn part_of_friction(&self, friction: &CoulombFriction) -> CoulombFriction {
-        friction.with_maps(|map| self.part(map))
+    /// Zones of the whole grid in an array that is there for them, of open cells.
+    pub fn whole_zones_in(&self, open: Array2<Zone>, part: &Array2<Zone>) -> Array2<Zone> {
+        made_whole(part, open, |zone, _| zone)
+    }
+
+    /// The cells of a field behind all mirrors, which are those of the whole with the lowest indices, for a field without a sign.
+    pub fn behind<'a, T>(&self, part: &'a Array2<T>) -> ArrayView2<'a, T> {
+        let mut image = part.view();
+        for axis in (0..2).filter(|axis| self.axes()[*axis]) {
+            image.invert_axis(Axis(axis));
+        }
+        image
+    }
+
+    /// The cell of the whole grid that is the image behind all mirrors of a cell of the part, which has so many.
+    pub fn image_behind(&self, cell: [usize; 2], cells_of_part: [usize; 2]) -> [usize; 2] {
+        let axes = self.axes();
+        [0, 1].map(|axis| if axes[axis] { cells_of_part[axis] - 1 - cell[axis] } else { cell[axis] })
+    }
+
+    /// The part of a friction law; the law itself where its part is no other.
+    pub fn part_of_friction<'a>(&self, friction: &'a CoulombFriction) -> Cow<'a, CoulombFriction> {
+        if self.any() && friction.is_map() {
+            Cow::Owned(friction.with_maps(|map| self.part(map)))
+        } else {
+            Cow::Borrowed(friction)
+        }
     }
 
     /// The share of a load that the part carries; along an axis that the symmetry forbids nothing moves from `state`.
@@ -122,44 +147,6 @@ impl Symmetry {
                 if self.axes()[axis] { Control::Motion(state.tilt[axis]) } else { part(load.tilt[axis]) }
             }),
             bulk_stress: load.bulk_stress,
-        }
-    }
-
-    /// The part of a state, with its share of the dissipated energy.
-    pub fn part_of_state(&self, state: &ContactState) -> ContactState {
-        ContactState {
-            pressure: self.part(&state.pressure),
-            shear: [0, 1].map(|axis| self.part(&state.shear[axis])),
-            slip: [0, 1].map(|axis| self.part(&state.slip[axis])),
-            zone: self.part(&state.zone),
-            worn_depth: state.worn_depth.as_ref().map(|depth| self.part(depth)),
-            accumulated: state.accumulated.as_ref().map(|slip| slip.with_fields(|field| self.part(field))),
-            dissipated_energy: state.dissipated_energy / self.copies() as f64,
-            bulk_work: state.bulk_work / self.copies() as f64,
-            ..*state
-        }
-    }
-
-    /// The state of the whole grid from that of its part.
-    pub fn whole_state(&self, part: &ContactState) -> ContactState {
-        let tangential =
-            |field: &[Array2<f64>; 2]| [0, 1].map(|axis| self.whole(&field[axis], self.shear_is_odd(axis)));
-        ContactState {
-            pressure: self.whole(&part.pressure, [false; 2]),
-            shear: tangential(&part.shear),
-            slip: tangential(&part.slip),
-            zone: {
-                let open = Array2::default(self.whole_of(part.zone.dim().into()));
-                made_whole(&part.zone, open, |zone, _| zone)
-            },
-            worn_depth: part.worn_depth.as_ref().map(|depth| self.whole(depth, [false; 2])),
-            accumulated: part
-                .accumulated
-                .as_ref()
-                .map(|slip| slip.with_fields(|field| self.whole(field, [false; 2]))),
-            dissipated_energy: part.dissipated_energy * self.copies() as f64,
-            bulk_work: part.bulk_work * self.copies() as f64,
-            ..*part
         }
     }
 
@@ -214,6 +201,8 @@ mod tests {
         assert!(QUARTER.is_kept_by(&even.view()));
         assert_eq!(HALF.whole(&part, [false, true]), array![[-2.0, -1.0, 1.0, 2.0], [-4.0, -3.0, 3.0, 4.0]]);
         assert_eq!(QUARTER.part(&even), part);
+        assert_eq!(QUARTER.behind(&part), even.slice(s![..2, ..2]));
+        assert_eq!(even[QUARTER.image_behind([1, 0], [2, 2])], part[[1, 0]]);
         for odd in [[true, false], [false, true], [true, true]] {
             let whole = QUARTER.whole(&part, odd);
             assert_eq!(QUARTER.part(&whole), part);
@@ -231,7 +220,6 @@ mod tests {
     fn forces_are_shared_and_motions_are_not() {
         let mut state = ContactState::untouched([4, 4]);
         state.shift = [0.25, 0.0];
-        state.dissipated_energy = 8.0;
         let load = LoadStep {
             normal: Control::Force(12.0),
             tangential: [Control::Motion(0.5), Control::Force(0.0)],
@@ -240,8 +228,6 @@ mod tests {
         let part = HALF.part_of_load(&load, &state);
         assert_eq!(part.normal, Control::Force(6.0));
         assert_eq!(part.tangential, [Control::Motion(0.5), Control::Motion(0.0)]);
-        assert_eq!(HALF.part_of_state(&state).dissipated_energy, 4.0);
-        assert_eq!(HALF.whole_state(&HALF.part_of_state(&state)), state);
         assert_eq!(HALF.whole_force([3.0, 1.0]), [6.0, 0.0]);
     }
 }

@@ -173,6 +173,11 @@ impl Plan {
         Ok(plan)
     }
 
+    /// Area of the whole contact that a cell in front of the mirrors stands for [length^2].
+    pub fn area_of_cell(&self) -> f64 {
+        self.grid.cell_area() * self.symmetry.copies() as f64
+    }
+
     /// The plan as it is written down.
     pub fn to_json(&self) -> Value {
         serde_json::to_value(self).unwrap_or_default() // a plan holds nothing that JSON has no form for

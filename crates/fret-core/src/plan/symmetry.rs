@@ -42,7 +42,7 @@ pub fn symmetry(
         let keeps = grid.cells()[axis] >= FEWEST_CELLS
             && !case.tilts(axis)
             && maps.iter().all(|field| mirror.is_kept_by(field))
-            && start.is_none_or(|state| mirror.is_kept_by_state(state));
+            && start.is_none_or(|state| mirror.keeps_state(state));
         odd[axis].filter(|_| keeps)
     };
     Symmetry { odd_shear: [kept(0), kept(1)] }

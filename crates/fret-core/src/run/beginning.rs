@@ -8,7 +8,7 @@ use super::observer::{Iteration, Observer};
 use super::run_error::RunError;
 use super::simulation::Simulation;
 use crate::history::{CycleRecord, History, KeptFields, StepRecord};
-use crate::model::ContactState;
+use crate::model::MirroredState;
 
 /// The first stages of a history, solved.
 #[derive(Debug, Clone)]
@@ -70,7 +70,7 @@ impl Observer for Until<'_> {
     fn solved(
         &mut self,
         record: &StepRecord,
-        state: &ContactState,
+        state: MirroredState<'_>,
         kept: Option<&KeptFields>,
     ) -> ControlFlow<()> {
         self.observer.solved(record, state, kept)

@@ -1,5 +1,5 @@
 //! Where a run stands after an increment: all that later increments depend on, so that a run can be broken off at any moment and
-//! taken up again with the bits it would have had.
+//! taken up again with the bits it would have had. Its fields are those in front of the mirrors of the contact.
 
 use std::io::{self, Write};
 
@@ -14,12 +14,12 @@ use super::thinning::mean_depths;
 use super::wear::Collected;
 use crate::case::{Case, Stage};
 use crate::history::{Start, WornThrough};
-use crate::model::{AccumulatedSlip, ContactState, Control, LoadStep, SolvedState};
+use crate::model::{AccumulatedSlip, ContactState, Control, LoadStep, SolvedState, Symmetry};
 use crate::plan::Plan;
 use crate::solver::{Resultants, SolverMemory};
 
 /// Version of the bytes; another layout of what is stored gets another one.
-const FORMAT: u32 = 9;
+const FORMAT: u32 = 10;
 
 /// How far a run has come in its stages.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -143,7 +143,8 @@ impl Waypoint<'_> {
 impl Checkpoint {
     /// The start of a plan: the state it says, or bodies that have not touched yet.
     pub fn start(plan: &Plan) -> Self {
-        let cells = plan.grid.cells();
+        let symmetry = plan.symmetry;
+        let cells = symmetry.part_of(plan.grid.cells());
         let start = plan.start.as_deref();
         let (loads, resultants, mut state) = match start.map(|start| &start.solved) {
             None => (LoadStep::FREE, Resultants::default(), ContactState::untouched(cells)),
@@ -154,7 +155,7 @@ impl Checkpoint {
                     moment: *twist_moment,
                     tilt_moment: *tilt_moment,
                 };
-                (*loads, resultants, state.clone())
+                (*loads, resultants, symmetry.part_of_state(state))
             }
         };
         let memory = start.map(|start| {
@@ -222,7 +223,9 @@ impl Checkpoint {
     /// As [`Checkpoint::read`].
     pub fn start_of(bytes: &[u8], plan: &Value) -> Result<Start, CheckpointError> {
         let Self { place, state, memory, wear, slip, .. } = Self::decoded(bytes)?;
-        let solved = solved_state(&place, &state, wear.as_ref(), slip.as_ref());
+        let symmetry: Symmetry =
+            serde_json::from_value(plan["symmetry"].clone()).map_err(|_| CheckpointError::Foreign)?;
+        let solved = symmetry.whole_solved(solved_state(&place, &state, wear.as_ref(), slip.as_ref()));
         // What an unfinished cycle has worn opens the gap, and the solver remembers another one; so it does of thinner layers, whose
         // thickness another history finds for itself.
         let same_gap = wear.is_none_or(|wear| wear.is_empty() && wear.thinned() == [0.0; 2]);
@@ -230,7 +233,7 @@ impl Checkpoint {
     }
 
     fn belongs_to(&self, plan: &Plan) -> bool {
-        let cells = plan.grid.cells();
+        let cells = plan.symmetry.part_of(plan.grid.cells());
         let wears = plan.case.wear.is_some();
         let evolves = plan.case.friction_evolution.is_some();
         let start = plan.start.as_ref().map(|start| &start.solved.state);
@@ -238,7 +241,7 @@ impl Checkpoint {
         let starts_rubbed = start.is_some_and(|state| state.accumulated.is_some());
         self.is_within(&plan.case)
             && self.state.is_sound(cells)
-            && self.memory.fits(plan.symmetry.part_of(cells))
+            && self.memory.fits(cells)
             && self.state.worn_depth.is_some() == (wears || starts_worn)
             && self.state.accumulated.is_some() == (evolves || starts_rubbed)
             && self.slip.is_some() == evolves
@@ -266,8 +269,8 @@ impl Checkpoint {
     }
 }
 
-/// What another history needs to start where a run stands: what an unfinished cycle has worn so far is taken off once, and what it has
-/// slipped is counted once.
+/// What another history needs to start where a run stands, in front of the mirrors: what an unfinished cycle has worn so far is taken off
+/// once, and what it has slipped is counted once.
 pub(crate) fn solved_state(
     place: &Place,
     state: &ContactState,

@@ -1,5 +1,6 @@
 //! The journey of a run: stages, increments, cycles, records. The only file that knows all of it.
 
+use std::borrow::Cow;
 use std::time::Instant;
 
 use super::checkpoint::{Place, Waypoint, solved_state};
@@ -8,7 +9,8 @@ use super::fretting_loop::{CycleEnd, FrettingLoop};
 use super::observer::{Iteration, Observer};
 use super::pair_compliance::PairCompliance;
 use super::plausibility::Gauge;
-use super::recording::{copied, kept, record};
+use super::recording::{kept, record, whole};
+use super::records::Records;
 use super::refinement::{DivisionError, Refinement, Span, in_halves};
 use super::run_error::{RunError, run_error, too_thin};
 use super::stepping::StageSteps;
@@ -17,8 +19,8 @@ use super::surfaces::{Block, Surfaces};
 use super::thinning::{LayersWorn, bodies_left, due, layers_worn};
 use super::wear::{Wearing, worn};
 use crate::case::{Case, Stage};
-use crate::history::{CycleRecord, History, KeptFields, StepRecord, WornByLayer, WornThrough};
-use crate::model::{CoulombFriction, LoadStep, SolvedState};
+use crate::history::{CycleRecord, History, KeptFields, StepRecord, WornThrough};
+use crate::model::{ContactState, CoulombFriction, LoadStep, MirroredState, SolvedState};
 use crate::plan::{Coupling, Plan};
 use crate::solver::{ContactSolver, Resultants};
 
@@ -27,7 +29,9 @@ pub(super) struct Journey<'a> {
     pub plan: &'a Plan,
     pub solver: ContactSolver<'a>,
     pub surfaces: Surfaces,
-    pub history: History,
+    /// Where it stands, in front of the mirrors.
+    pub state: ContactState,
+    pub records: Records,
     pub gauge: Gauge,
     pub place: Place,
     /// The cycle at work.
@@ -38,11 +42,6 @@ pub(super) struct Journey<'a> {
 impl<'a> Journey<'a> {
     fn case(&self) -> &'a Case {
         &self.plan.case
-    }
-
-    /// The law of friction in force.
-    fn friction(&self) -> &CoulombFriction {
-        self.surfaces.evolving.as_ref().map_or_else(|| self.given_friction(), Evolving::friction)
     }
 
     /// The law of friction that the case has for the stage at work.
@@ -56,8 +55,8 @@ impl<'a> Journey<'a> {
     fn refinement(&self) -> Option<Refinement> {
         let stage = &self.case().stages[self.place.stage];
         let tolerance = stage.history_tolerance?;
-        let friction = self.friction().largest();
-        let shear = self.history.state.shear.iter().flatten().any(|shear| *shear != 0.0);
+        let friction = self.solver.friction().largest();
+        let shear = self.state.shear.iter().flatten().any(|shear| *shear != 0.0);
         let depends = self.plan.coupling == Coupling::Coupled || stage.is_tangential() || shear;
         (friction > 0.0 && depends).then_some(Refinement {
             tolerance,
@@ -74,40 +73,42 @@ impl<'a> Journey<'a> {
                 break Err(error);
             }
         };
-        self.history.worn_through = self.place.worn_through;
-        let layers = self.case().wear.as_ref().and_then(|rule| rule.layers.as_ref());
-        self.history.worn_by_layer = layers
-            .zip(self.history.state.worn_depth.as_ref())
-            .map(|(layers, depth)| WornByLayer::new(layers, depth, self.plan.grid.cell_area()));
-        self.history.warnings = self.gauge.warnings(self.plan);
-        self.history.end = self.solved_state().beside(|_| true);
-        (self.history, outcome)
+        (self.ended(), outcome)
     }
 
-    /// Where the run stands, for another history to start from.
+    /// The history that ends here.
+    fn ended(self) -> History {
+        let Self { plan, solver, surfaces, state, records, gauge, place, .. } = self;
+        drop(solver); // room for the whole state
+        let Surfaces { wearing, evolving, .. } = &surfaces;
+        let collected =
+            (wearing.as_ref().map(Wearing::collected), evolving.as_ref().map(Evolving::collected));
+        Records { warnings: gauge.warnings(plan), ..records }.history(plan, (&place, state), collected)
+    }
+
+    /// Where the run stands, for another history to start from; in front of the mirrors.
     fn solved_state(&self) -> SolvedState {
         let Surfaces { wearing, evolving, .. } = &self.surfaces;
         let worn = wearing.as_ref().map(Wearing::collected);
         let slipped = evolving.as_ref().map(Evolving::collected);
-        solved_state(&self.place, &self.history.state, worn, slipped)
+        solved_state(&self.place, &self.state, worn, slipped)
     }
 
     /// Solves what is left of the stage at work.
     fn through_stage(&mut self, stage: &'a Stage) -> Result<(), RunError> {
         let (number, begins) = (self.place.stage, self.place.solved_of_stage == 0);
-        let given = self.given_friction();
         if begins {
             self.surfaces.begin_stage();
         }
-        self.surfaces.take_friction(given);
-        match &self.surfaces.evolving {
-            None => self.solver.set_friction(given),
-            Some(evolving) => self.solver.take_friction(evolving.friction().clone()),
-        }
+        self.solver.set_friction(match &self.surfaces.evolving {
+            None => self.plan.symmetry.part_of_friction(self.given_friction()),
+            Some(evolving) => Cow::Owned(evolving.friction().clone()),
+        });
+        self.surfaces.take_friction(self.solver.friction());
         let place = &self.place;
         let steps = if begins {
             let reached = (&place.resultants, self.case().springs());
-            StageSteps::new(stage, &place.held, &self.history.state, reached)
+            StageSteps::new(stage, &place.held, &self.state, reached)
         } else {
             StageSteps::from_start(stage, place.stage_start)
         };
@@ -136,21 +137,21 @@ impl<'a> Journey<'a> {
         }
         let ended =
             if stage.ends_cycle(k) || k == all { self.cycle_over(stage, record.increment)? } else { None };
-        record.dissipated_energy = self.history.state.dissipated_energy;
-        record.bulk_work = self.history.state.bulk_work;
-        [record.worn_volume, record.max_worn_depth] = worn(&self.history.state, &self.plan.grid);
+        record.dissipated_energy = self.state.dissipated_energy;
+        record.bulk_work = self.state.bulk_work;
+        [record.worn_volume, record.max_worn_depth] = worn(&self.state, self.plan);
         let steady = ended.as_ref().is_some_and(|cycle| cycle.steady);
         let enough = stage.cycles().is_some_and(|course| self.place.cycles >= course.most);
         let last = k == all || steady || enough || self.place.worn_through.is_some();
         if !last && !self.case().keeps(number, k) {
             kept = None;
         }
-        if let (Some(kept), Some(depth)) = (&mut kept, &self.history.state.worn_depth)
+        if let (Some(kept), Some(depth)) = (&mut kept, &self.state.worn_depth)
             && self.case().output.fields.iter().any(|name| name == "worn_depth")
         {
             let increment = record.increment;
             let out_of_memory = |error| RunError::OutOfMemory { increment, error };
-            kept.worn_depth = Some(copied(depth).map_err(out_of_memory)?);
+            kept.worn_depth = Some(whole(depth, [false; 2], self.plan.symmetry).map_err(out_of_memory)?);
         }
         self.place.solved += 1;
         self.place.solved_of_stage = k;
@@ -158,15 +159,16 @@ impl<'a> Journey<'a> {
             kept.rest = self.rest_beside(kept, last).map(Box::new);
         }
         self.gauge.add(&record);
-        let heard = self.observer.solved(&record, &self.history.state, kept.as_ref());
-        self.history.steps.push(record);
+        let reached = MirroredState { part: &self.state, symmetry: self.plan.symmetry };
+        let heard = self.observer.solved(&record, reached, kept.as_ref());
+        self.records.steps.push(record);
         if self.observer.leaves_fields() {
-            self.history.fields.extend(kept);
+            self.records.fields.extend(kept);
         }
         if let Some(cycle) = ended {
             self.observer.cycled(&cycle);
             self.cycle = Some(self.loop_from_here(cycle.cycle + 1));
-            self.history.cycles.push(cycle);
+            self.records.cycles.push(cycle);
         }
         if last {
             self.place.stage =
@@ -176,7 +178,7 @@ impl<'a> Journey<'a> {
         }
         let stored = self.observer.reached(&Waypoint {
             place: &self.place,
-            state: &self.history.state,
+            state: &self.state,
             memory: self.solver.memory(),
             cycle: self.cycle.as_ref(),
             wear: self.surfaces.wearing.as_ref().map(Wearing::collected),
@@ -192,14 +194,14 @@ impl<'a> Journey<'a> {
     /// where the fields that are not kept are zero.
     fn rest_beside(&self, kept: &KeptFields, ends: bool) -> Option<SolvedState> {
         let mut rest = self.solved_state().beside(|name| kept.field(name).is_some());
-        (rest.give_back_zeros() || ends).then_some(rest)
+        (rest.give_back_zeros() || ends).then(|| self.plan.symmetry.whole_solved(rest))
     }
 
     /// A cycle that starts now, in the stage at work.
     fn loop_from_here(&self, cycle: usize) -> FrettingLoop {
         let Place { solved, stage, resultants, .. } = self.place;
         let Resultants { tangential, moment, .. } = resultants;
-        FrettingLoop::new((stage, cycle), solved, &self.history.state, tangential, moment)
+        FrettingLoop::new((stage, cycle), solved, &self.state, tangential, moment)
     }
 
     /// Solves the next increment, in parts where it is left to the program or not solved as a whole; its fields, should they be kept.
@@ -218,7 +220,7 @@ impl<'a> Journey<'a> {
             let tolerance = case.tolerance;
             observer.iterated(&Iteration { increment, stage, iteration, residual, tolerance })
         };
-        let state = &self.history.state;
+        let state = &self.state;
         let (solved, parts) = match refinement {
             None => {
                 let span = Span { state, from, to };
@@ -244,20 +246,21 @@ impl<'a> Journey<'a> {
             }
         };
         let wall_s = started.elapsed().as_secs_f64();
-        let friction = self.friction();
-        let record = record(&solved, (case.springs(), friction), (increment, stage, parts), wall_s);
-        let kept = may_keep.then(|| kept(&solved, friction, increment, &case.output.fields)).transpose();
+        let (friction, symmetry) = (self.solver.friction(), self.plan.symmetry);
+        let record = record(&solved, (case.springs(), friction, symmetry), (increment, stage, parts), wall_s);
+        let kept =
+            may_keep.then(|| kept(&solved, (friction, symmetry), increment, &case.output.fields)).transpose();
         let kept = kept.map_err(|error| RunError::OutOfMemory { increment, error })?;
         self.place.resultants = solved.outcome.resultants;
         self.place.held = *to;
-        self.history.state = solved.state;
+        self.state = solved.state;
         Ok((record, kept))
     }
 
     /// Changes the surfaces by what slip did to them in the cycle (or the stage without cycles) that ends with `increment`, and reads the
     /// cycle's loop.
     fn cycle_over(&mut self, stage: &Stage, increment: usize) -> Result<Option<CycleRecord>, RunError> {
-        let friction_before = self.cycle.as_ref().map(|_| self.friction().clone());
+        let friction_before = self.cycle.as_ref().map(|_| self.solver.friction().clone());
         let block = self.change_surfaces(stage, increment)?;
         let Block { cycles: stands_for, evolved, .. } = block;
         self.place.cycles += stands_for;
@@ -267,35 +270,35 @@ impl<'a> Journey<'a> {
             stands_for,
             last_cycle: self.place.cycles,
             tolerance: course.until_steady,
-            worn: worn(&self.history.state, &self.plan.grid),
+            worn: worn(&self.state, self.plan),
             evolved,
             layers: self.layers_worn(cycle.contact_area()),
             wear_jump_error: block.wear_jump_error,
         };
-        let friction = friction_before.as_ref().unwrap_or_else(|| self.friction());
-        let record = cycle.close(&self.history.state, friction, end);
+        let friction = friction_before.as_ref().unwrap_or_else(|| self.solver.friction());
+        let record = cycle.close(&self.state, friction, end);
         self.gauge.add_cycle(&record);
-        self.history.state.bulk_work = cycle.total_bulk_work(&self.history.state, stands_for);
-        self.history.state.dissipated_energy = record.total_dissipated_energy;
+        self.state.bulk_work = cycle.total_bulk_work(&self.state, stands_for);
+        self.state.dissipated_energy = record.total_dissipated_energy;
         Ok(Some(record))
     }
 
     /// What is known of the layers that wear.
     fn layers_worn(&self, contact_area: f64) -> Option<LayersWorn> {
         let rule = self.surfaces.wearing.as_ref()?.rule();
-        layers_worn(self.plan, rule, &self.history.state, contact_area)
+        layers_worn(self.plan, rule, &self.state, contact_area)
     }
 
     /// Finds the elastic response anew where layers have become thinner.
     fn thin(&mut self) -> Result<(), RunError> {
         let Some(wearing) = &mut self.surfaces.wearing else { return Ok(()) };
-        let Some(depths) = due(wearing.rule(), wearing.collected().thinned(), &self.history.state) else {
+        let Some(depths) = due(wearing.rule(), wearing.collected().thinned(), &self.state) else {
             return Ok(());
         };
         let case = &self.plan.case;
         let bodies = bodies_left(self.plan, depths).map_err(|reason| too_thin(case, &self.place, reason))?;
         let compliance = PairCompliance::of_bodies(self.plan, &bodies);
-        wearing.set_thinned(depths, StiffestWave::new(&compliance, &self.plan.grid));
+        wearing.set_thinned(depths, StiffestWave::of(self.plan, &compliance));
         self.solver.set_response(compliance.response, compliance.table);
         Ok(())
     }
@@ -304,12 +307,12 @@ impl<'a> Journey<'a> {
     fn change_surfaces(&mut self, stage: &Stage, increment: usize) -> Result<Block, RunError> {
         let left = stage.cycles().map_or(1, |course| course.most - self.place.cycles);
         let of_cycle = stage.cycles().is_some();
-        let state = &mut self.history.state;
+        let state = &mut self.state;
         let block = self.surfaces.end_block(state, (left, of_cycle)).map_err(|too_fast| {
             RunError::WearTooFast { increment, stage: stage.name.clone(), share: too_fast.share }
         })?;
         if let (true, Some(wearing), Some(depth)) =
-            (block.opened, &self.surfaces.wearing, &self.history.state.worn_depth)
+            (block.opened, &self.surfaces.wearing, &self.state.worn_depth)
         {
             self.solver.set_gap(wearing.gap(depth));
         }
@@ -317,14 +320,18 @@ impl<'a> Journey<'a> {
             self.thin()?;
         }
         if let Some(evolving) = &self.surfaces.evolving {
-            self.solver.take_friction(evolving.friction().clone());
+            self.solver.set_friction(Cow::Owned(evolving.friction().clone()));
         }
-        self.place.worn_through = block.through.map(|cell| WornThrough {
-            increment,
-            stage: self.place.stage,
-            cycles: self.place.cycles + block.cycles,
-            cell,
-            place: [self.plan.grid.centre(0, cell[0]), self.plan.grid.centre(1, cell[1])],
+        let Plan { grid, symmetry, .. } = self.plan;
+        self.place.worn_through = block.through.map(|cell| {
+            let cell = symmetry.image_behind(cell, symmetry.part_of(grid.cells()));
+            WornThrough {
+                increment,
+                stage: self.place.stage,
+                cycles: self.place.cycles + block.cycles,
+                cell,
+                place: [grid.centre(0, cell[0]), grid.centre(1, cell[1])],
+            }
         });
         Ok(block)
     }

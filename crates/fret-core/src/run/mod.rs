@@ -10,6 +10,7 @@ mod observer;
 mod pair_compliance;
 pub mod plausibility;
 mod recording;
+mod records;
 mod refinement;
 mod run_error;
 mod simulation;

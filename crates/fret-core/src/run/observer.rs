@@ -4,7 +4,7 @@ use std::ops::ControlFlow;
 
 use super::checkpoint::Waypoint;
 use crate::history::{CycleRecord, KeptFields, StepRecord};
-use crate::model::ContactState;
+use crate::model::MirroredState;
 
 /// Where an increment's iteration stands.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -36,11 +36,11 @@ pub trait Observer {
         ControlFlow::Continue(())
     }
 
-    /// An increment is solved; `kept` holds its fields when they are kept. `Break` stops the run after it.
+    /// An increment is solved; `kept` holds its fields, of the whole contact, when they are kept. `Break` stops the run after it.
     fn solved(
         &mut self,
         record: &StepRecord,
-        state: &ContactState,
+        state: MirroredState<'_>,
         kept: Option<&KeptFields>,
     ) -> ControlFlow<()> {
         let _ = (record, state, kept);

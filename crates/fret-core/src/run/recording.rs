@@ -5,13 +5,13 @@ use ndarray::Array2;
 use crate::fields::largest;
 use crate::history::{Footprint, KeptFields, Residual, StepRecord};
 use crate::machine::memory::MemoryError;
-use crate::model::{CellValues, CoulombFriction, Rig};
+use crate::model::{CellValues, CoulombFriction, Rig, Symmetry, Zone};
 use crate::solver::Increment;
 
 /// The record of a solved increment; what it has worn is not yet known.
 pub fn record(
     solved: &Increment,
-    (rig, friction): (Rig, &CoulombFriction),
+    (rig, friction, symmetry): (Rig, &CoulombFriction, Symmetry),
     (increment, stage, parts): (usize, usize, usize),
     wall_s: f64,
 ) -> StepRecord {
@@ -45,7 +45,7 @@ pub fn record(
         stick_area: solved.stick_area,
         contact_cells: outcome.contact_cells,
         stick_cells: outcome.stick_cells,
-        footprint: Footprint::of(&state.zone),
+        footprint: Footprint::of(&state.zone, symmetry),
         dissipated_energy: state.dissipated_energy,
         worn_volume: 0.0,
         max_worn_depth: 0.0,
@@ -57,21 +57,24 @@ pub fn record(
     }
 }
 
-/// Its fields by the names asked for; the worn depth is not yet known.
+/// Its fields by the names asked for, made whole; the worn depth is not yet known.
 ///
 /// # Errors
 /// When there is no memory for them: they are what grows while a run goes.
 pub fn kept(
     solved: &Increment,
-    friction: &CoulombFriction,
+    (friction, symmetry): (&CoulombFriction, Symmetry),
     increment: usize,
     names: &[String],
 ) -> Result<KeptFields, MemoryError> {
     let asked = |name: &str| names.iter().any(|asked| asked == name);
     let state = &solved.state;
-    let one = |name: &str, field: &Array2<f64>| asked(name).then(|| copied(field)).transpose();
-    let two =
-        |name: &str, [x, y]: &[Array2<f64>; 2]| asked(name).then(|| Ok([copied(x)?, copied(y)?])).transpose();
+    let one =
+        |name: &str, field: &Array2<f64>| asked(name).then(|| whole(field, [false; 2], symmetry)).transpose();
+    let two = |name: &str, [x, y]: &[Array2<f64>; 2]| {
+        let part = |axis, field| whole(field, symmetry.shear_is_odd(axis), symmetry);
+        asked(name).then(|| Ok([part(0, x)?, part(1, y)?])).transpose()
+    };
     let coefficients = if asked("friction") {
         Array2::from_shape_fn(state.pressure.dim(), |(i, j)| friction.at(i, j))
     } else {
@@ -83,7 +86,7 @@ pub fn kept(
         shear: two("shear", &state.shear)?,
         slip: two("slip", &state.slip)?,
         gap: one("gap", &solved.gap)?,
-        zone: asked("zone").then(|| copied(&state.zone)).transpose()?,
+        zone: asked("zone").then(|| whole_zones(&state.zone, symmetry)).transpose()?,
         worn_depth: None,
         friction: one("friction", &coefficients)?,
         rest: None,
@@ -105,15 +108,42 @@ pub fn mean_coefficient(friction: &CoulombFriction, pressure: &Array2<f64>) -> f
     one + if weights > 0.0 { weighted / weights } else { plain / coefficients.len().max(1) as f64 }
 }
 
-/// A copy of a field in memory that is asked for first.
+/// A field of the whole contact that changes its sign behind the mirrors where it is odd, in memory that is asked for first.
 ///
 /// # Errors
 /// When there is none.
-pub fn copied<T: Clone>(field: &Array2<T>) -> Result<Array2<T>, MemoryError> {
-    let mut values = Vec::new();
-    let bytes = field.len() * size_of::<T>();
-    values.try_reserve_exact(field.len()).map_err(|_| MemoryError::NotGiven(bytes as u64))?;
+pub fn whole(part: &Array2<f64>, odd: [bool; 2], symmetry: Symmetry) -> Result<Array2<f64>, MemoryError> {
+    if !symmetry.any() {
+        return copied(part);
+    }
+    Ok(symmetry.whole_in(room(symmetry.whole_of(part.dim().into()))?, part, odd))
+}
+
+/// The same of zones.
+fn whole_zones(part: &Array2<Zone>, symmetry: Symmetry) -> Result<Array2<Zone>, MemoryError> {
+    if !symmetry.any() {
+        return copied(part);
+    }
+    Ok(symmetry.whole_zones_in(room(symmetry.whole_of(part.dim().into()))?, part))
+}
+
+fn copied<T: Clone>(field: &Array2<T>) -> Result<Array2<T>, MemoryError> {
+    let mut values = memory_of(field.len())?;
     values.extend(field.iter().cloned());
     // As many values as the field has.
     Ok(Array2::from_shape_vec(field.dim(), values).unwrap_or_else(|_| field.clone()))
+}
+
+/// A field of zeros, or open cells.
+fn room<T: Clone + Default>(cells: [usize; 2]) -> Result<Array2<T>, MemoryError> {
+    let len = cells[0] * cells[1];
+    let mut values = memory_of(len)?;
+    values.resize(len, T::default());
+    Ok(Array2::from_shape_vec(cells, values).unwrap_or_else(|_| Array2::default(cells)))
+}
+
+fn memory_of<T>(len: usize) -> Result<Vec<T>, MemoryError> {
+    let mut values = Vec::new();
+    values.try_reserve_exact(len).map_err(|_| MemoryError::NotGiven((len * size_of::<T>()) as u64))?;
+    Ok(values)
 }

@@ -4,12 +4,13 @@ use std::sync::Arc;
 
 use ndarray::Array2;
 
-use super::checkpoint::{Checkpoint, Place, solved_state};
-use super::evolving::{CollectedSlip, Evolving};
+use super::checkpoint::Checkpoint;
+use super::evolving::Evolving;
 use super::journey::Journey;
 use super::observer::Observer;
 use super::pair_compliance::PairCompliance;
 use super::plausibility::Gauge;
+use super::records::Records;
 use super::run_error::{RunError, too_thin};
 use super::stiffest_wave::StiffestWave;
 use super::surfaces::Surfaces;
@@ -17,7 +18,7 @@ use super::thinning::bodies_left;
 use super::wear::{Collected, Wearing};
 use crate::history::History;
 use crate::machine::memory::{Claim, claim};
-use crate::model::{BulkCompliance, ContactState};
+use crate::model::BulkCompliance;
 use crate::plan::{Plan, Simplification};
 use crate::solver::{ContactSolver, SolverSettings};
 
@@ -81,10 +82,7 @@ impl<'a> Simulation<'a> {
     pub fn follow(&self, from: Checkpoint, observer: &mut dyn Observer) -> (History, Result<(), RunError>) {
         match self.memory(observer.leaves_fields(), from.place.solved) {
             Ok(_memory) => self.journey(from, observer),
-            Err(error) => {
-                let Checkpoint { place, state, wear, slip, .. } = from;
-                (self.history_from(&place, state, (wear.as_ref(), slip.as_ref())), Err(error))
-            }
+            Err(error) => (from.history(self.plan), Err(error)),
         }
     }
 
@@ -98,65 +96,43 @@ impl<'a> Simulation<'a> {
         own.map_err(|error| RunError::OutOfMemory { increment, error })
     }
 
-    /// A history that has only its start.
-    fn history_from(
-        &self,
-        place: &Place,
-        state: ContactState,
-        (wear, slip): (Option<&Collected>, Option<&CollectedSlip>),
-    ) -> History {
-        let plan = self.plan;
-        let case = &plan.case;
-        History {
-            grid: plan.grid,
-            bodies: case.bodies.clone(),
-            periodic: case.periodic,
-            stages: case.stages.iter().map(|stage| stage.name.clone()).collect(),
-            steps: Vec::new(),
-            cycles: Vec::new(),
-            worn_through: None,
-            worn_by_layer: None,
-            fields: Vec::new(),
-            end: solved_state(place, &state, wear, slip).beside(|_| true),
-            state,
-            plan: plan.to_json(),
-            warnings: Vec::new(),
-        }
-    }
-
     fn journey(&self, from: Checkpoint, observer: &mut dyn Observer) -> (History, Result<(), RunError>) {
         let plan = self.plan;
-        let case = &plan.case;
-        let Checkpoint { place, state, memory, cycle, wear, slip } = from;
-        let history = self.history_from(&place, state, (wear.as_ref(), slip.as_ref()));
-        let thinned = wear.as_ref().map_or([0.0; 2], Collected::thinned);
+        let (case, symmetry) = (&plan.case, plan.symmetry);
+        let thinned = from.wear.as_ref().map_or([0.0; 2], Collected::thinned);
         let compliance = match &self.compliance {
             _ if thinned != [0.0; 2] => match bodies_left(plan, thinned) {
                 Ok(bodies) => PairCompliance::of_bodies(plan, &bodies),
-                Err(reason) => return (history, Err(too_thin(case, &place, reason))),
+                Err(reason) => {
+                    let error = too_thin(case, &from.place, reason);
+                    return (from.history(plan), Err(error));
+                }
             },
             Some(compliance) => PairCompliance::clone(compliance),
             None => PairCompliance::of(plan),
         };
-        let stiffest = case.wear.is_some().then(|| StiffestWave::new(&compliance, &plan.grid));
-        let unworn = case.profile.gap(&plan.grid);
-        let mut solver = self.solver(compliance, unworn.clone());
-        if let Some(depth) = &history.state.worn_depth {
-            solver.set_gap(&unworn + depth);
+        let Checkpoint { place, state, memory, cycle, wear, slip } = from;
+        let stiffest = case.wear.is_some().then(|| StiffestWave::of(plan, &compliance));
+        let gap = case.profile.gap(&plan.grid);
+        let unworn = state.worn_depth.as_ref().map(|_| symmetry.part(&gap));
+        let mut solver = self.solver(compliance, gap);
+        if let (Some(unworn), Some(depth)) = (&unworn, &state.worn_depth) {
+            solver.set_gap(unworn + depth);
         }
-        let wearing = case.wear.clone().zip(wear).zip(stiffest).map(|((rule, collected), stiffest)| {
-            Wearing::new(rule, stiffest, unworn, case.friction.clone(), collected)
+        let friction = || symmetry.part_of_friction(&case.friction).into_owned();
+        let wears = case.wear.clone().zip(wear).zip(stiffest.zip(unworn));
+        let wearing = wears.map(|((rule, collected), (stiffest, unworn))| {
+            Wearing::new(rule, stiffest, unworn, friction(), collected)
         });
-        let evolution = case.friction_evolution.clone().zip(slip).zip(history.state.accumulated.as_ref());
-        let evolving = evolution.map(|((rule, collected), slipped)| {
-            Evolving::new(rule, case.friction.clone(), slipped, collected)
-        });
+        let evolution = case.friction_evolution.clone().zip(slip).zip(state.accumulated.as_ref());
+        let evolving =
+            evolution.map(|((rule, collected), slipped)| Evolving::new(rule, friction(), slipped, collected));
         let surfaces = Surfaces { wearing, evolving, integration: case.integration };
-        solver.set_tilt(history.state.tilt);
+        solver.set_tilt(state.tilt);
         // Last: a new gap makes a solver forget.
         solver.restore_memory(memory);
-        let journey =
-            Journey { plan, solver, surfaces, history, gauge: Gauge::default(), place, cycle, observer };
+        let (records, gauge) = (Records::default(), Gauge::default());
+        let journey = Journey { plan, solver, surfaces, state, records, gauge, place, cycle, observer };
         journey.through_all_stages()
     }
 

@@ -7,6 +7,7 @@ use ndarray::Array2;
 use super::pair_compliance::PairCompliance;
 use crate::compliance::SurfaceResponse;
 use crate::model::SurfaceGrid;
+use crate::plan::Plan;
 
 /// Waves of pressure between two wavelengths of which one is twice the other, of bodies that are looked at wave by wave.
 const PER_OCTAVE: f64 = 8.0;
@@ -17,7 +18,9 @@ const FIRST_ZERO: f64 = 2.404_825_557_695_773;
 /// cell to cell; on nearly incompressible films long waves may displace less.
 #[derive(Debug, Clone)]
 pub struct StiffestWave {
-    grid: SurfaceGrid,
+    /// Area of the whole contact that a cell stands for [length^2].
+    cell_area: f64,
+    is_line: bool,
     /// Whether waves run through: then all of the period has room for them.
     is_periodic: bool,
     /// Displacement by unit pressure that alternates from cell to cell [length/pressure].
@@ -27,8 +30,13 @@ pub struct StiffestWave {
 }
 
 impl StiffestWave {
+    /// The waves of a planned contact.
+    pub fn of(plan: &Plan, compliance: &PairCompliance) -> Self {
+        Self { cell_area: plan.area_of_cell(), ..Self::new(compliance, &plan.grid) }
+    }
+
     /// The waves on a grid.
-    pub fn new(compliance: &PairCompliance, grid: &SurfaceGrid) -> Self {
+    fn new(compliance: &PairCompliance, grid: &SurfaceGrid) -> Self {
         let waves = match (&compliance.response, &compliance.table) {
             (SurfaceResponse::Periodic(symbols), _) => {
                 let size = grid.size();
@@ -50,14 +58,15 @@ impl StiffestWave {
             }
         };
         let is_periodic = compliance.response.is_periodic();
-        Self { grid: *grid, is_periodic, alternating: compliance.response.alternating_normal(), waves }
+        let alternating = compliance.response.alternating_normal();
+        Self { cell_area: grid.cell_area(), is_line: grid.is_line(), is_periodic, alternating, waves }
     }
 
     /// Displacement [length/pressure] by the stiffest wave that the cells which wear have room for, those where `wear` is positive: in a circle
     /// of their area, in a strip as wide as they are together, or anywhere in a period.
     pub fn displacement(&self, wear: &Array2<f64>) -> f64 {
-        let area = wear.iter().filter(|wear| **wear > 0.0).count() as f64 * self.grid.cell_area();
-        let longest = match (self.is_periodic, self.grid.is_line()) {
+        let area = wear.iter().filter(|wear| **wear > 0.0).count() as f64 * self.cell_area;
+        let longest = match (self.is_periodic, self.is_line) {
             (true, _) => f64::INFINITY,
             // a line's cells are counted by their width
             (false, true) => 2.0 * area,

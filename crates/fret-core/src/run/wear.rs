@@ -6,7 +6,8 @@ use serde::{Deserialize, Serialize};
 use super::slip_increment::{add_path, add_wear};
 use super::stiffest_wave::StiffestWave;
 use crate::fields::stored;
-use crate::model::{ContactState, CoulombFriction, Integration, SurfaceGrid, WearLaw, WearLayers, WearRule};
+use crate::model::{ContactState, CoulombFriction, Integration, WearLaw, WearLayers, WearRule};
+use crate::plan::Plan;
 
 /// Share of the stiffest wave of pressure that a block may take off at the most. Above 2 such a wave would grow with every block: on
 /// half-spaces neighbouring cells, on nearly incompressible films wider regions would take turns in carrying the load.
@@ -268,10 +269,10 @@ impl Wearing {
     }
 }
 
-/// Volume worn off [length^3], and the largest depth [length].
-pub fn worn(state: &ContactState, grid: &SurfaceGrid) -> [f64; 2] {
+/// Volume worn off the whole contact [length^3], and the largest depth [length].
+pub fn worn(state: &ContactState, plan: &Plan) -> [f64; 2] {
     state.worn_depth.as_ref().map_or([0.0; 2], |depth| {
-        let volume = depth.iter().sum::<f64>() * grid.cell_area();
+        let volume = depth.iter().sum::<f64>() * plan.area_of_cell();
         [volume, depth.iter().copied().fold(0.0, f64::max)]
     })
 }

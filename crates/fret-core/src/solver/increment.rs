@@ -81,9 +81,11 @@ impl ContactSolver<'_> {
         callback: IterationCallback<'_>,
     ) -> Result<(Solved, ContactState, Outcome), SolveError> {
         let grid = self.grid;
-        let bodies = (self.rig.of_part(self.symmetry.copies()), self.stretch(state, load));
+        let copies = self.symmetry.copies();
+        let bodies = (self.rig.of_part(copies), self.stretch(state, load));
         let (loads, surface) = ((state, load), (&*self.friction, self.coupling));
-        let mut increment = IncrementProblem::new(&grid, &self.undeformed, surface, loads, bodies, region);
+        let mut increment =
+            IncrementProblem::new((&grid, copies), &self.undeformed, surface, loads, bodies, region);
         if let Some(solved) = increment.apart() {
             let (after, outcome) = state_after(&increment, &solved, 0.0, self.settings.integration);
             return Ok((solved, after, outcome));

@@ -30,6 +30,8 @@ const MOST_TURNING: usize = 24;
 /// One increment in one region.
 pub struct IncrementProblem<'a> {
     pub grid: &'a SurfaceGrid,
+    /// How many cells of the whole contact each of its cells stands for.
+    pub copies: usize,
     /// The state before.
     pub state: &'a ContactState,
     /// What is prescribed at the end.
@@ -67,7 +69,7 @@ pub struct Solved {
 impl<'a> IncrementProblem<'a> {
     /// Gathers what an increment needs inside `region`.
     pub fn new(
-        grid: &'a SurfaceGrid,
+        (grid, copies): (&'a SurfaceGrid, usize),
         undeformed: &Array2<f64>,
         (friction, coupling): (&CoulombFriction, Coupling),
         (state, load): (&'a ContactState, &'a LoadStep),
@@ -82,6 +84,7 @@ impl<'a> IncrementProblem<'a> {
         let area = grid.cell_area();
         Self {
             grid,
+            copies,
             state,
             load,
             region,

@@ -60,7 +60,8 @@ pub use held_response::ResponseMaker;
 use normal::coarse_grids::CoarseGrids;
 use operators::RegionOperators;
 
-/// Solves increments of one contact; of one with mirrors the part before them, which is what its grid, fields and memory hold.
+/// Solves increments of one contact; of one with mirrors the part in front of them, which is what its grid, fields and memory hold.
+/// Forces and other numbers are always those of the whole contact.
 pub struct ContactSolver<'a> {
     grid: SurfaceGrid,
     undeformed: Array2<f64>,
@@ -165,7 +166,7 @@ impl<'a> ContactSolver<'a> {
     }
 
     /// The same solver for a problem with mirrors: gap, friction and loads are their own mirror images, and cells even in number
-    /// along mirrored axes. States pass in and out whole.
+    /// along mirrored axes. From here on the fields of states, of the gap and of friction are those in front of the mirrors.
     #[must_use]
     pub fn with_symmetry(self, symmetry: Symmetry) -> Self {
         let cells = symmetry.part_of(self.grid.cells());
@@ -174,7 +175,10 @@ impl<'a> ContactSolver<'a> {
             middle: [0, 1].map(|axis| if mirrored[axis] { 0.25 * size[axis] } else { 0.0 }),
             grid: SurfaceGrid::new(cells, self.grid.spacing()).unwrap_or(self.grid),
             undeformed: symmetry.part(&self.undeformed),
-            friction: Cow::Owned(symmetry.part_of_friction(&self.friction)),
+            friction: match self.friction {
+                Cow::Borrowed(friction) => symmetry.part_of_friction(friction),
+                Cow::Owned(friction) => Cow::Owned(symmetry.part_of_friction(&friction).into_owned()),
+            },
             symmetry,
             ..self
         }
@@ -190,25 +194,20 @@ impl<'a> ContactSolver<'a> {
         self.memory = memory;
     }
 
-    /// Another friction law from the next increment on.
-    pub fn set_friction(&mut self, friction: &'a CoulombFriction) {
-        self.friction = if self.symmetry.any() {
-            Cow::Owned(self.symmetry.part_of_friction(friction))
-        } else {
-            Cow::Borrowed(friction)
-        };
+    /// The friction law in force.
+    pub fn friction(&self) -> &CoulombFriction {
+        &self.friction
     }
 
-    /// The same, of a law that nobody else holds.
-    pub fn take_friction(&mut self, friction: CoulombFriction) {
-        let friction = if self.symmetry.any() { self.symmetry.part_of_friction(&friction) } else { friction };
-        self.friction = Cow::Owned(friction);
+    /// Another friction law from the next increment on.
+    pub fn set_friction(&mut self, friction: Cow<'a, CoulombFriction>) {
+        self.friction = friction;
     }
 
     /// Goes on with another undeformed gap [length], shape of the grid: the displacements known so far hold no longer. Tractions, loads
     /// and the region of the last increment still do.
     pub fn set_gap(&mut self, undeformed: Array2<f64>) {
-        self.undeformed = if self.symmetry.any() { self.symmetry.part(&undeformed) } else { undeformed };
+        self.undeformed = undeformed;
         self.coarse = None;
         self.memory.last = None;
         self.memory.before = None;
@@ -229,7 +228,8 @@ impl<'a> ContactSolver<'a> {
         self.memory.before = None;
     }
 
-    /// Solves one increment: from `state`, which the increment before returned, to the loads and motions of `load`.
+    /// Solves one increment: from `state`, which the increment before returned, to the loads and motions of `load`, which are those of the
+    /// whole contact.
     ///
     /// # Errors
     /// When the equations cannot be satisfied, the loads have no equilibrium, or the contact reaches the grid's edge.
@@ -241,9 +241,8 @@ impl<'a> ContactSolver<'a> {
     ) -> Result<Increment, SolveError> {
         let symmetry = self.symmetry;
         let solved = if symmetry.any() {
-            let part = symmetry.part_of_state(state);
-            self.solve_tilted(&part, &symmetry.part_of_load(load, state), callback)
-                .map(|increment| increment.of_whole(symmetry))
+            self.solve_tilted(state, &symmetry.part_of_load(load, state), callback)
+                .map(|increment| Increment { outcome: increment.outcome.of_whole(symmetry), ..increment })
                 .map_err(|error| error.of_whole(symmetry.copies()))
         } else {
             self.solve_tilted(state, load, callback)

@@ -117,7 +117,29 @@ pub struct Outcome {
     pub residual: Residual,
 }
 
-/// A solved increment.
+impl Outcome {
+    /// The outcome of the whole contact from that in front of its mirrors.
+    pub(super) fn of_whole(self, symmetry: Symmetry) -> Self {
+        let copies = symmetry.copies();
+        let Resultants { normal, tangential, tilt_moment, .. } = self.resultants;
+        let mirrored = symmetry.axes();
+        let resultants = Resultants {
+            normal: normal * copies as f64,
+            tangential: symmetry.whole_force(tangential),
+            moment: 0.0, // one side turns against the other
+            tilt_moment: [0, 1]
+                .map(|axis| if mirrored[axis] { 0.0 } else { tilt_moment[axis] * copies as f64 }),
+        };
+        Self {
+            resultants,
+            contact_cells: self.contact_cells * copies,
+            stick_cells: self.stick_cells * copies,
+            ..self
+        }
+    }
+}
+
+/// A solved increment. Its fields are those in front of the mirrors, its numbers those of the whole contact.
 #[derive(Debug)]
 pub struct Increment {
     /// Tractions, motions and history after the increment.
@@ -128,35 +150,8 @@ pub struct Increment {
     pub contact_area: f64,
     /// Area that sticks [length^2]: the fraction of the cells in contact that stick.
     pub stick_area: f64,
-    /// Gap on the whole grid [length].
+    /// Gap on the whole of the solver's grid [length].
     pub gap: Array2<f64>,
     /// Work spent.
     pub work: Work,
-}
-
-impl Increment {
-    /// The increment of the whole grid from that of the part before its mirrors.
-    pub(super) fn of_whole(self, symmetry: Symmetry) -> Self {
-        let copies = symmetry.copies();
-        let Outcome { resultants: Resultants { normal, tangential, tilt_moment, .. }, .. } = self.outcome;
-        let mirrored = symmetry.axes();
-        let resultants = Resultants {
-            normal: normal * copies as f64,
-            tangential: symmetry.whole_force(tangential),
-            moment: 0.0, // one side turns against the other
-            tilt_moment: [0, 1]
-                .map(|axis| if mirrored[axis] { 0.0 } else { tilt_moment[axis] * copies as f64 }),
-        };
-        Self {
-            state: symmetry.whole_state(&self.state),
-            outcome: Outcome {
-                resultants,
-                contact_cells: self.outcome.contact_cells * copies,
-                stick_cells: self.outcome.stick_cells * copies,
-                ..self.outcome
-            },
-            gap: symmetry.whole(&self.gap, [false; 2]),
-            ..self
-        }
-    }
 }

@@ -57,8 +57,9 @@ pub(super) fn state_after(
         dissipated += dissipation([bound_before[place], bound[place]], weights, way);
     }
     let area = grid.cell_area();
-    state.dissipated_energy += dissipated * area;
-    state.bulk_work += bulk_work(problem, &state) * area;
+    let area_of_copies = area * problem.copies as f64;
+    state.dissipated_energy += dissipated * area_of_copies;
+    state.bulk_work += bulk_work(problem, &state) * area_of_copies;
     let limit = sum(&bound);
     let resultants = Resultants {
         normal: sum(pressure) * area,

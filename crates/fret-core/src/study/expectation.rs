@@ -15,7 +15,7 @@ use crate::compliance::{OperatorSet, SpectralCompliance, SurfaceCompliance, Surf
 use crate::fields::largest;
 use crate::history::{CycleRecord, KeptFields, StepRecord, Work};
 use crate::kernel::{Components, InfluenceCoefficients, influence_coefficients, line_coefficients};
-use crate::model::ContactState;
+use crate::model::MirroredState;
 use crate::plan::{Advance, Coupling, Plan};
 use crate::run::{Iteration, Observer, Simulation};
 
@@ -229,11 +229,11 @@ impl Observer for Count {
     fn solved(
         &mut self,
         record: &StepRecord,
-        state: &ContactState,
+        state: MirroredState<'_>,
         _: Option<&KeptFields>,
     ) -> ControlFlow<()> {
         self.advance.solved(record);
-        if let Some(depth) = state.worn_depth.as_ref().and_then(|depth| depth.as_slice()) {
+        if let Some(depth) = state.part.worn_depth.as_ref().and_then(|depth| depth.as_slice()) {
             self.worn = largest(depth);
         }
         self.solved += 1;

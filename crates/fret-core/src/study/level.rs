@@ -10,7 +10,7 @@ use super::quantities::StageQuantities;
 use super::variation::Variation;
 use crate::fields::stored;
 use crate::history::{CycleRecord, KeptFields, StepRecord, Work};
-use crate::model::{ContactState, SurfaceGrid};
+use crate::model::{MirroredState, SurfaceGrid};
 use crate::plan::Plan;
 use crate::run::{Iteration, Observer, RunError, Simulation};
 
@@ -79,7 +79,7 @@ impl Observer for Reader<'_> {
     fn solved(
         &mut self,
         record: &StepRecord,
-        state: &ContactState,
+        state: MirroredState<'_>,
         kept: Option<&KeptFields>,
     ) -> ControlFlow<()> {
         if self.ends.last().is_some_and(|end| end.stage == record.stage) {

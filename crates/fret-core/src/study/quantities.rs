@@ -3,9 +3,9 @@
 use ndarray::Array2;
 use serde::{Deserialize, Serialize};
 
-use super::peak::peak_pressure;
+use super::peak::peak_pressure_in_front;
 use crate::history::{StepRecord, faces_between};
-use crate::model::{ContactState, SurfaceGrid, Zone};
+use crate::model::{ContactState, MirroredState, SurfaceGrid, Symmetry, Zone};
 
 /// A quantity of interest.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
@@ -65,7 +65,7 @@ pub struct Plain {
 pub struct StageQuantities {
     /// Number of the stage, from 0.
     pub stage: usize,
-    /// Largest pressure [pressure]: [`peak_pressure`].
+    /// Largest pressure [pressure]: [`peak_pressure`](super::peak_pressure).
     pub max_pressure: f64,
     /// Rigid approach [length].
     pub approach: f64,
@@ -93,11 +93,13 @@ pub struct StageQuantities {
 
 impl StageQuantities {
     /// Quantities of interest of a solved increment.
-    pub fn new(grid: &SurfaceGrid, record: &StepRecord, state: &ContactState) -> Self {
+    pub fn new(grid: &SurfaceGrid, record: &StepRecord, state: MirroredState<'_>) -> Self {
+        let MirroredState { part: ContactState { pressure, zone, .. }, symmetry } = state;
         let cell = grid.cell_area();
+        let edge = |is_within: fn(&Zone) -> bool| cell * edge_cells(zone, symmetry, is_within);
         Self {
             stage: record.stage,
-            max_pressure: peak_pressure(&state.pressure.view()),
+            max_pressure: peak_pressure_in_front(pressure, symmetry),
             approach: record.approach,
             contact_area: record.contact_area,
             stick_area: record.stick_area,
@@ -108,8 +110,8 @@ impl StageQuantities {
                 contact_area: record.contact_cells as f64 * cell,
                 stick_area: record.stick_cells as f64 * cell,
             },
-            contact_edge: cell * edge_cells(&state.zone, |zone| *zone != Zone::Open),
-            stick_edge: cell * edge_cells(&state.zone, |zone| *zone == Zone::Stick),
+            contact_edge: edge(|zone| *zone != Zone::Open),
+            stick_edge: edge(|zone| *zone == Zone::Stick),
             cell_area: cell,
             is_line: grid.is_line(),
             radius_cells: record.footprint.radius,
@@ -141,8 +143,8 @@ impl StageQuantities {
 
 /// Length of the edge of a zone in cells, from the cell faces it crosses: for every direction alike a line crosses
 /// `4 / pi` faces a cell (Cauchy and Crofton).
-fn edge_cells(zone: &Array2<Zone>, is_within: impl Fn(&Zone) -> bool) -> f64 {
-    let [along_x, along_y] = faces_between(zone, is_within);
+fn edge_cells(zone: &Array2<Zone>, symmetry: Symmetry, is_within: impl Fn(&Zone) -> bool) -> f64 {
+    let [along_x, along_y] = faces_between(zone, symmetry, is_within);
     if zone.ncols() == 1 {
         return along_x as f64; // of a line contact: its ends
     }
@@ -160,7 +162,7 @@ mod tests {
             let r = (i as f64 - 24.5).hypot(j as f64 - 24.5);
             if r < 20.0 { Zone::Stick } else { Zone::Open }
         });
-        let length = edge_cells(&zone, |zone| *zone == Zone::Stick);
+        let length = edge_cells(&zone, Symmetry::NONE, |zone| *zone == Zone::Stick);
         assert!((length / (40.0 * std::f64::consts::PI) - 1.0).abs() < 0.01, "{length}");
     }
 }
