@@ -14,6 +14,9 @@ const OFFSET: f64 = 0.024;
 /// has worn the pressure even, or down to the rim of what sticks.
 const STEP: f64 = 2.0;
 
+/// A pressure that falls from one cell to the next leaves less than this fraction: the rest is what a solution may be off.
+const FALLS: f64 = 1.0 - 1e-6;
+
 /// How pressure rises from the edge.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Rise {
@@ -125,7 +128,8 @@ fn edges_of(line: &ArrayView1<'_, f64>, mirrored: bool, edges: &mut Vec<EdgeOfLi
         let across = is_known.then_some(whole as f64);
         if loaded >= 3 {
             let mut note = |[a, b, c]: [f64; 3]| {
-                if a > b && b > c {
+                // beside a mirror two are equal but for rounding
+                if a * FALLS > b && b > c {
                     edges.push(EdgeOfLine { pressures: [b / a, c / a], across });
                 }
             };
@@ -147,16 +151,18 @@ const NEAR: usize = 2;
 /// slopes of both along grid lines across the edge equal (of foundations those of a parabola). Farther out than two cells it is just
 /// negative. `None` when no grid line crosses an edge.
 pub fn level_function(pressure: &ArrayView2<'_, f64>, gap: &ArrayView2<'_, f64>) -> Option<Array2<f64>> {
-    level_of(Rise::ROOT, pressure, gap, f64::INFINITY).map(|(level, _)| level)
+    level_of(Rise::ROOT, pressure, gap, f64::INFINITY, [false; 2]).map(|(level, _)| level)
 }
 
 /// The level function of pressures that rise so, and how many cells beyond its last one pressure would reach zero, in the median of
-/// the edges. Cells with a gap wider than `beyond`, where a body has ended, tell nothing about the edge.
+/// the edges. Cells with a gap wider than `beyond`, where a body has ended, tell nothing about the edge. `mirrored`: axes whose first cells
+/// lie at a mirror.
 fn level_of(
     rise: Rise,
     pressure: &ArrayView2<'_, f64>,
     gap: &ArrayView2<'_, f64>,
     beyond: f64,
+    mirrored: [bool; 2],
 ) -> Option<(Array2<f64>, f64)> {
     let (nx, ny) = pressure.dim();
     let near = near_the_contact(pressure);
@@ -178,6 +184,17 @@ fn level_of(
     }
     for four in level.windows(3 * ny + 1) {
         slopes.read([four[0], four[ny], four[2 * ny], four[3 * ny]]);
+    }
+    // Those that begin with the image of the first cell; others across a mirror are images of these.
+    if mirrored[1] {
+        for line in level.chunks_exact(ny).filter(|line| line.len() > 2) {
+            slopes.read([line[0], line[0], line[1], line[2]]);
+        }
+    }
+    if mirrored[0] {
+        for three in level.windows(2 * ny + 1).take(ny) {
+            slopes.read([three[0], three[0], three[ny], three[2 * ny]]);
+        }
     }
     let reach = median(&mut slopes.reaches)?;
     let kappa = slopes.ratio()? * rise.steeper;
@@ -263,7 +280,7 @@ pub fn contact_cells(
 ) -> f64 {
     let (nx, ny) = pressure.dim();
     let rise = Rise::of(pressure, mirrored);
-    let level = match level_of(rise, pressure, gap, beyond) {
+    let level = match level_of(rise, pressure, gap, beyond, mirrored) {
         Some((level, reach)) if reach <= STEP => level,
         _ => return pressure.iter().filter(|p| **p > 0.0).count() as f64,
     };
