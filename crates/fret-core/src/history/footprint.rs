@@ -1,6 +1,6 @@
 //! How the contact lies on the grid: how many cells show it, and how many are left around it.
 
-use ndarray::{Array2, ArrayView2, Zip, s};
+use ndarray::Array2;
 use serde::{Deserialize, Serialize};
 
 use crate::model::Zone;
@@ -47,15 +47,22 @@ impl Footprint {
 
 /// Faces along x and along y between a cell that lies within and one that does not.
 pub fn faces_between(zone: &Array2<Zone>, is_within: impl Fn(&Zone) -> bool) -> [usize; 2] {
-    let count = |ones: ArrayView2<'_, Zone>, others: ArrayView2<'_, Zone>| {
-        let add =
-            |faces: usize, one: &Zone, other: &Zone| faces + usize::from(is_within(one) != is_within(other));
-        Zip::from(ones).and(others).fold(0, add)
+    let (nx, ny) = zone.dim();
+    let within: Vec<u8> = zone.iter().map(|zone| u8::from(is_within(zone))).collect();
+    let row = |i: usize| &within[i * ny..][..ny];
+    let along_x = (1..nx).map(|i| differing(row(i - 1), row(i))).sum();
+    let along_y = (0..nx).map(|i| differing(row(i), row(i).get(1..).unwrap_or_default())).sum();
+    [along_x, along_y]
+}
+
+/// How many of some marks, 0 or 1, differ from others; by runs that one byte can count.
+fn differing(ones: &[u8], others: &[u8]) -> usize {
+    const RUN: usize = 255;
+    let runs = ones.chunks(RUN).zip(others.chunks(RUN));
+    let in_run = |(ones, others): (&[u8], &[u8])| {
+        ones.iter().zip(others).fold(0_u8, |count, (one, other)| count.wrapping_add(one ^ other))
     };
-    [
-        count(zone.slice(s![1.., ..]), zone.slice(s![..-1, ..])),
-        count(zone.slice(s![.., 1..]), zone.slice(s![.., ..-1])),
-    ]
+    runs.map(|run| usize::from(in_run(run))).sum()
 }
 
 #[cfg(test)]

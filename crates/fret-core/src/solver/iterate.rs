@@ -38,6 +38,8 @@ pub struct Iterate<'a> {
     normal: NormalResidual,
     tangential: TangentialResidual,
     slip: SlipIncrement,
+    /// Slip that the next step is to remove, packed [length].
+    left_over: TangentialField,
     sets: ActiveSets,
     /// The contact for which `sets` were found.
     contact_of_sets: ContactSet,
@@ -92,6 +94,7 @@ impl<'a> Iterate<'a> {
             normal: NormalResidual { approach: problem.normal.approach, residual: 0.0 },
             tangential: TangentialResidual { motion: [0.0; 3], residual: 0.0 },
             slip: SlipIncrement::default(),
+            left_over: TangentialField::default(),
             sets: ActiveSets::default(),
             contact_of_sets: ContactSet::default(),
             step: ContactVector::default(),
@@ -154,13 +157,13 @@ impl<'a> Iterate<'a> {
 
     /// The step that solves the linearised problem to the forcing term.
     pub fn find_step(&mut self, forcing: f64, settings: &SolverSettings, operators: &mut RegionOperators) {
-        let Self { problem, packed, self_influence, .. } = self;
+        let Self { problem, packed, left_over, self_influence, .. } = self;
         let Packed { pressure, bound, gap, .. } = packed;
         let (size, own) = match problem.pressure {
             Pressure::Unknown => (largest(pressure), self_influence[0]),
             Pressure::Given => (largest(&bound.bound), self_influence[1]),
         };
-        let mut left_over = self.slip.left_over(&self.sets);
+        self.slip.find_left_over(&self.sets, left_over);
         let loads = problem.tangential;
         if loads.any_spring() {
             // The displacement of the spring follows from the shear as it is, not from what the law makes of it.
@@ -209,7 +212,7 @@ impl<'a> Iterate<'a> {
         let Self { contact, packed, tractions, last, .. } = self;
         std::mem::swap(last, *tractions);
         tractions.reset(last.pressure.len());
-        contact.scatter(&packed.pressure, &mut tractions.pressure);
+        contact.scatter(&packed.pressure, 1.0, &mut tractions.pressure);
         contact.scatter_tangential(&packed.shear, &mut tractions.shear);
         true
     }
@@ -282,13 +285,14 @@ impl<'a> Iterate<'a> {
             gap,
             slip,
             last,
+            left_over,
             sets,
             step,
             packed,
             projection,
             ..
         } = self;
-        drop((last, sets, step, packed, projection)); // before memory for the next fields is taken
+        drop((last, left_over, sets, step, packed, projection)); // before memory for the next fields is taken
         let scattered = |packed: TangentialField| {
             let mut field = TangentialField::zeros(tractions.pressure.len());
             contact.scatter_tangential(&packed, &mut field);

@@ -9,7 +9,7 @@ use super::inverse::{Inverse, InverseFields};
 use crate::compliance::{
     NORMAL_BLOCKS, OperatorSet, SharedWorkspace, SurfaceResponse, TANGENTIAL_BLOCKS, mirrors,
 };
-use crate::fields::{CellRule, Number, Reals, clear, each_cell};
+use crate::fields::{CellRule, Number, Reals, each_cell, reset};
 use crate::kernel::ResponseTable;
 use fret_fft::{Block, ConvolutionError, Kernel, Parity, PeriodicProduct, Symbol};
 
@@ -161,7 +161,7 @@ impl Preconditioner {
         let [weighted_x, weighted_y] = weighted;
         let [part_x, part_y] = part;
         for field in [&mut *elastic, &mut *slip, weighted_x, weighted_y, part_x, part_y] {
-            clear(field, slip_compliance.len()); // where shear acts along one axis nobody writes the other component
+            reset(field, slip_compliance.len()); // where shear acts along one axis nobody writes the other part: it stays zero
         }
         each_cell(&Weights { softest: self.softest / compliance }, [slip_compliance], [elastic, slip]);
         weights.compliance = compliance;

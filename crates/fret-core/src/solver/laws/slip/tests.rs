@@ -201,7 +201,8 @@ fn the_law_is_about_the_slip_at_the_end_of_its_path() {
         sets.slip = sets.stick.iter().map(|stick| 1.0 - stick).collect();
         sets.direction = sample.q.clone();
         sets.turn(&sample.path, &increment.slip);
-        let left = increment.left_over(&sets);
+        let mut left = TangentialField::default();
+        increment.find_left_over(&sets, &mut left);
         let [row_x, row_y] = sets.rows();
         // What stands across a direction.
         let across = |along: [f64; 2], of: [f64; 2]| along[0] * of[1] - along[1] * of[0];
@@ -234,7 +235,9 @@ fn the_law_is_about_the_slip_at_the_end_of_its_path() {
         );
         assert_eq!(increment.at_end, increment.slip);
         sets.turn(&straight, &increment.slip);
-        assert_eq!(increment.left_over(&sets), increment.slip);
+        let mut left = TangentialField::default();
+        increment.find_left_over(&sets, &mut left);
+        assert_eq!(left, increment.slip);
     }
     assert!(turned > 100, "{turned}");
 }
