@@ -26,8 +26,6 @@ impl ContactSolver<'_> {
             whole.place(&solved.solution.gap, &mut gap);
             return Ok(gap);
         }
-        gap.assign(&self.undeformed);
-        gap -= state.approach;
         let coupled = self.coupling == Coupling::Coupled;
         let operator = match &mut self.full_grid {
             Some(operator) => operator,
@@ -43,18 +41,17 @@ impl ContactSolver<'_> {
                 none.insert(operator.working_in(&self.workspace))
             }
         };
-        let mut normal = vec![0.0; whole.len()];
-        let pressure = whole.gather(&state.pressure);
+        let flat = |field| whole.gathered(field);
+        let (pressure, displacement) = (flat(&state.pressure), gap.as_slice_mut().unwrap_or_default());
         if coupled {
-            operator.normal_from_all(&pressure, &whole.gather_tangential(&state.shear), &mut normal);
+            let [x, y] = state.shear.each_ref().map(flat);
+            operator.normal_from_all(&pressure, [&x, &y], displacement);
         } else {
-            operator.normal(&pressure, &mut normal);
+            operator.normal(&pressure, displacement);
         }
         self.work.convolutions += 1;
         self.work.full_grid_convolutions += 1.0 / self.symmetry.copies() as f64;
-        for (gap, u) in gap.iter_mut().zip(&normal) {
-            *gap += u;
-        }
+        gap.zip_mut_with(&self.undeformed, |gap, undeformed| *gap += undeformed - state.approach);
         Ok(gap)
     }
 

@@ -1,5 +1,6 @@
 //! The active subdomain around the contact: where the iteration works, and how fields pass between it and the whole grid.
 
+use std::borrow::Cow;
 use std::ops::Range;
 
 use ndarray::{Array2, ArrayBase, Ix2, RawData, s};
@@ -44,6 +45,12 @@ impl Region {
     pub fn gather(&self, field: &Array2<f64>) -> Vec<f64> {
         let part = inside(field.view(), self.ranges()).as_standard_layout().into_owned();
         part.into_raw_vec_and_offset().0
+    }
+
+    /// The same without a copy, where the part is all of a field that lies in memory so.
+    pub fn gathered<'a>(&self, field: &'a Array2<f64>) -> Cow<'a, [f64]> {
+        let all = field.as_slice().filter(|_| *self == Self::whole(field.dim().into()));
+        all.map_or_else(|| Cow::Owned(self.gather(field)), Cow::Borrowed)
     }
 
     /// Something of every cell of a grid field in the part, as flat rows.
@@ -164,6 +171,11 @@ mod tests {
         // In either order of memory.
         let turned = grid.t().as_standard_layout().into_owned().reversed_axes();
         assert_eq!(region.gather(&turned), part);
+        let whole = Region::whole([5, 7]);
+        assert!(matches!(whole.gathered(&grid), Cow::Borrowed(all) if all == whole.gather(&grid)));
+        for (region, field) in [(whole, &turned), (region, &grid)] {
+            assert_eq!(region.gathered(field), region.gather(&grid));
+        }
         assert_eq!(region.gather_map(&grid, |value| *value as i32 % 10), [2, 3, 4, 2, 3, 4]);
         let both = region.gather_tangential(&[grid.clone(), -&grid]);
         assert_eq!((&both.x, both.y[5]), (&part, -24.0));

@@ -159,7 +159,9 @@ fn distance(gap: f64) -> f64 {
 struct SlipOfEdge<'a> {
     edge: &'a Edge<'a>,
     zones: &'a Array2<Zone>,
-    /// What was found.
+    /// Distances of open cells from the edge that were found, up to a factor.
+    distances: Array2<f64>,
+    /// Slip that was found.
     found: Array2<Option<[f64; 2]>>,
     /// Cells that wait for others nearer to the contact.
     waiting: Vec<[usize; 2]>,
@@ -167,13 +169,20 @@ struct SlipOfEdge<'a> {
 
 impl<'a> SlipOfEdge<'a> {
     fn new(edge: &'a Edge<'a>, zones: &'a Array2<Zone>) -> Self {
-        Self { edge, zones, found: Array2::default(zones.dim()), waiting: Vec::new() }
+        let (distances, found) = (Array2::zeros(zones.dim()), Array2::default(zones.dim()));
+        Self { edge, zones, distances, found, waiting: Vec::new() }
     }
 
     /// At an open cell; `slip_of` a cell in contact [length].
     fn at(&mut self, at: [usize; 2], slip_of: &impl Fn([usize; 2]) -> [f64; 2]) -> [f64; 2] {
-        let Self { edge, zones, found, waiting } = self;
-        let height = |at: [usize; 2]| if zones[at] == Zone::Open { distance(edge.now[at]) } else { 0.0 };
+        let Self { edge, zones, distances, found, waiting } = self;
+        let mut height = |at: [usize; 2]| {
+            let known = &mut distances[at];
+            if *known == 0.0 && zones[at] == Zone::Open {
+                *known = distance(edge.now[at]);
+            }
+            *known
+        };
         waiting.push(at);
         while let Some(&here) = waiting.last() {
             let ours = height(here);
