@@ -70,3 +70,30 @@ fn split<N, const COUNT: usize>(fields: [&mut [N]; COUNT], at: usize) -> [[&mut 
     });
     [before, behind]
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// On any number of threads every cell is passed once, with what a field holds of it, and portions come in their order.
+    #[test]
+    fn portions_do_not_depend_on_the_threads() {
+        let cells = 40 * PORTION + 5;
+        let expected: Vec<Range<usize>> =
+            (0..41).map(|portion| portion * PORTION..cells.min((portion + 1) * PORTION)).collect();
+        for threads in [1, 2, 3, 8] {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+            let (mut passed, mut empty) = (vec![0; cells], Vec::new());
+            let fields = [&mut passed[..], &mut empty];
+            let portions = pool.install(|| {
+                in_portions((cells, 2), fields, &|cells, [passed, empty]| {
+                    assert!(empty.is_empty() && passed.len() == cells.len());
+                    passed.iter_mut().zip(cells.clone()).for_each(|(passed, cell)| *passed += 1 + cell);
+                    cells
+                })
+            });
+            assert_eq!(portions, expected);
+            assert!(passed.iter().enumerate().all(|(cell, passed)| *passed == 1 + cell));
+        }
+    }
+}

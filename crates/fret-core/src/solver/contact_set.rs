@@ -210,6 +210,7 @@ mod tests {
         let contact = ContactSet::of(cells, |cell| cell % 97 < 80);
         let field: Vec<f64> = (0..cells).map(|cell| cell as f64).collect();
         rayon::ThreadPoolBuilder::new().num_threads(3).build().unwrap().install(|| {
+            assert_eq!(contact, ContactSet::of(cells, |cell| cell % 97 < 80));
             let mut packed = vec![0.0; contact.len()];
             contact.gather(&field, 2.0, &mut packed);
             assert!(packed.iter().zip(contact.cells()).all(|(value, cell)| *value == 2.0 * cell as f64));
@@ -217,6 +218,8 @@ mod tests {
             contact.place(&packed, 0.5, &mut back);
             let expected = |cell: usize| if cell % 97 < 80 { cell as f64 } else { -1.0 };
             assert!(back.iter().enumerate().all(|(cell, value)| *value == expected(cell)));
+            contact.scatter(&packed, 0.5, &mut back);
+            assert!(back.iter().enumerate().all(|(cell, value)| *value == expected(cell).max(0.0)));
         });
     }
 }

@@ -95,8 +95,7 @@ impl SelfSimilarGrowth {
 
 /// Shear under a pressure, from its ratios to the pressures of `state` at the corners around a place, each with its weight.
 fn shear_between(corners: &[([usize; 2], f64); 4], state: &ContactState, pressure: f64) -> [f64; 2] {
-    let is_loaded =
-        |(cell, weight): &&([usize; 2], f64)| *weight > 0.0 && state.pressure[*cell] > 0.0;
+    let is_loaded = |(cell, weight): &&([usize; 2], f64)| *weight > 0.0 && state.pressure[*cell] > 0.0;
     let (mut ratio, mut size, mut weights) = ([0.0; 2], 0.0, 0.0);
     let (mut least, mut most) = (f64::INFINITY, 0.0_f64);
     for (cell, weight) in corners.iter().filter(is_loaded) {
