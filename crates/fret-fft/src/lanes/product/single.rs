@@ -30,14 +30,8 @@ impl LaneProduct<f64> {
         let kernels = self.kernels.as_slice();
         let (vectors, rest) = kernels.as_chunks::<8>();
         let larger = |most: [f64; 8], values: &[f64; 8]| from_fn(|lane| most[lane].max(values[lane].abs()));
-        let largest = vectors
-            .iter()
-            .fold([0.0; 8], larger)
-            .iter()
-            .chain(rest)
-            .copied()
-            .map(f64::abs)
-            .fold(0.0, f64::max);
+        let lanes = vectors.iter().fold([0.0; 8], larger);
+        let largest = lanes.iter().chain(rest).fold(0.0_f64, |most, value| most.max(value.abs()));
         let unit = if largest > 0.0 { largest.log2().floor().exp2() } else { 1.0 };
         // Of each strip the same rows, as many frequencies a row as there are lanes.
         let rows = kernels.len() / (self.layout.strips * width);
