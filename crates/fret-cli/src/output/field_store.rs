@@ -17,7 +17,7 @@ use ndarray::Array2;
 use rayon::prelude::{IntoParallelRefIterator, ParallelIterator};
 use serde_json::{Value, json};
 
-use super::whole_file::write_whole;
+use super::whole_file::{write_whole, write_whole_sparsely};
 use crate::failure::Unwritten;
 
 /// The store while it is filled.
@@ -123,7 +123,10 @@ impl FieldStore {
                 FieldValues::Reals(values) => numbers(values),
                 FieldValues::Zones(values) => zones(values),
             });
-            bytes.map_or(Ok(()), |bytes| self.write(&chunk(&self.grid, array.name, step), &bytes))
+            bytes.map_or(Ok(()), |bytes| {
+                // Frictionless contacts have fields of zeros.
+                write_whole_sparsely(&self.file(&chunk(&self.grid, array.name, step))?, &bytes)
+            })
         })?;
         self.kept = step + 1;
         Ok(())
@@ -212,11 +215,16 @@ impl FieldStore {
     }
 
     fn write(&self, key: &str, content: &[u8]) -> Result<(), Unwritten> {
+        write_whole(&self.file(key)?, content)
+    }
+
+    /// Path of a file of the store, in a folder that is there.
+    fn file(&self, key: &str) -> Result<PathBuf, Unwritten> {
         let path = self.path.join(key);
         if let Some(folder) = path.parent() {
             fs::create_dir_all(folder).map_err(Unwritten::at(folder))?;
         }
-        write_whole(&path, content)
+        Ok(path)
     }
 }
 

@@ -1,7 +1,7 @@
 //! Files that are there whole or not at all: written beside, synchronised, renamed into place.
 
 use std::fs::{self, File};
-use std::io::{self, Write};
+use std::io::{self, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
 use crate::failure::Unwritten;
@@ -11,7 +11,22 @@ pub fn write_whole(path: &Path, content: &[u8]) -> Result<(), Unwritten> {
     write_whole_by(path, |file| file.write_all(content))
 }
 
-/// The same, piece by piece.
+/// The same without the blocks that are zero, which cost no room on the disk: a file reads as zero where nobody wrote to it.
+pub fn write_whole_sparsely(path: &Path, content: &[u8]) -> Result<(), Unwritten> {
+    const BLOCK: usize = 1 << 16;
+    const ZEROS: &[u8] = &[0; BLOCK];
+    write_whole_by(path, |file| {
+        file.set_len(content.len() as u64)?;
+        let blocks = content.chunks(BLOCK).zip((0..).step_by(BLOCK));
+        for (block, start) in blocks.filter(|(block, _)| *block != &ZEROS[..block.len()]) {
+            file.seek(SeekFrom::Start(start))?;
+            file.write_all(block)?;
+        }
+        Ok(())
+    })
+}
+
+/// A file of which pieces are written one after the other.
 pub fn write_whole_by(
     path: &Path,
     content: impl FnOnce(&mut File) -> io::Result<()>,
@@ -34,4 +49,26 @@ fn part_of(path: &Path) -> PathBuf {
     let mut name = path.as_os_str().to_owned();
     name.push(".part");
     PathBuf::from(name)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Blocks of zeros, also at the end and in a last block that is not full, are read back like all others.
+    #[test]
+    fn a_file_with_zeros_left_out_reads_as_it_was_given() {
+        let path = std::env::temp_dir().join(format!("fret-sparse-{}", std::process::id()));
+        for (len, written) in
+            [(0, None), (5, None), (5, Some(3)), (300_000, Some(200_001)), (1 << 17, Some(0_usize))]
+        {
+            let mut content = vec![0; len];
+            if let Some(place) = written {
+                content[place] = 7;
+            }
+            write_whole_sparsely(&path, &content).unwrap();
+            assert!(fs::read(&path).unwrap() == content, "{len} {written:?}");
+        }
+        fs::remove_file(&path).unwrap();
+    }
 }

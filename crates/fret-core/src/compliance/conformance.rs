@@ -223,7 +223,7 @@ fn the_fast_convolution_is_the_plain_sum() {
                 }
             }
             let mut normal = vec![f64::NAN; traction.normal.len()];
-            spectral.normal_from_all(&traction.normal, &traction.tangential, &mut normal);
+            spectral.normal_from_all(&traction.normal, traction.tangential.parts(), &mut normal);
             let largest = plain.normal.iter().fold(0.0, |largest: f64, value| value.abs().max(largest));
             assert!(normal.iter().zip(&plain.normal).all(|(a, b)| (a - b).abs() < 1e-13 * largest));
         }

@@ -5,7 +5,6 @@ use super::product::{Product, SharedWorkspace};
 use super::surface_response::{
     FULL_BLOCKS, SurfaceResponse, block, mirrors, own_in_period, own_of, signed_kernels, signed_symbols,
 };
-use crate::model::TangentialField;
 use fret_fft::{Block, Convolution, ConvolutionError, Kernel, PeriodicProduct, SingleProduct, Symbol};
 
 /// The elastic response by fast products in Fourier space.
@@ -147,14 +146,14 @@ impl SpectralCompliance {
     }
 
     /// `u_z` from pressure and shear; needs the operator of that name.
-    pub fn normal_from_all(&mut self, pressure: &[f64], shear: &TangentialField, normal: &mut [f64]) {
+    pub fn normal_from_all(&mut self, pressure: &[f64], shear: [&[f64]; 2], normal: &mut [f64]) {
         if let Some(product) = &self.normal_from_all {
             self.applications += 1;
             match self.shear_axis {
                 Some(axis) => {
-                    product.apply(&self.workspace, &[pressure, shear.parts()[axis]], &mut [normal]);
+                    product.apply(&self.workspace, &[pressure, shear[axis]], &mut [normal]);
                 }
-                None => product.apply(&self.workspace, &[pressure, &shear.x, &shear.y], &mut [normal]),
+                None => product.apply(&self.workspace, &[pressure, shear[0], shear[1]], &mut [normal]),
             }
         }
     }

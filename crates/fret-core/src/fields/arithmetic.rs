@@ -1,6 +1,6 @@
 //! Fields on the cells of a box as flat rows, index `i * ny + j`: sums and inner products in a fixed order.
 
-use super::each_cell::{CellRule, each_cell};
+use super::each_cell::{CellRule, CellSize, each_cell, largest_of};
 use super::registers::{Number, Reals};
 
 /// Sum of a field.
@@ -68,7 +68,31 @@ impl CellRule<0, 1, 0> for Lower {
     }
 }
 
-/// Largest value of a field, 0 for an empty or negative one.
+/// Multiplies a field by a number.
+pub fn scale<N: Number>(a: &mut [N], factor: f64) {
+    each_cell(&Scale(factor), [], [a]);
+}
+
+struct Scale(f64);
+
+impl CellRule<0, 1, 0> for Scale {
+    #[inline(always)]
+    fn at<R: Reals>(&self, _: [R; 0], [a]: &mut [R; 1]) -> [R; 0] {
+        *a = *a * self.0;
+        []
+    }
+}
+
+/// Largest value of a field of numbers, 0 for an empty or negative one.
 pub fn largest(a: &[f64]) -> f64 {
-    a.iter().copied().fold(0.0, f64::max)
+    largest_of(&Value, [a])
+}
+
+struct Value;
+
+impl CellSize<1> for Value {
+    #[inline(always)]
+    fn of<R: Reals>(&self, [a]: [R; 1]) -> R {
+        a
+    }
 }

@@ -2,7 +2,7 @@
 
 use pulp::{Arch, Scalar, Simd, WithSimd};
 
-use super::portions::{PORTION, pieces, split, split_mut};
+use super::portions::{PORTION, in_portions};
 use super::registers::{Number, Reals};
 
 /// Registers after which sums go on in double precision.
@@ -19,27 +19,16 @@ pub trait CellRule<const READ: usize, const WRITE: usize, const SUMS: usize> {
 
 /// `to = factor * from`, in the precision of `to`.
 pub fn convert<A: Number, B: Number>(from: &[A], factor: f64, to: &mut [B]) {
-    convert_in(pieces(to.len(), 2), from, factor, to);
-}
-
-fn convert_in<A: Number, B: Number>(pieces: usize, from: &[A], factor: f64, to: &mut [B]) {
-    if pieces > 1 {
-        let middle = to.len() * (pieces / 2) / pieces;
-        let ([from, from_behind], (to, behind)) = (split([from], middle), to.split_at_mut(middle));
-        fret_fft::join(
-            || convert_in(pieces / 2, from[0], factor, to),
-            || convert_in(pieces - pieces / 2, from_behind[0], factor, behind),
+    in_portions((to.len(), 2), [to], &|cells, [to]| {
+        Arch::new().dispatch(
+            #[inline(always)]
+            || {
+                for (to, from) in to.iter_mut().zip(&from[cells]) {
+                    *to = B::of(*from, factor);
+                }
+            },
         );
-        return;
-    }
-    Arch::new().dispatch(
-        #[inline(always)]
-        || {
-            for (to, from) in to.iter_mut().zip(from) {
-                *to = B::of(*from, factor);
-            }
-        },
-    );
+    });
 }
 
 /// Applies a rule to every cell, on all threads of the current pool where there are many; returns its sums, taken in an order that is
@@ -63,39 +52,10 @@ where
     let lacks = |field: usize| READ - R::OPTIONAL <= field && read[field].is_empty();
     let are_whole = (0..READ).all(|field| read[field].len() == len || lacks(field));
     assert!(are_whole && write.iter().all(|field| field.len() == len), "fields of one length");
-    let mut sums = vec![[0.0; SUMS]; len.div_ceil(PORTION)];
-    in_portions(rule, read, write, &mut sums, pieces(len, READ + WRITE));
+    let sums = in_portions((len, READ + WRITE), write, &|cells, write| {
+        pass(rule, read.map(|field| if field.is_empty() { field } else { &field[cells.clone()] }), write)
+    });
     sums.iter().fold([0.0; SUMS], |total, part| std::array::from_fn(|sum| total[sum] + part[sum]))
-}
-
-/// Applies a rule to portions of the cells in turn, or to so many pieces of them at once; the sums of each portion go to `sums`.
-fn in_portions<N, R, const READ: usize, const WRITE: usize, const SUMS: usize>(
-    rule: &R,
-    mut read: [&[N]; READ],
-    mut write: [&mut [N]; WRITE],
-    sums: &mut [[f64; SUMS]],
-    pieces: usize,
-) where
-    N: Number,
-    R: CellRule<READ, WRITE, SUMS> + Sync,
-{
-    if pieces > 1 {
-        let middle = sums.len() * (pieces / 2) / pieces;
-        let (sums, sums_behind) = sums.split_at_mut(middle);
-        let [read, read_behind] = split(read, middle * PORTION);
-        let [write, write_behind] = split_mut(write, middle * PORTION);
-        fret_fft::join(
-            || in_portions(rule, read, write, sums, pieces / 2),
-            || in_portions(rule, read_behind, write_behind, sums_behind, pieces - pieces / 2),
-        );
-        return;
-    }
-    for sums in sums {
-        let [read_here, read_behind] = split(read, PORTION);
-        let [write_here, write_behind] = split_mut(write, PORTION);
-        *sums = pass(rule, read_here, write_here);
-        (read, write) = (read_behind, write_behind);
-    }
 }
 
 /// Applies a rule to every cell, here.
@@ -224,23 +184,10 @@ pub fn largest_of<N: Number, R: CellSize<READ> + Sync, const READ: usize>(
 ) -> f64 {
     let len = read[0].len();
     assert!(read.iter().all(|field| field.len() == len), "fields of one length");
-    largest_in(pieces(len, READ), size, read)
-}
-
-fn largest_in<N: Number, R: CellSize<READ> + Sync, const READ: usize>(
-    pieces: usize,
-    size: &R,
-    read: [&[N]; READ],
-) -> f64 {
-    if pieces > 1 {
-        let [read, behind] = split(read, read[0].len() * (pieces / 2) / pieces);
-        let (one, other) = fret_fft::join(
-            || largest_in(pieces / 2, size, read),
-            || largest_in(pieces - pieces / 2, size, behind),
-        );
-        return one.max(other);
-    }
-    Arch::new().dispatch(Largest { size, read })
+    let largest = in_portions((len, READ), [], &|cells, _: [&mut [N]; 0]| {
+        Arch::new().dispatch(Largest { size, read: read.map(|field| &field[cells.clone()]) })
+    });
+    largest.into_iter().fold(0.0, f64::max)
 }
 
 struct Largest<'a, N, R, const READ: usize> {

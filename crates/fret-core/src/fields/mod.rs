@@ -8,9 +8,9 @@ mod room;
 pub(crate) mod stored;
 mod tangential;
 
-pub use arithmetic::{add_scaled, dot, largest, lower, norm, sum};
+pub use arithmetic::{add_scaled, dot, largest, lower, norm, scale, sum};
 pub use each_cell::{CellRule, CellSize, convert, each_cell, largest_of};
-pub use portions::pieces;
+pub use portions::{in_portions, pieces};
 pub use registers::{Number, Reals};
-pub use room::{clear, reset};
+pub use room::reset;
 pub use tangential::{TangentialField, length};

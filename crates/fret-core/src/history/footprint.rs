@@ -1,6 +1,6 @@
 //! How the contact lies on the grid: how many cells show it, and how many are left around it.
 
-use ndarray::{Array2, ArrayView2, Zip, s};
+use ndarray::Array2;
 use serde::{Deserialize, Serialize};
 
 use crate::model::{Symmetry, Zone};
@@ -57,15 +57,22 @@ pub fn faces_between(
     symmetry: Symmetry,
     is_within: impl Fn(&Zone) -> bool,
 ) -> [usize; 2] {
-    let count = |ones: ArrayView2<'_, Zone>, others: ArrayView2<'_, Zone>| {
-        let add =
-            |faces: usize, one: &Zone, other: &Zone| faces + usize::from(is_within(one) != is_within(other));
-        symmetry.copies() * Zip::from(ones).and(others).fold(0, add)
+    let (nx, ny) = zone.dim();
+    let within: Vec<u8> = zone.iter().map(|zone| u8::from(is_within(zone))).collect();
+    let row = |i: usize| &within[i * ny..][..ny];
+    let along_x: usize = (1..nx).map(|i| differing(row(i - 1), row(i))).sum();
+    let along_y: usize = (0..nx).map(|i| differing(row(i), row(i).get(1..).unwrap_or_default())).sum();
+    [along_x, along_y].map(|faces| faces * symmetry.copies())
+}
+
+/// How many of some marks, 0 or 1, differ from others; by runs that one byte can count.
+fn differing(ones: &[u8], others: &[u8]) -> usize {
+    const RUN: usize = 255;
+    let runs = ones.chunks(RUN).zip(others.chunks(RUN));
+    let in_run = |(ones, others): (&[u8], &[u8])| {
+        ones.iter().zip(others).fold(0_u8, |count, (one, other)| count.wrapping_add(one ^ other))
     };
-    [
-        count(zone.slice(s![1.., ..]), zone.slice(s![..-1, ..])),
-        count(zone.slice(s![.., 1..]), zone.slice(s![.., ..-1])),
-    ]
+    runs.map(|run| usize::from(in_run(run))).sum()
 }
 
 #[cfg(test)]

@@ -6,9 +6,13 @@ use serde::Serialize;
 use super::grid::SurfaceGrid;
 use super::heights::Heights;
 use super::shape::Shape;
+use crate::fields::in_portions;
 
 /// Gap where one of the bodies has ended, in diagonals of the grid: finite, so that sums stay numbers, and out of reach.
 pub const BEYOND_THE_BODY: f64 = 1e6;
+
+/// Numbers of straight passes that take as long as the gap of a cell.
+const NUMBERS: usize = 20;
 
 /// The undeformed gap: the sum of the shapes and the heights of both bodies.
 #[derive(Debug, Clone, PartialEq, Default, Serialize)]
@@ -40,8 +44,13 @@ impl Profile {
         let cells = grid.cells();
         let [width, depth] = grid.size();
         let beyond = BEYOND_THE_BODY * width.hypot(depth);
-        let mut gap = Array2::from_shape_fn(cells, |(i, j)| {
-            self.gap_of_shapes_at(grid.centre(0, i), grid.centre(1, j))
+        let mut gap = Array2::zeros(cells);
+        let values = gap.as_slice_mut().unwrap_or_default();
+        in_portions((grid.len(), NUMBERS), [values], &|cells, [gap]| {
+            for (gap, cell) in gap.iter_mut().zip(cells) {
+                let (i, j) = (cell / grid.cells()[1], cell % grid.cells()[1]);
+                *gap = self.gap_of_shapes_at(grid.centre(0, i), grid.centre(1, j));
+            }
         });
         let fitting = || self.heights.iter().filter(|heights| heights.cells() == cells);
         for heights in fitting() {

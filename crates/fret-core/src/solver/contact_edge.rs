@@ -145,7 +145,7 @@ fn edges_of(line: &ArrayView1<'_, f64>, mirrored: bool, edges: &mut Vec<EdgeOfLi
 }
 
 /// How far from the contact the level function is computed [cells].
-const NEAR: usize = 2;
+pub const NEAR: usize = 2;
 
 /// One function for both sides of the edge: `p^2` where there is pressure, `-kappa gap^(2/3)` outside; kappa makes the median
 /// slopes of both along grid lines across the edge equal (of foundations those of a parabola). Farther out than two cells it is just

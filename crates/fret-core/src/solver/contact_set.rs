@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use pulp::Arch;
 
-use crate::fields::{Number, pieces, reset};
+use crate::fields::{Number, in_portions, pieces, reset};
 use crate::model::TangentialField;
 
 /// Numbers of straight passes that take as long as a cell of a run: its two fields are read in pieces.
@@ -19,14 +19,11 @@ pub struct ContactSet {
 
 impl ContactSet {
     /// The cells below `count` where `within`.
-    pub fn of(count: usize, within: impl Fn(usize) -> bool) -> Self {
-        let mut runs: Vec<Range<usize>> = Vec::new();
-        for cell in (0..count).filter(|&cell| within(cell)) {
-            match runs.last_mut() {
-                Some(run) if run.end == cell => run.end += 1,
-                _ => runs.push(cell..cell + 1),
-            }
-        }
+    pub fn of(count: usize, within: impl Fn(usize) -> bool + Sync) -> Self {
+        let found = in_portions((count, NUMBERS), [], &|cells, _: [&mut [f64]; 0]| {
+            joined(cells.filter(|&cell| within(cell)).map(|cell| cell..cell + 1))
+        });
+        let runs = joined(found.into_iter().flatten());
         let len = runs.iter().map(ExactSizeIterator::len).sum();
         Self { runs, len }
     }
@@ -72,31 +69,48 @@ impl ContactSet {
 
     /// Packs `factor` times a field of the region, into any precision.
     pub fn gather<A: Number, B: Number>(&self, field: &[A], factor: f64, packed: &mut [B]) {
-        copy_runs(pieces(self.len, NUMBERS), &self.runs, [Some(0), None], field, factor, packed);
+        copy_runs(pieces(self.len, NUMBERS), &self.runs, ([Some(0), None], false), field, factor, packed);
     }
 
     /// Writes `factor` times a packed field into one of the region, which keeps what it holds elsewhere, in any precision.
     pub fn place<A: Number, B: Number>(&self, packed: &[A], factor: f64, field: &mut [B]) {
-        copy_runs(pieces(self.len, NUMBERS), &self.runs, [None, Some(0)], packed, factor, field);
+        copy_runs(pieces(self.len, NUMBERS), &self.runs, ([None, Some(0)], false), packed, factor, field);
     }
 
-    /// Writes a packed field into one of the region, which is zero elsewhere.
-    pub fn scatter(&self, packed: &[f64], field: &mut [f64]) {
-        field.fill(0.0);
-        self.place(packed, 1.0, field);
+    /// The same; elsewhere the field is zero after that.
+    pub fn scatter<A: Number, B: Number>(&self, packed: &[A], factor: f64, field: &mut [B]) {
+        copy_runs(pieces(self.len, NUMBERS), &self.runs, ([None, Some(0)], true), packed, factor, field);
     }
 
     /// Writes a packed tangential field into one of the region, which is zero elsewhere.
     pub fn scatter_tangential(&self, packed: &TangentialField, field: &mut TangentialField) {
-        self.scatter(&packed.x, &mut field.x);
-        self.scatter(&packed.y, &mut field.y);
+        self.scatter(&packed.x, 1.0, &mut field.x);
+        self.scatter(&packed.y, 1.0, &mut field.y);
     }
 }
 
+/// Neighbouring runs joined.
+fn joined(runs: impl Iterator<Item = Range<usize>>) -> Vec<Range<usize>> {
+    let mut joined: Vec<Range<usize>> = Vec::new();
+    for run in runs {
+        match joined.last_mut() {
+            Some(last) if last.end == run.start => last.end = run.end,
+            _ => joined.push(run),
+        }
+    }
+    joined
+}
+
 /// The first of so many pieces of runs and the others; and how many cells the first ones have.
-fn halved(runs: &[Range<usize>], pieces: usize) -> (&[Range<usize>], &[Range<usize>], usize) {
-    let (first, others) = runs.split_at(runs.len() * (pieces / 2) / pieces);
-    (first, others, first.iter().map(ExactSizeIterator::len).sum())
+fn divided(runs: &[Range<usize>], pieces: usize) -> (&[Range<usize>], &[Range<usize>], usize) {
+    let all: usize = runs.iter().map(ExactSizeIterator::len).sum();
+    let (mut count, mut cells) = (0, 0);
+    while cells < all * (pieces / 2) / pieces {
+        cells += runs[count].len();
+        count += 1;
+    }
+    let (first, others) = runs.split_at(count);
+    (first, others, cells)
 }
 
 /// Where a run lies in a field: in one of the region that begins with the cell `start`, or in a packed one, behind so many cells `before`.
@@ -105,38 +119,48 @@ fn place(start: Option<usize>, run: &Range<usize>, before: usize) -> Range<usize
     first..first + run.len()
 }
 
-/// Copies `factor` times the runs of a field into another one. `starts`: with which cells of the region both begin; `None`: it is packed.
+/// Copies `factor` times the runs of a field into another one. `starts`: with which cells of the region both begin; `None`: it is packed. What
+/// lies between the runs there is cleared where `clears`.
 fn copy_runs<A: Number, B: Number>(
     pieces: usize,
     runs: &[Range<usize>],
-    starts: [Option<usize>; 2],
+    (starts, clears): ([Option<usize>; 2], bool),
     from: &[A],
     factor: f64,
     to: &mut [B],
 ) {
     if pieces > 1 {
-        let (first, others, cells) = halved(runs, pieces);
-        let Some(border) = others.first() else { return };
-        let [split_from, split_to] = starts.map(|start| place(start, border, cells).start);
-        let (from, from_behind) = from.split_at(split_from);
-        let (to, to_behind) = to.split_at_mut(split_to);
-        let behind = starts.map(|start| start.map(|_| border.start));
-        fret_fft::join(
-            || copy_runs(pieces / 2, first, starts, from, factor, to),
-            || copy_runs(pieces - pieces / 2, others, behind, from_behind, factor, to_behind),
-        );
-        return;
+        let (first, others, cells) = divided(runs, pieces);
+        if let Some(border) = others.first() {
+            let [split_from, split_to] = starts.map(|start| place(start, border, cells).start);
+            let (from, from_behind) = from.split_at(split_from);
+            let (to, to_behind) = to.split_at_mut(split_to);
+            let behind = starts.map(|start| start.map(|_| border.start));
+            fret_fft::join(
+                || copy_runs(pieces / 2, first, (starts, clears), from, factor, to),
+                || copy_runs(pieces - pieces / 2, others, (behind, clears), from_behind, factor, to_behind),
+            );
+            return;
+        }
     }
     Arch::new().dispatch(
         #[inline(always)]
         || {
-            let mut before = 0;
+            let (mut before, mut done) = (0, 0);
             for run in runs {
+                let there = place(starts[1], run, before);
+                if clears {
+                    to[done..there.start].fill(B::default());
+                    done = there.end;
+                }
                 let from = &from[place(starts[0], run, before)];
-                for (to, from) in to[place(starts[1], run, before)].iter_mut().zip(from) {
+                for (to, from) in to[there].iter_mut().zip(from) {
                     *to = B::of(*from, factor);
                 }
                 before += run.len();
+            }
+            if clears {
+                to[done..].fill(B::default());
             }
         },
     );
@@ -158,7 +182,7 @@ mod tests {
         let mut back = [9.0; 7];
         contact.place(&single, 0.5, &mut back);
         assert_eq!(back, [9.0, 1.0, 2.0, 9.0, 9.0, 5.0, 9.0]);
-        contact.scatter(&[7.0, 8.0, 9.0], &mut back);
+        contact.scatter(&[7.0, 8.0, 9.0], 1.0, &mut back);
         assert_eq!(back, [0.0, 7.0, 8.0, 0.0, 0.0, 9.0, 0.0]);
     }
 
@@ -186,6 +210,7 @@ mod tests {
         let contact = ContactSet::of(cells, |cell| cell % 97 < 80);
         let field: Vec<f64> = (0..cells).map(|cell| cell as f64).collect();
         rayon::ThreadPoolBuilder::new().num_threads(3).build().unwrap().install(|| {
+            assert_eq!(contact, ContactSet::of(cells, |cell| cell % 97 < 80));
             let mut packed = vec![0.0; contact.len()];
             contact.gather(&field, 2.0, &mut packed);
             assert!(packed.iter().zip(contact.cells()).all(|(value, cell)| *value == 2.0 * cell as f64));
@@ -193,6 +218,8 @@ mod tests {
             contact.place(&packed, 0.5, &mut back);
             let expected = |cell: usize| if cell % 97 < 80 { cell as f64 } else { -1.0 };
             assert!(back.iter().enumerate().all(|(cell, value)| *value == expected(cell)));
+            contact.scatter(&packed, 0.5, &mut back);
+            assert!(back.iter().enumerate().all(|(cell, value)| *value == expected(cell).max(0.0)));
         });
     }
 }

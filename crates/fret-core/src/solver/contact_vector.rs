@@ -1,6 +1,6 @@
 //! Vectors over the cells in contact: tractions, the displacements against them, residuals.
 
-use crate::fields::{Number, convert, norm, reset};
+use crate::fields::{Number, convert, norm, reset, scale};
 
 /// Both components of shear, after the pressure where that is unknown too; or what goes with them. Packed, one field after the other.
 #[derive(Debug, Clone, Default)]
@@ -14,12 +14,6 @@ impl<N: Number> ContactVector<N> {
     pub fn reset(&mut self, fields: usize, cells: usize) {
         self.cells = cells;
         reset(&mut self.values, fields * cells);
-    }
-
-    /// All zero.
-    pub fn clear(&mut self, fields: usize, cells: usize) {
-        self.reset(fields, cells);
-        self.values.fill(N::default());
     }
 
     /// Makes room for the same as another one.
@@ -36,9 +30,7 @@ impl<N: Number> ContactVector<N> {
 
     /// Multiplies by a number.
     pub fn scale(&mut self, factor: f64) {
-        for value in &mut self.values {
-            *value = N::of(*value, factor);
-        }
+        scale(&mut self.values, factor);
     }
 
     /// All fields one after the other.

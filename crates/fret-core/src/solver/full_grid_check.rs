@@ -1,7 +1,7 @@
 //! What lies outside the region of an increment: the gap of the whole grid, whether surfaces overlap there or touch at its edge, the
 //! area of contact.
 
-use ndarray::{Array2, ArrayView2};
+use ndarray::Array2;
 
 use super::contact_edge;
 use super::increment_problem::Solved;
@@ -26,8 +26,6 @@ impl ContactSolver<'_> {
             whole.place(&solved.solution.gap, &mut gap);
             return Ok(gap);
         }
-        gap.assign(&self.undeformed);
-        gap -= state.approach;
         let coupled = self.coupling == Coupling::Coupled;
         let operator = match &mut self.full_grid {
             Some(operator) => operator,
@@ -43,18 +41,17 @@ impl ContactSolver<'_> {
                 none.insert(operator.working_in(&self.workspace))
             }
         };
-        let mut normal = vec![0.0; whole.len()];
-        let pressure = whole.gather(&state.pressure);
+        let flat = |field| whole.gathered(field);
+        let (pressure, displacement) = (flat(&state.pressure), gap.as_slice_mut().unwrap_or_default());
         if coupled {
-            operator.normal_from_all(&pressure, &whole.gather_tangential(&state.shear), &mut normal);
+            let [x, y] = state.shear.each_ref().map(flat);
+            operator.normal_from_all(&pressure, [&x, &y], displacement);
         } else {
-            operator.normal(&pressure, &mut normal);
+            operator.normal(&pressure, displacement);
         }
         self.work.convolutions += 1;
         self.work.full_grid_convolutions += 1.0 / self.symmetry.copies() as f64;
-        for (gap, u) in gap.iter_mut().zip(&normal) {
-            *gap += u;
-        }
+        gap.zip_mut_with(&self.undeformed, |gap, undeformed| *gap += undeformed - state.approach);
         Ok(gap)
     }
 
@@ -64,14 +61,11 @@ impl ContactSolver<'_> {
             && gap.indexed_iter().any(|((i, j), gap)| *gap < 0.0 && !region.contains(i, j))
     }
 
-    /// Contact area [length^2] from the edge between the cells of a region.
-    pub(super) fn contact_area(&self, region: Region, solved: &Solved) -> f64 {
-        let view = |field| ArrayView2::from_shape(region.shape, field);
-        let (Ok(pressure), Ok(gap)) =
-            (view(solved.tractions.pressure.as_slice()), view(solved.solution.gap.as_slice()))
-        else {
-            return 0.0;
-        };
+    /// Contact area [length^2] from the edge between the cells of a region, of the `pressure` and the `gap` of the grid.
+    pub(super) fn contact_area(&self, region: Region, pressure: &Array2<f64>, gap: &Array2<f64>) -> f64 {
+        // A region may end one cell beyond the contact.
+        let region = region.widened(contact_edge::NEAR, self.grid.cells());
+        let [pressure, gap] = [pressure, gap].map(|field| region.view(field));
         let [cells_x, cells_y] = self.symmetry.whole_of(self.grid.cells());
         let [dx, dy] = self.grid.spacing();
         let beyond = 0.5 * BEYOND_THE_BODY * (cells_x as f64 * dx).hypot(cells_y as f64 * dy);

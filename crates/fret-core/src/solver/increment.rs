@@ -162,7 +162,9 @@ impl ContactSolver<'_> {
         if let Some(last) = self.whose_pressure_is_kept(region, load) {
             return Ok((last.gap.clone(), last.contact_area));
         }
-        Ok((self.gap_everywhere(region, solved, after)?, self.contact_area(region, solved)))
+        let gap = self.gap_everywhere(region, solved, after)?;
+        let contact_area = self.contact_area(region, &after.pressure, &gap);
+        Ok((gap, contact_area))
     }
 
     /// Remembers an increment that went from a state to a load, for the next one.

@@ -209,7 +209,7 @@ impl<'a> Iterate<'a> {
         let Self { contact, packed, tractions, last, .. } = self;
         std::mem::swap(last, *tractions);
         tractions.reset(last.pressure.len());
-        contact.scatter(&packed.pressure, &mut tractions.pressure);
+        contact.scatter(&packed.pressure, 1.0, &mut tractions.pressure);
         contact.scatter_tangential(&packed.shear, &mut tractions.shear);
         true
     }

@@ -1,8 +1,9 @@
 //! The active subdomain around the contact: where the iteration works, and how fields pass between it and the whole grid.
 
+use std::borrow::Cow;
 use std::ops::Range;
 
-use ndarray::{Array2, ArrayBase, Ix2, RawData, s};
+use ndarray::{Array2, ArrayBase, ArrayView2, Ix2, RawData, s};
 use serde::{Deserialize, Serialize};
 
 use crate::fields::TangentialField;
@@ -46,6 +47,12 @@ impl Region {
         part.into_raw_vec_and_offset().0
     }
 
+    /// The same without a copy, where the part is all of a field that lies in memory so.
+    pub fn gathered<'a>(&self, field: &'a Array2<f64>) -> Cow<'a, [f64]> {
+        let all = field.as_slice().filter(|_| *self == Self::whole(field.dim().into()));
+        all.map_or_else(|| Cow::Owned(self.gather(field)), Cow::Borrowed)
+    }
+
     /// Something of every cell of a grid field in the part, as flat rows.
     pub fn gather_map<T, U>(&self, field: &Array2<T>, of: impl Fn(&T) -> U) -> Vec<U> {
         inside(field.view(), self.ranges()).iter().map(of).collect()
@@ -53,6 +60,18 @@ impl Region {
 
     fn ranges(&self) -> [Range<usize>; 2] {
         [0, 1].map(|axis| self.origin[axis]..self.origin[axis] + self.shape[axis])
+    }
+
+    /// The part of a grid field as it lies there.
+    pub fn view<'a>(&self, field: &'a Array2<f64>) -> ArrayView2<'a, f64> {
+        inside(field.view(), self.ranges())
+    }
+
+    /// With so many more cells on each side, as far as a grid of `cells` has them.
+    pub fn widened(&self, by: usize, cells: [usize; 2]) -> Self {
+        let origin = self.origin.map(|first| first.saturating_sub(by));
+        let end = [0, 1].map(|axis| (self.origin[axis] + self.shape[axis] + by).min(cells[axis]));
+        Self { origin, shape: [0, 1].map(|axis| end[axis] - origin[axis]) }
     }
 
     /// The part of a tangential grid field.
@@ -164,6 +183,11 @@ mod tests {
         // In either order of memory.
         let turned = grid.t().as_standard_layout().into_owned().reversed_axes();
         assert_eq!(region.gather(&turned), part);
+        let whole = Region::whole([5, 7]);
+        assert!(matches!(whole.gathered(&grid), Cow::Borrowed(all) if all == whole.gather(&grid)));
+        for (region, field) in [(whole, &turned), (region, &grid)] {
+            assert_eq!(region.gathered(field), region.gather(&grid));
+        }
         assert_eq!(region.gather_map(&grid, |value| *value as i32 % 10), [2, 3, 4, 2, 3, 4]);
         let both = region.gather_tangential(&[grid.clone(), -&grid]);
         assert_eq!((&both.x, both.y[5]), (&part, -24.0));
@@ -204,6 +228,15 @@ mod tests {
         ] {
             assert!(!region.contains_all(&other), "{other:?}");
         }
+    }
+
+    #[test]
+    fn a_wider_region_ends_at_the_sides_of_the_grid() {
+        let (grid, region) = field();
+        let wider = region.widened(1, [5, 7]);
+        assert_eq!(wider, Region { origin: [0, 1], shape: [4, 5] });
+        assert_eq!(wider.view(&grid)[[3, 4]], 35.0);
+        assert_eq!(region.widened(2, [5, 7]), Region { origin: [0, 0], shape: [5, 7] });
     }
 
     #[test]

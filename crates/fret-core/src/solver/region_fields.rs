@@ -1,15 +1,16 @@
 //! The way of packed fields through an operator that acts on a whole region, in the precision of the operator.
 
 use super::contact_set::ContactSet;
-use crate::fields::{Number, clear, reset};
+use crate::fields::{Number, reset};
 
 /// Fields of a region on both sides of an operator: those before it are zero outside the contact.
 #[derive(Debug, Default)]
 pub struct RegionFields<N> {
     before: [Vec<N>; 3],
     after: [Vec<N>; 3],
-    /// The contact outside of which fields before an operator are zero.
+    /// The contact, and which fields before an operator are zero outside of it.
     contact: ContactSet,
+    are_zero_outside: [bool; 3],
     /// Cells of the region.
     cells: usize,
 }
@@ -18,7 +19,7 @@ impl<N: Number> RegionFields<N> {
     /// Makes ready for a contact in a region of so many cells.
     pub fn begin(&mut self, contact: &ContactSet, cells: usize) {
         if self.contact != *contact || self.cells != cells {
-            self.before.iter_mut().for_each(Vec::clear);
+            self.are_zero_outside = [false; 3];
             self.contact.clone_from(contact);
             self.cells = cells;
         }
@@ -33,12 +34,15 @@ impl<N: Number> RegionFields<N> {
         [unit, factor]: [f64; 2],
         operator: impl FnOnce(&[&[N]], &mut [&mut [N]]),
     ) {
-        let Self { before, after, contact, cells } = self;
-        for (packed, field) in packed.iter().zip(before.iter_mut()) {
-            if field.len() != *cells {
-                clear(field, *cells);
+        let Self { before, after, contact, are_zero_outside, cells } = self;
+        for ((packed, field), is_zero_outside) in packed.iter().zip(before.iter_mut()).zip(are_zero_outside) {
+            if *is_zero_outside {
+                contact.place(packed, 1.0 / unit, field);
+            } else {
+                reset(field, *cells);
+                contact.scatter(packed, 1.0 / unit, field);
+                *is_zero_outside = true;
             }
-            contact.place(packed, 1.0 / unit, field);
         }
         let count = packed.len();
         after[..count].iter_mut().for_each(|field| reset(field, *cells));
@@ -54,6 +58,7 @@ impl<N: Number> RegionFields<N> {
     /// One field of so many cells on either side, whatever is in it: no contact is ready after that.
     pub fn one_of_region(&mut self, cells: usize) -> [&mut [N]; 2] {
         self.begin(&ContactSet::default(), cells);
+        self.are_zero_outside = [false; 3];
         let ([before, ..], [after, ..]) = (&mut self.before, &mut self.after);
         [before, after].map(|field| {
             reset(field, cells);

@@ -1,11 +1,13 @@
 //! What the last two increments tell about the paths of slip in the next one.
 
+use std::ops::Range;
+
 use ndarray::Array2;
 
 use super::laws::slip_path::SlipPath;
 use super::memory::{Before, Drift, SolverMemory};
 use super::region::Region;
-use crate::fields::{TangentialField, length};
+use crate::fields::{TangentialField, in_portions, length};
 use crate::model::{ContactState, Zone};
 
 /// Slip that cells have still to go when they come to rest, over that of the last increment, summed over all moments of the increment at
@@ -21,6 +23,8 @@ const BEGUN: f64 = 1.277;
 /// The edge of contact goes on to slip by this fraction of its last rate until it comes to a cell. By trial: Spence's contact, and normal and
 /// tangential force that grow together; with more, edges that slip in the coarse increments of a first touch go on to do so.
 const EDGE: f64 = 0.7;
+/// Numbers of straight passes that take as long as the moment at which the edge comes to a cell.
+const NUMBERS: usize = 50;
 /// The direction of a slip increment, and of shear, is known where it is at least this fraction of the largest; below, the less the smaller.
 const KNOWN: f64 = 0.01;
 
@@ -75,11 +79,14 @@ pub fn slip_path(
         let edge = Edge { before: gap, now: &last.gap, ratio };
         let [_, columns] = region.shape;
         let at = |cell: usize| [region.origin[0] + cell / columns, region.origin[1] + cell % columns];
-        let entering: Vec<(usize, f64)> = (0..region.len())
-            .filter(|&cell| zones[cell] == Zone::Open)
-            .map(|cell| (cell, edge.moment_of_touch(at(cell)) * ratio))
-            .filter(|(_, touch)| *touch > 0.0)
-            .collect();
+        let entering_of = |cells: Range<usize>, _: [&mut [f64]; 0]| -> Vec<(usize, f64)> {
+            cells
+                .filter(|&cell| zones[cell] == Zone::Open)
+                .map(|cell| (cell, edge.moment_of_touch(at(cell)) * ratio))
+                .filter(|(_, touch)| *touch > 0.0)
+                .collect()
+        };
+        let entering = in_portions((region.len(), NUMBERS), [], &entering_of).concat();
         let was_inside =
             |cell: usize| last.drift.region.is_some_and(|then| then.contains(at(cell)[0], at(cell)[1]));
         let all_inside = entering.iter().all(|(cell, _)| was_inside(*cell));
@@ -118,8 +125,13 @@ impl Edge<'_> {
         }
         let [before, now] = [self.before[at], self.now[at]].map(distance);
         let way = (before - now) * self.ratio;
-        let steepest =
-            self.neighbours(at).map(|next| (distance(self.now[next]) - now).abs()).fold(0.0, f64::max);
+        let mut steepest = 0.0_f64;
+        for next in self.neighbours(at) {
+            steepest = steepest.max((distance(self.now[next]) - now).abs());
+            if steepest >= 2.0 * way {
+                return 0.0;
+            }
+        }
         let is_believed = (2.0 * way / steepest - 1.0).clamp(0.0, 1.0);
         is_believed * (now / way).min(1.0)
     }
@@ -147,7 +159,9 @@ fn distance(gap: f64) -> f64 {
 struct SlipOfEdge<'a> {
     edge: &'a Edge<'a>,
     zones: &'a Array2<Zone>,
-    /// What was found.
+    /// Distances of open cells from the edge that were found, up to a factor.
+    distances: Array2<f64>,
+    /// Slip that was found.
     found: Array2<Option<[f64; 2]>>,
     /// Cells that wait for others nearer to the contact.
     waiting: Vec<[usize; 2]>,
@@ -155,13 +169,20 @@ struct SlipOfEdge<'a> {
 
 impl<'a> SlipOfEdge<'a> {
     fn new(edge: &'a Edge<'a>, zones: &'a Array2<Zone>) -> Self {
-        Self { edge, zones, found: Array2::default(zones.dim()), waiting: Vec::new() }
+        let (distances, found) = (Array2::zeros(zones.dim()), Array2::default(zones.dim()));
+        Self { edge, zones, distances, found, waiting: Vec::new() }
     }
 
     /// At an open cell; `slip_of` a cell in contact [length].
     fn at(&mut self, at: [usize; 2], slip_of: &impl Fn([usize; 2]) -> [f64; 2]) -> [f64; 2] {
-        let Self { edge, zones, found, waiting } = self;
-        let height = |at: [usize; 2]| if zones[at] == Zone::Open { distance(edge.now[at]) } else { 0.0 };
+        let Self { edge, zones, distances, found, waiting } = self;
+        let mut height = |at: [usize; 2]| {
+            let known = &mut distances[at];
+            if *known == 0.0 && zones[at] == Zone::Open {
+                *known = distance(edge.now[at]);
+            }
+            *known
+        };
         waiting.push(at);
         while let Some(&here) = waiting.last() {
             let ours = height(here);

@@ -2,7 +2,7 @@
 
 use super::active_sets::ActiveSets;
 use super::rigid_motions::{RigidMotions, size};
-use crate::fields::{CellRule, Reals, TangentialField, clear, each_cell, reset, sum};
+use crate::fields::{CellRule, Reals, TangentialField, each_cell, reset, sum};
 
 /// Cuts tension off and restores the total pressure by scaling, which keeps the shape of the edge.
 /// False when nothing is left to scale.
@@ -47,7 +47,7 @@ impl ShearProjection {
         motions: &RigidMotions,
         resultant: [f64; 3],
     ) {
-        clear(&mut self.on_circle, sets.len());
+        reset(&mut self.on_circle, sets.len());
         let ([along_x, along_y], [around_x, around_y]) = (sets.direction.parts(), motions.rotation.parts());
         let read = [bound, &sets.stick, along_x, along_y, around_x, around_y];
         let write = [&mut shear.x[..], &mut shear.y, &mut self.on_circle];

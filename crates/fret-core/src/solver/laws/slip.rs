@@ -6,7 +6,7 @@ use super::friction::onto_disc;
 use super::motion_by_force::{MotionByForce, Scale};
 use super::rigid_motions::{RigidMotions, size};
 use super::slip_path::{SlipPath, end_of_chord};
-use crate::fields::{CellRule, Reals, TangentialField, each_cell, reset};
+use crate::fields::{CellRule, Reals, TangentialField, convert, each_cell, reset};
 
 /// Rounds in which motions and the turn of slip are found in alternation. What is left over after them is part of the residual.
 const MOST_TURNS: usize = 4;
@@ -103,12 +103,13 @@ impl SlipIncrement {
     }
 
     /// What a step is to remove [length]: the slip of cells that stick; of those that slip the part across the shear of the slip at the end, as
-    /// a vector whose part across the row of the cell it is.
-    /// It lies where the trial vectors were, which are found anew with the next slip.
+    /// a vector whose part across the row of the cell it is. It lies where the trial vectors were, which are found anew with the next slip.
     pub fn left_over(&mut self, sets: &ActiveSets) -> &mut TangentialField {
         let left = &mut self.trial;
-        left.x.clone_from(&self.slip.x);
-        left.y.clone_from(&self.slip.y);
+        for (left, slip) in left.each_mut().into_iter().zip(self.slip.parts()) {
+            reset(left, slip.len());
+            convert(slip, 1.0, left);
+        }
         if let Some([row_x, row_y]) = sets.turned() {
             let ([end_x, end_y], [along_x, along_y]) = (self.at_end.parts(), sets.direction.parts());
             let read = [&sets.slip, end_x, end_y, along_x, along_y, row_x, row_y];

@@ -65,8 +65,12 @@ impl<N: Number> Gmres<N> {
             next.scale(1.0 / size);
         }
         let amounts = back_substituted(&columns, &rotated);
-        combination.clear_like(right);
-        for (amount, direction) in amounts.iter().zip(iter::once(&*right).chain(&*basis)) {
+        let mut parts = amounts.iter().zip(iter::once(&*right).chain(&*basis));
+        match parts.next() {
+            Some((amount, direction)) => combination.convert(direction, *amount),
+            None => combination.clear_like(right),
+        }
+        for (amount, direction) in parts {
             add_scaled(combination.values_mut(), *amount, direction.values());
         }
     }
@@ -220,7 +224,7 @@ mod tests {
     #[test]
     fn a_krylov_space_that_is_exhausted_ends_the_search() {
         let mut right = ContactVector::<f64>::default();
-        right.clear(2, 3);
+        right.reset(2, 3);
         right.values_mut()[4] = 1.0;
         let (mut found, mut count) = (ContactVector::default(), 0);
         let apply = |from: &ContactVector<f64>, to: &mut ContactVector<f64>| {

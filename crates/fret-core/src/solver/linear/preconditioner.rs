@@ -10,7 +10,7 @@ use super::inverse::{FieldsOfRegion, Inverse, Precision};
 use crate::compliance::{
     NORMAL_BLOCKS, OperatorSet, SharedWorkspace, SurfaceResponse, TANGENTIAL_BLOCKS, mirrors,
 };
-use crate::fields::{CellRule, Number, Reals, clear, each_cell, reset};
+use crate::fields::{CellRule, Number, Reals, each_cell, reset};
 use crate::kernel::ResponseTable;
 use fret_fft::{Block, ConvolutionError, Kernel, Parity, PeriodicProduct, Symbol};
 
@@ -159,12 +159,9 @@ impl Preconditioner {
         weights: &mut SlipWeights<N>,
     ) {
         let SlipWeights { elastic, slip, part: [part_x, part_y], .. } = weights;
-        let cells = slip_compliance.len();
-        reset(elastic, cells);
-        reset(slip, cells);
-        // Where shear acts along one axis nobody writes the other component.
-        clear(part_x, cells);
-        clear(part_y, cells);
+        for field in [&mut *elastic, &mut *slip, part_x, part_y] {
+            reset(field, slip_compliance.len()); // where shear acts along one axis nobody writes the other part: it stays zero
+        }
         each_cell(&Weights { softest: self.softest / compliance }, [slip_compliance], [elastic, slip]);
         weights.compliance = compliance;
         self.fields.begin(contact, self.cells);

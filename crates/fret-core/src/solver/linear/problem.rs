@@ -9,7 +9,7 @@ use super::super::laws::rigid_motions::RigidMotions;
 use super::inverse::Precision;
 use super::preconditioner::{Preconditioner, SlipWeights};
 use super::rigid_projector::{RigidProjector, SetFields, free_part, products, rigid};
-use crate::fields::{CellRule, Number, Reals, add_scaled, convert, each_cell, lower, reset, sum};
+use crate::fields::{CellRule, Number, Reals, convert, each_cell, lower, reset, sum};
 
 /// A linearised problem.
 #[derive(Debug, Clone, Copy)]
@@ -200,14 +200,14 @@ impl<'a, N: Number> LinearProblem<'a, N> {
 /// The right side of the equations in double precision.
 pub fn right_side(linearised: &Linearised<'_>, right: &mut ContactVector<f64>) {
     let Linearised { sets, motions, gap, slip, holds_force, weight, .. } = *linearised;
-    right.clear(if gap.is_empty() { 2 } else { 3 }, sets.len());
+    right.reset(if gap.is_empty() { 2 } else { 3 }, sets.len());
     let (normal, [x, y]) = right.parts_mut();
-    add_scaled(normal, -1.0, gap);
+    convert(gap, -1.0, normal);
     if holds_force && !normal.is_empty() {
         remove_mean(normal);
     }
-    add_scaled(x, weight, slip[0]);
-    add_scaled(y, weight, slip[1]);
+    convert(slip[0], weight, x);
+    convert(slip[1], weight, y);
     let ([row_x, row_y], [around_x, around_y]) = (sets.rows(), motions.rotation.parts());
     let fields: SetFields<'_, f64> = [&sets.stick, &sets.slip_weight, row_x, row_y, around_x, around_y];
     RigidProjector::new(motions, fields).keep_free([x, y]);

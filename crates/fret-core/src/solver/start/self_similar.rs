@@ -5,7 +5,11 @@ use ndarray::Array2;
 
 use super::super::contact_edge::level_function;
 use super::super::memory::GridTractions;
+use crate::fields::in_portions;
 use crate::model::ContactState;
+
+/// Numbers of straight passes that take as long as a cell.
+const NUMBERS: usize = 30;
 
 /// How a contact grows.
 #[derive(Debug, Clone, Copy)]
@@ -36,45 +40,32 @@ impl SelfSimilarGrowth {
         let zeros = || Array2::zeros((nx, ny));
         let mut grown = GridTractions { pressure: zeros(), shear: [zeros(), zeros()] };
         let sheared = state.shear.iter().any(|shear| shear.iter().any(|q| *q != 0.0));
-        for (i, x) in along_x.iter().enumerate() {
-            for (j, y) in along_y.iter().enumerate() {
-                let corners = [
-                    ([x.low, y.low], (1.0 - x.fraction) * (1.0 - y.fraction)),
-                    ([x.low, y.high], (1.0 - x.fraction) * y.fraction),
-                    ([x.high, y.low], x.fraction * (1.0 - y.fraction)),
-                    ([x.high, y.high], x.fraction * y.fraction),
-                ];
-                let height: f64 = corners.iter().map(|(cell, weight)| weight * level[*cell]).sum();
-                if !(height > 0.0) {
-                    continue;
-                }
-                let p = self.strengthening * height.sqrt();
-                grown.pressure[[i, j]] = p;
-                if !sheared {
-                    continue;
-                }
-                let loaded = corners.iter().filter(|(cell, weight)| *weight > 0.0 && pressure[*cell] > 0.0);
-                let (mut ratio, mut size, mut weights) = ([0.0; 2], 0.0, 0.0);
-                let (mut least, mut most) = (f64::INFINITY, 0.0_f64);
-                for (cell, weight) in loaded {
-                    let here = [0, 1].map(|axis| state.shear[axis][*cell] / pressure[*cell]);
-                    let length = here[0].hypot(here[1]);
-                    (least, most) = (least.min(length), most.max(length));
-                    weights += weight;
-                    size += weight * length;
-                    ratio = [0, 1].map(|axis| ratio[axis] + weight * here[axis]);
-                }
-                let length = ratio[0].hypot(ratio[1]);
-                if length > 0.0 {
-                    // Where all slip, so does what lies between.
-                    let slips = least > most * (1.0 - 1e-9);
-                    let size = if slips { most * (1.0 + 1e-9) } else { size / weights };
-                    for (shear, ratio) in grown.shear.iter_mut().zip(ratio) {
-                        shear[[i, j]] = p * size * ratio / length;
-                    }
+        let in_cell = |cell: usize| {
+            let (x, y) = (&along_x[cell / ny], &along_y[cell % ny]);
+            let corners = [
+                ([x.low, y.low], (1.0 - x.fraction) * (1.0 - y.fraction)),
+                ([x.low, y.high], (1.0 - x.fraction) * y.fraction),
+                ([x.high, y.low], x.fraction * (1.0 - y.fraction)),
+                ([x.high, y.high], x.fraction * y.fraction),
+            ];
+            let height: f64 = corners.iter().map(|(cell, weight)| weight * level[*cell]).sum();
+            if !(height > 0.0) {
+                return [0.0; 3];
+            }
+            let p = self.strengthening * height.sqrt();
+            let [x, y] = if sheared { shear_between(&corners, state, p) } else { [0.0; 2] };
+            [p, x, y]
+        };
+        let GridTractions { pressure: grown_pressure, shear: [x, y] } = &mut grown;
+        let fields = [grown_pressure, x, y].map(|field| field.as_slice_mut().unwrap_or_default());
+        in_portions((nx * ny, NUMBERS), fields, &|cells, [pressure, x, y]| {
+            for (place, cell) in cells.enumerate() {
+                let here = in_cell(cell);
+                if here[0] > 0.0 {
+                    [pressure[place], x[place], y[place]] = here;
                 }
             }
-        }
+        });
         grown
     }
 
@@ -100,6 +91,29 @@ impl SelfSimilarGrowth {
             })
             .collect()
     }
+}
+
+/// Shear under a pressure, from its ratios to the pressures of `state` at the corners around a place, each with its weight.
+fn shear_between(corners: &[([usize; 2], f64); 4], state: &ContactState, pressure: f64) -> [f64; 2] {
+    let is_loaded = |(cell, weight): &&([usize; 2], f64)| *weight > 0.0 && state.pressure[*cell] > 0.0;
+    let (mut ratio, mut size, mut weights) = ([0.0; 2], 0.0, 0.0);
+    let (mut least, mut most) = (f64::INFINITY, 0.0_f64);
+    for (cell, weight) in corners.iter().filter(is_loaded) {
+        let here = [0, 1].map(|axis| state.shear[axis][*cell] / state.pressure[*cell]);
+        let length = here[0].hypot(here[1]);
+        (least, most) = (least.min(length), most.max(length));
+        weights += weight;
+        size += weight * length;
+        ratio = [0, 1].map(|axis| ratio[axis] + weight * here[axis]);
+    }
+    let length = ratio[0].hypot(ratio[1]);
+    if !(length > 0.0) {
+        return [0.0; 2];
+    }
+    // Where all slip, so does what lies between.
+    let slips = least > most * (1.0 - 1e-9);
+    let size = if slips { most * (1.0 + 1e-9) } else { size / weights };
+    ratio.map(|ratio| pressure * size * ratio / length)
 }
 
 /// A place between two cells of a line.

@@ -1,10 +1,13 @@
 //! The same product in single precision.
 
+use std::array::from_fn;
+
 use super::super::super::block::Terms;
 use super::super::memory::AlignedNumbers;
 use super::super::paired_rows::places;
 use super::super::reflection::Reflection;
 use super::super::simd::Number;
+use super::super::threads::{Scratch, divide, pieces};
 use super::{Boundary, LaneProduct};
 
 impl LaneProduct<f64> {
@@ -25,20 +28,28 @@ impl LaneProduct<f64> {
         let reflection = self.reflection.as_ref();
         product.reflection = reflection.map(|reflection| Reflection::new(terms, reflection.places.clone()));
         let kernels = self.kernels.as_slice();
-        let largest = kernels.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
+        let (vectors, rest) = kernels.as_chunks::<8>();
+        let larger = |most: [f64; 8], values: &[f64; 8]| from_fn(|lane| most[lane].max(values[lane].abs()));
+        let lanes = vectors.iter().fold([0.0; 8], larger);
+        let largest = lanes.iter().chain(rest).fold(0.0_f64, |most, value| most.max(value.abs()));
         let unit = if largest > 0.0 { largest.log2().floor().exp2() } else { 1.0 };
         // Of each strip the same rows, as many frequencies a row as there are lanes.
         let rows = kernels.len() / (self.layout.strips * width);
         product.kernels = AlignedNumbers::zeros(strips * rows * wide);
         let frequencies = self.boundary.frequencies(lengths[1]);
-        for (strip, values) in product.kernels.as_mut_slice().chunks_exact_mut(rows * wide).enumerate() {
-            for (row, values) in values.chunks_exact_mut(wide).enumerate() {
-                for (value, frequency) in values.iter_mut().zip(strip * wide..frequencies) {
-                    let at = (frequency / width * rows + row) * width + frequency % width;
-                    *value = f32::of(kernels[at] / unit);
+        let fields = [product.kernels.as_mut_slice(), &mut [], &mut []];
+        let scratch = Scratch { numbers: &mut [], piece_len: 0 };
+        let pieces = pieces(terms.shape, usize::MAX);
+        divide(fields, rows * wide, scratch, pieces, &|_, first, values: &mut [f32], _: &mut [f32]| {
+            for (strip, values) in (first..).zip(values.chunks_exact_mut(rows * wide)) {
+                for (row, values) in values.chunks_exact_mut(wide).enumerate() {
+                    for (value, frequency) in values.iter_mut().zip(strip * wide..frequencies) {
+                        let at = (frequency / width * rows + row) * width + frequency % width;
+                        *value = f32::of(kernels[at] / unit);
+                    }
                 }
             }
-        }
+        });
         (product, unit)
     }
 }
