@@ -25,6 +25,15 @@ fn leaving_out_changes_the_work_and_not_the_answer() {
         let full = solved(&case.text, LeaveOut::NONE).history;
         let everything = difference(&full, &short);
         assert!(everything < AGREES, "{name}: {everything:e}");
+        // Read between the cells from pressure and gap: as far as these agree, in the last cells.
+        for (one, other) in short.steps.iter().zip(&full.steps) {
+            let off = one.contact_area - other.contact_area;
+            assert!(
+                off.abs() <= 1e-5 * other.contact_area,
+                "{name}: area {off:e} of {:e}",
+                other.contact_area
+            );
+        }
         let (least, most) = (short.work(), full.work());
         assert!(least.full_grid_convolutions < most.full_grid_convolutions, "{name}: {least:?} {most:?}");
         let Some(shortcut) = case.shortcut else {
@@ -118,6 +127,7 @@ fn a_mirror_changes_no_number_of_surfaces_that_change() {
         for (one, other) in short.steps.iter().zip(&full.steps) {
             assert_eq!(one.footprint, other.footprint);
             assert_eq!([one.contact_cells, one.stick_cells], [other.contact_cells, other.stick_cells]);
+            near("contact area", one.contact_area, other.contact_area);
             near("normal force", one.normal_force, other.normal_force);
             near("dissipated energy", one.dissipated_energy, other.dissipated_energy);
             near("worn volume", one.worn_volume, other.worn_volume);
