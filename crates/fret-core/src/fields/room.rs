@@ -9,9 +9,8 @@ const RESERVE: usize = 16;
 /// Gives a field so many cells; what was in them is lost.
 pub fn reset<N: Number>(field: &mut Vec<N>, cells: usize) {
     if field.capacity() < cells {
-        // Given back first. Zeros that the system gives cost nothing until they are written over.
         *field = Vec::new();
-        *field = vec![N::default(); cells + cells / RESERVE];
+        field.reserve_exact(cells + cells / RESERVE);
     }
     field.resize(cells, N::default());
 }
