@@ -7,6 +7,7 @@ mod registers;
 mod room;
 pub(crate) mod stored;
 mod tangential;
+mod zeros;
 
 pub use arithmetic::{add_scaled, dot, largest, lower, norm, scale, sum};
 pub use each_cell::{CellRule, CellSize, convert, each_cell, largest_of};
@@ -14,3 +15,4 @@ pub use portions::{in_portions, pieces};
 pub use registers::{Number, Reals};
 pub use room::reset;
 pub use tangential::{TangentialField, length};
+pub use zeros::{copied, is_zero};

@@ -5,7 +5,7 @@ use std::borrow::Cow;
 
 use ndarray::Array2;
 
-use super::state::{ContactState, SolvedState, Zone};
+use super::state::{ContactState, SolvedState};
 use super::symmetry::Symmetry;
 
 /// A state as a run holds it, for those who look at it.
@@ -65,12 +65,11 @@ fn made_whole(part: &ContactState, symmetry: Symmetry) -> ContactState {
     let tangential = |field: &[Array2<f64>; 2]| {
         [0, 1].map(|axis| symmetry.whole(&field[axis], symmetry.shear_is_odd(axis)))
     };
-    let open = Array2::from_elem(symmetry.whole_of(part.zone.dim().into()), Zone::Open);
     ContactState {
         pressure: even(&part.pressure),
         shear: tangential(&part.shear),
         slip: tangential(&part.slip),
-        zone: symmetry.whole_zones_in(open, &part.zone),
+        zone: symmetry.whole_zones(&part.zone),
         worn_depth: part.worn_depth.as_ref().map(even),
         accumulated: part.accumulated.as_ref().map(|slip| slip.with_fields(even)),
         ..*part

@@ -8,6 +8,7 @@ use serde::{Deserialize, Serialize};
 use super::accumulated::AccumulatedSlip;
 use super::load::LoadStep;
 use crate::fields::stored::{self, Number};
+use crate::fields::{copied, is_zero};
 
 /// What a cell of the surface does.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
@@ -92,6 +93,30 @@ impl ContactState {
         }
     }
 
+    /// A copy without the tractions and the slip that are kept as fields, by the names they have there.
+    #[must_use]
+    pub fn beside(&self, is_kept: impl Fn(&str) -> bool) -> Self {
+        let copy = |name: &str, field: &Array2<f64>| {
+            if is_kept(name) { Array2::zeros((0, 0)) } else { copied(field) }
+        };
+        let Self { pressure, shear: [shear_x, shear_y], slip: [slip_x, slip_y], .. } = self;
+        Self {
+            pressure: copy("pressure", pressure),
+            shear: [copy("shear_x", shear_x), copy("shear_y", shear_y)],
+            slip: [copy("slip_x", slip_x), copy("slip_y", slip_y)],
+            zone: self.zone.clone(),
+            worn_depth: self.worn_depth.clone(),
+            accumulated: self.accumulated.clone(),
+            ..*self
+        }
+    }
+
+    /// Whether the tractions and the slip that are not kept as fields are zero everywhere.
+    pub fn is_zero_beside(&self, is_kept: impl Fn(&str) -> bool) -> bool {
+        let names = ["pressure", "shear_x", "shear_y", "slip_x", "slip_y"];
+        names.into_iter().filter(|name| !is_kept(name)).filter_map(|name| self.field(name)).all(is_zero)
+    }
+
     /// A field of a solved increment by the name it has as a kept one: pressure, shear and slip.
     pub fn field(&self, name: &str) -> Option<&Array2<f64>> {
         match name {
@@ -138,17 +163,6 @@ pub struct SolvedState {
 }
 
 impl SolvedState {
-    /// The same without the tractions and the slip that `is_kept` says are kept as fields, by the names they have there.
-    #[must_use]
-    pub fn beside(mut self, is_kept: impl Fn(&str) -> bool) -> Self {
-        for (name, field) in self.tractions_and_slip() {
-            if is_kept(name) {
-                *field = Array2::zeros((0, 0));
-            }
-        }
-        self
-    }
-
     /// The same with the fields that are empty put back by `field`, which hands them over by name.
     ///
     /// # Errors
@@ -160,19 +174,6 @@ impl SolvedState {
             }
         }
         Ok(self)
-    }
-
-    /// Gives back the memory of the tractions and the slip that are zero everywhere; whether none other is left.
-    pub fn give_back_zeros(&mut self) -> bool {
-        let mut none_other = true;
-        for (_, field) in self.tractions_and_slip() {
-            if field.iter().all(|value| *value == 0.0) {
-                *field = Array2::zeros(field.dim()); // zeros that nobody wrote to take no memory
-            } else {
-                none_other = false;
-            }
-        }
-        none_other
     }
 
     fn tractions_and_slip(&mut self) -> [(&'static str, &mut Array2<f64>); 5] {

@@ -86,19 +86,16 @@ impl Symmetry {
     /// The whole of a field that goes on behind the mirrors, with the other sign along axes where it is odd.
     pub fn whole(&self, part: &Array2<f64>, odd: [bool; 2]) -> Array2<f64> {
         // Zeros that nobody wrote to take no memory.
-        self.whole_in(Array2::zeros(self.whole_of(part.dim().into())), part, odd)
-    }
-
-    /// The same in an array that is there for it, of the whole's shape and zero everywhere.
-    pub fn whole_in(&self, zeros: Array2<f64>, part: &Array2<f64>, odd: [bool; 2]) -> Array2<f64> {
+        let zeros = Array2::zeros(self.whole_of(part.dim().into()));
         made_whole(part, zeros, |value, behind| {
             let turns = (behind[0] && odd[0]) != (behind[1] && odd[1]);
             if turns && value != 0.0 { -value } else { value }
         })
     }
 
-    /// Zones of the whole grid in an array that is there for them, of open cells.
-    pub fn whole_zones_in(&self, open: Array2<Zone>, part: &Array2<Zone>) -> Array2<Zone> {
+    /// Zones of the whole grid.
+    pub fn whole_zones(&self, part: &Array2<Zone>) -> Array2<Zone> {
+        let open = Array2::from_elem(self.whole_of(part.dim().into()), Zone::Open);
         made_whole(part, open, |zone, _| zone)
     }
 

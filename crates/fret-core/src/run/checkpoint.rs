@@ -225,7 +225,7 @@ impl Checkpoint {
         let Self { place, state, memory, wear, slip, .. } = Self::decoded(bytes)?;
         let symmetry: Symmetry =
             serde_json::from_value(plan["symmetry"].clone()).map_err(|_| CheckpointError::Foreign)?;
-        let solved = symmetry.whole_solved(solved_state(&place, &state, wear.as_ref(), slip.as_ref()));
+        let solved = symmetry.whole_solved(solved_state(&place, state, wear.as_ref(), slip.as_ref()));
         // What an unfinished cycle has worn opens the gap, and the solver remembers another one; so it does of thinner layers, whose
         // thickness another history finds for itself.
         let same_gap = wear.is_none_or(|wear| wear.is_empty() && wear.thinned() == [0.0; 2]);
@@ -273,12 +273,11 @@ impl Checkpoint {
 /// once, and what it has slipped is counted once.
 pub(crate) fn solved_state(
     place: &Place,
-    state: &ContactState,
+    mut state: ContactState,
     wear: Option<&Collected>,
     slip: Option<&CollectedSlip>,
 ) -> SolvedState {
     let Resultants { normal, tangential, moment, tilt_moment } = place.resultants;
-    let mut state = state.clone();
     if let (Some(depth), Some(wear)) = (&mut state.worn_depth, wear) {
         wear.take_off(depth);
     }

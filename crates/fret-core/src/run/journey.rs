@@ -86,14 +86,6 @@ impl<'a> Journey<'a> {
         Records { warnings: gauge.warnings(plan), ..records }.history(plan, (&place, state), collected)
     }
 
-    /// Where the run stands, for another history to start from; in front of the mirrors.
-    fn solved_state(&self) -> SolvedState {
-        let Surfaces { wearing, evolving, .. } = &self.surfaces;
-        let worn = wearing.as_ref().map(Wearing::collected);
-        let slipped = evolving.as_ref().map(Evolving::collected);
-        solved_state(&self.place, &self.state, worn, slipped)
-    }
-
     /// Solves what is left of the stage at work.
     fn through_stage(&mut self, stage: &'a Stage) -> Result<(), RunError> {
         let (number, begins) = (self.place.stage, self.place.solved_of_stage == 0);
@@ -193,8 +185,15 @@ impl<'a> Journey<'a> {
     /// What another history needs to start here besides the kept fields; of what `ends` a stage in any case, of other increments
     /// where the fields that are not kept are zero.
     fn rest_beside(&self, kept: &KeptFields, ends: bool) -> Option<SolvedState> {
-        let mut rest = self.solved_state().beside(|name| kept.field(name).is_some());
-        (rest.give_back_zeros() || ends).then(|| self.plan.symmetry.whole_solved(rest))
+        let is_kept = |name: &str| kept.field(name).is_some();
+        if !ends && !self.state.is_zero_beside(is_kept) {
+            return None;
+        }
+        let Surfaces { wearing, evolving, .. } = &self.surfaces;
+        let worn = wearing.as_ref().map(Wearing::collected);
+        let slipped = evolving.as_ref().map(Evolving::collected);
+        let rest = solved_state(&self.place, self.state.beside(is_kept), worn, slipped);
+        Some(self.plan.symmetry.whole_solved(rest))
     }
 
     /// A cycle that starts now, in the stage at work.

@@ -2,7 +2,7 @@
 
 use ndarray::Array2;
 
-use crate::fields::largest;
+use crate::fields::{copied, largest};
 use crate::history::{Footprint, KeptFields, Residual, StepRecord};
 use crate::machine::memory::MemoryError;
 use crate::model::{CellValues, CoulombFriction, Rig, Symmetry, Zone};
@@ -113,37 +113,19 @@ pub fn mean_coefficient(friction: &CoulombFriction, pressure: &Array2<f64>) -> f
 /// # Errors
 /// When there is none.
 pub fn whole(part: &Array2<f64>, odd: [bool; 2], symmetry: Symmetry) -> Result<Array2<f64>, MemoryError> {
-    if !symmetry.any() {
-        return copied(part);
-    }
-    Ok(symmetry.whole_in(room(symmetry.whole_of(part.dim().into()))?, part, odd))
+    let cells = symmetry.whole_of(part.dim().into());
+    ask_for::<f64>(cells)?;
+    Ok(if symmetry.any() { symmetry.whole(part, odd) } else { copied(part) })
 }
 
 /// The same of zones.
 fn whole_zones(part: &Array2<Zone>, symmetry: Symmetry) -> Result<Array2<Zone>, MemoryError> {
-    if !symmetry.any() {
-        return copied(part);
-    }
-    Ok(symmetry.whole_zones_in(room(symmetry.whole_of(part.dim().into()))?, part))
+    ask_for::<Zone>(symmetry.whole_of(part.dim().into()))?;
+    Ok(symmetry.whole_zones(part))
 }
 
-fn copied<T: Clone>(field: &Array2<T>) -> Result<Array2<T>, MemoryError> {
-    let mut values = memory_of(field.len())?;
-    values.extend(field.iter().cloned());
-    // As many values as the field has.
-    Ok(Array2::from_shape_vec(field.dim(), values).unwrap_or_else(|_| field.clone()))
-}
-
-/// A field of zeros, or open cells.
-fn room<T: Clone + Default>(cells: [usize; 2]) -> Result<Array2<T>, MemoryError> {
-    let len = cells[0] * cells[1];
-    let mut values = memory_of(len)?;
-    values.resize(len, T::default());
-    Ok(Array2::from_shape_vec(cells, values).unwrap_or_else(|_| Array2::default(cells)))
-}
-
-fn memory_of<T>(len: usize) -> Result<Vec<T>, MemoryError> {
-    let mut values = Vec::new();
-    values.try_reserve_exact(len).map_err(|_| MemoryError::NotGiven((len * size_of::<T>()) as u64))?;
-    Ok(values)
+/// Whether there is memory for a field.
+fn ask_for<T>([nx, ny]: [usize; 2]) -> Result<(), MemoryError> {
+    let asked = Vec::<T>::new().try_reserve_exact(nx * ny);
+    asked.map_err(|_| MemoryError::NotGiven((nx * ny * size_of::<T>()) as u64))
 }

@@ -30,7 +30,7 @@ impl Records {
     ) -> History {
         let case = &plan.case;
         let Self { steps, cycles, fields, warnings } = self;
-        let end = solved_state(place, &state, wear, slip).beside(|_| true);
+        let end = solved_state(place, state.beside(|_| true), wear, slip);
         let end = plan.symmetry.whole_solved(end);
         let state = plan.symmetry.whole_state(state);
         let layers = case.wear.as_ref().and_then(|rule| rule.layers.as_ref());

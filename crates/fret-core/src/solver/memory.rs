@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 
 use super::region::Region;
 use super::tractions::Displacements;
-use crate::fields::{TangentialField, stored};
+use crate::fields::{TangentialField, copied, stored};
 use crate::model::{ContactState, LoadStep};
 
 /// All that later increments depend on besides the last state.
@@ -98,11 +98,6 @@ impl GridTractions {
     fn fits(&self, cells: [usize; 2]) -> bool {
         [&self.pressure, &self.shear[0], &self.shear[1]].iter().all(|field| field.dim() == cells.into())
     }
-}
-
-/// A copy that costs no memory while the field is zero.
-fn copied(field: &Array2<f64>) -> Array2<f64> {
-    if field.iter().all(|value| *value == 0.0) { Array2::zeros(field.dim()) } else { field.clone() }
 }
 
 /// Displacements of the last state in its region, and its gap on the whole grid.
