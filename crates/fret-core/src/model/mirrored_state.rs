@@ -79,7 +79,7 @@ fn made_whole(part: &ContactState, symmetry: Symmetry) -> ContactState {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::model::AccumulatedSlip;
+    use crate::model::{AccumulatedSlip, Zone};
 
     /// A state on 4 x 6 cells whose fields all differ, and its own image in the mirrors.
     #[test]
