@@ -26,25 +26,28 @@ const TRACTIONS: usize = 5 * 8;
 const COLLECTED: usize = 12 * 8;
 /// Bytes a cell of the depth at work: kernels of all components, their transforms, the stress.
 const DEPTH: usize = 620;
-/// Bytes a cell of a checkpoint, and those of all that wait to be written at the most.
-const CHECKPOINT: usize = 90;
+/// Bytes a cell of a checkpoint in front of the mirrors, and those of all that wait to be written at the most.
+const CHECKPOINT: usize = 160;
 const WAITING: usize = 32 << 20;
+/// Arrays of so many bytes go back to the system as soon as they are free; smaller ones leave so many bytes a cell in the process.
+const GOES_BACK: usize = 32 << 20;
+const LEFT_BEHIND: usize = 37;
 /// Bytes a cell of heights or of a friction map: as they are held, and in the gap.
 const EACH_CELL: usize = 16;
 
-/// Bytes a cell of `[the whole grid, what the solver holds in front of the mirrors, what it remembers]`.
+/// Bytes a cell of `[the whole grid, what the solver holds in front of the mirrors, what it remembers there]`.
 ///
-/// The whole: the state before and after, the gap, the influence coefficients. In front of the mirrors: the transformed kernels of each
-/// operator in double and single precision, their work space, and the fields of the iterations. In a case that repeats nothing is
-/// padded, and the inverse is exact. Remembered, of the whole: increments before the last, from the [third](REMEMBERING) one on.
+/// The whole: influence coefficients, and the fields that are handed out. In front of the mirrors: states and gaps, the transformed kernels
+/// of each operator in double and single precision, their work space, and the fields of the iterations. In a case that repeats nothing is
+/// padded, and the inverse is exact. Remembered: increments before the last, from the [third](REMEMBERING) one on.
 fn bytes_per_cell(coupling: Coupling, periodic: bool) -> [usize; 3] {
     match (coupling, periodic) {
-        (Coupling::Frictionless, false) => [105, 200, 32],
-        (Coupling::Frictionless, true) => [118, 58, 32],
-        (Coupling::Uncoupled, false) => [165, 490, 30],
-        (Coupling::Uncoupled, true) => [176, 320, 30],
-        (Coupling::Coupled, false) => [185, 650, 60],
-        (Coupling::Coupled, true) => [60, 280, 90],
+        (Coupling::Frictionless, false) => [28, 200, 0],
+        (Coupling::Frictionless, true) => [10, 142, 0],
+        (Coupling::Uncoupled, false) => [50, 376, 60],
+        (Coupling::Uncoupled, true) => [0, 340, 60],
+        (Coupling::Coupled, false) => [111, 580, 60],
+        (Coupling::Coupled, true) => [20, 250, 60],
     }
 }
 
@@ -66,13 +69,15 @@ pub fn of_run(case: &Case, grid: &SurfaceGrid, coupling: Coupling, symmetry: Sym
     let evolving = if case.friction_evolution.is_some() { EVOLVING } else { 0 };
     let frictions = case.stages.iter().filter_map(|stage| stage.friction.as_ref()).chain([&case.friction]);
     let maps = frictions.filter(|friction| friction.is_map()).count() + case.profile.heights.len();
-    let in_front = in_front + tilt(case);
-    let solving =
-        grid.len() * (whole + remembered + worn + evolving + EACH_CELL * maps + in_front / symmetry.copies());
+    let in_front = in_front + remembered + tilt(case);
+    let left_behind = if grid.len() * size_of::<f64>() < GOES_BACK { LEFT_BEHIND } else { 0 };
+    let whole = whole + left_behind + worn + evolving + EACH_CELL * maps;
+    let solving = grid.len() * (whole + in_front / symmetry.copies());
     let stressed = case.stress.as_ref().map_or(0, |stress| {
         of_stress(grid.len(), case.kept_increments().len().div_ceil(stress.every.max(1)))
     });
-    let waiting = if case.increments() > 1 { (grid.len() * CHECKPOINT).min(WAITING) } else { 0 };
+    let waiting =
+        if case.increments() > 1 { (grid.len() / symmetry.copies() * CHECKPOINT).min(WAITING) } else { 0 };
     PROCESS + waiting + solving.max(stressed)
 }
 
