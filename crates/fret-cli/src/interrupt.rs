@@ -23,7 +23,7 @@ pub fn listen() {
         if ASKED.swap(true, Ordering::Relaxed) {
             std::process::exit(i32::from(INTERRUPTED));
         }
-        std::thread::spawn(|| {
+        let _ = std::thread::Builder::new().spawn(|| {
             std::thread::sleep(PATIENCE);
             terminal::say(
                 "stopping: what is being computed or written is finished first; Ctrl-C again ends at once",

@@ -194,15 +194,18 @@ impl<'a> Board<'a> {
         if let Err(failure) = threads::check(workers * each) {
             return Some(failure);
         }
-        std::thread::scope(|scope| {
-            for _ in 0..workers {
-                scope.spawn(|| {
-                    if let Err(failure) = self.solve_points(folder, each) {
-                        self.next.store(self.open.len(), Ordering::Relaxed); // nobody begins another one
-                        self.ended.lock().unwrap_or_else(PoisonError::into_inner).get_or_insert(failure);
-                    }
-                });
+        let solve = || {
+            if let Err(failure) = self.solve_points(folder, each) {
+                self.next.store(self.open.len(), Ordering::Relaxed); // nobody begins another one
+                self.ended.lock().unwrap_or_else(PoisonError::into_inner).get_or_insert(failure);
             }
+        };
+        std::thread::scope(|scope| {
+            for _ in 1..workers {
+                // Where the system starts no more of them, those that there are solve all points.
+                let _ = std::thread::Builder::new().spawn_scoped(scope, solve);
+            }
+            solve();
         });
         self.ended.lock().unwrap_or_else(PoisonError::into_inner).take()
     }

@@ -44,24 +44,28 @@ impl TurnWriter {
         body: impl FnOnce(&mut dyn Write) -> io::Result<()>,
     ) -> Result<(), Unwritten> {
         self.settle()?;
-        let (file, first_line) = (self.files[turn].take(), self.first_line);
-        if rayon::current_num_threads() == 1 {
-            let here = |path: &Path| {
-                let mut to = BufWriter::with_capacity(CHUNK, begun(file, path, first_line)?);
-                body(&mut to)?;
-                to.into_inner()?.finish()
+        let (mut file, first_line) = (self.files[turn].take(), self.first_line);
+        if rayon::current_num_threads() > 1 {
+            let (sender, receiver) = sync_channel(WAITING);
+            let (of_turn, at) = (file.take(), path.to_path_buf());
+            let beside = move || Written {
+                turn,
+                file: written(of_turn, &at, first_line, &receiver).map_err(Unwritten::at(&at)),
             };
-            self.files[turn] = Some(here(path).map_err(Unwritten::at(path))?);
-            return Ok(());
+            // Where the system starts no more threads the file is opened anew, and written here.
+            if let Ok(at_work) = std::thread::Builder::new().spawn(beside) {
+                self.at_work = Some(at_work);
+                let mut chunks = Chunks { sender, chunk: Vec::new() };
+                return body(&mut chunks).and_then(|()| chunks.finish()).map_err(Unwritten::at(path));
+            }
         }
-        let (sender, receiver) = sync_channel(WAITING);
-        let mut chunks = Chunks { sender, chunk: Vec::new() };
-        let at = path.to_path_buf();
-        self.at_work = Some(std::thread::spawn(move || Written {
-            turn,
-            file: written(file, &at, first_line, &receiver).map_err(Unwritten::at(&at)),
-        }));
-        body(&mut chunks).and_then(|()| chunks.finish()).map_err(Unwritten::at(path))
+        let here = |path: &Path| {
+            let mut to = BufWriter::with_capacity(CHUNK, begun(file, path, first_line)?);
+            body(&mut to)?;
+            to.into_inner()?.finish()
+        };
+        self.files[turn] = Some(here(path).map_err(Unwritten::at(path))?);
+        Ok(())
     }
 
     /// Waits for what is written beside the run.

@@ -22,7 +22,10 @@ pub enum ThreadsError {
     )]
     NoAddresses(usize, usize),
     /// The system does not start them.
-    #[error("threads = {0}: not started: {1}")]
+    #[error(
+        "threads = {0}: not started: {1}; a limit on the address space (ulimit -v) or on processes (ulimit -u) may be why; fewer \
+         threads give the same numbers"
+    )]
     NotStarted(usize, String),
 }
 
