@@ -99,7 +99,7 @@ fn leaving_out_changes_the_work_and_not_the_answer() {
 }
 
 /// The numbers of surfaces that wear and whose friction evolves are those of the whole contact, with and without mirrors: a half is
-/// solved of a coated pair, a quarter of two alike bodies.
+/// solved with a coating, a quarter of elastically similar bodies.
 #[test]
 fn a_mirror_changes_no_number_of_surfaces_that_change() {
     let body = "substrate = { young = 1.0, poisson = 0.3 }";

@@ -178,7 +178,7 @@ impl Observer for Keeper {
 }
 
 #[test]
-fn a_tilted_and_stretched_run_is_taken_up_with_the_same_bits() {
+fn a_tilted_and_stretched_run_is_resumed_with_the_same_bits() {
     let text = dovetail("cells = [24, 24]\nsize = [5.4e-2, 5.4e-2]", "sphere]\nradius = 1.0", true);
     let plan = Plan::new(Case::from_toml(&text, "case.toml").unwrap()).unwrap();
     let mut keeper = Keeper(Vec::new());

@@ -297,7 +297,7 @@ fn message_of(record: &Value) -> &str {
     record["message"].as_str().unwrap_or("unknown reason")
 }
 
-/// An unfinished run, taken up again.
+/// An unfinished run, resumed.
 #[derive(Debug)]
 pub struct Taken {
     /// Its folder, ready for the next increment.

@@ -1,4 +1,4 @@
-//! Runs that are broken off, in every way a run can be, and taken up again: the results are those of an unbroken run, bit for
+//! Runs that are broken off, in every way a run can be, and resumed: the results are those of an unbroken run, bit for
 //! bit (only the times differ); where that is impossible the run is refused and nothing is touched.
 
 use std::collections::BTreeMap;

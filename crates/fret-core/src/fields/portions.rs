@@ -19,8 +19,9 @@ pub fn pieces(cells: usize, numbers: usize) -> usize {
     }
 }
 
-/// Does `work` on so many cells portion by portion, on all threads of the current pool where as many `numbers` are taken up in each; it gets
-/// the cells of a portion and what several fields hold of them, to be changed. What it finds comes in the order of the cells.
+/// Does `work` on so many cells portion by portion, on all threads of the current pool where it pays for so many `numbers` read and written in
+/// each cell. `work` gets the cells of a portion, and of several fields the part with these cells, to be changed. Its results are in the order
+/// of the cells.
 pub fn in_portions<N: Send, T: Send, const COUNT: usize>(
     (cells, numbers): (usize, usize),
     fields: [&mut [N]; COUNT],

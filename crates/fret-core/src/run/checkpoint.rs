@@ -1,5 +1,5 @@
 //! Where a run stands after an increment: all that later increments depend on, so that a run can be broken off at any moment and
-//! taken up again with the bits it would have had. Its fields are those in front of the mirrors of the contact.
+//! resumed with the bits it would have had. Its fields are those in front of the mirrors of the contact.
 
 use std::io::{self, Write};
 

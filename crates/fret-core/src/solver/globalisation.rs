@@ -1,5 +1,8 @@
 //! How far a Newton step is solved for, and how much of it is taken.
 
+/// A residual at which the active sets are not yet those of the solution.
+pub const FAR: f64 = 0.1;
+
 /// The forcing term of the inexact Newton method (Eisenstat & Walker 1996): relative residual of the linear problems. They are solved
 /// further while the residual falls fast, and while it does not fall.
 #[derive(Debug)]
@@ -31,10 +34,9 @@ impl ForcingTerm {
     const ENOUGH: f64 = 0.8;
     /// An iteration does not pay when it leaves more than this of the residual.
     const NO_GAIN: f64 = 0.9;
-    /// After so many iterations without progress linear problems are to be solved in double precision,
+    /// After so many iterations without progress linear problems are to be solved in double precision, unless the solution is [`FAR`]:
+    /// then the active sets are what stands in the way.
     const MAX_STALLED: i32 = 3;
-    /// unless the residual is larger than this: then the active sets are what stands in the way.
-    const FAR: f64 = 0.1;
 
     /// The forcing term after a residual.
     pub fn next(&mut self, residual: f64, tolerance: f64) -> f64 {
@@ -51,7 +53,7 @@ impl ForcingTerm {
 
     /// Whether single precision may be what stands in the way.
     pub fn wants_double_precision(&self) -> bool {
-        self.stalled >= Self::MAX_STALLED && self.last < Self::FAR
+        self.stalled >= Self::MAX_STALLED && self.last < FAR
     }
 }
 

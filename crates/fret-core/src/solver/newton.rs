@@ -5,7 +5,7 @@
 
 use super::contact_problem::{ContactProblem, Pressure, Solution};
 use super::contact_set::ContactSet;
-use super::globalisation::{Backtracking, ForcingTerm};
+use super::globalisation::{Backtracking, FAR, ForcingTerm};
 use super::iterate::Iterate;
 use super::laws::active_sets::ActiveSets;
 use super::laws::projection::ShearProjection;
@@ -19,8 +19,6 @@ use crate::model::TangentialField;
 const LOST_AFTER: usize = 15;
 /// Shear of slipping cells that a solution leaves inside its circles, by less than the tolerance, is put there so many times.
 const MOST_ROUNDS_TO_CIRCLES: usize = 3;
-/// A residual at which the sets are not yet those of the solution.
-const FAR: f64 = 0.1;
 /// Where the pressure is unknown, given up as well when so many iterations in a row have brought no smaller residual: they go in circles.
 const LOST_WITHOUT_GAIN: usize = 10;
 

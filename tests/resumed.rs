@@ -1,4 +1,4 @@
-//! A run that is taken up again after any of its increments has the bits of the unbroken one: within a cycle, between cycles, with
+//! A run that is resumed after any of its increments has the bits of the unbroken one: within a cycle, between cycles, with
 //! wear, and where a stage or the whole history ends early. The judge is the unbroken run, compared exactly.
 
 use std::ops::ControlFlow;
@@ -80,7 +80,7 @@ fn coated() -> String {
     HEAD.replace("[lower]\n", "[lower]\ncoatings = [{ thickness = 20e-6, young = 400e9, poisson = 0.25 }]\n")
 }
 
-/// Pulled along x alone, on a coating or between two alike bodies: a half and a quarter of the grid are solved.
+/// Pulled along x alone, on a coating or between elastically similar bodies: a half and a quarter of the grid are solved.
 fn mirrored(loads: &str) -> [(String, usize); 2] {
     let alike = HEAD.replace("rigid = true", "substrate = { young = 210e9, poisson = 0.3 }");
     [(coated(), 2), (alike, 4)].map(|(head, copies)| {
@@ -108,7 +108,7 @@ fn timeless(steps: &[StepRecord]) -> Vec<StepRecord> {
 }
 
 /// Runs a case, and what is left of it after each increment; the unbroken history.
-fn taken_up_anywhere(text: &str) -> History {
+fn resumed_anywhere(text: &str) -> History {
     let plan = plan(text);
     let simulation = Simulation::new(&plan);
     let mut keeper = Keeper(Vec::new());
@@ -131,7 +131,7 @@ fn taken_up_anywhere(text: &str) -> History {
 
 #[test]
 fn with_controls_that_change_their_kind() {
-    assert_eq!(taken_up_anywhere(&(coated() + TURNED)).steps.len(), 3 + 8 + 3);
+    assert_eq!(resumed_anywhere(&(coated() + TURNED)).steps.len(), 3 + 8 + 3);
 }
 
 /// Driven at the far end of springs along, across and into the surface.
@@ -140,7 +140,7 @@ fn behind_a_machine_that_gives() {
     let driven = "[rig]\ntangential_stiffness = [2e6, 3e6]\nnormal_stiffness = 8e6\n[[load]]\nactuator_approach = 0.4e-6\n\
         increments = 2\n[[load]]\nactuator = [80e-9, 30e-9]\ncycles = 2\nincrements = 6\n[[load]]\ntangential_force = [0.05, 0.0]\nincrements = 2\n";
     for head in [HEAD.to_owned(), coated()] {
-        let whole = taken_up_anywhere(&(head + driven));
+        let whole = resumed_anywhere(&(head + driven));
         assert_eq!(whole.steps.len(), 3 + 2 + 12 + 2);
         let rubbed = &whole.steps[3 + 2 + 8];
         assert!(rubbed.actuator[0] != rubbed.shift[0] && rubbed.dissipated_energy > 0.0, "the springs give");
@@ -150,7 +150,7 @@ fn behind_a_machine_that_gives() {
 #[test]
 fn with_wear_in_blocks_of_cycles() {
     for head in [HEAD.to_owned(), coated()] {
-        let whole = taken_up_anywhere(&(head + WORN));
+        let whole = resumed_anywhere(&(head + WORN));
         let blocks: Vec<usize> = whole.cycles.iter().map(|cycle| cycle.stands_for).collect();
         assert_eq!(blocks, [4, 4, 4, 2], "the case shall have blocks of more than one cycle");
         let worn = whole.cycles.iter().map(|cycle| cycle.worn_volume).collect::<Vec<_>>();
@@ -172,7 +172,7 @@ fn with_layers_that_wear_thinner() {
             "substrate = { young = 210e9, poisson = 0.3, wear_coefficient = 4e-11 }",
         );
     let loads = WORN.replace("coefficient = 2e-11\nevery = 4", "tolerance = 0.3\nthinning_tolerance = 0.1");
-    let whole = taken_up_anywhere(&(head + &loads));
+    let whole = resumed_anywhere(&(head + &loads));
     let blocks: Vec<usize> = whole.cycles.iter().map(|cycle| cycle.stands_for).collect();
     assert!(blocks.iter().any(|block| *block > 1), "{blocks:?}");
     let layers = &whole.worn_by_layer.as_ref().unwrap().lower;
@@ -190,7 +190,7 @@ fn with_friction_that_evolves() {
             .replace("\"worn_depth\"", "\"worn_depth\", \"friction\"");
         let unworn = WORN.split("[wear]").next().unwrap();
         for loads in [WORN, unworn] {
-            let whole = taken_up_anywhere(&(head.clone() + loads));
+            let whole = resumed_anywhere(&(head.clone() + loads));
             let blocks: Vec<usize> = whole.cycles.iter().map(|cycle| cycle.stands_for).collect();
             assert!(blocks.iter().any(|block| *block > 1), "{blocks:?}");
             let friction: Vec<f64> = whole.cycles.iter().map(|cycle| cycle.friction_coefficient).collect();
@@ -202,7 +202,7 @@ fn with_friction_that_evolves() {
 #[test]
 fn with_a_stage_that_ends_when_it_is_steady() {
     for head in [HEAD.to_owned(), coated()] {
-        let whole = taken_up_anywhere(&(head + STEADY));
+        let whole = resumed_anywhere(&(head + STEADY));
         let computed = whole.cycles.len();
         assert!(whole.cycles[computed - 1].steady && (2..12).contains(&computed), "{computed} cycles");
         assert_eq!(whole.steps.len(), 3 + 6 * computed + 3 + 2);
@@ -214,7 +214,7 @@ fn with_a_stage_that_ends_when_it_is_steady() {
 fn with_increments_divided_by_the_program() {
     for head in [HEAD.to_owned(), coated()] {
         let text = (head + WORN).replace("increments = 3", "increments = \"auto\"");
-        let whole = taken_up_anywhere(&format!("[solver]\nhistory_tolerance = 0.02\n{text}"));
+        let whole = resumed_anywhere(&format!("[solver]\nhistory_tolerance = 0.02\n{text}"));
         assert!(
             whole.steps.iter().any(|step| step.parts > 2),
             "the case shall have increments of several parts"
@@ -227,7 +227,7 @@ fn with_surfaces_that_are_worn_through() {
     let thin = WORN.to_owned() + "limit = 0.3e-9\n";
     let [(half, _), (quarter, _)] = mirrored(&thin);
     for text in [HEAD.to_owned() + &thin, half, quarter] {
-        let whole = taken_up_anywhere(&text);
+        let whole = resumed_anywhere(&text);
         let worn = whole.worn_through.unwrap();
         assert_eq!((worn.stage, worn.increment + 1), (1, whole.steps.len()));
         assert!(worn.cycles < 14, "{worn:?}");
@@ -243,7 +243,7 @@ fn with_surfaces_that_are_worn_through() {
 fn with_surfaces_that_change_in_front_of_mirrors() {
     let evolution = "coefficient = 0.2\nevolution = { by = \"energy\", last = 0.6, scale = 5.0, every = 3, tolerance = 0.2 }";
     for (text, copies) in mirrored(WORN) {
-        let whole = taken_up_anywhere(&text.replace("coefficient = 0.2", evolution));
+        let whole = resumed_anywhere(&text.replace("coefficient = 0.2", evolution));
         let symmetry = plan(&text).symmetry;
         assert!(symmetry.keeps_state(&whole.state), "{copies} parts");
         assert!(whole.state.is_sound([16, 16]) && whole.end.state.worn_depth == whole.state.worn_depth);
