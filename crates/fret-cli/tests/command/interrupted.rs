@@ -31,8 +31,8 @@ fn files_in(bench: &Bench, folder: &str) -> usize {
 #[test]
 fn a_study_goes_on_with_the_levels_that_are_left() {
     let bench = Bench::new("study-stopped");
-    bench.file("case.toml", &SPHERE.replace("cycles = 2", "cycles = 4"));
-    let study = ["study", "case.toml", "--cells", "8,16,128", "--threads", "1", "--out", "study"];
+    bench.file("case.toml", &SPHERE.replace("cycles = 2", "cycles = 20")); // long enough for a signal on a busy machine
+    let study = ["study", "case.toml", "--cells", "8,16,192", "--threads", "1", "--out", "study"];
     let (stopped, _) = interrupt(&bench, &study, || files_in(&bench, "study/levels") == 2);
     assert_eq!(stopped.code, Some(130), "{}", stopped.err);
     assert!(stopped.err.contains("2 of 3 levels of the study are solved and kept"), "{}", stopped.err);
@@ -59,13 +59,21 @@ fn a_study_goes_on_with_the_levels_that_are_left() {
 #[test]
 fn error_bars_are_computed_of_a_run_that_was_solved_before() {
     let bench = Bench::new("bars-stopped");
-    bench.file("case.toml", &SPHERE.replace("[24, 24]", "[64, 64]").replace("cycles = 2", "cycles = 20"));
     let bars = ["run", "case.toml", "--estimate-error", "--threads", "1", "--quiet", "--out", "run"];
     let is_solved = || {
         std::fs::read_to_string(bench.folder.join("run/run.json"))
             .is_ok_and(|text| text.contains("\"solved\""))
     };
-    let (stopped, _) = interrupt(&bench, &bars, is_solved);
+    // The error bars of a short case may be ready before a busy machine brings the signal: then a longer case.
+    let stop = |cycles: usize| {
+        let case =
+            SPHERE.replace("[24, 24]", "[64, 64]").replace("cycles = 2", &format!("cycles = {cycles}"));
+        bench.file("case.toml", &case);
+        let _ = std::fs::remove_dir_all(bench.folder.join("run"));
+        interrupt(&bench, &bars, is_solved).0
+    };
+    let stopped = [40, 160, 640].into_iter().map(stop).find(|answer| answer.code != Some(0));
+    let stopped = stopped.expect("each case, however long, was solved with its error bars before the signal");
     assert_eq!(stopped.code, Some(130), "{}", stopped.err);
     assert!(stopped.err.contains("the case is solved and kept in run"), "{}", stopped.err);
     assert!(stopped.err.contains("--resume --estimate-error"), "{}", stopped.err);
