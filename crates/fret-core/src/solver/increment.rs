@@ -235,7 +235,12 @@ impl ContactSolver<'_> {
             symmetry: self.symmetry,
             single: self.settings.single_precision,
         };
-        Ok(RegionOperators::new(self.response.get(), waves, region, operators, &self.workspace)?)
+        let operators = RegionOperators::new(self.response.get(), waves, region, operators, &self.workspace)?;
+        // Hardly another region follows one that is this large, and nowhere is memory scarcer than in it.
+        if 2 * region.len() > self.grid.len() {
+            self.response.give_back();
+        }
+        Ok(operators)
     }
 
     /// A pressure from coarser grids: for a first contact, and where the normal load changes much.
