@@ -27,16 +27,15 @@ pub struct Term<N> {
 pub struct Columns<'a, N, const F: usize, const P: usize> {
     pub layout: &'a Layout,
     pub plan: &'a LinePlan<N>,
-    /// Spectra of the inputs, `[input][group][strip][row of the group]`.
-    pub inputs: &'a [N],
-    /// Numbers of one input.
-    pub input_len: usize,
+    /// How many of the fields are inputs.
+    pub inputs: usize,
     /// `[strip][group of four places][kernel][place of the group]`
     pub kernels: &'a [N],
     pub kernel_count: usize,
     /// Terms of each output.
     pub terms: &'a [Vec<Term<N>>],
     pub first: usize,
+    /// Spectra of the inputs, which those of the outputs take the place of.
     pub strips: &'a mut [N],
     pub scratch: &'a mut [N],
 }
@@ -46,17 +45,17 @@ impl<L: Lanes, const F: usize, const P: usize> Task<L> for Columns<'_, L::Number
     fn run(self, lanes: L) {
         let Self { layout, plan, terms, kernel_count, .. } = self;
         let (n, inner) = (plan.length(), plan.inner_length());
-        let inputs = self.inputs.len() / self.input_len;
-        let stride = layout.group_stride / (2 * L::WIDTH);
+        let inputs = self.inputs;
+        let field_len = layout.field_len();
         let lines = &mut as_lines_mut::<L>(self.scratch)[..F * P * n];
         let kernel_len = n * kernel_count * L::WIDTH;
-        for (strip, outputs) in (self.first..).zip(self.strips.chunks_exact_mut(layout.strip_stride)) {
-            for (input, lines) in self.inputs.chunks_exact(self.input_len).zip(lines.chunks_exact_mut(P * n))
-            {
-                let spectrum = &as_lines::<L>(input)[strip * L::WIDTH..];
+        for (strip, fields) in (self.first..).zip(self.strips.chunks_exact_mut(layout.strip_stride)) {
+            let columns = lines.chunks_exact_mut(P * n);
+            for (input, lines) in fields.chunks_exact(field_len).take(inputs).zip(columns) {
+                let spectrum = as_lines::<L>(input);
                 with_radix!(plan.outermost(), R => {
                     let rows = layout.rows_read;
-                    lanes.enter(OutermostForward::<L, R, P> { plan, spectrum, stride, rows, lines });
+                    lanes.enter(OutermostForward::<L, R, P> { plan, spectrum, rows, lines });
                 });
             }
             let kernels = as_vectors::<L>(&self.kernels[strip * kernel_len..][..kernel_len]);
@@ -79,8 +78,9 @@ impl<L: Lanes, const F: usize, const P: usize> Task<L> for Columns<'_, L::Number
                     inverse_middle(lanes, plan, &mut column[block * inner..(block + 1) * inner]);
                 }
             }
-            let outputs = as_lines_mut::<L>(&mut outputs[..terms.len() * n * 2 * L::WIDTH]);
-            for (output, lines) in outputs.chunks_exact_mut(n).zip(lines.chunks_exact_mut(P * n)) {
+            let columns = lines.chunks_exact_mut(P * n);
+            for (output, lines) in fields.chunks_exact_mut(field_len).take(terms.len()).zip(columns) {
+                let output = &mut as_lines_mut::<L>(output)[..n];
                 with_radix!(plan.outermost(), R => {
                     lanes.enter(OutermostInverse::<L, R, P> { plan, lines, output });
                 });
@@ -93,8 +93,6 @@ impl<L: Lanes, const F: usize, const P: usize> Task<L> for Columns<'_, L::Number
 pub struct OutermostForward<'a, L: Lanes, const R: usize, const P: usize> {
     pub plan: &'a LinePlan<L::Number>,
     pub spectrum: &'a [Line<L>],
-    /// Lines from one row group to the next.
-    pub stride: usize,
     /// Rows to be read; the others are zero.
     pub rows: usize,
     pub lines: &'a mut [Line<L>],
@@ -103,7 +101,7 @@ pub struct OutermostForward<'a, L: Lanes, const R: usize, const P: usize> {
 impl<L: Lanes, const R: usize, const P: usize> Task<L> for OutermostForward<'_, L, R, P> {
     #[inline(always)]
     fn run(self, lanes: L) {
-        let Self { plan, spectrum, stride, rows, lines } = self;
+        let Self { plan, spectrum, rows, lines } = self;
         let places = plan.inner_length();
         let weights = splat(lanes, &plan.forward(0)[0]);
         let (direct, mirrored) = lines.split_at_mut(plan.length());
@@ -114,9 +112,7 @@ impl<L: Lanes, const R: usize, const P: usize> Task<L> for OutermostForward<'_, 
             for m in 0..R {
                 let row = m * places + j;
                 if m * places < rows {
-                    let at = (row / L::WIDTH).wrapping_mul(stride).wrapping_add(row % L::WIDTH);
-                    x[m] = Complex::load(&spectrum[at]);
-                    fetch(spectrum.get(at.wrapping_add(stride)).map(<[_; 2]>::as_slice));
+                    x[m] = Complex::load(&spectrum[row]);
                 }
             }
             let y = butterfly(lanes, x, &weights);

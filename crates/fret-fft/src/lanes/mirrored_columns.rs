@@ -8,7 +8,7 @@
 
 use super::butterfly::{Complex, butterfly, splat};
 use super::columns::{OutermostForward, OutermostInverse};
-use super::memory::{Line, as_lines, as_lines_mut, as_vectors, fetch};
+use super::memory::{Line, as_lines, as_lines_mut, as_vectors};
 use super::mirrored_kernels::{MirroredTerm, MultiplyPairs, MultiplyParts};
 use super::paired_rows::Places;
 use super::passes::{forward_middle, inverse_middle, parts, with_radix};
@@ -30,10 +30,8 @@ pub struct MirroredColumns<'a, N, const F: usize, const P: usize> {
     pub layout: &'a Layout,
     pub plan: &'a LinePlan<N>,
     pub sides: Sides,
-    /// Spectra of the inputs, `[input][group][strip][row of the group]`.
-    pub inputs: &'a [N],
-    /// Numbers of one input.
-    pub input_len: usize,
+    /// How many of the fields are inputs.
+    pub inputs: usize,
     /// `[strip][group of four places][table][place of the group]`, or `[strip][frequency][table]` where the scene repeats.
     pub kernels: &'a [N],
     pub table_count: usize,
@@ -42,6 +40,7 @@ pub struct MirroredColumns<'a, N, const F: usize, const P: usize> {
     /// Terms of each output.
     pub terms: &'a [Vec<MirroredTerm<N>>],
     pub first: usize,
+    /// Spectra of the inputs, which those of the outputs take the place of.
     pub strips: &'a mut [N],
     pub scratch: &'a mut [N],
 }
@@ -51,23 +50,22 @@ impl<L: Lanes, const F: usize, const P: usize> Task<L> for MirroredColumns<'_, L
     fn run(self, lanes: L) {
         let Self { layout, plan, terms, table_count, sides, places, .. } = self;
         let (n, inner) = (plan.length(), plan.inner_length());
-        let inputs = self.inputs.len() / self.input_len;
+        let inputs = self.inputs;
         let mirrored = sides.inputs[0].is_mirrored();
-        let stride = layout.group_stride / (2 * L::WIDTH);
+        let field_len = layout.field_len();
         let lines = &mut as_lines_mut::<L>(self.scratch)[..F * P * n];
         let rows = if P == 2 { n } else { places.len() };
         let kernel_len = rows * table_count * L::WIDTH;
-        for (strip, outputs) in (self.first..).zip(self.strips.chunks_exact_mut(layout.strip_stride)) {
-            for ((input, side), lines) in
-                self.inputs.chunks_exact(self.input_len).zip(sides.inputs).zip(lines.chunks_exact_mut(P * n))
-            {
-                let spectrum = &as_lines::<L>(input)[strip * L::WIDTH..];
+        for (strip, fields) in (self.first..).zip(self.strips.chunks_exact_mut(layout.strip_stride)) {
+            let columns = lines.chunks_exact_mut(P * n).zip(sides.inputs);
+            for (input, (lines, side)) in fields.chunks_exact(field_len).take(inputs).zip(columns) {
+                let spectrum = as_lines::<L>(input);
                 with_radix!(plan.outermost(), R => {
                     if mirrored {
-                        lanes.enter(MirroredForward::<L, R, P> { plan, side, spectrum, stride, lines });
+                        lanes.enter(MirroredForward::<L, R, P> { plan, side, spectrum, lines });
                     } else {
                         let rows = layout.rows_read;
-                        lanes.enter(OutermostForward::<L, R, P> { plan, spectrum, stride, rows, lines });
+                        lanes.enter(OutermostForward::<L, R, P> { plan, spectrum, rows, lines });
                     }
                 });
             }
@@ -112,10 +110,9 @@ impl<L: Lanes, const F: usize, const P: usize> Task<L> for MirroredColumns<'_, L
                     }
                 }
             }
-            let outputs = as_lines_mut::<L>(&mut outputs[..terms.len() * n * 2 * L::WIDTH]);
-            for ((output, side), lines) in
-                outputs.chunks_exact_mut(n).zip(sides.outputs).zip(lines.chunks_exact_mut(P * n))
-            {
+            let columns = lines.chunks_exact_mut(P * n).zip(sides.outputs);
+            for (output, (lines, side)) in fields.chunks_exact_mut(field_len).take(terms.len()).zip(columns) {
+                let output = &mut as_lines_mut::<L>(output)[..n];
                 with_radix!(plan.outermost(), R => {
                     if mirrored {
                         lanes.enter(MirroredInverse::<L, R, P> { plan, side, lines, output });
@@ -133,15 +130,13 @@ struct MirroredForward<'a, L: Lanes, const R: usize, const P: usize> {
     plan: &'a LinePlan<L::Number>,
     side: Side,
     spectrum: &'a [Line<L>],
-    /// Lines from one row group to the next.
-    stride: usize,
     lines: &'a mut [Line<L>],
 }
 
 impl<L: Lanes, const R: usize, const P: usize> Task<L> for MirroredForward<'_, L, R, P> {
     #[inline(always)]
     fn run(self, lanes: L) {
-        let Self { plan, side, spectrum, stride, lines } = self;
+        let Self { plan, side, spectrum, lines } = self;
         let places = plan.inner_length();
         let weights = splat(lanes, &plan.forward(0)[0]);
         let sign = lanes.constant(side.backward_sign());
@@ -153,10 +148,7 @@ impl<L: Lanes, const R: usize, const P: usize> Task<L> for MirroredForward<'_, L
             let mut y = [Complex::zero(lanes); R];
             for m in 0..R {
                 let (row, backward) = mirrored_point(m * places + j, plan.length());
-                let at = (row / L::WIDTH).wrapping_mul(stride).wrapping_add(row % L::WIDTH);
-                x[m] = Complex::load(&spectrum[at]);
-                let next = if backward { at.wrapping_sub(stride) } else { at.wrapping_add(stride) };
-                fetch(spectrum.get(next).map(<[_; 2]>::as_slice));
+                x[m] = Complex::load(&spectrum[row]);
                 y[m] = x[m].swapped();
                 if backward {
                     x[m] = taken_backwards::<L, P>(lanes, sign, x[m]);

@@ -8,7 +8,7 @@ use super::butterfly::{Complex, butterfly, plain_butterfly, splat};
 use super::memory::{Line, as_lines_mut, as_vectors_mut};
 use super::passes::{forward_middle, inverse_middle, load_quad, parts, with_radix};
 use super::plan::LinePlan;
-use super::row_groups::{Layout, gather_rows, rows_of_strip, scatter_rows};
+use super::row_groups::{Layout, RowGroup, RowGroups, gather_rows, rows_of_strip, scatter_rows};
 use super::rows::{Side, mirrored_point};
 use super::simd::{Lanes, Number, Task};
 
@@ -32,27 +32,29 @@ pub fn places(order: &[usize], count: usize) -> Vec<Places> {
 }
 
 /// Rows of a field to pairs of groups of the spectrum, from pair `first` on.
-pub struct PairsForward<'a, N> {
+pub struct PairsForward<'a, 's, N> {
     pub layout: &'a Layout,
     pub plan: &'a LinePlan<N>,
     pub side: Side,
     pub places: &'a [Places],
     pub field: &'a [N],
     pub first: usize,
-    pub pairs: &'a mut [N],
+    pub groups: RowGroups<'s, N>,
     pub scratch: &'a mut [N],
 }
 
-impl<L: Lanes> Task<L> for PairsForward<'_, L::Number> {
+impl<L: Lanes> Task<L> for PairsForward<'_, '_, L::Number> {
     #[inline(always)]
     fn run(self, lanes: L) {
-        let Self { layout, plan, side, places, field, first, pairs, scratch } = self;
+        let Self { layout, plan, side, places, field, first, mut groups, scratch } = self;
         let [nx, ny] = layout.shape;
         let (staging_a, scratch) = scratch.split_at_mut(plan.padded_length() * L::WIDTH);
         let (staging_b, scratch) = scratch.split_at_mut(plan.padded_length() * L::WIDTH);
         let [staging_a, staging_b] = [as_vectors_mut::<L>(staging_a), as_vectors_mut::<L>(staging_b)];
         let lines = &mut as_lines_mut::<L>(scratch)[..=ny];
-        for (pair, spectrum) in (first..).zip(pairs.chunks_exact_mut(2 * layout.group_stride)) {
+        let mut groups = groups.each();
+        for pair in first.. {
+            let (Some(group_a), Some(group_b)) = (groups.next(), groups.next()) else { break };
             let begin = (2 * pair * L::WIDTH).min(nx);
             let middle = (begin + L::WIDTH).min(nx);
             let end = (middle + L::WIDTH).min(nx);
@@ -62,25 +64,23 @@ impl<L: Lanes> Task<L> for PairsForward<'_, L::Number> {
             for (block, lines) in lines[..ny].chunks_exact_mut(plan.inner_length()).enumerate() {
                 forward_middle(lanes, plan, block, lines);
             }
-            let (group_a, group_b) = spectrum.split_at_mut(layout.group_stride);
-            let [group_a, group_b] = [as_lines_mut::<L>(group_a), as_lines_mut::<L>(group_b)];
             lanes.enter(Separate::<L> { plan, side, places, lines, group_a, group_b });
         }
     }
 }
 
 /// Innermost forward pass, and the spectra of both rows from that of the pair.
-struct Separate<'a, L: Lanes> {
+struct Separate<'a, 's, L: Lanes> {
     plan: &'a LinePlan<L::Number>,
     side: Side,
     places: &'a [Places],
     /// One line more than the transform has.
     lines: &'a mut [Line<L>],
-    group_a: &'a mut [Line<L>],
-    group_b: &'a mut [Line<L>],
+    group_a: RowGroup<'s, L::Number>,
+    group_b: RowGroup<'s, L::Number>,
 }
 
-impl<L: Lanes> Task<L> for Separate<'_, L> {
+impl<L: Lanes> Task<L> for Separate<'_, '_, L> {
     #[inline(always)]
     fn run(self, lanes: L) {
         let lines = self.lines;
@@ -90,7 +90,8 @@ impl<L: Lanes> Task<L> for Separate<'_, L> {
                 y[m].store(&mut lines[m]);
             }
         }
-        let groups = self.group_a.chunks_exact_mut(L::WIDTH).zip(self.group_b.chunks_exact_mut(L::WIDTH));
+        let (mut group_a, mut group_b) = (self.group_a, self.group_b);
+        let groups = group_a.parts::<L>().zip(group_b.parts::<L>());
         let mut a = [lanes.block(lanes.zero()); 2];
         let mut b = [lanes.block(lanes.zero()); 2];
         for (places, (group_a, group_b)) in self.places.chunks_exact(L::WIDTH).zip(groups) {
@@ -125,7 +126,7 @@ pub struct PairsInverse<'a, N> {
     pub plan: &'a LinePlan<N>,
     pub side: Side,
     pub places: &'a [Places],
-    /// Spectra from the first strip of this output on.
+    /// Spectra from this output on.
     pub spectrum: &'a [N],
     pub first: usize,
     pub rows: &'a mut [N],

@@ -15,10 +15,10 @@ use super::mirrored_columns::MirroredColumns;
 use super::paired_rows::{PairsForward, PairsInverse, Places, places};
 use super::plan::LinePlan;
 use super::reflection::{Reflection, tables};
-use super::row_groups::Layout;
+use super::row_groups::{Layout, RowGroups};
 use super::rows::{RowsForward, RowsInverse, Side};
 use super::simd::{Lanes, Number};
-use super::threads::{MAX_FIELDS, Scratch, divide, pieces};
+use super::threads::{Divisible, MAX_FIELDS, Scratch, divide, divide_runs, pieces};
 use kernels::KernelTransform;
 
 /// Shortest line: an outermost and an innermost pass.
@@ -58,12 +58,43 @@ impl Boundary {
         }
     }
 
+    /// Parts of each column.
+    fn parts(&self) -> usize {
+        match self {
+            Self::FreeSpace => 2,
+            Self::Periodic { .. } => 1,
+        }
+    }
+
+    /// Row groups that are transformed together.
+    fn paired(&self) -> usize {
+        3 - self.parts()
+    }
+
     /// Frequencies of a row of `length` points that are worked on.
     fn frequencies(&self, length: usize) -> usize {
         match self {
             Self::FreeSpace => length,
             Self::Periodic { .. } => length / 2 + 1,
         }
+    }
+}
+
+/// Row groups of one field, so many of which are transformed together.
+struct Together<'a, N> {
+    groups: RowGroups<'a, N>,
+    paired: usize,
+}
+
+impl<N: Number> Divisible for Together<'_, N> {
+    fn chunks(&self) -> usize {
+        self.groups.len().div_ceil(self.paired)
+    }
+
+    fn divided_after(self, chunks: usize) -> (Self, Self) {
+        let Self { groups, paired } = self;
+        let (first, others) = groups.split_at(chunks * paired);
+        (Self { groups: first, paired }, Self { groups: others, paired })
     }
 }
 
@@ -154,8 +185,10 @@ impl<N: Number> LaneProduct<N> {
         let width = set.width::<N>();
         let fraction = boundary.fraction();
         let strips = boundary.frequencies(ny).div_ceil(width);
-        // A cache line or two between groups and strips, against strides that are powers of two.
+        // A cache line or two between strips, against strides that are powers of two.
         let padding = 2 * numbers_in_cache_line::<N>().max(width);
+        let (paired, group_len) = (boundary.paired(), 2 * width * width);
+        let groups = nx.div_ceil(width).next_multiple_of(paired);
         let along_x = LinePlan::new(nx, fraction);
         // A mirrored line has cells in every part.
         let places = if terms.mirrors.axes[0] { nx } else { along_x.inner_length() };
@@ -164,8 +197,9 @@ impl<N: Number> LaneProduct<N> {
             column_len: nx,
             rows_read: terms.shape[0].next_multiple_of(places).min(nx),
             strips,
-            group_stride: strips * width * 2 * width + padding,
-            strip_stride: terms.outputs * nx * 2 * width + padding,
+            group_len,
+            groups,
+            strip_stride: terms.inputs.max(terms.outputs) * groups * group_len + padding,
         };
         let order = |output| {
             let blocks = terms.blocks.iter().filter(move |block| block.output == output);
@@ -199,38 +233,18 @@ impl<N: Number> LaneProduct<N> {
         self.kernels.memory_bytes()
     }
 
-    /// Parts of each column.
-    fn parts(&self) -> usize {
-        match self.boundary {
-            Boundary::FreeSpace => 2,
-            Boundary::Periodic { .. } => 1,
-        }
-    }
-
-    /// Row groups that are transformed together.
-    fn paired(&self) -> usize {
-        3 - self.parts()
-    }
-
-    fn input_len(&self) -> usize {
-        let groups = self.along_x.length().div_ceil(self.set.width::<N>()).next_multiple_of(self.paired());
-        groups * self.layout.group_stride
-    }
-
     fn scratch_len(&self) -> usize {
         let width = self.set.width::<N>();
-        let rows = (2 + self.paired()) * self.along_y.padded_length();
+        let rows = (2 + self.boundary.paired()) * self.along_y.padded_length();
         let fields = self.inputs.max(self.outputs);
-        let columns = 2 * fields * self.parts() * self.along_x.length();
+        let columns = 2 * fields * self.boundary.parts() * self.along_x.length();
         let line = numbers_in_cache_line::<N>();
         (rows.max(columns) * width).next_multiple_of(line) + 2 * line
     }
 
     /// Numbers of work space for as many threads.
     pub fn work_len(&self, threads: usize) -> usize {
-        self.inputs * self.input_len()
-            + self.layout.strips * self.layout.strip_stride
-            + threads.max(1) * self.scratch_len()
+        self.layout.spectra_len() + threads.max(1) * self.scratch_len()
     }
 
     /// `output = sum of blocks`, with work space for at least one thread.
@@ -243,8 +257,7 @@ impl<N: Number> LaneProduct<N> {
     }
 
     fn apply_to<const F: usize>(&self, work: &mut [N], input: &[&[N]], output: &mut [&mut [N]]) {
-        let (spectra, work) = work.split_at_mut(self.inputs * self.input_len());
-        let (strips, numbers) = work.split_at_mut(self.layout.strips * self.layout.strip_stride);
+        let (spectra, numbers) = work.split_at_mut(self.layout.spectra_len());
         let piece_len = self.scratch_len();
         let pieces = pieces(self.layout.shape, numbers.len() / piece_len);
         let sides = self.reflection.as_ref().map(|reflection| reflection.rows);
@@ -255,11 +268,11 @@ impl<N: Number> LaneProduct<N> {
         self.rows_forward(input, &inputs, spectra, Scratch { numbers, piece_len }, pieces);
         let scratch = Scratch { numbers, piece_len };
         match self.boundary {
-            Boundary::FreeSpace => self.columns::<F, 2>(spectra, strips, scratch, pieces),
-            Boundary::Periodic { .. } => self.columns::<F, 1>(spectra, strips, scratch, pieces),
+            Boundary::FreeSpace => self.columns::<F, 2>(spectra, scratch, pieces),
+            Boundary::Periodic { .. } => self.columns::<F, 1>(spectra, scratch, pieces),
         }
         let outputs = side(sides.map(|sides| sides.outputs));
-        self.rows_inverse(strips, &outputs, output, Scratch { numbers, piece_len }, pieces);
+        self.rows_inverse(spectra, &outputs, output, Scratch { numbers, piece_len }, pieces);
     }
 
     fn rows_forward(
@@ -271,45 +284,43 @@ impl<N: Number> LaneProduct<N> {
         pieces: usize,
     ) {
         let Self { layout, along_y: plan, .. } = self;
-        let chunk = self.paired() * layout.group_stride;
-        let mut spectra = spectra.chunks_exact_mut(self.input_len());
-        let spectra = [(); MAX_FIELDS].map(|()| spectra.next().unwrap_or_default());
-        let rows = |index: usize, first, groups: &mut [N], scratch: &mut [N]| {
-            let (field, side) = (input[index], sides(index));
+        let paired = self.boundary.paired();
+        let (first_field, rest) = layout.groups_in(spectra, self.inputs).split_at(layout.groups);
+        let (second_field, third_field) = rest.split_at(layout.groups);
+        let fields = [first_field, second_field, third_field].map(|groups| Together { groups, paired });
+        let rows = |index: usize, first, run: Together<'_, N>, scratch: &mut [N]| {
+            let (field, side, groups) = (input[index], sides(index), run.groups);
             match &self.boundary {
                 Boundary::FreeSpace => {
                     enter!(self.set, N, RowsForward { layout, plan, side, field, first, groups, scratch });
                 }
                 Boundary::Periodic { places } => {
-                    let pairs = groups;
                     enter!(
                         self.set,
                         N,
-                        PairsForward { layout, plan, side, places, field, first, pairs, scratch }
+                        PairsForward { layout, plan, side, places, field, first, groups, scratch }
                     );
                 }
             }
         };
-        divide(spectra, chunk, scratch, pieces, &rows);
+        divide_runs(fields, scratch, pieces, &rows);
     }
 
     fn columns<const F: usize, const P: usize>(
         &self,
-        inputs: &[N],
-        strips: &mut [N],
+        spectra: &mut [N],
         scratch: Scratch<'_, N>,
         pieces: usize,
     ) {
         let chunk = self.layout.strip_stride;
-        let strips = [strips, &mut [], &mut []];
+        let strips = [spectra, &mut [], &mut []];
         divide(strips, chunk, scratch, pieces, &|_, first, strips: &mut [N], scratch: &mut [N]| {
             if let Some(reflection) = &self.reflection {
                 let columns = MirroredColumns::<N, F, P> {
                     layout: &self.layout,
                     plan: &self.along_x,
                     sides: reflection.columns,
-                    inputs,
-                    input_len: self.input_len(),
+                    inputs: self.inputs,
                     kernels: self.kernels.as_slice(),
                     table_count: self.kernel_count,
                     places: &reflection.places,
@@ -324,8 +335,7 @@ impl<N: Number> LaneProduct<N> {
             let columns = Columns::<N, F, P> {
                 layout: &self.layout,
                 plan: &self.along_x,
-                inputs,
-                input_len: self.input_len(),
+                inputs: self.inputs,
                 kernels: self.kernels.as_slice(),
                 kernel_count: self.kernel_count,
                 terms: &self.terms,
@@ -339,19 +349,18 @@ impl<N: Number> LaneProduct<N> {
 
     fn rows_inverse(
         &self,
-        strips: &[N],
+        spectra: &[N],
         sides: &(impl Fn(usize) -> Side + Sync),
         output: &mut [&mut [N]],
         scratch: Scratch<'_, N>,
         pieces: usize,
     ) {
         let Self { layout, along_y: plan, .. } = self;
-        let chunk = self.paired() * self.set.width::<N>() * layout.shape[1];
-        let spectrum_len = layout.column_len * 2 * self.set.width::<N>();
+        let chunk = self.boundary.paired() * self.set.width::<N>() * layout.shape[1];
         let mut fields = output.iter_mut().map(|field| &mut **field);
         let fields = [(); MAX_FIELDS].map(|()| fields.next().unwrap_or_default());
         let rows = |index: usize, first, rows: &mut [N], scratch: &mut [N]| {
-            let (spectrum, side) = (&strips[index * spectrum_len..], sides(index));
+            let (spectrum, side) = (&spectra[index * layout.field_len()..], sides(index));
             match &self.boundary {
                 Boundary::FreeSpace => {
                     enter!(self.set, N, RowsInverse { layout, plan, side, spectrum, first, rows, scratch });

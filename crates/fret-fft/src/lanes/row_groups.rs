@@ -1,7 +1,9 @@
 //! Groups of as many rows as there are lanes: turned into vectors across the rows, and back; and where they lie.
 
-use super::memory::{as_lines, as_vectors, as_vectors_mut};
-use super::simd::{Lanes, MAX_WIDTH, Task};
+use ndarray::{ArrayViewMut2, ArrayViewMut3, Axis, ShapeBuilder};
+
+use super::memory::{Line, as_lines, as_lines_mut, as_vectors, as_vectors_mut};
+use super::simd::{Lanes, MAX_WIDTH, Number, Task};
 
 /// Where things are: see the fields.
 #[derive(Debug, Clone, Copy)]
@@ -14,13 +16,87 @@ pub struct Layout {
     pub rows_read: usize,
     /// Strips of frequencies along `y`.
     pub strips: usize,
-    /// Numbers from one row group to the next, in the spectrum of one input: `[group][strip][row of the group]`.
-    pub group_stride: usize,
-    /// Numbers from one strip to the next in the spectra of the outputs: `[strip][output][row]`.
+    /// Numbers of a row group in one strip.
+    pub group_len: usize,
+    /// Row groups of a field.
+    pub groups: usize,
+    /// Numbers from one strip to the next in the spectra: `[strip][field][group][row of the group]`.
     pub strip_stride: usize,
 }
 
-/// Real and imaginary parts of the rows of one group in one strip of the outputs' spectra; zero for rows that are not there.
+impl Layout {
+    /// Numbers of a field in one strip.
+    pub fn field_len(&self) -> usize {
+        self.groups * self.group_len
+    }
+
+    /// Numbers of the spectra.
+    pub fn spectra_len(&self) -> usize {
+        self.strips * self.strip_stride
+    }
+
+    /// The row groups of so many fields in their spectra.
+    ///
+    /// # Panics
+    /// When there are fewer than [`spectra_len`](Self::spectra_len) numbers.
+    pub fn groups_in<'a, N: Number>(&self, spectra: &'a mut [N], fields: usize) -> RowGroups<'a, N> {
+        let shape = (self.strips, fields * self.groups, self.group_len);
+        let strides = (self.strip_stride, self.group_len, 1);
+        let strips = ArrayViewMut3::from_shape(shape.strides(strides), &mut spectra[..self.spectra_len()]);
+        RowGroups {
+            strips: strips.unwrap_or_else(|error| panic!("the spectra have another layout: {error}")),
+        }
+    }
+}
+
+/// Row groups of spectra, each with a part in every strip.
+pub struct RowGroups<'a, N> {
+    /// `[strip][group][number]`
+    strips: ArrayViewMut3<'a, N>,
+}
+
+impl<N: Number> RowGroups<'_, N> {
+    /// How many there are.
+    pub fn len(&self) -> usize {
+        self.strips.len_of(Axis(1))
+    }
+
+    /// The first `count`, or all, and the others.
+    pub fn split_at(self, count: usize) -> (Self, Self) {
+        let count = count.min(self.len());
+        let (first, others) = self.strips.split_at(Axis(1), count);
+        (Self { strips: first }, Self { strips: others })
+    }
+
+    /// One after the other.
+    pub fn each(&mut self) -> impl Iterator<Item = RowGroup<'_, N>> {
+        self.strips.axis_iter_mut(Axis(1)).map(|strips| RowGroup { strips })
+    }
+}
+
+/// One row group of a spectrum.
+pub struct RowGroup<'a, N> {
+    /// `[strip][number]`
+    strips: ArrayViewMut2<'a, N>,
+}
+
+impl<N: Number> RowGroup<'_, N> {
+    /// Zero everywhere.
+    pub fn clear(&mut self) {
+        self.strips.fill(N::default());
+    }
+
+    /// Its part of each strip, `[row of the group]`.
+    #[inline(always)]
+    pub fn parts<L: Lanes<Number = N>>(&mut self) -> impl Iterator<Item = &mut [Line<L>]> {
+        self.strips
+            .rows_mut()
+            .into_iter()
+            .map(|part| as_lines_mut::<L>(part.into_slice().unwrap_or_default()))
+    }
+}
+
+/// Real and imaginary parts of the rows of one group in one strip of the spectra, from a field on; zero for rows that are not there.
 #[inline(always)]
 pub fn rows_of_strip<L: Lanes>(
     lanes: L,
@@ -148,6 +224,44 @@ impl<L: Lanes> Task<L> for ScatterRows<'_, L> {
                         *to = *from;
                     }
                 }
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Two fields of two row groups of 8 numbers, in 3 strips with 4 more numbers each: each row group gets a number, on however many
+    /// threads its strips are divided; what lies between the strips stays.
+    #[test]
+    fn a_row_group_has_its_place_in_every_strip() {
+        let layout = Layout {
+            shape: [4, 6],
+            column_len: 4,
+            rows_read: 4,
+            strips: 3,
+            group_len: 8,
+            groups: 2,
+            strip_stride: 36,
+        };
+        assert_eq!((layout.field_len(), layout.spectra_len()), (16, 108));
+        for first in 0..=5 {
+            let mut spectra = vec![9.0; 110];
+            let (before, behind) = layout.groups_in(&mut spectra, 2).split_at(first);
+            assert_eq!((before.len(), behind.len()), (first.min(4), 4 - first.min(4)));
+            let mut place = 0.0;
+            for mut groups in [before, behind] {
+                for mut group in groups.each() {
+                    group.clear();
+                    group.strips.mapv_inplace(|number| number + place);
+                    place += 1.0;
+                }
+            }
+            for (index, number) in spectra.iter().enumerate() {
+                let (strip, within) = (index / 36, index % 36);
+                assert_eq!(*number, if strip < 3 && within < 32 { (within / 8) as f64 } else { 9.0 });
             }
         }
     }

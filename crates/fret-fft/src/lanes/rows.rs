@@ -7,7 +7,7 @@ use super::butterfly::{Complex, butterfly, plain_butterfly, splat};
 use super::memory::{Line, as_lines_mut, as_vectors_mut};
 use super::passes::{forward_middle, inverse_middle, load_quad, parts, with_radix};
 use super::plan::LinePlan;
-use super::row_groups::{Layout, gather_rows, rows_of_strip, scatter_rows};
+use super::row_groups::{Layout, RowGroup, RowGroups, gather_rows, rows_of_strip, scatter_rows};
 use super::simd::{Lanes, Task};
 
 /// How a line lies to a mirror before its first point.
@@ -45,30 +45,29 @@ pub fn mirrored_point(place: usize, length: usize) -> (usize, bool) {
 }
 
 /// Rows of a field to groups of the spectrum, from group `first` on.
-pub struct RowsForward<'a, N> {
+pub struct RowsForward<'a, 's, N> {
     pub layout: &'a Layout,
     pub plan: &'a LinePlan<N>,
     pub side: Side,
     pub field: &'a [N],
     pub first: usize,
-    pub groups: &'a mut [N],
+    pub groups: RowGroups<'s, N>,
     pub scratch: &'a mut [N],
 }
 
-impl<L: Lanes> Task<L> for RowsForward<'_, L::Number> {
+impl<L: Lanes> Task<L> for RowsForward<'_, '_, L::Number> {
     #[inline(always)]
     fn run(self, lanes: L) {
-        let Self { layout, plan, side, field, first, groups, scratch } = self;
+        let Self { layout, plan, side, field, first, mut groups, scratch } = self;
         let [nx, ny] = layout.shape;
         let (staging, scratch) = scratch.split_at_mut(plan.padded_length() * L::WIDTH);
         let staging = as_vectors_mut::<L>(staging);
         let lines = &mut as_lines_mut::<L>(scratch)[..plan.padded_length()];
-        for (group, spectrum) in (first..).zip(groups.chunks_exact_mut(layout.group_stride)) {
-            let spectrum = as_lines_mut::<L>(spectrum);
+        for (group, mut to) in (first..).zip(groups.each()) {
             let rows = nx.saturating_sub(group * L::WIDTH).min(L::WIDTH);
             if rows == 0 {
                 if group * L::WIDTH < layout.rows_read {
-                    spectrum.fill([lanes.zero(); 2]);
+                    to.clear();
                 }
                 continue;
             }
@@ -77,26 +76,27 @@ impl<L: Lanes> Task<L> for RowsForward<'_, L::Number> {
             for (block, lines) in lines[..plan.length()].chunks_exact_mut(plan.inner_length()).enumerate() {
                 forward_middle(lanes, plan, block, lines);
             }
-            lanes.enter(InnermostForward::<L> { plan, side, lines, spectrum });
+            lanes.enter(InnermostForward::<L> { plan, side, lines, to });
         }
     }
 }
 
 /// Innermost forward pass, and the turn from vectors across rows to vectors across frequencies.
-struct InnermostForward<'a, L: Lanes> {
+struct InnermostForward<'a, 's, L: Lanes> {
     plan: &'a LinePlan<L::Number>,
     side: Side,
     lines: &'a [Line<L>],
-    spectrum: &'a mut [Line<L>],
+    to: RowGroup<'s, L::Number>,
 }
 
-impl<L: Lanes> Task<L> for InnermostForward<'_, L> {
+impl<L: Lanes> Task<L> for InnermostForward<'_, '_, L> {
     #[inline(always)]
     fn run(self, lanes: L) {
+        let mut to = self.to;
         let weights = self.plan.innermost_forward().chunks_exact(L::WIDTH / 4);
         let turns = self.plan.mirror_turns().chunks_exact(L::WIDTH);
         let strips = self.lines.chunks_exact(L::WIDTH).zip(weights).zip(turns);
-        for (((lines, weights), turns), strip) in strips.zip(self.spectrum.chunks_exact_mut(L::WIDTH)) {
+        for (((lines, weights), turns), strip) in strips.zip(to.parts::<L>()) {
             let mut re = lanes.block(lanes.zero());
             let mut im = lanes.block(lanes.zero());
             for quad in 0..L::WIDTH / 4 {
@@ -126,7 +126,7 @@ pub struct RowsInverse<'a, N> {
     pub layout: &'a Layout,
     pub plan: &'a LinePlan<N>,
     pub side: Side,
-    /// Spectra from the first strip of this output on.
+    /// Spectra from this output on.
     pub spectrum: &'a [N],
     pub first: usize,
     pub rows: &'a mut [N],

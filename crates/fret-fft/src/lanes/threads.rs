@@ -21,11 +21,34 @@ pub struct Scratch<'a, N> {
     pub piece_len: usize,
 }
 
-/// Divides whole chunks of `chunk_len` of several fields (the last chunk of one may be shorter) into `pieces`, and calls
-/// `work(field, index of its first chunk, run, scratch)` for each run of chunks of a field, pieces in parallel: all fields at once, since
-/// waking a thread takes as long as the rows of a small one.
-///
-/// What is computed for a chunk must not depend on the run it is in; then nothing depends on the number of pieces.
+/// What can be divided into chunks.
+pub trait Divisible: Sized {
+    /// Chunks, of which the last may be shorter.
+    fn chunks(&self) -> usize;
+    /// The first so many chunks, or all, and the others.
+    fn divided_after(self, chunks: usize) -> (Self, Self);
+}
+
+/// Numbers in chunks of a length.
+struct Chunked<'a, N> {
+    numbers: &'a mut [N],
+    chunk_len: usize,
+}
+
+impl<N> Divisible for Chunked<'_, N> {
+    fn chunks(&self) -> usize {
+        self.numbers.len().div_ceil(self.chunk_len)
+    }
+
+    fn divided_after(self, chunks: usize) -> (Self, Self) {
+        let Self { numbers, chunk_len } = self;
+        let (first, others) = numbers.split_at_mut((chunks * chunk_len).min(numbers.len()));
+        (Self { numbers: first, chunk_len }, Self { numbers: others, chunk_len })
+    }
+}
+
+/// Divides whole chunks of `chunk_len` of several fields (the last chunk of one may be shorter) into `pieces`, as
+/// [`divide_runs`] does.
 pub fn divide<N, W>(
     fields: [&mut [N]; MAX_FIELDS],
     chunk_len: usize,
@@ -36,48 +59,55 @@ pub fn divide<N, W>(
     N: Number,
     W: Fn(usize, usize, &mut [N], &mut [N]) + Sync,
 {
-    divide_from(fields.map(|data| (0, data)), chunk_len, scratch, pieces, work);
+    let runs = fields.map(|numbers| Chunked { numbers, chunk_len });
+    divide_runs(runs, scratch, pieces, &|field, first, run: Chunked<'_, N>, scratch: &mut [N]| {
+        work(field, first, run.numbers, scratch);
+    });
+}
+
+/// Divides the chunks of several fields into `pieces`, and calls `work(field, index of its first chunk, run, scratch)` for each run of
+/// chunks of a field, pieces in parallel: all fields at once, since waking a thread takes as long as the rows of a small one.
+///
+/// What is computed for a chunk must not depend on the run it is in; then nothing depends on the number of pieces.
+pub fn divide_runs<N, R, W>(fields: [R; MAX_FIELDS], scratch: Scratch<'_, N>, pieces: usize, work: &W)
+where
+    N: Number,
+    R: Divisible + Send,
+    W: Fn(usize, usize, R, &mut [N]) + Sync,
+{
+    divide_from(fields.map(|run| (0, run)), scratch, pieces, work);
 }
 
 /// Of each field a run, after the index of its first chunk.
-fn divide_from<N, W>(
-    fields: [(usize, &mut [N]); MAX_FIELDS],
-    chunk_len: usize,
-    scratch: Scratch<'_, N>,
-    pieces: usize,
-    work: &W,
-) where
+fn divide_from<N, R, W>(fields: [(usize, R); MAX_FIELDS], scratch: Scratch<'_, N>, pieces: usize, work: &W)
+where
     N: Number,
-    W: Fn(usize, usize, &mut [N], &mut [N]) + Sync,
+    R: Divisible + Send,
+    W: Fn(usize, usize, R, &mut [N]) + Sync,
 {
     let Scratch { numbers, piece_len } = scratch;
     if pieces <= 1 {
-        for (field, (first, data)) in fields.into_iter().enumerate().filter(|(_, (_, data))| !data.is_empty())
-        {
-            work(field, first, data, &mut numbers[..piece_len]);
+        for (field, (first, run)) in fields.into_iter().enumerate().filter(|(_, (_, run))| run.chunks() > 0) {
+            work(field, first, run, &mut numbers[..piece_len]);
         }
         return;
     }
     let left_pieces = pieces / 2;
-    let chunks: usize = fields.iter().map(|(_, data)| data.len().div_ceil(chunk_len)).sum();
+    let chunks: usize = fields.iter().map(|(_, run)| run.chunks()).sum();
     let mut left_chunks = chunks * left_pieces / pieces;
-    let mut right: [(usize, &mut [N]); MAX_FIELDS] = Default::default();
-    let mut right_of = right.iter_mut();
-    let left = fields.map(|(first, data)| {
-        let taken = left_chunks.min(data.len().div_ceil(chunk_len));
+    let [a, b, c] = fields.map(|(first, run)| {
+        let taken = left_chunks.min(run.chunks());
         left_chunks -= taken;
-        let (before, behind) = data.split_at_mut((taken * chunk_len).min(data.len()));
-        if let Some(right) = right_of.next() {
-            *right = (first + taken, behind);
-        }
-        (first, before)
+        let (before, behind) = run.divided_after(taken);
+        [(first, before), (first + taken, behind)]
     });
+    let ([a, a_right], [b, b_right], [c, c_right]) = (a, b, c);
     let (numbers, right_numbers) = numbers.split_at_mut(left_pieces * piece_len);
     let right_scratch = Scratch { numbers: right_numbers, piece_len };
     let left_scratch = Scratch { numbers, piece_len };
     crate::join(
-        || divide_from(left, chunk_len, left_scratch, left_pieces, work),
-        || divide_from(right, chunk_len, right_scratch, pieces - left_pieces, work),
+        || divide_from([a, b, c], left_scratch, left_pieces, work),
+        || divide_from([a_right, b_right, c_right], right_scratch, pieces - left_pieces, work),
     );
 }
 

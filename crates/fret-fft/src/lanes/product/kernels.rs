@@ -32,8 +32,9 @@ impl KernelTransform {
             column_len: nx,
             rows_read: shape[0].next_multiple_of(along_x.inner_length()).min(nx),
             strips,
-            group_stride: strips * width * 2 * width,
-            strip_stride: nx * width,
+            group_len: 2 * width * width,
+            groups: 1,
+            strip_stride: 2 * width * width,
         };
         Self { set, layout, along_x, along_y: LinePlan::new(ny, fraction) }
     }
@@ -52,7 +53,7 @@ impl KernelTransform {
         let stride = layout.strips * width * width + line.max(width);
         let mut rows = AlignedNumbers::zeros(along_x.length().div_ceil(width) * stride);
         let lines = width * (3 * along_y.padded_length()).max(2 * along_x.length());
-        let room = layout.group_stride + lines + layout.strip_stride + width * layout.shape[1];
+        let room = layout.spectra_len() + lines + along_x.length() * width + width * layout.shape[1];
         let piece_len = room.next_multiple_of(line) + line;
         let pieces = pieces(layout.shape, usize::MAX);
         let mut memory = AlignedNumbers::zeros(pieces * piece_len);
@@ -63,13 +64,14 @@ impl KernelTransform {
             let fields = [&mut rows.as_mut_slice()[..groups * stride], &mut [], &mut []];
             let scratch = Scratch { numbers: memory.as_mut_slice(), piece_len };
             divide(fields, stride, scratch, pieces, &|_, first, rows: &mut [f64], scratch: &mut [f64]| {
-                let (spectrum, scratch) = scratch.split_at_mut(layout.group_stride);
+                let (spectrum, scratch) = scratch.split_at_mut(layout.spectra_len());
                 let (scratch, field) = scratch.split_at_mut(lines);
                 let field = &mut field[..width * layout.shape[1]];
                 for (group, to) in (first..).zip(rows.chunks_exact_mut(stride)) {
                     let Some(cells) = self.quadrant(kernel, scale, group, field) else { break };
                     let layout = &Layout { shape: [cells, layout.shape[1]], ..*layout };
-                    let (plan, side, field, groups) = (along_y, Side::Plain, &*field, &mut *spectrum);
+                    let (plan, side, field) = (along_y, Side::Plain, &*field);
+                    let groups = layout.groups_in(spectrum, 1);
                     let (scratch, first) = (&mut *scratch, 0);
                     enter!(set, f64, RowsForward { layout, plan, side, field, first, groups, scratch });
                     let (spectrum, part) = (&*spectrum, odd[1]);
@@ -156,7 +158,7 @@ impl KernelColumns<'_> {
         let Self { transform: KernelTransform { set, layout, along_x: plan, .. }, stride, part, .. } = *self;
         let (set, width) = (*set, set.width::<f64>());
         let (scratch, values) = memory.split_at_mut(self.lines);
-        let values = &mut values[..layout.strip_stride];
+        let values = &mut values[..plan.length() * width];
         let rows = &self.rows[strip * width * width..];
         enter!(set, f64, KernelColumn { layout, plan, rows, stride, part, values: &mut *values, scratch });
         values
