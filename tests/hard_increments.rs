@@ -155,9 +155,45 @@ fn forty_two_stiff_wavy_films_are_pressed_flat_and_certified() {
     }
 }
 
-/// Operator applications per increment.
+/// A steel sphere of 5 mm on a film of 5 um and a polymer: where the film holds, contact is pressed together along its rim.
+fn stiff_film(cells: usize, ratio: f64) -> Ended {
+    let text = format!(
+        "[grid]\ncells = [{cells}, {cells}]\nsize = \"auto\"\n[upper]\nsubstrate = {{ young = 210e9, poisson = 0.3 }}\n[lower]\n\
+         coatings = [{{ thickness = 5e-6, young = {:e}, poisson = 0.25 }}]\nsubstrate = {{ young = 0.2e9, poisson = 0.4 }}\n\
+         [profile.sphere]\nradius = 5e-3\n[friction]\ncoefficient = 0.3\n\
+         [[load]]\nnormal_force = 20.0\nincrements = 8\nramp = \"cubic\"\n",
+        0.2e9 * ratio
+    );
+    run_certified(&text, &[]).unwrap_or_else(|error| panic!("{error}"))
+}
+
+/// With the Newton method alone its seventh increment was not solved, nor was it by the exact one on so many cells; with pressure and shear
+/// in turn before it all are.
+#[test]
+fn a_film_five_thousand_times_stiffer_is_certified() {
+    let ended = stiff_film(96, 5000.0);
+    println!("{}", certified("stiff film, 5000 : 1", &ended));
+    assert!(ended.run.iter().all(|kept| kept.record.work.direct_solves == 0));
+}
+
+#[test]
+#[ignore = "long: a minute"]
+fn stiff_films_on_fine_grids_are_certified() {
+    for (cells, ratio) in [(96, 1000.0), (96, 20000.0), (192, 100.0), (192, 1000.0), (192, 5000.0)] {
+        println!(
+            "{}",
+            certified(&format!("stiff film, {ratio} : 1, {cells} cells"), &stiff_film(cells, ratio))
+        );
+    }
+}
+
+/// What a direct solve counts for, in operator applications: on these grids it takes the time of a thousand or more.
+const DIRECT: usize = 1000;
+
+/// Operator applications per increment, or what takes as long.
 fn effort(ended: &Ended) -> f64 {
-    let count: usize = ended.run.iter().map(|kept| kept.record.work.convolutions).sum();
+    let work = ended.run.iter().map(|kept| &kept.record.work);
+    let count: usize = work.map(|work| work.convolutions + DIRECT * work.direct_solves).sum();
     count as f64 / ended.run.len() as f64
 }
 
@@ -194,7 +230,7 @@ fn contact_that_nearly_fills_its_period_is_certified_in_a_bounded_number_of_iter
                 &ended
             )
         );
-        // Once 36 times as many; now 6.9 at the most.
-        assert!(times < 10.0, "{ratio} : 1, pressed by {pressed}: {times}");
+        // Once 36 times as many; then 9, and direct solves beside them that took the time of 300; now 28 at the most.
+        assert!(times < 36.0, "{ratio} : 1, pressed by {pressed}: {times}");
     }
 }

@@ -1,6 +1,6 @@
 //! Pressure and shear of one increment together, and what is done where the Newton method does not converge.
 
-use super::contact_problem::Pressure;
+use super::contact_problem::{ContactProblem, Pressure, Solution};
 use super::exact_newton;
 use super::increment_problem::{IncrementProblem, Solved};
 use super::laws::projection::project_pressure;
@@ -17,6 +17,12 @@ use crate::model::Scheme;
 const ROUGH: f64 = 1e-2;
 /// Residual of the pressure without friction that a second start, and the limit of friction, are taken from.
 const FRICTIONLESS: f64 = 1e-6;
+
+/// Residual to which pressure and shear in turn lead to a further start, and sweeps at the most: by trial, films a thousand times stiffer
+/// than what they lie on.
+const NEAR: f64 = 1e-2;
+const NEARER: f64 = 0.1;
+const SWEEPS: usize = 20;
 
 /// Solves an increment from predicted `tractions`. `last`: displacements of the state before, when they are known.
 ///
@@ -47,25 +53,59 @@ pub fn solve(
     newton::make_shear_feasible(&problem, &mut tractions, operators);
     operators.compliance.full(tractions.parts(), displacements.parts_mut());
     let start = (!increment.path.turns()).then(|| tractions.clone());
-    let solve = match settings.scheme {
-        Scheme::Monolithic => newton::solve,
-        Scheme::Staggered => staggered::solve,
+    let ends = (&mut tractions, &mut displacements);
+    let mut solution = match settings.scheme {
+        Scheme::Monolithic => newton::solve(&problem, ends.0, ends.1, operators, settings, callback),
+        Scheme::Staggered => {
+            staggered::solve(&problem, ends, operators, settings, staggered::MOST_SWEEPS, callback)
+        }
     };
-    let mut solution = solve(&problem, &mut tractions, &mut displacements, operators, settings, callback);
     if let (Err(SolveError::NotConverged { .. }), Scheme::Monolithic, Some(start)) =
         (&solution, settings.scheme, &start)
     {
         let frictionless = without_friction(increment, start, operators, settings, callback)?;
         increment.check_limit(&frictionless)?;
-        let starts = [start, &frictionless];
+        tractions.clone_from(&frictionless);
         let ends = (&mut tractions, &mut displacements);
-        if let Some(exact) = exact_newton::solve(&problem, starts, ends, operators, method, callback)? {
-            solution = Ok(exact);
+        solution = from_sweeps(&problem, ends, operators, settings, callback);
+        if let Err(SolveError::NotConverged { .. }) = &solution {
+            let starts = [start, &frictionless];
+            let ends = (&mut tractions, &mut displacements);
+            if let Some(exact) = exact_newton::solve(&problem, starts, ends, operators, method, callback)? {
+                solution = Ok(exact);
+            }
         }
     }
     let solution = solution?;
     let drift = increment.drift(&before, &displacements.tangential, solution.tangential.motion);
     Ok(Solved { tractions, displacements, drift, solution })
+}
+
+/// Solves the equations from tractions that some sweeps of pressure and shear in turn have led near to the solution.
+fn from_sweeps(
+    problem: &ContactProblem<'_>,
+    (tractions, displacements): (&mut Tractions, &mut Displacements),
+    operators: &mut RegionOperators,
+    settings: &SolverSettings,
+    callback: IterationCallback<'_>,
+) -> Result<Solution, SolveError> {
+    newton::make_shear_feasible(problem, tractions, operators);
+    operators.compliance.full(tractions.parts(), displacements.parts_mut());
+    let mut near = NEAR;
+    loop {
+        let ends = (&mut *tractions, &mut *displacements);
+        let nearer = SolverSettings { tolerance: near.max(settings.tolerance), ..*settings };
+        let swept = staggered::solve(problem, ends, operators, &nearer, SWEEPS, callback)?;
+        if near <= settings.tolerance {
+            return Ok(swept);
+        }
+        let start = (tractions.clone(), displacements.clone());
+        match newton::solve(problem, tractions, displacements, operators, settings, callback) {
+            Err(SolveError::NotConverged { .. }) => (*tractions, *displacements) = start,
+            other => return other,
+        }
+        near *= NEARER;
+    }
 }
 
 /// Brings predicted pressure to what its laws allow. Shear keeps its ratio to the pressure, and so a cell under `mu p` stays on its circle.

@@ -13,16 +13,19 @@ use crate::fields::add_scaled;
 /// Fraction of the residual reached so far to which pressure and shear are solved in their turn.
 const INNER: f64 = 0.1;
 
+/// Sweeps at the most, where nothing else solves the equations.
+pub const MOST_SWEEPS: usize = 200;
+
 /// Solves the coupled equations from feasible `tractions` with their `displacements`; both end at the solution.
 ///
 /// # Errors
 /// When the sweeps do not converge or are stopped.
 pub fn solve(
     problem: &ContactProblem<'_>,
-    tractions: &mut Tractions,
-    displacements: &mut Displacements,
+    (tractions, displacements): (&mut Tractions, &mut Displacements),
     operators: &mut RegionOperators,
     settings: &SolverSettings,
+    sweeps: usize,
     callback: IterationCallback<'_>,
 ) -> Result<Solution, SolveError> {
     let cells = problem.undeformed.len();
@@ -30,7 +33,7 @@ pub fn solve(
     let mut from_pressure = Displacements::zeros(cells);
     let mut from_shear = Displacements::zeros(cells);
     let mut best = f64::INFINITY;
-    for sweep in 0..SWEEPS {
+    for sweep in 0..sweeps {
         let (residual, solution) = newton::evaluate(problem, tractions, displacements, operators);
         best = best.min(residual);
         if callback(sweep, residual).is_break() {
@@ -57,11 +60,12 @@ pub fn solve(
         let given = ContactProblem { pressure: Pressure::Given, before: &before, ..*problem };
         newton::make_shear_feasible(&given, tractions, operators);
         operators.compliance.tangential(tractions.shear.parts(), from_shear.tangential.parts_mut());
-        newton::solve(&given, tractions, &mut from_shear, operators, &inner, callback)?;
+        match newton::solve(&given, tractions, &mut from_shear, operators, &inner, callback) {
+            // What was reached is where the next sweep begins.
+            Ok(_) | Err(SolveError::NotConverged { .. }) => {}
+            Err(error) => return Err(error),
+        }
         operators.compliance.full(tractions.parts(), displacements.parts_mut());
     }
-    Err(SolveError::NotConverged { reached: best, iterations: SWEEPS })
+    Err(SolveError::NotConverged { reached: best, iterations: sweeps })
 }
-
-/// Sweeps at the most.
-const SWEEPS: usize = 200;

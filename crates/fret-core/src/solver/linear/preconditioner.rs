@@ -11,7 +11,7 @@ use crate::compliance::{
     NORMAL_BLOCKS, OperatorSet, SharedWorkspace, SurfaceResponse, TANGENTIAL_BLOCKS, mirrors,
 };
 use crate::fields::{CellRule, Number, Reals, each_cell, reset};
-use crate::kernel::ResponseTable;
+use crate::kernel::{Components, ResponseTable};
 use fret_fft::{Block, ConvolutionError, Kernel, Parity, PeriodicProduct, Symbol};
 
 /// A pair is stiff at the surface when the longest waves of a region meet this many times the compliance times wavenumber that
@@ -65,6 +65,19 @@ impl CellWaves<'_> {
         let at = |length: f64| self.table.times_k(std::f64::consts::TAU / length).zz;
         at(longest) > STIFF_ABOVE * at(shortest)
     }
+
+    /// The response of cells to waves of shear, `xx, yy, xy`; for uniform shear on the region the sum of the `near`est images.
+    fn of_shear(&self, near: [Array2<f64>; 3], shape: [usize; 2]) -> [Array2<f64>; 3] {
+        let symbols = self.table.symbols(shape, self.spacing, Components::TANGENTIAL, 1);
+        let mut found = [symbols.xx, symbols.yy, symbols.xy];
+        for (found, near) in found.iter_mut().zip(&near).take(2) {
+            if let Some(found) = found {
+                found[[0, 0]] = near[[0, 0]];
+            }
+        }
+        let [xx, yy, xy] = near;
+        [(0, xx), (1, yy), (2, xy)].map(|(index, near)| found[index].take().unwrap_or(near))
+    }
 }
 
 impl Preconditioner {
@@ -102,9 +115,12 @@ impl Preconditioner {
         let normal = Symbol { values: normal.view(), parity: Parity::EvenEven };
         let mut softest = 0.0;
         let shear = if tangential || full {
-            let xx = symbol(xx, Parity::EvenEven)?;
-            let yy = symbol(yy, Parity::EvenEven)?;
-            let xy = symbol(xy, Parity::OddOdd)?;
+            let near =
+                [symbol(xx, Parity::EvenEven)?, symbol(yy, Parity::EvenEven)?, symbol(xy, Parity::OddOdd)?];
+            let [xx, yy, xy] = match (response, waves) {
+                (SurfaceResponse::FreeSpace(_), Some(waves)) => waves.of_shear(near, shape),
+                _ => near,
+            };
             softest = smallest_positive(&xx).min(smallest_positive(&yy));
             let [xx, yy, xy] = inverse(&xx, &yy, &xy, softest);
             let symbols = [
