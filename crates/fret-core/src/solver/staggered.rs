@@ -1,5 +1,6 @@
 //! The scheme of the published three-level methods (Panagiotopoulos 1975): pressure at given shear, then shear at given pressure, until
-//! the laws of both hold at once. A cross-check of the Newton method, which needs several times fewer operator applications.
+//! the laws of both hold at once. It takes several times as many operator applications as the Newton method: a cross-check of that, and the
+//! way to a start for it where its active sets wander.
 
 use super::contact_problem::{ContactProblem, Pressure, Solution};
 use super::newton;
