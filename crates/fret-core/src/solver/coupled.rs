@@ -18,11 +18,10 @@ const ROUGH: f64 = 1e-2;
 /// Residual of the pressure without friction that a second start, and the limit of friction, are taken from.
 const FRICTIONLESS: f64 = 1e-6;
 
-/// Residual to which pressure and shear in turn lead to a further start, and sweeps at the most: by trial, films a thousand times stiffer
-/// than what they lie on.
+/// Residual to which pressure and shear in turn lead to a further start; and where that does not help, times this. By trial: films a
+/// thousand times stiffer than what they lie on, and pressed flat.
 const NEAR: f64 = 1e-2;
 const NEARER: f64 = 0.1;
-const SWEEPS: usize = 20;
 
 /// Solves an increment from predicted `tractions`. `last`: displacements of the state before, when they are known.
 ///
@@ -67,42 +66,50 @@ pub fn solve(
         increment.check_limit(&frictionless)?;
         tractions.clone_from(&frictionless);
         let ends = (&mut tractions, &mut displacements);
-        solution = from_sweeps(&problem, ends, operators, settings, callback);
-        if let Err(SolveError::NotConverged { .. }) = &solution {
+        let mut found = from_sweeps(&problem, ends, operators, settings, callback)?;
+        if found.is_none() {
             let starts = [start, &frictionless];
             let ends = (&mut tractions, &mut displacements);
-            if let Some(exact) = exact_newton::solve(&problem, starts, ends, operators, method, callback)? {
-                solution = Ok(exact);
-            }
+            found = exact_newton::solve(&problem, starts, ends, operators, method, callback)?;
         }
+        solution = found.map_or(solution, Ok);
     }
     let solution = solution?;
     let drift = increment.drift(&before, &displacements.tangential, solution.tangential.motion);
     Ok(Solved { tractions, displacements, drift, solution })
 }
 
-/// Solves the equations from tractions that some sweeps of pressure and shear in turn have led near to the solution.
+/// Solves the equations from tractions that sweeps of pressure and shear in turn lead near to the solution, and nearer while that is not
+/// enough; `None` where they do not.
+///
+/// # Errors
+/// When the iteration is stopped.
 fn from_sweeps(
     problem: &ContactProblem<'_>,
     (tractions, displacements): (&mut Tractions, &mut Displacements),
     operators: &mut RegionOperators,
     settings: &SolverSettings,
     callback: IterationCallback<'_>,
-) -> Result<Solution, SolveError> {
+) -> Result<Option<Solution>, SolveError> {
+    if settings.max_sweeps == 0 {
+        return Ok(None);
+    }
     newton::make_shear_feasible(problem, tractions, operators);
     operators.compliance.full(tractions.parts(), displacements.parts_mut());
     let mut near = NEAR;
     loop {
         let ends = (&mut *tractions, &mut *displacements);
         let nearer = SolverSettings { tolerance: near.max(settings.tolerance), ..*settings };
-        let swept = staggered::solve(problem, ends, operators, &nearer, SWEEPS, callback)?;
-        if near <= settings.tolerance {
-            return Ok(swept);
+        match staggered::solve(problem, ends, operators, &nearer, settings.max_sweeps, callback) {
+            Ok(swept) if near <= settings.tolerance => return Ok(Some(swept)),
+            Ok(_) => {}
+            Err(SolveError::NotConverged { .. }) => return Ok(None),
+            Err(error) => return Err(error),
         }
         let start = (tractions.clone(), displacements.clone());
         match newton::solve(problem, tractions, displacements, operators, settings, callback) {
             Err(SolveError::NotConverged { .. }) => (*tractions, *displacements) = start,
-            other => return other,
+            other => return other.map(Some),
         }
         near *= NEARER;
     }

@@ -28,8 +28,11 @@ pub struct SolverSettings {
     pub scheme: Scheme,
     /// How slip is integrated over an increment.
     pub integration: Integration,
-    /// Newton iterations, each with new active sets, before an increment is left to the exact Newton method.
+    /// Newton iterations, each with new active sets, before an increment is left to other methods.
     pub max_newton_iterations: usize,
+    /// Sweeps, of pressure and shear in turn, at the most for each tenth of the residual on the way to another start for the Newton method;
+    /// 0: never.
+    pub max_sweeps: usize,
     /// Unknowns up to which the exact Newton method, with its dense matrix, is the last resort; 0: never.
     pub max_direct_unknowns: usize,
     /// Linear problems and approximate inverses in single precision. Residuals are found in double precision.
@@ -48,6 +51,7 @@ impl SolverSettings {
             scheme: Scheme::default(),
             integration: Integration::default(),
             max_newton_iterations: 60,
+            max_sweeps: 20,
             max_direct_unknowns: 4500,
             single_precision: false,
             reuse_pressure: true,
