@@ -46,7 +46,7 @@ fn bytes_per_cell(coupling: Coupling, periodic: bool) -> [usize; 3] {
         (Coupling::Frictionless, true) => [10, 142, 0],
         (Coupling::Uncoupled, false) => [50, 376, 60],
         (Coupling::Uncoupled, true) => [0, 340, 60],
-        (Coupling::Coupled, false) => [111, 580, 60],
+        (Coupling::Coupled, false) => [80, 565, 60],
         (Coupling::Coupled, true) => [20, 250, 60],
     }
 }
