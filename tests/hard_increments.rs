@@ -177,7 +177,7 @@ fn a_film_five_thousand_times_stiffer_is_certified() {
 }
 
 #[test]
-#[ignore = "long: a minute"]
+#[ignore = "long: 15 s"]
 fn stiff_films_on_fine_grids_are_certified() {
     for (cells, ratio) in [(96, 1000.0), (96, 20000.0), (192, 100.0), (192, 1000.0), (192, 5000.0)] {
         println!(

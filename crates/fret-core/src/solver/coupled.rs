@@ -52,11 +52,11 @@ pub fn solve(
     newton::make_shear_feasible(&problem, &mut tractions, operators);
     operators.compliance.full(tractions.parts(), displacements.parts_mut());
     let start = (!increment.path.turns()).then(|| tractions.clone());
-    let ends = (&mut tractions, &mut displacements);
+    let (p, u) = (&mut tractions, &mut displacements);
     let mut solution = match settings.scheme {
-        Scheme::Monolithic => newton::solve(&problem, ends.0, ends.1, operators, settings, callback),
+        Scheme::Monolithic => newton::solve(&problem, p, u, operators, settings, callback),
         Scheme::Staggered => {
-            staggered::solve(&problem, ends, operators, settings, staggered::MOST_SWEEPS, callback)
+            staggered::solve(&problem, p, u, operators, settings, staggered::MOST_SWEEPS, callback)
         }
     };
     if let (Err(SolveError::NotConverged { .. }), Scheme::Monolithic, Some(start)) =
@@ -65,8 +65,8 @@ pub fn solve(
         let frictionless = without_friction(increment, start, operators, settings, callback)?;
         increment.check_limit(&frictionless)?;
         tractions.clone_from(&frictionless);
-        let ends = (&mut tractions, &mut displacements);
-        let mut found = from_sweeps(&problem, ends, operators, settings, callback)?;
+        let (p, u) = (&mut tractions, &mut displacements);
+        let mut found = from_sweeps(&problem, p, u, operators, settings, callback)?;
         if found.is_none() {
             let starts = [start, &frictionless];
             let ends = (&mut tractions, &mut displacements);
@@ -86,7 +86,8 @@ pub fn solve(
 /// When the iteration is stopped.
 fn from_sweeps(
     problem: &ContactProblem<'_>,
-    (tractions, displacements): (&mut Tractions, &mut Displacements),
+    tractions: &mut Tractions,
+    displacements: &mut Displacements,
     operators: &mut RegionOperators,
     settings: &SolverSettings,
     callback: IterationCallback<'_>,
@@ -98,9 +99,9 @@ fn from_sweeps(
     operators.compliance.full(tractions.parts(), displacements.parts_mut());
     let mut near = NEAR;
     loop {
-        let ends = (&mut *tractions, &mut *displacements);
         let nearer = SolverSettings { tolerance: near.max(settings.tolerance), ..*settings };
-        match staggered::solve(problem, ends, operators, &nearer, settings.max_sweeps, callback) {
+        let sweeps = settings.max_sweeps;
+        match staggered::solve(problem, tractions, displacements, operators, &nearer, sweeps, callback) {
             Ok(swept) if near <= settings.tolerance => return Ok(Some(swept)),
             Ok(_) => {}
             Err(SolveError::NotConverged { .. }) => return Ok(None),

@@ -74,7 +74,7 @@ pub struct ContactSolver<'a> {
     full_grid: Option<SpectralCompliance>,
     /// Where all operators work.
     workspace: SharedWorkspace,
-    /// Frequency response of the pair, for the preconditioner of pressure.
+    /// Frequency response of the pair, for the preconditioner.
     table: Option<ResponseTable>,
     /// Made when they are first asked for.
     coarse: Option<CoarseGrids>,

@@ -15,9 +15,8 @@ use super::tractions::{Displacements, Tractions};
 use crate::compliance::SurfaceCompliance;
 use crate::model::TangentialField;
 
-/// Given up when so many iterations have not brought the residual below [`FAR`], pressure and shear together, and shear alone.
+/// Given up when so many iterations have not brought the residual below [`FAR`].
 const LOST_AFTER: usize = 15;
-const SHEAR_LOST_AFTER: usize = 45;
 /// Shear of slipping cells that a solution leaves inside its circles, by less than the tolerance, is put there so many times.
 const MOST_ROUNDS_TO_CIRCLES: usize = 3;
 /// Where the pressure is unknown, given up as well when so many iterations in a row have brought no smaller residual: they go in circles.
@@ -42,7 +41,6 @@ pub fn solve(
     operators.linear.begin();
     // Shear alone has no exact Newton method to be left to; in the staggered scheme it is half a step.
     let has_another_resort = problem.pressure == Pressure::Unknown;
-    let lost_after = if has_another_resort { LOST_AFTER } else { SHEAR_LOST_AFTER };
     if problem.give() != [0.0; 3] {
         // Beside a compliant rig single precision would lose the contact's own displacement.
         operators.linear.avoid_single_precision();
@@ -65,7 +63,7 @@ pub fn solve(
             continue;
         }
         let target = forcing.next(residual, settings.tolerance);
-        let is_far = iteration >= lost_after && forcing.best > FAR;
+        let is_far = iteration >= LOST_AFTER && forcing.best > FAR;
         if is_far || (has_another_resort && forcing.without_gain >= LOST_WITHOUT_GAIN) {
             return Err(not_converged(iteration, &forcing));
         }

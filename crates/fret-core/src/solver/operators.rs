@@ -25,7 +25,7 @@ pub struct RegionOperators {
 }
 
 impl RegionOperators {
-    /// The operators of a region, at work in a given memory. `waves` serves pressure in free space.
+    /// The operators of a region, at work in a given memory. `waves` serves in free space.
     ///
     /// # Errors
     /// When a coefficient is missing or does not cover the region.

@@ -23,7 +23,8 @@ pub const MOST_SWEEPS: usize = 200;
 /// When the sweeps do not converge or are stopped.
 pub fn solve(
     problem: &ContactProblem<'_>,
-    (tractions, displacements): (&mut Tractions, &mut Displacements),
+    tractions: &mut Tractions,
+    displacements: &mut Displacements,
     operators: &mut RegionOperators,
     settings: &SolverSettings,
     sweeps: usize,

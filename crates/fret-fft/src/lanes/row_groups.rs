@@ -233,8 +233,8 @@ impl<L: Lanes> Task<L> for ScatterRows<'_, L> {
 mod tests {
     use super::*;
 
-    /// Two fields of two row groups of 8 numbers, in 3 strips with 4 more numbers each: each row group gets a number, on however many
-    /// threads its strips are divided; what lies between the strips stays.
+    /// Two fields of two row groups of 8 numbers, in 3 strips with 4 more numbers each: each row group gets a number, wherever they are
+    /// divided; what lies between the strips stays.
     #[test]
     fn a_row_group_has_its_place_in_every_strip() {
         let layout = Layout {

@@ -1,5 +1,5 @@
 //! An approximate inverse of the elastic response by unpadded transforms on the region, wavenumber by wavenumber (a circulant
-//! preconditioner: Strang 1986, T. Chan 1988): for pressure the frequency response of the pair where it is known; else the kernel
+//! preconditioner: Strang 1986, T. Chan 1988): the frequency response of the pair where it is known; else the kernel
 //! made periodic with the nearest image of each offset only; in slipping cells the slip compliance takes its part.
 
 use ndarray::{Array2, s};
@@ -66,22 +66,27 @@ impl CellWaves<'_> {
         at(longest) > STIFF_ABOVE * at(shortest)
     }
 
-    /// The response of cells to waves of shear, `xx, yy, xy`; for uniform shear on the region the sum of the `near`est images.
-    fn of_shear(&self, near: [Array2<f64>; 3], shape: [usize; 2]) -> [Array2<f64>; 3] {
-        let symbols = self.table.symbols(shape, self.spacing, Components::TANGENTIAL, 1);
-        let mut found = [symbols.xx, symbols.yy, symbols.xy];
-        for (found, near) in found.iter_mut().zip(&near).take(2) {
-            if let Some(found) = found {
-                found[[0, 0]] = near[[0, 0]];
+    /// Response of cells to waves of pressure, for uniform pressure on the region the sum of the nearest images.
+    fn of_pressure(&self, zz: &Array2<f64>, shape: [usize; 2]) -> Array2<f64> {
+        let mut symbol = self.table.cell_response(shape, self.spacing);
+        symbol[[0, 0]] = sum_of_nearest_images(zz, shape);
+        symbol
+    }
+
+    /// The same to waves of shear, with one alias: `xx, yy, xy`.
+    fn of_shear(&self, [xx, yy]: [&Array2<f64>; 2], shape: [usize; 2]) -> [Option<Array2<f64>>; 3] {
+        let mut symbols = self.table.symbols(shape, self.spacing, Components::TANGENTIAL, 1);
+        for (symbol, values) in [(&mut symbols.xx, xx), (&mut symbols.yy, yy)] {
+            if let Some(symbol) = symbol {
+                symbol[[0, 0]] = sum_of_nearest_images(values, shape);
             }
         }
-        let [xx, yy, xy] = near;
-        [(0, xx), (1, yy), (2, xy)].map(|(index, near)| found[index].take().unwrap_or(near))
+        [symbols.xx, symbols.yy, symbols.xy]
     }
 }
 
 impl Preconditioner {
-    /// Inverses for a region of `shape` cells, of pressure and of what shear its `operators` know. `waves` serves pressure in free space;
+    /// Inverses for a region of `shape` cells, of pressure and of what shear its `operators` know. `waves` serves in free space;
     /// with mirrors the region stands for a larger one.
     ///
     /// # Errors
@@ -98,8 +103,9 @@ impl Preconditioner {
             SurfaceResponse::FreeSpace(c) => [&c.zz, &c.xx, &c.yy, &c.xy],
             SurfaceResponse::Periodic(c) => [&c.zz, &c.xx, &c.yy, &c.xy],
         };
+        let missing = ConvolutionError::EmptyShape(0, 0);
         let symbol = |values: &Option<Array2<f64>>, parity: Parity| {
-            let values = values.as_ref().ok_or(ConvolutionError::EmptyShape(0, 0))?;
+            let values = values.as_ref().ok_or(missing)?;
             Ok(if response.is_periodic() { values.clone() } else { nearest_images(values, shape, parity) })
         };
         let product = |symbols: &[Symbol<'_>], fields: &[usize], blocks: &[Block]| {
@@ -107,7 +113,7 @@ impl Preconditioner {
             Ok::<_, ConvolutionError>(Inverse::new(product, single))
         };
         let mut normal = match (response, waves, zz) {
-            (SurfaceResponse::FreeSpace(_), Some(waves), Some(zz)) => waves_of_cells(zz, waves, shape),
+            (SurfaceResponse::FreeSpace(_), Some(waves), Some(zz)) => waves.of_pressure(zz, shape),
             _ => symbol(zz, Parity::EvenEven)?,
         };
         let least = smallest_positive(&normal);
@@ -115,11 +121,16 @@ impl Preconditioner {
         let normal = Symbol { values: normal.view(), parity: Parity::EvenEven };
         let mut softest = 0.0;
         let shear = if tangential || full {
-            let near =
-                [symbol(xx, Parity::EvenEven)?, symbol(yy, Parity::EvenEven)?, symbol(xy, Parity::OddOdd)?];
-            let [xx, yy, xy] = match (response, waves) {
-                (SurfaceResponse::FreeSpace(_), Some(waves)) => waves.of_shear(near, shape),
-                _ => near,
+            let [xx, yy, xy] = match (response, waves, xx, yy) {
+                (SurfaceResponse::FreeSpace(_), Some(waves), Some(xx), Some(yy)) => {
+                    let [xx, yy, xy] = waves.of_shear([xx, yy], shape);
+                    [xx.ok_or(missing)?, yy.ok_or(missing)?, xy.ok_or(missing)?]
+                }
+                _ => [
+                    symbol(xx, Parity::EvenEven)?,
+                    symbol(yy, Parity::EvenEven)?,
+                    symbol(xy, Parity::OddOdd)?,
+                ],
             };
             softest = smallest_positive(&xx).min(smallest_positive(&yy));
             let [xx, yy, xy] = inverse(&xx, &yy, &xy, softest);
@@ -259,15 +270,12 @@ impl CellRule<6, 2, 0> for Sum {
     }
 }
 
-/// Response of cells to waves, for uniform pressure on the region the sum of the nearest images.
-fn waves_of_cells(zz: &Array2<f64>, waves: CellWaves<'_>, shape: [usize; 2]) -> Array2<f64> {
-    let mut symbol = waves.table.cell_response(shape, waves.spacing);
+/// What a uniform traction on a region displaces, by the nearest image of each offset only.
+fn sum_of_nearest_images(values: &Array2<f64>, shape: [usize; 2]) -> f64 {
     let times = |index: usize, count: usize| if index == 0 || 2 * index == count { 1.0 } else { 2.0 };
-    let [half_x, half_y] = [0, 1].map(|axis| (shape[axis] / 2 + 1).min(zz.shape()[axis]));
-    let near = zz.slice(s![..half_x, ..half_y]);
-    symbol[[0, 0]] =
-        near.indexed_iter().map(|((i, j), value)| times(i, shape[0]) * times(j, shape[1]) * value).sum();
-    symbol
+    let [half_x, half_y] = [0, 1].map(|axis| (shape[axis] / 2 + 1).min(values.shape()[axis]));
+    let near = values.slice(s![..half_x, ..half_y]);
+    near.indexed_iter().map(|((i, j), value)| times(i, shape[0]) * times(j, shape[1]) * value).sum()
 }
 
 /// Symbol of a kernel made periodic with the nearest image of each offset only.
