@@ -1,6 +1,7 @@
 //! An approximate inverse of the elastic response by unpadded transforms on the region, wavenumber by wavenumber (a circulant
-//! preconditioner: Strang 1986, T. Chan 1988): the frequency response of the pair where it is known; else the kernel
-//! made periodic with the nearest image of each offset only; in slipping cells the slip compliance takes its part.
+//! preconditioner: Strang 1986, T. Chan 1988): of the frequency response of the pair where it is known, for shear where long waves meet a
+//! softer body than short ones; else of the kernel made periodic with the nearest image of each offset only. In slipping cells the slip
+//! compliance takes its part.
 
 use ndarray::{Array2, s};
 
@@ -119,9 +120,10 @@ impl Preconditioner {
         let least = smallest_positive(&normal);
         normal.mapv_inplace(|value| if value == 0.0 { 0.0 } else { 1.0 / value.max(least) });
         let normal = Symbol { values: normal.view(), parity: Parity::EvenEven };
+        let stiff = waves.is_some_and(|waves| waves.are_stiff(shape));
         let mut softest = 0.0;
         let shear = if tangential || full {
-            let [xx, yy, xy] = match (response, waves, xx, yy) {
+            let [xx, yy, xy] = match (response, waves.filter(|_| stiff), xx, yy) {
                 (SurfaceResponse::FreeSpace(_), Some(waves), Some(xx), Some(yy)) => {
                     let [xx, yy, xy] = waves.of_shear([xx, yy], shape);
                     [xx.ok_or(missing)?, yy.ok_or(missing)?, xy.ok_or(missing)?]
@@ -151,7 +153,7 @@ impl Preconditioner {
             shear,
             softest,
             shear_axis,
-            stiff: waves.is_some_and(|waves| waves.are_stiff(shape)),
+            stiff,
             fields: FieldsOfRegion::default(),
             workspace: SharedWorkspace::default(),
             cells: part[0] * part[1],
