@@ -7,7 +7,6 @@ from pathlib import Path
 import pytest
 
 
-@pytest.mark.long
 def test_stubs_match_the_compiled_module(tmp_path: Path) -> None:
     pytest.importorskip("mypy")
     done = subprocess.run(
@@ -21,7 +20,6 @@ def test_stubs_match_the_compiled_module(tmp_path: Path) -> None:
     assert done.returncode == 0, done.stdout + done.stderr
 
 
-@pytest.mark.long
 def test_types_hold(root: Path) -> None:
     pytest.importorskip("mypy")
     done = subprocess.run(
