@@ -1,6 +1,6 @@
 //! `cargo xtask extremes`: five thousand cases drawn at random, run and certified, and the page `docs/trust/random-cases.md` of what
-//! was found. `cargo run --release -p fret-validation --example extremes -- [--page FILE] [FIRST COUNT]` runs others; with a
-//! count of one it shows the case.
+//! was found. `cargo run --release -p fret-validation --example extremes -- [--page FILE] [FIRST COUNT [LEAST MOST]]` runs others,
+//! on LEAST to MOST cells per side; with a count of one it shows the case.
 
 #![expect(clippy::print_stdout, reason = "its output is the table")]
 
@@ -35,12 +35,13 @@ contact at the edge of the grid.
 fn main() -> Result<ExitCode, Box<dyn Error>> {
     let mut words: Vec<String> = std::env::args().skip(1).collect();
     let page = words.iter().position(|word| word == "--page").map(|at| words.drain(at..at + 2).next_back());
-    let (first, count) = match &words[..] {
-        [] => (0, COUNT),
-        [first, count] => (first.parse()?, count.parse()?),
-        _ => return Err("usage: extremes [--page FILE] [FIRST COUNT]".into()),
+    let (first, count, cells) = match &words[..] {
+        [] => (0, COUNT, CELLS),
+        [first, count] => (first.parse()?, count.parse()?, CELLS),
+        [first, count, least, most] => (first.parse()?, count.parse()?, [least.parse()?, most.parse()?]),
+        _ => return Err("usage: extremes [--page FILE] [FIRST COUNT [LEAST MOST]]".into()),
     };
-    let found: Vec<Extreme> = (first..first + count).into_par_iter().map(|seed| run(seed, CELLS)).collect();
+    let found: Vec<Extreme> = (first..first + count).into_par_iter().map(|seed| run(seed, cells)).collect();
     if let [extreme] = &found[..] {
         println!("{}\n{:?}", extreme.text, extreme.outcome);
     }
