@@ -15,6 +15,7 @@ use rayon::prelude::*;
 const COUNT: u64 = 5000;
 const CELLS: [usize; 2] = [16, 40];
 
+/// LEAST and MOST stand for the cells per side.
 const HEAD: &str = "# Random cases
 
 Written by `cargo xtask extremes`. Every case is solved and then checked by an independent program (the certifier): from the kept
@@ -25,7 +26,7 @@ cases. The cases of [Extreme cases](extremes.md) vary one parameter at a time; t
   bases; Poisson's ratios from -0.9 to 0.5; lengths and moduli over 24 decades each;
 - friction coefficient up to 2, or none; forces up to 0.9999 of the friction limit, or displacements; reversal, cycles, unloading,
   lift-off and renewed contact; friction that changes between stages;
-- cells from 1:8 to 8:1, 16 to 40 per side; tolerances of 1e-6 and 1e-8;
+- cells from 1:8 to 8:1, LEAST to MOST per side; tolerances of 1e-6 and 1e-8;
 - some have torsion, wear, periodicity, or a coefficient of friction per patch.
 
 Line contacts, stretched and tilted, are drawn by a test of their own (`tests/line_extremes.rs`): every case is certified, or refused:
@@ -45,7 +46,9 @@ fn main() -> Result<ExitCode, Box<dyn Error>> {
     if let [extreme] = &found[..] {
         println!("{}\n{:?}", extreme.text, extreme.outcome);
     }
-    let text = format!("{HEAD}\n{}", tables(&found)?);
+    let [least, most] = cells.map(|cells| cells.to_string());
+    let head = HEAD.replace("LEAST", &least).replace("MOST", &most);
+    let text = format!("{head}\n{}", tables(&found)?);
     if let Some(Some(page)) = page {
         std::fs::write(page, &text)?;
     }
