@@ -48,7 +48,7 @@ def kharaz() -> dict[str, Any]:
         {
             "angle": angle,
             "friction": friction,
-            "computed": impact.coupled(angle, friction=friction, passes=7)[0].tangential,
+            "computed": impact.coupled(angle, friction=friction)[0].tangential,
         }
         for angle in (1.84, 3.703, 9.496)
         for friction in (0.15, 0.3, 0.6)
@@ -84,19 +84,18 @@ def mccoll() -> dict[str, Any]:
         "measured": {
             "depth": float(seen[np.abs(at) < 0.06].mean()),
             "deepest": float(seen.max()),
-            "half_width": scars.width(at[np.abs(at) < 0.34], seen[np.abs(at) < 0.34]),
+            "half_width": scars.width(at, seen),
             "area": float(np.trapezoid(seen, at)) * 1e-3,
         },
         "finite_elements": {
             "depth": float(worn.max()),
-            "half_width": float(np.interp(-0.01 * worn.max(), -worn, element)),
+            "half_width": float(np.interp(-0.1 * worn.max(), -worn, element)),
             "area": 2e-3 * float(np.trapezoid(worn, element)),
         },
         "rms": float(np.sqrt(np.mean((seen - np.interp(at, place, depth))[near] ** 2))),
         "rms_finite_elements": float(
             np.sqrt(np.mean((seen - np.interp(np.abs(at), element, worn, right=0.0))[near] ** 2))
         ),
-        "energy": float(cycles["dissipated_energy"][-1] / (4 * 0.9 * 18.5 * cycles["opening"][-1])),
         "first_half_width": analytic.hertz_line(
             radius=6.0, line_force=18.5, modulus=analytic.effective_moduli(upper=scars.STEEL, lower=scars.STEEL).normal
         ).half_width,
@@ -124,19 +123,32 @@ def fouvry_2007() -> dict[str, Any]:
     of = QUOTED["fouvry_2007"]
     volume = of["largest_volume_um3"] * 1e-9
     history = scars.ball_on_coating(64, volume)
-    cycles = history.cycles
+    path = [
+        {"volume": part * volume * 1e9, "depth": _deepest(scars.ball_on_coating(48, part * volume))}
+        for part in (0.1, 0.25, 0.5, 0.75, 1.2)
+    ]
     return {
         "volume": of["largest_volume_um3"],
         "measured": of["depths_um"],
-        "computed": float(history.field("worn_depth").max()) * 1e3,
-        "computed_volume": float(cycles["worn_volume"][-1]) * 1e9,
-        "cycles": len(cycles["cycle"]),
+        "computed": _deepest(history),
+        "computed_volume": float(history.cycles["worn_volume"][-1]) * 1e9,
+        "cycles": len(history.cycles["cycle"]),
+        "path": path,
+        "refined": [
+            {"cells": cells, "largest_step": step, "depth": _deepest(scars.ball_on_coating(cells, volume, step))}
+            for cells, step in ((32, 0.04), (48, 0.02), (48, 0.01))
+        ],
         "strokes": [
             {"stroke": 1e3 * stroke, "depth": 1e3 * scars.ball_depth(volume, 12.7, stroke)}
             for stroke in (0.0, 0.05, 0.1)
         ],
         "max_pressure": float(history.increments["max_pressure"][7]),
+        "last_pressure": float(history.increments["max_pressure"][-1]),
     }
+
+
+def _deepest(history: fretting.History) -> float:
+    return float(history.field("worn_depth").max()) * 1e3
 
 
 def fouvry_2017() -> dict[str, Any]:
@@ -181,7 +193,7 @@ def arnaud() -> dict[str, Any]:
                 **scar,
                 "cap": {"half_width": half, "depth": depth},
                 "computed": {
-                    "half_width": scars.width(place, worn),
+                    "half_width": scars.width(place, worn, 0.01),
                     "depth": float(worn.max()),
                     "area": float(worn.sum() * (place[1] - place[0])),
                 },

@@ -1,16 +1,16 @@
 """Depth of a scar in a hard coating over its volume, and what the stroke changes.
 
 Fouvry, Paulin and Liskiewicz (2007): alumina ball, R = 12.7 mm, on TiC (1.6 um), 100 N, displacement +-50 and +-100 um.
-Lines: closed form, the flat worn by an unworn ball that moves +-s. Computed: surfaces stay, so the depth is that of
-s = 0 less what the bodies give elastically. Circles: measured depths at the end, before and after the coating spalled;
-that they belong to the largest volume is assumed.
+Lines: closed form, the flat worn by a rigid, unworn ball that moves +-s. Computed: elastic ball and coating, surfaces
+stay (s = 0), 48 x 48 cells. Circles: measured depths at the end, before and after the coating spalled; that they belong
+to the largest volume is assumed.
 """
 
 import json
 import sys
 
 import numpy as np
-from _figures import BLACK, BLUE, GREEN, ORANGE, ROOT, figure, save
+from _figures import BLACK, BLUE, GREEN, ORANGE, ROOT, SKY, figure, save
 
 sys.path.insert(0, str(ROOT / "docs" / "data"))
 import worn_scars as scars
@@ -20,8 +20,9 @@ volumes = np.linspace(0.0, 12.0, 80)[1:]
 drawn, axes = figure(1, height=66, wide=False)
 for stroke, colour in ((0.0, BLUE), (0.05, GREEN), (0.1, ORANGE)):
     depths = [1e3 * scars.ball_depth(volume * 1e-5, 12.7, stroke) for volume in volumes]
-    axes.plot(volumes, depths, color=colour, label=f"closed form, s = {1e3 * stroke:.0f} um")
-axes.plot(DATA["computed_volume"] / 1e4, DATA["computed"], "D", color=BLUE, ms=5, label="computed")
+    axes.plot(volumes, depths, color=colour, label=f"rigid, s = {1e3 * stroke:.0f} um")
+path = sorted([*((row["volume"], row["depth"]) for row in DATA["path"]), (DATA["computed_volume"], DATA["computed"])])
+axes.plot([v / 1e4 for v, _ in path], [d for _, d in path], "D-", color=SKY, ms=4, label="computed, elastic, s = 0")
 at = DATA["volume"] / 1e4
 axes.plot(at, DATA["measured"]["before_spalling"], "o", color=BLACK, ms=5, label="measured, before spalling")
 axes.plot([at] * 2, DATA["measured"]["after_spalling"], "o", color=BLACK, mfc="white", ms=5, label="after spalling")

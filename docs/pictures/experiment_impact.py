@@ -2,9 +2,10 @@
 
 Kharaz, Gorham and Salman (2001): d = 5 mm, E = 380 GPa, nu = 0.23, on glass, E = 70 GPa, nu = 0.25; mu = 0.092,
 3.9 m/s, no spin before; nothing fitted. Angles from the normal. (a) Tangential velocity of the centre after over
-before. (b) Spin after. (c) Rebound angle less that of a mirror. Computed: forces of the program, 48 x 48 cells, 160 increments, the
-ball's motion integrated around it. Uncoupled theory: method of dimensionality reduction. Bars: 2 % and 7 %, the scatter
-of the three measured quantities against conservation of momentum; the source states no uncertainty.
+before. (b) Spin after. (c) Rebound angle less that of a mirror. Computed: forces of the program, 48 x 48
+cells, 160 increments, the ball's motion integrated around it. Uncoupled theory: method of dimensionality reduction.
+Bars: 0.02 and 7 %, the scatter of the three measured quantities against conservation of momentum; the source states no
+uncertainty.
 """
 
 import json

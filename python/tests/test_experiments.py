@@ -36,7 +36,7 @@ def measured_restitution(impact: Any, near: float) -> tuple[float, float]:
     return min(impact.measured("tangential_restitution"), key=lambda row: abs(row[0] - near))
 
 
-COARSE: dict[str, Any] = {"cells": 24, "increments": 60, "passes": 4}
+COARSE: dict[str, Any] = {"cells": 24, "increments": 60, "enough": 1e-3}
 """Within 0.01 of the finest impact computed: see the refinement on the page."""
 
 
@@ -91,8 +91,7 @@ def test_the_scar_of_a_cylinder_is_as_deep_and_narrow_as_the_page_says(scars: An
     assert depth.sum() * (x[1] - x[0]) * 1e-3 == pytest.approx(page["computed"]["area"], rel=0.01)
     assert depth.max() == pytest.approx(page["computed"]["depth"], rel=0.02)  # 80 cells and jumps of 100 cycles
     assert 0.05 < depth.max() / middle - 1 < 0.12  # deeper than measured
-    deep = np.abs(place) < 0.34
-    assert -0.2 < scars.width(x, depth) / scars.width(place[deep], seen[deep]) - 1 < -0.05  # and narrower
+    assert -0.2 < scars.width(x, depth) / scars.width(place, seen) - 1 < -0.05  # and narrower
     inside = np.abs(place) < 0.3
     assert np.sqrt(np.mean((seen - np.interp(place, x, depth))[inside] ** 2)) < 0.35  # um; the roughness is 0.2
 
@@ -104,17 +103,20 @@ def test_the_scar_of_the_page_comes_out(scars: Any) -> None:
     assert depth[half:] == pytest.approx(np.array(PAGE["mccoll"]["depth"]), abs=2e-4)
 
 
-def test_without_its_stroke_a_ball_goes_deeper_into_a_hard_coating_than_measured(scars: Any) -> None:
+def test_a_ball_that_flattens_in_its_scar_stays_shallower_than_a_cap(scars: Any) -> None:
     of = QUOTED["fouvry_2007"]
     volume = of["largest_volume_um3"] * 1e-9
-    depths = [1e3 * scars.ball_depth(volume, 12.7, stroke) for stroke in (0.0, 0.05, 0.1)]
+    rigid = [1e3 * scars.ball_depth(volume, 12.7, stroke) for stroke in (0.0, 0.05, 0.1)]
     before, after = of["depths_um"]["before_spalling"], min(of["depths_um"]["after_spalling"])
-    assert depths[0] == pytest.approx(1.571, abs=1e-3)  # sqrt(V/(pi R))
-    assert depths[0] > after > depths[1] > depths[2] > before
-    history = scars.ball_on_coating(32, volume)
-    assert history.cycles["worn_volume"][-1] == pytest.approx(volume, rel=0.03)  # the loop is not a full rectangle
-    # a cap less what ball and coating give: the pressure of the worn contact is 100 N over its area
-    assert 0.85 < 1e3 * history.field("worn_depth").max() / depths[0] < 1.0
+    assert rigid[0] == pytest.approx(1.571, abs=1e-3)  # sqrt(V/(pi R))
+    assert rigid[0] > after > rigid[1] > rigid[2] > before
+    history = scars.ball_on_coating(32, volume, 0.05)
+    assert history.cycles["worn_volume"][-1] == pytest.approx(volume, rel=0.01)  # its cycles are whole numbers
+    depth = 1e3 * history.field("worn_depth").max()
+    # an even pressure over the worn circle would leave 1.33 um: V = pi a^4/4R - 4 P a/3 pi E*, a = 0.226 mm, and
+    # d = a^2/2R - 0.727 P/(pi a E*); it is not even yet
+    assert before < depth < 1.33
+    assert depth == pytest.approx(PAGE["fouvry_2007"]["computed"], rel=0.03)  # 32 cells, jumps of a twentieth
 
 
 @pytest.mark.parametrize("shape", ["U", "W"])
@@ -126,7 +128,7 @@ def test_bodies_that_keep_touching_leave_a_cap_and_titanium_did_not(scars: Any, 
     half, middle = scars.cap(area, 80.0)
     # what the bodies give under 1066 N/mm, a few um, is the difference from the rigid cap
     assert depth.max() == pytest.approx(middle, rel=0.06)
-    assert scars.width(place, depth) == pytest.approx(half, rel=0.06)
+    assert scars.width(place, depth, 0.01) == pytest.approx(half, rel=0.06)
     assert half / scar["half_width_mm"] > 1.45
     assert depth.argmax() in range(40, 56)
     if shape == "U":
