@@ -23,6 +23,8 @@ def kharaz() -> dict[str, Any]:
     for quantity, name in QUANTITIES.items():
         found[quantity] = []
         for angle, value in impact.measured(quantity):
+            if angle < 1:
+                continue  # straight on: what is left of 0.016 degrees says nothing
             ours, changed = impact.coupled(angle)
             row = {
                 "angle": angle,
@@ -36,6 +38,10 @@ def kharaz() -> dict[str, Any]:
             }
             found[quantity].append(row)
             print(quantity, row, flush=True)
+    found["between"] = [
+        {"angle": angle, "tangential": impact.coupled(angle)[0].tangential}
+        for angle in (13.5, 16.5, 23.5, 26.0, 28.0, 35.0, 45.0, 55.0)
+    ]
     found["similar"] = [
         {
             "angle": angle,

@@ -114,7 +114,7 @@ def coupled(
     bodies: tuple[Any, Any] = (BALL, GLASS),
     cells: int = 48,
     increments: int = 160,
-    passes: int = 16,
+    passes: int = 30,
     enough: float = 2e-4,
 ) -> tuple[Rebound, float]:
     """Return the rebound with the program's forces, and by how much of it the displacement still changed.
@@ -166,7 +166,7 @@ class Mixing:
     Source: D. G. Anderson (1965), J. ACM 12, 547. Without it motions at small angles alternate.
     """
 
-    def __init__(self, depth: int = 5) -> None:
+    def __init__(self, depth: int = 10) -> None:
         self.depth = depth
         self.given: list[Any] = []
         self.led: list[Any] = []

@@ -21,7 +21,7 @@ DATA = json.loads((ROOT / "docs" / "data" / "experiments.json").read_text(encodi
 angles = np.concatenate([np.linspace(0.5, 24, 40), np.linspace(25, 64, 20)])
 theory = [impact.uncoupled(angle, springs=200, steps=2500)[0] for angle in angles]
 stiff = [impact.rigid(angle) for angle in angles]
-ours = sorted((row["angle"], row["tangential"]) for name in impact.GIVEN for row in DATA[name] if row["angle"] > 1)
+ours = sorted((row["angle"], row["tangential"]) for name in (*impact.GIVEN, "between") for row in DATA[name])
 drawn, panels = figure(3, height=66)
 a, b, c = panels
 
@@ -48,8 +48,10 @@ for axes, form in ((a, lambda _, e: e), (b, spin), (c, turned)):
               label="rigid ball")  # fmt: skip
     axes.plot(x, [form(q, e) for q, e in ours], ".-", color=BLUE, lw=1.2, ms=4, label="computed")
     axes.set(xlabel="angle of incidence [deg]", xlim=(0, 65), xticks=range(0, 61, 15))
-a.set(ylabel="tangential restitution", ylim=(0.45, 1.0))
-a.legend(loc="upper left", fontsize=6)
+a.set(ylabel="tangential restitution", ylim=(0.5, 1.05))
+handles, names = a.get_legend_handles_labels()
+order = [names.index(name) for name in ("measured", "computed", "uncoupled theory", "rigid ball")]
+a.legend([handles[i] for i in order], [names[i] for i in order], loc="upper left", fontsize=6)
 b.set(ylabel="spin [rad/s]", ylim=(0, 750))
 c.set(ylabel="rebound angle less incidence [deg]")
 letters(panels)

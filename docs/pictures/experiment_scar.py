@@ -27,8 +27,8 @@ left.plot(at, -seen, color="0.35", lw=0.9, label="measured")
 left.plot(np.concatenate([-element[::-1], element]), -np.concatenate([worn[::-1], worn]), "s", color=ORANGE, ms=3.5,
           label="moving surfaces (finite elements)")  # fmt: skip
 left.plot(x, -depth, color=BLUE, lw=1.4, label="computed (surfaces stay)")
-left.set(xlabel="x [mm]", ylabel="surface of the flat [um]", xlim=(-0.38, 0.38), ylim=(-3.4, 1.4))
-left.legend(loc="upper center", ncol=3, fontsize=6, columnspacing=1.0, handlelength=1.4)
+left.set(xlabel="x [mm]", ylabel="surface of the flat [um]", xlim=(-0.38, 0.38), ylim=(-3.3, 2.1), yticks=range(-3, 1))
+left.legend(loc="upper center", ncol=1, fontsize=6, handlelength=1.4)
 smooth = np.convolve(seen, np.ones(7) / 7, mode="same")
 inside = np.abs(at) < 0.3
 right.axhspan(-0.2, 0.2, color="0.92", lw=0)

@@ -2,7 +2,7 @@
 
 Fouvry, Arnaud, Mignot and Neubauer (2017), Appendix A, nine tests at constant normal force: cylinder R = 10 to 80 mm on
 a flat, 67 to 1066 N/mm, sliding +-75 um. (a) Maximum contact pressure: computed over printed. (b) Friction coefficient
-that the printed dissipated energy implies by W_d = 4 mu P delta_g, which the program keeps to rounding in gross slip;
+that the printed dissipated energy implies by the energy computed with 0.6, a loop of the same half-width at zero force;
 grey: the published range of Q/P. (c) Wear volume over dissipated energy at the lowest and the highest frequency.
 """
 
