@@ -119,14 +119,20 @@ def coating(of: Measured) -> Table:
 
 def titanium_scars(of: Measured) -> Table:
     """Return the table of the scars of Ti-6Al-4V."""
-    rows = [
-        [f"{row['shape']}, {row['frequency_Hz']:g} Hz, {row['area_mm2']:.3f} mm2", f"{row['half_width_mm']:.1f}", f"{row['cap']['half_width']:.2f}",
-         f"{row['computed']['half_width']:.2f}", f"{row['deepest_mm']:.3f} (middle {row['middle_mm']:.3f})", f"{row['cap']['depth']:.3f}",
-         f"{row['computed']['depth']:.3f}"]
-        for row in of["arnaud"]["rows"]
-    ]  # fmt: skip
-    head = ["scar", "half-width [mm], measured", "cap", "computed", "depth [mm], measured", "cap", "computed"]
-    return head, rows
+    rows = []
+    for row in of["arnaud"]["rows"]:
+        caps = [row["cap"], row["elastic_cap"], row["computed"]]
+        rows.append(
+            [
+                f"{row['shape']}, {row['frequency_Hz']:g} Hz, {row['area_mm2']:.3f} mm2",
+                f"{row['half_width_mm']:.1f}",
+                " / ".join(f"{cap['half_width']:.2f}" for cap in caps),
+                f"{row['deepest_mm']:.3f} (middle {row['middle_mm']:.3f})",
+                " / ".join(f"{cap['depth']:.3f}" for cap in caps),
+            ]
+        )
+    three = "rigid cap / elastic cap / computed"
+    return ["scar", "half-width [mm], measured", three, "depth [mm], measured", three], rows
 
 
 def titanium_energy(of: Measured) -> Table:

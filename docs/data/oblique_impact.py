@@ -114,8 +114,8 @@ def coupled(
     bodies: tuple[Any, Any] = (BALL, GLASS),
     cells: int = 48,
     increments: int = 160,
-    passes: int = 30,
-    enough: float = 2e-4,
+    passes: int = 20,
+    enough: float = 5e-4,
 ) -> tuple[Rebound, float]:
     """Return the rebound with the program's forces, and by how much of it the displacement still changed.
 

@@ -190,3 +190,20 @@ def cap(area: float, radius: float) -> tuple[float, float]:
     """
     half = (1.5 * radius * area) ** (1 / 3)
     return half, half**2 / (2 * radius)
+
+
+def elastic_cap(area: float, radius: float, force: float, modulus: float) -> tuple[float, float]:
+    """Return half-width and depth of the cap of elastic bodies that press evenly, ``p = P/(2 a)``.
+
+    The displacement under an even pressure, of area ``2 P a/(pi E*)`` and depth ``2 ln 2 P/(pi E*)``, is a part of the
+    gap that need not be worn (Johnson 1985, section 2.5(a)): ``area = 2 a^3/(3 R) - 2 P a/(pi E*)``.
+    """
+    give = 2 * force / (np.pi * modulus)
+    low, high = cap(area, radius)[0], 2 * cap(area, radius)[0] + np.sqrt(2 * radius * give)
+    for _ in range(200):
+        half = 0.5 * (low + high)
+        if 2 * half**3 / (3 * radius) - give * half < area:
+            low = half
+        else:
+            high = half
+    return float(half), float(half**2 / (2 * radius) - np.log(2) * give)

@@ -137,10 +137,13 @@ def test_bodies_that_keep_touching_leave_a_cap_and_titanium_did_not(scars: Any, 
     history = scars.titanium(96, scar["area_mm2"])
     place, depth = history.x, history.field("worn_depth")
     area = depth.sum() * (place[1] - place[0])
-    half, middle = scars.cap(area, 80.0)
-    # what the bodies give under 1066 N/mm, a few um, is the difference from the rigid cap
-    assert depth.max() == pytest.approx(middle, rel=0.06)
-    assert scars.width(place, depth, 0.01) == pytest.approx(half, rel=0.06)
+    modulus = analytic.effective_moduli(upper=scars.TITANIUM, lower=scars.TITANIUM).normal
+    half, middle = scars.elastic_cap(area, 80.0, 1066.0, modulus)
+    # 4 %: the pressure is not even yet, and the edge is known to a part of a cell of 0.083 mm
+    assert depth.max() == pytest.approx(middle, rel=0.04)
+    assert scars.width(place, depth, 0.01) == pytest.approx(half, rel=0.04)
+    assert area == pytest.approx(scar["area_mm2"], rel=0.01)
+    half, _ = scars.cap(area, 80.0)
     assert half / scar["half_width_mm"] > 1.45
     assert depth.argmax() in range(40, 56)
     if shape == "U":
