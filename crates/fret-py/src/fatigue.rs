@@ -233,7 +233,7 @@ pub fn coating_fracture<'py>(
         return Err(PyValueError::new_err("no coating that is bonded to something that deforms"));
     };
     let depths: Vec<f64> =
-        (0..=DEPTHS_OF_COATING).map(|n| film.thickness * n as f64 / DEPTHS_OF_COATING as f64).collect();
+        (0..=DEPTHS_OF_COATING).map(|n| film.thickness() * n as f64 / DEPTHS_OF_COATING as f64).collect();
     let points = depth_points(&cycle.half_space, &depths).map_err(bad_value)?;
     let constants = constants_of(&cycle.half_space, &cycle.constants, 0);
     let fractured = || -> Result<Vec<FilmCrack>, fret_fft::ConvolutionError> {
