@@ -94,7 +94,7 @@ impl Summary<'_> {
                 self.length(datum)
             );
         }
-        if pressure_is_unbounded(self.plan) {
+        if pressure_is_unbounded(&self.plan.case.profile.shapes) {
             let none = "none: at a sharp edge or a tip it grows with the number of cells";
             let _ = writeln!(table, "{:<NAMES$}{none}", "limit of max pressure");
         }

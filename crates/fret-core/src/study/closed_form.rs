@@ -126,9 +126,9 @@ impl ClosedForm {
     pub fn pressure_everywhere(&self) -> Box<dyn Fn(f64, f64) -> f64 + '_> {
         if let Some(Pressed::Rounded(punch)) = &self.last {
             let table = RadialTable::new(punch.flat_radius(), punch.contact_radius, |r| punch.pressure(r));
-            return Box::new(move |x, y| table.at(x.hypot(y)));
+            return Box::new(move |x: f64, y: f64| table.at(x.hypot(y)));
         }
-        Box::new(|x, y| self.pressure(x, y))
+        Box::new(move |x: f64, y: f64| self.pressure(x, y))
     }
 
     /// Whether it knows the shear.

@@ -158,7 +158,7 @@ impl Scene {
                 .iter()
                 .all(|shape| shape.curvatures().is_some() || matches!(shape, Shape::Wave { .. })),
             ends,
-            is_pointed: pressure_is_unbounded(plan),
+            is_pointed: pressure_is_unbounded(shapes),
             is_coupled: plan.coupling == Coupling::Coupled,
             has_friction: plan.coupling != Coupling::Frictionless,
             is_line: plan.grid.is_line(),

@@ -1,13 +1,12 @@
 //! Pressure that has no largest value.
 
 use crate::model::Shape;
-use crate::plan::Plan;
 
-/// Whether the exact pressure of a case grows without bound somewhere: at the sharp edge of a flat punch or of a cylinder that ends as a
+/// Whether the exact pressure below these shapes grows without bound somewhere: at the sharp edge of a flat punch or of a cylinder that
+/// ends as a
 /// power of the distance (the inverse root without friction), at the tip of a cone as its logarithm. The largest pressure of the cells
 /// then grows with their number.
-pub fn pressure_is_unbounded(plan: &Plan) -> bool {
-    let shapes = &plan.case.profile.shapes;
+pub fn pressure_is_unbounded(shapes: &[Shape]) -> bool {
     shapes.iter().any(|shape| ends(shape) || matches!(shape, Shape::Cone { .. }))
 }
 

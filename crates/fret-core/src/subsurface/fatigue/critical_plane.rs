@@ -285,9 +285,8 @@ mod tests {
     fn no_plane_a_degree_apart_is_larger_than_the_critical_one() {
         let planes = every_degree();
         let mut worst = [0.0_f64; 2];
-        let mut low = [0; 2];
-        for (mean, increments) in [(0.0, 12), (-1.5, 9), (-2.0, 12)] {
-            for cycle in cycles(40, increments, mean) {
+        for (mean, increments) in [(0.0, 9), (-1.5, 9), (-2.0, 9)] {
+            for cycle in cycles(100, increments, mean) {
                 let limit = 1.0;
                 let found = [
                     smith_watson_topper(&cycle, &steel()).value,
@@ -302,30 +301,11 @@ mod tests {
                     if largest[which] > 0.0 {
                         let missing = 1.0 - found[which] / largest[which];
                         worst[which] = worst[which].max(missing);
-                        low[which] += usize::from(missing > 1e-4);
                     }
                 }
             }
         }
-        println!("worst {worst:?} low {low:?}");
+        println!("largest shortfall {worst:?}");
         assert!(worst.iter().all(|missing| *missing < 1e-4), "{worst:?}");
-    }
-
-    #[test]
-    fn time_of_planes() {
-        let all: Vec<_> = [(0.0, 16), (-1.5, 32), (-0.5, 64)].map(|(mean, n)| cycles(300, n, mean)).to_vec();
-        for cycles in all {
-            let started = std::time::Instant::now();
-            let a: f64 = cycles.iter().map(|cycle| smith_watson_topper(cycle, &steel()).value).sum();
-            let first = started.elapsed().as_secs_f64();
-            let b: f64 = cycles.iter().map(|cycle| fatemi_socie(cycle, &steel(), 1.0, 1.0).value).sum();
-            let second = started.elapsed().as_secs_f64() - first;
-            println!(
-                "{} {a} {b} swt {:.2} us, fs {:.2} us",
-                cycles[0].len(),
-                first / 300e-6,
-                second / 300e-6
-            );
-        }
     }
 }

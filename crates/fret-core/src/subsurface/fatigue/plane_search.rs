@@ -107,11 +107,17 @@ const BELOW: f64 = 0.08;
 /// How often the planes are taken half as far apart where a larger value may hide.
 const HALVINGS: usize = 3;
 /// Most planes around which closer ones are looked at.
-const MOST: usize = 48;
+const MOST: usize = 20;
 /// Most places that are climbed from.
-const CLIMBS: usize = 6;
+const CLIMBS: usize = 3;
 /// Cosine of the angle between a place that is climbed from and the tops that are known: two degrees.
 const APART: f64 = 0.999_39;
+/// Where a climb is fine enough to tell whether its top is larger than another [degrees]: it is off by 1e-6 at most.
+const NEAR: f64 = 0.02;
+/// Where a climb ends [degrees].
+const FINE: f64 = 1e-3;
+/// Fraction of the largest value that the value on the axis of a narrow cone of tension has to reach for the cone to be searched.
+const WORTH: f64 = 0.3;
 /// By so much of itself another top has to be larger to take the place of the first: more than rounding.
 const MORE: f64 = 1e-9;
 
@@ -120,20 +126,12 @@ const MORE: f64 = 1e-9;
 /// `starts`, are climbed from alike.
 #[inline(always)]
 fn largest_over_planes(mut parameter: impl FnMut(&Planes, f64) -> [f64; LANES], starts: &[[f64; 3]]) -> Seen {
-    if std::env::var("OLD").is_ok() {
-        let mut best = (f64::NEG_INFINITY, [0.0, 0.0, 1.0]);
-        for planes in COARSE.iter() {
-            look(&mut parameter, planes, best.0, (&mut best, &mut Vec::new()));
-        }
-        climb(&mut parameter, 0.5 * STEP, &mut best);
-        return best;
-    }
     let mut best = (f64::NEG_INFINITY, [0.0, 0.0, 1.0]);
     let mut seen: Vec<Seen> = Vec::with_capacity(COARSE.len() * LANES);
     for planes in COARSE.iter() {
         look(&mut parameter, planes, best.0 * (1.0 - BELOW), (&mut best, &mut seen));
     }
-    climb(&mut parameter, 0.5 * STEP, &mut best);
+    climb(&mut parameter, [0.5 * STEP, FINE], &mut best);
     let (mut step, mut below) = (STEP, BELOW);
     for _ in 0..HALVINGS {
         promising(&mut seen, best.0 * (1.0 - below), MOST);
@@ -147,7 +145,8 @@ fn largest_over_planes(mut parameter: impl FnMut(&Planes, f64) -> [f64; LANES], 
     for some in starts.chunks(LANES) {
         look(&mut parameter, &Planes::of(some), f64::NEG_INFINITY, (&mut (f64::INFINITY, best.1), &mut seen));
     }
-    promising(&mut seen, if starts.is_empty() { best.0 * (1.0 - below) } else { 0.0 }, usize::MAX);
+    let floor = if starts.is_empty() { 1.0 - below } else { WORTH };
+    promising(&mut seen, floor * best.0, usize::MAX);
     let mut tops = vec![best.1];
     for (_, normal) in seen {
         let is_known = |top: &[f64; 3]| dot(top, &normal).abs() > APART;
@@ -158,9 +157,10 @@ fn largest_over_planes(mut parameter: impl FnMut(&Planes, f64) -> [f64; LANES], 
             break;
         }
         let mut other = (f64::NEG_INFINITY, normal);
-        climb(&mut parameter, 0.5 * step, &mut other);
+        climb(&mut parameter, [0.5 * step, NEAR], &mut other);
         tops.extend([normal, other.1]);
         if other.0 > best.0 * (1.0 + MORE) {
+            climb(&mut parameter, [NEAR, FINE], &mut other);
             best = other;
         }
     }
@@ -197,11 +197,11 @@ fn dot(one: &[f64; 3], other: &[f64; 3]) -> f64 {
     one.iter().zip(other).map(|(a, b)| a * b).sum()
 }
 
-/// Goes uphill from a normal, in steps of so many degrees at first, to a thousandth of a degree.
+/// Goes uphill from a normal, in steps of so many degrees at first and at last.
 #[inline(always)]
-fn climb(parameter: &mut impl FnMut(&Planes, f64) -> [f64; LANES], step: f64, best: &mut Seen) {
-    let mut step = step.to_radians();
-    while step > 1e-3_f64.to_radians() {
+fn climb(parameter: &mut impl FnMut(&Planes, f64) -> [f64; LANES], [first, last]: [f64; 2], best: &mut Seen) {
+    let mut step = first.to_radians();
+    while step > last.to_radians() {
         let (centre, before) = (best.1, best.0);
         let [one, other] = tangents(centre);
         let [a, b] = DIRECTIONS;
