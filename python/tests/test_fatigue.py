@@ -183,7 +183,7 @@ def test_python_and_the_command_tell_one_life(tmp_path: Any) -> None:
     history = fretting.run(case, folder=tmp_path / "run")
     found = history.fatigue(case["stress"]["depths"])
     told = json.loads((tmp_path / "run" / "stress" / "stress.json").read_text())["fatigue"]["parameters"]
-    assert list(found.parameter.values) == [name for name in told if not name.startswith("ruiz")]
+    assert set(found.parameter.values) == {name for name in told if not name.startswith("ruiz")}
     for name in found.parameter.values:
         one, other = found.sel(parameter=name), told[name]
         for ours, theirs in (
@@ -251,11 +251,11 @@ def test_a_graded_coating_and_a_cut_one_are_one_film() -> None:
 
     thickness = 5.5e-6
     film: Any = {"thickness": thickness, "poisson": 0.3, "residual_stress": 500e6}
-    graded = fractured([{**film, "gradient": {"young": [400e9, 100e9], "law": "linear"}}])
+    graded = fractured([{**film, "gradient": {"young": [400e9, 100e9], "law": "linear", "layers": 80}}])
     stress = float(graded["stress"])
     assert stress == pytest.approx(500e6, rel=0.02)  # the contact adds 1 %
     exact = stress**2 / 2 * (1 - 0.3**2) * thickness * np.log(4.0) / 3 / 100e9
-    assert float(graded["delamination"]) == pytest.approx(exact, rel=1e-3)  # sublayers: order two
+    assert float(graded["delamination"]) == pytest.approx(exact, rel=2e-4)  # of 80 sublayers 1.3e-4, order two
     assert np.isnan(float(graded["channelling"]))
     whole = fractured([{**film, "young": 400e9}])
     for parts in ((0.5, 0.5), (0.9, 0.1)):
