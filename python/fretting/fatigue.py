@@ -86,7 +86,9 @@ def fatigue(
 def _most_severe(history: "History", severe: dict[str, dict[str, Any]]) -> dict[str, Any]:
     """Return the largest value of each parameter with its place, as ``fret stress`` tells it."""
 
-    def column(values: Iterable[float | None], words: str) -> tuple[tuple[str], npt.NDArray[np.float64], dict[str, str]]:
+    def column(
+        values: Iterable[float | None], words: str
+    ) -> tuple[tuple[str], npt.NDArray[np.float64], dict[str, str]]:
         numbers = np.array([np.nan if value is None else value for value in values], dtype=float)
         return ("parameter",), numbers, described(words, history._units)
 
