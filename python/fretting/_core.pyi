@@ -267,7 +267,7 @@ def fatigue(
     depths: list[float],
     constants: str,
     threads: int | None,
-) -> dict[str, npt.NDArray[Any]]: ...
+) -> dict[str, Any]: ...
 def crack(
     bodies: tuple[str, bool],
     setting: tuple[tuple[float, float], bool],

@@ -479,9 +479,14 @@ class History:
         xarray.Dataset
             ``smith_watson_topper``, ``shakedown_strength``, and where all layers at the depths have their constants
             ``fatemi_socie``, ``crossland``, ``dang_van``, ``smith_watson_topper_cycles``, ``fatemi_socie_cycles``,
-            with the dimensions (depth, y, x), of a line contact (depth, x); ``ruiz_f1``, ``ruiz_f2`` at the surface,
-            where 0 is among the depths. Formulas and sources:
-            *Subsurface stress and fatigue* of the site.
+            with the dimensions (depth, y, x), of a line contact (depth, x), under the centres of the cells;
+            ``ruiz_f1``, ``ruiz_f2`` at the surface, where 0 is among the depths.
+            Over ``parameter``, what ``fret stress`` tells of the same depths: ``largest``, at the surface extrapolated
+            to the rim of the contact, where cells miss the cusp of the tension, with ``largest_cycles``,
+            ``largest_x``, ``largest_y``, ``largest_depth`` and the normal of the ``critical_plane``; beside it
+            ``largest_cell`` and ``largest_cell_cycles`` of the cells at that depth; and with ``critical_distance``
+            among the constants of the outermost layer and depths from 0 on ``point_method`` and ``line_method``, each
+            with its ``_cycles``. NaN: not known. Formulas and sources: *Subsurface stress and fatigue* of the site.
 
         Raises
         ------
@@ -522,7 +527,8 @@ class History:
             ``k1_max``, ``k1_range``, ``k2_range``, ``threshold`` [pressure x sqrt(length)], and with constants of
             growth ``cycles``, over ``length``. Attributes: ``fate`` ("does_not_grow", "stops", "grows", "fractures";
             "none" with a ``reason``), ``x``, ``y``, ``angle`` from the normal of the surface [degrees] ``towards`` a
-            horizontal direction, ``length`` and ``cycles`` at its end.
+            horizontal direction, ``length`` and ``cycles`` at its end: inf of a crack that does not grow or stops, NaN
+            without constants of growth. Without a crack they are NaN.
 
         Raises
         ------

@@ -65,7 +65,9 @@ def study(
         where nothing is known; ``error_of_pressure``, ``error_of_shear``, ``wall_s``, ``convolutions``,
         ``is_efficient`` along ``level``. Beside ``level`` stand ``refined`` (``"cells"``, ``"increments"``,
         ``"together"``, ``"tolerance"``), ``nx``, ``ny``, ``increments`` (of all stages, as text) and ``tolerance``;
-        beside ``quantity``, ``measured_by``. The attribute ``choice`` says in words what to choose for 1 %, 0.1 % and
+        beside ``quantity``, ``measured_by`` and ``convergence`` (``"observed"``, ``"assumed"`` of two levels,
+        ``"not_asymptotic"``: no plausible order, not extrapolated, ``"no_limit"``: the maximum contact pressure at a
+        sharp edge or a tip). The attribute ``choice`` says in words what to choose for 1 %, 0.1 % and
         0.01 %.
 
     Raises
@@ -100,6 +102,7 @@ def study(
     coordinates: dict[str, Any] = {
         "quantity": ("quantity", list(QUANTITIES)),
         "measured_by": ("quantity", [str(answer["measured_by"][q] or "") for q in QUANTITIES]),
+        "convergence": ("quantity", [str(answer["convergence"][q] or "") for q in QUANTITIES]),
         "refined": ("level", [refined for refined, _ in levels]),
         "nx": ("level", np.asarray([level["cells"][0] for _, level in levels], dtype=int)),
         "ny": ("level", np.asarray([level["cells"][1] for _, level in levels], dtype=int)),

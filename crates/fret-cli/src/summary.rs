@@ -6,6 +6,7 @@ use std::path::Path;
 use fret_core::case::{Stage, Units};
 use fret_core::history::{CycleRecord, StepRecord, Warning};
 use fret_core::plan::{Coupling, Plan};
+use fret_core::study::pressure_is_unbounded;
 use serde_json::{Value, json};
 
 use crate::estimate::Estimate;
@@ -92,6 +93,10 @@ impl Summary<'_> {
                 "approach, shift relative to",
                 self.length(datum)
             );
+        }
+        if pressure_is_unbounded(&self.plan.case.profile.shapes) {
+            let none = "none: at a sharp edge or a tip it grows with the number of cells";
+            let _ = writeln!(table, "{:<NAMES$}{none}", "limit of max pressure");
         }
         for (name, value) in [
             ("increments", self.tally.solved.to_string()),

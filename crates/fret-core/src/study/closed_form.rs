@@ -10,6 +10,7 @@ use std::f64::consts::PI;
 
 use super::line_form::{LinePressed, at_datum};
 use super::quantities::Quantity;
+use super::radial_table::RadialTable;
 use crate::analytic::{
     Cone, EffectiveModuli, FlatPunch, Hertz, HertzEllipse, LineHistory, RoundedPunch, TangentialHistory,
 };
@@ -119,6 +120,15 @@ impl ClosedForm {
             Some(Pressed::Line(line)) => line.hertz.pressure(x),
             None => 0.0,
         }
+    }
+
+    /// Pressure as a function of the place at the end of the history, for many places: what takes an integral comes from a table.
+    pub fn pressure_everywhere(&self) -> Box<dyn Fn(f64, f64) -> f64 + '_> {
+        if let Some(Pressed::Rounded(punch)) = &self.last {
+            let table = RadialTable::new(punch.flat_radius(), punch.contact_radius, |r| punch.pressure(r));
+            return Box::new(move |x: f64, y: f64| table.at(x.hypot(y)));
+        }
+        Box::new(move |x: f64, y: f64| self.pressure(x, y))
     }
 
     /// Whether it knows the shear.
