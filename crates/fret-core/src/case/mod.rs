@@ -52,6 +52,7 @@ pub use output::{FIELD_NAMES, Output};
 pub use read::toml_of;
 pub use refusal::{CaseError, Difference, Mistake};
 pub(crate) use stages::apart;
+pub use repeating::CELLS_PER_WAVE;
 pub use stress::{Side, StressRequest};
 pub use units::Units;
 pub use wording::{in_words, printable};

@@ -228,7 +228,9 @@ impl Slopes {
         }
         let [a, b, c, d] = if a > 0.0 { [a, b, c, d] } else { [d, c, b, a] };
         let is_open = |value: f64| value <= 0.0 && value > f64::NEG_INFINITY;
-        if b > 0.0 && is_open(c) && is_open(d) {
+        // Between two contacts that mirror each other both open cells have one gap, but for rounding: that is no slope.
+        let differ = (d - c).abs() > (1.0 - FALLS) * c.abs().max(d.abs());
+        if b > 0.0 && is_open(c) && is_open(d) && differ {
             self.rises.push((a - b).abs());
             self.falls.push((d - c).abs());
             self.reaches.push(if a > b { b / (a - b) } else { f64::INFINITY });

@@ -49,6 +49,7 @@ use crate::kernel::ResponseTable;
 use crate::model::{BulkCompliance, ContactState, CoulombFriction, LoadStep, Rig, SurfaceGrid, Symmetry};
 
 pub(crate) use laws::friction::{bounds_on_grid as friction_bounds, dissipation};
+pub(crate) use laws::limit::sliding_fraction;
 pub(crate) use laws::slip_path::{length_of_way, weights_of_ends};
 pub use memory::SolverMemory;
 pub(crate) use outcome::worst;

@@ -34,6 +34,10 @@ struct Potential {
     curvature: [f64; 6],
 }
 
+/// Longest step of the search, in units of the common size of trial vectors and bounds; where springs pull longer ones come after so many.
+const LONGEST_STEP: f64 = 4.0;
+const MOST_CUT_SHORT: usize = 8;
+
 impl MotionByForce<'_> {
     /// Root of `sum Proj(trial + motion) . mode + spring x motion = resultant`, from a guess.
     pub fn find(&self, scale: Scale, guess: [f64; 3]) -> [f64; 3] {
@@ -48,6 +52,8 @@ impl MotionByForce<'_> {
                 here = at_rest;
             }
         }
+        let mut longest = LONGEST_STEP * scale.spread;
+        let mut cut_short = 0;
         for _ in 0..60 {
             let defect = size(&here.defect);
             if defect <= 4e-16 * scale.total {
@@ -55,8 +61,13 @@ impl MotionByForce<'_> {
             }
             let mut change = motions.solve(here.curvature, here.defect.map(|d| -d));
             let length = size(&change);
-            if length > 4.0 * scale.spread {
-                change = change.map(|c| c * 4.0 * scale.spread / length);
+            if length > longest {
+                change = change.map(|c| c * longest / length);
+                cut_short += 1;
+                // The far end of a spring may be any distance away.
+                if motions.loads.any_spring() && cut_short > MOST_CUT_SHORT {
+                    longest *= 2.0;
+                }
             }
             let slope: f64 = change.iter().zip(&here.defect).map(|(c, d)| c * d).sum();
             if slope >= 0.0 {
@@ -83,6 +94,16 @@ impl MotionByForce<'_> {
             }
         }
         motion
+    }
+
+    /// By how much the resultants under a motion miss what springs pull with, over the sum of the bounds; 0 where it is rounding.
+    pub fn missed_by_springs(&self, scale: Scale, motion: [f64; 3]) -> f64 {
+        if !self.motions.loads.any_spring() {
+            return 0.0;
+        }
+        let missed = size(&self.potential(motion).defect);
+        let rounding = 1e-9 * scale.total + 1e-13 * size(&self.motions.loads.resultant);
+        if missed > rounding { missed / scale.total } else { 0.0 }
     }
 
     fn potential(&self, motion: [f64; 3]) -> Potential {
