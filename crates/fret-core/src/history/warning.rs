@@ -186,7 +186,9 @@ impl Concern {
                 "each increment leaves a ring in the shear traction, and the slip is resolved in few steps"
             }
             Self::FewCellsPerWave => "the wave is under-resolved: the cells show one of another height",
-            Self::BulkStrain => "strains must be small; a wrong unit, of a stress or a modulus, is a common cause",
+            Self::BulkStrain => {
+                "strains must be small; a wrong unit, of a stress or a modulus, is a common cause"
+            }
         }
     }
 

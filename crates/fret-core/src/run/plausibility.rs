@@ -126,7 +126,10 @@ fn largest_bulk_strain(plan: &Plan) -> f64 {
             stress[body] = [0, 1].map(|axis| {
                 stage.bulk_stress[body][axis].as_ref().map_or(0.0, |control| largest(control.path()))
             });
-            most = compliance.relative_strain(stress).into_iter().fold(most, |most, strain| most.max(strain.abs()));
+            most = compliance
+                .relative_strain(stress)
+                .into_iter()
+                .fold(most, |most, strain| most.max(strain.abs()));
         }
     }
     most

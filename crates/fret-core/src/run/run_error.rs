@@ -1,7 +1,7 @@
 //! Why a run ends without its answer.
 
 use super::checkpoint::Place;
-use crate::case::{Case, Units, apart};
+use crate::case::{Case, GridSize, Units, apart};
 use crate::machine::memory::MemoryError;
 use crate::solver::SolveError;
 
@@ -27,14 +27,14 @@ pub enum RunError {
         advice: String,
     },
     /// The contact reaches the edge of the grid.
-    #[error(
-        "increment {increment} ({stage}): the contact reaches the edge of the grid; enlarge grid.size, or write size = \"auto\""
-    )]
+    #[error("increment {increment} ({stage}): the contact reaches the edge of the grid; {advice}")]
     ContactAtEdge {
         /// Number of the increment, from 0.
         increment: usize,
         /// Name of its stage.
         stage: String,
+        /// What to do.
+        advice: &'static str,
     },
     /// A tangential load above what friction carries, or as large.
     #[error(
@@ -161,13 +161,28 @@ impl RunError {
     }
 }
 
+/// How to make the grid larger: an automatic size needs whole shapes, and has been tried where it is written.
+fn larger_grid(case: &Case) -> &'static str {
+    if case.size == GridSize::Auto {
+        "write grid.size = [x, y], larger than what \"auto\" found, which fret plan shows"
+    } else if case.profile.heights.is_empty() && !case.friction.is_map() {
+        "enlarge grid.size, or write size = \"auto\""
+    } else {
+        "enlarge grid.size"
+    }
+}
+
 /// How a force stands to the limit of friction, and what that is.
 fn limit(asked: f64, bound: f64, has_strength: bool) -> &'static str {
     match (asked > bound, has_strength) {
         (true, false) => "is above mu P =",
         (false, false) => "reaches mu P =",
-        (true, true) => "is above what mu P and the shear strength of the interface (friction.max_shear) carry together,",
-        (false, true) => "reaches what mu P and the shear strength of the interface (friction.max_shear) carry together,",
+        (true, true) => {
+            "is above what mu P and the shear strength of the interface (friction.max_shear) carry together,"
+        }
+        (false, true) => {
+            "reaches what mu P and the shear strength of the interface (friction.max_shear) carry together,"
+        }
     }
 }
 
@@ -202,7 +217,7 @@ pub fn run_error(error: &SolveError, increment: usize, case: &Case, stage: usize
         SolveError::NoTilt { asked, reached } => {
             RunError::NoTilt { increment, stage, asked, reached, unit: unit("force x length") }
         }
-        SolveError::ContactAtEdge => RunError::ContactAtEdge { increment, stage },
+        SolveError::ContactAtEdge => RunError::ContactAtEdge { increment, stage, advice: larger_grid(case) },
         SolveError::OperatorsMissing(error) => RunError::NotConverged {
             increment,
             stage,

@@ -8,6 +8,7 @@ use super::newton;
 use super::normal::solve_normal;
 use super::operators::{Method, RegionOperators};
 use super::settings::{IterationCallback, SolveError, SolverSettings};
+use super::sliding_limit::check_sliding;
 use super::staggered;
 use super::tractions::{Displacements, Tractions};
 use crate::compliance::SurfaceCompliance;
@@ -66,6 +67,7 @@ pub fn solve(
     {
         let frictionless = without_friction(increment, start, operators, settings, callback)?;
         increment.check_limit(&frictionless, COUPLED_LIMIT)?;
+        check_sliding(increment, &problem, &frictionless, operators, settings, callback)?;
         tractions.clone_from(&frictionless);
         let (p, u) = (&mut tractions, &mut displacements);
         let mut found = from_sweeps(&problem, p, u, operators, settings, callback)?;

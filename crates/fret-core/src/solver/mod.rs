@@ -32,6 +32,7 @@ mod region_fields;
 mod relative_displacement;
 mod sequential;
 mod settings;
+mod sliding_limit;
 mod slip_history;
 mod staggered;
 mod start;

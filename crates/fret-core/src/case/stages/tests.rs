@@ -170,7 +170,13 @@ fn forces_come_close_to_what_friction_carries_and_do_not_reach_it() {
     // mu P = 0.3 * 0.01, which 0.0018 and 0.0024 along x and y reach but for rounding; a tenth of the tolerance of 1e-8 below, they slide
     read(&then("tangential_force = [0.00299999999, 0.0]\nincrements = 4"), &[]);
     read(&then("tangential_force = [0.0018, 0.00239999999]\nincrements = 4"), &[]);
-    for force in ["[0.003000001, 0.0]", "[0.0018, 0.002400001]", "[0.003, 0.0]", "[0.0018, 0.0024]", "[0.0029999999999, 0.0]"] {
+    for force in [
+        "[0.003000001, 0.0]",
+        "[0.0018, 0.002400001]",
+        "[0.003, 0.0]",
+        "[0.0018, 0.0024]",
+        "[0.0029999999999, 0.0]",
+    ] {
         let text = then(&format!("tangential_force = {force}\nincrements = 4"));
         refused(&text, &[], "friction carries at most mu P = 0.003", force);
     }
