@@ -84,7 +84,7 @@ const STEEL: &str = "substrate = { young = 210e9, poisson = 0.3 }";
 fn flat_surfaces_in_periodic_contact_carry_even_tractions() {
     let coated = format!("coatings = [{{ thickness = 1e-4, young = 1e9, poisson = 0.4 }}]\n{STEEL}");
     let pulled = "[[load]]\ntangential_force = [1.5, 0.5]\nincrements = 2\n";
-    for (upper, lower) in [("rigid = true", STEEL), (STEEL, STEEL), ("rigid = true", &coated)] {
+    for (upper, lower) in [("rigid = true", STEEL), (STEEL, STEEL), ("rigid = true", coated.as_str())] {
         let history =
             solved_with(&flat(upper, lower, "coefficient = 0.2", pulled), &[Array2::zeros((16, 16))]);
         let last = history.fields.last().unwrap();
@@ -307,7 +307,7 @@ fn an_automatic_size_is_refused_for_the_true_mistake() {
     for (text, words) in [
         (film.as_str(), "a nearly incompressible film on a stiff base is thinner than a fifth of a cell"),
         (line, "grid.datum = 1e-30 must lie between a thousandth and 1e12 of the size of the grid"),
-        (&apart, "no contact was found under the heaviest load"),
+        (apart.as_str(), "no contact was found under the heaviest load"),
     ] {
         let refused = Plan::new(Case::from_toml(text, "case.toml").unwrap()).unwrap_err().to_string();
         assert!(refused.contains(words), "{refused}");
