@@ -34,9 +34,12 @@ struct Potential {
     curvature: [f64; 6],
 }
 
-/// Longest step of the search, in units of the common size of trial vectors and bounds; where springs pull longer ones come after so many.
+/// Steps of the search at the most; where springs pull, whose far ends may be anywhere, so many more.
+const MOST_STEPS: usize = 60;
+const MOST_STEPS_TO_SPRINGS: usize = 60;
+/// Longest step, in units of the common size of trial vectors and bounds; where springs pull it doubles after so many that were cut short.
 const LONGEST_STEP: f64 = 4.0;
-const MOST_CUT_SHORT: usize = 8;
+const MOST_CUT_SHORT: usize = 58;
 
 impl MotionByForce<'_> {
     /// Root of `sum Proj(trial + motion) . mode + spring x motion = resultant`, from a guess.
@@ -54,7 +57,8 @@ impl MotionByForce<'_> {
         }
         let mut longest = LONGEST_STEP * scale.spread;
         let mut cut_short = 0;
-        for _ in 0..60 {
+        let springs = if motions.loads.any_spring() { MOST_STEPS_TO_SPRINGS } else { 0 };
+        for _ in 0..MOST_STEPS + springs {
             let defect = size(&here.defect);
             if defect <= 4e-16 * scale.total {
                 break;
@@ -64,8 +68,7 @@ impl MotionByForce<'_> {
             if length > longest {
                 change = change.map(|c| c * longest / length);
                 cut_short += 1;
-                // The far end of a spring may be any distance away.
-                if motions.loads.any_spring() && cut_short > MOST_CUT_SHORT {
+                if springs > 0 && cut_short > MOST_CUT_SHORT {
                     longest *= 2.0;
                 }
             }
