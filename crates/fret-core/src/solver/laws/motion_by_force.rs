@@ -58,7 +58,10 @@ impl MotionByForce<'_> {
         let mut longest = LONGEST_STEP * scale.spread;
         let mut cut_short = 0;
         let springs = if motions.loads.any_spring() { MOST_STEPS_TO_SPRINGS } else { 0 };
-        for _ in 0..MOST_STEPS + springs {
+        for step in 0..MOST_STEPS + springs {
+            if step == MOST_STEPS && cut_short <= MOST_CUT_SHORT {
+                break;
+            }
             let defect = size(&here.defect);
             if defect <= 4e-16 * scale.total {
                 break;
