@@ -180,11 +180,15 @@ pub(super) fn heaviest_loads(case: &Case) -> Vec<Control> {
     loads
 }
 
-/// The response of the bodies of a case on the cells of a grid.
-pub(super) fn coarse_response(case: &Case, grid: &SurfaceGrid, components: Components) -> SurfaceResponse {
+/// The response of the bodies of a case on the cells of a grid of length `length`.
+pub(super) fn coarse_response(
+    case: &Case,
+    (grid, length): (&SurfaceGrid, f64),
+    components: Components,
+) -> SurfaceResponse {
     let (cells, spacing) = (grid.cells(), grid.spacing());
     SurfaceResponse::FreeSpace(if case.is_line() {
-        let datum = case.datum.unwrap_or(grid.size()[0]);
+        let datum = case.datum.unwrap_or(length);
         line_coefficients(&case.bodies, cells[0], spacing[0], datum, components)
     } else {
         influence_coefficients(&case.bodies, cells, spacing, components)
@@ -201,7 +205,7 @@ fn extent_under(case: &Case, size: [f64; 2], normal: Control) -> Extent {
     let Some(grid) = coarse_grid(case, size) else { return Extent::Unknown };
     let (cells, spacing) = (grid.cells(), grid.spacing());
     let frictionless = CoulombFriction::NONE;
-    let response = coarse_response(case, &grid, Components::NORMAL);
+    let response = coarse_response(case, (&grid, size[0]), Components::NORMAL);
     let settings = SolverSettings::new(1e-4);
     let mut solver = ContactSolver::new(
         grid,

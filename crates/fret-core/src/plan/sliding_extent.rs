@@ -67,7 +67,7 @@ fn reach_in_sliding(case: &Case, size: [f64; 2], normal: Control, direction: usi
 
 fn reach_on(case: &Case, size: [f64; 2], normal: Control, direction: usize) -> Result<[f64; 2], SolveError> {
     let grid = coarse_grid(case, size).ok_or(SolveError::Stopped)?;
-    let response = coarse_response(case, &grid, Components::ALL);
+    let response = coarse_response(case, (&grid, size[0]), Components::ALL);
     // A start of a size: what does not converge from here is left to the run.
     let settings = SolverSettings {
         integration: Integration::EndPoint,
