@@ -25,6 +25,7 @@ mod interfaces;
 mod invariants;
 mod layers;
 mod leaving_out;
+mod limits;
 mod line_coefficients;
 mod line_contact;
 mod line_extremes;

@@ -141,3 +141,34 @@ fn a_gauge_says_the_same_in_pieces_and_in_one() {
     assert_eq!(gauge.warnings(&plan), history.warnings);
     assert!(!history.warnings.is_empty());
 }
+
+/// Three cells per wave show crests of another height: cosines of 0, 120 and 240 degrees reach 1 and -1/2. Seven cells are enough.
+#[test]
+fn a_wave_of_few_cells_is_told_of_before_and_after_the_run() {
+    let text = |waves: f64| {
+        format!(
+            "[grid]\ncells = [21, 21]\nsize = [1e-3, 1e-3]\nperiodic = true\n[upper]\nrigid = true\n[lower]\n\
+             substrate = {{ young = 21e9, poisson = 0.3 }}\n[profile.wave]\namplitude = 1e-7\nwavelength_x = {:?}\n[friction]\n\
+             coefficient = 0.2\n[[load]]\nnormal_force = 10.0\nincrements = 1\n",
+            1e-3 / waves
+        )
+    };
+    for found in [before(&text(7.0)), solved(&text(7.0)).warnings] {
+        assert!((value(&found, Concern::FewCellsPerWave) - 3.0).abs() < 1e-9, "{found:?}");
+    }
+    assert!(before(&text(3.0)).is_empty(), "{:?}", before(&text(3.0)));
+}
+
+/// 50 times E is no stress of an elastic body: strains of 50 along it and of 15 across.
+#[test]
+fn a_bulk_stress_above_the_modulus_is_told_of() {
+    let text = |stress: &str| {
+        ball(
+            "210e9",
+            "\"auto\"",
+            &format!("{PRESS}[[load]]\nbulk_stress = [{stress}, 0.0]\nincrements = 4\n"),
+        )
+    };
+    assert!((value(&before(&text("1.05e13")), Concern::BulkStrain) - 50.0).abs() < 1e-9);
+    assert!(!names(&before(&text("1e9"))).contains(&Concern::BulkStrain));
+}

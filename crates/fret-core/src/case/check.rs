@@ -78,8 +78,8 @@ pub(super) fn case(
         line(&mut judge, &file.grid, loading, profile.as_ref());
         motion_without_datum(&mut judge, &file.grid, size, stages.as_deref(), bodies.as_ref());
     }
-    let periodic =
-        !is_line && repeats(&mut judge, &file.grid, size, loading, profile.as_ref(), bodies.as_ref());
+    let periodic = !is_line
+        && repeats(&mut judge, (&file.grid, cells, size), loading, profile.as_ref(), bodies.as_ref());
     bulk_and_tilt(&mut judge, &file.grid, loading, bodies.as_ref(), (is_line, size));
     let mapped = friction.iter().chain(changes.iter().flatten().flatten()).any(CoulombFriction::is_map);
     let has_arrays = mapped || profile.as_ref().is_some_and(|profile| !profile.heights.is_empty());
@@ -87,15 +87,16 @@ pub(super) fn case(
     let frictionless = laws.as_ref().is_some_and(|laws| laws.iter().all(|law| law.is_frictionless()));
     let files = [("lower", file.lower.get_ref()), ("upper", file.upper.get_ref())];
     sliding_coatings(&mut judge, files, frictionless || laws.is_none(), stages.as_deref());
+    let solver = file.solver.as_ref();
+    let tolerance = tolerance(&mut judge, solver.and_then(|solver| solver.tolerance.as_ref()));
     if let (true, Some(laws), Some(stages)) = (is_whole, &laws, &stages) {
         let strongest = friction_evolution.as_ref().zip(friction.as_ref());
         let strongest = strongest.map(|(evolution, first)| evolution.strongest(first));
-        sliding(&mut judge, (laws, strongest.as_ref()), &file.load, stages);
+        let friction = (laws.as_slice(), strongest.as_ref());
+        sliding(&mut judge, friction, &file.load, stages, tolerance.unwrap_or(TOLERANCE));
     }
     let wears = (file.wear.as_ref(), file.stress.as_ref());
     let wear = wear(&mut judge, wears, (bodies.as_ref(), files), stages.as_deref(), frictionless);
-    let solver = file.solver.as_ref();
-    let tolerance = tolerance(&mut judge, solver.and_then(|solver| solver.tolerance.as_ref()));
     let output = output(&mut judge, file.output.as_ref());
     let stress = stress(&mut judge, file.stress.as_ref(), bodies.as_ref(), output.as_ref(), frictionless);
     let conduction = conduction(

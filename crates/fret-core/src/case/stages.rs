@@ -10,6 +10,7 @@ use super::rig::driven;
 use super::stage_file::{IncrementsFile, RampFile, StageFile, WaveformFile};
 use super::table::table;
 use crate::model::{Control, CoulombFriction};
+use crate::solver::sliding_fraction;
 
 /// Increments of a whole history, at the most.
 const MOST_INCREMENTS: usize = 10_000_000;
@@ -311,6 +312,7 @@ pub(super) fn sliding(
     (laws, strongest): (&[&CoulombFriction], Option<&CoulombFriction>),
     list: &Spanned<Vec<Spanned<StageFile>>>,
     stages: &[Stage],
+    tolerance: f64,
 ) {
     let friction: Vec<&CoulombFriction> = laws.iter().map(|law| strongest.unwrap_or(law)).collect();
     let mut worst: Vec<(f64, f64)> = vec![(0.0, f64::INFINITY); stages.len()];
@@ -324,7 +326,7 @@ pub(super) fn sliding(
             _ => 0.0,
         };
         let (asked, bound) = (part(x).hypot(part(y)), friction[number].largest() * normal.max(0.0));
-        if asked > bound * (1.0 + 1e-12) && asked > worst[number].0 {
+        if asked > bound * sliding_fraction(tolerance) && asked > worst[number].0 {
             worst[number] = (asked, bound);
         }
     });
@@ -355,7 +357,7 @@ pub(super) fn sliding(
                 format!(
                     "load[{index}] ({name}).{key}: the tangential force reaches {asked}{unit}, where friction carries at most mu P = {bound}{unit}"
                 ),
-                "a force above mu P has no equilibrium; prescribe the shift to slide",
+                "a force above mu P has no equilibrium, and one of mu P slides no one knows how far; prescribe the shift to slide",
             );
             return;
         }

@@ -3,6 +3,8 @@
 
 use serde::{Deserialize, Serialize};
 
+pub use crate::case::CELLS_PER_WAVE;
+
 /// Fewest cells in the contact radius. Frictionless Hertz contacts of 2 to 5 cells err by up to 15, 2, 4, 1 % in the largest
 /// pressure, and their error bars miss one time in three; from 6 cells on the error is below a percent and bars hold (measured on
 /// a scan of radii in `tests/error_bars.rs`).
@@ -69,6 +71,10 @@ pub enum Concern {
     ContactNearEdge,
     /// Increments of pressing are too large for the cells.
     PressingInFewIncrements,
+    /// A wave of the profile is a few cells long.
+    FewCellsPerWave,
+    /// Bulk stresses strain a body much.
+    BulkStrain,
 }
 
 impl Concern {
@@ -88,6 +94,8 @@ impl Concern {
             Self::FrictionChangesInOneCycle => "friction_changes_in_one_cycle",
             Self::ContactNearEdge => "contact_near_edge",
             Self::PressingInFewIncrements => "pressing_in_few_increments",
+            Self::FewCellsPerWave => "few_cells_per_wave",
+            Self::BulkStrain => "bulk_strain",
         }
     }
 
@@ -115,12 +123,17 @@ impl Concern {
             }
             Self::ContactNearEdge => "open cells between the contact and the edge of the grid",
             Self::PressingInFewIncrements => "cells by which the contact radius grows in an increment",
+            Self::FewCellsPerWave => "cells per wave of the profile",
+            Self::BulkStrain => "strain of a body by its bulk stress",
         }
     }
 
     /// Whether small numbers are what is warned of.
     pub fn warns_below(self) -> bool {
-        matches!(self, Self::FewCells | Self::CoatingThinnerThanCell | Self::ContactNearEdge)
+        matches!(
+            self,
+            Self::FewCells | Self::CoatingThinnerThanCell | Self::ContactNearEdge | Self::FewCellsPerWave
+        )
     }
 
     /// Where the bound lies.
@@ -130,7 +143,8 @@ impl Concern {
             Self::StifferThanDiamond => 1.0,
             Self::ContactRadiusOverBodyRadius
             | Self::ApproachOverContactRadius
-            | Self::ApproachOverLayerThickness => STRAIN,
+            | Self::ApproachOverLayerThickness
+            | Self::BulkStrain => STRAIN,
             Self::ShiftOverContactRadius => SHIFT,
             Self::SteepTopography => SLOPE,
             Self::CoatingThinnerThanCell => COATING_CELLS,
@@ -139,6 +153,7 @@ impl Concern {
             Self::FrictionChangesInOneCycle => FRICTION_CHANGE,
             Self::ContactNearEdge => FREE_CELLS as f64,
             Self::PressingInFewIncrements => RING_CELLS,
+            Self::FewCellsPerWave => CELLS_PER_WAVE,
         }
     }
 
@@ -170,6 +185,10 @@ impl Concern {
             Self::PressingInFewIncrements => {
                 "each increment leaves a ring in the shear traction, and the slip is resolved in few steps"
             }
+            Self::FewCellsPerWave => "the wave is under-resolved: the cells show one of another height",
+            Self::BulkStrain => {
+                "strains must be small; a wrong unit, of a stress or a modulus, is a common cause"
+            }
         }
     }
 
@@ -197,6 +216,8 @@ impl Concern {
             Self::PressingInFewIncrements => {
                 "more increments of that stage, or \"auto\"; from no contact ramp = \"square\" instead of \"linear\"; where increments are \"auto\", a smaller solver.history_tolerance"
             }
+            Self::FewCellsPerWave => "more cells, or a smaller grid with fewer waves",
+            Self::BulkStrain => "check the units of bulk stresses and moduli; or reduce the bulk stress",
         }
     }
 }
@@ -254,7 +275,7 @@ mod tests {
     use super::*;
 
     /// Each with its bound, as the pages name them, and whether small numbers are what is warned of.
-    const CONCERNS: [(Concern, f64, bool); 13] = [
+    const CONCERNS: [(Concern, f64, bool); 15] = [
         (Concern::FewCells, 6.0, true),
         (Concern::StifferThanDiamond, 1.0, false),
         (Concern::ContactRadiusOverBodyRadius, 0.2, false),
@@ -268,6 +289,8 @@ mod tests {
         (Concern::FrictionChangesInOneCycle, 0.1, false),
         (Concern::ContactNearEdge, 2.0, true),
         (Concern::PressingInFewIncrements, 1.0, false),
+        (Concern::FewCellsPerWave, 6.0, true),
+        (Concern::BulkStrain, 0.2, false),
     ];
 
     #[test]
@@ -290,7 +313,7 @@ mod tests {
         }
         let words: std::collections::HashSet<_> =
             CONCERNS.iter().flat_map(|(name, ..)| [name.quantity(), name.consequence()]).collect();
-        assert_eq!(words.len(), 26, "every concern has its own words");
+        assert_eq!(words.len(), 30, "every concern has its own words");
         assert!(CONCERNS.iter().all(|(name, ..)| !name.help().is_empty()));
     }
 

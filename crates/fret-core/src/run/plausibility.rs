@@ -3,9 +3,9 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::case::Units;
+use crate::case::{Path, Units};
 use crate::history::{Concern, CycleRecord, STIFFEST, StepRecord, Warning};
-use crate::model::{Base, Body, Coating, Control, ElasticMaterial};
+use crate::model::{Base, Body, BulkCompliance, Coating, Control, ElasticMaterial, Shape};
 use crate::plan::{Coupling, Plan};
 
 /// What follows from the case alone, with the contact that its plan expects.
@@ -28,6 +28,8 @@ pub fn of_plan(plan: &Plan) -> Vec<Warning> {
     }
     look(Concern::SteepTopography, steepest(plan));
     look(Concern::CoatingThinnerThanCell, thinnest_coating(plan) / longer_side(plan));
+    look(Concern::FewCellsPerWave, cells_per_wave(plan));
+    look(Concern::BulkStrain, largest_bulk_strain(plan));
     found
 }
 
@@ -93,6 +95,44 @@ fn largest_shift(plan: &Plan) -> f64 {
         largest = largest.max(part(x).hypot(part(y)));
     });
     largest
+}
+
+/// Cells per wave along an axis, of the wave that has fewest; infinite where there is none.
+fn cells_per_wave(plan: &Plan) -> f64 {
+    let spacing = plan.grid.spacing();
+    let waves = plan.case.profile.shapes.iter().filter_map(|shape| match shape {
+        Shape::Wave { wavelengths, .. } => Some(wavelengths),
+        _ => None,
+    });
+    let cells = |lengths: &[Option<f64>; 2]| {
+        let along = |axis: usize| lengths[axis].map_or(f64::INFINITY, |length| length / spacing[axis]);
+        along(0).min(along(1))
+    };
+    // The length of a cell is rounded.
+    waves.map(cells).fold(f64::INFINITY, f64::min) * (1.0 + 1e-12)
+}
+
+/// Largest strain of a body by its bulk stress along x or y, over the ends of stages, of half a wave and of all rows of a table.
+fn largest_bulk_strain(plan: &Plan) -> f64 {
+    let compliance = BulkCompliance::of(&plan.case.bodies, plan.case.is_line());
+    let largest = |path: &Path| match path {
+        Path::To(stress) | Path::Wave { amplitude: stress, .. } => stress.abs(),
+        Path::Through(stresses) => stresses.iter().fold(0.0_f64, |most, stress| most.max(stress.abs())),
+    };
+    let mut most = 0.0_f64;
+    for stage in &plan.case.stages {
+        for body in 0..2 {
+            let mut stress = [[0.0; 2]; 2];
+            stress[body] = [0, 1].map(|axis| {
+                stage.bulk_stress[body][axis].as_ref().map_or(0.0, |control| largest(control.path()))
+            });
+            most = compliance
+                .relative_strain(stress)
+                .into_iter()
+                .fold(most, |most, strain| most.max(strain.abs()));
+        }
+    }
+    most
 }
 
 /// Root mean square slope of the steepest topography; 0 without any.
@@ -227,6 +267,8 @@ impl Gauge {
         );
         look(Concern::ShiftOverContactRadius, &mut self.shift.into_iter());
         look(Concern::SteepTopography, &mut std::iter::once((steepest(plan), usize::MAX)));
+        look(Concern::FewCellsPerWave, &mut std::iter::once((cells_per_wave(plan), usize::MAX)));
+        look(Concern::BulkStrain, &mut std::iter::once((largest_bulk_strain(plan), usize::MAX)));
         let coating = thinnest_coating(plan);
         look(
             Concern::CoatingThinnerThanCell,

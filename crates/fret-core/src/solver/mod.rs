@@ -32,6 +32,7 @@ mod region_fields;
 mod relative_displacement;
 mod sequential;
 mod settings;
+mod sliding_limit;
 mod slip_history;
 mod staggered;
 mod start;
@@ -49,6 +50,7 @@ use crate::kernel::ResponseTable;
 use crate::model::{BulkCompliance, ContactState, CoulombFriction, LoadStep, Rig, SurfaceGrid, Symmetry};
 
 pub(crate) use laws::friction::{bounds_on_grid as friction_bounds, dissipation};
+pub(crate) use laws::limit::sliding_fraction;
 pub(crate) use laws::slip_path::{length_of_way, weights_of_ends};
 pub use memory::SolverMemory;
 pub(crate) use outcome::worst;
