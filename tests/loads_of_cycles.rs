@@ -109,8 +109,8 @@ fn loops_that_slide_are_read_alike_on_coated_and_dissimilar_bodies() {
     }
 }
 
-/// McColl, Ding and Leen's cylinder (2004, Wear 256, 1114): 18.5 N/mm, a stroke of 25 um either way. By chords the half-width of 16 increments
-/// is 0.0219 mm, where many give 0.0245.
+/// McColl, Ding and Leen's cylinder (2004, Wear 256, 1114): 18.5 N/mm, a stroke of 25 um either way. By chords between increments the
+/// half-width is 0.021875 mm in 16 increments, 0.024219 in 64 and 0.0246839 in 6400.
 #[test]
 fn the_loop_of_a_sliding_cylinder_is_as_wide_in_few_increments_as_in_many() {
     let cycle = |increments: usize| {
@@ -124,13 +124,13 @@ fn the_loop_of_a_sliding_cylinder_is_as_wide_in_few_increments_as_in_many() {
     };
     let fine = cycle(800);
     println!("800 increments: {:.6} {:.6e}", fine.opening, fine.stiffness.unwrap());
-    assert!((fine.opening - 0.0245).abs() < 1e-4, "{}", fine.opening);
+    assert!((fine.opening - 0.024_683_9).abs() < 1e-6, "{}", fine.opening);
     for increments in [4, 8, 16, 32, 64, 128] {
         let found = cycle(increments);
         println!("{increments} increments: {:.6} {:.6e}", found.opening, found.stiffness.unwrap());
-        assert!((found.opening / fine.opening - 1.0).abs() < 1e-3, "{increments}: {}", found.opening);
         // A power is not quite the flank of a line contact, whose logarithm it takes the place of.
-        assert!((found.stiffness.unwrap() / fine.stiffness.unwrap() - 1.0).abs() < 0.05, "{increments}");
+        assert!((found.opening / fine.opening - 1.0).abs() < 1e-4, "{increments}: {}", found.opening);
+        assert!((found.stiffness.unwrap() / fine.stiffness.unwrap() - 1.0).abs() < 0.02, "{increments}");
     }
 }
 

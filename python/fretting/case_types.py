@@ -949,7 +949,7 @@ class Stage(TypedDict):
     """
     phase: NotRequired[Phase]
     """
-    Phase lead of each control [degrees]. The cycle starts from the current value of the control.
+    Phase lead of each control [degrees]; all reversal points are ends of increments. The cycle starts from the current value of the control.
     """
     ramp: NotRequired[Ramp]
     """

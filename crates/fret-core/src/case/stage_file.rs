@@ -64,7 +64,7 @@ pub(super) struct StageFile {
     /// Which column of the table holds which control, when they are named otherwise: `tangential_force_x = "Q [N]"`.
     #[schemars(with = "Option<BTreeMap<String, String>>")]
     pub columns: Option<BTreeMap<Spanned<String>, Spanned<String>>>,
-    /// Number of increments: per stage; with cycles, per cycle; with a table, per row. Reversal points are ends of increments. "auto": 16 per stage, 32 per cycle, 4 per
+    /// Number of increments: per stage; with cycles, per cycle; with a table, per row. "auto": 16 per stage, 32 per cycle, 4 per
     /// row, each with adaptive sub-steps controlled by `solver.history_tolerance`.
     #[schemars(with = "IncrementsSchema")]
     pub increments: Spanned<IncrementsFile>,
@@ -83,7 +83,7 @@ pub(super) struct StageFile {
     /// Fraction of a cycle for which a trapezoid holds each of its two extremes, below 0.5. Default: 0.25.
     #[schemars(with = "Option<f64>")]
     pub dwell: Option<Spanned<f64>>,
-    /// Phase lead of each control [degrees], any: increments are placed by it. The cycle starts from the current value of the control.
+    /// Phase lead of each control [degrees]; all reversal points are ends of increments. The cycle starts from the current value of the control.
     #[schemars(with = "Option<PhaseFile>")]
     pub phase: Option<Spanned<PhaseFile>>,
     /// Fraction of the amplitudes at the start and at the end of the cycles, linear between. Default: [1, 1].

@@ -81,7 +81,9 @@ impl CycleTimes {
             times.clear();
         }
         let n = increments as f64;
-        let mut places: Vec<f64> = times.iter().map(|time| nearest(time * n)).collect();
+        // Rounded alike from both ends of the cycle, so that a wave through zero stays one.
+        let place = |time: &f64| if *time > 0.5 { n - nearest((1.0 - time) * n) } else { nearest(time * n) };
+        let mut places: Vec<f64> = times.iter().map(place).collect();
         let mut free = 1.0;
         for place in &mut places {
             *place = place.max(free);

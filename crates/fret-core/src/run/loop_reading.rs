@@ -91,8 +91,9 @@ fn secant(points: &[LoopPoint], force: (f64, f64)) -> Option<f64> {
     back_from(highest).or_else(|| back_from(lowest))
 }
 
-/// Difference of the forces of two plateaus, and of their middle from zero, relative to them.
-const SAME_FORCE: f64 = 1e-4;
+/// Forces are those of a plateau of sliding up to this, relative to it: where slip turns into the direction of the motion little by little the
+/// plateau is not quite level.
+const LEVEL: f64 = 1e-2;
 
 /// The way from one plateau of sliding to the other, between reversal and the place from which on all of the contact slides. Increments
 /// need not resolve it: where it ends follows from the way slid since, and its area from the energy dissipated on it, as the elastic
@@ -112,24 +113,23 @@ impl Flank {
         let highest = points.iter().map(|point| side * point.force).fold(f64::NEG_INFINITY, f64::max);
         let lowest = points.iter().map(|point| side * point.force).fold(f64::INFINITY, f64::min);
         let plateau = 0.5 * (highest - lowest);
-        let near = SAME_FORCE * plateau;
+        let near = LEVEL * plateau;
         if plateau.is_nan() || plateau <= 0.0 || (highest + lowest).abs() > near {
             return None;
         }
-        let is_high = |point: &LoopPoint| side * point.force >= highest - near;
-        let reversal = (1..points.len()).find(|&k| is_high(&points[k - 1]) && !is_high(&points[k]))? - 1;
-        let end = (reversal + 1..points.len()).find(|&k| points[k].slid > 0.0 || is_high(&points[k]))?;
+        let falls = |k: usize| side * (points[k].displacement - points[k - 1].displacement) < 0.0;
+        let turns = |k: &usize| {
+            side * points[k - 1].force >= highest - near && falls(*k) && (*k == 1 || !falls(k - 1))
+        };
+        let reversal = (1..points.len()).find(turns)? - 1;
+        let end = (reversal + 1..points.len()).find(|&k| points[k].slid > 0.0 || !falls(k))?;
         let (from, to) = (&points[reversal], &points[end]);
-        if side * to.force > lowest + near {
+        if !falls(end) || side * to.force > lowest + near {
             return None;
         }
-        // The displacement falls with the force, all the way.
         let way = side * (from.displacement - to.displacement);
-        let falls = points[reversal..=end]
-            .windows(2)
-            .all(|pair| side * (pair[0].displacement - pair[1].displacement) > 0.0);
         let length = way - to.slid;
-        if !falls || length.is_nan() || length <= 0.0 {
+        if length.is_nan() || length <= 0.0 {
             return None;
         }
         let dissipated = to.dissipated - from.dissipated - plateau * to.slid;
