@@ -88,6 +88,28 @@ fn width_and_slope_of_a_loop_that_slides_do_not_depend_on_the_increments() {
     }
 }
 
+/// The same loop behind a spring, which is in series with the contact after reversal, and gives the same on both sides at the middle force.
+#[test]
+fn a_loop_that_slides_is_as_wide_at_the_actuator() {
+    let sphere = similar(48);
+    let full = FRICTION * sphere.force();
+    let onset = 3.0 * full / (16.0 * sphere.effective_shear_modulus());
+    let spring = full / onset;
+    let text = format!(
+        "{}[[load]]\nactuator = [{:e}, 0.0]\nincrements = 12\ncycles = 2\n[rig]\ntangential_stiffness = {spring:e}\n",
+        sphere.pressed(1.0, 1, "linear"),
+        6.0 * onset
+    );
+    let cycle = solved(&text).cycles[1].clone();
+    let opening = 5.0 - 2.0 * (1.0 - 0.5_f64.powf(2.0 / 3.0));
+    // The grid.
+    assert!((cycle.opening / onset - opening).abs() < 1e-2, "{} {opening}", cycle.opening / onset);
+    // One number, by both ends of the spring.
+    assert!((cycle.actuator_sliding_ratio.unwrap() * 6.0 * onset / cycle.opening - 1.0).abs() < 1e-9);
+    let [own, both] = [cycle.stiffness.unwrap(), cycle.actuator_stiffness.unwrap()];
+    assert!((1.0 / both - 1.0 / own - 1.0 / spring).abs() < 1e-9 / both);
+}
+
 /// Bodies that act on each other, and a coating: no closed form; but a loop of few increments is that of many.
 #[test]
 fn loops_that_slide_are_read_alike_on_coated_and_dissimilar_bodies() {

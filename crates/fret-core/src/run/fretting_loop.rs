@@ -188,8 +188,14 @@ impl FrettingLoop {
         let closure = self.closure(state, friction);
         let at_actuator = end.rig.filter(|_| drive == Drive::Tangential).map(|rig| {
             let far = tangential(&|point| rig.actuator(point.shift, point.force));
-            // At the middle force the machine gives the same on both sides.
-            if read.slides { LoopReading { opening: read.opening, ..far } } else { far }
+            if !read.slides {
+                return far;
+            }
+            // At the middle force the machine gives the same on both sides, and after reversal it is in series with the contact.
+            let [x, y] = rig.tangential;
+            let gives = x * cos * cos + y * sin * sin;
+            let stiffness = read.stiffness.map(|slope| (slope.recip() + gives).recip());
+            LoopReading { opening: read.opening, stiffness, ..far }
         });
         let moving = at_actuator.as_ref().filter(|far| far.work_scale() > 0.0);
         CycleRecord {
