@@ -131,7 +131,7 @@ fn loops_that_slide_are_read_alike_on_coated_and_dissimilar_bodies() {
     }
 }
 
-/// McColl, Ding and Leen's cylinder (2004, Wear 256, 1114): 18.5 N/mm, a stroke of 25 um either way. By chords between increments the
+/// `McColl`, Ding and Leen's cylinder (2004, Wear 256, 1114): 18.5 N/mm, a stroke of 25 um either way. By chords between increments the
 /// half-width is 0.021875 mm in 16 increments, 0.024219 in 64 and 0.0246839 in 6400.
 #[test]
 fn the_loop_of_a_sliding_cylinder_is_as_wide_in_few_increments_as_in_many() {
@@ -159,7 +159,7 @@ fn the_loop_of_a_sliding_cylinder_is_as_wide_in_few_increments_as_in_many() {
 /// A ball on a film that wears through under it, with and without the key that ends the run there.
 fn worn(end: &str, cycles: usize) -> History {
     solved(&format!(
-        "[units]\nlength = \"mm\"\nforce = \"N\"\n[grid]\ncells = [32, 32]\nsize = \"auto\"\n\
+        "[units]\nlength = \"mm\"\nforce = \"N\"\n[grid]\ncells = [32, 32]\nsize = [0.8, 0.8]\n\
          [upper]\nsubstrate = {{ young = 210e3, poisson = 0.3 }}\n\
          [lower]\ncoatings = [{{ thickness = 3e-3, young = 420e3, poisson = 0.25, wear_coefficient = 1e-7 }}]\n\
          substrate = {{ young = 210e3, poisson = 0.3, wear_coefficient = 1e-7 }}\n[profile.sphere]\nradius = 5.0\n\
