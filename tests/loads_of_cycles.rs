@@ -47,9 +47,9 @@ fn a_force_ahead_by_a_twelfth_dissipates_the_same_in_any_number_of_increments() 
         );
         // The solver's tolerance.
         assert!((least + 7.5).abs() < 1e-6 && (most - 2.5).abs() < 1e-6, "{increments}: {least} {most}");
-        // The grid: slip annuli of 2 to 7 of the 43 cells of the radius. The increments add nothing.
-        assert!((last.dissipated_energy / exact - 1.0).abs() < 4e-2, "{increments}");
-        assert!((last.shift[0] / end - 1.0).abs() < 2e-2, "{increments}");
+        // The grid: slip annuli of 2 to 7 of the 43 cells of the radius. The increments add nothing: 0.9992 and 1.0009 with each number.
+        assert!((last.dissipated_energy / exact - 1.0).abs() < 2e-3, "{increments}");
+        assert!((last.shift[0] / end - 1.0).abs() < 2e-3, "{increments}");
     }
 }
 
@@ -80,10 +80,10 @@ fn width_and_slope_of_a_loop_that_slides_do_not_depend_on_the_increments() {
                 cycle.opening / onset
             );
             assert_eq!(cycle.regime, Some(CycleRegime::GrossSlip));
-            // The grid: a radius of 29 cells is known to a few thousandths.
-            assert!((cycle.opening / onset - opening).abs() < 6e-3, "{amplitude} {increments}");
-            assert!((cycle.sliding_ratio.unwrap() - opening / amplitude).abs() < 6e-3 / amplitude);
-            assert!((found - 1.0).abs() < 2e-2, "{amplitude} {increments}: {found}");
+            // The grid, 29 cells per radius: 1e-4 of the displacement at which sliding begins, 2e-4 of the stiffness.
+            assert!((cycle.opening / onset - opening).abs() < 3e-4, "{amplitude} {increments}");
+            assert!((cycle.sliding_ratio.unwrap() - opening / amplitude).abs() < 3e-4 / amplitude);
+            assert!((found - 1.0).abs() < 1e-3, "{amplitude} {increments}: {found}");
         }
     }
 }

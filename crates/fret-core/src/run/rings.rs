@@ -11,6 +11,9 @@ use crate::plan::{Coupling, Plan};
 /// Increments are advised with so much to spare: the advice holds where the contact grows a little less evenly than it is taken to.
 const TO_SPARE: f64 = 1.1;
 
+/// Growth in the second of n increments of a square ramp, over n^(-2/3) of the final radius.
+const SECOND: f64 = 0.6;
+
 /// A growth of the contact radius in an increment, or in a part of it.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 struct Growth {
@@ -128,7 +131,8 @@ impl Rings {
                 let uneven = if self.is_line { 1.5 } else { 1.0 };
                 (uneven * self.largest_radius / limit, Some("cubic"))
             }
-            Course::Square if widest.early => (own * over.powf(1.5), None),
+            // There it begins with the power 2/3: after the first contact it grows most in the second increment, by 2^(2/3) - 1 of the first.
+            Course::Square if widest.early => ((SECOND * self.largest_radius / limit).powf(1.5), None),
             _ => (own * over, None),
         };
         ((TO_SPARE * increments).ceil() as usize, ramp)
