@@ -33,6 +33,7 @@ mod residual_file;
 mod rig;
 mod shape;
 mod stage_file;
+mod stage_names;
 mod stages;
 mod stress;
 mod substrates;

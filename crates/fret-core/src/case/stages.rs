@@ -8,6 +8,7 @@ use super::file::RigFile;
 use super::judge::Judge;
 use super::rig::driven;
 use super::stage_file::{IncrementsFile, RampFile, StageFile, WaveformFile};
+use super::stage_names::own_names;
 use super::table::table;
 use super::waveform::Waveform;
 use crate::model::{Control, CoulombFriction};
@@ -34,18 +35,9 @@ pub(super) fn stages(
             "[[load]] with normal_force = ... and increments = ...",
         );
     }
+    own_names(judge, list.get_ref());
     let mut checked = Vec::new();
     for (index, given) in list.get_ref().iter().enumerate() {
-        let before = &list.get_ref()[..index];
-        if let Some(name) = &given.get_ref().name
-            && let Some(first) = before.iter().position(|other| other.get_ref().name.as_ref() == Some(name))
-        {
-            judge.refuse::<()>(
-                given.span(),
-                format!("load[{index}].name = {name:?}: load[{first}] has that name, too"),
-                "a name of its own for each stage: results and sweeps call stages by their names",
-            );
-        }
         let frictionless = friction.is_some_and(|laws| laws[index].is_frictionless());
         checked.push(stage(judge, index, given, (frictionless, rig), tolerance));
     }
