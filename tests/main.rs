@@ -30,6 +30,7 @@ mod line_coefficients;
 mod line_contact;
 mod line_extremes;
 mod loadings;
+mod loads_of_cycles;
 mod misleading;
 mod mutilated_cases;
 mod normal_counts;

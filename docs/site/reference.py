@@ -73,7 +73,10 @@ RUN = [
     ("totals", "increments, convolutions, iterations, dissipated energy, worn volume, largest residual, wall time"),
     ("warnings", "list of name, value, bound, stage, message, help"),
     ("start", "the state it started from, or null"),
-    ("worn_through", "cycle and place where a coating was worn through, or null"),
+    (
+        "worn_through",
+        'cycle and place where a coating was first worn through (`to` = "coating") or the limit reached ("limit"), or null',
+    ),
     ("worn_by_layer", "wear volume of each layer of the lower and the upper body, or null"),
     ("threads, started_unix_s, tolerance", "threads, start time, solver tolerance"),
 ]

@@ -732,7 +732,7 @@ class Material(TypedDict):
     """
     fatigue: NotRequired[FatigueConstants]
     """
-    Constants for fatigue and fracture. What has no constants is not computed; none is built in.
+    Constants for fatigue and fracture. Criteria without constants are skipped; there are no built-in materials.
     """
     poisson: float
     """
@@ -852,7 +852,7 @@ class Coating(TypedDict):
     """
     fatigue: NotRequired[FatigueConstants]
     """
-    Constants for fatigue and fracture. What has no constants is not computed; none is built in.
+    Constants for fatigue and fracture. Criteria without constants are skipped; there are no built-in materials.
     """
     gradient: NotRequired[Gradient]
     """
@@ -949,7 +949,7 @@ class Stage(TypedDict):
     """
     phase: NotRequired[Phase]
     """
-    Phase lead of each control [degrees]. The cycle starts from the current value of the control.
+    Phase lead of each control [degrees]; all reversal points are ends of increments. The cycle starts from the current value of the control.
     """
     ramp: NotRequired[Ramp]
     """

@@ -95,7 +95,8 @@ class History:
     running_conditions : list of str or None
         ``"partial"``, ``"mixed"`` or ``"gross"`` for each stage; None for one without cycles.
     worn_through : dict or None
-        ``increment``, ``stage``, ``cycles``, ``cell``, ``place`` of the first place worn to the limit.
+        Where and when a coating was first worn through, or the surfaces worn to the limit: ``to`` (``"coating"`` or
+        ``"limit"``), ``increment``, ``stage``, ``cycles``, ``cell``, ``place``. The history ends at the limit.
     worn_by_layer : dict or None
         Volumes lost by the layers of the ``lower`` and the ``upper`` body [length^3], from the surface down, the
         substrate last; None without ``wear_coefficient`` of layers.

@@ -30,6 +30,8 @@ fn every_example_of_a_surface_and_of_friction_is_solved() {
             assert_eq!(text.lines().next(), Some("#:schema ../fret.schema.json"), "{}", path.display());
             let answer = bench.fret(&["run", path.to_str().unwrap(), "--threads", "1", "--quiet"]);
             assert_eq!(answer.code, Some(0), "{}: {}", path.display(), answer.err);
+            let name = path.file_stem().unwrap().to_str().unwrap().to_owned();
+            assert_eq!(bench.warnings(&format!("results/{name}")), "[]", "{name}");
             count += 1;
         }
     }

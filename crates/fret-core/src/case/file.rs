@@ -40,7 +40,8 @@ pub(super) struct CaseFile {
     #[schemars(with = "Vec<StageFile>")]
     pub load: Spanned<Vec<Spanned<StageFile>>>,
     /// Wear of the surfaces. Default: no wear.
-    pub wear: Option<WearFile>,
+    #[schemars(with = "Option<WearFile>")]
+    pub wear: Option<Spanned<WearFile>>,
     /// Accuracy of the solution.
     pub solver: Option<SolverFile>,
     /// What is written to the results.

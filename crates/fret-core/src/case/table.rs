@@ -261,7 +261,7 @@ mod tests {
     #[test]
     fn wrong_cycles_waves_and_steady_states_are_refused() {
         for (more, words) in [
-            ("shift = [1.0, 0.0]\ncycles = 2", "the turns of this cycle need at least 4"),
+            ("shift = [1.0, 0.0]\ncycles = 2", "the reversal points of this cycle need at least 4"),
             ("shift = [1.0, 0.0]\nwaveform = \"sine\"", "the stage has no cycles"),
             ("shift = [1.0, 0.0]\nphase = { shift = [90.0, 0.0] }", "the stage has no cycles"),
             ("shift = [1.0, \"held\"]\ntangential_force = [0.0, 0.0]", "both at once"),

@@ -3,6 +3,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::rings::Rings;
 use crate::case::{Path, Units};
 use crate::history::{Concern, CycleRecord, STIFFEST, StepRecord, Warning};
 use crate::model::{Base, Body, BulkCompliance, Coating, Control, ElasticMaterial, Shape};
@@ -27,10 +28,16 @@ pub fn of_plan(plan: &Plan) -> Vec<Warning> {
         look(Concern::ShiftOverContactRadius, largest_shift(plan) / radius);
     }
     look(Concern::SteepTopography, steepest(plan));
-    look(Concern::CoatingThinnerThanCell, thinnest_coating(plan) / longer_side(plan));
+    look(Concern::CoatingThinnerThanCell, coating_where_stresses_are_asked(plan) / longer_side(plan));
     look(Concern::FewCellsPerWave, cells_per_wave(plan));
     look(Concern::BulkStrain, largest_bulk_strain(plan));
     found
+}
+
+/// As [`thinnest_coating`], where the case asks for stresses below; infinite where it does not, as displacements and tractions are
+/// accurate on coatings however thin.
+fn coating_where_stresses_are_asked(plan: &Plan) -> f64 {
+    if plan.case.stress.is_some() { thinnest_coating(plan) } else { f64::INFINITY }
 }
 
 /// The largest Young's modulus of coatings and substrates [pressure].
@@ -160,13 +167,8 @@ pub struct Gauge {
     ends: Vec<End>,
     /// Largest shift over contact radius, and its stage.
     shift: Option<(f64, usize)>,
-    /// Largest growth of the contact radius in an increment [cells], and its stage.
-    ring: Option<(f64, usize)>,
-    /// Contact radius of the first increment with contact [cells], and its stage.
-    first: Option<(f64, usize)>,
-    /// Contact radius of the increment before, and the largest so far [cells].
-    radius: Option<f64>,
-    largest_radius: f64,
+    /// How the contact grows.
+    rings: Rings,
     worn_depth: f64,
     /// Largest relative change of friction in a single cycle, and its stage.
     friction_change: Option<(f64, usize)>,
@@ -186,6 +188,11 @@ struct End {
 }
 
 impl Gauge {
+    /// Of a run that has yet to begin.
+    pub fn of(plan: &Plan) -> Self {
+        Self { rings: Rings::of(plan), ..Self::default() }
+    }
+
     /// Reads an increment.
     pub fn add(&mut self, record: &StepRecord) {
         let end = End {
@@ -205,21 +212,11 @@ impl Gauge {
                 *most = Some((value, record.stage));
             }
         };
-        if record.contact_cells == 0 {
-            self.radius = None;
-            return;
+        self.rings.add(record);
+        if record.contact_cells > 0 {
+            let [x, y] = record.shift;
+            larger(&mut self.shift, x.hypot(y) / equivalent_radius(record.contact_area));
         }
-        let [x, y] = record.shift;
-        larger(&mut self.shift, x.hypot(y) / equivalent_radius(record.contact_area));
-        let radius = equivalent_radius(record.contact_cells as f64);
-        if let Some(before) = self.radius {
-            larger(&mut self.ring, (radius - before) / record.parts.max(1) as f64);
-        }
-        if self.first.is_none() {
-            self.first = Some((radius / record.parts.max(1) as f64, record.stage));
-        }
-        self.radius = Some(radius);
-        self.largest_radius = self.largest_radius.max(radius);
     }
 
     /// Reads a cycle.
@@ -272,7 +269,7 @@ impl Gauge {
         let coating = thinnest_coating(plan);
         look(
             Concern::CoatingThinnerThanCell,
-            &mut std::iter::once((coating / longer_side(plan), usize::MAX)),
+            &mut std::iter::once((coating_where_stresses_are_asked(plan) / longer_side(plan), usize::MAX)),
         );
         let last = self.ends.last().map_or(usize::MAX, |end| end.stage);
         if plan.case.wear.as_ref().is_none_or(|wear| wear.thinning_tolerance.is_none()) {
@@ -284,11 +281,7 @@ impl Gauge {
         if !plan.case.periodic {
             look(Concern::ContactNearEdge, &mut touching().map(|end| (end.free as f64, end.stage)));
         }
-        if plan.coupling == Coupling::Coupled && !rough {
-            // A first increment that makes half the contact is a ring like any other.
-            let first = self.first.filter(|(radius, _)| *radius > 0.5 * self.largest_radius);
-            look(Concern::PressingInFewIncrements, &mut self.ring.into_iter().chain(first));
-        }
+        found.extend(self.rings.warning(plan));
         found
     }
 }

@@ -131,7 +131,7 @@ impl<'a> Simulation<'a> {
         solver.set_tilt(state.tilt);
         // Last: a new gap makes a solver forget.
         solver.restore_memory(memory);
-        let (records, gauge) = (Records::default(), Gauge::default());
+        let (records, gauge) = (Records::default(), Gauge::of(plan));
         let journey = Journey { plan, solver, surfaces, state, records, gauge, place, cycle, observer };
         journey.through_all_stages()
     }

@@ -45,7 +45,11 @@ fn how_it_ended(view: &Overview<'_>) -> String {
         },
     ];
     if let Some(cycles) = record["worn_through"]["cycles"].as_u64() {
-        line.push(format!("worn to the limit after {}", counted(cycles as usize, "cycle")));
+        let what = match record["worn_through"]["to"].as_str() {
+            Some("coating") => "coating worn through",
+            _ => "worn to the limit",
+        };
+        line.push(format!("{what} after {}", counted(cycles as usize, "cycle")));
     }
     if let Some(wall_s) = record["totals"]["wall_s"].as_f64() {
         let threads = record["threads"].as_u64().unwrap_or(1) as usize;

@@ -68,7 +68,7 @@ fn a_history_has_up_to_ten_million_increments() {
         let place = count.to_string();
         refused(&cycles(count, 4), &[], "must lie between 1 and 1000000", &place);
     }
-    refused(&cycles(1, 3), &[], "the turns of this cycle need at least 4", "3");
+    refused(&cycles(1, 3), &[], "the reversal points of this cycle need at least 4", "3");
 }
 
 #[test]
