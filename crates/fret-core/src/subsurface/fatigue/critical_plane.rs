@@ -286,7 +286,7 @@ mod tests {
         let planes = every_degree();
         let mut worst = [0.0_f64; 2];
         for (mean, increments) in [(0.0, 9), (-1.5, 9), (-2.0, 9)] {
-            for cycle in cycles(100, increments, mean) {
+            for cycle in cycles(60, increments, mean) {
                 let limit = 1.0;
                 let found = [
                     smith_watson_topper(&cycle, &steel()).value,
