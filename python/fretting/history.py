@@ -1,7 +1,6 @@
 """The result of a run."""
 
 import json
-import operator
 import os
 import shutil
 from pathlib import Path
@@ -10,11 +9,12 @@ from typing import TYPE_CHECKING, Any, Literal, Protocol, Self
 import numpy as np
 import numpy.typing as npt
 
-from fretting import _core, _dataset, fatigue, heat, plot, stress
+from fretting import _core, _dataset, _notebook, fatigue, heat, plot, stress
+from fretting._arguments import checked, of_kind, whole
 from fretting._arrays import Reals
-from fretting._meaning import FIELD_NAMES, VECTORS, FieldName, VectorName
+from fretting._meaning import FIELD_NAMES, VECTORS, FieldName, VectorName, in_units, unit
 from fretting.cycles import Columns, columns
-from fretting.errors import Fact
+from fretting.errors import Fact, UnreadableError
 
 if TYPE_CHECKING:
     import xarray
@@ -147,8 +147,8 @@ class History:
     _periodic: bool
 
     def __init__(self, answer: _core.History, case: dict[str, Any]) -> None:
-        self._kept = answer
-        self.case = case
+        self._kept = of_kind("answer", answer, _core.History)
+        self.case = of_kind("case", case, dict)
         self.plan = json.loads(answer.plan())
         self.version = _core.__version__
         bars = json.loads(answer.error_bars() or "null")
@@ -267,12 +267,13 @@ class History:
 
     def _number(self, increment: int) -> int:
         """Return the number of an increment from 0."""
-        increment = _whole("increment", increment)
+        increment = whole("increment", increment)
         count = len(self)
         if not -count <= increment < count:
             raise IndexError(f"increment {increment}: the history has {count} increments")
         return increment % count
 
+    @checked
     def at(
         self,
         point: Literal["start", "end", "maximum", "minimum"] = "end",
@@ -304,7 +305,7 @@ class History:
             if not len(in_cycles):
                 raise ValueError("cycle: the history has no cycles")
             chosen = np.flatnonzero(in_cycles == (in_cycles[-1] if number is None else number))
-            if not -len(chosen) <= _whole("cycle", cycle) < len(chosen):
+            if not -len(chosen) <= whole("cycle", cycle) < len(chosen):
                 raise IndexError(f"cycle {cycle}: the stage has {len(chosen)} computed cycles, counted from 0")
             one = chosen[cycle]
             rows = np.arange(self.cycles["first_increment"][one], self.cycles["last_increment"][one] + 1)
@@ -320,6 +321,7 @@ class History:
             along = self.increments["twist_moment"][rows]
         return int(rows[along.argmax() if point == "maximum" else along.argmin()])
 
+    @checked
     def to_xarray(self, *, increments: Literal["all", "kept"] = "all") -> "xarray.Dataset":
         """Return everything as a Dataset: numbers of the increments and cycles, fields of the kept increments.
 
@@ -350,6 +352,7 @@ class History:
             raise ValueError(f"increments = {increments!r}: must be 'all' or 'kept'")
         return _dataset.of_history(self, every=increments == "all")
 
+    @checked
     def save(self, folder: str | os.PathLike[str], *, replace: bool = False) -> Path:
         """Write the history into a folder, as ``fret run --out FOLDER`` would have done.
 
@@ -374,22 +377,26 @@ class History:
         UnreadableError
             When a file cannot be written.
         """
-        path = Path(folder)
+        place = Path(folder)
         if isinstance(self._kept, _core.History):
             early = None if self.finished else (self.status, self.message or "")
-            self._kept.save(path, replace, early)
-            return path
+            self._kept.save(place, replace, early)
+            return place
         if self._folder is None:
             raise ValueError(
                 "save: a history that went through another process or a file holds no states; "
                 "save it where it was solved"
             )
-        if path.exists() and (not path.is_dir() or any(path.iterdir())) and not replace:
-            raise ValueError(f"{path}: holds something already\n  = help: choose another folder, or replace=True")
-        if not (path.exists() and path.samefile(self._folder)):
-            shutil.copytree(self._folder, path, dirs_exist_ok=True)
-        return path
+        if place.exists() and (not place.is_dir() or any(place.iterdir())) and not replace:
+            raise ValueError(f"{place}: holds something already\n  = help: choose another folder, or replace=True")
+        try:
+            if not (place.exists() and place.samefile(self._folder)):
+                shutil.copytree(self._folder, place, dirs_exist_ok=True)
+        except OSError as error:
+            raise UnreadableError(f"error: {place}: {error.strerror or error}", str(place)) from None
+        return place
 
+    @checked
     def subsurface(
         self,
         depths: npt.ArrayLike,
@@ -446,6 +453,7 @@ class History:
         """
         return stress.subsurface(self, depths, increment, body, threads)
 
+    @checked
     def fatigue(
         self,
         depths: npt.ArrayLike,
@@ -489,8 +497,9 @@ class History:
             When a depth or a constant is out of its range, the body is rigid, or too few increments of the cycle are
             kept.
         """
-        return fatigue.fatigue(self, depths, _whole("cycle", cycle), body, constants, threads)
+        return fatigue.fatigue(self, depths, whole("cycle", cycle), body, constants, threads)
 
+    @checked
     def crack(
         self,
         *,
@@ -530,8 +539,9 @@ class History:
             When there are no constants of cracks, one is out of its range, the body is rigid, or too few increments
             are kept.
         """
-        return fatigue.crack(self, _whole("cycle", cycle), body, constants, threads)
+        return fatigue.crack(self, whole("cycle", cycle), body, constants, threads)
 
+    @checked
     def coating_fracture(
         self,
         *,
@@ -572,8 +582,9 @@ class History:
         ValueError
             When the body has no bonded coating on something that deforms, or too few increments are kept.
         """
-        return fatigue.coating_fracture(self, _whole("cycle", cycle), body, constants, threads)
+        return fatigue.coating_fracture(self, whole("cycle", cycle), body, constants, threads)
 
+    @checked
     def temperature(
         self, *, cycle: int = -1, frequency: float | None = None, threads: int | None = None
     ) -> "xarray.Dataset":
@@ -607,8 +618,9 @@ class History:
         KeyError
             When fields of an increment of the cycle were not kept.
         """
-        return heat.temperature(self, _whole("cycle", cycle), frequency, threads)
+        return heat.temperature(self, whole("cycle", cycle), frequency, threads)
 
+    @checked
     def contact_resistance(
         self,
         *,
@@ -727,14 +739,19 @@ class History:
         if not len(self):
             return facts
         last = {name: column[-1] for name, column in self.increments.items()}
+
+        def told(name: str) -> str:
+            kind = in_units(unit(name), self._units) if self._units else ""
+            return f"{last[name]:.6g} {kind}".rstrip()
+
         facts += [
             ("sliding condition at the end", last["regime"].replace("_", " ")),
-            ("normal force", f"{last['normal_force']:.6g}"),
-            ("max pressure", f"{last['max_pressure']:.6g}"),
-            ("contact area", f"{last['contact_area']:.6g}"),
-            ("dissipated energy", f"{last['dissipated_energy']:.6g}"),
+            ("normal force", told("normal_force")),
+            ("max pressure", told("max_pressure")),
+            ("contact area", told("contact_area")),
+            ("dissipated energy", told("dissipated_energy")),
             *(
-                [("worn volume", f"{last['worn_volume']:.6g}"), ("max wear depth", f"{last['max_worn_depth']:.6g}")]
+                [("worn volume", told("worn_volume")), ("max wear depth", told("max_worn_depth"))]
                 if last["worn_volume"] > 0.0
                 else []
             ),
@@ -757,17 +774,7 @@ class History:
 
     def _repr_html_(self) -> str:
         """Return the same as a table, for notebooks."""
-        return plot.html_table("fretting.History", self._facts())
-
-
-def _whole(name: str, number: object) -> int:
-    """Return a number that counts as an int; a truth value, a text or a fraction does not count."""
-    if isinstance(number, bool | np.bool_):
-        raise TypeError(f"{name} = {number!r}: must be a whole number")
-    try:
-        return operator.index(number)  # type: ignore[arg-type]
-    except TypeError:
-        raise TypeError(f"{name} = {number!r}: must be a whole number") from None
+        return _notebook.html_table("fretting.History", self._facts())
 
 
 def _listed(numbers: list[int]) -> str:

@@ -4,7 +4,7 @@ import json
 from collections.abc import Iterator, Mapping
 from typing import Any, TypedDict
 
-from fretting import _case, _core, _start, plot
+from fretting import _case, _core, _notebook, _start
 from fretting.errors import Fact
 
 
@@ -103,7 +103,7 @@ class Plan(Mapping[str, Any]):
         ]
         facts += [(f"simplification: {entry['what']}", entry["why"]) for entry in self.left_out]
         facts += [("warning", f"{fact['message']}; {fact['help']}") for fact in self.warnings]
-        return plot.html_table("fretting.Plan", facts)
+        return _notebook.html_table("fretting.Plan", facts)
 
 
 def _amount(count: int) -> str:

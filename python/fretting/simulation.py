@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any, TypeAlias
 
 from fretting import _case, _core, _start
+from fretting._arguments import path
 from fretting._progress import ProgressLine
 from fretting.errors import FrettingWarning, OutOfMemoryError, RunError, RunInterrupted, warn
 from fretting.history import History
@@ -106,6 +107,8 @@ def run(
     10.000 0.500
     10.000 1.000
     """
+    if folder is not None:
+        folder = path("folder", folder)
     if folder is None and (resume or replace):
         raise ValueError("resume, replace: of a run with a folder")
     if estimate_error and start is not None:

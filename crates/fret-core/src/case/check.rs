@@ -12,6 +12,7 @@ use super::file::{CaseFile, CellsFile, OutputFile, SizeFile};
 use super::friction::{friction, of_stages};
 use super::interface::sliding_coatings;
 use super::judge::Judge;
+use super::beyond::beyond;
 use super::line::{datum, line, motion_without_datum};
 use super::output::{FIELD_NAMES, Output};
 use super::refusal::Mistake;
@@ -74,6 +75,7 @@ pub(super) fn case(
     let friction_evolution = evolution(&mut judge, file.friction.as_ref(), friction.as_ref(), evolving);
     let loading = (&file.load, stages.as_deref());
     let datum = datum(&mut judge, &file.grid, (is_line, size), bodies.as_ref());
+    let beyond = beyond(&mut judge, &file.grid, size);
     if is_line {
         line(&mut judge, &file.grid, loading, profile.as_ref());
         motion_without_datum(&mut judge, &file.grid, size, stages.as_deref(), bodies.as_ref());
@@ -121,6 +123,7 @@ pub(super) fn case(
             cells,
             size,
             datum,
+            beyond,
             periodic,
             bodies,
             residual_stress,

@@ -28,7 +28,8 @@ pub enum RunError {
     },
     /// The contact reaches the edge of the grid.
     #[error(
-        "increment {increment} ({stage}): the contact reaches the edge of the grid; enlarge grid.size, or write size = \"auto\""
+        "increment {increment} ({stage}): the contact reaches the edge of the grid; enlarge grid.size, or write size = \"auto\"; \
+         grid.beyond = \"no body\" where a body ends there"
     )]
     ContactAtEdge {
         /// Number of the increment, from 0.
