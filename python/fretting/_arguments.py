@@ -124,21 +124,28 @@ def reals(name: str, values: Any) -> list[float]:
     return [real(f"{name}[{index}]", value) for index, value in enumerate(_listed(name, values))]
 
 
-MOST = 1_000_000
-"""More numbers than that no list of cells, increments or tolerances has."""
+def texts(name: str, values: Any) -> list[str]:
+    """Return a text, or several, as a list."""
+    if isinstance(values, str):
+        return [values]
+    return [text(f"{name}[{index}]", value) for index, value in enumerate(_listed(name, values))]
+
+
+MOST = 10_000
+"""More entries than that no list of fields, cells, increments or tolerances has."""
 
 
 def _listed(name: str, values: Any) -> list[Any]:
     if isinstance(values, str | bytes | Mapping):
-        raise TypeError(f"{name}: expected several numbers, found {type(values).__name__}")
+        raise TypeError(f"{name}: expected several of them, found {type(values).__name__}")
     try:
         found = []
         for value in values:
             found.append(value)
             if len(found) > MOST:
-                raise ValueError(f"{name}: more than {MOST} numbers")
+                raise ValueError(f"{name}: more than {MOST} entries")
     except TypeError:
-        raise TypeError(f"{name}: expected several numbers, found {type(values).__name__}") from None
+        raise TypeError(f"{name}: expected several of them, found {type(values).__name__}") from None
     return found
 
 

@@ -14,7 +14,7 @@ import numpy.typing as npt
 
 from fretting import _arguments as arguments
 from fretting import _core
-from fretting._arrays import Reals
+from fretting._arrays import Reals, room_for
 from fretting.errors import CaseError, MissingFileError, UnreadableError
 
 CaseLike: TypeAlias = str | os.PathLike[str] | Mapping[str, object]
@@ -23,7 +23,7 @@ CaseLike: TypeAlias = str | os.PathLike[str] | Mapping[str, object]
 A ``str`` with a line break is TOML text, any other a path. In a mapping, NumPy arrays stand where heights or
 coefficients of friction are wanted for every cell: ``{"heights": {"values": array}}``,
 ``{"friction": {"map": array}}``, and ``friction`` of a stage. Relative names of files start at the folder of the case
-file; at the current folder for a text or a mapping.
+file; at the current folder for a text or a mapping. ``None`` in a mapping stands for a key that is not given.
 """
 
 Json: TypeAlias = bool | int | float | str | list["Json"] | dict[str, "Json"] | None
@@ -131,6 +131,7 @@ def _field(values: npt.NDArray[Any], place: str) -> Reals:
         raise _refusal("case", f"{place}: an array of {values.dtype}: must be real numbers")
     if values.ndim != 2:
         raise _refusal("case", f"{place}: an array of shape {values.shape}: must have two dimensions")
+    room_for(f"{place} of shape {values.shape}", values.size)
     return np.ascontiguousarray(np.ma.getdata(values), dtype=np.float64)
 
 

@@ -77,7 +77,7 @@ class History:
         ``full_grid_convolutions``, ``tilt_x``, ``tilt_y``, ``tilt_moment_x``, ``tilt_moment_y``, ``bulk_stress_x``,
         ``bulk_stress_y`` (of the lower body), ``upper_bulk_stress_x``, ``upper_bulk_stress_y``, ``bulk_work``,
         ``actuator_x``, ``actuator_y``, ``actuator_approach``, ``friction_coefficient`` (mean over the contact, weighted
-        with the pressure) (float); ``regime`` (str).
+        with the pressure), ``elastic_energy`` (float); ``regime`` (str).
     x, y : ndarray
         Coordinates of the cell centres [length], shapes (nx,) and (ny,); of a line contact `y` is one zero.
     stages : list of str
@@ -293,6 +293,13 @@ class History:
         cycle : int, optional
             Computed cycle of the stage, from 0; negative from the end.
 
+        Raises
+        ------
+        ValueError
+            When no stage is called so, the point is none of these, or there is no such increment yet.
+        IndexError
+            When there is no such stage or cycle.
+
         Examples
         --------
         >>> history.plot_zones(history.at("maximum", stage="fretting", cycle=-1))  # doctest: +SKIP
@@ -403,9 +410,10 @@ class History:
         *,
         increment: int = -1,
         body: Literal["lower", "upper"] = "lower",
+        displacement: bool = False,
         threads: int | None = None,
     ) -> "xarray.Dataset":
-        """Return the subsurface stress of one body, from the kept tractions of an increment.
+        """Return the subsurface stress of one body, and its displacements, from the kept tractions of an increment.
 
         Bulk stress and residual stress are included, layer by layer. Axes x and y of the contact, z into the body in
         question, from its own surface; tension is positive. Under the centres of the cells, exact for tractions that
@@ -420,6 +428,11 @@ class History:
             there is friction.
         body : {"lower", "upper"}
             The body.
+        displacement : bool
+            Also compute displacements, at depth 0 those of the surface; not of line contacts. They are those of the
+            tractions alone, without the strain of bulk and residual stress, and periodic ones without their mean. The
+            relative displacement of the surfaces along z is the sum of both bodies', along x and y that of the lower
+            less that of the upper body.
         threads : int, optional
             Worker threads. Default: all cores. The result is the same for any number.
 
@@ -427,7 +440,8 @@ class History:
         -------
         xarray.Dataset
             ``xx``, ``yy``, ``zz``, ``xy``, ``xz``, ``yz``, ``von_mises`` [pressure] with the dimensions (depth, y, x),
-            of a line contact (depth, x); ``principal`` with (order, depth, y, x), the largest first. Beside ``depth``
+            of a line contact (depth, x); ``principal`` with (order, depth, y, x), the largest first; `displacement`:
+            ``displacement_x``, ``displacement_y``, ``displacement_z`` [length], z into the body. Beside ``depth``
             stands ``layer``: 0 in the outermost coating, the number of coatings in the substrate. A depth at an
             interface appears twice, first as seen from above, then from below.
 
@@ -437,6 +451,8 @@ class History:
             When a depth is above the surface or in a rigid base, or the body is rigid.
         KeyError
             When the tractions of the increment were not kept.
+        IndexError
+            When there is no such increment.
 
         Examples
         --------
@@ -451,7 +467,7 @@ class History:
         >>> dict(history.subsurface([0.0, 20e-6]).von_mises.sizes)
         {'depth': 2, 'y': 32, 'x': 32}
         """
-        return stress.subsurface(self, depths, increment, body, threads)
+        return stress.subsurface(self, depths, increment, body, displacement, threads)
 
     @checked
     def fatigue(
@@ -496,6 +512,10 @@ class History:
         ValueError
             When a depth or a constant is out of its range, the body is rigid, or too few increments of the cycle are
             kept.
+        KeyError
+            When its increments were kept without what is needed.
+        IndexError
+            When there is no such cycle.
         """
         return fatigue.fatigue(self, depths, whole("cycle", cycle), body, constants, threads)
 
@@ -538,6 +558,10 @@ class History:
         ValueError
             When there are no constants of cracks, one is out of its range, the body is rigid, or too few increments
             are kept.
+        KeyError
+            When its increments were kept without what is needed.
+        IndexError
+            When there is no such cycle.
         """
         return fatigue.crack(self, whole("cycle", cycle), body, constants, threads)
 
@@ -581,6 +605,10 @@ class History:
         ------
         ValueError
             When the body has no bonded coating on something that deforms, or too few increments are kept.
+        KeyError
+            When its increments were kept without what is needed.
+        IndexError
+            When there is no such cycle.
         """
         return fatigue.coating_fracture(self, whole("cycle", cycle), body, constants, threads)
 
@@ -617,6 +645,8 @@ class History:
             When neither body conducts heat, the case is periodic or a line contact, or there is no frequency.
         KeyError
             When fields of an increment of the cycle were not kept.
+        IndexError
+            When there is no such cycle.
         """
         return heat.temperature(self, whole("cycle", cycle), frequency, threads)
 
@@ -649,6 +679,8 @@ class History:
             When a body does not conduct, the bodies are apart, or it is a line contact.
         KeyError
             When the pressure of the increment was not kept.
+        IndexError
+            When there is no such increment.
 
         Examples
         --------

@@ -130,6 +130,10 @@ def plan(case: _case.CaseLike, *, start: _start.StartLike | None = None) -> Plan
     ------
     CaseError
         When the case is refused.
+    OutOfMemoryError
+        When there is not the memory to plan it.
+    UnreadableError, ValueError, IndexError
+        When `start` does not hold the state.
     """
     question = _case.read(case, _start.read(start))
     entries = json.loads(_core.plan(question))

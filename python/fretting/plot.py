@@ -3,6 +3,10 @@
 Every function draws into `ax`, or into a figure of its own when none is given, and returns the axes; further keywords
 go to the artist (``color=``, ``label=``, ``cmap=``). Units are those
 of the case: labels say what ``[units]`` of the case declares, else length, force, pressure.
+
+An argument of another kind is a ``TypeError``, as is a keyword that matplotlib does not know; a value out of its range
+a ``ValueError``; a field that is unknown or not kept a ``KeyError``; an increment or a stage that is not there an
+``IndexError``.
 """
 
 from collections.abc import Sequence
@@ -12,7 +16,7 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 import numpy.typing as npt
 
-from fretting._arguments import checked
+from fretting._arguments import checked, texts
 from fretting._arguments import variable as _variable
 from fretting._arrays import Reals
 from fretting._bands import band, band_map, loop_band
@@ -197,7 +201,7 @@ def section(
         if along == "y":
             raise ValueError("along = 'y': nothing changes along the line of a line contact")
         at = 0.0
-    names = [fields] if isinstance(fields, str) else list(fields)
+    names = texts("fields", fields)
     here, across = (history.x, history.y) if along == "x" else (history.y, history.x)
     half = 0.5 * (across[1] - across[0]) if len(across) > 1 else np.inf
     if not across[0] - half <= at <= across[-1] + half:

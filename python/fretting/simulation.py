@@ -77,6 +77,8 @@ def run(
         When Ctrl-C is pressed: a ``KeyboardInterrupt`` whose ``history`` holds what was solved.
     UnreadableError, ValueError
         When `start` does not hold the state; when `folder` holds something else or cannot be written.
+    IndexError
+        When a history to start from has no such increment.
 
     Warns
     -----

@@ -115,6 +115,8 @@ def sweep(
         When no point could be solved.
     UnreadableError
         When `folder` cannot be used, or a file cannot be read.
+    IndexError
+        When a history to start from has no such increment.
     ImportError
         When xarray is not installed (``pip install fretting[xarray]``).
     OutOfMemoryError

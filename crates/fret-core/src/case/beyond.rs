@@ -1,7 +1,5 @@
 //! The judgement of what lies beyond the edge of the grid.
 
-use toml::Spanned;
-
 use super::definition::GridSize;
 use super::file::GridFile;
 use super::judge::Judge;
@@ -38,8 +36,11 @@ mod tests {
         assert_eq!(read(ROLLER, &[]).beyond, Beyond::Body);
         let ends = |size: &str| format!("size = {size}\nbeyond = \"no body\"");
         assert_eq!(read(ROLLER, &[("size = 3.0", &ends("3.0"))]).beyond, Beyond::NoBody);
-        refused(ROLLER, &[("size = 3.0", &ends("\"auto\""))], "the body ends where the grid does", "\"auto\"");
-        let none = "size = 3.0\nbeyond = \"nobody\"";
-        refused(ROLLER, &[("size = 3.0", none)], "no body", "\"nobody\"");
+        refused(
+            ROLLER,
+            &[("size = 3.0", &ends("\"auto\""))],
+            "the body ends where the grid does",
+            "\"auto\"",
+        );
     }
 }

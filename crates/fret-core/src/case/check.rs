@@ -3,6 +3,7 @@
 use toml::Spanned;
 
 use super::attachments::Attachments;
+use super::beyond::beyond;
 use super::bodies::bodies;
 use super::conduction::conduction;
 use super::course::Stage;
@@ -12,7 +13,6 @@ use super::file::{CaseFile, CellsFile, OutputFile, SizeFile};
 use super::friction::{friction, of_stages};
 use super::interface::sliding_coatings;
 use super::judge::Judge;
-use super::beyond::beyond;
 use super::line::{datum, line, motion_without_datum};
 use super::output::{FIELD_NAMES, Output};
 use super::refusal::Mistake;
