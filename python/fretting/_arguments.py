@@ -149,6 +149,13 @@ def _listed(name: str, values: Any) -> list[Any]:
     return found
 
 
+def truth(name: str, value: object) -> bool:
+    """Return yes or no."""
+    if not isinstance(value, bool | np.bool_):
+        raise TypeError(f"{name} = {_shown(value)}: must be True or False")
+    return bool(value)
+
+
 def text(name: str, value: object) -> str:
     """Return a text."""
     if not isinstance(value, str):
@@ -266,7 +273,7 @@ def _shown(value: object) -> str:
     return shown if len(shown) < 80 else f"{shown[:60]}..."
 
 
-_OF_TYPES: dict[Any, Check] = {float: real, int: whole, str: text}
+_OF_TYPES: dict[Any, Check] = {float: real, int: whole, str: text, bool: truth}
 _OF_NAMES: dict[str, Check] = {
     "History": history,
     "xarray.Dataset": dataset,
