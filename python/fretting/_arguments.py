@@ -1,4 +1,4 @@
-"""The one door for arguments of public functions: each is checked for what its annotation says, before work begins.
+"""The arguments of public functions: each is checked against its annotation, before work begins.
 
 What is not of the kind is refused with its name, what was found and what is allowed: a ``TypeError`` for another kind
 of thing, a ``ValueError`` for a value out of its range, an ``UnreadableError`` for a name that no file can have.
@@ -32,7 +32,7 @@ def checked(function: Callable[P, T]) -> Callable[P, T]:
     hands_on = any(entry.kind is entry.VAR_KEYWORD for entry in signature.parameters.values())
 
     @functools.wraps(function)
-    def behind_the_door(*args: P.args, **kwargs: P.kwargs) -> T:
+    def checked_call(*args: P.args, **kwargs: P.kwargs) -> T:
         try:
             bound = signature.bind(*args, **kwargs)
         except TypeError as error:
@@ -47,7 +47,7 @@ def checked(function: Callable[P, T]) -> Callable[P, T]:
         except AttributeError as error:
             raise TypeError(f"{function.__name__}: {error}") from error
 
-    return behind_the_door
+    return checked_call
 
 
 def _check_of(parameter: inspect.Parameter) -> Check | None:
