@@ -74,9 +74,9 @@ class Plan(Mapping[str, Any]):
         """Sizes, expected work, and automatic simplifications."""
         nx, ny = self["grid"]["cells"]
         dx, dy = self["grid"]["spacing"]
-        unit = (self["case"].get("units") or {}).get("length", "")
+        cells = f"{nx} x {ny} cells of {dx:.4g} x {dy:.4g} {(self['case'].get('units') or {}).get('length', '')}"
         lines = [
-            f"Plan: {nx} x {ny} cells of {dx:.4g} x {dy:.4g}{unit and ' ' + unit}, {self['increments']} increments, {self['coupling']}",
+            f"Plan: {cells.rstrip()}, {self['increments']} increments, {self['coupling']}",
             f"  memory about {_amount(self['memory_bytes'])}, kept fields {_amount(self['kept_bytes'])}",
             f"  {self._expected()}",
         ]
