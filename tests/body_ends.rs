@@ -19,7 +19,7 @@ fn pressed(grid: &str, gap: &Array2<f64>) -> History {
          [profile.heights]\nvalues = {{ array = 0 }}\nof = \"gap\"\n[friction]\ncoefficient = 0.3\n[solver]\ntolerance = 1e-10\n\
          [[load]]\nnormal_force = 14.0\nincrements = 1\n[[load]]\ntangential_force = [1.5, 0.6]\nincrements = 2\n"
     );
-    solved_with(&text, &[gap.clone()])
+    solved_with(&text, std::slice::from_ref(gap))
 }
 
 /// The same pad with two rings of cells around it whose surface is out of reach: what was the way out before a body could end.
