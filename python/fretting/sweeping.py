@@ -5,7 +5,6 @@ import json
 import os
 import pickle
 import tomllib
-import warnings
 from collections.abc import Callable, Iterator, Mapping
 from concurrent.futures import BrokenExecutor, Executor, Future, ThreadPoolExecutor, as_completed
 from pathlib import Path
@@ -17,10 +16,11 @@ import numpy.typing as npt
 from fretting import _case, _core, _start, cycles
 from fretting._arguments import path
 from fretting._meaning import MEANING, described
-from fretting._points import RESERVED, Dimension, Draw, Parameters, Point, Table, dimensions, is_uncertain, points
+from fretting._measuring import UNMEASURED, Measuring, measured, measured_variable
+from fretting._points import Dimension, Draw, Parameters, Point, Table, dimensions, is_uncertain, points
 from fretting._progress import PointLine
 from fretting._sweep_folder import SweepFolder, with_files_in
-from fretting.errors import CaseError, FrettingWarning, OutOfMemoryError, RunError
+from fretting.errors import CaseError, OutOfMemoryError, RunError
 from fretting.history import History
 from fretting.simulation import ended
 
@@ -152,7 +152,7 @@ def sweep(
         settings["start"] = origin.digest()
     store = None if folder is None else SweepFolder(path("folder", folder), base, settings)
     answers: dict[tuple[int, ...], Table] = {}
-    measuring = _Measuring({name for one in found for name in (one.name, *one.coordinates)})
+    measuring = Measuring({name for one in found for name in (one.name, *one.coordinates)})
     if store:
         for point in asked:
             before = store.finished(point.case)
@@ -169,7 +169,7 @@ def sweep(
         in_common = _in_common(tasks, executor)
         for point, solved, lasting in _solved(open_points, tasks, executor, in_common):
             answer = measuring.judge(point, solved.answer, solved.failure)
-            if store and lasting and not answer["error"].startswith(_UNMEASURED):
+            if store and lasting and not answer["error"].startswith(UNMEASURED):
                 store.keep(point.case, answer)
             answers[point.place] = answer
             tell(point, answer)
@@ -193,51 +193,6 @@ def _refuse_where_nothing_is_solved(answers: list[Table]) -> None:
                         [tuple(mistake) for mistake in first["mistakes"]])  # fmt: skip
     first = next(answer for answer in answers if answer["status"] == "failed")
     raise RunError(f"none of the {len(answers)} points of the sweep is solved; the first failure:\n{first['error']}")
-
-
-_UNMEASURED = "measure: "
-"""What the message of a point begins with that is solved, but not measured."""
-
-
-class _Measuring:
-    """What `measure` gives, point by point: it must work at the first, and give everywhere what it gave there."""
-
-    def __init__(self, taken: set[str]) -> None:
-        self._taken = taken
-        self._shapes: dict[str, tuple[int, ...]] | None = None
-        self._failed: list[str] = []
-
-    def judge(self, point: Point, answer: Table, failure: Exception | None) -> Table:
-        """Return the answer of a point, without what is measured where that is of no use."""
-        if answer["status"] != "solved":
-            return answer
-        shapes = {name: np.shape(value) for name, value in answer["measured"].items()}
-        if failure is None:
-            for name in self._taken & set(shapes):
-                failure = ValueError(f"measure: the name {name!r} is taken by a parameter")
-            known = self._shapes or {}
-            for name in shapes:
-                if known.get(name, shapes[name]) != shapes[name]:
-                    before = f"{known[name]} at another point"
-                    failure = ValueError(f"measure: {name} has the shape {shapes[name]} here and {before}")
-        if failure is None:
-            self._shapes = {**shapes, **(self._shapes or {})}
-            return answer
-        if self._shapes is None:
-            failure.add_note(f"measure, at the first point that is solved: {point.name}")
-            raise failure
-        self._failed.append(f"{point.name}: {type(failure).__name__}: {failure}")
-        return {**answer, "measured": {}, "error": f"{_UNMEASURED}{type(failure).__name__}: {failure}"}
-
-    def warn(self, count: int) -> None:
-        """Say where nothing was measured."""
-        if self._failed:
-            warnings.warn(
-                f"measure failed at {len(self._failed)} of {count} points, which keep their other numbers; the first: "
-                f"{self._failed[0]}",
-                FrettingWarning,
-                stacklevel=3,
-            )
 
 
 def _fits_memory(asked: list[Point], executor: Executor | None) -> None:
@@ -349,10 +304,10 @@ def _solve(task: _Task, point: tuple[_core.InCommon, int] | None = None) -> _Sol
     except RunError as error:
         return _Solved({**nothing, "status": "failed", "error": str(error)})
     rows = _rows(history, task.asked.keep)
-    measured, failure = {}, None
+    found, failure = {}, None
     if task.asked.measure is not None:
         try:
-            measured = {name: _measured(name, value) for name, value in dict(task.asked.measure(history)).items()}
+            found = {name: measured(name, value) for name, value in dict(task.asked.measure(history)).items()}
         except Exception as error:  # a mistake of the function, not of the point
             failure = error
     answer = {
@@ -365,7 +320,7 @@ def _solve(task: _Task, point: tuple[_core.InCommon, int] | None = None) -> _Sol
             for name, column in history.cycles.items()
             if len(column) and column[-1] == column[-1]  # not a number: there is none
         },
-        "measured": measured,
+        "measured": found,
         "units": history._units,
     }
     return _Solved(answer, failure)
@@ -378,19 +333,6 @@ def _rows(history: History, keep: Keep) -> npt.NDArray[np.int64]:
         return np.asarray([len(history) - 1])
     stage = history.increments["stage"]
     return np.flatnonzero(np.append(stage[1:] != stage[:-1], True))
-
-
-def _measured(name: str, value: object) -> Any:
-    if name in MEANING or name.startswith("cycle_") or name in RESERVED:
-        raise ValueError(f"measure: the name {name!r} is taken")
-    array = np.asarray(value)
-    if array.dtype.kind == "U":
-        return array.tolist()
-    if array.dtype.kind not in "fiub":
-        raise TypeError(f"measure: {name} is no number, no text and no array of them, but {type(value).__name__}")
-    if not np.isfinite(array).all():
-        raise ValueError(f"measure: {name} is not finite everywhere")
-    return array.astype(np.float64).tolist()
 
 
 def _solved(
@@ -489,7 +431,7 @@ def _dataset(
                 table[place] = answer["cycle"][name]
         variables[f"cycle_{name}"] = (names, table, described(f"last cycle: {cycles.MEANING[name]}", units))
     for name in _all_names(answers, "measured"):
-        variables[name] = _measured_variable(name, names, shape, answers)
+        variables[name] = measured_variable(name, names, shape, answers)
     coordinates: dict[str, Any] = {}
     for dimension in found:
         for key, values in dimension.coordinates.items():
@@ -519,19 +461,6 @@ def _filled(shape: tuple[int, ...], sample: object) -> npt.NDArray[Any]:
     if isinstance(sample, int):
         return np.full(shape, -1, dtype=np.int64)
     return np.full(shape, np.nan)
-
-
-def _measured_variable(
-    name: str, names: tuple[str, ...], shape: tuple[int, ...], answers: dict[tuple[int, ...], Table]
-) -> Any:
-    values = {place: np.asarray(a["measured"][name]) for place, a in answers.items() if name in a["measured"]}
-    inner = next(iter(values.values())).shape
-    are_texts = any(value.dtype.kind == "U" for value in values.values())
-    table = np.full((*shape, *inner), "" if are_texts else np.nan, dtype=object if are_texts else np.float64)
-    for place, value in values.items():
-        table[place] = value
-    table = table.astype(str) if are_texts else table
-    return (*names, *(f"{name}_{number}" for number in range(len(inner)))), table
 
 
 def _import_xarray() -> Any:
