@@ -65,13 +65,14 @@ fn a_flat_pad_touches_to_its_edge() {
         format!(
             "[grid]\ncells = [16, 12]\nsize = [4.0, 3.0]\n{beyond}\n[upper]\nrigid = true\n[lower]\nsubstrate = {{ young = 1.0, poisson = 0.3 }}\n\
              [profile.heights]\nvalues = {:?}\n[friction]\ncoefficient = 0.3\n[[load]]\nnormal_force = 0.1\nincrements = 1\n\
-             [[load]]\nshift = [1.0, 0.0]\nincrements = 2\n",
+             [[load]]\nshift = [100.0, 0.0]\nincrements = 2\n",
             [[0.0; 12]; 16]
         )
     };
     let history = run(&text("beyond = \"no body\"")).unwrap();
     let end = history.steps.last().unwrap();
     assert_eq!((end.contact_cells, end.contact_area), (192, 12.0));
+    // Slip turns aside by the displacement across over the shift, here 2e-5, and the force is short by half its square.
     assert!((end.tangential_force[0] / 0.03 - 1.0).abs() < 1e-7, "{:?}", end.tangential_force);
     let refused = run(&text("")).unwrap_err();
     assert!(matches!(refused, RunError::ContactAtEdge { .. }));
