@@ -178,6 +178,7 @@ def test_displacements_of_both_surfaces_close_the_gap_and_follow_the_motion() ->
             upper=body,
             lower=body,
             friction={"coefficient": 0.5},
+            output={"fields": ["pressure", "shear", "slip", "gap", "zone"]},
             load=[{"normal_force": 0.01, "increments": 1}, {"tangential_force": [0.001, 0.0], "increments": 1}],
         )
     )
@@ -188,7 +189,9 @@ def test_displacements_of_both_surfaces_close_the_gap_and_follow_the_motion() ->
     together = (lower.displacement_z + upper.displacement_z).values[0]
     # The same coefficients and products of them: rounding.
     np.testing.assert_allclose(together, end["approach"] - r**2 / 200.0 + gap, atol=1e-9 * end["approach"])
-    np.testing.assert_allclose(lower.displacement_z, upper.displacement_z, atol=1e-9 * end["approach"])
+    # The shear on the upper body is opposite: what it lifts here it lowers on the other side.
+    mirrored = upper.displacement_z.values[:, :, ::-1]
+    np.testing.assert_allclose(lower.displacement_z, mirrored, atol=1e-9 * end["approach"])
     sticks = (history.field("zone").T == 1) & (history.field("slip_x").T == 0.0)
     apart = (lower.displacement_x - upper.displacement_x).values[0][sticks]
     assert sticks.sum() > 100

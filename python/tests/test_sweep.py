@@ -368,7 +368,7 @@ def test_a_sweep_without_a_solved_point_raises(case: dict[str, Any]) -> None:
         "grid": {"cells": [16, 16], "size": [1e-6, 1e-6]},
         "profile": {"heights": {"values": np.zeros((16, 16)).tolist()}},
     }
-    with pytest.raises(fretting.RunError, match=r"none of the 2 points .* edge of the grid"):
+    with pytest.raises(fretting.RunError, match=r"(?s)none of the 2 points .* edge of the grid"):
         fretting.sweep(beyond, {FRICTION: [0.2, 0.3]})
 
 
