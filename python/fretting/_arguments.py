@@ -25,7 +25,7 @@ Check = Callable[[str, Any], Any]
 def checked(function: Callable[P, T]) -> Callable[P, T]:
     """Let a function begin only when its arguments are of the kinds that its annotations say.
 
-    Keywords that are handed on to matplotlib are matplotlib's to judge: what it says of them becomes a ``TypeError``.
+    Keywords are handed on to matplotlib: what it refuses becomes a ``TypeError``.
     """
     signature = inspect.signature(function)
     checks = {name: check for name, entry in signature.parameters.items() if (check := _check_of(entry))}
@@ -51,7 +51,7 @@ def checked(function: Callable[P, T]) -> Callable[P, T]:
 
 
 def _check_of(parameter: inspect.Parameter) -> Check | None:
-    """Return what checks a parameter, by its annotation; None where the function judges it itself."""
+    """Return what checks a parameter, by its annotation; None where the function checks it itself."""
     annotation = parameter.annotation
     if parameter.kind in (parameter.VAR_KEYWORD, parameter.VAR_POSITIONAL) or annotation is parameter.empty:
         return None
@@ -83,7 +83,7 @@ def of_kind(name: str, value: object, kind: type[T]) -> T:
 
 
 def real(name: str, value: Any) -> float:
-    """Return a real number as a double; whether it is finite, and its range, are for those to judge that use it."""
+    """Return a real number as a double; whether it is finite, and its range, are checked by those that use it."""
     if value is np.ma.masked:
         raise ValueError(f"{name}: masked; what is under a mask is no number")
     if isinstance(value, _NO_NUMBERS) and not _is_scalar(value):
@@ -184,7 +184,7 @@ def path(name: str, value: Any) -> str | os.PathLike[str]:
     try:
         os.lstat(value)
     except (FileNotFoundError, NotADirectoryError, PermissionError):
-        pass  # for those to judge that read or write there
+        pass  # those say it that read or write there
     except (OSError, ValueError) as error:
         shown = os.fspath(value).encode("utf-8", "backslashreplace").decode()
         shown = shown if len(shown) < 80 else f"{shown[:60]}... ({len(shown)} letters)"

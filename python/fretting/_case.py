@@ -23,7 +23,7 @@ CaseLike: TypeAlias = str | os.PathLike[str] | Mapping[str, object]
 A ``str`` with a line break is TOML text, any other a path. In a mapping, NumPy arrays stand where heights or
 coefficients of friction are wanted for every cell: ``{"heights": {"values": array}}``,
 ``{"friction": {"map": array}}``, and ``friction`` of a stage. Relative names of files start at the folder of the case
-file; at the current folder for a text or a mapping. ``None`` in a mapping stands for a key that is not given.
+file; at the current folder for a text or a mapping. ``None`` in a mapping stands for an absent key.
 """
 
 Json: TypeAlias = bool | int | float | str | list["Json"] | dict[str, "Json"] | None

@@ -179,6 +179,7 @@ def identify(
         When a loop cannot be solved.
     """
     named = {"columns": {} if columns is None else columns, "units": {} if units is None else units}
-    asked = *(list(mapping(name, given).items()) for name, given in named.items()), cycle, fit
+    names_of, units_of = (list(mapping(name, given).items()) for name, given in named.items())
+    asked = names_of, units_of, cycle, fit
     json_text, page = _core.identify((str(log), content("log", log)), _case.read(case), asked, threads)
     return Identification(json.loads(json_text), page)

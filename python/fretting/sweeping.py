@@ -408,7 +408,7 @@ def _dataset(
         for place, answer in answers.items():
             column[place] = answer[name]
         variables[name] = (names, column.astype(str))
-    units = next((answer["units"] for answer in answers.values() if answer.get("units")), {})
+    units: dict[str, str] = next((answer["units"] for answer in answers.values() if answer.get("units")), {})
     extra = _LENGTH[keep]
     length = max((len(answer["steps"].get("increment", ())) for answer in answers.values()), default=0)
     for name in _all_names(answers, "steps"):
