@@ -135,7 +135,7 @@ def test_a_long_double_is_a_number() -> None:
 def test_a_name_that_no_file_can_have_is_unreadable(name: str) -> None:
     for opens in (fretting.plan, fretting.open_results, lambda log: fretting.identify(log, case=CASE)):
         with pytest.raises(fretting.UnreadableError):
-            opens(name)  # type: ignore[operator]
+            opens(name)
     with pytest.raises(fretting.UnreadableError):
         fretting.run(CASE, folder=name)
 
