@@ -8,6 +8,7 @@
 )]
 
 mod analytic_limits;
+mod body_ends;
 mod bulk_stress;
 mod certified;
 mod coated_limits;
@@ -15,6 +16,7 @@ mod coefficient_regimes;
 mod coefficient_tables;
 mod conduction;
 mod coupled_friction;
+mod elastic_energy;
 mod error_bars;
 mod evolving_friction;
 mod fretting_cycles;

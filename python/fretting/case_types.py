@@ -29,6 +29,12 @@ The one foundation that is not a substrate.
 """
 
 
+Beyond: TypeAlias = Literal["body", 'no body']
+"""
+What lies beyond the edge of the grid.
+"""
+
+
 CellsItem: TypeAlias = int
 
 
@@ -668,6 +674,11 @@ class Grid(TypedDict):
     The mesh of the potential contact area, centred on the first point of touch.
     """
 
+    beyond: NotRequired[Beyond]
+    """
+    What lies beyond the edge of the grid: "body" (contact that reaches the edge is refused) or "no body": one of the bodies
+    ends there with a sharp edge, as a flat punch does, and contact may reach it (a rough specimen, a rectangular pad). Default: "body".
+    """
     cells: Cells
     """
     Number of cells along x and y; a single number makes a line contact: plane strain across it, all loads per unit length.

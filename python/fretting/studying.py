@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 
 from fretting import _case, _core, _dataset
+from fretting._arguments import reals, wholes
 
 if TYPE_CHECKING:
     import xarray
@@ -80,7 +81,9 @@ def study(
         When the finest level cannot be solved.
     """
     module = _dataset.module("study")
-    resolutions = [int(n) for n in cells], [int(n) for n in increments], [float(t) for t in tolerances], against
+    resolutions = wholes("cells", cells), wholes("increments", increments), reals("tolerances", tolerances), against
+    if any(number < 1 for number in resolutions[0] + resolutions[1]):
+        raise ValueError(f"cells = {resolutions[0]}, increments = {resolutions[1]}: must be positive")
     answer = json.loads(_core.study(_case.read(case), resolutions, threads, progress))
     levels = [(line["refined"], level) for line in answer["lines"] for level in line["levels"]]
 

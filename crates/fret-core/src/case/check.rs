@@ -3,6 +3,7 @@
 use toml::Spanned;
 
 use super::attachments::Attachments;
+use super::beyond::beyond;
 use super::bodies::bodies;
 use super::conduction::conduction;
 use super::course::Stage;
@@ -74,6 +75,7 @@ pub(super) fn case(
     let friction_evolution = evolution(&mut judge, file.friction.as_ref(), friction.as_ref(), evolving);
     let loading = (&file.load, stages.as_deref());
     let datum = datum(&mut judge, &file.grid, (is_line, size), bodies.as_ref());
+    let beyond = beyond(&mut judge, &file.grid, size);
     if is_line {
         line(&mut judge, &file.grid, loading, profile.as_ref());
         motion_without_datum(&mut judge, &file.grid, size, stages.as_deref(), bodies.as_ref());
@@ -122,6 +124,7 @@ pub(super) fn case(
             cells,
             size,
             datum,
+            beyond,
             periodic,
             bodies,
             residual_stress,

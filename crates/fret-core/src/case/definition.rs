@@ -8,7 +8,7 @@ use super::refusal::{CaseError, Difference, Mistake};
 use super::stress::StressRequest;
 use super::units::Units;
 use crate::model::{
-    Conduction, ContactPair, CoulombFriction, FrictionEvolution, Integration, LoadStep, Profile,
+    Beyond, Conduction, ContactPair, CoulombFriction, FrictionEvolution, Integration, LoadStep, Profile,
     ResidualStress, Rig, Scheme, WearRule,
 };
 use crate::subsurface::fatigue::LayerConstants;
@@ -28,6 +28,9 @@ pub struct Case {
     /// Depth below the load that approach and shift of a line contact are relative to \[length\]; `None`: the size of the grid.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub datum: Option<f64>,
+    /// What lies beyond the edge of the grid.
+    #[serde(skip_serializing_if = "Beyond::is_body")]
+    pub beyond: Beyond,
     /// Whether the problem is periodic in x and y.
     pub periodic: bool,
     /// The two bodies.

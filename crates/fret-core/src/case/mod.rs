@@ -4,6 +4,7 @@ mod along;
 mod arrays;
 mod attachments;
 mod axis;
+mod beyond;
 mod bodies;
 mod body_file;
 pub(crate) mod check;

@@ -109,11 +109,13 @@ fn endless(judge: &mut Judge, grid: &GridFile, profile: &Profile) {
         return;
     }
     for (axis, name) in ["x", "y"].into_iter().enumerate() {
-        if profile.is_straight_along(axis) {
+        let ends = grid.beyond.as_ref().is_some_and(|beyond| !beyond.get_ref().is_body());
+        if profile.is_straight_along(axis) && !ends {
             judge.refuse::<()>(
                 grid.cells.span(),
                 format!("profile: infinite along {name}, in a non-periodic case"),
-                "a cylinder's length = ..., or grid.periodic = true with a period many contact widths wide",
+                "a cylinder's length = ..., grid.beyond = \"no body\" where it ends at the edge of the grid, or grid.periodic = true with a \
+                 period many contact widths wide",
             );
         }
     }

@@ -60,6 +60,9 @@ pub struct StepRecord {
     /// Energy dissipated by friction since the start [force x length]. Where a computed cycle stands for several, its last increment has the
     /// work of all of them.
     pub dissipated_energy: f64,
+    /// Elastic energy that the tractions of the contact store in both bodies and the interface [force x length], of a line contact relative
+    /// to the datum. What the springs of a rig store is not in it.
+    pub elastic_energy: f64,
     /// Volume worn off since the start, by all cycles that computed ones stand for [length^3].
     pub worn_volume: f64,
     /// Largest worn depth [length].

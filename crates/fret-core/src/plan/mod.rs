@@ -54,7 +54,8 @@ pub struct Plan {
     pub leave_out: LeaveOut,
     /// What is left out.
     pub left_out: Vec<LeftOut>,
-    /// The contact that is expected under the heaviest load; `None` where only the run can tell: on rough and on periodic surfaces.
+    /// The contact that is expected under the heaviest load; `None` where only the run can tell: on rough and on periodic surfaces, and
+    /// where a body ends with the grid.
     pub expected: Option<ExpectedContact>,
     /// Increments of the whole history.
     pub increments: usize,
@@ -102,7 +103,11 @@ impl Plan {
         } else {
             Coupling::Coupled
         };
-        let expected = if case.periodic { Err(Unexpected::NoContact) } else { expected_contact(&case) };
+        let expected = if case.periodic || !case.beyond.is_body() {
+            Err(Unexpected::NoContact)
+        } else {
+            expected_contact(&case)
+        };
         let size = match case.size {
             GridSize::Given(size) => size,
             GridSize::Auto => match start.as_deref().and_then(Start::spacing) {
@@ -140,11 +145,12 @@ impl Plan {
             ));
         }
         let is_given = matches!(case.size, GridSize::Given(_)) || start.is_some();
-        if is_given && !case.periodic && reaches_beyond(&case, size) {
+        if is_given && !case.periodic && case.beyond.is_body() && reaches_beyond(&case, size) {
             let message = format!(
                 "grid.size = {size:?}: the contact under the heaviest load reaches the edge of the grid"
             );
-            return Err(case.refuse_size(message, "enlarge it, or write size = \"auto\""));
+            let way = "enlarge it, or write size = \"auto\"; beyond = \"no body\" where a body ends at the edge of the grid";
+            return Err(case.refuse_size(message, way));
         }
         let has_datum = case.is_line() && case.bodies.has_elastic_base();
         let datum = has_datum.then(|| case.datum.unwrap_or(size[0]));

@@ -278,7 +278,7 @@ impl Gauge {
         }
         look(Concern::ComplianceSpread, &mut self.spread.into_iter());
         look(Concern::FrictionChangesInOneCycle, &mut self.friction_change.into_iter());
-        if !plan.case.periodic {
+        if !plan.case.periodic && plan.case.beyond.is_body() {
             look(Concern::ContactNearEdge, &mut touching().map(|end| (end.free as f64, end.stage)));
         }
         found.extend(self.rings.warning(plan));

@@ -159,6 +159,7 @@ impl<'a> Simulation<'a> {
         .with_shear_axis(plan.along)
         .with_bulk(BulkCompliance::of(&case.bodies, case.is_line()))
         .with_rig(case.springs())
+        .with_beyond(case.beyond)
         .with_symmetry(plan.symmetry);
         let solver = if plan.grid.len() < GIVES_BACK {
             solver

@@ -67,7 +67,7 @@ impl ClosedForm {
         let case = &plan.case;
         let tilts = case.tilts(0) || case.tilts(1);
         let changes = case.wear.is_some() || case.is_open_ended() || tilts;
-        if case.periodic || changes || plan.coupling == Coupling::Coupled {
+        if case.periodic || !case.beyond.is_body() || changes || plan.coupling == Coupling::Coupled {
             return None;
         }
         let moduli = moduli(plan)?;
