@@ -311,6 +311,7 @@ pub(super) fn sliding(
     (laws, strongest): (&[&CoulombFriction], Option<&CoulombFriction>),
     list: &Spanned<Vec<Spanned<StageFile>>>,
     stages: &[Stage],
+    way_out: &str,
 ) {
     let friction: Vec<&CoulombFriction> = laws.iter().map(|law| strongest.unwrap_or(law)).collect();
     let mut worst: Vec<(f64, f64)> = vec![(0.0, f64::INFINITY); stages.len()];
@@ -355,7 +356,7 @@ pub(super) fn sliding(
                 format!(
                     "load[{index}] ({name}).{key}: the tangential force reaches {asked}{unit}, where friction carries at most mu P = {bound}{unit}"
                 ),
-                "a force above mu P has no equilibrium; prescribe the shift to slide",
+                &format!("a force above mu P has no equilibrium; {way_out}"),
             );
             return;
         }

@@ -5,31 +5,34 @@ use std::ops::Range;
 
 use toml::Spanned;
 
+use super::heading::Heading;
 use super::judge::Judge;
+use super::known_units::{Conversion, UnitError, conversion, is_unit, known_units};
+use super::numbers::{NoNumber, is_comment, number};
 use super::stage_file::StageFile;
 use super::units::Units;
 
-/// Controls a column can hold, by the names of `history.csv`.
-pub(super) const COLUMNS: [&str; 19] = [
-    "normal_force",
-    "approach",
-    "tangential_force_x",
-    "tangential_force_y",
-    "shift_x",
-    "shift_y",
-    "twist_moment",
-    "twist",
-    "tilt_moment_x",
-    "tilt_moment_y",
-    "tilt_x",
-    "tilt_y",
-    "bulk_stress_x",
-    "bulk_stress_y",
-    "upper_bulk_stress_x",
-    "upper_bulk_stress_y",
-    "actuator_x",
-    "actuator_y",
-    "actuator_approach",
+/// Controls a column can hold, by the names of `history.csv`, and what kind of quantity each is in a point contact.
+pub(super) const CONTROLS: [(&str, &str); 19] = [
+    ("normal_force", "force"),
+    ("approach", "length"),
+    ("tangential_force_x", "force"),
+    ("tangential_force_y", "force"),
+    ("shift_x", "length"),
+    ("shift_y", "length"),
+    ("twist_moment", "force x length"),
+    ("twist", "rad"),
+    ("tilt_moment_x", "force x length"),
+    ("tilt_moment_y", "force x length"),
+    ("tilt_x", "-"),
+    ("tilt_y", "-"),
+    ("bulk_stress_x", "pressure"),
+    ("bulk_stress_y", "pressure"),
+    ("upper_bulk_stress_x", "pressure"),
+    ("upper_bulk_stress_y", "pressure"),
+    ("actuator_x", "length"),
+    ("actuator_y", "length"),
+    ("actuator_approach", "length"),
 ];
 
 /// Where the actuator along x and y stands among them.
@@ -47,7 +50,16 @@ const MOST_ROWS: usize = 1_000_000;
 /// Values of the controls, each in the order of the rows.
 pub(super) type Columns = BTreeMap<&'static str, Vec<f64>>;
 
-/// The table of a stage; `None` when it was refused.
+/// A chosen column: its control, where it stands, its name, and how its numbers become those of the case.
+struct Chosen {
+    control: usize,
+    index: usize,
+    name: String,
+    unit: Option<String>,
+    conversion: Conversion,
+}
+
+/// The table of a stage, in the units of the case; `None` when it was refused.
 pub(super) fn table(
     judge: &mut Judge,
     place: &str,
@@ -55,40 +67,50 @@ pub(super) fn table(
     name: &Spanned<String>,
 ) -> Option<Columns> {
     let text = judge.attached_text(&format!("{place}.table"), name)?;
-    let text = text.strip_prefix('\u{feff}').unwrap_or(&text);
     let at = Words { place: format!("{place}.table {:?}", name.get_ref()), span: name.span() };
-    let head = text.lines().find(|line| !line.trim().is_empty() && !line.starts_with('#')).unwrap_or("");
-    let delimiter = [';', '\t'].into_iter().find(|&mark| head.contains(mark)).unwrap_or(',');
-    let mut reader = csv::ReaderBuilder::new()
-        .delimiter(delimiter as u8)
-        .comment(Some(b'#'))
-        .trim(csv::Trim::All)
-        .from_reader(text.as_bytes());
+    let Layout { delimiter, line: head_line, text } = layout(&text);
+    let decimal_comma = delimiter != b',';
+    let mut reader = csv::ReaderBuilder::new().delimiter(delimiter).trim(csv::Trim::All).from_reader(text.as_bytes());
     let names: Vec<String> = match reader.headers() {
-        // a table of results has units in its head
-        Ok(names) => names.iter().map(|name| column_name(name).to_owned()).collect(),
+        Ok(names) => names.iter().map(str::to_owned).collect(),
         Err(error) => return at.refuse(judge, &unreadable(&error), ""),
     };
-    let chosen = chosen(judge, file, &names, &at)?;
-    let mut columns: Columns = chosen.iter().map(|&(control, _)| (control, Vec::new())).collect();
+    let mut chosen = chosen(judge, file, &names, &at, head_line)?;
+    let mut columns: Columns = chosen.iter().map(|column| (CONTROLS[column.control].0, Vec::new())).collect();
+    let (mut is_first, mut decimals) = (true, Decimals::default());
     for row in reader.records() {
         let row = match row {
             Ok(row) => row,
-            Err(error) => return at.refuse(judge, &unreadable(&error), ""),
+            Err(error) => {
+                let help = if delimiter == b',' && is_longer(&error) { DECIMAL_COMMAS } else { "" };
+                return at.refuse(judge, &unreadable(&error), help);
+            }
         };
         let line = row.position().map_or(0, csv::Position::line);
-        for &(control, index) in &chosen {
-            let cell = row.get(index).unwrap_or("");
-            match cell.parse::<f64>() {
-                Ok(value) if value.is_finite() => {
-                    if let Some(column) = columns.get_mut(control) {
-                        column.push(value);
-                    }
-                }
-                _ => {
-                    let message =
-                        format!("line {line}, column {:?}: {cell:?} is no finite number", names[index]);
-                    return at.refuse(judge, &message, "");
+        if row.iter().all(str::is_empty) {
+            continue;
+        }
+        if is_first && units_below(&row, &mut chosen) {
+            is_first = false;
+            continue;
+        }
+        if is_first {
+            convert(judge, &at, head_line, &mut chosen)?;
+            is_first = false;
+        }
+        for column in &chosen {
+            let cell = row.get(column.index).unwrap_or("");
+            let found = decimals.seen(cell).and_then(|()| number(cell, decimal_comma));
+            let found = found.map(|value| column.conversion.of(value)).and_then(|value| {
+                if value.is_finite() { Ok(value) } else { Err(NoNumber::NotFinite) }
+            });
+            match (found, columns.get_mut(CONTROLS[column.control].0)) {
+                (Ok(value), Some(values)) => values.push(value),
+                (Ok(_), None) => {}
+                (Err(why), _) => {
+                    let help = if why == NoNumber::CommaAndPoint { DECIMAL_COMMAS } else { "" };
+                    let message = format!("line {line}, column {:?}: {cell:?} {why}", column.name);
+                    return at.refuse(judge, &message, help);
                 }
             }
         }
@@ -101,10 +123,100 @@ pub(super) fn table(
     Some(columns)
 }
 
-/// The name of a column: of one of the controls without the unit that may stand behind it.
-fn column_name(head: &str) -> &str {
-    let name = Units::name_of(head);
-    if COLUMNS.contains(&name) { name } else { head }
+const DECIMAL_COMMAS: &str = "write decimal points; or decimal commas, with semicolons or tabs between the columns";
+
+/// Decimal points and decimal commas of a table, of which there may be one kind.
+#[derive(Default)]
+struct Decimals {
+    comma: bool,
+    point: bool,
+}
+
+impl Decimals {
+    fn seen(&mut self, cell: &str) -> Result<(), NoNumber> {
+        self.comma |= cell.contains(',');
+        self.point |= cell.contains('.') && !cell.starts_with("1.#");
+        if self.comma && self.point { Err(NoNumber::CommaAndPoint) } else { Ok(()) }
+    }
+}
+
+/// Where a table begins.
+struct Layout {
+    delimiter: u8,
+    /// Line of the head, from 1.
+    line: usize,
+    /// The table from its head on, its comments as empty lines.
+    text: String,
+}
+
+/// Finds the head of a table: its first line that is no comment, or where that is a line of numbers, the comment above it.
+fn layout(text: &str) -> Layout {
+    let delimiter_of = |line: &str| [';', '\t'].into_iter().find(|&mark| line.contains(mark)).unwrap_or(',');
+    let words = |line: &str| line.split(delimiter_of(line)).map(|cell| cell.trim().to_owned()).collect::<Vec<String>>();
+    let is_of_numbers = |line: &str| words(line).iter().all(|cell| number(cell, true).is_ok());
+    let plain = |line: &str| !line.trim().is_empty() && !is_comment(line);
+    // a semicolon that begins a line makes it a comment where semicolons part nothing
+    let parts = |line: &str| line.trim_start_matches(';').contains(';');
+    let semicolons_part = text.lines().find(|line| plain(line) && !line.starts_with(';')).is_some_and(parts);
+    let is_row = |line: &str| plain(line) && (semicolons_part || !line.starts_with(';'));
+    let lines: Vec<&str> = text.lines().collect();
+    let first = lines.iter().position(|line| is_row(line)).unwrap_or(lines.len());
+    let above = lines[..first].iter().rposition(|line| !line.trim().is_empty());
+    let commented = above.filter(|&above| {
+        let [head, row] = [above, first].map(|at| lines.get(at).map_or(0, |line| words(line).len()));
+        lines.get(first).is_some_and(|line| is_of_numbers(line)) && head == row
+    });
+    let head = commented.unwrap_or(first);
+    let mut table = "\n".repeat(head);
+    for (at, line) in lines.iter().enumerate().skip(head) {
+        if at == head {
+            table.push_str(line.trim_start().trim_start_matches(['#', '%', '!', '/']));
+        } else if is_row(line) {
+            table.push_str(line);
+        }
+        table.push('\n');
+    }
+    Layout { delimiter: delimiter_of(lines.get(head).unwrap_or(&"")) as u8, line: head + 1, text: table }
+}
+
+/// Takes the units of a row below the head, where every chosen cell of it is a unit and no number.
+fn units_below(row: &csv::StringRecord, chosen: &mut [Chosen]) -> bool {
+    let unit = |column: &Chosen| {
+        let cell = row.get(column.index).unwrap_or("");
+        let inside = cell.strip_prefix('[').and_then(|cell| cell.strip_suffix(']'));
+        let inside = inside.or_else(|| cell.strip_prefix('(').and_then(|cell| cell.strip_suffix(')')));
+        let is_unit = number(cell, true) == Err(NoNumber::Other) && (inside.is_some() || is_unit(cell));
+        is_unit.then(|| inside.unwrap_or(cell).trim().to_owned())
+    };
+    let units: Option<Vec<String>> = chosen.iter().map(unit).collect();
+    let Some(units) = units else { return false };
+    for (column, unit) in chosen.iter_mut().zip(units) {
+        column.unit = Some(unit);
+    }
+    true
+}
+
+/// Finds how the numbers of each column become those of the case; `None` when a unit was refused.
+fn convert(judge: &mut Judge, at: &Words, line: usize, chosen: &mut [Chosen]) -> Option<()> {
+    for column in chosen {
+        let Some(unit) = &column.unit else { continue };
+        let (control, kind) = CONTROLS[column.control];
+        let kind = if judge.is_line { Units::per_length(kind) } else { kind };
+        match conversion(unit, kind, judge.units.as_ref()) {
+            Ok(conversion) => column.conversion = conversion,
+            Err(error) => {
+                let message = format!("line {line}, column {:?}: {control} in {error}", column.name);
+                let help = match error {
+                    UnitError::CaseWithout(_) => {
+                        "[units] length = \"mm\", force = \"N\" says what the case is in; without it units of SI without a prefix are taken"
+                    }
+                    _ => known_units(kind),
+                };
+                return at.refuse(judge, &message, help);
+            }
+        }
+    }
+    Some(())
 }
 
 /// Why a row cannot be read.
@@ -123,50 +235,57 @@ fn unreadable(error: &csv::Error) -> String {
     }
 }
 
+/// Whether a row has more cells than the head.
+fn is_longer(error: &csv::Error) -> bool {
+    matches!(error.kind(), csv::ErrorKind::UnequalLengths { expected_len, len, .. } if len > expected_len)
+}
+
 /// Which column of the file holds which control.
 fn chosen(
     judge: &mut Judge,
     file: &StageFile,
     names: &[String],
     at: &Words,
-) -> Option<Vec<(&'static str, usize)>> {
-    let control_of = |word: &str| COLUMNS.into_iter().find(|control| *control == word);
-    let mut chosen = Vec::new();
+    line: usize,
+) -> Option<Vec<Chosen>> {
+    let controls = || CONTROLS.map(|(name, _)| name).join(", ");
+    let control_of = |word: &str| CONTROLS.iter().position(|(control, _)| *control == word);
+    let mut headings: Vec<Option<Heading>> = names.iter().map(|name| Heading::of(name)).collect();
+    let mut found: Vec<(usize, usize)> = Vec::new();
     if let Some(given) = &file.columns {
         for (control, column) in given {
             let Some(known) = control_of(control.get_ref()) else {
                 let message = format!("{}: no control is called {:?}", at.place, control.get_ref());
-                return judge.refuse(
-                    control.span(),
-                    message,
-                    &format!("controls are: {}", COLUMNS.join(", ")),
-                );
+                return judge.refuse(control.span(), message, &format!("controls are: {}", controls()));
             };
-            let Some(index) = names.iter().position(|name| name == column.get_ref()) else {
-                let message =
-                    format!("{}: no column {:?}; it has: {}", at.place, column.get_ref(), names.join(", "));
+            let wanted = column.get_ref();
+            let whole = names.iter().position(|name| name == wanted);
+            let without_unit = |heading: &Option<Heading>| heading.as_ref().is_some_and(|heading| heading.name == *wanted);
+            let Some(index) = whole.or_else(|| headings.iter().position(without_unit)) else {
+                let message = format!("{}: no column {wanted:?}; it has: {}", at.place, names.join(", "));
                 return judge.refuse(column.span(), message, "");
             };
-            chosen.push((known, index));
+            found.push((known, index));
         }
     } else {
         for (index, name) in names.iter().enumerate() {
-            let Some(known) = control_of(name) else {
+            let Some(heading) = &headings[index] else { return at.unclosed(judge, line, name) };
+            let Some(known) = control_of(&heading.name) else {
                 let message = format!("column {name:?} is no control");
                 let help = format!(
                     "controls are: {}; columns of other names are chosen with columns = {{ shift_x = {name:?} }}",
-                    COLUMNS.join(", ")
+                    controls()
                 );
                 return at.refuse(judge, &message, &help);
             };
-            chosen.push((known, index));
+            found.push((known, index));
         }
     }
     for rivals in RIVALS {
         let there: Vec<&str> = rivals
             .iter()
-            .flat_map(|&rival| chosen.iter().filter(move |(known, _)| *known == COLUMNS[rival]))
-            .map(|(known, _)| *known)
+            .flat_map(|&rival| found.iter().filter(move |(known, _)| *known == rival))
+            .map(|(known, _)| CONTROLS[*known].0)
             .collect();
         if let [one, other, ..] = there[..] {
             let message = if one == other {
@@ -177,8 +296,14 @@ fn chosen(
             return at.refuse(judge, &message, "");
         }
     }
-    if chosen.is_empty() {
-        return at.refuse(judge, "no column", &format!("controls are: {}", COLUMNS.join(", ")));
+    if found.is_empty() {
+        return at.refuse(judge, "no column", &format!("controls are: {}", controls()));
+    }
+    let mut chosen = Vec::new();
+    for (control, index) in found {
+        let name = names[index].clone();
+        let Some(heading) = headings[index].take() else { return at.unclosed(judge, line, &name) };
+        chosen.push(Chosen { control, index, name, unit: heading.unit, conversion: Conversion::NONE });
     }
     Some(chosen)
 }
@@ -192,6 +317,11 @@ struct Words {
 impl Words {
     fn refuse<T>(&self, judge: &mut Judge, message: &str, help: &str) -> Option<T> {
         judge.refuse(self.span.clone(), format!("{}: {message}", self.place), help)
+    }
+
+    fn unclosed<T>(&self, judge: &mut Judge, line: usize, name: &str) -> Option<T> {
+        let message = format!("line {line}, column {name:?}: a bracket that is not closed, or closed twice");
+        self.refuse(judge, &message, "a name and its unit are written like normal_force [N]")
     }
 }
 

@@ -141,7 +141,7 @@ impl Plan {
             let message = format!(
                 "grid.size = {size:?}: the contact under the heaviest load reaches the edge of the grid"
             );
-            return Err(case.refuse_size(message, "enlarge it, or write size = \"auto\""));
+            return Err(case.refuse_size(message, case.way_from_the_edge()));
         }
         let has_datum = case.is_line() && case.bodies.has_elastic_base();
         let datum = has_datum.then(|| case.datum.unwrap_or(size[0]));

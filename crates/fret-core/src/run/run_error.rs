@@ -28,17 +28,19 @@ pub enum RunError {
     },
     /// The contact reaches the edge of the grid.
     #[error(
-        "increment {increment} ({stage}): the contact reaches the edge of the grid; enlarge grid.size, or write size = \"auto\""
+        "increment {increment} ({stage}): the contact reaches the edge of the grid; {advice}"
     )]
     ContactAtEdge {
         /// Number of the increment, from 0.
         increment: usize,
         /// Name of its stage.
         stage: String,
+        /// What to try.
+        advice: &'static str,
     },
     /// A tangential load above what friction carries.
     #[error(
-        "increment {increment} ({stage}): tangential force {}{unit} is above mu P = {}{unit}: no equilibrium; prescribe the shift to slide",
+        "increment {increment} ({stage}): tangential force {}{unit} is above mu P = {}{unit}: no equilibrium; {advice}",
         apart(*asked, *bound)[0], apart(*asked, *bound)[1]
     )]
     AboveSliding {
@@ -52,6 +54,8 @@ pub enum RunError {
         bound: f64,
         /// A space and the unit of both; empty where the case declares no units.
         unit: String,
+        /// What to try.
+        advice: &'static str,
     },
     /// Tangential force and moment together above what friction carries.
     #[error(
@@ -179,13 +183,16 @@ pub fn run_error(error: &SolveError, increment: usize, case: &Case, stage: usize
             advice: "try more increments in this stage, or a larger solver.tolerance".to_owned(),
         },
         SolveError::AboveSliding { asked, bound } => {
-            RunError::AboveSliding { increment, stage, asked, bound, unit: unit("force") }
+            let advice = case.way_to_slide();
+            RunError::AboveSliding { increment, stage, asked, bound, unit: unit("force"), advice }
         }
         SolveError::AboveFullSlip { fraction } => RunError::AboveFullSlip { increment, stage, fraction },
         SolveError::NoTilt { asked, reached } => {
             RunError::NoTilt { increment, stage, asked, reached, unit: unit("force x length") }
         }
-        SolveError::ContactAtEdge => RunError::ContactAtEdge { increment, stage },
+        SolveError::ContactAtEdge => {
+            RunError::ContactAtEdge { increment, stage, advice: case.way_from_the_edge() }
+        }
         SolveError::OperatorsMissing(error) => RunError::NotConverged {
             increment,
             stage,
