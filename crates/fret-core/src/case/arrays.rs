@@ -123,7 +123,7 @@ fn listed(
             return judge.refuse(
                 span,
                 format!("{place}: {why}"),
-                "points x, y, value (in a line contact x, value) fill the cells of the grid, one a cell, in any order; each within a tenth \
+                "points x, y, value (in a line contact x, value) fill the cells of the grid, one per cell, in any order; each within a tenth \
                  of the spacing",
             );
         }
@@ -133,7 +133,9 @@ fn listed(
         let sides: Vec<String> = spacing
             .iter()
             .zip(count)
-            .filter_map(|(spacing, count)| spacing.map(|spacing| format!("{:?}", points::figures(spacing * count as f64))))
+            .filter_map(|(spacing, count)| {
+                spacing.map(|spacing| format!("{:?}", points::figures(spacing * count as f64)))
+            })
             .collect();
         let sides = if let [one] = &sides[..] { one.clone() } else { format!("[{}]", sides.join(", ")) };
         return judge.refuse(

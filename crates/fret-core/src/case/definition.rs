@@ -125,7 +125,8 @@ impl GridSize {
 impl Case {
     /// What helps a contact that reaches the edge of the grid: heights end there, and neither they nor a map grow with it.
     pub(crate) fn way_from_the_edge(&self) -> &'static str {
-        let has_map = self.friction.is_map() || self.stages.iter().filter_map(|stage| stage.friction.as_ref()).any(CoulombFriction::is_map);
+        let has_map = self.friction.is_map()
+            || self.stages.iter().filter_map(|stage| stage.friction.as_ref()).any(CoulombFriction::is_map);
         if !self.profile.heights.is_empty() {
             "the heights end there: grid.periodic = true lets the surface repeat; or a lower load, heights of a larger area, or a rim that lies lower"
         } else if has_map {

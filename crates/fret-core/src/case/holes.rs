@@ -4,8 +4,22 @@ use ndarray::Array2;
 
 /// Numbers that stand for a cell without a measurement: ends of whole numbers, and rows of nines.
 const MARKS: [f64; 16] = [
-    -999.0, 999.0, -9999.0, 9999.0, -99_999.0, 99_999.0, 32_767.0, -32_767.0, -32_768.0, 65_535.0, 2_147_483_647.0, -2_147_483_648.0,
-    2_147_483_640.0, 4_294_967_295.0, 1e10, -1e10,
+    -999.0,
+    999.0,
+    -9999.0,
+    9999.0,
+    -99_999.0,
+    99_999.0,
+    32_767.0,
+    -32_767.0,
+    -32_768.0,
+    65_535.0,
+    2_147_483_647.0,
+    -2_147_483_648.0,
+    2_147_483_640.0,
+    4_294_967_295.0,
+    1e10,
+    -1e10,
 ];
 /// Numbers that no height is, whatever its unit: those of 1e30 and more, of which single precision has the largest, 3.4e38.
 const HUGE: f64 = 1e30;
@@ -22,7 +36,9 @@ pub(super) fn hole(heights: &Array2<f64>) -> Option<([usize; 2], f64, [f64; 2])>
         }
         asked.push(mark);
         let others = heights.iter().filter(|value| **value != mark && !(is_huge(**value) && is_huge(mark)));
-        let range = others.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], &value| [low.min(value), high.max(value)]);
+        let range = others.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], &value| {
+            [low.min(value), high.max(value)]
+        });
         let away = (range[0] - mark).max(mark - range[1]);
         if range[0] <= range[1] && away > range[1] - range[0] {
             return Some(([i, j], mark, range));
@@ -49,7 +65,9 @@ mod tests {
             heights[[4, 2]] = mark;
             hole(&heights).map(|(at, value, _)| (at, value))
         };
-        for mark in [1e38, -1.70141e38, 3.402_823_466e38, 1e10, -9999.0, 2_147_483_640.0, -32_768.0, -999.0, 1e31] {
+        for mark in
+            [1e38, -1.70141e38, 3.402_823_466e38, 1e10, -9999.0, 2_147_483_640.0, -32_768.0, -999.0, 1e31]
+        {
             assert_eq!(rough(mark), Some(([4, 2], mark)));
         }
         for height in [0.0, -5.0, 1e3, -9998.0, 1e9, 12345.0] {

@@ -6,8 +6,20 @@ use super::units::Units;
 
 /// Powers of ten of prefixes.
 const PREFIXES: [(&str, i32); 14] = [
-    ("", 0), ("T", 12), ("G", 9), ("M", 6), ("k", 3), ("h", 2), ("da", 1), ("d", -1), ("c", -2), ("m", -3), ("u", -6), ("µ", -6),
-    ("μ", -6), ("n", -9),
+    ("", 0),
+    ("T", 12),
+    ("G", 9),
+    ("M", 6),
+    ("k", 3),
+    ("h", 2),
+    ("da", 1),
+    ("d", -1),
+    ("c", -2),
+    ("m", -3),
+    ("u", -6),
+    ("µ", -6),
+    ("μ", -6),
+    ("n", -9),
 ];
 
 /// A unit as a number of those of SI, `mantissa 10^power m^length N^force`; angles are numbers, in radians.
@@ -149,7 +161,8 @@ impl Conversion {
 
     /// The number in the other unit. Powers of ten divide where they make it smaller: 3 um are 0.003 mm to the last digit.
     pub fn of(self, value: f64) -> f64 {
-        let scaled = if self.power < 0 { value / 10_f64.powi(-self.power) } else { value * 10_f64.powi(self.power) };
+        let scaled =
+            if self.power < 0 { value / 10_f64.powi(-self.power) } else { value * 10_f64.powi(self.power) };
         scaled * self.mantissa
     }
 }
@@ -191,7 +204,9 @@ pub fn conversion(word: &str, kind: &str, units: Option<&Units>) -> Result<Conve
         Some(units) => {
             let own = symbol(&units.length).zip(symbol(&units.force));
             let (length, force) = own
-                .filter(|(length, force)| [length.length, length.force, force.length, force.force] == [1, 0, 0, 1])
+                .filter(|(length, force)| {
+                    [length.length, length.force, force.length, force.force] == [1, 0, 0, 1]
+                })
                 .or_else(|| alone(units, wanted))
                 .ok_or_else(|| UnitError::CaseUnknown(word.to_owned(), units.of(kind)))?;
             length.to_the(wanted[0]).times(force.to_the(wanted[1]))
@@ -211,8 +226,12 @@ pub(super) fn is_unit(word: &str) -> bool {
 fn alone(units: &Units, [length, force]: [i32; 2]) -> Option<(Known, Known)> {
     let one = known(1.0, 0, 0, 0);
     match [length, force] {
-        [1, 0] => symbol(&units.length).filter(|unit| [unit.length, unit.force] == [1, 0]).map(|unit| (unit, one)),
-        [0, 1] => symbol(&units.force).filter(|unit| [unit.length, unit.force] == [0, 1]).map(|unit| (one, unit)),
+        [1, 0] => {
+            symbol(&units.length).filter(|unit| [unit.length, unit.force] == [1, 0]).map(|unit| (unit, one))
+        }
+        [0, 1] => {
+            symbol(&units.force).filter(|unit| [unit.length, unit.force] == [0, 1]).map(|unit| (one, unit))
+        }
         _ => None,
     }
 }
@@ -294,7 +313,10 @@ mod tests {
             ("kN", "force", "foo", "N", 1e3),
         ] {
             let found = factor(word, kind, length, force).unwrap_or(f64::NAN);
-            assert!((found / right - 1.0).abs() < 1e-9, "{word} of {kind} in {length}, {force}: {found}, {right}");
+            assert!(
+                (found / right - 1.0).abs() < 1e-9,
+                "{word} of {kind} in {length}, {force}: {found}, {right}"
+            );
         }
     }
 
@@ -302,7 +324,9 @@ mod tests {
     fn a_prefix_moves_the_point_and_nothing_else() {
         let um = conversion("um", "length", Some(&Units::new("mm", "N"))).unwrap();
         let kilo = conversion("kN", "force", Some(&Units::new("mm", "N"))).unwrap();
-        for (moved, right) in [(um.of(3.0), 0.003), (um.of(-0.7), -0.0007), (kilo.of(0.005), 5.0), (um.of(0.0), 0.0)] {
+        for (moved, right) in
+            [(um.of(3.0), 0.003), (um.of(-0.7), -0.0007), (kilo.of(0.005), 5.0), (um.of(0.0), 0.0)]
+        {
             assert_eq!(moved, right);
         }
         assert_eq!(um.factor(), 1e-3);
@@ -311,8 +335,20 @@ mod tests {
     #[test]
     fn other_words_and_kinds_are_refused() {
         for (word, kind) in [
-            ("bananas", "force"), ("um", "force"), ("s", "force"), ("N", "length"), ("", "force"), ("g", "force"), ("N/mm", "force"),
-            ("N/", "force"), ("N^9", "force"), ("deg", "length"), ("m", "rad"), ("Pa", "force"), ("%", "-"), ("mN/m", "pressure"),
+            ("bananas", "force"),
+            ("um", "force"),
+            ("s", "force"),
+            ("N", "length"),
+            ("", "force"),
+            ("g", "force"),
+            ("N/mm", "force"),
+            ("N/", "force"),
+            ("N^9", "force"),
+            ("deg", "length"),
+            ("m", "rad"),
+            ("Pa", "force"),
+            ("%", "-"),
+            ("mN/m", "pressure"),
         ] {
             assert_eq!(factor(word, kind, "mm", "N"), None, "{word} of {kind}");
         }

@@ -21,16 +21,23 @@ pub(super) fn is_list(array: &Array2<f64>, cells: [usize; 2]) -> bool {
 ///
 /// # Errors
 /// What is wrong with the points, in words.
-pub(super) fn on_cells(points: &ArrayView2<'_, f64>, cells: [usize; 2]) -> Result<(Array2<f64>, [Option<f64>; 2]), String> {
+pub(super) fn on_cells(
+    points: &ArrayView2<'_, f64>,
+    cells: [usize; 2],
+) -> Result<(Array2<f64>, [Option<f64>; 2]), String> {
     let count = points.nrows();
     if count != cells[0] * cells[1] {
         return Err(match own_cells(points) {
-            Some([nx, ny]) => format!("{count} points on a grid of {nx} x {ny}, but the grid has {} x {} cells", cells[0], cells[1]),
+            Some([nx, ny]) => format!(
+                "{count} points on a grid of {nx} x {ny}, but the grid has {} x {} cells",
+                cells[0], cells[1]
+            ),
             None => format!("{count} points, but the grid has {} x {} cells", cells[0], cells[1]),
         });
     }
     let axes = points.ncols() - 1;
-    let [x, y] = [0, 1].map(|axis| if axis < axes { Places::of(points, axis, cells[axis]) } else { Places::ONE });
+    let [x, y] =
+        [0, 1].map(|axis| if axis < axes { Places::of(points, axis, cells[axis]) } else { Places::ONE });
     let mut found: Array2<Option<f64>> = Array2::from_elem(cells, None);
     for (row, point) in points.rows().into_iter().enumerate() {
         let mut at = [0; 2];
@@ -106,13 +113,17 @@ impl Places {
 /// Refuses points that lie closer or farther apart than the cells, in the case's unit of length and in that of the heights.
 pub(super) fn spacing_refused(points: [Option<f64>; 2], cells: [f64; 2], unit: f64) -> Option<String> {
     let fits = |unit: f64| {
-        points.iter().zip(cells).all(|(point, cell)| point.is_none_or(|point| (point * unit / cell - 1.0).abs() <= SPACING))
+        points
+            .iter()
+            .zip(cells)
+            .all(|(point, cell)| point.is_none_or(|point| (point * unit / cell - 1.0).abs() <= SPACING))
     };
     if fits(1.0) || fits(unit) {
         return None;
     }
     let along = |values: [Option<f64>; 2]| {
-        let words: Vec<String> = values.iter().flatten().map(|&value| format!("{:?}", figures(value))).collect();
+        let words: Vec<String> =
+            values.iter().flatten().map(|&value| format!("{:?}", figures(value))).collect();
         words.join(" x ")
     };
     let shown = [0, 1].map(|axis| points[axis].map(|_| cells[axis]));
@@ -164,7 +175,11 @@ mod tests {
         let refused = |points: &Array2<f64>, cells| on_cells(&points.view(), cells).unwrap_err();
         let good = points(|row| row, 0.0);
         assert_eq!(refused(&good, [4, 4]), "12 points on a grid of 3 x 4, but the grid has 4 x 4 cells");
-        assert!(refused(&good, [4, 3]).contains("lies on no grid of 4 x 3 cells"), "{}", refused(&good, [4, 3]));
+        assert!(
+            refused(&good, [4, 3]).contains("lies on no grid of 4 x 3 cells"),
+            "{}",
+            refused(&good, [4, 3])
+        );
         let mut twice = good.clone();
         twice[[3, 0]] = twice[[4, 0]];
         twice[[3, 1]] = twice[[4, 1]];

@@ -252,11 +252,7 @@ impl Part<'_, '_> {
         };
         match Heights::new(source, array, detrend) {
             Ok(heights) => Some(heights),
-            Err(error) => self.judge.refuse(
-                at,
-                format!("{place}: {error}"),
-                numbers::HOLES,
-            ),
+            Err(error) => self.judge.refuse(at, format!("{place}: {error}"), numbers::HOLES),
         }
     }
 }

@@ -70,7 +70,8 @@ pub(super) fn table(
     let at = Words { place: format!("{place}.table {:?}", name.get_ref()), span: name.span() };
     let Layout { delimiter, line: head_line, text } = layout(&text);
     let decimal_comma = delimiter != b',';
-    let mut reader = csv::ReaderBuilder::new().delimiter(delimiter).trim(csv::Trim::All).from_reader(text.as_bytes());
+    let mut reader =
+        csv::ReaderBuilder::new().delimiter(delimiter).trim(csv::Trim::All).from_reader(text.as_bytes());
     let names: Vec<String> = match reader.headers() {
         Ok(names) => names.iter().map(str::to_owned).collect(),
         Err(error) => return at.refuse(judge, &unreadable(&error), ""),
@@ -101,9 +102,9 @@ pub(super) fn table(
         for column in &chosen {
             let cell = row.get(column.index).unwrap_or("");
             let found = decimals.seen(cell).and_then(|()| number(cell, decimal_comma));
-            let found = found.map(|value| column.conversion.of(value)).and_then(|value| {
-                if value.is_finite() { Ok(value) } else { Err(NoNumber::NotFinite) }
-            });
+            let found = found
+                .map(|value| column.conversion.of(value))
+                .and_then(|value| if value.is_finite() { Ok(value) } else { Err(NoNumber::NotFinite) });
             match (found, columns.get_mut(CONTROLS[column.control].0)) {
                 (Ok(value), Some(values)) => values.push(value),
                 (Ok(_), None) => {}
@@ -123,7 +124,8 @@ pub(super) fn table(
     Some(columns)
 }
 
-const DECIMAL_COMMAS: &str = "write decimal points; or decimal commas, with semicolons or tabs between the columns";
+const DECIMAL_COMMAS: &str =
+    "write decimal points; or decimal commas, with semicolons or tabs between the columns";
 
 /// Decimal points and decimal commas of a table, of which there may be one kind.
 #[derive(Default)]
@@ -152,7 +154,9 @@ struct Layout {
 /// Finds the head of a table: its first line that is no comment, or where that is a line of numbers, the comment above it.
 fn layout(text: &str) -> Layout {
     let delimiter_of = |line: &str| [';', '\t'].into_iter().find(|&mark| line.contains(mark)).unwrap_or(',');
-    let words = |line: &str| line.split(delimiter_of(line)).map(|cell| cell.trim().to_owned()).collect::<Vec<String>>();
+    let words = |line: &str| {
+        line.split(delimiter_of(line)).map(|cell| cell.trim().to_owned()).collect::<Vec<String>>()
+    };
     let is_of_numbers = |line: &str| words(line).iter().all(|cell| number(cell, true).is_ok());
     let plain = |line: &str| !line.trim().is_empty() && !is_comment(line);
     // a semicolon that begins a line makes it a comment where semicolons part nothing
@@ -260,7 +264,8 @@ fn chosen(
             };
             let wanted = column.get_ref();
             let whole = names.iter().position(|name| name == wanted);
-            let without_unit = |heading: &Option<Heading>| heading.as_ref().is_some_and(|heading| heading.name == *wanted);
+            let without_unit =
+                |heading: &Option<Heading>| heading.as_ref().is_some_and(|heading| heading.name == *wanted);
             let Some(index) = whole.or_else(|| headings.iter().position(without_unit)) else {
                 let message = format!("{}: no column {wanted:?}; it has: {}", at.place, names.join(", "));
                 return judge.refuse(column.span(), message, "");
@@ -372,7 +377,16 @@ mod tests {
             (table, "shift_x\n", "0 rows"),
             (table, "shift_x,shift_y\n1e-3\n", "line 2 has 1 cell, its head 2 cells"),
             (table, "shift_x,shift_x\n1e-3,1e-3\n", "column \"shift_x\" stands there twice"),
-            (table, "shift_x\n1e-3\nnan\n", "line 3, column \"shift_x\": \"nan\" is no finite number"),
+            (
+                table,
+                "shift_x\n1e-3\nnan\n",
+                "line 3, column \"shift_x\": \"nan\" stands for a value that was not measured",
+            ),
+            (table, "shift_x\n1e-3\n1e999\n", "line 3, column \"shift_x\": \"1e999\" is no finite number"),
+            (table, "# a\n\nshift_x\n% b\n1e-3\nx7\n", "line 6, column \"shift_x\": \"x7\" is not a number"),
+            (table, "shift_x\nm\n1e-3\nmm\n", "line 4, column \"shift_x\": \"mm\" is not a number"),
+            (table, "# shift_x\n1e-3\n1e-3x\n", "line 3, column \"shift_x\""),
+            (table, "; rig\nshift_x\n; more\n1e-3\nx\n", "line 5, column \"shift_x\""),
             (table, "shift_x\n1,5\n", "line 2 has 2 cells, its head 1 cell"),
             (table, "shift_x,tangential_force_x\n1e-3,0\n", "one column may do so"),
             (named, "time,P\n0,1\n", "no column \"Q\"; it has: time, P"),

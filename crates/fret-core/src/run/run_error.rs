@@ -27,9 +27,7 @@ pub enum RunError {
         advice: String,
     },
     /// The contact reaches the edge of the grid.
-    #[error(
-        "increment {increment} ({stage}): the contact reaches the edge of the grid; {advice}"
-    )]
+    #[error("increment {increment} ({stage}): the contact reaches the edge of the grid; {advice}")]
     ContactAtEdge {
         /// Number of the increment, from 0.
         increment: usize,

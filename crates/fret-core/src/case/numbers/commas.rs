@@ -14,14 +14,14 @@ pub(super) enum Commas {
 /// A comma with a blank beside it parts. Between two digits it is a decimal comma where semicolons or tabs part the numbers, and
 /// parts them where nothing else does; beside blanks alone it could be either. Decimal commas and decimal points in one text, and
 /// numbers as only halves of decimals look (`-0`, `00123`), leave a doubt too.
-pub(super) fn commas(rows: &[(usize, &str)]) -> Result<Commas, (usize, &'static str)> {
-    let Some(&(line, _)) = rows.iter().find(|(_, row)| has_glued(row)) else { return Ok(Commas::Part) };
+pub(super) fn commas<'a>(
+    rows: impl Iterator<Item = (usize, &'a str)> + Clone,
+) -> Result<Commas, (usize, &'static str)> {
+    let Some((line, _)) = rows.clone().find(|(_, row)| has_glued(row)) else { return Ok(Commas::Part) };
     let is_blank = |letter: char| letter.is_whitespace() || letter == ';';
-    let parts_otherwise =
-        |marks: &[char]| rows.iter().any(|(_, row)| row.trim_matches(is_blank).contains(marks));
-    let words = rows.iter().flat_map(|(line, row)| row.split(is_blank).map(|word| (*line, word)));
+    let words = rows.clone().flat_map(|(line, row)| row.split(is_blank).map(move |word| (line, word)));
     let glued = words.clone().filter(|(_, word)| has_glued(word));
-    if parts_otherwise(&[';', '\t']) {
+    if rows.clone().any(|(_, row)| row.trim_matches(is_blank).contains([';', '\t'])) {
         return if glued.clone().all(|(_, word)| are_floats(word)) {
             Ok(Commas::Part)
         } else if let Some((line, _)) = glued.clone().find(|(_, word)| !is_decimal(word)) {
@@ -32,8 +32,9 @@ pub(super) fn commas(rows: &[(usize, &str)]) -> Result<Commas, (usize, &'static 
             Ok(Commas::Decimal)
         };
     }
-    if rows.iter().any(|(_, row)| row.trim().contains(char::is_whitespace)) {
-        let in_doubt = glued.clone().all(|(_, word)| is_decimal(word)) || glued.clone().all(|(_, word)| are_thousands(word));
+    if rows.clone().any(|(_, row)| row.trim().contains(char::is_whitespace)) {
+        let in_doubt = glued.clone().all(|(_, word)| is_decimal(word))
+            || glued.clone().all(|(_, word)| are_thousands(word));
         return if in_doubt {
             Err((line, "commas stand between digits, and blanks between numbers"))
         } else {
@@ -43,7 +44,9 @@ pub(super) fn commas(rows: &[(usize, &str)]) -> Result<Commas, (usize, &'static 
     // nothing but commas: they part, unless only halves of decimals look so
     let is_pairs = glued.clone().all(|(_, word)| {
         let pieces = word.split(',');
-        pieces.clone().count() % 2 == 0 && pieces.skip(1).step_by(2).all(is_digits) && !word.contains(['.', 'e', 'E'])
+        pieces.clone().count() % 2 == 0
+            && pieces.skip(1).step_by(2).all(is_digits)
+            && !word.contains(['.', 'e', 'E'])
     });
     let half = |word: &str| {
         let pieces = word.split(',');
@@ -79,7 +82,9 @@ fn is_decimal(word: &str) -> bool {
     let mut pieces = word.trim_end_matches(',').split(',');
     let (Some(whole), Some(rest), None) = (pieces.next(), pieces.next(), pieces.next()) else { return false };
     let (digits, exponent) = rest.split_once(['e', 'E']).unwrap_or((rest, "0"));
-    is_digits(whole.trim_start_matches(['+', '-'])) && is_digits(digits) && is_digits(exponent.trim_start_matches(['+', '-']))
+    is_digits(whole.trim_start_matches(['+', '-']))
+        && is_digits(digits)
+        && is_digits(exponent.trim_start_matches(['+', '-']))
 }
 
 /// Whether the commas can stand between thousands: groups of three digits behind the first.
@@ -98,12 +103,20 @@ mod tests {
     #[test]
     fn commas_part_or_are_decimal_or_leave_a_doubt() {
         let found = |text: &str| {
-            let rows: Vec<(usize, &str)> = text.lines().enumerate().map(|(at, line)| (at + 1, line)).collect();
-            commas(&rows).map_err(|(line, _)| line)
+            commas(text.lines().zip(1..).map(|(row, line)| (line, row))).map_err(|(line, _)| line)
         };
         for text in [
-            "1 2\n3 4", "1.5,2.5\n3.5,4.5", "1,2,3\n4,5,6", "0, 1, 2", "1e-8,2e-8", "1.5,2.5;3.5,4.5", "1,2,3 4,5,6", "10,20\n30,40",
-            "1, 2,\n3, 4,", "0.5,0\n0.25,0", "0,0,0,0",
+            "1 2\n3 4",
+            "1.5,2.5\n3.5,4.5",
+            "1,2,3\n4,5,6",
+            "0, 1, 2",
+            "1e-8,2e-8",
+            "1.5,2.5;3.5,4.5",
+            "1,2,3 4,5,6",
+            "10,20\n30,40",
+            "1, 2,\n3, 4,",
+            "0.5,0\n0.25,0",
+            "0,0,0,0",
         ] {
             assert_eq!(found(text), Ok(Commas::Part), "{text:?}");
         }
@@ -111,12 +124,12 @@ mod tests {
             assert_eq!(found(text), Ok(Commas::Decimal), "{text:?}");
         }
         for (text, line) in [
-            ("0,5 0,25", 1),                   // pairs x,y, or decimals
-            ("1;2\n0,5;0.25", 2),              // a comma and a point
-            ("1,234.5\t6,789.0", 1),           // thousands
+            ("0,5 0,25", 1),         // pairs x,y, or decimals
+            ("1;2\n0,5;0.25", 2),    // a comma and a point
+            ("1,234.5\t6,789.0", 1), // thousands
             ("1,234.5 6,789.0", 1),
             ("1,2,3;4,5", 1),
-            ("0,009474,0,008031", 1),          // 009474 is no number of its own
+            ("0,009474,0,008031", 1), // 009474 is no number of its own
             ("1,5,2,5\n-0,5,3,5", 2),
         ] {
             assert_eq!(found(text), Err(line), "{text:?}");

@@ -83,7 +83,8 @@ mod tests {
     /// The bytes of `µ` are those of the tables of Unicode and of Windows 1252.
     #[test]
     fn one_text_is_read_from_every_encoding() {
-        let utf16 = |order: fn(u16) -> [u8; 2]| -> Vec<u8> { "1 µ\n2".encode_utf16().flat_map(order).collect() };
+        let utf16 =
+            |order: fn(u16) -> [u8; 2]| -> Vec<u8> { "1 µ\n2".encode_utf16().flat_map(order).collect() };
         let (little, big) = (utf16(u16::to_le_bytes), utf16(u16::to_be_bytes));
         for bytes in [
             b"1 \xc2\xb5\n2".to_vec(),

@@ -10,8 +10,8 @@ mod word;
 use ndarray::Array2;
 
 pub use letters::{NoText, letters};
-pub(super) use rows::is_comment;
 pub use rows::Skipped;
+pub(super) use rows::is_comment;
 pub use word::{NoNumber, number};
 
 /// Why bytes are no array of numbers.
@@ -69,6 +69,12 @@ pub enum NumbersError {
         /// Comments.
         skipped: Skipped,
     },
+    /// More numbers than the largest grid has points.
+    #[error("more than {most} numbers")]
+    Many {
+        /// How many are read.
+        most: usize,
+    },
     /// Commas that part numbers or are decimal commas.
     #[error("line {line}: a decimal comma, or a comma that parts two numbers? {why}")]
     DecimalComma {
@@ -91,7 +97,9 @@ impl NumbersError {
             Self::Word { why: NoNumber::Other, .. } => {
                 "lines of words begin with #, %, !, ; or //; cells without a measurement must be filled in before"
             }
-            Self::DecimalComma { .. } => "write decimal points; or decimal commas, with semicolons or tabs between the numbers",
+            Self::DecimalComma { .. } => {
+                "write decimal points; or decimal commas, with semicolons or tabs between the numbers"
+            }
             _ => Self::A_FILE,
         }
     }
@@ -148,7 +156,10 @@ mod tests {
             ("1 2\n3 four\n", "line 2, column 2: \"four\" is not a number"),
             ("# nothing\n", "a text without a number (line 1 was read as a comment)"),
             ("h=650 w=650\n1 2\n", "line 1, column 1: \"h=650\" is not a number"),
-            ("% a\n# b\n1 x\n", "line 3, column 2: \"x\" is not a number (lines 1 to 2 were read as comments)"),
+            (
+                "% a\n# b\n1 x\n",
+                "line 3, column 2: \"x\" is not a number (lines 1 to 2 were read as comments)",
+            ),
             ("# a\n1 2\n# b\n1 x\n", "\"x\" is not a number (2 lines from 1 to 3 were read as comments)"),
             ("1 2\n3 1.#QNAN\n", "line 2, column 2: \"1.#QNAN\" stands for a value that was not measured"),
             ("1 2\n3 0.0123#\n", "line 2, column 2: \"0.0123#\" is not a number"),

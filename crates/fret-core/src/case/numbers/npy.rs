@@ -192,7 +192,9 @@ mod tests {
         assert!(words(&file(good, &[0; 8])[..40]).contains("cut off"));
         assert!(words(b"\x93NUMPY").contains("cut off"));
         assert!(words(&file(&good.replace("<f8", "<c16"), &[0; 16])).contains("c16"));
-        assert!(words(&file(&good.replace("(1, 1)", "(1, 1, 1)"), &[0; 8])).contains("one or two dimensions"));
+        assert!(
+            words(&file(&good.replace("(1, 1)", "(1, 1, 1)"), &[0; 8])).contains("one or two dimensions")
+        );
         assert!(words(&file(&good.replace("(1, 1)", "()"), &[0; 8])).contains("one or two dimensions"));
         assert!(
             words(&file(&good.replace("(1, 1)", "(4294967296, 4294967296)"), &[])).contains("header says")

@@ -4,10 +4,12 @@ use std::fmt;
 
 use ndarray::Array2;
 
+use super::NumbersError;
 use super::commas::{Commas, commas};
 use super::word::{NoNumber, is_of_a_spreadsheet, number};
-use super::NumbersError;
 
+/// Numbers of a text, at the most: three for every cell of the largest grid.
+const MOST: usize = 3 << 26;
 /// Letters of a word that messages repeat, at the most.
 const SHOWN: usize = 40;
 
@@ -33,7 +35,9 @@ impl fmt::Display for Skipped {
         match self.count {
             0 => Ok(()),
             1 => write!(formatter, " (line {first} was read as a comment)"),
-            count if last - first + 1 == count => write!(formatter, " (lines {first} to {last} were read as comments)"),
+            count if last - first + 1 == count => {
+                write!(formatter, " (lines {first} to {last} were read as comments)")
+            }
             count => write!(formatter, " ({count} lines from {first} to {last} were read as comments)"),
         }
     }
@@ -43,14 +47,15 @@ impl fmt::Display for Skipped {
 pub(in crate::case) fn is_comment(line: &str) -> bool {
     let line = line.trim_start();
     ["%", "!", "//"].iter().any(|mark| line.starts_with(mark))
-        || line.starts_with('#') && !is_of_a_spreadsheet(line.split([' ', '\t', ',', ';']).next().unwrap_or(line))
+        || line.starts_with('#')
+            && !is_of_a_spreadsheet(line.split([' ', '\t', ',', ';']).next().unwrap_or(line))
 }
 
-/// Whether a line that begins with a semicolon is a comment: there is something behind it, and no cell of it is a number.
+/// Whether a line that begins with a semicolon is a comment: no cell of it is a number, and one has other words.
 fn semicolon(line: &str) -> bool {
     let Some(rest) = line.trim_start().strip_prefix(';') else { return false };
-    let mut cells = rest.split(';').map(str::trim);
-    rest.contains(|letter: char| letter != ';' && !letter.is_whitespace()) && cells.all(|cell| number(cell, true).is_err())
+    let mut cells = rest.split(';').map(|cell| number(cell.trim(), true));
+    cells.clone().all(|cell| cell.is_err()) && cells.any(|cell| cell == Err(NoNumber::Other))
 }
 
 /// A line up to a `#` that stands where a word could begin.
@@ -70,24 +75,25 @@ fn is_part(letter: char, commas_part: bool) -> bool {
 /// Array `[row, column]` of a text of lines; what stands behind a `#` is a comment, and so is a line that begins with `#`, `%`,
 /// `!`, `;` or `//`.
 pub(super) fn rows(text: &str) -> Result<Array2<f64>, NumbersError> {
+    let is_skipped = |line: &str| is_comment(line) || semicolon(line);
+    let lines = || text.lines().zip(1..);
     let mut skipped = Skipped::default();
-    let mut lines: Vec<(usize, &str)> = Vec::new();
-    for (number, line) in text.lines().enumerate() {
-        if is_comment(line) || semicolon(line) {
-            skipped.add(number + 1);
-        } else if !line.trim().is_empty() {
-            lines.push((number + 1, if line.contains('#') { before_comment(line) } else { line }));
-        }
-    }
-    let parting = commas(&lines).map_err(|(line, why)| NumbersError::DecimalComma { line, why })?;
+    lines().filter(|(line, _)| is_skipped(line)).for_each(|(_, number)| skipped.add(number));
+    let rows = lines()
+        .filter(|(line, _)| !line.trim().is_empty() && !is_skipped(line))
+        .map(|(line, number)| (number, if line.contains('#') { before_comment(line) } else { line }));
+    let parting = commas(rows.clone()).map_err(|(line, why)| NumbersError::DecimalComma { line, why })?;
     let mut reader = Reader { decimal_comma: parting == Commas::Decimal, values: Vec::new(), skipped };
     let mut columns = 0;
-    for (line, text) in lines {
-        let found = reader.row(line, text)?;
+    for (line, row) in rows {
+        let found = reader.row(line, row)?;
         if columns > 0 && found != columns {
-            return Err(reader.ragged(line, text, [found, columns]));
+            return Err(reader.ragged(line, row, [found, columns]));
         }
         columns = found;
+        if reader.values.len() > MOST {
+            return Err(NumbersError::Many { most: MOST });
+        }
     }
     if columns == 0 {
         return Err(NumbersError::Empty(skipped));
@@ -121,7 +127,8 @@ impl Reader {
             let end = rest.find(|letter| is_part(letter, !self.decimal_comma)).unwrap_or(rest.len());
             let word = &rest[..end];
             column += 1;
-            let value = number(word, self.decimal_comma).map_err(|why| self.no_number(line, column, word, why))?;
+            let value =
+                number(word, self.decimal_comma).map_err(|why| self.no_number(line, column, word, why))?;
             self.values.push(value);
             is_empty = false;
             rest = rest[end..].trim_start();

@@ -19,9 +19,9 @@ pub enum NoNumber {
 
 /// Words for a cell without a measurement, in small letters; those of spreadsheets begin with a `#`.
 const HOLES: [&str; 32] = [
-    "", "nan", "na", "n/a", "<na>", "nd", "no", "no data", "nodata", "no_data", "null", "none", "nil", "void", "bad",
-    "invalid", "masked", "missing", "-", "--", "---", "#n/a", "#na", "#nv", "#num!", "#div/0!", "#value!", "#ref!",
-    "#name?", "#null!", "#wert!", "#zahl!",
+    "", "nan", "na", "n/a", "<na>", "nd", "no", "no data", "nodata", "no_data", "null", "none", "nil",
+    "void", "bad", "invalid", "masked", "missing", "-", "--", "---", "#n/a", "#na", "#nv", "#num!",
+    "#div/0!", "#value!", "#ref!", "#name?", "#null!", "#wert!", "#zahl!",
 ];
 
 /// The finite number of a word, whose decimal point may be a comma where commas part nothing.
@@ -72,19 +72,42 @@ mod tests {
     #[test]
     fn numbers_are_read_and_nothing_else_is() {
         for (word, value) in [
-            ("1", 1.0), ("-0.009474", -0.009_474), ("+.5", 0.5), ("5.", 5.0), ("1e-8", 1e-8), ("1E+3", 1e3),
-            ("0,25", 0.25), ("-1,5e-3", -1.5e-3),
+            ("1", 1.0),
+            ("-0.009474", -0.009_474),
+            ("+.5", 0.5),
+            ("5.", 5.0),
+            ("1e-8", 1e-8),
+            ("1E+3", 1e3),
+            ("0,25", 0.25),
+            ("-1,5e-3", -1.5e-3),
         ] {
             assert_eq!(number(word, true), Ok(value), "{word}");
         }
         for (word, why) in [
-            ("", NoNumber::Hole), ("NaN", NoNumber::Hole), ("-nan", NoNumber::Hole), ("-nan(ind)", NoNumber::Hole),
-            ("1.#QNAN", NoNumber::Hole), ("-1.#IND00", NoNumber::Hole), ("1.#INF", NoNumber::NotFinite),
-            ("-1.#INF000", NoNumber::NotFinite), ("inf", NoNumber::NotFinite), ("1e400", NoNumber::NotFinite),
-            ("BAD", NoNumber::Hole), ("No Data", NoNumber::Hole), ("***", NoNumber::Hole), ("#N/A", NoNumber::Hole),
-            ("--", NoNumber::Hole), ("0.0123#", NoNumber::Other), ("7#bad", NoNumber::Other), ("0x1p-3", NoNumber::Other),
-            ("1D-5", NoNumber::Other), ("1_0", NoNumber::Other), ("1,234.5", NoNumber::CommaAndPoint),
-            ("1,234,5", NoNumber::Other), ("5%", NoNumber::Other), ("١", NoNumber::Other),
+            ("", NoNumber::Hole),
+            ("NaN", NoNumber::Hole),
+            ("-nan", NoNumber::Hole),
+            ("-nan(ind)", NoNumber::Hole),
+            ("1.#QNAN", NoNumber::Hole),
+            ("-1.#IND00", NoNumber::Hole),
+            ("1.#INF", NoNumber::NotFinite),
+            ("-1.#INF000", NoNumber::NotFinite),
+            ("inf", NoNumber::NotFinite),
+            ("1e400", NoNumber::NotFinite),
+            ("BAD", NoNumber::Hole),
+            ("No Data", NoNumber::Hole),
+            ("***", NoNumber::Hole),
+            ("#N/A", NoNumber::Hole),
+            ("--", NoNumber::Hole),
+            ("0.0123#", NoNumber::Other),
+            ("7#bad", NoNumber::Other),
+            ("0x1p-3", NoNumber::Other),
+            ("1D-5", NoNumber::Other),
+            ("1_0", NoNumber::Other),
+            ("1,234.5", NoNumber::CommaAndPoint),
+            ("1,234,5", NoNumber::Other),
+            ("5%", NoNumber::Other),
+            ("١", NoNumber::Other),
         ] {
             assert_eq!(number(word, true), Err(why), "{word}");
         }
