@@ -43,6 +43,7 @@ mod stress;
 mod substrates;
 mod surface_file;
 mod table;
+mod table_layout;
 mod units;
 mod wearing;
 mod wording;

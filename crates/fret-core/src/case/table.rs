@@ -8,8 +8,9 @@ use toml::Spanned;
 use super::heading::Heading;
 use super::judge::Judge;
 use super::known_units::{Conversion, UnitError, conversion, is_unit, known_units};
-use super::numbers::{NoNumber, is_comment, number};
+use super::numbers::{NoNumber, number};
 use super::stage_file::StageFile;
+use super::table_layout::{Layout, layout};
 use super::units::Units;
 
 /// Controls a column can hold, by the names of `history.csv`, and what kind of quantity each is in a point contact.
@@ -91,27 +92,32 @@ pub(super) fn table(
         if row.iter().all(str::is_empty) {
             continue;
         }
-        if is_first && units_below(&row, &mut chosen) {
-            is_first = false;
-            continue;
-        }
         if is_first {
-            convert(judge, &at, head_line, &mut chosen)?;
             is_first = false;
+            let are_units = units_below(&row, &mut chosen);
+            convert(judge, &at, if are_units { line as usize } else { head_line }, &mut chosen)?;
+            if are_units {
+                continue;
+            }
         }
         for column in &chosen {
             let cell = row.get(column.index).unwrap_or("");
-            let found = decimals.seen(cell).and_then(|()| number(cell, decimal_comma));
-            let found = found
+            if decimals.are_mixed(cell) {
+                let message = format!(
+                    "line {line}, column {:?}: {cell:?}, in a table with decimal commas and decimal points",
+                    column.name
+                );
+                return at.refuse(judge, &message, DECIMAL_COMMAS);
+            }
+            let found = number(cell, decimal_comma)
                 .map(|value| column.conversion.of(value))
                 .and_then(|value| if value.is_finite() { Ok(value) } else { Err(NoNumber::NotFinite) });
             match (found, columns.get_mut(CONTROLS[column.control].0)) {
                 (Ok(value), Some(values)) => values.push(value),
                 (Ok(_), None) => {}
                 (Err(why), _) => {
-                    let help = if why == NoNumber::CommaAndPoint { DECIMAL_COMMAS } else { "" };
                     let message = format!("line {line}, column {:?}: {cell:?} {why}", column.name);
-                    return at.refuse(judge, &message, help);
+                    return at.refuse(judge, &message, "");
                 }
             }
         }
@@ -135,52 +141,12 @@ struct Decimals {
 }
 
 impl Decimals {
-    fn seen(&mut self, cell: &str) -> Result<(), NoNumber> {
+    /// Whether both kinds have been seen, with this cell.
+    fn are_mixed(&mut self, cell: &str) -> bool {
         self.comma |= cell.contains(',');
         self.point |= cell.contains('.') && !cell.starts_with("1.#");
-        if self.comma && self.point { Err(NoNumber::CommaAndPoint) } else { Ok(()) }
+        self.comma && self.point
     }
-}
-
-/// Where a table begins.
-struct Layout {
-    delimiter: u8,
-    /// Line of the head, from 1.
-    line: usize,
-    /// The table from its head on, its comments as empty lines.
-    text: String,
-}
-
-/// Finds the head of a table: its first line that is no comment, or where that is a line of numbers, the comment above it.
-fn layout(text: &str) -> Layout {
-    let delimiter_of = |line: &str| [';', '\t'].into_iter().find(|&mark| line.contains(mark)).unwrap_or(',');
-    let words = |line: &str| {
-        line.split(delimiter_of(line)).map(|cell| cell.trim().to_owned()).collect::<Vec<String>>()
-    };
-    let is_of_numbers = |line: &str| words(line).iter().all(|cell| number(cell, true).is_ok());
-    let plain = |line: &str| !line.trim().is_empty() && !is_comment(line);
-    // a semicolon that begins a line makes it a comment where semicolons part nothing
-    let parts = |line: &str| line.trim_start_matches(';').contains(';');
-    let semicolons_part = text.lines().find(|line| plain(line) && !line.starts_with(';')).is_some_and(parts);
-    let is_row = |line: &str| plain(line) && (semicolons_part || !line.starts_with(';'));
-    let lines: Vec<&str> = text.lines().collect();
-    let first = lines.iter().position(|line| is_row(line)).unwrap_or(lines.len());
-    let above = lines[..first].iter().rposition(|line| !line.trim().is_empty());
-    let commented = above.filter(|&above| {
-        let [head, row] = [above, first].map(|at| lines.get(at).map_or(0, |line| words(line).len()));
-        lines.get(first).is_some_and(|line| is_of_numbers(line)) && head == row
-    });
-    let head = commented.unwrap_or(first);
-    let mut table = "\n".repeat(head);
-    for (at, line) in lines.iter().enumerate().skip(head) {
-        if at == head {
-            table.push_str(line.trim_start().trim_start_matches(['#', '%', '!', '/']));
-        } else if is_row(line) {
-            table.push_str(line);
-        }
-        table.push('\n');
-    }
-    Layout { delimiter: delimiter_of(lines.get(head).unwrap_or(&"")) as u8, line: head + 1, text: table }
 }
 
 /// Takes the units of a row below the head, where every chosen cell of it is a unit and no number.
@@ -331,144 +297,4 @@ impl Words {
 }
 
 #[cfg(test)]
-mod tests {
-    use crate::case::{Attachments, Case};
-
-    const HEAD: &str = "[grid]\ncells = [16, 16]\nsize = [3.0, 3.0]\n[upper]\nrigid = true\n[lower]\n\
-                        substrate = { young = 1.0, poisson = 0.3 }\n[profile.sphere]\nradius = 100.0\n\
-                        [friction]\ncoefficient = 0.3\n[[load]]\nnormal_force = 0.01\nincrements = 1\n";
-
-    /// Messages of a case whose second stage reads `more` and whose only file holds `file`.
-    fn refusal(more: &str, file: &str) -> String {
-        let text = format!("{HEAD}[[load]]\nincrements = 2\n{more}\n");
-        let attachments = |name: &str| match name {
-            "path.csv" => Ok(file.as_bytes().to_vec()),
-            _ => Err("no such file".to_owned()),
-        };
-        match Case::from_toml_with(&text, "case.toml", Attachments::files(&attachments)) {
-            Ok(_) => String::new(),
-            Err(error) => {
-                assert_eq!(error.mistakes().len(), 1, "{error}");
-                assert!(error.place(&error.mistakes()[0]).is_some(), "{error}");
-                error.mistakes()[0].message.clone()
-            }
-        }
-    }
-
-    #[test]
-    fn a_good_table_is_read_whatever_its_separator() {
-        for file in [
-            "tangential_force_x,twist\n1e-3,0\n-1e-3,1e-4\n",
-            "\u{feff}# rig 3\ntangential_force_x; twist\n 1e-3 ; 0\n-1e-3;1e-4\n",
-            "tangential_force_x\ttwist\n1e-3\t0\n-1e-3\t1e-4",
-        ] {
-            assert_eq!(refusal("table = \"path.csv\"", file), "");
-        }
-    }
-
-    #[test]
-    fn every_wrong_table_is_refused_once_and_in_words() {
-        let table = "table = \"path.csv\"";
-        let named = "table = \"path.csv\"\ncolumns = { shift_x = \"Q\" }";
-        for (more, file, words) in [
-            ("table = \"other.csv\"", "", "\"other.csv\": no such file"),
-            (table, "force\n1.0\n", "column \"force\" is no control"),
-            (table, "", "no column"),
-            (table, "shift_x\n", "0 rows"),
-            (table, "shift_x,shift_y\n1e-3\n", "line 2 has 1 cell, its head 2 cells"),
-            (table, "shift_x,shift_x\n1e-3,1e-3\n", "column \"shift_x\" stands there twice"),
-            (
-                table,
-                "shift_x\n1e-3\nnan\n",
-                "line 3, column \"shift_x\": \"nan\" stands for a value that was not measured",
-            ),
-            (table, "shift_x\n1e-3\n1e999\n", "line 3, column \"shift_x\": \"1e999\" is no finite number"),
-            (table, "# a\n\nshift_x\n% b\n1e-3\nx7\n", "line 6, column \"shift_x\": \"x7\" is not a number"),
-            (table, "shift_x\nm\n1e-3\nmm\n", "line 4, column \"shift_x\": \"mm\" is not a number"),
-            (table, "# shift_x\n1e-3\n1e-3x\n", "line 3, column \"shift_x\""),
-            (table, "; rig\nshift_x\n; more\n1e-3\nx\n", "line 5, column \"shift_x\""),
-            (table, "shift_x\n1,5\n", "line 2 has 2 cells, its head 1 cell"),
-            (table, "shift_x,tangential_force_x\n1e-3,0\n", "one column may do so"),
-            (named, "time,P\n0,1\n", "no column \"Q\"; it has: time, P"),
-            ("table = \"path.csv\"\ncolumns = { pull = \"Q\" }", "Q\n1\n", "no control is called \"pull\""),
-            ("table = \"path.csv\"\nshift = [1.0, 0.0]", "shift_y\n1\n", "a table and a control"),
-            ("table = \"path.csv\"\nramp = \"cubic\"", "shift_y\n1\n", "ramp and table"),
-            (table, "normal_force\n0.01\n-0.01\n", "normal_force reaches -0.01"),
-            (table, "tangential_force_x\n0.02\n", "friction carries at most"),
-            ("columns = { shift_x = \"Q\" }\nshift = [1.0, 0.0]", "", "there is no table"),
-        ] {
-            let found = refusal(more, file);
-            assert!(found.contains(words), "{more} {file:?}: {found:?}, expected {words:?}");
-        }
-    }
-
-    #[test]
-    fn wrong_cycles_waves_and_steady_states_are_refused() {
-        for (more, words) in [
-            ("shift = [1.0, 0.0]\ncycles = 2", "the turns of this cycle need at least 4"),
-            ("shift = [1.0, 0.0]\nwaveform = \"sine\"", "the stage has no cycles"),
-            ("shift = [1.0, 0.0]\nphase = { shift = [90.0, 0.0] }", "the stage has no cycles"),
-            ("shift = [1.0, \"held\"]\ntangential_force = [0.0, 0.0]", "both at once"),
-            ("shift = [\"held\", \"held\"]", "nothing is prescribed"),
-            (
-                "shift = [1.0, 0.0]\ncycles = 1\nuntil_steady = { tolerance = 1e-3, most_cycles = 3 }",
-                "both at once",
-            ),
-            ("shift = [1.0, 0.0]\nuntil_steady = { tolerance = 2.0, most_cycles = 3 }", "between 0 and 1"),
-        ] {
-            let found = refusal(more, "");
-            assert!(found.contains(words), "{more}: {found:?}, expected {words:?}");
-        }
-    }
-
-    #[test]
-    fn wrong_words_of_a_cycle_are_refused() {
-        for (more, words) in [
-            ("shift = [1.0, 0.0]\nphase = { twist = 90.0 }", "this stage has no twist"),
-            ("shift = [1.0, 0.0]\ndwell = 0.1", "only a trapezoid"),
-            ("shift = [1.0, 0.0]\nwaveform = \"trapezoid\"\ndwell = 0.5", "between 0.001 and 0.499"),
-            ("shift = [1.0, 0.0]\nramp = \"cubic\"", "ramp and cycles"),
-            ("normal_force = 0.02", "normal_force reaches -0.01"),
-            ("tangential_force = [2e-3, 2e-3]\nphase = { tangential_force = [inf, 0] }", "must be finite"),
-        ] {
-            let text = format!("{HEAD}[[load]]\nincrements = 8\ncycles = 1\n{more}\n");
-            let error = Case::from_toml(&text, "case.toml").unwrap_err();
-            assert_eq!(error.mistakes().len(), 1, "{error}");
-            assert!(error.mistakes()[0].message.contains(words), "{error}");
-        }
-    }
-
-    #[test]
-    fn a_motion_of_a_table_has_no_meaning_in_a_periodic_problem() {
-        let head = HEAD.replace("size = [3.0, 3.0]", "size = [3.0, 3.0]\nperiodic = true");
-        let text = format!("{head}[[load]]\nincrements = 1\ntable = \"path.csv\"\n");
-        for (table, words) in [
-            ("twist\n1e-3\n", "a rotation is not periodic"),
-            ("approach\n1e-3\n", "half-space under a periodic load has no such rigid motion"),
-            (
-                "normal_force,shift_x\n1e-3,1e-3\n",
-                "half-space under a periodic load has no such rigid motion",
-            ),
-        ] {
-            let files = |_: &str| Ok(table.as_bytes().to_vec());
-            let error = Case::from_toml_with(&text, "case.toml", Attachments::files(&files)).unwrap_err();
-            assert!(error.to_string().contains(words), "{error}");
-        }
-    }
-
-    #[test]
-    fn wrong_wear_is_refused() {
-        for (wear, words) in [
-            ("coefficient = -1.0", "must be zero or positive"),
-            ("coefficient = 1.0\nevery = 0", "between 1 and"),
-            ("coefficient = 1.0\nlargest_step = 0.0", "must lie above 0"),
-            ("coefficient = 1.0\nlimit = 0.0", "positive finite length"),
-            ("coefficient = 1.0\nthrough_coating_of = \"lower\"", "this body has no coating"),
-            ("coefficient = 1.0\nthrough_coating_of = \"upper\"", "this body has no coating"),
-        ] {
-            let error = Case::from_toml(&format!("{HEAD}[wear]\n{wear}\n"), "case.toml").unwrap_err();
-            assert_eq!(error.mistakes().len(), 1, "{error}");
-            assert!(error.mistakes()[0].message.contains(words), "{error}");
-        }
-    }
-}
+mod tests;

@@ -5,7 +5,7 @@
 
 use ndarray::{Array2, ShapeBuilder};
 
-use super::NumbersError;
+use super::error::NumbersError;
 
 /// What such a file begins with.
 pub(super) const MAGIC: &[u8] = b"\x93NUMPY";
@@ -205,6 +205,6 @@ mod tests {
         assert!(words(&file(&good.replace("False", "Maybe"), &[0; 8])).contains("fortran_order Maybe"));
         assert!(words(&file(&good.replace("(1, 1)", "(1, x)"), &[0; 8])).contains("shape (1, x)"));
         assert!(words(b"\x93NUMPY\x04\x00    ").contains("version 4"));
-        assert!(words(&[0xff, 0x00, 0x07, 0x01]).contains("neither"));
+        assert!(words(&[7, 1, 2]).contains("neither"));
     }
 }

@@ -1,76 +1,16 @@
 //! Rows of numbers from a text: one a line, parted by blanks, tabs, semicolons or commas.
 
-use std::fmt;
-
 use ndarray::Array2;
 
-use super::NumbersError;
 use super::commas::{Commas, commas};
-use super::word::{NoNumber, is_of_a_spreadsheet, number};
+use super::comments::{Skipped, before_comment, is_comment, is_part, semicolon};
+use super::error::NumbersError;
+use super::word::{NoNumber, number};
 
 /// Numbers of a text, at the most: three for every cell of the largest grid.
 const MOST: usize = 3 << 26;
 /// Letters of a word that messages repeat, at the most.
 const SHOWN: usize = 40;
-
-/// Lines that were passed over as comments.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
-pub struct Skipped {
-    /// How many.
-    pub count: usize,
-    /// The first and the last of them, from 1.
-    pub lines: [usize; 2],
-}
-
-impl Skipped {
-    fn add(&mut self, line: usize) {
-        self.lines = [if self.count == 0 { line } else { self.lines[0] }, line];
-        self.count += 1;
-    }
-}
-
-impl fmt::Display for Skipped {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let [first, last] = self.lines;
-        match self.count {
-            0 => Ok(()),
-            1 => write!(formatter, " (line {first} was read as a comment)"),
-            count if last - first + 1 == count => {
-                write!(formatter, " (lines {first} to {last} were read as comments)")
-            }
-            count => write!(formatter, " ({count} lines from {first} to {last} were read as comments)"),
-        }
-    }
-}
-
-/// Whether a line is a comment by its first letters. A semicolon may also part an empty cell from the next: see [`semicolon`].
-pub(in crate::case) fn is_comment(line: &str) -> bool {
-    let line = line.trim_start();
-    ["%", "!", "//"].iter().any(|mark| line.starts_with(mark))
-        || line.starts_with('#')
-            && !is_of_a_spreadsheet(line.split([' ', '\t', ',', ';']).next().unwrap_or(line))
-}
-
-/// Whether a line that begins with a semicolon is a comment: no cell of it is a number, and one has other words.
-fn semicolon(line: &str) -> bool {
-    let Some(rest) = line.trim_start().strip_prefix(';') else { return false };
-    let mut cells = rest.split(';').map(|cell| number(cell.trim(), true));
-    cells.clone().all(|cell| cell.is_err()) && cells.any(|cell| cell == Err(NoNumber::Other))
-}
-
-/// A line up to a `#` that stands where a word could begin.
-fn before_comment(line: &str) -> &str {
-    let begins_comment = |&(at, _): &(usize, &str)| {
-        let before = line[..at].chars().next_back();
-        let word = line[at..].split(|letter| is_part(letter, true)).next().unwrap_or_default();
-        before.is_none_or(|letter| is_part(letter, true)) && !is_of_a_spreadsheet(word)
-    };
-    line.match_indices('#').find(begins_comment).map_or(line, |(at, _)| &line[..at])
-}
-
-fn is_part(letter: char, commas_part: bool) -> bool {
-    letter.is_whitespace() || letter == ';' || commas_part && letter == ','
-}
 
 /// Array `[row, column]` of a text of lines; what stands behind a `#` is a comment, and so is a line that begins with `#`, `%`,
 /// `!`, `;` or `//`.
