@@ -37,6 +37,7 @@ mod misleading;
 mod mutilated_cases;
 mod normal_counts;
 mod periodic;
+mod public_cases;
 mod random_cases;
 mod reduced_contact;
 mod refinement;

@@ -122,17 +122,24 @@ def plain(value: object, place: str, arrays: list[Reals] | None = None, depth: i
     raise _refusal("case", f"{place}: {type(value).__name__} is not a number, a word, a list or a table")
 
 
+_HOLES = (
+    "cells without a measurement must be filled in before, as SurfaceTopography's "
+    "topography.interpolate_undefined_data() does"
+)
+
+
 def _field(values: npt.NDArray[Any], place: str) -> Reals:
     """Turn an array with a number for every cell into doubles; whether they are of use is the core's to say."""
     if np.ma.is_masked(values):
         count = int(np.count_nonzero(np.ma.getmaskarray(values)))
-        raise _refusal("case", f"{place}: {count} masked values: cells without a measurement must be filled in before")
+        raise _refusal("case", f"{place}: {count} masked values: {_HOLES}")
     if values.dtype.kind not in "fiu":
         raise _refusal("case", f"{place}: an array of {values.dtype}: must be real numbers")
-    if values.ndim != 2:
-        raise _refusal("case", f"{place}: an array of shape {values.shape}: must have two dimensions")
+    if values.ndim not in (1, 2):
+        raise _refusal("case", f"{place}: an array of shape {values.shape}: must have one or two dimensions")
     room_for(f"{place} of shape {values.shape}", values.size)
-    return np.ascontiguousarray(np.ma.getdata(values), dtype=np.float64)
+    numbers = np.ascontiguousarray(np.ma.getdata(values), dtype=np.float64)
+    return numbers.reshape(-1, 1) if values.ndim == 1 else numbers
 
 
 def _unreadable(path: Path, error: OSError) -> UnreadableError:

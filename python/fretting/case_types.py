@@ -11,7 +11,7 @@ import numpy.typing as npt
 AlongPhase: TypeAlias = Sequence[float] | float
 
 
-Array: TypeAlias = Sequence[Sequence[float]] | npt.NDArray[Any]
+Array: TypeAlias = Sequence[Sequence[float] | float] | npt.NDArray[Any]
 
 
 Auto: TypeAlias = Literal["auto"]
@@ -41,7 +41,7 @@ CellsItem: TypeAlias = int
 Cells: TypeAlias = Sequence[CellsItem] | int
 
 
-Coefficient: TypeAlias = float | str | Sequence[Sequence[float]] | npt.NDArray[Any]
+Coefficient: TypeAlias = float | str | Sequence[Sequence[float] | float] | npt.NDArray[Any]
 
 
 class Cone(TypedDict):
@@ -228,7 +228,7 @@ class LogColumns(TypedDict):
     """
 
 
-Map: TypeAlias = str | Sequence[Sequence[float]] | npt.NDArray[Any]
+Map: TypeAlias = str | Sequence[Sequence[float] | float] | npt.NDArray[Any]
 
 
 Of: TypeAlias = Literal["surface", "gap"]

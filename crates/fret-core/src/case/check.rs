@@ -2,12 +2,14 @@
 
 use toml::Spanned;
 
+use super::arrays::Cells;
 use super::attachments::Attachments;
 use super::beyond::beyond;
 use super::bodies::bodies;
 use super::conduction::conduction;
 use super::course::Stage;
-use super::definition::{Case, GridSize, Origin};
+use super::declared_units::declared_units;
+use super::definition::{Case, GridSize, Origin, way_to_slide};
 use super::evolution::evolution;
 use super::file::{CaseFile, CellsFile, OutputFile, SizeFile};
 use super::friction::{friction, of_stages};
@@ -49,20 +51,24 @@ pub(super) fn case(
     attachments: Attachments<'_>,
     is_whole: bool,
 ) -> Result<Case, Vec<Mistake>> {
-    let mut judge = Judge { mistakes: Vec::new(), attachments, force_unit: String::new() };
-    let units = file.units.as_ref().and_then(|file| super::units::units(&mut judge, file));
+    let mut judge =
+        Judge { mistakes: Vec::new(), attachments, force_unit: String::new(), units: None, is_line: false };
+    let units = file.units.as_ref().and_then(|file| declared_units(&mut judge, file));
     let is_line = matches!(file.grid.cells.get_ref(), CellsFile::Line(_));
+    judge.units.clone_from(&units);
+    judge.is_line = is_line;
     judge.force_unit = Units::after(units.as_ref(), "force", is_line);
     let cells = cells(&mut judge, &file.grid.cells);
     let size = size(&mut judge, &file.grid.size, cells);
+    let over = cells.map(|count| Cells { count, size: size.and_then(GridSize::given) });
     let bodies = bodies(&mut judge, &file.upper, &file.lower);
     let residual_stress = [("lower", &file.lower), ("upper", &file.upper)]
         .map(|(which, body)| residual(&mut judge, which, body.get_ref()));
     let fatigue = [("lower", &file.lower), ("upper", &file.upper)]
         .map(|(which, body)| super::fatigue::fatigue(&mut judge, which, body.get_ref()));
-    let profile = profile(&mut judge, &file, cells);
-    let friction = friction(&mut judge, file.friction.as_ref(), cells);
-    let changes = of_stages(&mut judge, file.load.get_ref(), cells);
+    let profile = profile(&mut judge, &file, over);
+    let friction = friction(&mut judge, file.friction.as_ref(), over);
+    let changes = of_stages(&mut judge, file.load.get_ref(), over);
     let changes = friction.as_ref().zip(changes).map(|(first, changes)| of_one_interface(first, changes));
     let laws = friction.as_ref().zip(changes.as_ref()).map(|(first, changes)| in_force(first, changes));
     let history_tolerance = file.solver.as_ref().and_then(|solver| solver.history_tolerance.as_ref());
@@ -95,7 +101,8 @@ pub(super) fn case(
         let strongest = friction_evolution.as_ref().zip(friction.as_ref());
         let strongest = strongest.map(|(evolution, first)| evolution.strongest(first));
         let friction = (laws.as_slice(), strongest.as_ref());
-        sliding(&mut judge, friction, &file.load, stages, tolerance.unwrap_or(TOLERANCE));
+        let limit = (tolerance.unwrap_or(TOLERANCE), way_to_slide(periodic, bodies.as_ref()));
+        sliding(&mut judge, friction, &file.load, stages, limit);
     }
     let wears = (file.wear.as_ref(), file.stress.as_ref());
     let wear = wear(&mut judge, wears, (bodies.as_ref(), files), stages.as_deref(), frictionless);

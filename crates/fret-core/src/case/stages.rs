@@ -319,7 +319,7 @@ pub(super) fn sliding(
     (laws, strongest): (&[&CoulombFriction], Option<&CoulombFriction>),
     list: &Spanned<Vec<Spanned<StageFile>>>,
     stages: &[Stage],
-    tolerance: f64,
+    (tolerance, way_out): (f64, &str),
 ) {
     let friction: Vec<&CoulombFriction> = laws.iter().map(|law| strongest.unwrap_or(law)).collect();
     let mut worst: Vec<(f64, f64)> = vec![(0.0, f64::INFINITY); stages.len()];
@@ -364,7 +364,9 @@ pub(super) fn sliding(
                 format!(
                     "load[{index}] ({name}).{key}: the tangential force reaches {asked}{unit}, where friction carries at most mu P = {bound}{unit}"
                 ),
-                "a force above mu P has no equilibrium, and one of mu P slides no one knows how far; prescribe the shift to slide",
+                &format!(
+                    "a force above mu P has no equilibrium, and one of mu P slides no one knows how far; {way_out}"
+                ),
             );
             return;
         }

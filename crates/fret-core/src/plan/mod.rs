@@ -149,8 +149,7 @@ impl Plan {
             let message = format!(
                 "grid.size = {size:?}: the contact under the heaviest load reaches the edge of the grid"
             );
-            let way = "enlarge it, or write size = \"auto\"; beyond = \"no body\" where a body ends at the edge of the grid";
-            return Err(case.refuse_size(message, way));
+            return Err(case.refuse_size(message, case.way_from_the_edge()));
         }
         let has_datum = case.is_line() && case.bodies.has_elastic_base();
         let datum = has_datum.then(|| case.datum.unwrap_or(size[0]));

@@ -7,7 +7,7 @@ use super::rings::Rings;
 use crate::case::{Path, Units};
 use crate::history::{Concern, CycleRecord, STIFFEST, StepRecord, Warning};
 use crate::model::{Base, Body, BulkCompliance, Coating, Control, ElasticMaterial, Shape};
-use crate::plan::{Coupling, Plan};
+use crate::plan::Plan;
 
 /// What follows from the case alone, with the contact that its plan expects.
 pub fn of_plan(plan: &Plan) -> Vec<Warning> {

@@ -1,7 +1,7 @@
 //! Why a run ends without its answer.
 
 use super::checkpoint::Place;
-use crate::case::{Case, GridSize, Units, apart};
+use crate::case::{Case, Units, apart};
 use crate::machine::memory::MemoryError;
 use crate::solver::SolveError;
 
@@ -33,12 +33,12 @@ pub enum RunError {
         increment: usize,
         /// Name of its stage.
         stage: String,
-        /// What to do.
+        /// What to try.
         advice: &'static str,
     },
     /// A tangential load above what friction carries, or as large.
     #[error(
-        "increment {increment} ({stage}): tangential force {}{unit} {} {}{unit}: {}; prescribe the shift to slide",
+        "increment {increment} ({stage}): tangential force {}{unit} {} {}{unit}: {}; {advice}",
         apart(*asked, *bound)[0], limit(*asked, *bound, *has_strength), apart(*asked, *bound)[1], consequence(*asked, *bound)
     )]
     AboveSliding {
@@ -54,6 +54,8 @@ pub enum RunError {
         has_strength: bool,
         /// A space and the unit of both; empty where the case declares no units.
         unit: String,
+        /// What to try.
+        advice: &'static str,
     },
     /// Tangential force and moment together above what friction carries.
     #[error(
@@ -161,17 +163,6 @@ impl RunError {
     }
 }
 
-/// How to make the grid larger: an automatic size needs whole shapes, and has been tried where it is written.
-fn larger_grid(case: &Case) -> &'static str {
-    if case.size == GridSize::Auto {
-        "write grid.size = [x, y], larger than what \"auto\" found, which fret plan shows"
-    } else if case.profile.heights.is_empty() && !case.friction.is_map() {
-        "enlarge grid.size, or write size = \"auto\""
-    } else {
-        "enlarge grid.size"
-    }
-}
-
 /// How a force stands to the limit of friction, and what that is.
 fn limit(asked: f64, bound: f64, has_strength: bool) -> &'static str {
     match (asked > bound, has_strength) {
@@ -211,13 +202,16 @@ pub fn run_error(error: &SolveError, increment: usize, case: &Case, stage: usize
             advice: "try more increments in this stage, or a larger solver.tolerance".to_owned(),
         },
         SolveError::AboveSliding { asked, bound, has_strength } => {
-            RunError::AboveSliding { increment, stage, asked, bound, has_strength, unit: unit("force") }
+            let (unit, advice) = (unit("force"), case.way_to_slide());
+            RunError::AboveSliding { increment, stage, asked, bound, has_strength, unit, advice }
         }
         SolveError::AboveFullSlip { fraction } => RunError::AboveFullSlip { increment, stage, fraction },
         SolveError::NoTilt { asked, reached } => {
             RunError::NoTilt { increment, stage, asked, reached, unit: unit("force x length") }
         }
-        SolveError::ContactAtEdge => RunError::ContactAtEdge { increment, stage, advice: larger_grid(case) },
+        SolveError::ContactAtEdge => {
+            RunError::ContactAtEdge { increment, stage, advice: case.way_from_the_edge() }
+        }
         SolveError::OperatorsMissing(error) => RunError::NotConverged {
             increment,
             stage,
