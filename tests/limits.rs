@@ -234,7 +234,7 @@ fn a_contact_follows_the_far_end_of_a_spring_anywhere() {
         );
         let history = solved(&ball(24, "\"auto\"", &friction, &loads));
         for step in history.steps.iter().filter(|step| step.stage == 1) {
-            let done = (step.increment - 2) as f64 / increments as f64;
+            let done = (step.increment - 2) as f64 / f64::from(increments);
             let expected = far * done - 0.3 * normal / stiffness;
             // The force is that of full sliding to the residual, and shifts are rounded at the far end's size.
             let rounding = 1e-15 * far + 1e-7 * 0.3 * normal / stiffness;
