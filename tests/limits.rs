@@ -339,7 +339,7 @@ fn the_contact_area_of_a_wave_is_the_same_with_and_without_simplifications() {
             other.contact_area
         );
     }
-    // 256 cells a side: 9.766e-7 and 7.969e-7. A cell at each of eight corners is 3 %.
+    // 256 cells per side: 9.766e-7 and 7.969e-7. A cell at each of eight corners is 3 %.
     assert!((full.steps[2].contact_area / 9.766e-7 - 1.0).abs() < 0.02);
     assert!((full.steps[1].contact_area / 7.969e-7 - 1.0).abs() < 0.02);
 }
