@@ -4,6 +4,7 @@ pub mod certifier;
 pub mod extreme_cases;
 pub mod random;
 pub mod shortcuts;
+pub mod stiff_cases;
 
 use std::fmt::Write;
 

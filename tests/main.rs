@@ -48,6 +48,7 @@ mod second_order;
 mod severity;
 mod shear_strength;
 mod sliding;
+mod stiff_and_extreme;
 mod subsurface;
 mod surfaces;
 mod thinning;

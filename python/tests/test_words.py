@@ -121,7 +121,7 @@ def test_diaries_say_that_they_are() -> None:
         assert "Developers' notes, dated" in (ROOT / "docs" / "developers" / name).read_text(encoding="utf-8"), name
 
 
-COMMANDS = ["", "run", "check", "plan", "schema", "report", "export", "study", "extremes", "stress", "sweep"]
+COMMANDS = ["", "run", "check", "plan", "schema", "report", "export", "study", "stress", "sweep"]
 
 
 @pytest.mark.parametrize("command", COMMANDS)

@@ -57,8 +57,13 @@ pub enum Verb {
     Export(ExportArguments),
     /// Refinement study: errors, orders of convergence and times over grids and increments, and which to choose
     Study(StudyArguments),
-    /// Stress test: solve extreme cases and check invariants. Exit code 0 if all pass, 2 otherwise
-    Extremes(ExtremesArguments),
+    /// Moved to `cargo xtask extremes`
+    #[command(hide = true)]
+    Extremes {
+        /// Whatever it was called with
+        #[arg(trailing_var_arg = true, allow_hyphen_values = true)]
+        words: Vec<String>,
+    },
     /// Subsurface stresses from the kept tractions of a run
     Stress(StressArguments),
     /// Friction coefficient, stiffness of the rig and the quantities of every cycle from measured fretting loops
@@ -266,15 +271,4 @@ pub struct IdentifyArguments {
     /// Print only errors
     #[arg(long)]
     pub quiet: bool,
-}
-
-/// Which extremes.
-#[derive(Debug, Args)]
-pub struct ExtremesArguments {
-    /// A subset of the cases on coarser grids: under a minute
-    #[arg(long)]
-    pub quick: bool,
-    /// Also write the table as a Markdown page
-    #[arg(long, value_name = "FILE")]
-    pub page: Option<PathBuf>,
 }

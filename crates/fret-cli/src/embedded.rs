@@ -57,9 +57,7 @@ impl From<Failure> for Stopped {
                 Self::Unwritten(path.clone(), failure.message())
             }
             Failure::Memory(_) => Self::Memory(failure.message()),
-            Failure::Broken(_) | Failure::Points { .. } | Failure::Defect(_) => {
-                Self::Defect(failure.message())
-            }
+            Failure::Points { .. } | Failure::Defect(_) => Self::Defect(failure.message()),
         }
     }
 }

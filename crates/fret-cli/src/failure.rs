@@ -35,8 +35,6 @@ pub enum Failure {
     Interrupted(String),
     /// A file could not be written.
     Unwritten(Unwritten),
-    /// So many families of extreme scenes do not hold.
-    Broken(usize),
     /// Points of a sweep that have no answer: how many were refused, and how many could not be solved.
     Points {
         /// Refused.
@@ -105,7 +103,6 @@ impl Failure {
             Self::Memory(_)
             | Self::Unsolved(_)
             | Self::Unwritten(_)
-            | Self::Broken(_)
             | Self::Points { .. }
             | Self::Defect(_) => FAILED,
             Self::Interrupted(_) => INTERRUPTED,
@@ -123,7 +120,6 @@ impl Failure {
             Self::Memory(_)
             | Self::Unsolved(_)
             | Self::Unwritten(_)
-            | Self::Broken(_)
             | Self::Points { .. }
             | Self::Defect(_) => "failed",
             Self::Interrupted(_) => "interrupted",
@@ -138,7 +134,6 @@ impl Failure {
             Self::Memory(error) => format!("this {error}"),
             Self::Unsolved(error) => error.to_string(),
             Self::Unwritten(unwritten) => unwritten.to_string(),
-            Self::Broken(count) => format!("{} of extreme cases: a check failed", families(*count)),
             Self::Points { refused, failed } => {
                 format!(
                     "points without a result: {refused} refused, {failed} failed; the others are solved and kept"
@@ -186,10 +181,6 @@ impl Failure {
 /// Words with names from files in them, as a terminal may have them.
 fn told(words: &str) -> String {
     shortened(&printable(words), LONGEST_MESSAGE)
-}
-
-fn families(count: usize) -> String {
-    if count == 1 { "1 family".to_owned() } else { format!("{count} families") }
 }
 
 /// Whether the equations went well but the case leaves what can be computed: a plan that had known would have refused it.

@@ -10,7 +10,6 @@ mod drawing;
 pub mod embedded;
 mod estimate;
 mod export;
-mod extremes;
 mod failure;
 mod figures;
 mod identify;
@@ -62,9 +61,13 @@ pub fn command_line(words: impl IntoIterator<Item = OsString>) -> u8 {
 fn dispatch(arguments: &Arguments) -> Result<(), Told> {
     let as_json = arguments.json;
     match &arguments.verb {
-        Verb::Extremes(arguments) => return commands::extremes::extremes(arguments, as_json),
         Verb::Sweep(arguments) => return commands::sweep::sweep(arguments, as_json),
         Verb::Run(arguments) => return commands::run::run(arguments, as_json),
+        Verb::Extremes { .. } => Err(Failure::Call(
+            "`fret extremes` is no command any more".to_owned(),
+            "run `cargo xtask extremes` in the repository; the page `Stiff and extreme cases` has its table"
+                .to_owned(),
+        )),
         Verb::Identify(arguments) => commands::identify::identify(arguments, as_json),
         Verb::Check { case, from } => commands::check::check(case, from.as_deref(), as_json),
         Verb::Plan { case, from } => commands::plan::plan(case, from.as_deref(), as_json),

@@ -12,7 +12,8 @@ usage: cargo xtask CHORE
             with --long all of them, also those that take long
   check     format, clippy, documentation, and ruff for Python: warnings are errors
   bench     the benchmarks
-  extremes  five thousand random cases, each certified, and their page docs/trust/random-cases.md; half an hour at the most
+  extremes  the stiff and extreme cases, and five thousand random ones, each certified, with their pages in docs/trust: half an
+            hour
   docs      the site, into target/site, and the Rust documentation, into target/doc: warnings are errors
   wheel     the Python wheel, into target/wheels
   coverage  lines that the Rust tests reach, into target/coverage; wants `cargo install cargo-tarpaulin`
@@ -29,7 +30,7 @@ fn main() -> ExitCode {
         ["test", "--long"] => ("test --long", test(Tests::All)),
         ["check"] => ("check", check()),
         ["bench"] => ("bench", vec![cargo(&["bench", "--workspace", "--locked"])]),
-        ["extremes"] => ("extremes", vec![extremes()]),
+        ["extremes"] => ("extremes", extremes()),
         ["docs"] => ("docs", docs()),
         ["wheel"] => ("wheel", wheel()),
         ["coverage"] => ("coverage", vec![coverage()]),
@@ -164,9 +165,14 @@ fn check() -> Vec<Step> {
     steps
 }
 
-fn extremes() -> Step {
-    let words = "run --release --locked --package fret-validation --example extremes -- --page docs/trust/random-cases.md";
-    cargo(&words.split_whitespace().collect::<Vec<_>>()).called("random cases")
+fn extremes() -> Vec<Step> {
+    let run = ["run", "--release", "--locked", "--package", "fret-validation", "--example"];
+    let [stiff, random] =
+        ["docs/trust/extremes.md", "docs/trust/random-cases.md"].map(|page| ["--", "--page", page]);
+    vec![
+        cargo(&[&run[..], &["stiff_cases"], &stiff].concat()).called("stiff cases"),
+        cargo(&[&run[..], &["extremes"], &random].concat()).called("random cases"),
+    ]
 }
 
 fn docs() -> Vec<Step> {

@@ -3,7 +3,6 @@
 pub mod check;
 mod crack;
 pub mod export;
-pub mod extremes;
 mod fatigue;
 pub mod heat;
 pub mod identify;

@@ -101,15 +101,3 @@ fn stresses_end_with_the_code_of_an_interrupt_and_leave_no_half_files() {
     assert!(took < Duration::from_secs(3), "{took:?}"); // one depth of one increment on a busy machine
     assert_eq!(std::fs::read_dir(bench.folder.join("run/stress")).unwrap().count(), 0);
 }
-
-#[test]
-fn extremes_end_with_the_code_of_an_interrupt() {
-    let bench = Bench::new("extremes-stopped");
-    let begun = Instant::now();
-    let (stopped, took) =
-        interrupt(&bench, &["extremes", "--page", "page.md"], || begun.elapsed().as_millis() > 300);
-    assert_eq!(stopped.code, Some(130), "{}", stopped.err);
-    assert!(stopped.err.contains("not finished") && stopped.out.is_empty(), "{}{}", stopped.out, stopped.err);
-    assert!(took < Duration::from_secs(3), "{took:?}");
-    assert!(bench.names().is_empty());
-}

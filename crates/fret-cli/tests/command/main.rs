@@ -5,10 +5,10 @@
 mod answered;
 mod bench;
 mod broken_off;
-mod extremes;
 mod heated;
 mod hostile;
 mod interrupted;
+mod leave_out;
 mod memory;
 mod misleading;
 mod refused;

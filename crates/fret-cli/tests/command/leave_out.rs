@@ -1,37 +1,6 @@
-//! `fret extremes`, and `fret run --leave-out none`: everything computed, the same answer.
+//! `fret run --leave-out none`: everything computed, the same answer.
 
 use crate::bench::{Bench, SPHERE};
-
-#[test]
-fn the_quick_extremes_hold_and_are_told_family_by_family() {
-    let bench = Bench::new("extremes");
-    let answer = bench.fret(&["extremes", "--quick", "--json", "--page", "page.md"]);
-    assert_eq!(answer.code, Some(0), "{}\n{}", answer.out, answer.err);
-    let told: serde_json::Value = serde_json::from_str(&answer.out).unwrap();
-    assert_eq!(told["status"], "holds");
-    let families = told["families"].as_array().unwrap();
-    assert!(families.len() >= 13);
-    for family in families {
-        assert_eq!(family["holds"], true, "{family}");
-        // The twin, the matrix and the accounts have been asked: rounding is never exactly nothing.
-        assert!(family["response_error"].as_f64().unwrap() < 1e-12, "{family}");
-        assert!(family["least_pivot"].as_f64().unwrap() > 0.0, "{family}");
-        assert!(family["energy_missing"].as_f64().unwrap() > 0.0, "{family}");
-    }
-    let page = bench.text("page.md");
-    assert!(page.contains("| thousand layers: ") && page.contains("## Limits found"), "{page}");
-    assert_eq!(bench.names(), ["page.md"]);
-}
-
-#[test]
-#[ignore = "long: 14 s"]
-fn a_page_that_cannot_be_written_is_told_and_the_table_is_not_lost() {
-    let bench = Bench::new("extremes-unwritten");
-    let answer = bench.fret(&["extremes", "--quick", "--page", "no/such/folder/page.md"]);
-    assert_eq!(answer.code, Some(2));
-    assert!(answer.out.contains("thousand layers"), "{}", answer.out);
-    assert!(answer.err.contains("cannot be written"), "{}", answer.err);
-}
 
 #[test]
 fn a_run_that_leaves_nothing_out_says_so_and_finds_the_same() {
@@ -69,4 +38,11 @@ fn what_cannot_be_left_out_is_refused() {
     let answer = bench.file("case.toml", SPHERE).fret(&["run", "case.toml", "--leave-out", "friction"]);
     assert_eq!(answer.code, Some(1));
     assert!(answer.err.contains("[possible values: all, none]"), "{}", answer.err);
+}
+
+#[test]
+fn extremes_point_to_where_they_went() {
+    let answer = Bench::new("extremes").fret(&["extremes", "--quick"]);
+    assert_eq!(answer.code, Some(1));
+    assert!(answer.err.contains("cargo xtask extremes"), "{}", answer.err);
 }

@@ -14,10 +14,8 @@ use fret_core::history::{KeptFields, StepRecord};
 use fret_core::kernel::{Components, influence_coefficients, periodic_symbols};
 use fret_core::model::{ContactState, MirroredState, TangentialField};
 use fret_core::plan::Plan;
-use fret_core::run::{Iteration, Observer};
+use fret_core::run::Observer;
 use fret_fft::ConvolutionError;
-
-use crate::interrupt;
 
 /// Keeps the accounts of a run and looks at its mirror image.
 pub struct Accounts {
@@ -163,10 +161,6 @@ fn dot(one: &[f64], other: &[f64]) -> f64 {
 }
 
 impl Observer for Accounts {
-    fn iterated(&mut self, _: &Iteration) -> ControlFlow<()> {
-        interrupt::go_on()
-    }
-
     fn solved(
         &mut self,
         record: &StepRecord,

@@ -2,7 +2,6 @@
 
 use super::families::Family;
 use super::scene::{Outcome, TOLERANCE};
-use crate::interrupt;
 
 /// What one scene shows; all relative.
 #[derive(Debug, Clone, Copy)]
@@ -84,8 +83,8 @@ pub struct Row {
     pub broken: Vec<[String; 2]>,
 }
 
-/// Judges every scene of a family; `None` when somebody stops it.
-pub fn row(family: &Family) -> Option<Row> {
+/// Judges every scene of a family.
+pub fn row(family: &Family) -> Row {
     let mut row = Row {
         name: family.name,
         range: family.range.clone(),
@@ -98,7 +97,6 @@ pub fn row(family: &Family) -> Option<Row> {
     let mut most = 0.0;
     for scene in &family.scenes {
         match scene.judged() {
-            _ if interrupt::is_asked() => return None,
             Outcome::Judged(found) => {
                 row.broken
                     .extend(found.broken().into_iter().map(|what| [scene.label.clone(), what.to_owned()]));
@@ -110,10 +108,9 @@ pub fn row(family: &Family) -> Option<Row> {
             }
             Outcome::Refused(why) => row.refused.push([scene.label.clone(), why]),
             Outcome::Failed(why) => row.broken.push([scene.label.clone(), why]),
-            Outcome::Interrupted => return None,
         }
     }
-    Some(row)
+    row
 }
 
 impl Row {

@@ -1,4 +1,4 @@
-//! Stiff and extreme scenes, family by family: each is solved and judged by what must hold whatever the numbers.
+//! Stiff and extreme cases, family by family: each is solved and judged by what must hold whatever the numbers.
 
 mod balance;
 mod bodies;
@@ -7,10 +7,8 @@ mod judgement;
 mod operator;
 mod page;
 mod scene;
-mod table;
 mod twin;
 
 pub use families::families;
 pub use judgement::{Row, row};
 pub use page::page;
-pub use table::{json, table};

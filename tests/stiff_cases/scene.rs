@@ -6,13 +6,12 @@ use fret_core::case::Case;
 use fret_core::history::{History, StepRecord};
 use fret_core::kernel::PairResponse;
 use fret_core::plan::{LeaveOut, Plan, Simplification};
-use fret_core::run::{RunError, Simulation};
+use fret_core::run::{RunError, Silent, Simulation};
 
 use super::balance::Accounts;
 use super::bodies::Stack;
 use super::judgement::Judgement;
 use super::{operator, twin};
-use crate::interrupt::Listener;
 
 /// Solver tolerance of all scenes.
 pub const TOLERANCE: f64 = 1e-8;
@@ -53,8 +52,6 @@ pub enum Outcome {
     Refused(String),
     /// Not solved.
     Failed(String),
-    /// Stopped by somebody.
-    Interrupted,
 }
 
 impl Scene {
@@ -102,7 +99,7 @@ impl Scene {
         let text = format!("{}[[load]]\napproach = {approach:e}\nincrements = 1\n", self.head(0.0));
         let plan = planned(&text)?;
         let history =
-            Simulation::new(&plan).run(&mut Listener).map_err(|error| failed("pressed alone: ", &error))?;
+            Simulation::new(&plan).run(&mut Silent).map_err(|error| failed("pressed alone: ", &error))?;
         Ok(history.steps.last().map_or(0.0, |step| step.normal_force))
     }
 
@@ -191,10 +188,7 @@ fn apart(one: &History, other: &History) -> f64 {
 }
 
 fn failed(when: &str, error: &RunError) -> Outcome {
-    match error {
-        RunError::Interrupted { .. } => Outcome::Interrupted,
-        error => Outcome::Failed(format!("{when}{error}")),
-    }
+    Outcome::Failed(format!("{when}{error}"))
 }
 
 fn planned(text: &str) -> Result<Plan, Outcome> {
