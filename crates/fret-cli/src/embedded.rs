@@ -20,7 +20,7 @@ use crate::estimate::{Estimate, NoBars};
 use crate::failure::{Failure, Unwritten};
 pub use crate::identify::Request as IdentifyRequest;
 use crate::origin::Origin;
-use crate::output::{ERROR_BARS, Ending, ResultFolder, RunRecord, Standing, Wish, write_whole};
+use crate::output::{ERROR_BARS, Ending, ResultFolder, RunRecord, Standing, Wish, resolved_path, write_whole};
 use crate::tally::Tally;
 use crate::terminal;
 use crate::threads;
@@ -192,6 +192,7 @@ pub struct Solved<'a> {
 pub fn save(solved: Solved<'_>, case: CaseText, folder: &Path, earlier: Earlier) -> Result<(), Stopped> {
     let Solved { plan, history, quantities, early, error_bars } = solved;
     let case_file = CaseFile::from(case);
+    let folder = &resolved_path(folder);
     match ResultFolder::standing(folder, &case_file, plan, earlier.into())? {
         Standing::Free | Standing::SameCase | Standing::Forced => {}
         Standing::Unfinished | Standing::Solved(_) => {

@@ -130,7 +130,7 @@ impl Preparation {
                 "results": shown,
                 "error_bars": estimate.map(|estimate| estimate.to_json(|stage| self.stage_name(stage))),
             });
-            terminal::answer(&format!("{answer:#}"))?;
+            terminal::answer_in_json(&answer)?;
         } else if !quiet {
             let bars = estimate.map(|estimate| estimate.table(|stage| self.stage_name(stage)) + "\n\n");
             terminal::answer(&(bars.unwrap_or_default() + &message))?;
@@ -202,7 +202,7 @@ impl Preparation {
             estimate: estimate.as_ref(),
         };
         if as_json {
-            terminal::answer(&format!("{:#}", summary.to_json(failure.as_ref())))?;
+            terminal::answer_in_json(&summary.to_json(failure.as_ref()))?;
         } else if failure.is_none() && !quiet {
             terminal::answer(&summary.table())?;
         }

@@ -17,6 +17,7 @@ use ndarray::Array2;
 use rayon::prelude::{IntoParallelRefIterator, ParallelIterator};
 use serde_json::{Value, json};
 
+use super::place::folder_below;
 use super::whole_file::{write_whole, write_whole_sparsely};
 use crate::failure::Unwritten;
 
@@ -221,8 +222,8 @@ impl FieldStore {
     /// Path of a file of the store, in a folder that is there.
     fn file(&self, key: &str) -> Result<PathBuf, Unwritten> {
         let path = self.path.join(key);
-        if let Some(folder) = path.parent() {
-            fs::create_dir_all(folder).map_err(Unwritten::at(folder))?;
+        if let Some(folder) = Path::new(key).parent() {
+            folder_below(&self.path, folder)?;
         }
         Ok(path)
     }

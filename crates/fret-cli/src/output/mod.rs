@@ -10,6 +10,7 @@ mod framed_file;
 mod history_table;
 pub mod kept_run;
 mod packed_file;
+mod place;
 mod run_record;
 pub mod section;
 mod state_store;
@@ -29,17 +30,19 @@ use serde_json::Value;
 use crate::case_file::CaseFile;
 use crate::failure::{Failure, Unwritten};
 use crate::tally::Tally;
-use checkpoint_folder::{CheckpointFolder, Found, Head};
+use checkpoint_folder::{CHECKPOINT, CheckpointFolder, Found, Head};
 pub use checkpoint_folder::{Stored, newest_start};
 use field_store::FieldStore;
 pub use history_table::HistoryTable;
 use history_table::Lines;
+use place::refuse_links_below;
 pub use packed_file::{read_packed, write_packed};
+pub use place::{folder_below, folder_for_answers, new_file, refuse_link, resolved_path, stem};
 pub use run_record::{Ending, RunRecord, question, resolved};
-use state_store::StateStore;
+use state_store::{START, STATES, StateStore};
 pub use state_store::{start_below, state_below, states_below};
 pub use stress_kinds::{kind_of_stress, stress_called};
-pub use whole_file::write_whole;
+pub use whole_file::{part_of, write_whole};
 
 const CASE: &str = "case.toml";
 const RECORD: &str = "run.json";
@@ -48,6 +51,10 @@ const CYCLES: &str = "cycles.csv";
 const FIELDS: &str = "fields.zarr";
 /// Error bars of the quantities of interest, where they were asked for.
 pub const ERROR_BARS: &str = "error_bars.json";
+
+/// All that a run writes.
+const WRITTEN: [&str; 9] =
+    [CASE, RECORD, HISTORY, CYCLES, FIELDS, ERROR_BARS, STATES, START, CHECKPOINT];
 
 /// What lies where the results shall go.
 #[derive(Debug, Clone, PartialEq)]
@@ -102,6 +109,7 @@ impl ResultFolder {
         if holds_nothing(path) {
             return Ok(Standing::Free);
         }
+        refuse_links_below(path, &WRITTEN)?;
         CheckpointFolder::refuse_taken(path)?;
         let Some(earlier) = fs::read(path.join(RECORD)).ok() else {
             return match wish {
@@ -312,7 +320,7 @@ pub struct Taken {
 
 /// Whether a folder is empty, apart from what a run that is killed in its first moment leaves behind.
 fn holds_nothing(path: &Path) -> bool {
-    let is_litter = |name: &str| name == "run.json.part" || name == "checkpoint";
+    let is_litter = |name: &str| name == "run.json.part" || name == CHECKPOINT;
     match fs::read_dir(path) {
         Ok(mut entries) => {
             !CheckpointFolder::is_below(path)

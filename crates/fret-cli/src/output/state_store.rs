@@ -8,22 +8,26 @@ use fret_core::history::Start;
 use fret_core::model::SolvedState;
 
 use super::packed_file::{read_packed, write_packed};
+use super::place::folder_below;
 use crate::failure::{Failure, Unwritten};
 
-const STATES: &str = "states";
-const START: &str = "start.state";
+/// The folder.
+pub const STATES: &str = "states";
+/// Where the run started.
+pub const START: &str = "start.state";
 const FIRST_LINE: &str = "fretting state 2\n";
 
 /// The states while a run goes.
 #[derive(Debug)]
 pub struct StateStore {
+    results: PathBuf,
     path: PathBuf,
 }
 
 impl StateStore {
     /// The store of the results at `path`, without any state of an earlier run; `start` is where this one starts.
     pub fn create(results: &Path, start: Option<&Start>) -> Result<Self, Failure> {
-        let store = Self { path: results.join(STATES) };
+        let store = Self { results: results.to_owned(), path: results.join(STATES) };
         store.cut_back(0)?;
         let first = results.join(START);
         match start {
@@ -35,14 +39,14 @@ impl StateStore {
 
     /// The store of a broken-off run, cut back to its first `solved` increments.
     pub fn reopen(results: &Path, solved: usize) -> Result<Self, Unwritten> {
-        let store = Self { path: results.join(STATES) };
+        let store = Self { results: results.to_owned(), path: results.join(STATES) };
         store.cut_back(solved)?;
         Ok(store)
     }
 
     /// Writes down the state of an increment.
     pub fn keep(&self, increment: usize, rest: &SolvedState) -> Result<(), Failure> {
-        fs::create_dir_all(&self.path).map_err(Unwritten::at(&self.path))?;
+        folder_below(&self.results, Path::new(STATES))?;
         write_packed(&self.path.join(increment.to_string()), FIRST_LINE, postcard::to_stdvec(rest).ok())
     }
 

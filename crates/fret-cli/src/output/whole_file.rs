@@ -4,6 +4,7 @@ use std::fs::{self, File};
 use std::io::{self, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
+use super::place::new_file;
 use crate::failure::Unwritten;
 
 /// Writes a file. A reader, a kill and a power failure at any moment find the old content or the new one, never a part.
@@ -32,7 +33,7 @@ pub fn write_whole_by(
     content: impl FnOnce(&mut File) -> io::Result<()>,
 ) -> Result<(), Unwritten> {
     let part = part_of(path);
-    File::create(&part)
+    new_file(&part)
         .and_then(|mut file| {
             content(&mut file)?;
             file.sync_all()
@@ -45,7 +46,8 @@ pub fn write_whole_by(
         })
 }
 
-fn part_of(path: &Path) -> PathBuf {
+/// The name of a file while it is written.
+pub fn part_of(path: &Path) -> PathBuf {
     let mut name = path.as_os_str().to_owned();
     name.push(".part");
     PathBuf::from(name)

@@ -54,4 +54,5 @@ pub use refusal::{CaseError, Difference, Mistake};
 pub(crate) use stages::apart;
 pub use stress::{Side, StressRequest};
 pub use units::Units;
-pub use wording::{in_words, printable};
+pub use read::refuse_too_long;
+pub use wording::{in_words, printable, steers};
