@@ -37,7 +37,9 @@ fn asked() {
     }
     let _ = std::thread::Builder::new().spawn(|| {
         std::thread::sleep(PATIENCE);
-        terminal::say("stopping: what is being computed or written is finished first; Ctrl-C again ends at once");
+        terminal::say(
+            "stopping: what is being computed or written is finished first; Ctrl-C again ends at once",
+        );
     });
 }
 
@@ -47,7 +49,8 @@ mod system {
     use signal_hook::iterator::Signals;
 
     pub fn listen(asked: fn()) {
-        let heard: Vec<i32> = [SIGINT, SIGTERM, SIGHUP].into_iter().filter(|signal| !is_ignored(*signal)).collect();
+        let heard: Vec<i32> =
+            [SIGINT, SIGTERM, SIGHUP].into_iter().filter(|signal| !is_ignored(*signal)).collect();
         if let Ok(mut signals) = Signals::new(&heard) {
             let _ = std::thread::Builder::new().spawn(move || signals.forever().for_each(|_| asked()));
         }

@@ -5,6 +5,7 @@
 mod arguments;
 mod case_file;
 mod commands;
+mod commit;
 mod defect;
 mod drawing;
 pub mod embedded;

@@ -26,7 +26,8 @@ pub fn answer(text: &str) -> Result<(), Failure> {
 /// Writes an answer for programs: in JSON, which shows what would steer a terminal in its own way.
 pub fn answer_in_json(value: &impl Display) -> Result<(), Failure> {
     // Only texts hold such letters, and none of them lies beyond the sixteen bits that JSON's way of writing letters has.
-    let escaped = |letter| if steers(letter) { format!("\\u{:04x}", u32::from(letter)) } else { String::from(letter) };
+    let escaped =
+        |letter| if steers(letter) { format!("\\u{:04x}", u32::from(letter)) } else { String::from(letter) };
     answer(&format!("{value:#}").chars().map(escaped).collect::<String>())
 }
 

@@ -13,7 +13,7 @@ use crate::arguments::{LeavingOut, RunArguments};
 use crate::case_file::CaseFile;
 use crate::failure::Failure;
 use crate::origin::Origin;
-use crate::output::{ResultFolder, resolved_path, Standing, Wish};
+use crate::output::{ResultFolder, Standing, Wish, resolved_path};
 use crate::summary::warning_line;
 use crate::terminal;
 use crate::threads;

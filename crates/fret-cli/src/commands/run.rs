@@ -88,7 +88,7 @@ impl Preparation {
             return Ok(Beginning::Nothing(record.clone()));
         }
         if self.standing == Standing::Unfinished
-            && let Some(taken) = ResultFolder::reopen(&self.folder, &self.plan, record())?
+            && let Some(taken) = ResultFolder::reopen(&self.folder, &self.case_file, &self.plan, record())?
         {
             let Stored { head, checkpoint } = taken.stored;
             if !quiet {
@@ -207,6 +207,13 @@ impl Preparation {
             terminal::answer(&summary.table())?;
         }
         match &failure {
+            Some(Failure::Unwritten(_)) if !ResultFolder::can_go_on(&self.folder) => {
+                let shown = self.folder.display();
+                terminal::say(&format!(
+                    "{}, but {shown} is gone, or a part of it: nothing is left to continue",
+                    tally.standing()
+                ));
+            }
             Some(Failure::Unwritten(_)) if tally.solved > 0 => {
                 terminal::say(&format!("{}; once it can be written, --resume continues", self.kept(&tally)));
             }

@@ -101,6 +101,12 @@ impl HistoryTable {
         Written { bytes: self.bytes, checksum: self.checksum.clone().finalize() }
     }
 
+    /// Its path, where it is not there any more as it was written.
+    pub fn lost(&self) -> Option<PathBuf> {
+        let is_there = std::fs::metadata(&self.path).is_ok_and(|facts| facts.len() == self.bytes);
+        (!is_there).then(|| self.path.clone())
+    }
+
     /// Adds an increment: one write a line, so that a killed process leaves whole lines.
     pub fn add(&mut self, record: &StepRecord) -> Result<(), Unwritten> {
         self.append(&line(STEP_COLUMNS, record))

@@ -160,9 +160,12 @@ mod tests {
     fn a_path_is_what_it_names_once_its_folders_are_made() {
         let bench = bench("resolved");
         fs::create_dir(bench.join("old")).unwrap();
-        for (path, name) in
-            [("new/../old", "old"), ("new/er/../../old", "old"), ("new/../other", "other"), ("a/b/../c", "a/c")]
-        {
+        for (path, name) in [
+            ("new/../old", "old"),
+            ("new/er/../../old", "old"),
+            ("new/../other", "other"),
+            ("a/b/../c", "a/c"),
+        ] {
             assert_eq!(resolved_path(&bench.join(path)), bench.join(name), "{path}");
         }
         for path in ["old", "old/../old", "new"] {
@@ -174,7 +177,9 @@ mod tests {
 
     #[test]
     fn a_stem_names_no_folder_above() {
-        for (file, name) in [("a/ball.toml", "ball"), ("...toml", "case"), ("..toml", "case"), ("x/..", "case")] {
+        for (file, name) in
+            [("a/ball.toml", "ball"), ("...toml", "case"), ("..toml", "case"), ("x/..", "case")]
+        {
             assert_eq!(stem(Path::new(file), "case"), Path::new(name), "{file}");
         }
     }

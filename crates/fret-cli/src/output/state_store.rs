@@ -6,10 +6,12 @@ use std::path::{Path, PathBuf};
 
 use fret_core::history::Start;
 use fret_core::model::SolvedState;
+use fret_core::plan::Plan;
 
 use super::packed_file::{read_packed, write_packed};
 use super::place::folder_below;
 use crate::failure::{Failure, Unwritten};
+use crate::tally::Tally;
 
 /// The folder.
 pub const STATES: &str = "states";
@@ -48,6 +50,23 @@ impl StateStore {
     pub fn keep(&self, increment: usize, rest: &SolvedState) -> Result<(), Failure> {
         folder_below(&self.results, Path::new(STATES))?;
         write_packed(&self.path.join(increment.to_string()), FIRST_LINE, postcard::to_stdvec(rest).ok())
+    }
+
+    /// Why the states of the first increments of a run are not those that were written, if they are not; `kept` are those of them whose
+    /// fields are kept.
+    pub fn damaged(results: &Path, plan: &Plan, kept: &[usize], tally: &Tally) -> Option<String> {
+        let found = states_below(results);
+        let keeps = |name: &str| plan.case.output.fields.iter().any(|field| field == name);
+        // A state is kept where the kept fields complete it; at the end of a stage in any case.
+        let always = ["pressure", "shear", "slip"].into_iter().all(keeps);
+        let ends = tally.stage_ends.iter().rev().skip(1).map(|end| end.increment);
+        let wanted: Vec<usize> =
+            if always { kept.to_vec() } else { ends.filter(|end| kept.contains(end)).collect() };
+        if let Some(lost) = wanted.iter().find(|increment| !found.contains(increment)) {
+            return Some(format!("{}: missing", results.join(STATES).join(lost.to_string()).display()));
+        }
+        let solved = found.into_iter().filter(|increment| *increment < tally.solved);
+        solved.map(|increment| state_below(results, increment)).find_map(Result::err)
     }
 
     fn cut_back(&self, solved: usize) -> Result<(), Unwritten> {

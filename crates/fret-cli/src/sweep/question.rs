@@ -126,7 +126,12 @@ impl Reader<'_> {
             self.refuse_unknown_keys(first, &axes);
         }
         if self.mistakes.is_empty() {
-            Ok(Question { text: text.clone(), keys: axes.into_iter().flat_map(|axis| axis.keys).collect(), points, design })
+            Ok(Question {
+                text: text.clone(),
+                keys: axes.into_iter().flat_map(|axis| axis.keys).collect(),
+                points,
+                design,
+            })
         } else {
             Err(self.refusal())
         }

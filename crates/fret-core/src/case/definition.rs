@@ -127,7 +127,8 @@ impl Case {
 
     /// Refuses the case for its grid's side lengths.
     pub(crate) fn refuse_size(&self, message: String, help: &str) -> CaseError {
-        let mistake = Mistake { message, help: Some(help.to_owned()), span: Some(self.origin.size.clone()) };
+        let help = (!help.is_empty()).then(|| help.to_owned());
+        let mistake = Mistake { message, help, span: Some(self.origin.size.clone()) };
         CaseError::new(&self.origin.name, &self.origin.text, vec![mistake])
     }
 
