@@ -5,10 +5,12 @@ use std::sync::Arc;
 
 use fret_core::history::Start;
 use fret_core::model::LoadStep;
+use serde::Deserialize;
 
 use crate::failure::Failure;
 use crate::output::kept_run::KeptRun;
 use crate::output::{newest_start, start_below, state_below, states_below};
+use crate::results::is_solved;
 
 /// More increments than this are not listed one by one.
 const MOST_LISTED: usize = 12;
@@ -48,6 +50,13 @@ impl Origin {
         all.sort_unstable();
         all.dedup();
         let shown = results.display();
+        let listed_there = Vec::<usize>::deserialize(&run.record["states"]).unwrap_or_default();
+        if let Some(lost) = listed_there.iter().find(|kept| is_solved(&run.record) && !all.contains(kept)) {
+            return Err(Failure::Call(
+                format!("{shown}: the state of increment {lost} is missing"),
+                "solve its case again".to_owned(),
+            ));
+        }
         let increment = match (increment, all.last()) {
             (_, None) => {
                 return Err(Failure::Call(
