@@ -5,6 +5,7 @@ use std::f64::consts::PI;
 
 use fret_core::case::{Attachments, Case};
 use fret_core::history::History;
+use fret_core::model::Zone;
 use fret_core::plan::{LeaveOut, Plan};
 use fret_core::run::{RunError, Silent, Simulation};
 use fret_validation::{keeping, run, solved, solved_with};
@@ -119,18 +120,21 @@ fn a_flat_surface_with_a_friction_map_slips_where_it_is_slippery() {
         flat(STEEL, STEEL, "map = { array = 1 }", &pulled)
     };
     let arrays = [Array2::zeros((16, 16)), map.clone()];
-    let history = solved_with(&text(1.9), &arrays);
+    let history = solved_with(&text(1.99), &arrays);
     let last = history.fields.last().unwrap();
     assert!(last.pressure.as_ref().unwrap().iter().all(|p| (p / 1e7 - 1.0).abs() < 1e-12));
-    for (&q, &coefficient) in last.shear.as_ref().unwrap()[0].iter().zip(&map) {
+    let mut slipping = [0; 2];
+    let shear = last.shear.as_ref().unwrap();
+    for ((cell, &coefficient), zone) in map.indexed_iter().zip(last.zone.as_ref().unwrap()) {
+        let fraction = shear[0][cell].hypot(shear[1][cell]) / (coefficient * 1e7);
+        let slips = *zone == Zone::Slip;
+        slipping[usize::from(coefficient > 0.2)] += usize::from(slips);
         // The residual of 1e-8 is that of all cells together.
-        let fraction = q / (coefficient * 1e7);
-        assert!(
-            fraction < 1.0 + 1e-12 && (coefficient > 0.2 || fraction > 1.0 - 1e-6),
-            "{coefficient}: {fraction}"
-        );
+        assert!(fraction < 1.0 + 1e-12 && (!slips || fraction > 1.0 - 1e-6), "{coefficient}: {fraction}");
     }
-    assert!((history.steps.last().unwrap().tangential_force[0] / 1.9 - 1.0).abs() < 1e-12);
+    // Of a force half a per cent below the limit the slippery half of the cells, 128, carries nearly all that it can.
+    assert!(slipping[0] > 115 && slipping[0] >= slipping[1], "{slipping:?}");
+    assert!((history.steps.last().unwrap().tangential_force[0] / 1.99 - 1.0).abs() < 1e-12);
     // 0.2 P in the mean
     let attachments = Attachments { arrays: &arrays, ..Attachments::none() };
     let case = Case::from_toml_with(&text(2.2), "case.toml", attachments).unwrap();
@@ -157,7 +161,7 @@ fn a_force_of_mu_p_slides_and_one_just_below_sticks_in_the_middle() {
     };
     for short in [0.0, 1e-14, 1e-12, 1e-10] {
         let refused = Case::from_toml(&text(short), "case.toml").unwrap_err().to_string();
-        assert!(refused.contains("friction carries at most mu P = 3.6"), "{refused}");
+        assert!(refused.contains("friction carries at most mu P = 3."), "{refused}");
         assert!(refused.contains("prescribe the shift to slide"), "{refused}");
     }
     for short in [1e-8, 1e-6] {

@@ -430,8 +430,9 @@ fn the_tension_behind_a_slider_is_found_at_the_rim() {
                 "{cells} cells on {size}, nu {poisson}, mu {friction}: {at_centres:+.3} at centres, {at_rim:+.4} at the rim, x = {place:.4}"
             );
             // Shear along +x on the body pulls at its rear, where x is negative. The rim is known to a fifth of a cell, and that of a row
-            // of cells beside the middle lies less than half a cell nearer.
-            assert!((place.abs() - 1.0).abs() < 0.6 * side, "{cells}: {place}");
+            // of cells beside the middle lies less than half a cell nearer. Along the rim the tension falls with the cosine of the angle: what is
+            // known to two per cent may be the largest that far from the middle.
+            assert!((place.abs() - 1.0).abs() < 0.6 * side + 0.02, "{cells}: {place}");
             assert!(at_centres < -0.05, "the cusp lies between the centres");
             // 21 cells in the radius: two per cent; less from there on.
             assert!(at_rim.abs() < 0.02, "{cells} {size} {poisson}: {at_rim}");

@@ -33,7 +33,7 @@ pub const RING_CELLS: f64 = 1.0;
 /// sphere on a substrate half as stiff as its coating).
 pub const RING_FRACTION: f64 = 1.0 / 16.0;
 /// Largest shear over friction coefficient and largest pressure from which on such rings matter. Where pressing brings less, it slips at
-/// the very rim alone: between 10 and 64 increments the energy of later cycles changes by less than 0.005 %.
+/// the very rim alone: between 10 and 64 increments the energy of later cycles changes by at most 0.05 %.
 pub const RING_SHEAR: f64 = 0.2;
 
 /// Change of the friction coefficient of a cell in a single cycle over the mean one. Within a cycle it is constant; a tenth more friction

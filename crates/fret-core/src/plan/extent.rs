@@ -109,10 +109,10 @@ pub fn automatic_size(case: &Case, contact: &ExpectedContact) -> [f64; 2] {
     if case.is_line() { [x, x / case.cells[0] as f64] } else { [x, y] }
 }
 
-/// Side of a grid of so many cells in units of the contact's width: the margin, and at least so much that the outermost centres lie a twelfth
-/// of a cell outside, which fewer than seven cells make more.
+/// Side of a grid of so many cells in units of the contact's width: the margin, and at least so much that the outermost centres lie a quarter
+/// of a cell outside, which fewer than nine cells make more.
 fn margin(cells: usize) -> f64 {
-    if cells < 7 { MARGIN.max(cells as f64 / (cells as f64 - 7.0 / 6.0)) } else { MARGIN }
+    if cells < 9 { MARGIN.max(cells as f64 / (cells as f64 - 1.5)) } else { MARGIN }
 }
 
 /// The contact of a case on a coarse grid that it about fills.

@@ -1,7 +1,7 @@
 //! The pressure of a rounded punch over the radius, in a table: one value of it is an integral, and cell means ask for it at many places.
 
 /// Parts of either side of the rim of the flat.
-const PARTS: usize = 160;
+const PARTS: usize = 240;
 
 /// Pressure between the axis, the rim of the flat at `flat` and the edge of contact at `edge`, by cubics through its values.
 ///
@@ -16,7 +16,7 @@ pub struct RadialTable {
 }
 
 impl RadialTable {
-    /// A table of a pressure, which is asked for at 321 radii, whatever the number of cells.
+    /// A table of a pressure, which is asked for at 481 radii, whatever the number of cells.
     pub fn new(flat: f64, edge: f64, mut pressure: impl FnMut(f64) -> f64) -> Self {
         let part = |number: usize| (number as f64 / PARTS as f64).powi(4);
         let root = |r: f64| ((edge - r) * (edge + r)).sqrt();

@@ -9,7 +9,7 @@ fn stages(loads: &str, table: &str) -> Vec<Stage> {
     let text = format!(
         "[grid]\ncells = [16, 16]\nsize = [3.0, 3.0]\n[upper]\nsubstrate = {{ young = 1.0, poisson = 0.3 }}\n[lower]\n\
          substrate = {{ young = 1.0, poisson = 0.3 }}\n[profile.sphere]\nradius = 100.0\n\
-         [friction]\ncoefficient = 0.5\n[rig]\nnormal_stiffness = 1.0\ntangential_stiffness = 1.0\n\
+         [friction]\ncoefficient = 0.51\n[rig]\nnormal_stiffness = 1.0\ntangential_stiffness = 1.0\n\
          [[load]]\nnormal_force = 64.0\nincrements = 4\nramp = \"cubic\"\n{loads}"
     );
     let files = |_: &str| Ok(table.as_bytes().to_vec());
