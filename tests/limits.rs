@@ -234,7 +234,7 @@ fn a_contact_follows_the_far_end_of_a_spring_anywhere() {
         );
         let history = solved(&ball(24, "\"auto\"", &friction, &loads));
         for step in history.steps.iter().filter(|step| step.stage == 1) {
-            let done = (step.increment - 2) as f64 / increments as f64;
+            let done = (step.increment - 2) as f64 / f64::from(increments);
             let expected = far * done - 0.3 * normal / stiffness;
             // The force is that of full sliding to the residual, and shifts are rounded at the far end's size.
             let rounding = 1e-15 * far + 1e-7 * 0.3 * normal / stiffness;
@@ -339,7 +339,7 @@ fn the_contact_area_of_a_wave_is_the_same_with_and_without_simplifications() {
             other.contact_area
         );
     }
-    // 256 cells a side: 9.766e-7 and 7.969e-7. A cell at each of eight corners is 3 %.
+    // 256 cells per side: 9.766e-7 and 7.969e-7. A cell at each of eight corners is 3 %.
     assert!((full.steps[2].contact_area / 9.766e-7 - 1.0).abs() < 0.02);
     assert!((full.steps[1].contact_area / 7.969e-7 - 1.0).abs() < 0.02);
 }

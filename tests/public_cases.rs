@@ -225,7 +225,7 @@ fn holes_and_broken_words_of_a_scan_are_refused_with_their_place() {
     }
     let comma = scan(" ").replace('.', ",");
     refused(SCAN, &one("scan", comma), &["a decimal comma"]);
-    refused(SCAN, &one("scan", scan("|").replace('.', ",").replace('|', ",")), &["a decimal comma"]);
+    refused(SCAN, &one("scan", scan("|").replace(['.', '|'], ",")), &["a decimal comma"]);
     // points of another grid, and one too few
     let far = points(|row| row, 1.0);
     refused(
@@ -359,8 +359,8 @@ fn reduced(g: impl Fn(f64) -> f64, d: f64, modulus: f64) -> f64 {
         if g(middle) < d { low = middle } else { high = middle }
     }
     let nodes = 20_000;
-    2.0 * modulus * low / nodes as f64
-        * (0..nodes).map(|k| d - g(low * (k as f64 + 0.5) / nodes as f64)).sum::<f64>()
+    2.0 * modulus * low / f64::from(nodes)
+        * (0..nodes).map(|k| d - g(low * (f64::from(k) + 0.5) / f64::from(nodes))).sum::<f64>()
 }
 
 #[test]

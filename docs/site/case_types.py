@@ -45,7 +45,9 @@ def generated() -> str:
         "Array: TypeAlias = Sequence[Sequence[float] | float]",
         "Array: TypeAlias = Sequence[Sequence[float] | float] | npt.NDArray[Any]",
     )
-    text = text.replace("str | Sequence[Sequence[float] | float]", "str | Sequence[Sequence[float] | float] | npt.NDArray[Any]")
+    text = text.replace(
+        "str | Sequence[Sequence[float] | float]", "str | Sequence[Sequence[float] | float] | npt.NDArray[Any]"
+    )
     text = re.sub(r"'([a-z_]*)'", r'"\1"', text)
     return HEAD + "from collections.abc import Sequence\n" + text.replace(" | None]", "]")
 

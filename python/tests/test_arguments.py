@@ -81,7 +81,8 @@ def documented(function: Callable[..., object], error: Exception) -> bool:
 
 
 @pytest.mark.filterwarnings("ignore")
-def test_public_functions_raise_what_their_pages_name() -> None:
+def test_public_functions_raise_what_their_pages_name(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)  # some of the values are names of files and folders
     pytest.importorskip("matplotlib").use("Agg")
     pytest.importorskip("xarray")
     from matplotlib import pyplot as plt

@@ -222,11 +222,12 @@ def test_every_crack_has_cycles() -> None:
     nothing says how fast it grows.
     """
     history = fretting.run(line_case(10.0, 150e6))
-    growth: Any = {"paris_coefficient": 1e-28, "paris_exponent": 3.0}
+    laws: list[dict[str, float]] = [{}, {"paris_coefficient": 1e-28, "paris_exponent": 3.0}]
     fates = {}
     for threshold in (1e6, 1e8):
-        for law in ({}, growth):
-            crack = history.crack(constants={"crack": {**CRACK, **law, "threshold": threshold}})
+        for law in laws:
+            constants: Any = {"crack": {**CRACK, **law, "threshold": threshold}}
+            crack = history.crack(constants=constants)
             fates[threshold, bool(law)] = crack.attrs["fate"], crack.attrs["cycles"]
     assert fates[1e8, False] == fates[1e8, True] == ("does_not_grow", np.inf)
     assert fates[1e6, False][0] == "grows"

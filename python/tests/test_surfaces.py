@@ -119,6 +119,6 @@ def test_the_recipe_for_measured_files_brings_them_to_one_unit(tmp_path: Path) -
     question["grid"] = {"cells": list(topography.nb_grid_pts), "size": list(topography.physical_sizes)}
     question["lower"] = {"substrate": {"young": 210e9, "poisson": 0.3}}
     question["load"] = [{"normal_force": 10.0, "increments": 1}]
-    hertz = fretting.analytic.Hertz.sphere(5e-3, 10.0, 210e9 / 0.91)
+    hertz = fretting.analytic.hertz(radius=5e-3, force=10.0, modulus=210e9 / 0.91)
     # 9 cells in the radius of contact: within the 1 % of the manual
     assert fretting.run(question).increments["max_pressure"][-1] == pytest.approx(hertz.max_pressure, rel=0.01)

@@ -355,7 +355,7 @@ def test_where_nothing_is_measured_the_other_numbers_stay(case: dict[str, Any], 
     assert answer["word"].values.tolist() == ["mu 0.2", "", "mu 0.4"]
     assert answer["row"].shape == (3, 3)
     assert answer["error"].values[1] == "measure: RuntimeError: not here"
-    # A point that was not measured is not finished: with the mistake mended it is solved again, and alone.
+    # A point that was not measured is not finished: once the mistake is corrected it is solved again, and alone.
     mend = True
     again = fretting.sweep(case, axes, measure=unsure, folder=tmp_path / "sweep")
     assert again.attrs["solved_before"] == 2

@@ -51,13 +51,8 @@ pub(super) fn case(
     attachments: Attachments<'_>,
     is_whole: bool,
 ) -> Result<Case, Vec<Mistake>> {
-    let mut judge =
-        Judge { mistakes: Vec::new(), attachments, force_unit: String::new(), units: None, is_line: false };
-    let units = file.units.as_ref().and_then(|file| declared_units(&mut judge, file));
-    let is_line = matches!(file.grid.cells.get_ref(), CellsFile::Line(_));
-    judge.units.clone_from(&units);
-    judge.is_line = is_line;
-    judge.force_unit = Units::after(units.as_ref(), "force", is_line);
+    let mut judge = judge_of(&file, attachments);
+    let (units, is_line) = (judge.units.clone(), judge.is_line);
     let cells = cells(&mut judge, &file.grid.cells);
     let size = size(&mut judge, &file.grid.size, cells);
     let over = cells.map(|count| Cells { count, size: size.and_then(GridSize::given) });
@@ -146,18 +141,30 @@ pub(super) fn case(
             stages,
             wear,
             tolerance,
-            scheme: solver
-                .and_then(|solver| solver.scheme.as_ref())
-                .map_or_else(Scheme::default, |one| *one.get_ref()),
+            scheme: solver.and_then(|solver| solver.scheme.as_ref()).map_or_else(Scheme::default, value),
             integration: solver
                 .and_then(|solver| solver.integration.as_ref())
-                .map_or_else(Integration::default, |one| *one.get_ref()),
+                .map_or_else(Integration::default, value),
             output,
             stress,
             origin: Origin { name: name.to_owned(), text: text.to_owned(), size: file.grid.size.span() },
         }),
         _ => Err(judge.mistakes),
     }
+}
+
+/// What the whole case is judged with: its units, and whether it is a line contact.
+fn judge_of<'a>(file: &CaseFile, attachments: Attachments<'a>) -> Judge<'a> {
+    let is_line = matches!(file.grid.cells.get_ref(), CellsFile::Line(_));
+    let mut judge =
+        Judge { mistakes: Vec::new(), attachments, force_unit: String::new(), units: None, is_line };
+    judge.units = file.units.as_ref().and_then(|file| declared_units(&mut judge, file));
+    judge.force_unit = Units::after(judge.units.as_ref(), "force", is_line);
+    judge
+}
+
+fn value<T: Copy>(given: &Spanned<T>) -> T {
+    *given.get_ref()
 }
 
 fn tolerance(judge: &mut Judge, given: Option<&Spanned<f64>>) -> Option<f64> {

@@ -152,7 +152,9 @@ impl GradedCoating {
             .collect::<Result<_, _>>()?;
         if let Some((lowest, above)) = sublayers.split_last_mut() {
             *lowest = lowest.on(self.interface);
-            above.iter_mut().for_each(|sublayer| *sublayer = sublayer.continued());
+            for sublayer in above {
+                *sublayer = sublayer.continued();
+            }
         }
         Ok(sublayers)
     }

@@ -110,14 +110,15 @@ impl Plan {
         };
         let size = match case.size {
             GridSize::Given(size) => size,
-            GridSize::Auto => match start.as_deref().and_then(Start::spacing) {
-                Some(spacing) => [0, 1].map(|axis| spacing[axis] * case.cells[axis] as f64),
-                None => {
+            GridSize::Auto => {
+                if let Some(spacing) = start.as_deref().and_then(Start::spacing) {
+                    [0, 1].map(|axis| spacing[axis] * case.cells[axis] as f64)
+                } else {
                     let contact = expected.map_err(|why| without_size(&case, why))?;
                     let size = automatic_size(&case, &contact);
                     if coupling == Coupling::Coupled { with_room_to_slide(&case, size) } else { size }
                 }
-            },
+            }
         };
         let expected = expected.ok();
         let given = [size[0] / case.cells[0] as f64, size[1] / case.cells[1] as f64];

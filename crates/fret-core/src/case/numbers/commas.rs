@@ -15,7 +15,7 @@ pub(super) enum Commas {
 /// parts them where nothing else does; beside blanks alone it could be either. Decimal commas and decimal points in one text, and
 /// numbers as only halves of decimals look (`-0`, `00123`), leave a doubt too.
 pub(super) fn commas<'a>(
-    rows: impl Iterator<Item = (usize, &'a str)> + Clone,
+    rows: &(impl Iterator<Item = (usize, &'a str)> + Clone),
 ) -> Result<Commas, (usize, &'static str)> {
     let Some((line, _)) = rows.clone().find(|(_, row)| has_glued(row)) else { return Ok(Commas::Part) };
     let is_blank = |letter: char| letter.is_whitespace() || letter == ';';
@@ -103,7 +103,7 @@ mod tests {
     #[test]
     fn commas_part_or_are_decimal_or_leave_a_doubt() {
         let found = |text: &str| {
-            commas(text.lines().zip(1..).map(|(row, line)| (line, row))).map_err(|(line, _)| line)
+            commas(&text.lines().zip(1..).map(|(row, line)| (line, row))).map_err(|(line, _)| line)
         };
         for text in [
             "1 2\n3 4",

@@ -22,7 +22,7 @@ pub(super) fn rows(text: &str) -> Result<Array2<f64>, NumbersError> {
     let rows = lines()
         .filter(|(line, _)| !line.trim().is_empty() && !is_skipped(line))
         .map(|(line, number)| (number, if line.contains('#') { before_comment(line) } else { line }));
-    let parting = commas(rows.clone()).map_err(|(line, why)| NumbersError::DecimalComma { line, why })?;
+    let parting = commas(&rows).map_err(|(line, why)| NumbersError::DecimalComma { line, why })?;
     let mut reader = Reader { decimal_comma: parting == Commas::Decimal, values: Vec::new(), skipped };
     let mut columns = 0;
     for (line, row) in rows {

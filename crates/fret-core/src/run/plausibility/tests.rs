@@ -271,7 +271,7 @@ fn rings_are_counted_in_cells_and_in_parts_where_pressure_and_shear_are_coupled(
     near(ring(&coupled, &[cells(11.0, 1), cells(20.0, 100)]), 11.0);
     assert_eq!(ring(&coupled, &[cells(9.0, 1), cells(20.0, 20)]), None);
     assert_eq!(ring(&coupled, &[cells(15.0, 2), cells(20.0, 20)]), None);
-    // but not of a run that was taken up again
+    // but not of a run that was resumed
     let later = StepRecord { increment: 7, ..cells(11.0, 1) };
     assert_eq!(ring(&coupled, &[later, cells(20.0, 100)]), None);
     // on fine grids a sixteenth of the radius is the bound
