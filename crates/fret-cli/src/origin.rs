@@ -5,12 +5,10 @@ use std::sync::Arc;
 
 use fret_core::history::Start;
 use fret_core::model::LoadStep;
-use serde::Deserialize;
 
 use crate::failure::Failure;
 use crate::output::kept_run::KeptRun;
-use crate::output::{newest_start, start_below, state_below, states_below};
-use crate::results::is_solved;
+use crate::output::{lost_state, newest_start, start_below, state_below, states_below};
 
 /// More increments than this are not listed one by one.
 const MOST_LISTED: usize = 12;
@@ -50,12 +48,8 @@ impl Origin {
         all.sort_unstable();
         all.dedup();
         let shown = results.display();
-        let listed_there = Vec::<usize>::deserialize(&run.record["states"]).unwrap_or_default();
-        if let Some(lost) = listed_there.iter().find(|kept| is_solved(&run.record) && !all.contains(kept)) {
-            return Err(Failure::Call(
-                format!("{shown}: the state of increment {lost} is missing"),
-                "solve its case again".to_owned(),
-            ));
+        if let Some(lost) = lost_state(results, &run.record) {
+            return Err(Failure::Call(lost, "solve its case again".to_owned()));
         }
         let increment = match (increment, all.last()) {
             (_, None) => {

@@ -12,7 +12,7 @@ use ndarray::Array2;
 use serde::de::DeserializeOwned;
 use serde_json::Value;
 
-use super::{FIELDS, RECORD};
+use super::{FIELDS, RECORD, lost_state, state_below, states_below};
 use crate::failure::Failure;
 use crate::results::{Field, Fields, Table, cycles_of, read_record, unfinished};
 
@@ -99,6 +99,21 @@ impl KeptRun {
             unfinished: unfinished(&record, solved),
             record,
         })
+    }
+
+    /// Reads everything that a solved run has kept in its folder.
+    ///
+    /// # Errors
+    /// When a part of it is missing, or not as it was written.
+    pub fn look_at_all(&self, folder: &Path) -> Result<(), Failure> {
+        let damaged = |why: String| Failure::Call(why, "run the case again".to_owned());
+        self.fields.look_at_all()?;
+        if let Some(lost) = lost_state(folder, &self.record) {
+            return Err(damaged(lost));
+        }
+        states_below(folder)
+            .into_iter()
+            .try_for_each(|increment| state_below(folder, increment).map(drop).map_err(damaged))
     }
 
     /// What adds to the stress of the tractions in a body, in an increment.

@@ -43,7 +43,7 @@ use place::refuse_links_below;
 pub use place::{folder_below, folder_for_answers, new_file, refuse_link, resolved_path, stem};
 pub use run_record::{Ending, FORMAT, RunRecord, question, recorded_question, resolved};
 use state_store::{START, STATES, StateStore};
-pub use state_store::{start_below, state_below, states_below};
+pub use state_store::{lost_state, start_below, state_below, states_below};
 pub use stress_kinds::{kind_of_stress, stress_called};
 pub use whole_file::{part_of, write_whole};
 
@@ -146,7 +146,7 @@ impl ResultFolder {
                 format!("{other_folder}; nothing was touched"),
             ),
             Wish::Resume if is_solved => {
-                KeptRun::open(path)?; // refuses what is not whole
+                KeptRun::open(path)?.look_at_all(path)?;
                 Ok(Standing::Solved(record))
             }
             Wish::Resume => Ok(Standing::Unfinished),

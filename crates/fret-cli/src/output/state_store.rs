@@ -7,10 +7,13 @@ use std::path::{Path, PathBuf};
 use fret_core::history::Start;
 use fret_core::model::SolvedState;
 use fret_core::plan::Plan;
+use serde::Deserialize;
+use serde_json::Value;
 
 use super::packed_file::{read_packed, write_packed};
 use super::place::folder_below;
 use crate::failure::{Failure, Unwritten};
+use crate::results::is_solved;
 use crate::tally::Tally;
 
 /// The folder.
@@ -78,6 +81,14 @@ impl StateStore {
 /// Increments with a state in the results at `path`, in order.
 pub fn states_below(results: &Path) -> Vec<usize> {
     numbers_in(&results.join(STATES))
+}
+
+/// In words, which of the states that the record of a solved run lists is not there any more.
+pub fn lost_state(results: &Path, record: &Value) -> Option<String> {
+    let listed = Vec::<usize>::deserialize(&record["states"]).unwrap_or_default();
+    let found = states_below(results);
+    let lost = listed.into_iter().find(|kept| is_solved(record) && !found.contains(kept))?;
+    Some(format!("{}: the state of increment {lost} is missing", results.display()))
 }
 
 /// What the kept fields of an increment do not hold of its state.

@@ -59,9 +59,7 @@ impl Fields {
         let asked = Vec::<String>::deserialize(&plan["case"]["output"]["fields"]).unwrap_or_default();
         // Where nothing wears the wear depth is not kept, also where it was asked for.
         let is_filled = |name: &str| {
-            name != "worn_depth"
-                || !plan["case"]["wear"].is_null()
-                || path.join(chunk(&grid, name, 0)).exists()
+            name != "worn_depth" || !plan["case"]["wear"].is_null() || path.join(name).join("c").exists() // of the wear that it started from
         };
         let is_asked = |field: &&history::Field| {
             asked.iter().any(|name| name == field.asked_as) && is_filled(field.name)
@@ -133,6 +131,15 @@ impl Fields {
         }
         Ok(Field { cells, values })
     }
+
+    /// Reads every field.
+    ///
+    /// # Errors
+    /// When the file of one is missing, or not as it was written.
+    pub fn look_at_all(&self) -> Result<(), Failure> {
+        let of = |name: &&str| (0..self.steps.len()).try_for_each(|place| self.field(name, place).map(drop));
+        self.names.iter().try_for_each(of)
+    }
 }
 
 /// A store while it is looked at.
@@ -154,7 +161,7 @@ impl Store<'_> {
             move |is_checked: bool, words: &Value| axis_metadata(name, length, is_checked, words)
         };
         let metadata = self.metadata(name)?;
-        let length = length.or_else(|| self.length(&metadata, bytes.len() / 8)).unwrap_or_default();
+        let length = length.or_else(|| length_of(&metadata)).unwrap_or_default();
         let is_checked = is_checked(&metadata, written(length)).ok_or_else(|| self.foreign(name))?;
         let expected = if self.is_solved || name != "increment" { Some(8 * length) } else { None };
         checked(bytes, expected, is_checked).map_err(|what| unusable(&file, &what))
@@ -163,18 +170,9 @@ impl Store<'_> {
     /// Whether the chunks of a field over so many increments have checksums.
     fn field(&self, grid: &SurfaceGrid, name: &str, steps: usize) -> Result<bool, Failure> {
         let metadata = self.metadata(name)?;
-        let steps = self.length(&metadata, steps).unwrap_or_default();
+        let steps = if self.is_solved { steps } else { length_of(&metadata).unwrap_or_default() };
         is_checked(&metadata, |is_checked, words| field_metadata(grid, name, steps, is_checked, words))
             .ok_or_else(|| self.foreign(name))
-    }
-
-    /// The length along the axis of increments: as it must be, or of a run that is not solved as the metadata tell.
-    fn length(&self, metadata: &Value, length: usize) -> Option<usize> {
-        if self.is_solved {
-            Some(length)
-        } else {
-            metadata["shape"][0].as_u64().map(|length| length as usize)
-        }
     }
 
     /// The metadata of an array, which the group repeats.
@@ -196,6 +194,11 @@ impl Store<'_> {
             "not an array as a run writes it, or not what the group has of it",
         )
     }
+}
+
+/// The length along the first axis of an array, as its metadata tell.
+fn length_of(metadata: &Value) -> Option<usize> {
+    metadata["shape"][0].as_u64().map(|length| length as usize)
 }
 
 fn floats(bytes: &[u8]) -> Vec<f64> {
