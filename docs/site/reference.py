@@ -79,7 +79,7 @@ RUN = [
         'cycle and place where a coating was first worn through (`to` = "coating") or the limit reached ("limit"), or null',
     ),
     ("worn_by_layer", "wear volume of each layer of the lower and the upper body, or null"),
-    ("checksums, states", "of a run that ended: CRC-32 of `case.toml`, `history.csv` and `cycles.csv`, and the increments in `states/`: what was changed or is missing since is noticed by every command that reads the folder"),
+    ("checksums, states", "of a run that ended: CRC-32 of `case.toml`, of `cycles.csv`, of `history.csv` without its times (the same whenever the case is solved) and of these (`wall_s`), and the increments in `states/`: what was changed or is missing since is noticed by every command that reads the folder"),
     ("threads, started_unix_s, tolerance", "threads, start time, solver tolerance"),
 ]
 

@@ -101,10 +101,12 @@ impl HistoryTable {
         Written { bytes: self.bytes, checksum: self.checksum.clone().finalize() }
     }
 
-    /// Its path, where it is not there any more as it was written.
-    pub fn lost(&self) -> Option<PathBuf> {
-        let is_there = std::fs::metadata(&self.path).is_ok_and(|facts| facts.len() == self.bytes);
-        (!is_there).then(|| self.path.clone())
+    /// What was written, read again; its path where it is not there any more.
+    pub fn read_again(&self) -> Result<Vec<u8>, PathBuf> {
+        std::fs::read(&self.path)
+            .ok()
+            .filter(|content| crc32fast::hash(content) == self.written().checksum)
+            .ok_or_else(|| self.path.clone())
     }
 
     /// Adds an increment: one write a line, so that a killed process leaves whole lines.

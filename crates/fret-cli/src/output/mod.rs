@@ -5,6 +5,7 @@
 //! `checkpoint` while the run is not solved. An increment's fields and state are written first, then its line, then that of the cycle it ends, then the checkpoint: what the checkpoint counts is complete, what lies beyond it is cut off when the run goes on.
 
 mod checkpoint_folder;
+mod checksums;
 mod field_store;
 mod framed_file;
 mod history_table;
@@ -34,6 +35,7 @@ use crate::failure::{Failure, Unwritten};
 use crate::tally::Tally;
 use checkpoint_folder::{CHECKPOINT, CheckpointFolder, Found, Head};
 pub use checkpoint_folder::{Stored, newest_start};
+pub use checksums::checksums;
 use field_store::FieldStore;
 pub use history_table::HistoryTable;
 use history_table::Lines;
@@ -322,17 +324,16 @@ impl ResultFolder {
     ) -> Result<(), Unwritten> {
         self.history.settle()?;
         self.cycles.settle()?;
-        let lost = [self.history.lost(), self.cycles.lost(), self.fields.lost()].into_iter().flatten().next();
+        let (history, cycles) = (self.history.read_again(), self.cycles.read_again());
+        let lost = history.as_ref().err().or(cycles.as_ref().err()).cloned().or_else(|| self.fields.lost());
         let lost = lost.map(|file| Unwritten::at(&file)(io::Error::other(REMOVED)));
         let torn =
             lost.as_ref().map(|lost| Ending { status: "failed".to_owned(), message: lost.to_string() });
-        let checksums = json!({
-            CASE: crc32fast::hash(self.case_text.as_bytes()),
-            HISTORY: self.history.written().checksum,
-            CYCLES: self.cycles.written().checksum,
-        });
+        let tables = [(HISTORY, history.ok()), (CYCLES, cycles.ok())];
+        let texts = tables.iter().filter_map(|(name, text)| Some((*name, text.as_deref()?)));
+        let texts = texts.chain([(CASE, self.case_text.as_bytes())]);
         let kept = Map::from_iter([
-            ("checksums".to_owned(), checksums),
+            ("checksums".to_owned(), checksums(texts).into()),
             ("states".to_owned(), json!(states_below(&self.path))),
         ]);
         let record = self.record.ended((tally, warnings), wall_s, early.or(torn.as_ref()), kept);

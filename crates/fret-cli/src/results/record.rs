@@ -9,7 +9,7 @@ use serde_json::Value;
 
 use super::unusable;
 use crate::failure::Failure;
-use crate::output::{CASE, FORMAT, RECORD, recorded_question};
+use crate::output::{CASE, FORMAT, RECORD, checksums, recorded_question};
 
 /// The record of the results in a folder.
 ///
@@ -51,10 +51,12 @@ pub fn is_solved(record: &Value) -> bool {
 /// # Errors
 /// When it is not.
 pub fn refuse_changed(record: &Value, folder: &Path, name: &str, content: &[u8]) -> Result<(), Failure> {
-    match record["checksums"][name].as_u64() {
-        Some(checksum) if is_solved(record) && u64::from(crc32fast::hash(content)) != checksum => {
-            Err(unusable(&folder.join(name), "missing, or changed since the run was solved"))
-        }
-        _ => Ok(()),
+    let is_other = |(of, found): (String, Value)| {
+        let written = &record["checksums"][of];
+        written.is_u64() && *written != found
+    };
+    if is_solved(record) && checksums([(name, content)]).into_iter().any(is_other) {
+        return Err(unusable(&folder.join(name), "missing, or changed since the run was solved"));
     }
+    Ok(())
 }
