@@ -12,6 +12,7 @@ __all__ = [
     "InCommon",
     "Solution",
     "Start",
+    "StoredRun",
     "__version__",
     "cattaneo_line",
     "cattaneo_mindlin",
