@@ -67,7 +67,10 @@ FILES = [
 ]
 RUN = [
     ("program, version, format", "`fretting`, its version, and the format of the folder (1)"),
-    ("commit, tree_is_clean", "the commit the program was built from (`unknown` without git), and whether its sources were unchanged, or null"),
+    (
+        "commit, tree_is_clean",
+        "the commit the program was built from (`unknown` without git), and whether its sources were unchanged, or null",
+    ),
     ("status", "`solved`, `interrupted`, `failed`, `refused`, `running`"),
     ("message", "why it ended early"),
     ("plan", "the case with all defaults, grid, automatic simplifications (`left_out`), memory"),
@@ -79,7 +82,10 @@ RUN = [
         'cycle and place where a coating was first worn through (`to` = "coating") or the limit reached ("limit"), or null',
     ),
     ("worn_by_layer", "wear volume of each layer of the lower and the upper body, or null"),
-    ("checksums, states", "of a run that ended: CRC-32 of `case.toml`, of `cycles.csv`, of `history.csv` without its times (the same whenever the case is solved) and of these (`wall_s`), and the increments in `states/`: what was changed or is missing since is noticed by every command that reads the folder"),
+    (
+        "checksums, states",
+        "of a run that ended: CRC-32 of `case.toml`, of `cycles.csv`, of `history.csv` without its times (the same whenever the case is solved) and of these (`wall_s`), and the increments in `states/`: what was changed or is missing since is noticed by every command that reads the folder",
+    ),
     ("threads, started_unix_s, tolerance", "threads, start time, solver tolerance"),
 ]
 
