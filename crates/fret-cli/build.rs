@@ -1,8 +1,6 @@
 //! Tells the program the commit that it is built from, and whether its sources were changed since: from git, or from what `cargo package`
 //! writes down; "unknown" where neither is there.
 
-#![expect(clippy::print_stdout, reason = "this is how a build script speaks")]
-
 use std::path::Path;
 use std::process::Command;
 

@@ -257,7 +257,7 @@ impl FieldStore {
     fn file(&self, key: &str) -> Result<PathBuf, Unwritten> {
         let (folder, name) = key.rsplit_once('/').unwrap_or(("", key));
         let results = self.path.parent().unwrap_or_else(|| Path::new(""));
-        let store = self.path.file_name().map(Path::new).unwrap_or_else(|| Path::new(""));
+        let store = self.path.file_name().map_or_else(|| Path::new(""), Path::new);
         Ok(folder_below(results, &store.join(folder))?.join(name))
     }
 }

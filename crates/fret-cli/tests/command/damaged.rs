@@ -45,9 +45,9 @@ const RESUME: &[&str] = &["run", "case.toml", "--out", "run", "--resume"];
 #[test]
 fn a_changed_digit_of_a_table_is_noticed_by_every_reader() {
     let bench = solved("digits");
-    let digit = bench.text("run/history.csv").rfind(".").unwrap() + 1;
+    let digit = bench.text("run/history.csv").rfind('.').unwrap() + 1;
     refused_by(&bench, "history.csv", flip(digit), &[EXPORT, REPORT, STRESS, FROM, RESUME], "changed since");
-    let digit = bench.text("run/cycles.csv").rfind(".").unwrap() + 1;
+    let digit = bench.text("run/cycles.csv").rfind('.').unwrap() + 1;
     refused_by(&bench, "cycles.csv", flip(digit), &[EXPORT, REPORT, STRESS, FROM, RESUME], "changed since");
     let digit = bench.text("run/case.toml").find("210e9").unwrap();
     refused_by(&bench, "case.toml", flip(digit), &[EXPORT, REPORT, STRESS], "changed since");
