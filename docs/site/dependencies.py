@@ -22,11 +22,11 @@ WORDS = re.compile(r"(?i)^(licen[cs]e|copying|copyright|notice|unlicense)")
 
 
 def metadata() -> dict[str, object]:
-    """Return what cargo knows of the workspace, for the platform of this machine."""
-    host = re.search(
-        r"host: (\S+)", subprocess.run(["rustc", "-vV"], check=True, capture_output=True, text=True).stdout
-    )
-    call = ["cargo", "metadata", "--format-version=1", "--locked", "--offline", f"--filter-platform={host and host[1]}"]
+    """Return what cargo knows of the workspace, for the platforms that wheels are built for."""
+    release = (ROOT / ".github" / "workflows" / "release.yml").read_text(encoding="utf-8")
+    targets = re.findall(r"target: ([\w-]+),", release)
+    call = ["cargo", "metadata", "--format-version=1", "--locked", "--offline"]
+    call += [f"--filter-platform={target}" for target in targets]
     return dict(json.loads(subprocess.run(call, check=True, capture_output=True, text=True, cwd=ROOT).stdout))
 
 
@@ -49,7 +49,7 @@ def compiled_in(known: dict[str, object], root: str) -> list[dict[str, object]]:
 def licence_texts() -> str:
     """Return the licences of everything in the wheel."""
     seen: dict[str, str] = {}
-    parts = ["Crates that are compiled into the Python wheel and the command, with their licences.\n"]
+    parts = ["Crates that are compiled into the Python wheel and the command on any platform, with their licences.\n"]
     for package in compiled_in(metadata(), "fret-py"):
         folder = Path(package["manifest_path"]).parent
         files = sorted(path for path in folder.iterdir() if path.is_file() and WORDS.match(path.name))

@@ -67,6 +67,10 @@ FILES = [
 ]
 RUN = [
     ("program, version, format", "`fretting`, its version, and the format of the folder (1)"),
+    (
+        "commit, tree_is_clean",
+        "the commit the program was built from (`unknown` without git), and whether its sources were unchanged, or null",
+    ),
     ("status", "`solved`, `interrupted`, `failed`, `refused`, `running`"),
     ("message", "why it ended early"),
     ("plan", "the case with all defaults, grid, automatic simplifications (`left_out`), memory"),
@@ -78,6 +82,10 @@ RUN = [
         'cycle and place where a coating was first worn through (`to` = "coating") or the limit reached ("limit"), or null',
     ),
     ("worn_by_layer", "wear volume of each layer of the lower and the upper body, or null"),
+    (
+        "checksums, states",
+        "of a run that ended: CRC-32 of `case.toml`, of `cycles.csv`, of `history.csv` without its times (the same whenever the case is solved) and of these (`wall_s`), and the increments in `states/`: what was changed or is missing since is noticed by every command that reads the folder",
+    ),
     ("threads, started_unix_s, tolerance", "threads, start time, solver tolerance"),
 ]
 
@@ -93,7 +101,7 @@ def output_files() -> str:
         _table("column", [(name, text) for name, text in MEANING.items() if name not in FIELD_NAMES]),
         "## cycles.csv\n\nAlso `history.cycles` in Python. Definitions: [Fretting quantities](../theory/fretting-quantities.md).\n",
         _table("column", list(cycles.MEANING.items())),
-        "## fields.zarr\n\nAlso `history.field(name, step)`, index `[i, j]` = `[x, y]`. `shear` and `slip` of `[output] fields` are two fields each.\n",
+        "## fields.zarr\n\nAlso `history.field(name, step)`, index `[i, j]` = `[x, y]`. `shear` and `slip` of `[output] fields` are two fields each. Every chunk ends with a checksum (codec `crc32c` of Zarr 3).\n",
         _table("field", [(name, MEANING[name]) for name in FIELD_NAMES]),
         "## run.json\n",
         _table("key", RUN),

@@ -11,8 +11,9 @@ from typing import Any, NoReturn
 import numpy as np
 import numpy.typing as npt
 
+from fretting import _core
 from fretting._arguments import checked
-from fretting._meaning import FIELD_NAMES, STEP_KINDS
+from fretting._meaning import STEP_KINDS
 from fretting.cycles import MEANING as CYCLE_COLUMNS
 from fretting.cycles import columns
 from fretting.errors import MissingFileError, UnreadableError
@@ -64,7 +65,7 @@ def open_results(folder: str | os.PathLike[str]) -> History:
         _refuse(path / "history.csv", f"does not hold the {done} increments of the run")
     history = History.__new__(History)
     history.increments = steps
-    store = _Stored(path / "fields.zarr", plan["grid"]["cells"], done, whole=finished)
+    store = _Stored(path)
     history._folder = path.resolve()
     history.status, history.message = record["status"], record.get("message")
     history._kept = store
@@ -108,50 +109,24 @@ def _error_bars(path: Path) -> dict[str, Any] | None:
 
 
 class _Stored:
-    """Fields in a run's store: little-endian numbers, one file per increment."""
+    """Fields in a run's store, read by the command's own reader, which tells damaged ones."""
 
-    def __init__(self, path: Path, cells: list[int], increments: int, whole: bool) -> None:
-        self._path = path
-        self._cells = (cells[0], cells[1])
-        self._steps = [int(step) for step in self._numbers(path / "increment" / "c" / "0", "<i8")]
-        if not whole:  # those that the run will keep stand there from its start
-            self._steps = [step for step in self._steps if step < increments]
-        if self._steps != sorted(set(self._steps)) or not set(self._steps) <= set(range(increments)):
-            _refuse(path / "increment", "does not hold numbers of increments")
-        self._names = [name for name in FIELD_NAMES if (path / name / "zarr.json").is_file()]
+    def __init__(self, folder: Path) -> None:
+        self._run = _core.StoredRun(folder)
+        self._steps = self._run.kept_increments()
+        self._names = self._run.names()
 
     def coordinate(self, name: str) -> npt.NDArray[np.float64]:
-        if name == "y" and self._cells[1] == 1:  # a line contact, the same all along y
-            return np.zeros(1)
-        centres = self._numbers(self._path / name / "c" / "0", "<f8").astype(np.float64)
-        if len(centres) != self._cells["xy".index(name)] or not np.isfinite(centres).all():
-            _refuse(self._path / name, "does not hold the centres of the grid's cells")
-        return centres
+        return self._run.centres("xy".index(name))
 
     def kept_increments(self) -> list[int]:
-        return list(self._steps) if self._names else []
+        return list(self._steps)
 
     def kept_fields(self, increment: int) -> list[str]:
         return list(self._names) if increment in self._steps else []
 
     def field(self, name: str, increment: int) -> npt.NDArray[Any]:
-        place = self._path / name / "c" / str(self._steps.index(increment)) / "0"
-        if self._cells[1] > 1:
-            place /= "0"
-        zone = name == "zone"
-        values = self._numbers(place, "|u1" if zone else "<f8")
-        if values.size != self._cells[0] * self._cells[1]:
-            _refuse(place, f"holds {values.size} numbers, not those of {self._cells[0]} x {self._cells[1]} cells")
-        if (zone and values.max(initial=0) > 2) or (not zone and not np.isfinite(values).all()):
-            _refuse(place, "holds values that are none of a field")
-        return values.reshape(self._cells).astype(np.uint8 if zone else np.float64)
-
-    @staticmethod
-    def _numbers(path: Path, kind: str) -> npt.NDArray[Any]:
-        content = _read(path)
-        if len(content) % np.dtype(kind).itemsize:
-            _refuse(path, "does not hold whole numbers of bytes")
-        return np.frombuffer(content, dtype=kind)
+        return self._run.field(name, self._steps.index(increment))
 
 
 def _record(path: Path) -> dict[str, Any]:

@@ -9,6 +9,7 @@ use fret_core::plan::{LeaveOut, Plan};
 
 use crate::failure::Failure;
 use crate::origin::Origin;
+use crate::output::stem;
 
 /// Bytes read at the most: one more than the core takes, so that an endless stream is refused and not read.
 const MOST_BYTES: u64 = (4 << 20) + 1;
@@ -48,6 +49,16 @@ impl CaseFile {
         Ok(Self { path: path.to_owned(), text, beside: None })
     }
 
+    /// Reads a case file that another file names: an ordinary one, so that nothing waits on a pipe.
+    pub fn read_ordinary(path: &Path) -> Result<Self, CaseError> {
+        match path.metadata() {
+            Ok(facts) if !facts.is_file() && !facts.is_dir() => {
+                Err(CaseError::plain(&path.display().to_string(), "no ordinary file"))
+            }
+            _ => Self::read(path),
+        }
+    }
+
     /// A file the case names, looked for beside the case file.
     fn attachment(&self, name: &str) -> Result<Vec<u8>, String> {
         let Some(beside) = &self.beside else {
@@ -69,7 +80,7 @@ impl CaseFile {
 
     /// Its file name without the extension; names the results.
     pub fn stem(&self) -> PathBuf {
-        self.path.file_stem().map_or_else(|| PathBuf::from("case"), PathBuf::from)
+        stem(&self.path, "case")
     }
 
     /// The case, read; its history starts from `origin`, or from bodies apart.

@@ -9,6 +9,7 @@ use fret_core::history::Start;
 use fret_core::plan::{LeaveOut, Plan};
 use fret_core::run::RunError;
 use fret_core::study::{StageQuantities, companion};
+use ndarray::Array2;
 use serde_json::Value;
 
 use crate::arguments::StudyArguments;
@@ -20,7 +21,10 @@ use crate::estimate::{Estimate, NoBars};
 use crate::failure::{Failure, Unwritten};
 pub use crate::identify::Request as IdentifyRequest;
 use crate::origin::Origin;
-use crate::output::{ERROR_BARS, Ending, ResultFolder, RunRecord, Standing, Wish, write_whole};
+use crate::output::{
+    ERROR_BARS, Ending, ResultFolder, RunRecord, Standing, Wish, resolved_path, write_whole,
+};
+use crate::results::{Field, Results};
 use crate::tally::Tally;
 use crate::terminal;
 use crate::threads;
@@ -117,6 +121,45 @@ pub fn start_from(results: &Path, increment: Option<usize>) -> Result<Arc<Start>
     Origin::of(results, increment).map(|origin| origin.start).map_err(|failure| failure.render(false))
 }
 
+/// A folder of results that was found whole.
+#[derive(Debug)]
+pub struct StoredRun(Results);
+
+/// The run in a folder of results, finished or not, judged as the command judges it.
+///
+/// # Errors
+/// With the words of a refusal, where it holds no results, or not those that were written.
+pub fn stored_run(folder: &Path) -> Result<StoredRun, String> {
+    Results::read(folder).map(StoredRun).map_err(|failure| failure.render(false))
+}
+
+impl StoredRun {
+    /// Cell centres along x (0) or y (1) [length].
+    pub fn centres(&self, axis: usize) -> &[f64] {
+        if axis == 0 { &self.0.fields.x } else { &self.0.fields.y }
+    }
+
+    /// Numbers of the increments whose fields are kept.
+    pub fn kept_increments(&self) -> &[usize] {
+        &self.0.fields.steps
+    }
+
+    /// Names of the kept fields.
+    pub fn names(&self) -> &[&'static str] {
+        &self.0.fields.names
+    }
+
+    /// A field of the increment at a place among the kept ones, shape `(nx, ny)`; a zone is 0 open, 1 stick, 2 slip.
+    ///
+    /// # Errors
+    /// With the words of a refusal, where its file is missing, or not as it was written.
+    pub fn field(&self, name: &str, place: usize) -> Result<Array2<f64>, String> {
+        let Field { cells: [nx, ny], values } =
+            self.0.fields.field(name, place).map_err(|failure| failure.render(false))?;
+        Array2::from_shape_vec((nx, ny), values).map_err(|error| error.to_string())
+    }
+}
+
 fn origin_in_memory(start: Option<Arc<Start>>) -> Option<Origin> {
     start.map(|start| Origin { start, results: "a state in memory".to_owned(), increment: 0 })
 }
@@ -190,6 +233,7 @@ pub struct Solved<'a> {
 pub fn save(solved: Solved<'_>, case: CaseText, folder: &Path, earlier: Earlier) -> Result<(), Stopped> {
     let Solved { plan, history, quantities, early, error_bars } = solved;
     let case_file = CaseFile::from(case);
+    let folder = &resolved_path(folder);
     match ResultFolder::standing(folder, &case_file, plan, earlier.into())? {
         Standing::Free | Standing::SameCase | Standing::Forced => {}
         Standing::Unfinished | Standing::Solved(_) => {

@@ -84,6 +84,7 @@ impl std::fmt::Display for Unwritten {
             io::ErrorKind::PermissionDenied => "no permission".to_owned(),
             io::ErrorKind::ReadOnlyFilesystem => "the file system is read-only".to_owned(),
             io::ErrorKind::StorageFull => "the disk is full".to_owned(),
+            io::ErrorKind::FileTooLarge => "longer than a file may be here (ulimit -f)".to_owned(),
             io::ErrorKind::QuotaExceeded => "the disk quota is used up".to_owned(),
             _ => self.cause.to_string(),
         };

@@ -5,6 +5,7 @@
 mod arguments;
 mod case_file;
 mod commands;
+mod commit;
 mod defect;
 mod drawing;
 pub mod embedded;
@@ -43,6 +44,7 @@ pub fn command_line(words: impl IntoIterator<Item = OsString>) -> u8 {
         Err(error) => return asked_for_help_or_mistaken(&error),
     };
     defect::listen();
+    interrupt::outlive_full_files();
     let outcome = catch_unwind(AssertUnwindSafe(|| dispatch(&arguments)))
         .unwrap_or_else(|panic| Err(Failure::Defect(defect::words_of(panic.as_ref())).into()));
     match outcome {
@@ -50,7 +52,7 @@ pub fn command_line(words: impl IntoIterator<Item = OsString>) -> u8 {
         Err(Told { failure, in_json }) => {
             if arguments.json && !in_json {
                 // A reader that cannot be told is told by the exit code.
-                let _ = terminal::answer(&format!("{:#}", failure.to_json()));
+                let _ = terminal::answer_in_json(&failure.to_json());
             }
             terminal::say_in_colour(&failure.render(terminal::errors_in_colour()));
             failure.code()
@@ -86,7 +88,7 @@ fn asked_for_help_or_mistaken(error: &clap::Error) -> u8 {
     let is_answer = matches!(error.kind(), ErrorKind::DisplayHelp | ErrorKind::DisplayVersion);
     if !is_answer && std::env::args_os().any(|argument| argument == "--json") {
         let failure = Failure::Call(error.to_string().trim_end().to_owned(), String::new());
-        let _ = terminal::answer(&format!("{:#}", failure.to_json()));
+        let _ = terminal::answer_in_json(&failure.to_json());
     }
     // A stream that is closed cannot be told so.
     let _ = error.print();

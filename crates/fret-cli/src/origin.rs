@@ -8,7 +8,7 @@ use fret_core::model::LoadStep;
 
 use crate::failure::Failure;
 use crate::output::kept_run::KeptRun;
-use crate::output::{newest_start, start_below, state_below, states_below};
+use crate::output::{lost_state, newest_start, start_below, state_below, states_below};
 
 /// More increments than this are not listed one by one.
 const MOST_LISTED: usize = 12;
@@ -48,6 +48,9 @@ impl Origin {
         all.sort_unstable();
         all.dedup();
         let shown = results.display();
+        if let Some(lost) = lost_state(results, &run.record) {
+            return Err(Failure::Call(lost, "solve its case again".to_owned()));
+        }
         let increment = match (increment, all.last()) {
             (_, None) => {
                 return Err(Failure::Call(

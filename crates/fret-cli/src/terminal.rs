@@ -1,9 +1,10 @@
 //! The two streams: answers on standard output, everything else on standard error; when there is colour and when there is a person.
 
+use std::fmt::Display;
 use std::io::{self, IsTerminal, Write};
 use std::path::Path;
 
-use fret_core::case::printable;
+use fret_core::case::{printable, steers};
 
 use crate::failure::{Failure, Unwritten};
 use crate::figures::shortened;
@@ -20,6 +21,14 @@ pub fn answer(text: &str) -> Result<(), Failure> {
         }
         _ => Ok(()),
     }
+}
+
+/// Writes an answer for programs: in JSON, which shows what would steer a terminal in its own way.
+pub fn answer_in_json(value: &impl Display) -> Result<(), Failure> {
+    // Only texts hold such letters, and none of them lies beyond the sixteen bits that JSON's way of writing letters has.
+    let escaped =
+        |letter| if steers(letter) { format!("\\u{:04x}", u32::from(letter)) } else { String::from(letter) };
+    answer(&format!("{value:#}").chars().map(escaped).collect::<String>())
 }
 
 /// Says something beside the answer, printable and in lines of bounded length. When standard error is closed, there is nobody to

@@ -17,6 +17,7 @@ mod kernels;
 mod plan;
 mod simulation;
 mod start;
+mod stored;
 mod study;
 mod subsurface;
 mod threads;
@@ -57,6 +58,8 @@ mod _core {
     use crate::simulation::{run, run_into};
     #[pymodule_export]
     use crate::start::Start;
+    #[pymodule_export]
+    use crate::stored::StoredRun;
     #[pymodule_export]
     use crate::study::study;
     #[pymodule_export]

@@ -24,7 +24,7 @@ pub fn check(path: &Path, from: Option<&str>, as_json: bool) -> Result<(), Failu
             "increments": plan.increments,
             "warnings": plausibility::of_plan(&plan),
         });
-        return terminal::answer(&format!("{answer:#}"));
+        return terminal::answer_in_json(&answer);
     }
     let warnings = warnings(&plan);
     let but = if warnings.is_empty() { "" } else { ", but" };

@@ -47,7 +47,7 @@ pub fn export(arguments: &ExportArguments, as_json: bool) -> Result<(), Failure>
             "kept_increments": results.fields.steps,
             "unfinished": results.unfinished(),
         });
-        return terminal::answer(&format!("{answer:#}"));
+        return terminal::answer_in_json(&answer);
     }
     let first = files.first().map_or(String::new(), |file| file.display().to_string());
     let more = match files.len() {

@@ -4,7 +4,6 @@
 //! Written into `heat/` in the result folder: `heat.json` (all numbers), `temperature.npz` (fields).
 
 use std::fmt::Write;
-use std::fs;
 use std::path::Path;
 use std::time::Instant;
 
@@ -22,11 +21,11 @@ use serde_json::{Value, json};
 use crate::arguments::HeatArguments;
 use crate::case_file::CaseFile;
 use crate::export::npz;
-use crate::failure::{Failure, Unwritten};
+use crate::failure::Failure;
 use crate::figures::{duration, figure, figure_in};
 use crate::interrupt;
 use crate::output::kept_run::KeptRun;
-use crate::output::write_whole;
+use crate::output::{folder_below, write_whole};
 use crate::terminal;
 use crate::threads;
 
@@ -49,7 +48,7 @@ pub fn heat(arguments: &HeatArguments, as_json: bool) -> Result<(), Failure> {
     let every = arguments.every.map(|every| every as usize);
     let (record, table) = pool.install(|| computed(folder, &run, every))?;
     if as_json {
-        terminal::answer(&format!("{record:#}"))
+        terminal::answer_in_json(&record)
     } else if arguments.quiet {
         Ok(())
     } else {
@@ -77,12 +76,11 @@ fn computed(folder: &Path, run: &KeptRun, every: Option<usize>) -> Result<(Value
     let [first, last] = run.last_cycle;
     memory::check(memory_of_stress(run.grid.len(), last + 1 - first))?;
     let mut table = run.unfinished.as_ref().map_or(String::new(), |why| format!("{why}\n"));
-    let place = folder.join("heat");
     let rise = match run.conduction.frequency {
         Some(frequency) => Some(temperature(folder, run, frequency)?),
         None => None,
     };
-    fs::create_dir_all(&place).map_err(Unwritten::at(&place))?;
+    let place = folder_below(folder, Path::new("heat"))?;
     let rise = match rise {
         Some((found, cycle, accounted)) => {
             fields(&place.join("temperature.npz"), run, &found)?;

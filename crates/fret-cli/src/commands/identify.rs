@@ -7,12 +7,14 @@ use serde_json::Value;
 
 use crate::arguments::IdentifyArguments;
 use crate::case_file::CaseFile;
-use crate::failure::{Failure, Unwritten};
+use crate::failure::Failure;
 use crate::identify::{Identification, Request, identify as identified, name_of};
-use crate::output::write_whole;
+use crate::output::{folder_for_answers, stem, write_whole};
 use crate::terminal;
 use crate::threads;
 
+/// The answer, which marks its folder.
+const IDENTIFIED: &str = "identified.json";
 /// Bytes of a log, at the most.
 const MOST_BYTES: u64 = 1 << 30;
 
@@ -33,11 +35,12 @@ pub fn identify(arguments: &IdentifyArguments, as_json: bool) -> Result<(), Fail
     };
     let case_file = CaseFile::read(&arguments.case)?;
     let pool = threads::pool(threads::asked(arguments.threads))?;
-    let answer = pool.install(|| identified((&name, &bytes), case_file, &request))?;
     let folder = arguments.out.clone().unwrap_or_else(|| default_folder(&arguments.log));
+    let folder = folder_for_answers(&folder, &[IDENTIFIED], "an identification")?;
+    let answer = pool.install(|| identified((&name, &bytes), case_file, &request))?;
     write(&folder, &answer)?;
     if as_json {
-        return terminal::answer(&format!("{:#}", answer.json));
+        return terminal::answer_in_json(&answer.json);
     }
     if !arguments.quiet {
         terminal::answer(&format!("{}\nwritten to {}", answer.text, folder.display()))?;
@@ -47,14 +50,12 @@ pub fn identify(arguments: &IdentifyArguments, as_json: bool) -> Result<(), Fail
 
 /// The folder for the answer, when none is named.
 fn default_folder(log: &Path) -> PathBuf {
-    let stem = log.file_stem().map_or_else(|| "log".to_owned(), |stem| stem.to_string_lossy().into_owned());
-    Path::new("results").join(format!("{stem}-identified"))
+    Path::new("results").join(format!("{}-identified", stem(log, "log").display()))
 }
 
 /// Writes the answer: numbers, a table of the cycles, a page.
 pub fn write(folder: &Path, answer: &Identification) -> Result<(), Failure> {
-    std::fs::create_dir_all(folder).map_err(Unwritten::at(folder))?;
-    write_whole(&folder.join("identified.json"), format!("{:#}\n", answer.json).as_bytes())?;
+    write_whole(&folder.join(IDENTIFIED), format!("{:#}\n", answer.json).as_bytes())?;
     write_whole(&folder.join("identified.html"), answer.page.as_bytes())?;
     write_whole(&folder.join("cycles.csv"), table(&answer.json["cycles"]).as_bytes())?;
     Ok(())

@@ -30,7 +30,7 @@ pub fn loaded_surfaces(
         let pair = |name: [&str; 2]| -> Result<Option<[ndarray::Array2<f64>; 2]>, Failure> {
             Ok(run.field(name[0], increment)?.zip(run.field(name[1], increment)?).map(<[_; 2]>::from))
         };
-        let Some(pressure) = run.field("pressure", increment)? else { continue };
+        let Some(pressure) = run.field("pressure", increment)? else { break }; // none was kept
         let shear = if run.frictionless { None } else { pair(["shear_x", "shear_y"])? };
         let shear = shear.map(|shear| shear.map(|component| component * sign));
         let slip = pair(["slip_x", "slip_y"])?;

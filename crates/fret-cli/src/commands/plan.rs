@@ -37,7 +37,7 @@ pub fn plan(path: &Path, from: Option<&str>, as_json: bool) -> Result<(), Failur
         value["seconds_expected"] = json!(expected.map(|expected| expected.seconds));
         value["memory_lacking"] = json!(lacking.map(|error| format!("this {error}")));
         value["warnings"] = json!(plausibility::of_plan(&plan));
-        return terminal::answer(&format!("{value:#}"));
+        return terminal::answer_in_json(&value);
     }
     terminal::answer(&table(&plan, expected.as_ref(), lacking.as_ref()))
 }

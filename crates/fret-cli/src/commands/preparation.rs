@@ -13,7 +13,7 @@ use crate::arguments::{LeavingOut, RunArguments};
 use crate::case_file::CaseFile;
 use crate::failure::Failure;
 use crate::origin::Origin;
-use crate::output::{ResultFolder, Standing, Wish};
+use crate::output::{ResultFolder, Standing, Wish, resolved_path};
 use crate::summary::warning_line;
 use crate::terminal;
 use crate::threads;
@@ -65,6 +65,7 @@ impl Wanted {
     /// Judges everything; writes nothing.
     pub fn prepared(self) -> Result<Preparation, Failure> {
         let Self { case_file, folder, origin, wish, quiet, .. } = self;
+        let folder = resolved_path(&folder);
         let earlier = if origin.is_none() && wish == Wish::Resume { Origin::below(&folder)? } else { None };
         let plan = case_file.planned_leaving_out(self.leave_out, origin.as_ref().or(earlier.as_ref()))?;
         if let Some(Origin { results, .. }) = &origin

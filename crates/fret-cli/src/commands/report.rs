@@ -27,7 +27,7 @@ pub fn report(folder: &Path, out: Option<&Path>, as_json: bool) -> Result<(), Fa
     let shown = path.display().to_string();
     if as_json {
         let answer = json!({ "status": "reported", "file": shown, "increments": results.table.rows(), "unfinished": results.unfinished() });
-        return terminal::answer(&format!("{answer:#}"));
+        return terminal::answer_in_json(&answer);
     }
     terminal::answer(&shown)?;
     results.unfinished().map_or(Ok(()), |why| terminal::answer(&why))

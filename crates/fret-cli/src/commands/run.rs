@@ -88,7 +88,7 @@ impl Preparation {
             return Ok(Beginning::Nothing(record.clone()));
         }
         if self.standing == Standing::Unfinished
-            && let Some(taken) = ResultFolder::reopen(&self.folder, &self.plan, record())?
+            && let Some(taken) = ResultFolder::reopen(&self.folder, &self.case_file, &self.plan, record())?
         {
             let Stored { head, checkpoint } = taken.stored;
             if !quiet {
@@ -130,7 +130,7 @@ impl Preparation {
                 "results": shown,
                 "error_bars": estimate.map(|estimate| estimate.to_json(|stage| self.stage_name(stage))),
             });
-            terminal::answer(&format!("{answer:#}"))?;
+            terminal::answer_in_json(&answer)?;
         } else if !quiet {
             let bars = estimate.map(|estimate| estimate.table(|stage| self.stage_name(stage)) + "\n\n");
             terminal::answer(&(bars.unwrap_or_default() + &message))?;
@@ -202,11 +202,18 @@ impl Preparation {
             estimate: estimate.as_ref(),
         };
         if as_json {
-            terminal::answer(&format!("{:#}", summary.to_json(failure.as_ref())))?;
+            terminal::answer_in_json(&summary.to_json(failure.as_ref()))?;
         } else if failure.is_none() && !quiet {
             terminal::answer(&summary.table())?;
         }
         match &failure {
+            Some(Failure::Unwritten(_)) if !ResultFolder::can_go_on(&self.folder) => {
+                let shown = self.folder.display();
+                terminal::say(&format!(
+                    "{}, but {shown} is gone, or a part of it: nothing is left to continue",
+                    tally.standing()
+                ));
+            }
             Some(Failure::Unwritten(_)) if tally.solved > 0 => {
                 terminal::say(&format!("{}; once it can be written, --resume continues", self.kept(&tally)));
             }

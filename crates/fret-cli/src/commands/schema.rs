@@ -5,5 +5,5 @@ use crate::terminal;
 
 /// Prints the schema.
 pub fn schema() -> Result<(), Failure> {
-    terminal::answer(&format!("{:#}", fret_core::case::schema()))
+    terminal::answer_in_json(&fret_core::case::schema())
 }

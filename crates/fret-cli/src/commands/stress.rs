@@ -3,7 +3,6 @@
 //! Written into `stress/` in the result folder: `stress.json` (all numbers), `depths.csv` (largest values at every depth),
 //! sections as SVG, a volume for `ParaView` where one is asked for.
 
-use std::fs;
 use std::path::Path;
 use std::time::Instant;
 
@@ -17,6 +16,7 @@ use super::stress_tables::{Answer, StressTables};
 use crate::arguments::StressArguments;
 use crate::failure::{Failure, Unwritten};
 use crate::interrupt;
+use crate::output::folder_below;
 use crate::output::kept_run::KeptRun;
 use crate::output::vtk::Volume;
 use crate::terminal;
@@ -31,7 +31,7 @@ const VOLUME_FIELDS: [&str; 8] = ["xx", "yy", "zz", "xy", "xz", "yz", "von_mises
 pub fn stress(arguments: &StressArguments, as_json: bool) -> Result<(), Failure> {
     let record = stress_of(arguments, as_json)?;
     if as_json {
-        terminal::answer(&format!("{record:#}"))?;
+        terminal::answer_in_json(&record)?;
     }
     Ok(())
 }
@@ -91,8 +91,7 @@ fn computed(folder: &Path, run: &KeptRun, request: &StressRequest) -> Result<Ans
             .map_err(|error| Failure::Call(error.to_string(), "or --auto".to_owned()))?,
         None => automatic_depths(half_space, reach(run, &surfaces), AUTOMATIC),
     };
-    let place = folder.join("stress");
-    fs::create_dir_all(&place).map_err(Unwritten::at(&place))?;
+    let place = folder_below(folder, Path::new("stress"))?;
     let constants = run.fatigue_constants(request);
     let mut tables = StressTables::new(run, request, (half_space, &constants), &points, &surfaces);
     let mut volume = if request.volume {

@@ -15,15 +15,17 @@ use serde_json::{Value, json};
 use crate::arguments::StudyArguments;
 use crate::case_file::CaseFile;
 use crate::defect;
-use crate::failure::{Failure, Unwritten};
+use crate::failure::Failure;
 use crate::figures::{counted, duration};
 use crate::interrupt::{self, Listener};
-use crate::output::write_whole;
-use crate::study::levels::Levels;
+use crate::output::{folder_for_answers, write_whole};
+use crate::study::levels::{LEVELS, Levels};
 use crate::study::{picture, reference, table, words};
 use crate::terminal;
 use crate::threads;
 
+/// The answer, which marks its folder.
+const STUDY: &str = "study.json";
 /// Accuracies a choice is told for.
 const ACCURACIES: [f64; 3] = [1e-2, 1e-3, 1e-4];
 /// Levels quicker than this are timed again [s], the least of a few times counts.
@@ -42,7 +44,7 @@ pub fn study(arguments: &StudyArguments, as_json: bool) -> Result<(), Failure> {
         name.push("-study");
         Path::new("results").join(name)
     });
-    std::fs::create_dir_all(&folder).map_err(Unwritten::at(&folder))?;
+    let folder = folder_for_answers(&folder, &[STUDY, LEVELS], "a study")?;
     interrupt::listen();
     let kept = Levels::below(&folder)?;
     let say = |text: &str| {
@@ -60,10 +62,10 @@ pub fn study(arguments: &StudyArguments, as_json: bool) -> Result<(), Failure> {
     let Studied { study, lines, .. } = &studied;
     write_whole(&folder.join("study.csv"), table::csv(study, lines).as_bytes())?;
     write_whole(&folder.join("study.svg"), picture::picture(&title, study, lines).as_bytes())?;
-    write_whole(&folder.join("study.json"), format!("{text}\n").as_bytes())?;
+    write_whole(&folder.join(STUDY), format!("{text}\n").as_bytes())?;
     kept.remove();
     if as_json {
-        return terminal::answer(&text);
+        return terminal::answer_in_json(&studied.record);
     }
     let Studied { measured, choice, reference, .. } = &studied;
     terminal::answer(&format!(

@@ -14,10 +14,11 @@ use fret_core::run::{RunError, Simulation};
 use serde_json::json;
 
 use crate::arguments::SweepArguments;
-use crate::failure::{Failure, Told, Unwritten};
+use crate::failure::{Failure, Told};
 use crate::figures::{counted, duration};
 use crate::interrupt::{self, Listener};
 use crate::origin::Origin;
+use crate::output::stem;
 use crate::sweep::{Answer, Planned, Point, Question, SweepFolder};
 use crate::terminal;
 use crate::threads;
@@ -26,10 +27,9 @@ use crate::threads;
 pub fn sweep(arguments: &SweepArguments, as_json: bool) -> Result<(), Told> {
     let question = Question::read(&arguments.sweep)?;
     let origin = arguments.from.as_deref().map(Origin::read).transpose()?;
-    let text = std::fs::read_to_string(&arguments.sweep).map_err(Unwritten::at(&arguments.sweep))?;
-    let stem = arguments.sweep.file_stem().unwrap_or_else(|| "sweep".as_ref());
-    let path = arguments.out.clone().unwrap_or_else(|| Path::new("results").join(stem));
-    let folder = SweepFolder::open(&path, &text, origin.as_ref())?;
+    let own = || Path::new("results").join(stem(&arguments.sweep, "sweep"));
+    let path = arguments.out.clone().unwrap_or_else(own);
+    let folder = SweepFolder::open(&path, &question.text, origin.as_ref())?;
     interrupt::listen();
     let threads = threads::asked(arguments.threads);
     let known: Vec<Option<Answer>> = question.points.iter().map(|point| folder.finished(point)).collect();
@@ -44,9 +44,7 @@ pub fn sweep(arguments: &SweepArguments, as_json: bool) -> Result<(), Told> {
     let spread = folder.spread(&question, &board.answers())?;
     let counts = board.counts();
     if as_json {
-        terminal::answer(&format!(
-            "{:#}",
-            json!({
+        terminal::answer_in_json(&json!({
                 "status": if counts.unsolved() == 0 { "solved" } else { "some points not solved" },
                 "points": question.points.len(),
                 "solved": counts.solved,
@@ -55,8 +53,7 @@ pub fn sweep(arguments: &SweepArguments, as_json: bool) -> Result<(), Told> {
                 "failed": counts.failed,
                 "solved_before": board.solved_before,
                 "summary": summary.display().to_string(),
-            })
-        ))?;
+        }))?;
     } else if !arguments.quiet {
         if let Some(table) = spread {
             terminal::answer(&format!("{table}\n"))?;

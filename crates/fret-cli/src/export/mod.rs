@@ -6,19 +6,18 @@ pub mod vtk;
 
 use std::fs::{self, File};
 use std::io::{BufWriter, Write};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use crate::failure::{Failure, Unwritten};
+use crate::output::{new_file, part_of, refuse_link, resolved_path};
 
 /// Writes a file in one go beside its place and renames it there: a reader never finds a part.
 fn written(
     path: &Path,
     fill: impl FnOnce(&mut BufWriter<File>) -> Result<(), Failure>,
 ) -> Result<(), Failure> {
-    let mut part = path.as_os_str().to_owned();
-    part.push(".part");
-    let part = PathBuf::from(part);
-    let outcome = File::create(&part).map_err(|error| Unwritten::at(path)(error).into()).and_then(|file| {
+    let part = part_of(path);
+    let outcome = new_file(&part).map_err(|error| Unwritten::at(path)(error).into()).and_then(|file| {
         let mut writer = BufWriter::new(file);
         fill(&mut writer)?;
         writer.flush().map_err(Unwritten::at(path))?;
@@ -33,5 +32,7 @@ fn written(
 
 /// Makes a folder for several files.
 fn folder(path: &Path) -> Result<(), Failure> {
-    fs::create_dir_all(path).map_err(|error| Unwritten::at(path)(error).into())
+    let path = resolved_path(path);
+    refuse_link(&path)?;
+    fs::create_dir_all(&path).map_err(|error| Unwritten::at(&path)(error).into())
 }

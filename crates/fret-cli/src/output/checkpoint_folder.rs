@@ -17,11 +17,14 @@ use serde_json::Value;
 
 use super::framed_file::{FramedFile, body_of};
 use super::history_table::Written;
+use super::place::{folder_below, own_file};
 use super::turn_writer::TurnWriter;
 use super::whole_file::write_whole_by;
 use crate::failure::{Failure, Unwritten};
 use crate::tally::Tally;
 
+/// Name of the folder.
+pub const CHECKPOINT: &str = "checkpoint";
 const TURNS: [&str; 2] = ["even", "odd"];
 const SYNCED: &str = "synced";
 const LOCK: &str = "lock";
@@ -85,10 +88,9 @@ pub struct CheckpointFolder {
 impl CheckpointFolder {
     /// Takes the folder below the results at `path`; refused while another run holds it.
     pub fn take(results: &Path) -> Result<Self, Failure> {
-        let path = results.join("checkpoint");
-        fs::create_dir_all(&path).map_err(Unwritten::at(&path))?;
+        let path = folder_below(results, Path::new(CHECKPOINT))?;
         let name = path.join(LOCK);
-        let lock = File::create(&name).map_err(Unwritten::at(&name))?;
+        let lock = own_file(&name).map_err(Unwritten::at(&name))?;
         match lock.try_lock() {
             Err(TryLockError::WouldBlock) => Err(taken(results)),
             // Where files cannot be locked there is no protection, but no reason to refuse either.
@@ -105,7 +107,7 @@ impl CheckpointFolder {
     /// Refuses results that another run is writing at this moment; takes and writes nothing.
     pub fn refuse_taken(results: &Path) -> Result<(), Failure> {
         // Where there is no lock, or none that can be looked at, the attempt to take it will tell.
-        let Ok(lock) = File::open(results.join("checkpoint").join(LOCK)) else { return Ok(()) };
+        let Ok(lock) = File::open(results.join(CHECKPOINT).join(LOCK)) else { return Ok(()) };
         match lock.try_lock() {
             Err(TryLockError::WouldBlock) => Err(taken(results)),
             Ok(()) | Err(TryLockError::Error(_)) => Ok(()),
@@ -114,7 +116,7 @@ impl CheckpointFolder {
 
     /// Whether unfinished work may be in the folder below the results at `path`.
     pub fn is_below(results: &Path) -> bool {
-        NAMES.iter().any(|name| results.join("checkpoint").join(name).exists())
+        NAMES.iter().any(|name| results.join(CHECKPOINT).join(name).exists())
     }
 
     /// The newest usable checkpoint of `plan`, whose question has this digest.
@@ -210,7 +212,7 @@ fn pack(to: &mut dyn Write, head: &Head, waypoint: &Waypoint<'_>) -> io::Result<
 /// of its increment.
 pub fn newest_start(results: &Path, plan: &Value) -> Option<(usize, Start)> {
     let starts = NAMES.iter().filter_map(|name| {
-        let bytes = fs::read(results.join("checkpoint").join(name)).ok()?;
+        let bytes = fs::read(results.join(CHECKPOINT).join(name)).ok()?;
         let (head, waypoint) = parts(&bytes).ok()?;
         let increment = head.tally.solved.checked_sub(1)?;
         Some((increment, Checkpoint::start_of(waypoint, plan).ok()?))

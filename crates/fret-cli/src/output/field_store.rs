@@ -17,7 +17,9 @@ use ndarray::Array2;
 use rayon::prelude::{IntoParallelRefIterator, ParallelIterator};
 use serde_json::{Value, json};
 
+use super::place::folder_below;
 use super::whole_file::{write_whole, write_whole_sparsely};
+use super::zarr::{axis_metadata, bytes_of, checked, checksum, chunk, field_metadata, is_zone};
 use crate::failure::Unwritten;
 
 /// The store while it is filled.
@@ -29,6 +31,10 @@ pub struct FieldStore {
     units: Option<Units>,
     grid: SurfaceGrid,
     arrays: Vec<&'static Field>,
+    /// Whether anything wears: the wear depth is kept then alone, also where it was asked for.
+    wears: bool,
+    /// Whether chunks end with a checksum.
+    is_checked: bool,
     /// Numbers of the increments along `increment`.
     steps: Vec<usize>,
     /// How many of them are there.
@@ -44,16 +50,12 @@ impl FieldStore {
     /// A store of the plan's final shape, without any field yet.
     pub fn create(path: &Path, plan: &Plan) -> Result<Self, Unwritten> {
         let store = Self::of(path, plan, Vec::new());
-        for (axis, name) in ["x", "y"].into_iter().enumerate() {
-            let centres = plan.grid.centres(axis);
-            let bytes: Vec<u8> = centres.iter().flat_map(|centre| centre.to_le_bytes()).collect();
-            store.write(&format!("{name}/c/0"), &bytes)?;
-        }
+        store.write_centres()?;
         store.write_metadata()?;
         Ok(store)
     }
 
-    /// The store of a broken-off run, cut back to its first `kept` increments.
+    /// The store of a broken-off run, cut back to its first `kept` increments. What follows from the plan is written anew.
     pub fn reopen(path: &Path, plan: &Plan, kept: usize) -> Result<Self, Unwritten> {
         let mut store = Self::of(path, plan, steps_at(path));
         for step in kept..store.steps.len() {
@@ -70,28 +72,54 @@ impl FieldStore {
         store.kept = kept;
         if store.grows {
             store.steps.truncate(kept);
-            store.write_metadata()?;
         }
+        store.write_centres()?;
+        store.write_metadata()?;
         Ok(store)
     }
 
-    /// The first file that should be in the store at `path` after `kept` increments and is not, or not of its size.
-    pub fn missing(path: &Path, plan: &Plan, kept: usize) -> Option<PathBuf> {
+    /// The first file of the store at `path` that is not as it was written after `kept` increments, and what is wrong with it. What follows
+    /// from the plan is not looked at: it is written anew.
+    pub fn damaged(path: &Path, plan: &Plan, kept: usize) -> Option<(PathBuf, String)> {
         let store = Self::of(path, plan, steps_at(path));
-        let cells = store.grid.len();
-        if store.steps.len() < kept {
-            return Some(path.join(STEPS));
+        let is_rising = store.steps.iter().zip(store.steps.iter().skip(1)).all(|(one, next)| one < next);
+        let is_sound = !store.grows
+            || kept == 0
+            || fs::read(path.join(STEPS)).is_ok_and(|steps| checked(steps, None, store.is_checked).is_ok());
+        if store.steps.len() < kept || !is_rising || !is_sound {
+            return Some((path.join(STEPS), "missing, or not whole".to_owned()));
         }
-        let chunks = store.arrays.iter().flat_map(|array| {
-            let bytes = if array.name == "zone" { cells } else { 8 * cells };
-            (0..kept).map(move |step| (chunk(&plan.grid, array.name, step), Some(bytes as u64)))
+        let chunks = store.filled().flat_map(|array| {
+            (0..kept).map(move |step| (chunk(&plan.grid, array.name, step), bytes_of(&plan.grid, array.name)))
         });
-        let metadata = store.arrays.iter().map(|array| (format!("{}/zarr.json", array.name), None));
-        metadata.chain(chunks).map(|(key, bytes)| (path.join(key), bytes)).find_map(|(file, bytes)| {
-            let is_there = fs::metadata(&file)
-                .is_ok_and(|found| found.is_file() && bytes.is_none_or(|bytes| found.len() == bytes));
-            (!is_there).then_some(file)
-        })
+        let chunks: Vec<(PathBuf, usize)> = chunks.map(|(key, bytes)| (path.join(key), bytes)).collect();
+        let why = |(file, bytes): &(PathBuf, usize)| match fs::read(file) {
+            Err(_) => Some((file.clone(), "missing, or not whole".to_owned())),
+            Ok(content) => {
+                checked(content, Some(*bytes), store.is_checked).err().map(|why| (file.clone(), why))
+            }
+        };
+        chunks.par_iter().map(why).find_first(Option::is_some).flatten()
+    }
+
+    /// Numbers of the first `kept` increments in the store at `path`.
+    pub fn steps(path: &Path, plan: &Plan, kept: usize) -> Vec<usize> {
+        Self::of(path, plan, steps_at(path)).steps.into_iter().take(kept).collect()
+    }
+
+    /// The first file of what this has written that is not there any more.
+    pub fn lost(&self) -> Option<PathBuf> {
+        let metadata = self.arrays.iter().map(|array| format!("{}/zarr.json", array.name));
+        let chunks = self
+            .filled()
+            .flat_map(|array| (0..self.kept).map(move |step| chunk(&self.grid, array.name, step)));
+        let files = ["zarr.json".to_owned(), STEPS.to_owned()].into_iter().chain(metadata).chain(chunks);
+        files.map(|key| self.path.join(key)).find(|file| !file.is_file())
+    }
+
+    /// The arrays that hold fields.
+    fn filled(&self) -> impl Iterator<Item = &'static Field> + '_ {
+        self.arrays.iter().copied().filter(|array| array.name != "worn_depth" || self.wears)
     }
 
     /// Steps whose fields have been kept.
@@ -103,12 +131,21 @@ impl FieldStore {
     fn of(path: &Path, plan: &Plan, grown: Vec<usize>) -> Self {
         let asked = |array: &&Field| plan.case.output.fields.iter().any(|name| name == array.asked_as);
         let grows = plan.case.is_open_ended();
+        let arrays: Vec<_> = FIELDS.iter().filter(asked).collect();
+        // A store that an earlier version has begun goes on without checksums: its first chunk tells.
+        let first = arrays.first().map(|array| (path.join(chunk(&plan.grid, array.name, 0)), array.name));
+        let is_plain = first.is_some_and(|(file, name)| {
+            fs::metadata(file).is_ok_and(|facts| facts.len() == bytes_of(&plan.grid, name) as u64)
+        });
         Self {
             path: path.to_owned(),
             title: plan.case.title.clone(),
             units: plan.case.units.clone(),
             grid: plan.grid,
-            arrays: FIELDS.iter().filter(asked).collect(),
+            arrays,
+            wears: plan.case.wear.is_some()
+                || plan.start.as_ref().is_some_and(|start| start.solved.state.worn_depth.is_some()),
+            is_checked: !is_plain,
             steps: if grows { grown } else { plan.case.kept_increments() },
             kept: 0,
             grows,
@@ -125,7 +162,8 @@ impl FieldStore {
             });
             bytes.map_or(Ok(()), |bytes| {
                 // Frictionless contacts have fields of zeros.
-                write_whole_sparsely(&self.file(&chunk(&self.grid, array.name, step))?, &bytes)
+                let place = self.file(&chunk(&self.grid, array.name, step))?;
+                write_whole_sparsely(&place, &bytes, &checksum(&bytes, self.is_checked))
             })
         })?;
         self.kept = step + 1;
@@ -145,17 +183,23 @@ impl FieldStore {
     /// The numbers of the increments, the metadata of every array, and all of these again in the group's.
     fn write_metadata(&self) -> Result<(), Unwritten> {
         let numbers: Vec<u8> = self.steps.iter().flat_map(|&step| (step as i64).to_le_bytes()).collect();
-        self.write(STEPS, &numbers)?;
+        self.write_axis("increment", &numbers)?;
         let [nx, ny] = self.grid.cells();
-        let centre = |length: usize| ("float64", "length", "cell centre", length);
-        let number = ("int64", "", "number of the increment, from 0", self.steps.len());
+        let centre = |length: usize| ("length", "cell centre", length);
+        let number = ("", "number of the increment, from 0", self.steps.len());
         let axes = [("x", centre(nx)), ("y", centre(ny)), ("increment", number)];
         let is_line = self.grid.is_line();
         let axes = axes.into_iter().filter(|(name, _)| !(is_line && *name == "y"));
-        let axes = axes.map(|(name, (kind, unit, long_name, length))| {
-            (name, axis_metadata(name, (kind, &self.unit(unit), long_name, length)))
+        let axes = axes.map(|(name, (unit, long_name, length))| {
+            let attributes = json!({ "units": self.unit(unit), "long_name": long_name });
+            (name, axis_metadata(name, length, self.is_checked, &attributes))
         });
-        let arrays = self.arrays.iter().map(|array| (array.name, self.field_metadata(array)));
+        let arrays = self.arrays.iter().map(|array| {
+            let attributes = self.field_attributes(array);
+            let metadata =
+                field_metadata(&self.grid, array.name, self.steps.len(), self.is_checked, &attributes);
+            (array.name, metadata)
+        });
         let mut all = serde_json::Map::new();
         for (name, metadata) in axes.chain(arrays) {
             self.write_text(&format!("{name}/zarr.json"), &metadata)?;
@@ -179,35 +223,26 @@ impl FieldStore {
         }
     }
 
-    fn field_metadata(&self, array: &Field) -> Value {
-        let [nx, ny] = self.grid.cells();
-        let zone = array.name == "zone";
+    fn field_attributes(&self, array: &Field) -> Value {
         let mut attributes = json!({ "units": self.unit(array.unit), "long_name": array.meaning });
-        if zone {
+        if is_zone(array.name) {
             attributes["flag_values"] = json!([0, 1, 2]);
             attributes["flag_meanings"] = json!(ZONE_WORDS.join(" "));
         }
-        // Seen with y before x, stored with x before y; of a line contact there is no y.
-        let transposed = json!({ "name": "transpose", "configuration": { "order": [0, 2, 1] } });
-        let steps = self.steps.len();
-        let (shape, chunk, codecs, names) = if self.grid.is_line() {
-            (json!([steps, nx]), json!([1, nx]), json!([little_endian_bytes()]), json!(["increment", "x"]))
-        } else {
-            let codecs = json!([transposed, little_endian_bytes()]);
-            (json!([steps, ny, nx]), json!([1, ny, nx]), codecs, json!(["increment", "y", "x"]))
-        };
-        json!({
-            "zarr_format": 3,
-            "node_type": "array",
-            "shape": shape,
-            "data_type": if zone { "uint8" } else { "float64" },
-            "chunk_grid": { "name": "regular", "configuration": { "chunk_shape": chunk } },
-            "chunk_key_encoding": { "name": "default", "configuration": { "separator": "/" } },
-            "fill_value": if zone { json!(255) } else { json!("NaN") },
-            "codecs": codecs,
-            "attributes": attributes,
-            "dimension_names": names,
+        attributes
+    }
+
+    fn write_centres(&self) -> Result<(), Unwritten> {
+        let axes: &[&str] = if self.grid.is_line() { &["x"] } else { &["x", "y"] };
+        axes.iter().enumerate().try_for_each(|(axis, name)| {
+            let centres = self.grid.centres(axis);
+            let bytes: Vec<u8> = centres.iter().flat_map(|centre| centre.to_le_bytes()).collect();
+            self.write_axis(name, &bytes)
         })
+    }
+
+    fn write_axis(&self, name: &str, bytes: &[u8]) -> Result<(), Unwritten> {
+        self.write(&format!("{name}/c/0"), &[bytes, &checksum(bytes, self.is_checked)].concat())
     }
 
     fn write_text(&self, key: &str, value: &Value) -> Result<(), Unwritten> {
@@ -220,17 +255,11 @@ impl FieldStore {
 
     /// Path of a file of the store, in a folder that is there.
     fn file(&self, key: &str) -> Result<PathBuf, Unwritten> {
-        let path = self.path.join(key);
-        if let Some(folder) = path.parent() {
-            fs::create_dir_all(folder).map_err(Unwritten::at(folder))?;
-        }
-        Ok(path)
+        let (folder, name) = key.rsplit_once('/').unwrap_or(("", key));
+        let results = self.path.parent().unwrap_or_else(|| Path::new(""));
+        let store = self.path.file_name().map_or_else(|| Path::new(""), Path::new);
+        Ok(folder_below(results, &store.join(folder))?.join(name))
     }
-}
-
-/// Where a field of the increment at a place along `increment` lies in the store.
-pub fn chunk(grid: &SurfaceGrid, name: &str, place: usize) -> String {
-    format!("{name}/c/{place}/0{}", if grid.is_line() { "" } else { "/0" })
 }
 
 /// Numbers of the increments in the store at `path`, as far as they can be read.
@@ -238,26 +267,6 @@ fn steps_at(path: &Path) -> Vec<usize> {
     let bytes = fs::read(path.join(STEPS)).unwrap_or_default();
     let numbers = bytes.as_chunks::<8>().0.iter().map(|eight| i64::from_le_bytes(*eight));
     numbers.map_while(|number| usize::try_from(number).ok()).collect()
-}
-
-/// An axis in one chunk: its type, unit, meaning and length.
-fn axis_metadata(name: &str, (data_type, unit, long_name, length): (&str, &str, &str, usize)) -> Value {
-    json!({
-        "zarr_format": 3,
-        "node_type": "array",
-        "shape": [length],
-        "data_type": data_type,
-        "chunk_grid": { "name": "regular", "configuration": { "chunk_shape": [length.max(1)] } },
-        "chunk_key_encoding": { "name": "default", "configuration": { "separator": "/" } },
-        "fill_value": 0,
-        "codecs": [little_endian_bytes()],
-        "attributes": { "units": unit, "long_name": long_name },
-        "dimension_names": [name],
-    })
-}
-
-fn little_endian_bytes() -> Value {
-    json!({ "name": "bytes", "configuration": { "endian": "little" } })
 }
 
 /// A field in the order of its index `[i, j]`, j fastest, as Zarr wants it.

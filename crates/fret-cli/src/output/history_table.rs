@@ -9,6 +9,7 @@ use fret_core::history::{CYCLE_COLUMNS, Column, CycleRecord, STEP_COLUMNS, StepR
 use serde::{Deserialize, Serialize};
 use serde_json::Value as Json;
 
+use super::place::{new_file, own_file};
 use crate::failure::Unwritten;
 
 /// What a table holds a line of.
@@ -57,7 +58,7 @@ pub struct HistoryTable {
 impl HistoryTable {
     /// A table with its head; an earlier one is gone.
     pub fn create(path: &Path, lines: Lines, case: &Case) -> Result<Self, Unwritten> {
-        let file = File::create(path).map_err(Unwritten::at(path))?;
+        let file = new_file(path).map_err(Unwritten::at(path))?;
         let mut table = Self { path: path.to_owned(), file, bytes: 0, checksum: crc32fast::Hasher::new() };
         table.append(&lines.head(case))?;
         Ok(table)
@@ -66,7 +67,7 @@ impl HistoryTable {
     /// The table of a broken-off run, cut back to what was `written`.
     pub fn reopen(path: &Path, written: Written) -> Result<Self, Unwritten> {
         let Written { bytes, checksum } = written;
-        let mut file = File::options().write(true).open(path).map_err(Unwritten::at(path))?;
+        let mut file = own_file(path).map_err(Unwritten::at(path))?;
         file.set_len(bytes).and_then(|()| file.seek(SeekFrom::End(0))).map_err(Unwritten::at(path))?;
         let checksum = crc32fast::Hasher::new_with_initial_len(checksum, bytes);
         Ok(Self { path: path.to_owned(), file, bytes, checksum })
@@ -98,6 +99,14 @@ impl HistoryTable {
     /// What is written so far.
     pub fn written(&self) -> Written {
         Written { bytes: self.bytes, checksum: self.checksum.clone().finalize() }
+    }
+
+    /// What was written, read again; its path where it is not there any more.
+    pub fn read_again(&self) -> Result<Vec<u8>, PathBuf> {
+        std::fs::read(&self.path)
+            .ok()
+            .filter(|content| crc32fast::hash(content) == self.written().checksum)
+            .ok_or_else(|| self.path.clone())
     }
 
     /// Adds an increment: one write a line, so that a killed process leaves whole lines.

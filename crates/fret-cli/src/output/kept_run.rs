@@ -1,8 +1,7 @@
 //! A result folder read back: the bodies, the grid, and the kept fields of any increment; of a run that is not finished what
 //! there is.
 
-use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use fret_core::case::{Side, StressRequest, Units};
 use fret_core::history::CycleRecord;
@@ -13,15 +12,14 @@ use ndarray::Array2;
 use serde::de::DeserializeOwned;
 use serde_json::Value;
 
-use super::field_store::chunk;
-use super::{CYCLES, FIELDS, HISTORY, HistoryTable, RECORD};
+use super::{FIELDS, RECORD, lost_state, state_below, states_below};
 use crate::failure::Failure;
-use crate::results::{Table, unfinished};
+use crate::results::{Field, Fields, Table, cycles_of, read_record, unfinished};
 
 /// A run on disk.
 #[derive(Debug)]
 pub struct KeptRun {
-    fields: PathBuf,
+    fields: Fields,
     /// `run.json`.
     pub record: Value,
     /// Its title.
@@ -68,23 +66,15 @@ impl KeptRun {
     /// When it is no result folder, or it keeps no field.
     pub fn open(folder: &Path) -> Result<Self, Failure> {
         let shown = folder.display();
-        let refuse = |what: String, help: &str| Failure::Call(format!("{shown}: {what}"), help.to_owned());
-        let no_results = "give a folder that `fret run` has written";
-        if !folder.is_dir() {
-            return Err(refuse("no such folder".to_owned(), no_results));
-        }
-        let text = fs::read_to_string(folder.join(RECORD))
-            .map_err(|_| refuse(format!("holds no {RECORD}: no results of fret"), no_results))?;
-        let record: Value = serde_json::from_str(&text)
-            .map_err(|error| refuse(format!("{RECORD} is not readable: {error}"), "run the case again"))?;
-        let table = Table::read(&folder.join(HISTORY))?;
+        let record = read_record(folder)?;
+        let table = Table::of(folder, &record)?;
         let solved = table.rows();
         let plan = &record["plan"];
-        let broken = |what: &str| refuse(format!("{RECORD} does not tell {what}"), "run the case again");
-        let fields = folder.join(FIELDS);
-        let mut steps = coordinate(&fields.join("increment/c/0"))
-            .ok_or_else(|| refuse(format!("holds no {FIELDS}: no fields were kept"), no_results))?;
-        steps.retain(|step| *step < solved); // those that a run will keep stand there from its start
+        let broken = |what: &str| {
+            Failure::Call(format!("{shown}: {RECORD} does not tell {what}"), "run the case again".to_owned())
+        };
+        let fields = Fields::read(&folder.join(FIELDS), &record, solved)?;
+        let steps = fields.reached.clone();
         let (last_cycle, cyclic) = last_cycle(&plan["case"]["stages"], table.column("stage"))
             .ok_or_else(|| broken("the stages of the run"))?;
         Ok(Self {
@@ -101,7 +91,7 @@ impl KeptRun {
             steps,
             solved,
             conduction: part(&plan["case"]["conduction"]).unwrap_or_default(),
-            cycles: HistoryTable::all_cycles(&folder.join(CYCLES)),
+            cycles: cycles_of(folder, &record)?,
             residual_stress: part(&plan["case"]["residual_stress"]).unwrap_or_default(),
             fatigue: part(&plan["case"]["fatigue"]).unwrap_or_default(),
             bulk_stress: ["bulk_stress", "upper_bulk_stress"]
@@ -109,6 +99,21 @@ impl KeptRun {
             unfinished: unfinished(&record, solved),
             record,
         })
+    }
+
+    /// Reads everything that a solved run has kept in its folder.
+    ///
+    /// # Errors
+    /// When a part of it is missing, or not as it was written.
+    pub fn look_at_all(&self, folder: &Path) -> Result<(), Failure> {
+        let damaged = |why: String| Failure::Call(why, "run the case again".to_owned());
+        self.fields.look_at_all()?;
+        if let Some(lost) = lost_state(folder, &self.record) {
+            return Err(damaged(lost));
+        }
+        states_below(folder)
+            .into_iter()
+            .try_for_each(|increment| state_below(folder, increment).map(drop).map_err(damaged))
     }
 
     /// What adds to the stress of the tractions in a body, in an increment.
@@ -124,40 +129,22 @@ impl KeptRun {
         self.fatigue[usize::from(request.body == Side::Upper)].clone().or(request.fatigue)
     }
 
-    /// A kept field of an increment; `None` when it was not kept.
+    /// A kept field of an increment; `None` when it was not to be kept.
     ///
     /// # Errors
-    /// When its file has the wrong length or holds a number that is not finite.
+    /// When its file is missing, or not as it was written.
     pub fn field(&self, name: &str, increment: usize) -> Result<Option<Array2<f64>>, Failure> {
         let Ok(position) = self.steps.binary_search(&increment) else { return Ok(None) };
-        let path = self.fields.join(chunk(&self.grid, name, position));
-        let Ok(bytes) = fs::read(&path) else { return Ok(None) };
-        let [nx, ny] = self.grid.cells();
-        let values: Vec<f64> = numbers(&bytes).map(f64::from_le_bytes).collect();
-        let damaged = |what: &str| {
-            Failure::Call(format!("{}: {what}", path.display()), "run the case again".to_owned())
-        };
-        if let Some(place) = values.iter().position(|value| !value.is_finite()) {
-            return Err(damaged(&format!("value {place} is not finite")));
+        if !self.fields.has(name) {
+            return Ok(None);
         }
-        match Array2::from_shape_vec((nx, ny), values) {
-            Ok(field) if bytes.len() == 8 * nx * ny => Ok(Some(field)),
-            _ => Err(damaged(&format!("{} bytes, not those of {nx} x {ny} numbers", bytes.len()))),
-        }
+        let Field { cells: [nx, ny], values } = self.fields.field(name, position)?;
+        Ok(Array2::from_shape_vec((nx, ny), values).ok())
     }
 }
 
 fn part<T: DeserializeOwned>(value: &Value) -> Option<T> {
     T::deserialize(value).ok()
-}
-
-fn numbers(bytes: &[u8]) -> impl Iterator<Item = [u8; 8]> + '_ {
-    bytes.chunks_exact(8).map(|chunk| std::array::from_fn(|n| chunk[n]))
-}
-
-fn coordinate(path: &Path) -> Option<Vec<usize>> {
-    let bytes = fs::read(path).ok()?;
-    Some(numbers(&bytes).map(|bytes| i64::from_le_bytes(bytes) as usize).collect())
 }
 
 /// Increments of the last whole cycle, and whether it is one, where the solved increments belong to these stages.

@@ -5,11 +5,13 @@
 //! `checkpoint` while the run is not solved. An increment's fields and state are written first, then its line, then that of the cycle it ends, then the checkpoint: what the checkpoint counts is complete, what lies beyond it is cut off when the run goes on.
 
 mod checkpoint_folder;
+mod checksums;
 mod field_store;
 mod framed_file;
 mod history_table;
 pub mod kept_run;
 mod packed_file;
+mod place;
 mod run_record;
 pub mod section;
 mod state_store;
@@ -17,37 +19,51 @@ mod stress_kinds;
 mod turn_writer;
 pub mod vtk;
 mod whole_file;
+pub mod zarr;
 
 use std::fs;
+use std::io;
 use std::path::{Path, PathBuf};
 
 use fret_core::history::{CycleRecord, KeptFields, StepRecord, Warning};
 use fret_core::plan::Plan;
 use fret_core::run::Waypoint;
-use serde_json::Value;
+use serde_json::{Map, Value, json};
 
 use crate::case_file::CaseFile;
 use crate::failure::{Failure, Unwritten};
 use crate::tally::Tally;
-use checkpoint_folder::{CheckpointFolder, Found, Head};
+use checkpoint_folder::{CHECKPOINT, CheckpointFolder, Found, Head};
 pub use checkpoint_folder::{Stored, newest_start};
+pub use checksums::checksums;
 use field_store::FieldStore;
 pub use history_table::HistoryTable;
 use history_table::Lines;
+use kept_run::KeptRun;
 pub use packed_file::{read_packed, write_packed};
-pub use run_record::{Ending, RunRecord, question, resolved};
-use state_store::StateStore;
-pub use state_store::{start_below, state_below, states_below};
+use place::refuse_links_below;
+pub use place::{folder_below, folder_for_answers, new_file, refuse_link, resolved_path, stem};
+pub use run_record::{Ending, FORMAT, RunRecord, question, recorded_question, resolved};
+use state_store::{START, STATES, StateStore};
+pub use state_store::{lost_state, start_below, state_below, states_below};
 pub use stress_kinds::{kind_of_stress, stress_called};
-pub use whole_file::write_whole;
+pub use whole_file::{part_of, write_whole};
 
-const CASE: &str = "case.toml";
-const RECORD: &str = "run.json";
-const HISTORY: &str = "history.csv";
-const CYCLES: &str = "cycles.csv";
-const FIELDS: &str = "fields.zarr";
+/// The text of the case.
+pub const CASE: &str = "case.toml";
+/// How it was computed and how it ended.
+pub const RECORD: &str = "run.json";
+/// The table of increments.
+pub const HISTORY: &str = "history.csv";
+/// The table of cycles.
+pub const CYCLES: &str = "cycles.csv";
+/// The store of fields.
+pub const FIELDS: &str = "fields.zarr";
 /// Error bars of the quantities of interest, where they were asked for.
 pub const ERROR_BARS: &str = "error_bars.json";
+
+/// All that a run writes.
+const WRITTEN: [&str; 9] = [CASE, RECORD, HISTORY, CYCLES, FIELDS, ERROR_BARS, STATES, START, CHECKPOINT];
 
 /// What lies where the results shall go.
 #[derive(Debug, Clone, PartialEq)]
@@ -75,10 +91,14 @@ pub enum Wish {
     Resume,
 }
 
+/// What is wrong with a file that a run has written, and that is not there in the end.
+const REMOVED: &str = "it was removed or changed by somebody else while the run went; solve the case again";
+
 /// A folder a run writes into while it goes.
 #[derive(Debug)]
 pub struct ResultFolder {
     path: PathBuf,
+    case_text: String,
     question: String,
     record: RunRecord,
     history: HistoryTable,
@@ -102,6 +122,7 @@ impl ResultFolder {
         if holds_nothing(path) {
             return Ok(Standing::Free);
         }
+        refuse_links_below(path, &WRITTEN)?;
         CheckpointFolder::refuse_taken(path)?;
         let Some(earlier) = fs::read(path.join(RECORD)).ok() else {
             return match wish {
@@ -118,11 +139,18 @@ impl ResultFolder {
         let is_broken_off = !is_solved && CheckpointFolder::is_below(path);
         let same_text = || fs::read(path.join(CASE)).is_ok_and(|text| text == case_file.text.as_bytes());
         match wish {
+            Wish::Resume if record["format"] != FORMAT => refuse(
+                "results of another program, or of another version of the format",
+                format!("{other_folder}; nothing was touched"),
+            ),
             Wish::Resume if !is_same_question => refuse(
                 "holds the results of another case, or of a case that has been changed since or starts elsewhere",
                 format!("{other_folder}; nothing was touched"),
             ),
-            Wish::Resume if is_solved => Ok(Standing::Solved(record)),
+            Wish::Resume if is_solved => {
+                KeptRun::open(path)?.look_at_all(path)?;
+                Ok(Standing::Solved(record))
+            }
             Wish::Resume => Ok(Standing::Unfinished),
             Wish::Start if is_broken_off && !is_same_question => refuse(
                 "holds an unfinished run of another case, or of this one before it was changed",
@@ -169,6 +197,7 @@ impl ResultFolder {
             fields: FieldStore::create(&path.join(FIELDS), plan)?,
             states: StateStore::create(path, plan.start.as_deref())?,
             path: path.to_owned(),
+            case_text: case_file.text.clone(),
             question: run_record::question(plan),
             record,
             checkpoints,
@@ -178,7 +207,12 @@ impl ResultFolder {
 
     /// Takes up the unfinished run in the folder; `None` where it had not solved any increment. What lies beyond the checkpoint
     /// is cut off, but only once everything has been found in order.
-    pub fn reopen(path: &Path, plan: &Plan, record: RunRecord) -> Result<Option<Taken>, Failure> {
+    pub fn reopen(
+        path: &Path,
+        case_file: &CaseFile,
+        plan: &Plan,
+        record: RunRecord,
+    ) -> Result<Option<Taken>, Failure> {
         let checkpoints = CheckpointFolder::take(path)?;
         let question = run_record::question(plan);
         let spoilt = |why: String| {
@@ -212,15 +246,21 @@ impl ResultFolder {
             Some(records) if records.len() == ended => stored.head.tally.cycles = records,
             _ => return not_whole(&cycles, ended),
         }
-        if let Some(file) = FieldStore::missing(&path.join(FIELDS), plan, kept) {
-            return spoilt(format!("{}: missing, or not whole", file.display()));
+        if let Some((file, why)) = FieldStore::damaged(&path.join(FIELDS), plan, kept) {
+            return spoilt(format!("{}: {why}", file.display()));
+        }
+        let steps = FieldStore::steps(&path.join(FIELDS), plan, kept);
+        if let Some(why) = StateStore::damaged(path, plan, &steps, &stored.head.tally) {
+            return spoilt(why);
         }
         let earlier = fs::read(path.join(RECORD)).ok().and_then(|bytes| serde_json::from_slice(&bytes).ok());
         let earlier = earlier.unwrap_or(Value::Null);
         let ended = ended_without_answer(&earlier).then(|| message_of(&earlier).to_owned());
         let record = record.continuing(&earlier);
         write_whole(&path.join(RECORD), &record.running())?;
+        write_whole(&path.join(CASE), case_file.text.as_bytes())?; // its words may have changed
         let folder = Self {
+            case_text: case_file.text.clone(),
             history: HistoryTable::reopen(&history, written)?,
             cycles: HistoryTable::reopen(&cycles, cycles_written)?,
             fields: FieldStore::reopen(&path.join(FIELDS), plan, kept)?,
@@ -270,6 +310,11 @@ impl ResultFolder {
         Ok(self.checkpoints.store(&head, waypoint, settle)?)
     }
 
+    /// Whether what is in a folder can be continued: its table and a checkpoint are still there.
+    pub fn can_go_on(path: &Path) -> bool {
+        path.join(HISTORY).is_file() && CheckpointFolder::is_below(path)
+    }
+
     /// Writes down how the run ended.
     pub fn close(
         self,
@@ -279,7 +324,23 @@ impl ResultFolder {
     ) -> Result<(), Unwritten> {
         self.history.settle()?;
         self.cycles.settle()?;
-        write_whole(&self.path.join(RECORD), &self.record.ended((tally, warnings), wall_s, early))?;
+        let (history, cycles) = (self.history.read_again(), self.cycles.read_again());
+        let lost = history.as_ref().err().or(cycles.as_ref().err()).cloned().or_else(|| self.fields.lost());
+        let lost = lost.map(|file| Unwritten::at(&file)(io::Error::other(REMOVED)));
+        let torn =
+            lost.as_ref().map(|lost| Ending { status: "failed".to_owned(), message: lost.to_string() });
+        let tables = [(HISTORY, history.ok()), (CYCLES, cycles.ok())];
+        let texts = tables.iter().filter_map(|(name, text)| Some((*name, text.as_deref()?)));
+        let texts = texts.chain([(CASE, self.case_text.as_bytes())]);
+        let kept = Map::from_iter([
+            ("checksums".to_owned(), checksums(texts).into()),
+            ("states".to_owned(), json!(states_below(&self.path))),
+        ]);
+        let record = self.record.ended((tally, warnings), wall_s, early.or(torn.as_ref()), kept);
+        write_whole(&self.path.join(RECORD), &record)?;
+        if let Some(lost) = lost {
+            return Err(lost);
+        }
         if early.is_none() {
             self.checkpoints.remove();
         }
@@ -312,7 +373,7 @@ pub struct Taken {
 
 /// Whether a folder is empty, apart from what a run that is killed in its first moment leaves behind.
 fn holds_nothing(path: &Path) -> bool {
-    let is_litter = |name: &str| name == "run.json.part" || name == "checkpoint";
+    let is_litter = |name: &str| name == "run.json.part" || name == CHECKPOINT;
     match fs::read_dir(path) {
         Ok(mut entries) => {
             !CheckpointFolder::is_below(path)

@@ -11,6 +11,8 @@ use crate::failure::Failure;
 
 /// More bytes than this are none of the largest grid.
 const LONGEST: u64 = 256 << 26;
+/// No part of any frame.
+const BEHIND: &[u8] = &[0xff; 16];
 
 /// Writes a file that begins with a line; `None` for bytes that could not be had.
 pub fn write_packed(path: &Path, first_line: &str, bytes: Option<Vec<u8>>) -> Result<(), Failure> {
@@ -28,8 +30,11 @@ pub fn read_packed(path: &Path, first_line: &str) -> Result<Vec<u8>, String> {
     let bytes = fs::read(path).map_err(|error| format!("{}: cannot be read: {error}", path.display()))?;
     let frame = bytes.strip_prefix(first_line.as_bytes()).ok_or_else(damaged)?;
     let mut content = Vec::new();
-    FrameDecoder::new(frame).take(LONGEST).read_to_end(&mut content).map_err(|_| damaged())?;
-    Ok(content)
+    // The decoder takes a frame that ends between two blocks for a whole one: then it reads on, into what stands behind.
+    let mut frame = frame.chain(BEHIND);
+    FrameDecoder::new(&mut frame).take(LONGEST).read_to_end(&mut content).map_err(|_| damaged())?;
+    let (rest, behind) = frame.into_inner();
+    if rest.is_empty() && behind == BEHIND { Ok(content) } else { Err(damaged()) }
 }
 
 #[cfg(test)]
@@ -45,11 +50,21 @@ mod tests {
         assert!(content.len() < bytes.len() / 200, "{}", content.len());
         assert_eq!(read_packed(&path, "line\n"), Ok(bytes));
         assert!(read_packed(&path, "other\n").is_err());
-        for (place, end) in [(content.len() / 2, content.len()), (0, content.len() - 5)] {
-            let mut damaged = content[..end].to_vec();
-            damaged[place] ^= 1;
-            fs::write(&path, damaged).unwrap();
-            assert!(read_packed(&path, "line\n").is_err());
+        let is_refused = |content: &[u8]| {
+            fs::write(&path, content).unwrap();
+            read_packed(&path, "line\n").is_err()
+        };
+        assert!(is_refused(&[&content[..], b"\0abc"].concat()), "more than was written");
+        let bytes: Vec<u8> = (0..200).map(|number| (number * number % 251) as u8).collect();
+        write_packed(&path, "line\n", Some(bytes)).unwrap();
+        let content = fs::read(&path).unwrap();
+        for end in 0..content.len() {
+            assert!(is_refused(&content[..end]), "{end}");
+        }
+        for bit in 0..8 * content.len() {
+            let mut flipped = content.clone();
+            flipped[bit / 8] ^= 1 << (bit % 8);
+            assert!(is_refused(&flipped), "{bit}");
         }
         fs::remove_file(&path).unwrap();
     }

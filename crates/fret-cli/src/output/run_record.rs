@@ -7,15 +7,16 @@ use fret_core::history::Warning;
 use fret_core::model::digest;
 use fret_core::plan::{LeaveOut, Plan};
 use fret_core::run::plausibility;
-use serde_json::{Value, json};
+use serde_json::{Map, Value, json};
 
 use crate::case_file::CaseFile;
+use crate::commit::{COMMIT, is_clean};
 use crate::failure::Failure;
 use crate::origin::Origin;
 use crate::tally::Tally;
 
 /// Version of the folder's format.
-const FORMAT: u32 = 1;
+pub const FORMAT: u32 = 1;
 
 /// How a run ended that did not come to the end of its history.
 #[derive(Debug)]
@@ -45,6 +46,8 @@ impl RunRecord {
             "format": FORMAT,
             "program": "fretting",
             "version": env!("CARGO_PKG_VERSION"),
+            "commit": COMMIT,
+            "tree_is_clean": is_clean(),
             "started_unix_s": started,
             "resumed": 0,
             "threads": threads,
@@ -79,7 +82,7 @@ impl RunRecord {
 
     /// As it stands while the run goes; as it stays when the run is killed.
     pub fn running(&self) -> Vec<u8> {
-        self.with(json!({ "status": "running" }))
+        written(&self.with(json!({ "status": "running" })))
     }
 
     /// As it stands after the run.
@@ -88,8 +91,10 @@ impl RunRecord {
         (tally, warnings): (&Tally, &[Warning]),
         wall_s: f64,
         early: Option<&Ending>,
+        // What is kept besides, for those who read it back.
+        kept: Map<String, Value>,
     ) -> Vec<u8> {
-        self.with(json!({
+        let mut record = self.with(json!({
             "status": early.map_or("solved", |early| early.status.as_str()),
             "message": early.map(|early| early.message.as_str()),
             "worn_through": tally.worn_through,
@@ -107,21 +112,40 @@ impl RunRecord {
                 "max_worn_depth": tally.stage_ends.last().map_or(0.0, |record| record.max_worn_depth),
                 "wall_s": wall_s,
             },
-        }))
+        }));
+        record.extend(kept);
+        written(&record)
     }
 
-    fn with(&self, end: Value) -> Vec<u8> {
-        let mut record = self.0.clone();
-        if let (Some(record), Value::Object(end)) = (record.as_object_mut(), end) {
+    fn with(&self, end: Value) -> Map<String, Value> {
+        let mut record = self.0.as_object().cloned().unwrap_or_default();
+        if let Value::Object(end) = end {
             record.extend(end);
         }
-        format!("{record:#}\n").into_bytes()
+        record
     }
+}
+
+fn written(record: &Map<String, Value>) -> Vec<u8> {
+    (serde_json::to_string_pretty(record).unwrap_or_default() + "\n").into_bytes()
 }
 
 /// A plan as JSON, with the case as it was understood: every default filled in.
 pub fn resolved(plan: &Plan) -> Value {
     plan.to_json()
+}
+
+/// The same of the plan in a record.
+pub fn recorded_question(record: &Value) -> String {
+    let plan = &record["plan"];
+    let mut asked = json!({ "case": plan["case"], "grid": plan["grid"], "coupling": plan["coupling"] });
+    if plan["leave_out"] != json!(LeaveOut::ALL) {
+        asked["leave_out"] = plan["leave_out"].clone();
+    }
+    if !record["start"].is_null() {
+        asked["start"] = record["start"]["fnv1a64"].clone();
+    }
+    digest(asked.to_string().bytes())
 }
 
 /// A digest of what is asked, as it was understood: the same for texts that differ in words and order only.

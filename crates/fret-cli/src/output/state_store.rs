@@ -6,24 +6,33 @@ use std::path::{Path, PathBuf};
 
 use fret_core::history::Start;
 use fret_core::model::SolvedState;
+use fret_core::plan::Plan;
+use serde::Deserialize;
+use serde_json::Value;
 
 use super::packed_file::{read_packed, write_packed};
+use super::place::folder_below;
 use crate::failure::{Failure, Unwritten};
+use crate::results::is_solved;
+use crate::tally::Tally;
 
-const STATES: &str = "states";
-const START: &str = "start.state";
+/// The folder.
+pub const STATES: &str = "states";
+/// Where the run started.
+pub const START: &str = "start.state";
 const FIRST_LINE: &str = "fretting state 2\n";
 
 /// The states while a run goes.
 #[derive(Debug)]
 pub struct StateStore {
+    results: PathBuf,
     path: PathBuf,
 }
 
 impl StateStore {
     /// The store of the results at `path`, without any state of an earlier run; `start` is where this one starts.
     pub fn create(results: &Path, start: Option<&Start>) -> Result<Self, Failure> {
-        let store = Self { path: results.join(STATES) };
+        let store = Self { results: results.to_owned(), path: results.join(STATES) };
         store.cut_back(0)?;
         let first = results.join(START);
         match start {
@@ -35,15 +44,32 @@ impl StateStore {
 
     /// The store of a broken-off run, cut back to its first `solved` increments.
     pub fn reopen(results: &Path, solved: usize) -> Result<Self, Unwritten> {
-        let store = Self { path: results.join(STATES) };
+        let store = Self { results: results.to_owned(), path: results.join(STATES) };
         store.cut_back(solved)?;
         Ok(store)
     }
 
     /// Writes down the state of an increment.
     pub fn keep(&self, increment: usize, rest: &SolvedState) -> Result<(), Failure> {
-        fs::create_dir_all(&self.path).map_err(Unwritten::at(&self.path))?;
+        folder_below(&self.results, Path::new(STATES))?;
         write_packed(&self.path.join(increment.to_string()), FIRST_LINE, postcard::to_stdvec(rest).ok())
+    }
+
+    /// Why the states of the first increments of a run are not those that were written, if they are not; `kept` are those of them whose
+    /// fields are kept.
+    pub fn damaged(results: &Path, plan: &Plan, kept: &[usize], tally: &Tally) -> Option<String> {
+        let found = states_below(results);
+        let keeps = |name: &str| plan.case.output.fields.iter().any(|field| field == name);
+        // A state is kept where the kept fields complete it; at the end of a stage in any case.
+        let always = ["pressure", "shear", "slip"].into_iter().all(keeps);
+        let ends = tally.stage_ends.iter().rev().skip(1).map(|end| end.increment);
+        let wanted: Vec<usize> =
+            if always { kept.to_vec() } else { ends.filter(|end| kept.contains(end)).collect() };
+        if let Some(lost) = wanted.iter().find(|increment| !found.contains(increment)) {
+            return Some(format!("{}: missing", results.join(STATES).join(lost.to_string()).display()));
+        }
+        let solved = found.into_iter().filter(|increment| *increment < tally.solved);
+        solved.map(|increment| state_below(results, increment)).find_map(Result::err)
     }
 
     fn cut_back(&self, solved: usize) -> Result<(), Unwritten> {
@@ -55,6 +81,14 @@ impl StateStore {
 /// Increments with a state in the results at `path`, in order.
 pub fn states_below(results: &Path) -> Vec<usize> {
     numbers_in(&results.join(STATES))
+}
+
+/// In words, which of the states that the record of a solved run lists is not there any more.
+pub fn lost_state(results: &Path, record: &Value) -> Option<String> {
+    let listed = Vec::<usize>::deserialize(&record["states"]).unwrap_or_default();
+    let found = states_below(results);
+    let lost = listed.into_iter().find(|kept| is_solved(record) && !found.contains(kept))?;
+    Some(format!("{}: the state of increment {lost} is missing", results.display()))
 }
 
 /// What the kept fields of an increment do not hold of its state.

@@ -7,6 +7,7 @@ use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
 use std::thread::JoinHandle;
 
 use super::framed_file::FramedFile;
+use super::place::own_file;
 use crate::failure::Unwritten;
 
 /// Bytes that are written at once.
@@ -126,8 +127,7 @@ impl Write for Chunks {
 }
 
 fn begun(file: Option<File>, path: &Path, first_line: &'static [u8]) -> io::Result<FramedFile> {
-    let open = || File::options().write(true).create(true).truncate(false).open(path);
-    FramedFile::begin(file.map_or_else(open, Ok)?, first_line)
+    FramedFile::begin(file.map_or_else(|| own_file(path), Ok)?, first_line)
 }
 
 /// The file after all chunks; one that did not come to its end stays unfinished.

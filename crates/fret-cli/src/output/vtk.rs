@@ -13,6 +13,7 @@ use fret_core::model::SurfaceGrid;
 
 use crate::export::vtk::data_array_end;
 use crate::failure::Unwritten;
+use crate::output::{new_file, part_of};
 
 /// A volume of named scalar fields while it is filled.
 #[derive(Debug)]
@@ -39,9 +40,7 @@ impl Volume {
         names: &[&'static str],
         units: Option<&Units>,
     ) -> Result<Self, Unwritten> {
-        let mut part = path.as_os_str().to_owned();
-        part.push(".part");
-        let part = PathBuf::from(part);
+        let part = part_of(path);
         let cells = grid.cells();
         let (file, start) = begin(&part, grid, depths, names, units).map_err(Unwritten::at(path))?;
         Ok(Self {
@@ -141,7 +140,7 @@ fn begin(
     }
     text +=
         "      </Coordinates>\n    </Piece>\n  </RectilinearGrid>\n  <AppendedData encoding=\"raw\">\n    _";
-    let mut file = File::create(part)?;
+    let mut file = new_file(part)?;
     file.write_all(text.as_bytes())?;
     let start = text.len() as u64;
     for number in 0..names.len() as u64 {

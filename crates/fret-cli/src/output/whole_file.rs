@@ -4,6 +4,7 @@ use std::fs::{self, File};
 use std::io::{self, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
+use super::place::new_file;
 use crate::failure::Unwritten;
 
 /// Writes a file. A reader, a kill and a power failure at any moment find the old content or the new one, never a part.
@@ -12,17 +13,19 @@ pub fn write_whole(path: &Path, content: &[u8]) -> Result<(), Unwritten> {
 }
 
 /// The same without the blocks that are zero, which cost no room on the disk: a file reads as zero where nobody wrote to it.
-pub fn write_whole_sparsely(path: &Path, content: &[u8]) -> Result<(), Unwritten> {
+/// A few bytes more stand at its `end`.
+pub fn write_whole_sparsely(path: &Path, content: &[u8], end: &[u8]) -> Result<(), Unwritten> {
     const BLOCK: usize = 1 << 16;
     const ZEROS: &[u8] = &[0; BLOCK];
     write_whole_by(path, |file| {
-        file.set_len(content.len() as u64)?;
+        file.set_len((content.len() + end.len()) as u64)?;
         let blocks = content.chunks(BLOCK).zip((0..).step_by(BLOCK));
         for (block, start) in blocks.filter(|(block, _)| *block != &ZEROS[..block.len()]) {
             file.seek(SeekFrom::Start(start))?;
             file.write_all(block)?;
         }
-        Ok(())
+        file.seek(SeekFrom::Start(content.len() as u64))?;
+        file.write_all(end)
     })
 }
 
@@ -32,7 +35,7 @@ pub fn write_whole_by(
     content: impl FnOnce(&mut File) -> io::Result<()>,
 ) -> Result<(), Unwritten> {
     let part = part_of(path);
-    File::create(&part)
+    new_file(&part)
         .and_then(|mut file| {
             content(&mut file)?;
             file.sync_all()
@@ -45,7 +48,8 @@ pub fn write_whole_by(
         })
 }
 
-fn part_of(path: &Path) -> PathBuf {
+/// The name of a file while it is written.
+pub fn part_of(path: &Path) -> PathBuf {
     let mut name = path.as_os_str().to_owned();
     name.push(".part");
     PathBuf::from(name)
@@ -66,8 +70,8 @@ mod tests {
             if let Some(place) = written {
                 content[place] = 7;
             }
-            write_whole_sparsely(&path, &content).unwrap();
-            assert!(fs::read(&path).unwrap() == content, "{len} {written:?}");
+            write_whole_sparsely(&path, &content, b"end").unwrap();
+            assert!(fs::read(&path).unwrap() == [&content[..], b"end"].concat(), "{len} {written:?}");
         }
         fs::remove_file(&path).unwrap();
     }

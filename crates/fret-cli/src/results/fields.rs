@@ -3,11 +3,14 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use fret_core::history::FIELDS;
-use serde_json::{Value, json};
+use fret_core::history::{self, FIELDS};
+use fret_core::model::SurfaceGrid;
+use serde::Deserialize;
+use serde_json::Value;
 
-use super::unusable;
+use super::{is_solved, unusable};
 use crate::failure::Failure;
+use crate::output::zarr::{axis_metadata, bytes_of, checked, chunk, field_metadata, is_checked, is_zone};
 
 /// Fields of the kept increments that the run has reached.
 #[derive(Debug)]
@@ -21,8 +24,11 @@ pub struct Fields {
     pub y: Vec<f64>,
     /// Numbers of the increments, from 0, in order.
     pub steps: Vec<usize>,
-    /// Places of these increments in the store.
-    places: Vec<usize>,
+    /// The same, also where no field was asked for.
+    pub reached: Vec<usize>,
+    grid: SurfaceGrid,
+    /// Whether the chunks of fields end with a checksum.
+    is_checked: bool,
 }
 
 /// One field, `values[i * ny + j]`.
@@ -42,34 +48,48 @@ impl Field {
 }
 
 impl Fields {
-    /// Looks at a store; fields beyond the `rows` of the history table are left away.
-    pub fn read(path: &Path, rows: usize) -> Result<Self, Failure> {
-        let x = floats(&coordinate(path, "x")?);
+    /// Looks at the store of a run, whose record is known; fields beyond the `rows` of the history table are left away.
+    ///
+    /// # Errors
+    /// When it is not what that run has written.
+    pub fn read(path: &Path, record: &Value, rows: usize) -> Result<Self, Failure> {
+        let plan = &record["plan"];
+        let grid = SurfaceGrid::deserialize(&plan["grid"])
+            .map_err(|_| unusable(path, "the record of its run does not tell the grid"))?;
+        let asked = Vec::<String>::deserialize(&plan["case"]["output"]["fields"]).unwrap_or_default();
+        // Where nothing wears the wear depth is not kept, also where it was asked for.
+        let is_filled = |name: &str| {
+            name != "worn_depth" || !plan["case"]["wear"].is_null() || path.join(name).join("c").exists() // of the wear that it started from
+        };
+        let is_asked = |field: &&history::Field| {
+            asked.iter().any(|name| name == field.asked_as) && is_filled(field.name)
+        };
+        let names: Vec<&'static str> = FIELDS.iter().filter(is_asked).map(|field| field.name).collect();
+        let [nx, ny] = grid.cells();
+        let store = Store { path, is_solved: is_solved(record) };
+        let x = floats(&store.axis("x", Some(nx))?);
         // a line contact is the same all along y
-        let is_line = !path.join("y").exists();
-        let y = if is_line { vec![0.0] } else { floats(&coordinate(path, "y")?) };
-        let numbers = coordinate(path, "increment")?;
-        let numbers = numbers.chunks_exact(8).map(|eight| i64::from_le_bytes(whole(eight)));
-        let names: Vec<&'static str> = FIELDS
-            .iter()
-            .map(|field| field.name)
-            .filter(|name| path.join(name).join("zarr.json").exists())
-            .collect();
-        if x.is_empty() || y.is_empty() {
-            return Err(unusable(path, "holds no grid"));
+        let y = if grid.is_line() { vec![0.0] } else { floats(&store.axis("y", Some(ny))?) };
+        if x.iter().chain(&y).any(|centre| !centre.is_finite()) {
+            return Err(unusable(path, "holds centres of cells that are no numbers"));
         }
-        let mut fields = Self { path: path.to_owned(), names, x, y, steps: Vec::new(), places: Vec::new() };
-        for name in &fields.names {
-            fields.check(name)?;
+        let numbers = store.axis("increment", None)?;
+        let numbers: Vec<i64> =
+            numbers.chunks_exact(8).map(|eight| i64::from_le_bytes(whole(eight))).collect();
+        if numbers.first().is_some_and(|first| *first < 0)
+            || numbers.iter().zip(numbers.iter().skip(1)).any(|(one, next)| one >= next)
+            || store.is_solved && numbers.last().is_some_and(|last| *last >= rows as i64)
+        {
+            return Err(unusable(&path.join("increment"), "does not hold numbers of increments"));
         }
-        for (place, number) in numbers.enumerate() {
-            let reached = usize::try_from(number).ok().filter(|&number| number < rows);
-            if let Some(number) = reached.filter(|_| !fields.names.is_empty()) {
-                fields.steps.push(number);
-                fields.places.push(place);
-            }
+        let mut is_checked = false;
+        for name in &names {
+            is_checked = store.field(&grid, name, numbers.len())?;
         }
-        Ok(fields)
+        let reached: Vec<usize> =
+            numbers.iter().map(|&number| number as usize).filter(|&number| number < rows).collect();
+        let steps = if names.is_empty() { Vec::new() } else { reached.clone() };
+        Ok(Self { path: path.to_owned(), grid, names, x, y, steps, reached, is_checked })
     }
 
     /// Cells along x and y.
@@ -95,50 +115,90 @@ impl Fields {
     }
 
     /// A field of the increment at `position` of [`Fields::steps`].
+    ///
+    /// # Errors
+    /// When its file is missing, or not as it was written.
     pub fn field(&self, name: &str, position: usize) -> Result<Field, Failure> {
         let cells = self.cells();
-        let place = self.places[position];
-        let end = if self.is_line() { "" } else { "/0" };
-        let file = self.path.join(name).join(format!("c/{place}/0{end}"));
-        let bytes_each = if name == "zone" { 1 } else { 8 };
-        let expected = cells[0] * cells[1] * bytes_each;
+        let file = self.path.join(chunk(&self.grid, name, position));
         let bytes = fs::read(&file).map_err(|error| unusable(&file, &format!("cannot be read: {error}")))?;
-        if bytes.len() != expected {
-            let what = format!("{} bytes where the grid asks for {expected}", bytes.len());
-            return Err(unusable(&file, &what));
+        let bytes = checked(bytes, Some(bytes_of(&self.grid, name)), self.is_checked)
+            .map_err(|what| unusable(&file, &what))?;
+        let values = if is_zone(name) { bytes.into_iter().map(f64::from).collect() } else { floats(&bytes) };
+        let none = |value: &f64| !value.is_finite() || is_zone(name) && *value > 2.0;
+        if let Some(place) = values.iter().position(none) {
+            return Err(unusable(&file, &format!("value {place} is none of a field")));
         }
-        let values = if name == "zone" { bytes.into_iter().map(f64::from).collect() } else { floats(&bytes) };
         Ok(Field { cells, values })
     }
 
-    /// Refuses an array that is not what a run writes.
-    fn check(&self, name: &str) -> Result<(), Failure> {
-        let file = self.path.join(name).join("zarr.json");
-        let metadata: Value =
-            fs::read(&file).ok().and_then(|text| serde_json::from_slice(&text).ok()).unwrap_or_default();
-        let [nx, ny] = self.cells();
-        let data_type = if name == "zone" { "uint8" } else { "float64" };
-        let shape = metadata["shape"].as_array().map_or(&[][..], Vec::as_slice);
-        let codecs = metadata["codecs"].as_array().map_or(&[][..], Vec::as_slice);
-        let little = |codec: &Value| codec["configuration"]["endian"] == "little";
-        let in_order = match (shape, codecs) {
-            ([_, along_x], [bytes]) => self.is_line() && *along_x == nx && little(bytes),
-            ([_, along_y, along_x], [order, bytes]) => {
-                *along_y == ny
-                    && *along_x == nx
-                    && order["configuration"]["order"] == json!([0, 2, 1])
-                    && little(bytes)
-            }
-            _ => false,
-        };
-        let is_ours = in_order && metadata["data_type"] == data_type;
-        if is_ours { Ok(()) } else { Err(unusable(&file, "not an array as a run writes it")) }
+    /// Reads every field.
+    ///
+    /// # Errors
+    /// When the file of one is missing, or not as it was written.
+    pub fn look_at_all(&self) -> Result<(), Failure> {
+        let of = |name: &&str| (0..self.steps.len()).try_for_each(|place| self.field(name, place).map(drop));
+        self.names.iter().try_for_each(of)
     }
 }
 
-fn coordinate(path: &Path, name: &str) -> Result<Vec<u8>, Failure> {
-    let file = path.join(name).join("c/0");
-    fs::read(&file).map_err(|error| unusable(&file, &format!("cannot be read: {error}")))
+/// A store while it is looked at.
+struct Store<'a> {
+    path: &'a Path,
+    /// Whether its run is solved: otherwise its axis of increments may be growing.
+    is_solved: bool,
+}
+
+impl Store<'_> {
+    /// The numbers of an axis, of this length where it is known.
+    fn axis(&self, name: &str, length: Option<usize>) -> Result<Vec<u8>, Failure> {
+        let file = self.path.join(name).join("c/0");
+        let bytes = fs::read(&file).map_err(|error| unusable(&file, &format!("cannot be read: {error}")))?;
+        if bytes.is_empty() && length.is_some() {
+            return Err(unusable(&file, "holds no grid"));
+        }
+        let written = |length: usize| {
+            move |is_checked: bool, words: &Value| axis_metadata(name, length, is_checked, words)
+        };
+        let metadata = self.metadata(name)?;
+        let length = length.or_else(|| length_of(&metadata)).unwrap_or_default();
+        let is_checked = is_checked(&metadata, written(length)).ok_or_else(|| self.foreign(name))?;
+        let expected = if self.is_solved || name != "increment" { Some(8 * length) } else { None };
+        checked(bytes, expected, is_checked).map_err(|what| unusable(&file, &what))
+    }
+
+    /// Whether the chunks of a field over so many increments have checksums.
+    fn field(&self, grid: &SurfaceGrid, name: &str, steps: usize) -> Result<bool, Failure> {
+        let metadata = self.metadata(name)?;
+        let steps = if self.is_solved { steps } else { length_of(&metadata).unwrap_or_default() };
+        is_checked(&metadata, |is_checked, words| field_metadata(grid, name, steps, is_checked, words))
+            .ok_or_else(|| self.foreign(name))
+    }
+
+    /// The metadata of an array, which the group repeats.
+    fn metadata(&self, name: &str) -> Result<Value, Failure> {
+        let read = |file: &Path| -> Value {
+            fs::read(file).ok().and_then(|text| serde_json::from_slice(&text).ok()).unwrap_or_default()
+        };
+        let own = read(&self.path.join(name).join("zarr.json"));
+        let group = read(&self.path.join("zarr.json"));
+        if self.is_solved && own != group["consolidated_metadata"]["metadata"][name] {
+            return Err(self.foreign(name));
+        }
+        Ok(own)
+    }
+
+    fn foreign(&self, name: &str) -> Failure {
+        unusable(
+            &self.path.join(name).join("zarr.json"),
+            "not an array as a run writes it, or not what the group has of it",
+        )
+    }
+}
+
+/// The length along the first axis of an array, as its metadata tell.
+fn length_of(metadata: &Value) -> Option<usize> {
+    metadata["shape"][0].as_u64().map(|length| length as usize)
 }
 
 fn floats(bytes: &[u8]) -> Vec<f64> {

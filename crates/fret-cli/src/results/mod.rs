@@ -1,10 +1,9 @@
 //! Results of a run, read back from their folder: finished ones, and what there is of others. Nothing is written here.
 
 mod fields;
+mod record;
 mod table;
 
-use std::fs;
-use std::io;
 use std::path::{Path, PathBuf};
 
 use fret_core::case::Units;
@@ -13,8 +12,9 @@ use fret_core::machine::memory;
 use serde_json::Value;
 
 use crate::failure::Failure;
-use crate::output::HistoryTable;
+use crate::output::{CYCLES, FIELDS as FIELDS_FOLDER, HistoryTable};
 pub use fields::{Field, Fields};
+pub use record::{is_solved, read_record, refuse_changed};
 pub use table::Table;
 
 /// Bytes a cell of a field while it passes through.
@@ -38,25 +38,10 @@ pub struct Results {
 impl Results {
     /// Reads a result folder: record and table whole, fields when they are asked for.
     pub fn read(path: &Path) -> Result<Self, Failure> {
-        if !path.is_dir() {
-            let what = if path.exists() { "a file, not a folder of results" } else { "no such folder" };
-            return Err(unusable(path, what));
-        }
-        let record = path.join("run.json");
-        let text = match fs::read(&record) {
-            Err(error) if error.kind() == io::ErrorKind::NotFound => {
-                return Err(unusable(path, "not a folder of results: it has no run.json"));
-            }
-            read => read.map_err(|error| unusable(&record, &format!("cannot be read: {error}")))?,
-        };
-        let record: Value = serde_json::from_slice(&text)
-            .map_err(|error| unusable(&record, &format!("not what a run writes: {error}")))?;
-        if record["program"] != "fretting" || record["format"] != 1 {
-            return Err(unusable(path, "results of another program, or of another version of the format"));
-        }
-        let table = Table::read(&path.join("history.csv"))?;
-        let cycles = HistoryTable::all_cycles(&path.join("cycles.csv"));
-        let fields = Fields::read(&path.join("fields.zarr"), table.rows())?;
+        let record = read_record(path)?;
+        let table = Table::of(path, &record)?;
+        let cycles = cycles_of(path, &record)?;
+        let fields = Fields::read(&path.join(FIELDS_FOLDER), &record, table.rows())?;
         // Fields are read one at a time: its bytes, its numbers, what is written of it.
         let [nx, ny] = fields.cells();
         memory::check(FIELD * nx * ny)?;
@@ -100,6 +85,16 @@ impl Results {
         let name = |stage: &Value| stage["name"].as_str().unwrap_or_default().to_owned();
         stages.map_or_else(Vec::new, |stages| stages.iter().map(name).collect())
     }
+}
+
+/// The cycles of a run that are over.
+///
+/// # Errors
+/// When the table of a solved run is not as it was written.
+pub fn cycles_of(folder: &Path, record: &Value) -> Result<Vec<CycleRecord>, Failure> {
+    let path = folder.join(CYCLES);
+    refuse_changed(record, folder, CYCLES, &std::fs::read(&path).unwrap_or_default())?;
+    Ok(HistoryTable::all_cycles(&path))
 }
 
 /// The kind of a field, or of a coordinate, for its unit.

@@ -4,9 +4,11 @@ use std::fs;
 use std::path::Path;
 
 use fret_core::case::Units;
+use serde_json::Value;
 
-use super::unusable;
+use super::{is_solved, refuse_changed, unusable};
 use crate::failure::Failure;
+use crate::output::HISTORY;
 
 /// The one column of words.
 const REGIME: &str = "regime";
@@ -22,6 +24,22 @@ pub struct Table {
 }
 
 impl Table {
+    /// The history of a run in a folder, whose record is known.
+    ///
+    /// # Errors
+    /// When there is none, or that of a solved run is not as it was written.
+    pub fn of(folder: &Path, record: &Value) -> Result<Self, Failure> {
+        let path = folder.join(HISTORY);
+        let table = Self::read(&path)?;
+        refuse_changed(record, folder, HISTORY, &fs::read(&path).unwrap_or_default())?;
+        match record["totals"]["increments"].as_u64() {
+            Some(all) if is_solved(record) && all != table.rows as u64 => {
+                Err(unusable(&path, &format!("{} increments of {all} that were solved", table.rows)))
+            }
+            _ => Ok(table),
+        }
+    }
+
     /// Reads a table. A last line that a kill has torn is left away.
     pub fn read(path: &Path) -> Result<Self, Failure> {
         let text =

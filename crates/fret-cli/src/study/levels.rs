@@ -8,9 +8,10 @@ use fret_core::plan::Plan;
 use fret_core::study::Level;
 
 use crate::failure::{Failure, Unwritten};
-use crate::output::{question, read_packed, write_packed};
+use crate::output::{folder_below, question, read_packed, write_packed};
 
-const LEVELS: &str = "levels";
+/// Name of the folder.
+pub const LEVELS: &str = "levels";
 const FIRST_LINE: &str = concat!("fretting level ", env!("CARGO_PKG_VERSION"), "\n");
 
 /// The finished levels.
@@ -22,9 +23,7 @@ pub struct Levels {
 impl Levels {
     /// Those of the study in a folder.
     pub fn below(folder: &Path) -> Result<Self, Unwritten> {
-        let path = folder.join(LEVELS);
-        fs::create_dir_all(&path).map_err(Unwritten::at(&path))?;
-        Ok(Self { path })
+        Ok(Self { path: folder_below(folder, Path::new(LEVELS))? })
     }
 
     /// The level that a plan solves, when it is finished; a file that cannot be read is none.

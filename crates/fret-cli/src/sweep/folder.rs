@@ -5,14 +5,14 @@ use std::fmt::Write;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use fret_core::case::Units;
+use fret_core::case::{Units, content};
 use fret_core::history::{CYCLE_COLUMNS, STEP_COLUMNS};
 use fret_core::model::digest;
 use serde_json::{Value, json};
 
 use crate::failure::{Failure, Unwritten};
 use crate::origin::Origin;
-use crate::output::write_whole;
+use crate::output::{folder_below, resolved_path, write_whole};
 use crate::sweep::{Answer, Point, Question, Spread};
 
 /// Version of the folder's format.
@@ -64,18 +64,19 @@ impl SweepFolder {
     /// # Errors
     /// When the folder holds something else, or cannot be written.
     pub fn open(path: &Path, sweep: &str, origin: Option<&Origin>) -> Result<Self, Failure> {
-        let holds_something = fs::read_dir(path).is_ok_and(|mut entries| entries.next().is_some());
+        let path = resolved_path(path);
+        let holds_something = fs::read_dir(&path).is_ok_and(|mut entries| entries.next().is_some());
         if path.exists() && !path.is_dir() || holds_something && !path.join(SWEEP).exists() {
             return Err(Failure::Call(
                 format!("{}: holds files that are no sweep of fret", path.display()),
                 "choose another folder with --out DIR".to_owned(),
             ));
         }
-        let points = path.join(POINTS);
-        fs::create_dir_all(&points).map_err(Unwritten::at(&points))?;
+        fs::create_dir_all(&path).map_err(Unwritten::at(&path))?;
+        folder_below(&path, Path::new(POINTS))?;
         write_whole(&path.join(SWEEP), sweep.as_bytes())?;
         let start = origin.map(|origin| origin.start.digest().to_owned());
-        Ok(Self { path: path.to_owned(), start })
+        Ok(Self { path, start })
     }
 
     /// The answer of a finished point; a file that cannot be read is no answer.
@@ -94,7 +95,7 @@ impl SweepFolder {
         value["format"] = json!(FORMAT);
         value["version"] = json!(env!("CARGO_PKG_VERSION"));
         value["values"] =
-            keys.iter().zip(&point.values).map(|(key, value)| (key.clone(), json!(value))).collect();
+            keys.iter().zip(&point.values).map(|(key, value)| (key.clone(), plain(value))).collect();
         value["case"] = json!(point.case_file.text);
         write_whole(&self.place(point), format!("{value:#}\n").as_bytes())
     }
@@ -121,7 +122,7 @@ impl SweepFolder {
         for (number, (point, answer)) in question.points.iter().zip(answers).enumerate() {
             let Some(Answer(answer)) = answer else { continue };
             let _ = write!(text, "{number}");
-            for value in point.values.iter().map(|value| json!(value)) {
+            for value in point.values.iter().map(plain) {
                 let _ = write!(text, ",{}", cell(&value));
             }
             let _ = write!(text, ",{}", cell(&answer["status"]));
@@ -171,7 +172,7 @@ impl SweepFolder {
         known_by.extend(self.start.iter().flat_map(|start| start.bytes()));
         let folder = point.case_file.path.parent().unwrap_or_else(|| Path::new(""));
         for name in files_named(&point.case_file.text) {
-            known_by.extend(fs::read(folder.join(name)).unwrap_or_default());
+            known_by.extend(content(&folder.join(name)).unwrap_or_default());
         }
         self.path.join(POINTS).join(format!("{}.json", digest(known_by)))
     }
@@ -214,10 +215,19 @@ fn files_named(text: &str) -> Vec<String> {
     found
 }
 
-/// A value in a line of comma-separated ones; nothing where there is none.
+/// A value of a key as JSON; a date, which JSON does not have, as a text.
+fn plain(value: &toml::Value) -> Value {
+    if let toml::Value::Datetime(date) = value { json!(date.to_string()) } else { json!(value) }
+}
+
+/// A value in a line of comma-separated ones; nothing where there is none. A text that a spreadsheet would take for a formula stands behind
+/// an apostrophe.
 fn cell(value: &Value) -> String {
     match value {
         Value::Null => String::new(),
+        Value::String(text) if text.starts_with(['=', '+', '-', '@', '\t', '\r']) => {
+            quoted(&format!("'{text}"))
+        }
         Value::String(text) => quoted(text),
         Value::Number(_) | Value::Bool(_) => value.to_string(),
         other => quoted(&other.to_string()),

@@ -5,7 +5,7 @@
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
-use fret_core::case::{CaseError, Mistake, in_words};
+use fret_core::case::{CaseError, Mistake, in_words, refuse_too_long};
 use fret_core::uncertainty::SampleDesign;
 use toml::de::{DeTable, DeValue};
 use toml::{Spanned, Table, Value};
@@ -14,12 +14,16 @@ use crate::case_file::CaseFile;
 use crate::sweep::drawn::{Drawn, KINDS};
 use crate::sweep::key::put;
 
+/// More mistakes than this are not told.
+const MOST_MISTAKES: usize = 30;
 /// Points of a sweep at the most.
 const MOST_POINTS: usize = 1_000_000;
 
 /// A sweep that can be begun.
 #[derive(Debug)]
 pub struct Question {
+    /// Its text, verbatim.
+    pub text: String,
     /// The keys that change, in the order of the file.
     pub keys: Vec<String>,
     /// The points, the last axis fastest.
@@ -59,6 +63,7 @@ impl Question {
     /// With every mistake found, each with its place.
     pub fn read(path: &Path) -> Result<Self, CaseError> {
         let file = CaseFile::read(path)?;
+        refuse_too_long(&file.text, &file.name(), "a sweep file")?;
         Reader { file: &file, mistakes: Vec::new() }.question()
     }
 }
@@ -121,7 +126,12 @@ impl Reader<'_> {
             self.refuse_unknown_keys(first, &axes);
         }
         if self.mistakes.is_empty() {
-            Ok(Question { keys: axes.into_iter().flat_map(|axis| axis.keys).collect(), points, design })
+            Ok(Question {
+                text: text.clone(),
+                keys: axes.into_iter().flat_map(|axis| axis.keys).collect(),
+                points,
+                design,
+            })
         } else {
             Err(self.refusal())
         }
@@ -133,7 +143,7 @@ impl Reader<'_> {
         match value.get_ref() {
             DeValue::String(name) => {
                 let path = here.join(name.as_ref());
-                let read = CaseFile::read(&path).map_err(|error| error.to_string());
+                let read = CaseFile::read_ordinary(&path).map_err(|error| error.to_string());
                 match read.and_then(|file| {
                     file.text.parse::<Table>().map_err(|error| format!("{}: {error}", file.name()))
                 }) {
@@ -343,7 +353,9 @@ impl Reader<'_> {
     }
 
     fn refuse(&mut self, span: Option<Range<usize>>, message: &str, help: Option<&str>) {
-        self.mistakes.push(Mistake { message: message.to_owned(), help: help.map(str::to_owned), span });
+        if self.mistakes.len() < MOST_MISTAKES {
+            self.mistakes.push(Mistake { message: message.to_owned(), help: help.map(str::to_owned), span });
+        }
     }
 
     fn refusal(self) -> CaseError {

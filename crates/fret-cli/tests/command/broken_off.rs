@@ -324,18 +324,30 @@ fn torn_and_damaged_checkpoints_are_told_from_whole_ones() {
 fn results_that_miss_a_part_are_not_gone_on_with() {
     let bench = long_bench("missing");
     break_off(&bench, 60, "-KILL");
-    for (part, word) in
-        [("broken/fields.zarr/pressure/c/1/0/0", "pressure"), ("broken/history.csv", "history")]
-    {
+    let state = std::fs::read_dir(bench.folder.join("broken/states")).unwrap().next().unwrap().unwrap();
+    let state = format!("broken/states/{}", state.file_name().to_string_lossy());
+    for part in ["broken/fields.zarr/pressure/c/1/0/0", "broken/history.csv", &state] {
         let path = bench.folder.join(part);
         let content = std::fs::read(&path).unwrap();
-        std::fs::write(&path, &content[..content.len() / 3]).unwrap();
-        let before = files(&bench.folder.join("broken"));
-        let refused = resume(&bench);
-        assert_eq!(refused.code, Some(1), "{}", refused.err);
-        assert!(refused.err.contains(word) && refused.err.contains("nothing was touched"), "{}", refused.err);
-        assert!(files(&bench.folder.join("broken")) == before);
+        let mut flipped = content.clone();
+        flipped[content.len() / 2] ^= 1;
+        for damaged in [&content[..content.len() / 3], &flipped] {
+            std::fs::write(&path, damaged).unwrap();
+            let before = files(&bench.folder.join("broken"));
+            let refused = resume(&bench);
+            assert_eq!(refused.code, Some(1), "{part}: {}", refused.err);
+            assert!(
+                refused.err.contains(part) && refused.err.contains("nothing was touched"),
+                "{}",
+                refused.err
+            );
+            assert!(files(&bench.folder.join("broken")) == before);
+        }
         std::fs::write(&path, content).unwrap();
+    }
+    // What follows from the case is written anew.
+    for part in ["zarr.json", "pressure/zarr.json", "x/zarr.json", "y/c/0", "increment/c/0"] {
+        std::fs::remove_file(bench.folder.join("broken/fields.zarr").join(part)).unwrap();
     }
     assert_eq!(resume(&bench).code, Some(0));
     assert_same(&bench, "whole", "broken");

@@ -5,12 +5,14 @@
 mod answered;
 mod bench;
 mod broken_off;
+mod damaged;
 mod heated;
 mod hostile;
 mod interrupted;
 mod leave_out;
 mod memory;
 mod misleading;
+mod places;
 mod refused;
 mod shown;
 mod solved;

@@ -22,16 +22,26 @@ const DEEPEST: usize = 16;
 /// Longer texts are not cases.
 const LONGEST: usize = 4 << 20;
 
-pub(super) fn case(text: &str, name: &str, attachments: Attachments<'_>) -> Result<Case, CaseError> {
+/// Texts with more tables and lists are not cases.
+const MOST_BRACKETS: usize = 100_000;
+
+/// Refuses a text that is longer, or has more tables, than `what` in `name` ever has: before it is parsed, which takes long.
+///
+/// # Errors
+/// When it is.
+pub fn refuse_too_long(text: &str, name: &str, what: &str) -> Result<(), CaseError> {
     if text.len() > LONGEST {
-        return Err(CaseError::plain(
-            name,
-            format!("{} bytes: a case file has at most {LONGEST}", text.len()),
-        ));
+        let message = format!("{} bytes: {what} has at most {LONGEST}", text.len());
+        return Err(CaseError::plain(name, message));
     }
-    if text.bytes().filter(|byte| matches!(byte, b'[' | b'{')).count() > 100_000 {
-        return Err(CaseError::plain(name, "more than 100000 brackets: not a case file"));
+    if text.bytes().filter(|byte| matches!(byte, b'[' | b'{')).count() > MOST_BRACKETS {
+        return Err(CaseError::plain(name, format!("more than {MOST_BRACKETS} brackets: not {what}")));
     }
+    Ok(())
+}
+
+pub(super) fn case(text: &str, name: &str, attachments: Attachments<'_>) -> Result<Case, CaseError> {
+    refuse_too_long(text, name, "a case file")?;
     let mut mistakes = Vec::new();
     let mut root = match DeTable::parse(text) {
         Ok(root) => root,

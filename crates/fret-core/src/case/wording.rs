@@ -37,13 +37,15 @@ pub fn in_words(message: &str) -> String {
     message.to_owned()
 }
 
+/// Whether a letter would steer a terminal or turn the direction of writing; lines and tabs do not.
+pub fn steers(letter: char) -> bool {
+    letter.is_control() && !matches!(letter, '\n' | '\t')
+        || matches!(letter, '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
+}
+
 /// A text as a terminal may have it: control characters, which would steer it, and marks that turn the direction of writing are
 /// shown as `\\u{1b}`; lines and tabs stay.
 pub fn printable(text: &str) -> Cow<'_, str> {
-    let steers = |letter: char| {
-        letter.is_control() && !matches!(letter, '\n' | '\t')
-            || matches!(letter, '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
-    };
     if !text.chars().any(steers) {
         return Cow::Borrowed(text);
     }

@@ -63,7 +63,7 @@ impl Limit {
         match self {
             Self::Machine => "fewer cells need less, or a machine that has more free",
             Self::ControlGroup => "fewer cells need less, or a container or batch job that is given more",
-            Self::AddressSpace => "fewer cells need less, or a higher limit: ulimit -v unlimited",
+            Self::AddressSpace => "fewer cells or threads need less, or a higher limit: ulimit -v unlimited",
         }
     }
 }
@@ -73,7 +73,9 @@ impl fmt::Display for Limit {
         formatter.write_str(match self {
             Self::Machine => "what the machine has free",
             Self::ControlGroup => "the limit of the container or batch job: its control group",
-            Self::AddressSpace => "the limit on the address space: ulimit -v",
+            Self::AddressSpace => {
+                "the limit on the address space, ulimit -v, less what the program and its threads take of it"
+            }
         })
     }
 }
