@@ -23,7 +23,7 @@ pub(super) struct Layer<'a> {
 }
 
 /// Coatings and substrate, from the surface down.
-pub(super) fn layers<'a>((which, body): NamedBody<'a>) -> Vec<Layer<'a>> {
+pub(super) fn layers((which, body): NamedBody<'_>) -> Vec<Layer<'_>> {
     let mut layers = Vec::new();
     let mut top = 0.0;
     for (index, coating) in body.coatings.iter().flat_map(|list| list.iter().enumerate()) {

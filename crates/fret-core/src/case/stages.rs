@@ -99,10 +99,11 @@ impl Here<'_, '_> {
         self.judge.refuse(span, format!("{}{message}", self.place), help)
     }
 
-    /// Refuses the first of the keys that is given, with its name in the message.
-    fn refuse_first<T>(&mut self, keys: &[&str], message: impl Display, help: &str) -> Option<Option<T>> {
-        let key = keys.iter().find(|key| self.at(key).is_some())?;
-        Some(self.refuse(key, format!(".{key}: {message}"), help))
+    /// Whether one of the keys is given; the first is refused, with its name in the message.
+    fn refuses_any(&mut self, keys: &[&str], message: impl Display, help: &str) -> bool {
+        let Some(key) = keys.iter().find(|key| self.at(key).is_some()) else { return false };
+        self.refuse::<()>(key, format!(".{key}: {message}"), help);
+        true
     }
 
     fn course(&mut self) -> Option<Course> {
@@ -148,8 +149,8 @@ impl Here<'_, '_> {
     fn ramp(&mut self) -> Option<Course> {
         let help = "cycles = ..., or until_steady = { tolerance = ..., most_cycles = ... }";
         let only_cycles = ["waveform", "dwell", "phase", "envelope"];
-        if let Some(refused) = self.refuse_first(&only_cycles, "the stage has no cycles", help) {
-            return refused;
+        if self.refuses_any(&only_cycles, "the stage has no cycles", help) {
+            return None;
         }
         if self.file.ramp.is_some() && self.file.table.is_some() {
             let help = "a table is followed from row to row by straight lines";
@@ -166,8 +167,8 @@ impl Here<'_, '_> {
         let file = self.file;
         if let Some(name) = &file.table {
             let message = format!("the cycle stands in the table {:?}", name.value);
-            if let Some(refused) = self.refuse_first(&["waveform", "phase", "envelope"], message, "") {
-                return refused;
+            if self.refuses_any(&["waveform", "phase", "envelope"], message, "") {
+                return None;
             }
         }
         let dwell = file.dwell.unwrap_or(DWELL);
