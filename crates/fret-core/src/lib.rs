@@ -112,6 +112,7 @@ pub mod analytic;
 pub mod case;
 pub mod compliance;
 pub mod conduction;
+mod document;
 mod fields;
 pub mod history;
 pub mod kernel;

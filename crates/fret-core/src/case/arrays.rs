@@ -7,7 +7,8 @@ use ndarray::Array2;
 use super::judge::Judge;
 use super::numbers::{NumbersError, numbers};
 use super::points;
-use super::surface_file::{ArrayFile, AxisFile};
+use super::surface_file::{ArrayFile, Handed, Row};
+use crate::model::Axis;
 
 /// Array of a file, in the order of its rows.
 pub(super) fn of_file(judge: &mut Judge, place: &str, span: Range<usize>, name: &str) -> Option<Array2<f64>> {
@@ -27,13 +28,14 @@ pub(super) fn given(
     source: &ArrayFile,
 ) -> Option<Array2<f64>> {
     let taken = match source {
-        ArrayFile::Handed(number) => {
+        ArrayFile::Handed(Handed { array: number }) => {
             let array = judge.attachments.arrays.get(*number).cloned();
             array.ok_or_else(|| format!("no array {number} was handed over"))
         }
         ArrayFile::Rows(rows) => {
-            let columns = rows.first().map_or(0, Vec::len);
-            let flat: Vec<f64> = rows.iter().flatten().copied().collect();
+            let rows: Vec<&[f64]> = rows.iter().map(Row::numbers).collect();
+            let columns = rows.first().map_or(0, |row| row.len());
+            let flat: Vec<f64> = rows.iter().copied().flatten().copied().collect();
             match rows.iter().position(|row| row.len() != columns) {
                 Some(row) => Err(format!("row {row} has {} numbers, row 0 has {columns}", rows[row].len())),
                 None => Array2::from_shape_vec((rows.len(), columns), flat).map_err(|e| e.to_string()),
@@ -59,14 +61,14 @@ pub(super) struct Cells {
 #[derive(Clone, Copy)]
 pub(super) struct Layout {
     /// The axis along which rows follow one another.
-    pub rows: AxisFile,
+    pub rows: Axis,
     /// Length of one unit of the numbers, in which the coordinates of points may be.
     pub unit: f64,
 }
 
 impl Layout {
     /// Index `[i, j] = [x, y]`.
-    pub const XY: Self = Self { rows: AxisFile::X, unit: 1.0 };
+    pub const XY: Self = Self { rows: Axis::X, unit: 1.0 };
 }
 
 /// A number for every cell, index `[i, j] = [x, y]`, from a matrix, a list of points, or in a line contact a row, a column or pairs;
@@ -85,8 +87,8 @@ pub(super) fn fitting(
         return listed(judge, (count, size), (place, span), &array, layout.unit);
     }
     let (array, other) = match layout.rows {
-        AxisFile::X => (array.as_standard_layout().into_owned(), "y"),
-        AxisFile::Y => (turned(array), "x"),
+        Axis::X => (array.as_standard_layout().into_owned(), "y"),
+        Axis::Y => (turned(array), "x"),
     };
     let (nx, ny) = array.dim();
     if [nx, ny] == count {

@@ -7,10 +7,10 @@ use crate::model::Beyond;
 
 /// What lies beyond the edge; refuses a body that ends at an edge that is not known, or that there is none of.
 pub(super) fn beyond(judge: &mut Judge, grid: &GridFile, size: Option<GridSize>) -> Beyond {
-    let Some(given) = grid.beyond.as_ref().filter(|given| !given.get_ref().is_body()) else {
+    let Some(given) = grid.beyond.as_ref().filter(|given| !given.value.is_body()) else {
         return Beyond::Body;
     };
-    if grid.periodic.as_ref().is_some_and(|periodic| *periodic.get_ref()) {
+    if grid.periodic.as_ref().is_some_and(|periodic| periodic.value) {
         judge.refuse::<()>(
             given.span(),
             "grid.beyond = \"no body\" in a periodic case: the surfaces repeat, and end nowhere",
@@ -23,7 +23,7 @@ pub(super) fn beyond(judge: &mut Judge, grid: &GridFile, size: Option<GridSize>)
             "size = [x, y], that of the body",
         );
     }
-    *given.get_ref()
+    given.value
 }
 
 #[cfg(test)]

@@ -1,19 +1,14 @@
 //! The judgement of the two bodies.
 
-use toml::Spanned;
-
 use super::body_file::BodyFile;
 use super::coating::{self, material};
 use super::judge::Judge;
+use crate::document::At;
 use crate::kernel::sublayers::{RESPONSE_BOUND, SublayerError, layered_half_space};
 use crate::model::{Base, Body, ContactPair, Layer};
 
 /// The pair; `None` when something about it was refused.
-pub(super) fn bodies(
-    judge: &mut Judge,
-    upper: &Spanned<BodyFile>,
-    lower: &Spanned<BodyFile>,
-) -> Option<ContactPair> {
+pub(super) fn bodies(judge: &mut Judge, upper: &At<BodyFile>, lower: &At<BodyFile>) -> Option<ContactPair> {
     let (first, second) = (body(judge, "upper", upper), body(judge, "lower", lower));
     match ContactPair::new(first?, second?) {
         Ok(pair) => Some(pair),
@@ -21,15 +16,11 @@ pub(super) fn bodies(
     }
 }
 
-fn body(judge: &mut Judge, which: &str, given: &Spanned<BodyFile>) -> Option<Body> {
-    let body = given.get_ref();
-    if body.rigid.as_ref().is_some_and(|rigid| *rigid.get_ref()) {
-        let extra = [
-            body.coatings.as_ref().map(Spanned::span),
-            body.substrate.as_ref().map(Spanned::span),
-            body.base.as_ref().map(Spanned::span),
-        ];
-        return match extra.into_iter().flatten().next() {
+fn body(judge: &mut Judge, which: &str, given: &At<BodyFile>) -> Option<Body> {
+    let body = &given.value;
+    if body.rigid.as_ref().is_some_and(|rigid| rigid.value) {
+        let elastic = ["coatings", "substrate", "base"].map(|key| judge.places.of(&format!("{which}.{key}")));
+        return match elastic.into_iter().flatten().next() {
             Some(span) => judge.refuse(
                 span,
                 format!("{which}: rigid = true and an elastic part, both at once"),
@@ -41,8 +32,7 @@ fn body(judge: &mut Judge, which: &str, given: &Spanned<BodyFile>) -> Option<Bod
     let base = match (&body.substrate, &body.base) {
         (Some(substrate), None) => {
             let place = format!("{which}.substrate");
-            material(judge, &place, &substrate.get_ref().young, &substrate.get_ref().poisson)
-                .map(Base::Elastic)
+            material(judge, &place, &substrate.value.young, &substrate.value.poisson).map(Base::Elastic)
         }
         (None, Some(_)) => Some(Base::Rigid),
         (Some(_), Some(base)) => judge.refuse(
@@ -56,22 +46,15 @@ fn body(judge: &mut Judge, which: &str, given: &Spanned<BodyFile>) -> Option<Bod
             "rigid = true, or substrate = { young = ..., poisson = ... }, or base = \"rigid\" under coatings",
         ),
     };
-    let layers: Option<Vec<Layer>> = match &body.coatings {
-        None => Some(Vec::new()),
-        Some(list) => {
-            let checked: Vec<Option<Layer>> = list
-                .get_ref()
-                .iter()
-                .enumerate()
-                .map(|(index, entry)| coating::layer(judge, &format!("{which}.coatings[{index}]"), entry))
-                .collect();
-            checked.into_iter().collect()
-        }
-    };
+    let coatings = body.coatings.iter().flat_map(|list| list.iter().enumerate());
+    let layers: Vec<Option<Layer>> = coatings
+        .map(|(index, entry)| coating::layer(judge, &format!("{which}.coatings[{index}]"), entry))
+        .collect();
+    let layers: Option<Vec<Layer>> = layers.into_iter().collect();
     match layered_half_space(&layers?, base?, RESPONSE_BOUND) {
         Ok(half_space) => Some(Body::Elastic(half_space)),
         Err(error @ SublayerError::TooSteep { .. }) => {
-            let span = body.coatings.as_ref().map_or(given.span(), Spanned::span);
+            let span = body.coatings.as_ref().map_or(given.span(), At::span);
             judge.refuse(
                 span,
                 format!("{which}.coatings: {error}"),

@@ -1,13 +1,10 @@
 //! The judgement of a case that has the right structure: ranges, contradictions, and words for what is not built yet.
 
-use toml::Spanned;
-
 use super::arrays::Cells;
 use super::attachments::Attachments;
 use super::beyond::beyond;
 use super::bodies::bodies;
 use super::conduction::conduction;
-use super::course::Stage;
 use super::declared_units::declared_units;
 use super::definition::{Case, GridSize, Origin, way_to_slide};
 use super::evolution::evolution;
@@ -17,7 +14,6 @@ use super::interface::sliding_coatings;
 use super::judge::Judge;
 use super::line::{datum, line, motion_without_datum};
 use super::output::{FIELD_NAMES, Output};
-use super::refusal::Mistake;
 use super::repeating::repeats;
 use super::residual::residual;
 use super::rig::{log_columns, rig};
@@ -27,7 +23,9 @@ use super::stress::stress;
 use super::substrates::bulk_and_tilt;
 use super::units::Units;
 use super::wearing::wear;
-use crate::model::{CoulombFriction, Integration, Scheme};
+use crate::document::{At, Mistake, Places};
+use crate::model::CoulombFriction;
+use crate::model::stage::Stage;
 
 /// Cells along one side of the grid, at the least.
 pub const FEWEST_CELLS: usize = 4;
@@ -46,35 +44,32 @@ const TOLERANCE: f64 = 1e-8;
 /// entry can be judged by another.
 pub(super) fn case(
     file: CaseFile,
-    name: &str,
-    text: &str,
+    (name, text): (&str, &str),
     attachments: Attachments<'_>,
-    is_whole: bool,
+    places: &Places,
 ) -> Result<Case, Vec<Mistake>> {
-    let mut judge = judge_of(&file, attachments);
+    let mut judge = judge_of(&file, attachments, places);
     let (units, is_line) = (judge.units.clone(), judge.is_line);
     let cells = cells(&mut judge, &file.grid.cells);
     let size = size(&mut judge, &file.grid.size, cells);
     let over = cells.map(|count| Cells { count, size: size.and_then(GridSize::given) });
     let bodies = bodies(&mut judge, &file.upper, &file.lower);
-    let residual_stress = [("lower", &file.lower), ("upper", &file.upper)]
-        .map(|(which, body)| residual(&mut judge, which, body.get_ref()));
-    let fatigue = [("lower", &file.lower), ("upper", &file.upper)]
-        .map(|(which, body)| super::fatigue::fatigue(&mut judge, which, body.get_ref()));
+    let files = [("lower", &file.lower.value), ("upper", &file.upper.value)];
+    let residual_stress = files.map(|body| residual(&mut judge, body));
+    let fatigue = files.map(|body| super::fatigue::fatigue(&mut judge, body));
     let profile = profile(&mut judge, &file, over);
     let friction = friction(&mut judge, file.friction.as_ref(), over);
-    let changes = of_stages(&mut judge, file.load.get_ref(), over);
+    let changes = of_stages(&mut judge, &file.load.value, over);
     let changes = friction.as_ref().zip(changes).map(|(first, changes)| of_one_interface(first, changes));
     let laws = friction.as_ref().zip(changes.as_ref()).map(|(first, changes)| in_force(first, changes));
     let history_tolerance = file.solver.as_ref().and_then(|solver| solver.history_tolerance.as_ref());
     let rig_file = file.rig.as_ref();
-    let rig = rig(&mut judge, rig_file);
+    let rig = rig(rig_file);
     let log_columns = log_columns(&mut judge, rig_file);
     let stages = stages(&mut judge, &file.load, (laws.as_deref(), rig_file), history_tolerance);
     let stages = stages.zip(changes.as_ref()).map(|(stages, changes)| with_friction(stages, changes));
-    let evolving = (file.load.get_ref().as_slice(), stages.as_deref());
-    let friction_evolution = evolution(&mut judge, file.friction.as_ref(), friction.as_ref(), evolving);
-    let loading = (&file.load, stages.as_deref());
+    let loading = (file.load.value.as_slice(), stages.as_deref());
+    let friction_evolution = evolution(&mut judge, file.friction.as_ref(), friction.as_ref(), loading);
     let datum = datum(&mut judge, &file.grid, (is_line, size), bodies.as_ref());
     let beyond = beyond(&mut judge, &file.grid, size);
     if is_line {
@@ -88,11 +83,10 @@ pub(super) fn case(
     let has_arrays = mapped || profile.as_ref().is_some_and(|profile| !profile.heights.is_empty());
     auto_without_arrays(&mut judge, &file.grid.size, has_arrays && !periodic);
     let frictionless = laws.as_ref().is_some_and(|laws| laws.iter().all(|law| law.is_frictionless()));
-    let files = [("lower", file.lower.get_ref()), ("upper", file.upper.get_ref())];
     sliding_coatings(&mut judge, files, frictionless || laws.is_none(), stages.as_deref());
     let solver = file.solver.as_ref();
     let tolerance = tolerance(&mut judge, solver.and_then(|solver| solver.tolerance.as_ref()));
-    if let (true, Some(laws), Some(stages)) = (is_whole, &laws, &stages) {
+    if let (true, Some(laws), Some(stages)) = (places.are_whole(), &laws, &stages) {
         let strongest = friction_evolution.as_ref().zip(friction.as_ref());
         let strongest = strongest.map(|(evolution, first)| evolution.strongest(first));
         let friction = (laws.as_slice(), strongest.as_ref());
@@ -110,77 +104,70 @@ pub(super) fn case(
         (stages.as_deref(), output.as_ref()),
         (laws.as_deref(), is_line, periodic),
     );
-    match (cells, size, bodies, profile, friction, stages, tolerance, output) {
-        (
-            Some(cells),
-            Some(size),
-            Some(bodies),
-            Some(profile),
-            Some(friction),
-            Some(stages),
-            Some(tolerance),
-            Some(output),
-        ) if judge.mistakes.is_empty() => Ok(Case {
+    if !judge.mistakes.is_empty() {
+        return Err(judge.mistakes);
+    }
+    let start = judge.attachments.start;
+    let case = move || {
+        Some(Case {
+            cells: cells?,
+            size: size?,
+            bodies: bodies?,
+            profile: profile?,
+            friction: friction?,
+            stages: stages?,
+            tolerance: tolerance?,
+            output: output?,
             title: file.title.unwrap_or_default(),
+            scheme: solver.and_then(|solver| solver.scheme).unwrap_or_default(),
+            integration: solver.and_then(|solver| solver.integration).unwrap_or_default(),
+            origin: Origin { name: name.to_owned(), text: text.to_owned(), size: file.grid.size.span() },
             units,
-            cells,
-            size,
             datum,
             beyond,
             periodic,
-            bodies,
             residual_stress,
             fatigue,
             conduction,
-            profile,
-            friction,
             friction_evolution,
             rig,
             log_columns,
-            start: judge.attachments.start,
-            stages,
+            start,
             wear,
-            tolerance,
-            scheme: solver.and_then(|solver| solver.scheme.as_ref()).map_or_else(Scheme::default, value),
-            integration: solver
-                .and_then(|solver| solver.integration.as_ref())
-                .map_or_else(Integration::default, value),
-            output,
             stress,
-            origin: Origin { name: name.to_owned(), text: text.to_owned(), size: file.grid.size.span() },
-        }),
-        _ => Err(judge.mistakes),
-    }
+        })
+    };
+    case().ok_or_else(Vec::new)
 }
 
 /// What the whole case is judged with: its units, and whether it is a line contact.
-fn judge_of<'a>(file: &CaseFile, attachments: Attachments<'a>) -> Judge<'a> {
-    let is_line = matches!(file.grid.cells.get_ref(), CellsFile::Line(_));
+fn judge_of<'a>(file: &CaseFile, attachments: Attachments<'a>, places: &'a Places) -> Judge<'a> {
+    let is_line = matches!(&file.grid.cells.value, CellsFile::Line(_));
     let mut judge =
-        Judge { mistakes: Vec::new(), attachments, force_unit: String::new(), units: None, is_line };
+        Judge { mistakes: Vec::new(), attachments, places, force_unit: String::new(), units: None, is_line };
     judge.units = file.units.as_ref().and_then(|file| declared_units(&mut judge, file));
     judge.force_unit = Units::after(judge.units.as_ref(), "force", is_line);
     judge
 }
 
-fn value<T: Copy>(given: &Spanned<T>) -> T {
-    *given.get_ref()
-}
-
-fn tolerance(judge: &mut Judge, given: Option<&Spanned<f64>>) -> Option<f64> {
+fn tolerance(judge: &mut Judge, given: Option<&At<f64>>) -> Option<f64> {
     match given {
         None => Some(TOLERANCE),
-        Some(given) if (1e-13..=1e-2).contains(given.get_ref()) => Some(*given.get_ref()),
+        Some(given) if (1e-13..=1e-2).contains(&given.value) => Some(given.value),
         Some(given) => judge.refuse(
             given.span(),
-            format!("solver.tolerance = {:e}: must lie between 1e-13 and 1e-2", given.get_ref()),
+            format!("solver.tolerance = {:e}: must lie between 1e-13 and 1e-2", &given.value),
             "1e-8 serves most purposes; below 1e-12 rounding takes over",
         ),
     }
 }
 
-fn cells(judge: &mut Judge, given: &Spanned<CellsFile>) -> Option<[usize; 2]> {
-    let cells = match *given.get_ref() {
+fn cells(judge: &mut Judge, given: &At<CellsFile>) -> Option<[usize; 2]> {
+    // What stands in for them fits no array.
+    if !judge.places.are_whole_in("grid.cells") {
+        return None;
+    }
+    let cells = match given.value {
         CellsFile::Grid(cells) => cells,
         CellsFile::Line(count) if (FEWEST_CELLS..=MOST_CELLS).contains(&count) => return Some([count, 1]),
         CellsFile::Line(count) => {
@@ -210,10 +197,13 @@ fn cells(judge: &mut Judge, given: &Spanned<CellsFile>) -> Option<[usize; 2]> {
     Some(cells)
 }
 
-fn size(judge: &mut Judge, given: &Spanned<SizeFile>, cells: Option<[usize; 2]>) -> Option<GridSize> {
+fn size(judge: &mut Judge, given: &At<SizeFile>, cells: Option<[usize; 2]>) -> Option<GridSize> {
+    if !judge.places.are_whole_in("grid.size") {
+        return None;
+    }
     let is_line = cells.is_some_and(|cells| cells[1] == 1);
-    match *given.get_ref() {
-        SizeFile::Auto => Some(GridSize::Auto),
+    match given.value {
+        SizeFile::Auto(_) => Some(GridSize::Auto),
         SizeFile::Given(_) if is_line => judge.refuse(
             given.span(),
             "grid.size: two side lengths, but a single number of cells, which makes a line contact",
@@ -258,8 +248,8 @@ fn size(judge: &mut Judge, given: &Spanned<SizeFile>, cells: Option<[usize; 2]>)
 }
 
 /// Refuses a size left to the program where there are arrays over cells.
-fn auto_without_arrays(judge: &mut Judge, size: &Spanned<SizeFile>, has_arrays: bool) {
-    if let (SizeFile::Auto, true) = (size.get_ref(), has_arrays) {
+fn auto_without_arrays(judge: &mut Judge, size: &At<SizeFile>, has_arrays: bool) {
+    if let (SizeFile::Auto(_), true) = (&size.value, has_arrays) {
         judge.refuse::<()>(
             size.span(),
             "grid.size = \"auto\" with heights or a friction map: the size of their cells must be given",
@@ -309,7 +299,7 @@ fn output(judge: &mut Judge, given: Option<&OutputFile>) -> Option<Output> {
         None => fields.extend(["pressure", "shear", "slip", "zone"].map(str::to_owned)),
         Some(names) => {
             for name in names {
-                let word = name.get_ref();
+                let word = &name.value;
                 if !FIELD_NAMES.contains(&word.as_str()) {
                     good = false;
                     judge.refuse::<()>(
@@ -323,17 +313,7 @@ fn output(judge: &mut Judge, given: Option<&OutputFile>) -> Option<Output> {
             }
         }
     }
-    let every = match given.and_then(|output| output.every.as_ref()) {
-        None => None,
-        Some(every) if *every.get_ref() >= 1 => Some(*every.get_ref()),
-        Some(every) => {
-            return judge.refuse(
-                every.span(),
-                "output.every = 0: must be at least 1",
-                "every = 1 keeps all increments",
-            );
-        }
-    };
+    let every = given.and_then(|output| output.every);
     good.then_some(Output { fields, every })
 }
 

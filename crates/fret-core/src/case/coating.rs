@@ -1,26 +1,24 @@
 //! The judgement of one entry of a list of coatings.
 
-use toml::Spanned;
-
 use super::body_file::{CoatingFile, GradientFile, LawFile};
 use super::interface::interface;
 use super::judge::Judge;
-use crate::kernel::sublayers::MOST_SUBLAYERS;
+use crate::document::At;
 use crate::model::{
     Coating, ElasticMaterial, GradedCoating, GradientError, Layer, MaterialError, YoungGradient,
 };
 
 /// The layer of an entry; `None` when something about it was refused.
-pub(super) fn layer(judge: &mut Judge, place: &str, entry: &Spanned<CoatingFile>) -> Option<Layer> {
-    let given = entry.get_ref();
-    let thickness = *given.thickness.get_ref();
+pub(super) fn layer(judge: &mut Judge, place: &str, entry: &At<CoatingFile>) -> Option<Layer> {
+    let given = &entry.value;
+    let thickness = given.thickness.value;
     let has_thickness = Coating::can_be(thickness);
     let layer = match (&given.young, &given.gradient) {
         (Some(young), None) => {
             let material = material(judge, place, young, &given.poisson);
             material.and_then(|material| Coating::new(material, thickness).ok()).map(Layer::Uniform)
         }
-        (None, Some(gradient)) => graded(judge, place, given, gradient.get_ref(), has_thickness),
+        (None, Some(gradient)) => graded(judge, place, given, &gradient.value, has_thickness),
         (Some(_), Some(gradient)) => judge.refuse(
             gradient.span(),
             format!("{place}: young and gradient, both at once"),
@@ -44,13 +42,13 @@ pub(super) fn layer(judge: &mut Judge, place: &str, entry: &Spanned<CoatingFile>
 pub(super) fn material(
     judge: &mut Judge,
     place: &str,
-    young: &Spanned<f64>,
-    poisson: &Spanned<f64>,
+    young: &At<f64>,
+    poisson: &At<f64>,
 ) -> Option<ElasticMaterial> {
     let mut good = true;
     for (value, error) in [
-        (young, ElasticMaterial::new(*young.get_ref(), 0.0).err()),
-        (poisson, ElasticMaterial::new(1.0, *poisson.get_ref()).err()),
+        (young, ElasticMaterial::new(young.value, 0.0).err()),
+        (poisson, ElasticMaterial::new(1.0, poisson.value).err()),
     ] {
         if let Some(error) = error {
             good = false;
@@ -58,7 +56,7 @@ pub(super) fn material(
             judge.refuse::<()>(value.span(), format!("{place}.{key}: {error}"), "");
         }
     }
-    if good { ElasticMaterial::new(*young.get_ref(), *poisson.get_ref()).ok() } else { None }
+    if good { ElasticMaterial::new(young.value, poisson.value).ok() } else { None }
 }
 
 fn graded(
@@ -68,7 +66,7 @@ fn graded(
     gradient: &GradientFile,
     has_thickness: bool,
 ) -> Option<Layer> {
-    let poisson = *given.poisson.get_ref();
+    let poisson = given.poisson.value;
     let has_poisson = match ElasticMaterial::new(1.0, poisson) {
         Ok(_) => true,
         Err(error) => {
@@ -76,19 +74,18 @@ fn graded(
             false
         }
     };
-    let has_count = can_be_built(judge, place, gradient.layers.as_ref());
-    let sublayers = gradient.layers.as_ref().map(|count| *count.get_ref());
+    let sublayers = gradient.layers.as_ref().map(|count| count.value);
     let young = young(judge, place, given, gradient);
-    if !has_poisson || !has_thickness || !has_count {
+    if !has_poisson || !has_thickness {
         return None;
     }
     let young = young?;
-    match GradedCoating::new(young, poisson, *given.thickness.get_ref()) {
+    match GradedCoating::new(young, poisson, given.thickness.value) {
         Ok(coating) => Some(Layer::Graded { coating, sublayers }),
         Err(error) => {
             let key = if gradient.table.is_some() { "table" } else { "young" };
-            let span = gradient.table.as_ref().map(Spanned::span);
-            let span = span.or(gradient.young.as_ref().map(Spanned::span)).unwrap_or(given.thickness.span());
+            let span = gradient.table.as_ref().map(At::span);
+            let span = span.or(gradient.young.as_ref().map(At::span)).unwrap_or(given.thickness.span());
             let help = match error {
                 GradientError::Order { .. } => "a jump of stiffness is an interface: two coatings",
                 GradientError::Rows(_) | GradientError::FirstDepth(_) | GradientError::LastDepth { .. } => {
@@ -101,19 +98,6 @@ fn graded(
     }
 }
 
-/// Whether the number of sublayers, when it is given, is one that can be built.
-fn can_be_built(judge: &mut Judge, place: &str, given: Option<&Spanned<usize>>) -> bool {
-    let Some(count) = given.filter(|count| !(1..=MOST_SUBLAYERS).contains(count.get_ref())) else {
-        return true;
-    };
-    judge.refuse::<()>(
-        count.span(),
-        format!("{place}.gradient.layers = {}: must lie between 1 and {MOST_SUBLAYERS}", count.get_ref()),
-        "leave it out: the number is then chosen by an error bound",
-    );
-    false
-}
-
 /// The modulus over the depth, as it is written; its numbers are judged later.
 fn young(
     judge: &mut Judge,
@@ -124,15 +108,13 @@ fn young(
     const TWO_WAYS: &str = "gradient = { young = [top, bottom], law = \"exponential\" or \"linear\" }, or gradient = { table = [[depth, young], ...] }";
     match (&gradient.young, &gradient.law, &gradient.table) {
         (Some(young), Some(law), None) => {
-            let [top, bottom] = young.get_ref().0;
-            Some(match law.get_ref() {
+            let [top, bottom] = young.value;
+            Some(match &law.value {
                 LawFile::Exponential => YoungGradient::Exponential { top, bottom },
                 LawFile::Linear => YoungGradient::Linear { top, bottom },
             })
         }
-        (None, None, Some(table)) => {
-            Some(YoungGradient::Table(table.get_ref().iter().map(|row| row.0).collect()))
-        }
+        (None, None, Some(table)) => Some(YoungGradient::Table(table.value.clone())),
         (Some(young), None, None) => judge.refuse(
             young.span(),
             format!("{place}.gradient: young at both faces, but no law between them"),
@@ -149,7 +131,7 @@ fn young(
             "leave out one of the two",
         ),
         (None, None, None) => judge.refuse(
-            given.gradient.as_ref().map_or(given.thickness.span(), Spanned::span),
+            given.gradient.as_ref().map_or(given.thickness.span(), At::span),
             format!("{place}.gradient: nothing says how the modulus changes with depth"),
             TWO_WAYS,
         ),

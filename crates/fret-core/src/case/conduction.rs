@@ -1,41 +1,27 @@
 //! The judgement of conductivities, and of what is asked about friction heat.
 
-use toml::Spanned;
-
-use super::body_file::BodyFile;
-use super::course::{Course, Stage};
 use super::file::ThermalFile;
 use super::judge::Judge;
 use super::output::Output;
+use super::parts::{Constant, NamedBody};
+use crate::document::At;
+use crate::model::stage::{Course, Stage};
 use crate::model::{ConductingLayer, Conduction, Conductor, CoulombFriction};
-
-/// What a key of a layer means: its name, and conductivity from its value.
-type Key = (&'static str, fn(f64) -> f64);
-
-const THERMAL: Key = ("thermal_conductivity", |value| value);
-const ELECTRICAL: Key = ("electrical_resistivity", |value| 1.0 / value);
 
 /// Conductors of the lower and the upper body; what was refused conducts nothing.
 pub(super) fn conduction(
     judge: &mut Judge,
-    bodies: [(&str, &BodyFile); 2],
-    thermal: Option<&Spanned<ThermalFile>>,
+    bodies: [NamedBody<'_>; 2],
+    table: Option<&At<ThermalFile>>,
     history: (Option<&[Stage]>, Option<&Output>),
     (friction, is_line, periodic): (Option<&[&CoulombFriction]>, bool, bool),
 ) -> Conduction {
     let before = judge.mistakes.len();
-    let of = |judge: &mut Judge, key: Key| bodies.map(|(which, body)| conductor(judge, which, body, key));
-    let mut conduction =
-        Conduction { thermal: of(judge, THERMAL), electrical: of(judge, ELECTRICAL), frequency: None };
-    let Some(table) = thermal else { return conduction };
-    let given = &table.get_ref().frequency;
-    let frequency = *given.get_ref();
-    if frequency.is_finite() && frequency > 0.0 {
-        conduction.frequency = Some(frequency);
-    } else {
-        let message = format!("thermal.frequency = {frequency:?}: must be positive and finite");
-        judge.refuse::<()>(given.span(), message, "cycles per unit of time, as in the conductivities");
-    }
+    let mut of = |constant| bodies.map(|body| conductor(judge, body, constant));
+    let [thermal, electrical] = [Constant::ThermalConductivity, Constant::ElectricalResistivity].map(&mut of);
+    let frequency = table.map(|table| table.frequency);
+    let conduction = Conduction { thermal, electrical, frequency };
+    let Some(table) = table else { return conduction };
     if judge.mistakes.len() > before {
         return conduction;
     }
@@ -95,76 +81,18 @@ fn without_meaning(
     ))
 }
 
-/// The conductor that a body is by one key; `None` where no layer has it, or it was refused.
-fn conductor(judge: &mut Judge, which: &str, body: &BodyFile, (key, conductivity): Key) -> Option<Conductor> {
-    let is_thermal = key == THERMAL.0;
-    let pick = |thermal: Option<&Spanned<f64>>, electrical: Option<&Spanned<f64>>| {
-        if is_thermal { thermal.cloned() } else { electrical.cloned() }
-    };
-    let coatings = body.coatings.as_ref().map_or(&[][..], |list| list.get_ref());
-    let mut parts: Vec<(String, std::ops::Range<usize>, Option<Spanned<f64>>)> = Vec::new();
-    for (index, coating) in coatings.iter().enumerate() {
-        let given = coating.get_ref();
-        let value = pick(given.thermal_conductivity.as_ref(), given.electrical_resistivity.as_ref());
-        parts.push((format!("{which}.coatings[{index}]"), coating.span(), value));
-    }
-    let own = pick(body.thermal_conductivity.as_ref(), body.electrical_resistivity.as_ref());
-    if let Some(substrate) = &body.substrate {
-        if let Some(own) = &own {
-            return judge.refuse(
-                own.span(),
-                format!("{which}.{key}: beside a substrate it belongs into the substrate"),
-                &format!("substrate = {{ ..., {key} = ... }}"),
-            );
-        }
-        let given = substrate.get_ref();
-        let value = pick(given.thermal_conductivity.as_ref(), given.electrical_resistivity.as_ref());
-        parts.push((format!("{which}.substrate"), substrate.span(), value));
-    } else {
-        let place = own.as_ref().map(Spanned::span).or_else(|| coatings.first().map(Spanned::span));
-        parts.push((which.to_owned(), place.unwrap_or_default(), own));
-    }
-    if parts.iter().all(|(_, _, value)| value.is_none()) {
-        return None;
-    }
-    let mut good = true;
-    for (place, span, value) in &parts {
-        match value {
-            None => {
-                good = false;
-                judge.refuse::<()>(
-                    span.clone(),
-                    format!("{place}: no {key}, but another part of this body has one"),
-                    "of all layers and what they lie on, or of none",
-                );
-            }
-            Some(value) if !(1e-100..=1e100).contains(value.get_ref()) => {
-                good = false;
-                let message = format!(
-                    "{place}.{key} = {:?}: must be positive and finite, between 1e-100 and 1e100",
-                    value.get_ref()
-                );
-                judge.refuse::<()>(value.span(), message, "");
-            }
-            Some(_) => {}
+/// The conductor that a body is by one constant; `None` where no layer has it, or it was refused.
+fn conductor(judge: &mut Judge, body: NamedBody<'_>, constant: Constant) -> Option<Conductor> {
+    let mut parts = constant.values(judge, body, None, "of all layers and what they lie on, or of none")?;
+    if constant == Constant::ElectricalResistivity {
+        for (_, value) in &mut parts {
+            *value = 1.0 / *value;
         }
     }
-    let values: Option<Vec<f64>> = parts
-        .iter()
-        .map(|(_, _, value)| value.as_ref().map(|value| conductivity(*value.get_ref())))
-        .collect();
-    let (base, values) =
-        values.filter(|_| good)?.split_last().map(|(base, above)| (*base, above.to_vec()))?;
-    let layers = coatings
-        .iter()
-        .zip(values)
-        .map(|(coating, conductivity)| ConductingLayer {
-            thickness: *coating.get_ref().thickness.get_ref(),
-            conductivity,
-        })
-        .collect();
+    let (_, base) = parts.pop()?;
+    let layer = |(thickness, conductivity)| ConductingLayer { thickness, conductivity };
     // a thickness is refused where the bodies are judged
-    Conductor::new(layers, base).ok()
+    Conductor::new(parts.into_iter().map(layer).collect(), base).ok()
 }
 
 #[cfg(test)]

@@ -1,18 +1,17 @@
 //! The judgement of the units that a case declares.
 
-use toml::Spanned;
-
 use super::file::UnitsFile;
 use super::judge::Judge;
 use super::units::Units;
+use crate::document::At;
 
 /// Letters of a unit, at most.
 const LONGEST: usize = 12;
 
 /// The declared units; `None` where one was refused.
 pub(super) fn declared_units(judge: &mut Judge, file: &UnitsFile) -> Option<Units> {
-    let mut word = |name: &str, given: &Spanned<String>| {
-        let unit = given.get_ref();
+    let mut word = |name: &str, given: &At<String>| {
+        let unit = &given.value;
         let is_word = !unit.is_empty()
             && unit.chars().count() <= LONGEST
             && unit.chars().all(|letter| letter.is_alphanumeric() || "/^*._-%'\"°".contains(letter));

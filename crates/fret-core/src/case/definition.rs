@@ -2,12 +2,13 @@
 
 use serde::Serialize;
 
-use super::course::Stage;
 use super::output::Output;
-use super::refusal::{CaseError, Difference, Mistake};
+use super::refusal::{CaseError, Difference};
 use super::stress::StressRequest;
 use super::units::Units;
+use crate::document::Mistake;
 use crate::kernel::uniform_response;
+use crate::model::stage::Stage;
 use crate::model::{
     Beyond, Conduction, ContactPair, CoulombFriction, FrictionEvolution, Integration, LoadStep, Profile,
     ResidualStress, Rig, Scheme, WearRule,

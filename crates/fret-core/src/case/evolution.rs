@@ -1,15 +1,13 @@
 //! The judgement of friction that evolves.
 
-use toml::Spanned;
+use std::ops::Range;
 
-use super::course::{Course, Stage};
-use super::evolution_file::{DriverFile, EvolutionFile};
 use super::judge::Judge;
-use super::pair::Pair;
 use super::stage_file::StageFile;
-use super::surface_file::FrictionFile;
-use super::wearing::MOST_EVERY;
-use crate::model::{CellValues, CoulombFriction, EvolutionDriver, EvolutionLaw, FrictionEvolution};
+use super::surface_file::{EvolutionFile, FrictionFile};
+use crate::document::At;
+use crate::model::stage::{Course, Stage};
+use crate::model::{CellValues, CoulombFriction, EvolutionLaw, FrictionEvolution};
 
 /// Change of the coefficient in a cycle jump when the case does not say.
 const TOLERANCE: f64 = 0.01;
@@ -19,16 +17,11 @@ pub(super) fn evolution(
     judge: &mut Judge,
     given: Option<&FrictionFile>,
     first: Option<&CoulombFriction>,
-    (files, stages): (&[Spanned<StageFile>], Option<&[Stage]>),
+    (files, stages): (&[At<StageFile>], Option<&[Stage]>),
 ) -> Option<FrictionEvolution> {
     let place = given?.evolution.as_ref()?;
-    let file = place.get_ref();
+    let file = &place.value;
     let before = judge.mistakes.len();
-    let by = match file.by {
-        DriverFile::Energy => EvolutionDriver::Energy,
-        DriverFile::SlipDistance => EvolutionDriver::SlipDistance,
-        DriverFile::Cycles => EvolutionDriver::Cycles,
-    };
     if first.is_some_and(CoulombFriction::is_frictionless) {
         judge.refuse::<()>(
             place.span(),
@@ -37,15 +30,10 @@ pub(super) fn evolution(
         );
     }
     let law = law(judge, place, first);
-    let every = every(judge, file.every.as_ref());
-    let tolerance = file.tolerance.as_ref().map_or(TOLERANCE, |given| *given.get_ref());
-    if let (Some(given), false) = (&file.tolerance, tolerance > 0.0 && tolerance <= 1.0) {
-        let message =
-            format!("friction.evolution.tolerance = {tolerance:?}: must lie above 0, and at 1 at the most");
-        judge.refuse::<()>(given.span(), message, "0.01 serves most purposes");
-    }
+    let every = file.every.unwrap_or(1);
+    let tolerance = file.tolerance.unwrap_or(TOLERANCE);
     for (index, stage) in files.iter().enumerate() {
-        if let Some(change) = &stage.get_ref().friction {
+        if let Some(change) = &stage.value.friction {
             judge.refuse::<()>(
                 change.span(),
                 format!("load[{index}].friction and friction.evolution, both at once"),
@@ -53,58 +41,43 @@ pub(super) fn evolution(
             );
         }
     }
-    for (index, stage) in stages.unwrap_or_default().iter().enumerate() {
+    let whose = ("friction.evolution", "whose friction evolves");
+    changing_cycles(judge, place.span(), whose, every, stages.unwrap_or_default());
+    let law = law?;
+    (judge.mistakes.len() == before).then_some(FrictionEvolution { by: file.by, law, every, tolerance })
+}
+
+/// Refuses cycles that have no place where every cycle changes the contact: `what` changes it, a contact `whose` it is.
+pub(super) fn changing_cycles(
+    judge: &mut Judge,
+    span: Range<usize>,
+    (what, whose): (&str, &str),
+    every: usize,
+    stages: &[Stage],
+) {
+    for (index, stage) in stages.iter().enumerate() {
         let Course::Cycles(cycles) = stage.course else { continue };
         let words = if cycles.until_steady.is_some() {
-            "until_steady of a contact whose friction evolves: it changes with every cycle"
-        } else if every.is_some_and(|every| every > 1) && cycles.envelope[0] != cycles.envelope[1] {
-            "amplitudes that change from cycle to cycle: none of them can stand for others"
+            format!("until_steady of a contact {whose}: it changes with every cycle")
+        } else if every > 1 && cycles.envelope[0] != cycles.envelope[1] {
+            "amplitudes that change from cycle to cycle: none of them can stand for others".to_owned()
         } else {
             continue;
         };
-        let message = format!("friction.evolution and load[{index}]: {words}");
-        judge.refuse::<()>(place.span(), message, "cycles = ..., friction.evolution.every = 1");
-    }
-    let (law, every) = law.zip(every)?;
-    (judge.mistakes.len() == before).then_some(FrictionEvolution { by, law, every, tolerance })
-}
-
-fn every(judge: &mut Judge, given: Option<&Spanned<usize>>) -> Option<usize> {
-    match given {
-        None => Some(1),
-        Some(given) if (1..=MOST_EVERY).contains(given.get_ref()) => Some(*given.get_ref()),
-        Some(given) => {
-            let message = format!(
-                "friction.evolution.every = {}: must lie between 1 and {MOST_EVERY}",
-                given.get_ref()
-            );
-            judge.refuse(given.span(), message, "")
-        }
+        let message = format!("{what} and load[{index}]: {words}");
+        judge.refuse::<()>(span.clone(), message, &format!("cycles = ..., {what}.every = 1"));
     }
 }
 
 fn law(
     judge: &mut Judge,
-    place: &Spanned<EvolutionFile>,
+    place: &At<EvolutionFile>,
     first: Option<&CoulombFriction>,
 ) -> Option<EvolutionLaw> {
-    let file = place.get_ref();
+    let file = &place.value;
     match (&file.last, &file.scale, &file.table) {
         (None, None, Some(given)) => table(judge, given, first),
-        (Some(last), Some(scale), None) => {
-            let positive = |judge: &mut Judge, key: &str, given: &Spanned<f64>| {
-                let value = *given.get_ref();
-                if value.is_finite() && value > 0.0 {
-                    return Some(value);
-                }
-                let message =
-                    format!("friction.evolution.{key} = {value:?}: must be a positive finite number");
-                judge.refuse(given.span(), message, "")
-            };
-            let last = positive(judge, "last", last);
-            let scale = positive(judge, "scale", scale);
-            last.zip(scale).map(|(last, scale)| EvolutionLaw::Exponential { last, scale })
-        }
+        (Some(last), Some(scale), None) => Some(EvolutionLaw::Exponential { last: *last, scale: *scale }),
         (None | Some(_), None, None) | (None, Some(_), None) => judge.refuse(
             place.span(),
             "friction.evolution: without its law",
@@ -120,11 +93,11 @@ fn law(
 
 fn table(
     judge: &mut Judge,
-    given: &Spanned<Vec<Pair<f64>>>,
+    given: &At<Vec<[f64; 2]>>,
     first: Option<&CoulombFriction>,
 ) -> Option<EvolutionLaw> {
     const KEY: &str = "friction.evolution.table";
-    let rows: Vec<[f64; 2]> = given.get_ref().iter().map(|row| row.0).collect();
+    let rows = given.value.clone();
     let mut refuse =
         |message: String, help: &str| judge.refuse(given.span(), format!("{KEY}{message}"), help);
     let form = "rows of driver and coefficient, such as [[0, 0.2], [1000, 0.6]]";

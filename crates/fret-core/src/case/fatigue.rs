@@ -1,65 +1,40 @@
 //! The judgement of the constants of fatigue and fracture.
 
-use toml::Spanned;
-
-use super::body_file::{BodyFile, ConstantsFile};
 use super::judge::Judge;
+use super::parts::{Layer, NamedBody, layers};
 use crate::subsurface::fatigue::{FatigueConstants, LayerConstants};
 
 /// Constants of the layers of a body; none of what is refused.
-pub(super) fn fatigue(judge: &mut Judge, which: &str, body: &BodyFile) -> LayerConstants {
-    let mut layers = Vec::new();
-    let mut top = 0.0;
-    let coatings = body.coatings.as_ref().map_or(&[][..], |list| list.get_ref());
-    for (index, coating) in coatings.iter().enumerate() {
-        let coating = coating.get_ref();
-        let place = format!("{which}.coatings[{index}].fatigue");
-        layers.push((top, constants(judge, &place, coating.fatigue.as_ref(), true)));
-        top += *coating.thickness.get_ref();
-    }
-    if let Some(substrate) = &body.substrate {
-        let given = substrate.get_ref().fatigue.as_ref();
-        layers.push((top, constants(judge, &format!("{which}.substrate.fatigue"), given, false)));
-    }
-    LayerConstants::new(layers)
+pub(super) fn fatigue(judge: &mut Judge, body: NamedBody<'_>) -> LayerConstants {
+    LayerConstants::new(layers(body).iter().map(|layer| (layer.top, constants(judge, layer))).collect())
 }
 
-fn constants(
-    judge: &mut Judge,
-    place: &str,
-    given: Option<&Spanned<ConstantsFile>>,
-    is_coating: bool,
-) -> FatigueConstants {
-    let Some(given) = given else { return FatigueConstants::default() };
-    let file = given.get_ref();
-    for (key, range, value) in file.numbers() {
-        if !range.holds(*value.get_ref()) {
-            let message = format!("{place}.{key} = {:?}: {}", value.get_ref(), range.words());
-            judge.refuse::<()>(value.span(), message, "");
-            return FatigueConstants::default();
-        }
+fn constants(judge: &mut Judge, layer: &Layer<'_>) -> FatigueConstants {
+    let Some(given) = &layer.constants.fatigue else { return FatigueConstants::default() };
+    let place = format!("{}.fatigue", layer.place);
+    if !judge.places.are_whole_in(&place) {
+        return FatigueConstants::default();
     }
-    let plain = file.plain(|value| *value.get_ref());
-    if let Some((_, what)) = plain.fault() {
+    if let Some((_, what)) = given.contradiction() {
         judge.refuse::<()>(given.span(), format!("{place}: {what}"), "");
         return FatigueConstants::default();
     }
     let of_coatings = [
-        ("fracture_energy", &file.fracture_energy),
-        ("interface_energy", &file.interface_energy),
-        ("channelling_factor", &file.channelling_factor),
-        ("interface_phase", &file.interface_phase),
+        ("fracture_energy", given.fracture_energy),
+        ("interface_energy", given.interface_energy),
+        ("channelling_factor", given.channelling_factor),
+        ("interface_phase", given.interface_phase),
     ];
-    if let (false, Some((key, value))) =
-        (is_coating, of_coatings.iter().find_map(|(key, value)| value.as_ref().map(|value| (key, value))))
+    if let (false, Some((key, _))) = (layer.is_coating, of_coatings.iter().find(|(_, value)| value.is_some()))
     {
+        let place = format!("{place}.{key}");
         judge.refuse::<()>(
-            value.span(),
-            format!("{place}.{key}: a constant of coatings"),
+            judge.places.of(&place).unwrap_or(given.span()),
+            format!("{place}: a constant of coatings"),
             "coatings = [{ ..., fatigue = { ... } }]",
         );
     }
-    plain
+    given.value
 }
 
 #[cfg(test)]

@@ -2,12 +2,11 @@
 
 use std::ops::Range;
 
-use toml::Spanned;
-
 use super::arrays::{self, Cells, Layout};
 use super::judge::Judge;
 use super::stage_file::StageFile;
 use super::surface_file::{CoefficientFile, FrictionFile, MapFile};
+use crate::document::At;
 use crate::model::{CellValues, CoulombFriction, FrictionError};
 
 /// The law the history starts with; `None` when something about it was refused.
@@ -25,11 +24,11 @@ pub(super) fn friction(
         ),
         (None, Some(given)) => {
             let place = "friction.map";
-            map(judge, place, given.span(), given.get_ref(), cells)
+            map(judge, place, given.span(), &given.value, cells)
                 .and_then(|values| accepted(judge, place, given.span(), CoulombFriction::new(values)))
         }
         (Some(given), None) => {
-            accepted(judge, "friction.coefficient", given.span(), CoulombFriction::uniform(*given.get_ref()))
+            accepted(judge, "friction.coefficient", given.span(), CoulombFriction::uniform(given.value))
         }
         (None, None) => match &given.max_shear {
             Some(max_shear) => judge.refuse(
@@ -42,7 +41,7 @@ pub(super) fn friction(
     };
     let max_shear = given.max_shear.as_ref().map(|given| {
         let place = "friction.max_shear";
-        values(judge, place, given.span(), given.get_ref(), cells).map(|values| (place, given.span(), values))
+        values(judge, place, given.span(), &given.value, cells).map(|values| (place, given.span(), values))
     });
     match max_shear {
         None => law,
@@ -56,15 +55,15 @@ pub(super) fn friction(
 /// What each stage says about friction, if anything; `None` when something was refused.
 pub(super) fn of_stages(
     judge: &mut Judge,
-    stages: &[Spanned<StageFile>],
+    stages: &[At<StageFile>],
     cells: Option<Cells>,
 ) -> Option<Vec<Option<CoulombFriction>>> {
     let mut all = Vec::new();
     for (index, stage) in stages.iter().enumerate() {
         let place = format!("load[{index}].friction");
-        all.push(match &stage.get_ref().friction {
+        all.push(match &stage.value.friction {
             None => Some(None),
-            Some(given) => values(judge, &place, given.span(), given.get_ref(), cells)
+            Some(given) => values(judge, &place, given.span(), &given.value, cells)
                 .and_then(|values| accepted(judge, &place, given.span(), CoulombFriction::new(values)))
                 .map(Some),
         });

@@ -1,11 +1,8 @@
 //! The judgement of interfaces below coatings, and of what a coating that slides freely cannot bear.
 
-use toml::Spanned;
-
-use super::body_file::{BodyFile, CoatingFile};
-use super::course::Stage;
-use super::interface_file::InterfaceFile;
+use super::body_file::{BodyFile, CoatingFile, InterfaceFile, InterfaceWord};
 use super::judge::Judge;
+use crate::model::stage::Stage;
 use crate::model::{Interface, InterfaceError, Layer};
 
 /// Stiffness of a spring over that of the coating, modulus over thickness, at the least: below it nothing is held, and digits are lost.
@@ -19,44 +16,38 @@ pub(super) fn interface(
     layer: Option<&Layer>,
 ) -> Option<Interface> {
     let Some(interface) = &given.interface else { return Some(Interface::BONDED) };
-    let springs = match interface.get_ref() {
-        InterfaceFile::Bonded => return Some(Interface::BONDED),
-        InterfaceFile::Frictionless => return Some(Interface::FRICTIONLESS),
+    let springs = match &interface.value {
+        InterfaceFile::Word(InterfaceWord::Bonded) => return Some(Interface::BONDED),
+        InterfaceFile::Word(InterfaceWord::Frictionless) => return Some(Interface::FRICTIONLESS),
         InterfaceFile::Springs(springs) => springs,
     };
-    let [normal, shear] = [&springs.normal_stiffness, &springs.shear_stiffness];
-    if normal.is_none() && shear.is_none() {
+    let [normal, shear] = [springs.normal_stiffness, springs.shear_stiffness];
+    if normal.or(shear).is_none() {
         return judge.refuse(
             interface.span(),
             format!("{place}.interface: empty"),
             "normal_stiffness = ..., shear_stiffness = ..., or both; \"bonded\" is the default",
         );
     }
-    let value = |spring: &Option<Spanned<f64>>| spring.as_ref().map(|spring| *spring.get_ref());
-    let found = match Interface::springs(value(normal), value(shear)) {
+    let mut refuse = |key: &str, message: String, help: &str| {
+        let key = format!("{place}.interface.{key}");
+        let span = judge.places.of(&key).unwrap_or(interface.span());
+        judge.refuse(span, key + &message, help)
+    };
+    let found = match Interface::springs(normal, shear) {
         Ok(found) => found,
-        Err(error) => {
-            let (key, spring) = match error {
-                InterfaceError::Normal(_) => ("normal_stiffness", normal),
-                InterfaceError::Shear(_) => ("shear_stiffness", shear),
-            };
-            let span = spring.as_ref().map_or(interface.span(), Spanned::span);
-            return judge.refuse(span, format!("{place}.interface.{key}: {error}"), "");
+        Err(error @ InterfaceError::Normal(_)) => {
+            return refuse("normal_stiffness", format!(": {error}"), "");
         }
+        Err(error @ InterfaceError::Shear(_)) => return refuse("shear_stiffness", format!(": {error}"), ""),
     };
     let least = WEAKEST * layer.map_or(0.0, Layer::stiffness);
     for (key, spring) in [("normal_stiffness", normal), ("shear_stiffness", shear)] {
-        let weak = |spring: &&Spanned<f64>| (f64::MIN_POSITIVE..least).contains(spring.get_ref());
-        if let Some(spring) = spring.as_ref().filter(weak) {
-            return judge.refuse(
-                spring.span(),
-                format!(
-                    "{place}.interface.{key} = {:?}: less than {WEAKEST:e} of the coating's own stiffness, modulus over thickness, \
-                     holds nothing",
-                    spring.get_ref()
-                ),
-                &format!("at least {least:.3e}; or \"frictionless\""),
+        if let Some(spring) = spring.filter(|spring| (f64::MIN_POSITIVE..least).contains(spring)) {
+            let message = format!(
+                " = {spring:?}: less than {WEAKEST:e} of the coating's own stiffness, modulus over thickness, holds nothing"
             );
+            return refuse(key, message, &format!("at least {least:.3e}; or \"frictionless\""));
         }
     }
     Some(found)
@@ -70,17 +61,14 @@ pub(super) fn sliding_coatings(
     stages: Option<&[Stage]>,
 ) {
     for (body, (which, file)) in bodies.into_iter().enumerate() {
-        let coatings = file.coatings.as_ref().map_or(&[][..], |list| list.get_ref());
+        let coatings = file.coatings.as_ref().map_or(&[][..], |list| &list.value);
         let slides = |interface: &InterfaceFile| match interface {
-            InterfaceFile::Bonded => false,
-            InterfaceFile::Frictionless => true,
-            InterfaceFile::Springs(springs) => {
-                springs.shear_stiffness.as_ref().is_some_and(|stiffness| *stiffness.get_ref() == 0.0)
-            }
+            InterfaceFile::Word(word) => *word == InterfaceWord::Frictionless,
+            InterfaceFile::Springs(springs) => springs.shear_stiffness == Some(0.0),
         };
         let free = coatings.iter().enumerate().find_map(|(index, coating)| {
-            let interface = coating.get_ref().interface.as_ref()?;
-            slides(interface.get_ref())
+            let interface = coating.value.interface.as_ref()?;
+            slides(&interface.value)
                 .then(|| (format!("{which}.coatings[{index}].interface"), interface.span()))
         });
         let Some((place, span)) = free else { continue };

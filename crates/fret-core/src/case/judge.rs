@@ -2,17 +2,17 @@
 
 use std::ops::Range;
 
-use toml::Spanned;
-
 use super::attachments::Attachments;
 use super::numbers::letters;
-use super::refusal::Mistake;
 use super::units::Units;
+use crate::document::{At, Mistake, Places};
 
 /// Collects mistakes; `None` stands for a value that was refused.
 pub(super) struct Judge<'a> {
     pub(super) mistakes: Vec<Mistake>,
     pub(super) attachments: Attachments<'a>,
+    /// Where everything stands.
+    pub(super) places: &'a Places,
     /// A space and the unit of a force, in which loads are told that the case does not write down; empty without units.
     pub(super) force_unit: String,
     /// Units that the case declares.
@@ -34,24 +34,24 @@ impl Judge<'_> {
     }
 
     /// Content of a file the case names under `key`; refused, with the reason, when it cannot be had.
-    pub(super) fn attached(&mut self, key: &str, name: &Spanned<String>) -> Option<Vec<u8>> {
-        match (self.attachments.file)(name.get_ref()) {
+    pub(super) fn attached(&mut self, key: &str, name: &At<String>) -> Option<Vec<u8>> {
+        match (self.attachments.file)(&name.value) {
             Ok(content) => Some(content),
             Err(reason) => self.refuse(
                 name.span(),
-                format!("{key} = {:?}: {reason}", name.get_ref()),
+                format!("{key} = {:?}: {reason}", &name.value),
                 "a file's name is relative to the case file",
             ),
         }
     }
 
     /// The same as text, with line feeds at the ends of lines.
-    pub(super) fn attached_text(&mut self, key: &str, name: &Spanned<String>) -> Option<String> {
+    pub(super) fn attached_text(&mut self, key: &str, name: &At<String>) -> Option<String> {
         let content = self.attached(key, name)?;
         match letters(&content) {
             Ok(text) => Some(text.into_owned()),
             Err(error) => {
-                let message = format!("{key} = {:?}: no text that can be read: {error}", name.get_ref());
+                let message = format!("{key} = {:?}: no text that can be read: {error}", &name.value);
                 self.refuse(name.span(), message, "a text in UTF-8, UTF-16 or Latin-1")
             }
         }

@@ -2,50 +2,33 @@
 
 use std::ops::RangeInclusive;
 
-use toml::Spanned;
-
-use super::course::StageControl;
 use super::file::GridFile;
 use super::judge::Judge;
-use super::stage_file::StageFile;
+use super::misfits::{Loading, Misfit};
 use super::{GridSize, Stage};
+use crate::model::controls::TWIST;
+use crate::model::stage::StageControl;
 use crate::model::{Axis, ContactPair, Profile, Shape};
 
 /// Depth of the datum in units of the size of the grid.
 pub const DATUM: RangeInclusive<f64> = 1e-3..=1e12;
 
+/// Rotations about z.
+pub(super) const ROTATION: Misfit =
+    Misfit { freedoms: TWIST..TWIST + 1, motions: false, in_table: "a twist" };
+
 /// Refuses what a line contact has no place for: rotations, shapes that end or curve along the line, a second period.
-pub(super) fn line(
-    judge: &mut Judge,
-    grid: &GridFile,
-    (stages, checked): (&Spanned<Vec<Spanned<StageFile>>>, Option<&[Stage]>),
-    profile: Option<&Profile>,
-) {
-    if let Some(periodic) = grid.periodic.as_ref().filter(|periodic| *periodic.get_ref()) {
+pub(super) fn line(judge: &mut Judge, grid: &GridFile, loading: Loading<'_>, profile: Option<&Profile>) {
+    if let Some(periodic) = grid.periodic.as_ref().filter(|periodic| periodic.value) {
         judge.refuse::<()>(
             periodic.span(),
             "grid.periodic = true in a line contact, which is not periodic",
             "cells = [n, 4] with periodic = true is a periodic line contact",
         );
     }
-    for (index, stage) in stages.get_ref().iter().enumerate() {
-        let stage = stage.get_ref();
-        let twists =
-            checked.and_then(|checked| checked.get(index)).is_some_and(|stage| stage.twist.is_some());
-        for (key, span) in [
-            ("twist_moment", stage.twist_moment.as_ref().map(Spanned::span)),
-            ("twist", stage.twist.as_ref().map(Spanned::span)),
-            ("a twist", stage.table.as_ref().filter(|_| twists).map(Spanned::span)),
-        ] {
-            if let Some(span) = span {
-                judge.refuse::<()>(
-                    span,
-                    format!("{key} in a line contact: its strips cannot turn about z"),
-                    "prescribe tangential_force or shift: [across the line, along it]",
-                );
-            }
-        }
-    }
+    let why = "in a line contact: its strips cannot turn about z";
+    let help = "prescribe tangential_force or shift: [across the line, along it]";
+    ROTATION.refuse(judge, loading, why, help);
     let Some(profile) = profile else { return };
     let mut shapes = profile.shapes.iter();
     if let Some((name, help)) = shapes.find_map(of_a_surface) {
@@ -108,7 +91,7 @@ pub(super) fn datum(
     bodies: Option<&ContactPair>,
 ) -> Option<f64> {
     let given = grid.datum.as_ref()?;
-    let depth = *given.get_ref();
+    let depth = given.value;
     if !is_line {
         return judge.refuse(
             given.span(),

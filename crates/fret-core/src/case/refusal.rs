@@ -1,20 +1,8 @@
 //! How a case is refused: every mistake with its place, what was found, what is allowed.
 
-use super::wording::printable;
-use std::ops::Range;
-
 use annotate_snippets::{AnnotationKind, Level, Renderer, Snippet};
 
-/// One mistake in a case.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Mistake {
-    /// What was found, and what is allowed.
-    pub message: String,
-    /// What to do about it, when that can be said.
-    pub help: Option<String>,
-    /// Bytes of the case text the mistake stands at, when it stands anywhere.
-    pub span: Option<Range<usize>>,
-}
+use crate::document::{Mistake, printable};
 
 /// A place in which a case differs from the setting of a state.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -112,7 +100,8 @@ impl std::error::Error for CaseError {}
 
 #[cfg(test)]
 mod tests {
-    use super::{CaseError, Mistake};
+    use super::CaseError;
+    use crate::document::Mistake;
 
     #[test]
     fn a_refusal_knows_its_case_and_the_places_of_its_mistakes() {

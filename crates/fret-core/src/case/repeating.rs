@@ -1,27 +1,32 @@
 //! The judgement of scenes that repeat in x and y.
 
-use toml::Spanned;
-
-use super::course::{Stage, StageControl};
 use super::definition::GridSize;
 use super::file::GridFile;
 use super::judge::Judge;
-use super::stage_file::StageFile;
+use super::line::ROTATION;
+use super::misfits::{Loading, Misfit};
 use crate::kernel::uniform_response;
+use crate::model::controls::{NORMAL, TANGENTIAL, TWIST};
 use crate::model::{ContactPair, Profile, Shape};
 
 /// Cells per wave from which on a wave is resolved; fewer are warned of.
 pub const CELLS_PER_WAVE: f64 = 6.0;
 
+/// Motions that a periodic half-space does not have: normal, and tangential.
+const MOTIONS: [Misfit; 2] = [
+    Misfit { freedoms: NORMAL..NORMAL + 1, motions: true, in_table: "an approach" },
+    Misfit { freedoms: TANGENTIAL..TWIST, motions: true, in_table: "a shift" },
+];
+
 /// Whether the scene repeats; refuses what has no meaning then.
 pub(super) fn repeats(
     judge: &mut Judge,
     (grid, cells, size): (&GridFile, Option<[usize; 2]>, Option<GridSize>),
-    (stages, checked): (&Spanned<Vec<Spanned<StageFile>>>, Option<&[Stage]>),
+    loading: Loading<'_>,
     profile: Option<&Profile>,
     bodies: Option<&ContactPair>,
 ) -> bool {
-    let periodic = grid.periodic.as_ref().is_some_and(|periodic| *periodic.get_ref());
+    let periodic = grid.periodic.as_ref().is_some_and(|periodic| periodic.value);
     if !periodic {
         if let Some(profile) = profile {
             endless(judge, grid, profile);
@@ -46,54 +51,18 @@ pub(super) fn repeats(
         _ => {}
     }
     let uniform = bodies.map(uniform_response);
-    for (index, stage) in stages.get_ref().iter().enumerate() {
-        let stage = stage.get_ref();
-        let checked = checked.and_then(|checked| checked.get(index));
-        let in_table = |moves: &dyn Fn(&Stage) -> bool| {
-            stage.table.as_ref().filter(|_| checked.is_some_and(moves)).map(Spanned::span)
+    let forces = "prescribe normal_force and tangential_force, those of one period";
+    ROTATION.refuse(judge, loading, "in a periodic case: a rotation is not periodic", forces);
+    for (axis, motions) in MOTIONS.iter().enumerate() {
+        let why = match uniform {
+            Some(None) => "a half-space under a periodic load has no such rigid motion",
+            Some(Some(response)) if response[axis] == 0.0 => {
+                "layers that keep their volume do not give way to a uniform pressure"
+            }
+            _ => continue,
         };
-        let moves = |control: &Option<_>| control.as_ref().is_some_and(StageControl::is_motion);
-        for (key, span) in [
-            ("twist_moment", stage.twist_moment.as_ref().map(Spanned::span)),
-            ("twist", stage.twist.as_ref().map(Spanned::span)),
-            ("a twist", in_table(&|stage| stage.twist.is_some())),
-        ] {
-            if let Some(span) = span {
-                judge.refuse::<()>(
-                    span,
-                    format!("{key} in a periodic case: a rotation is not periodic"),
-                    "prescribe normal_force and tangential_force, those of one period",
-                );
-            }
-        }
-        let normal = [
-            ("approach", stage.approach.as_ref().map(Spanned::span)),
-            ("actuator_approach", stage.actuator_approach.as_ref().map(Spanned::span)),
-            ("an approach", in_table(&|stage| moves(&stage.normal))),
-        ];
-        let tangential = [
-            ("shift", stage.shift.as_ref().map(Spanned::span)),
-            ("actuator", stage.actuator.as_ref().map(Spanned::span)),
-            ("a shift", in_table(&|stage| stage.tangential.iter().any(moves))),
-        ];
-        for (axis, motions) in [normal, tangential].into_iter().enumerate() {
-            let why = match uniform {
-                Some(None) => "a half-space under a periodic load has no such rigid motion",
-                Some(Some(response)) if response[axis] == 0.0 => {
-                    "layers that keep their volume do not give way to a uniform pressure"
-                }
-                _ => continue,
-            };
-            for (key, span) in motions {
-                if let Some(span) = span {
-                    judge.refuse::<()>(
-                        span,
-                        format!("{key} in a periodic case: {why}"),
-                        "prescribe normal_force and tangential_force, those of one period; or, for layers, base = \"rigid\"",
-                    );
-                }
-            }
-        }
+        let why = format!("in a periodic case: {why}");
+        motions.refuse(judge, loading, &why, &format!("{forces}; or, for layers, base = \"rigid\""));
     }
     true
 }
@@ -109,7 +78,7 @@ fn endless(judge: &mut Judge, grid: &GridFile, profile: &Profile) {
         return;
     }
     for (axis, name) in ["x", "y"].into_iter().enumerate() {
-        let ends = grid.beyond.as_ref().is_some_and(|beyond| !beyond.get_ref().is_body());
+        let ends = grid.beyond.as_ref().is_some_and(|beyond| !beyond.value.is_body());
         if profile.is_straight_along(axis) && !ends {
             judge.refuse::<()>(
                 grid.cells.span(),

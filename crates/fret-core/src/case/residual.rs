@@ -1,59 +1,33 @@
 //! The judgement of residual stresses.
 
-use toml::Spanned;
-
-use super::body_file::BodyFile;
 use super::judge::Judge;
-use super::residual_file::ResidualFile;
+use super::parts::{Layer, NamedBody, layers};
 use crate::model::{ResidualLayer, ResidualStress};
 
 /// Residual stresses of a body; none of what is refused.
-pub(super) fn residual(judge: &mut Judge, which: &str, body: &BodyFile) -> ResidualStress {
-    let mut layers = Vec::new();
-    let mut top = 0.0;
-    let coatings = body.coatings.as_ref().map_or(&[][..], |list| list.get_ref());
-    for (index, coating) in coatings.iter().enumerate() {
-        let coating = coating.get_ref();
-        let thickness = *coating.thickness.get_ref();
-        let place = format!("{which}.coatings[{index}]");
-        let rows = rows(judge, &place, coating.residual_stress.as_ref(), thickness);
-        layers.push(ResidualLayer { top, rows });
-        top += thickness;
-    }
-    if let Some(substrate) = &body.substrate {
-        let place = format!("{which}.substrate");
-        let rows = rows(judge, &place, substrate.get_ref().residual_stress.as_ref(), f64::INFINITY);
-        layers.push(ResidualLayer { top, rows });
-    }
-    ResidualStress::new(layers)
+pub(super) fn residual(judge: &mut Judge, body: NamedBody<'_>) -> ResidualStress {
+    let of_layer = |layer: &Layer<'_>| ResidualLayer { top: layer.top, rows: rows(judge, layer) };
+    ResidualStress::new(layers(body).iter().map(of_layer).collect())
 }
 
-fn rows(
-    judge: &mut Judge,
-    place: &str,
-    given: Option<&Spanned<ResidualFile>>,
-    thickness: f64,
-) -> Vec<(f64, [f64; 2])> {
-    let Some(given) = given else { return Vec::new() };
-    let rows = &given.get_ref().0;
+fn rows(judge: &mut Judge, layer: &Layer<'_>) -> Vec<(f64, [f64; 2])> {
+    let Some(given) = layer.residual_stress else { return Vec::new() };
+    let rows = given.rows();
     let finite = rows.iter().all(|(depth, [x, y])| depth.is_finite() && x.is_finite() && y.is_finite());
     let rises = rows.windows(2).all(|pair| pair[0].0 < pair[1].0);
-    let inside = rows.iter().all(|(depth, _)| (0.0..=thickness * (1.0 + 1e-9)).contains(depth));
+    let inside = rows.iter().all(|(depth, _)| (0.0..=layer.thickness * (1.0 + 1e-9)).contains(depth));
     let wrong = match (finite, rises, inside) {
-        (false, ..) => Some("must be finite"),
-        (_, false, _) => Some("depths must rise from row to row"),
-        (_, _, false) => Some("depths count from the upper face of the layer, from 0 to its thickness"),
-        _ => None,
+        (false, ..) => "must be finite",
+        (_, false, _) => "depths must rise from row to row",
+        (_, _, false) => "depths count from the upper face of the layer, from 0 to its thickness",
+        _ => return rows,
     };
-    if let Some(wrong) = wrong {
-        judge.refuse::<()>(
-            given.span(),
-            format!("{place}.residual_stress: {wrong}"),
-            "residual_stress = -2e9, or [along x, along y], or [[0.0, -2e9], [1e-6, -1e9]]",
-        );
-        return Vec::new();
-    }
-    rows.clone()
+    judge.refuse::<()>(
+        given.span(),
+        format!("{}.residual_stress: {wrong}", layer.place),
+        "residual_stress = -2e9, or [along x, along y], or [[0.0, -2e9], [1e-6, -1e9]]",
+    );
+    Vec::new()
 }
 
 #[cfg(test)]

@@ -1,99 +1,62 @@
 //! Residual stress of a layer, as it is written: a number, one along each axis, or a table over its depth.
 
-use std::fmt;
-
 use schemars::JsonSchema;
-use serde::de::{self, Deserialize, Deserializer, SeqAccess, Visitor};
+use toml::de::DeValue;
 
-/// Rows of depth and stress along x and y; one row at depth 0 where it does not change with depth.
-#[derive(Debug, Clone, PartialEq)]
-pub(super) struct ResidualFile(pub Vec<(f64, [f64; 2])>);
+use crate::document::{Read, Reader, Reading, Table, Written};
 
-#[derive(JsonSchema)]
-#[serde(untagged)]
-#[expect(dead_code, reason = "stands for ResidualFile in the schema")]
-pub(super) enum ResidualSchema {
+/// A stress, the same along x and y; one along each; or rows of depth and of one or two stresses.
+#[derive(Debug, Clone, PartialEq, JsonSchema)]
+#[schemars(untagged, rename = "ResidualSchema", description = "")]
+pub(super) enum ResidualFile {
     Even(f64),
     Axes([f64; 2]),
     Table(Vec<Vec<f64>>),
 }
 
+impl ResidualFile {
+    /// Rows of depth and stress along x and y; one row at depth 0 where it does not change with depth.
+    pub fn rows(&self) -> Vec<(f64, [f64; 2])> {
+        match self {
+            Self::Even(stress) => vec![(0.0, [*stress; 2])],
+            Self::Axes(stress) => vec![(0.0, *stress)],
+            Self::Table(rows) => rows.iter().map(|row| (row[0], [row[1], row[row.len() - 1]])).collect(),
+        }
+    }
+}
+
 /// A number, or a row of them.
+#[derive(Table)]
+#[expected("a number, or a row [depth, stress] or [depth, stress along x, along y]")]
 enum Entry {
     Number(f64),
     Row(Vec<f64>),
 }
 
-impl<'de> Deserialize<'de> for Entry {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        struct EntryVisitor;
-        impl<'de> Visitor<'de> for EntryVisitor {
-            type Value = Entry;
-            fn expecting(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-                formatter.write_str("a number, or a row [depth, stress] or [depth, stress along x, along y]")
-            }
-            fn visit_f64<E: de::Error>(self, value: f64) -> Result<Entry, E> {
-                Ok(Entry::Number(value))
-            }
-            fn visit_i64<E: de::Error>(self, value: i64) -> Result<Entry, E> {
-                Ok(Entry::Number(value as f64))
-            }
-            fn visit_u64<E: de::Error>(self, value: u64) -> Result<Entry, E> {
-                Ok(Entry::Number(value as f64))
-            }
-            fn visit_seq<A: SeqAccess<'de>>(self, mut list: A) -> Result<Entry, A::Error> {
-                let mut row = Vec::new();
-                while let Some(value) = list.next_element::<f64>()? {
-                    row.push(value);
-                }
-                Ok(Entry::Row(row))
-            }
-        }
-        deserializer.deserialize_any(EntryVisitor)
-    }
-}
+impl Read for ResidualFile {
+    const EXPECTED: &'static str = "a stress, two of them [along x, along y], or rows [[depth, stress], ...]";
 
-impl<'de> Deserialize<'de> for ResidualFile {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        struct ResidualVisitor;
-        impl<'de> Visitor<'de> for ResidualVisitor {
-            type Value = ResidualFile;
-            fn expecting(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-                formatter
-                    .write_str("a stress, two of them [along x, along y], or rows [[depth, stress], ...]")
-            }
-            fn visit_f64<E: de::Error>(self, value: f64) -> Result<ResidualFile, E> {
-                Ok(ResidualFile(vec![(0.0, [value; 2])]))
-            }
-            fn visit_i64<E: de::Error>(self, value: i64) -> Result<ResidualFile, E> {
-                self.visit_f64(value as f64)
-            }
-            fn visit_u64<E: de::Error>(self, value: u64) -> Result<ResidualFile, E> {
-                self.visit_f64(value as f64)
-            }
-            fn visit_seq<A: SeqAccess<'de>>(self, mut list: A) -> Result<ResidualFile, A::Error> {
-                let mut entries = Vec::new();
-                while let Some(entry) = list.next_element::<Entry>()? {
-                    entries.push(entry);
-                }
-                if let [Entry::Number(x), Entry::Number(y)] = entries[..] {
-                    return Ok(ResidualFile(vec![(0.0, [x, y])]));
-                }
-                let row = |entry: &Entry| match entry {
-                    Entry::Row(row) => match row[..] {
-                        [depth, stress] => Some((depth, [stress; 2])),
-                        [depth, x, y] => Some((depth, [x, y])),
-                        _ => None,
-                    },
-                    Entry::Number(_) => None,
-                };
-                let rows: Option<Vec<_>> = entries.iter().map(row).collect();
-                match rows {
-                    Some(rows) if !rows.is_empty() => Ok(ResidualFile(rows)),
-                    _ => Err(de::Error::invalid_length(entries.len(), &self)),
-                }
-            }
+    fn fits(value: &Written<'_>) -> bool {
+        f64::fits(value) || Vec::<Entry>::fits(value)
+    }
+
+    fn read(value: &Written<'_>, reader: &mut Reader) -> Reading<Self> {
+        if f64::fits(value) {
+            return f64::read(value, reader).map(Self::Even).map_err(|_| None);
         }
-        deserializer.deserialize_any(ResidualVisitor)
+        let DeValue::Array(list) = value.get_ref() else { return reader.wrong(value, Self::EXPECTED, None) };
+        let entries: Vec<Entry> = reader.entries(list).map_err(|_: Option<Vec<Entry>>| None)?;
+        if let [Entry::Number(x), Entry::Number(y)] = entries[..] {
+            return Ok(Self::Axes([x, y]));
+        }
+        let row = |entry| match entry {
+            Entry::Row(row) if (2..=3).contains(&row.len()) => Some(row),
+            _ => None,
+        };
+        let rows: Vec<Vec<f64>> = entries.into_iter().filter_map(row).collect();
+        if rows.is_empty() || rows.len() < list.len() {
+            return reader.wrong_length(value, list.len(), Self::EXPECTED, None);
+        }
+        Ok(Self::Table(rows))
     }
 }

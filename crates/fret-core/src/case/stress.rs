@@ -1,11 +1,12 @@
 //! The judgement of what is asked about stresses under the surface.
 
 use serde::{Deserialize, Serialize};
-use toml::Spanned;
 
-use super::file::{DepthsFile, SideFile, StressFile};
+use super::file::{DepthsFile, StressFile};
 use super::judge::Judge;
 use super::output::Output;
+use super::side::Side;
+use crate::document::At;
 use crate::model::{Body, ContactPair};
 use crate::subsurface::depth_points;
 use crate::subsurface::fatigue::FatigueConstants;
@@ -37,60 +38,16 @@ impl Default for StressRequest {
     }
 }
 
-/// One of the two bodies.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Side {
-    /// The body above.
-    Upper,
-    /// The body below.
-    Lower,
-}
-
-impl Side {
-    /// The body of a pair.
-    pub fn of(self, pair: &ContactPair) -> &Body {
-        match self {
-            Self::Upper => pair.upper(),
-            Self::Lower => pair.lower(),
-        }
-    }
-
-    /// Its name.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Upper => "upper",
-            Self::Lower => "lower",
-        }
-    }
-}
-
 /// The request of a case; `None` when there is none, or when it was refused.
 pub(super) fn stress(
     judge: &mut Judge,
-    given: Option<&Spanned<StressFile>>,
+    given: Option<&At<StressFile>>,
     bodies: Option<&ContactPair>,
     output: Option<&Output>,
     frictionless: bool,
 ) -> Option<StressRequest> {
     let table = given?;
-    let file = table.get_ref();
-    let mut positive = |value: Option<&Spanned<f64>>, name: &str, what: &str| -> Option<f64> {
-        let value = value?;
-        let number = *value.get_ref();
-        if number.is_finite() && number > 0.0 {
-            return Some(number);
-        }
-        judge.refuse(
-            value.span(),
-            format!("stress.{name} = {number:?}: must be a positive finite {what}"),
-            "",
-        )
-    };
-    let torsion = positive(file.torsion_limit.as_ref(), "torsion_limit", "stress");
-    let tension = positive(file.tension_limit.as_ref(), "tension_limit", "stress");
-    let yield_strength = positive(file.yield_strength.as_ref(), "yield_strength", "stress");
-    let critical_distance = positive(file.critical_distance.as_ref(), "critical_distance", "length");
+    let file = &table.value;
     if file.torsion_limit.is_some() != file.tension_limit.is_some() {
         judge.refuse::<()>(
             table.span(),
@@ -98,25 +55,8 @@ pub(super) fn stress(
             "Crossland's and Dang Van's criteria need both fatigue limits",
         );
     }
-    let sensitivity = match &file.normal_stress_sensitivity {
-        None => None,
-        Some(given) if given.get_ref().is_finite() && *given.get_ref() >= 0.0 => Some(*given.get_ref()),
-        Some(given) => judge.refuse::<Option<f64>>(
-            given.span(),
-            format!("stress.normal_stress_sensitivity = {:?}: must be zero or positive", given.get_ref()),
-            "0.3 to 1 for most metals",
-        )?,
-    };
-    let every = match &file.every {
-        None => 1,
-        Some(every) if *every.get_ref() >= 1 => *every.get_ref(),
-        Some(every) => judge.refuse(every.span(), "stress.every = 0: must be at least 1", "")?,
-    };
-    let body = file.body.as_ref().map_or(Side::Lower, |side| match side.get_ref() {
-        SideFile::Upper => Side::Upper,
-        SideFile::Lower => Side::Lower,
-    });
-    let place = file.body.as_ref().map_or_else(|| table.span(), Spanned::span);
+    let body = file.body.as_ref().map_or(Side::Lower, |side| side.value);
+    let place = file.body.as_ref().map_or_else(|| table.span(), At::span);
     let half_space = match bodies.map(|pair| body.of(pair)) {
         Some(Body::Rigid) => {
             let other = if body == Side::Lower { "upper" } else { "lower" };
@@ -132,8 +72,8 @@ pub(super) fn stress(
     };
     let depths = match &file.depths {
         None => None,
-        Some(depths) => match depths.get_ref() {
-            DepthsFile::Auto => None,
+        Some(depths) => match &depths.value {
+            DepthsFile::Auto(_) => None,
             DepthsFile::Given(list) => {
                 if let Some(half_space) = half_space
                     && let Err(error) = depth_points(half_space, list)
@@ -159,13 +99,14 @@ pub(super) fn stress(
         }
     }
     let fatigue = FatigueConstants {
-        yield_strength,
-        normal_stress_sensitivity: sensitivity,
-        torsion_limit: torsion,
-        tension_limit: tension,
-        critical_distance,
+        yield_strength: file.yield_strength,
+        normal_stress_sensitivity: file.normal_stress_sensitivity,
+        torsion_limit: file.torsion_limit,
+        tension_limit: file.tension_limit,
+        critical_distance: file.critical_distance,
         ..FatigueConstants::default()
     };
+    let every = file.every.unwrap_or(1);
     Some(StressRequest { depths, body, every, volume: file.volume.unwrap_or(false), fatigue })
 }
 

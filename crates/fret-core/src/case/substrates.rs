@@ -2,15 +2,13 @@
 
 use std::ops::Range;
 
-use toml::Spanned;
-
-use super::along::AlongFile;
-use super::axis::AxisFile;
-use super::course::Stage;
+use super::control_keys::Given;
 use super::definition::GridSize;
 use super::file::GridFile;
 use super::judge::Judge;
-use super::stage_file::StageFile;
+use super::misfits::Loading;
+use crate::document::At;
+use crate::model::stage::Stage;
 
 use crate::model::bulk::substrate;
 use crate::model::{Body, ContactPair};
@@ -20,16 +18,16 @@ use crate::model::{Body, ContactPair};
 pub(super) fn bulk_and_tilt(
     judge: &mut Judge,
     grid: &GridFile,
-    (stages, checked): (&Spanned<Vec<Spanned<StageFile>>>, Option<&[Stage]>),
+    (stages, checked): Loading<'_>,
     bodies: Option<&ContactPair>,
     (is_line, size): (bool, Option<GridSize>),
 ) {
-    let periodic = grid.periodic.as_ref().is_some_and(|periodic| *periodic.get_ref());
-    for (index, file) in stages.get_ref().iter().enumerate() {
-        let file = file.get_ref();
+    let periodic = grid.periodic.as_ref().is_some_and(|periodic| periodic.value);
+    for (index, file) in stages.iter().enumerate() {
+        let file = &file.value;
         let checked = checked.and_then(|checked| checked.get(index));
         let in_table = |does: &dyn Fn(&Stage) -> bool| {
-            file.table.as_ref().filter(|_| checked.is_some_and(does)).map(Spanned::span)
+            file.table.as_ref().filter(|_| checked.is_some_and(does)).map(At::span)
         };
         let of_body =
             |body: usize| in_table(&move |stage: &Stage| stage.bulk_stress[body].iter().any(Option::is_some));
@@ -37,16 +35,17 @@ pub(super) fn bulk_and_tilt(
             stage.tilt[1].is_some() || stage.bulk_stress.iter().any(|stress| stress[1].is_some())
         });
         let place = format!("load[{index}]");
+        let given = |name| file.controls.of(name);
         let controls: [Control<'_>; 6] = [
-            ("tilt_moment", None, file.tilt_moment.as_ref(), None),
-            ("tilt", None, file.tilt.as_ref(), None),
+            ("tilt_moment", None, given("tilt_moment"), None),
+            ("tilt", None, given("tilt"), None),
             ("a tilt", None, None, in_table(&Stage::tilts)),
-            ("bulk_stress", bodies.map(ContactPair::lower), file.bulk_stress.as_ref(), None),
-            ("upper_bulk_stress", bodies.map(ContactPair::upper), file.upper_bulk_stress.as_ref(), None),
+            ("bulk_stress", bodies.map(ContactPair::lower), given("bulk_stress"), None),
+            ("upper_bulk_stress", bodies.map(ContactPair::upper), given("upper_bulk_stress"), None),
             ("bulk_stress", None, None, of_body(0).or(of_body(1))),
         ];
         for (key, body, given, table) in controls {
-            let Some(span) = given.map(Spanned::span).or(table) else { continue };
+            let Some(span) = given.map(Given::span).or(table) else { continue };
             if periodic {
                 judge.refuse::<()>(
                     span,
@@ -90,29 +89,15 @@ pub(super) fn bulk_and_tilt(
 }
 
 /// A key, the body that it stretches, what is given, where a table prescribes it.
-type Control<'a> =
-    (&'a str, Option<&'a Body>, Option<&'a Spanned<AlongFile<AxisFile>>>, Option<Range<usize>>);
+type Control<'a> = (&'a str, Option<&'a Body>, Option<&'a Given>, Option<Range<usize>>);
 
-fn one_or_two(
-    judge: &mut Judge,
-    place: &str,
-    key: &str,
-    given: &Spanned<AlongFile<AxisFile>>,
-    is_line: bool,
-) {
-    match (given.get_ref(), is_line) {
-        (AlongFile::Both(_), true) => judge.refuse::<()>(
-            given.span(),
-            format!("{place}.{key}: two values in a line contact, in which nothing changes along y"),
-            &format!("{key} = one number"),
-        ),
-        (AlongFile::Line(_), false) => judge.refuse::<()>(
-            given.span(),
-            format!("{place}.{key}: one number, but the contact has two axes"),
-            &format!("{key} = [along x, along y]"),
-        ),
-        _ => None,
+fn one_or_two(judge: &mut Judge, place: &str, key: &str, given: &Given, is_line: bool) {
+    let (message, help) = match (given.values.len(), is_line) {
+        (2, true) => ("two values in a line contact, in which nothing changes along y", "one number"),
+        (1, false) => ("one number, but the contact has two axes", "[along x, along y]"),
+        _ => return,
     };
+    judge.refuse::<()>(given.span(), format!("{place}.{key}: {message}"), &format!("{key} = {help}"));
 }
 
 fn without_substrate(judge: &mut Judge, place: &str, key: &str, body: &Body, span: Range<usize>) {

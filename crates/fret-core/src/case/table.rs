@@ -3,8 +3,7 @@
 use std::collections::BTreeMap;
 use std::ops::Range;
 
-use toml::Spanned;
-
+use super::control_keys::{Column, columns};
 use super::heading::Heading;
 use super::judge::Judge;
 use super::known_units::{Conversion, UnitError, conversion, is_unit, known_units};
@@ -12,48 +11,17 @@ use super::numbers::{NoNumber, number};
 use super::stage_file::StageFile;
 use super::table_layout::{Layout, layout};
 use super::units::Units;
-
-/// Controls a column can hold, by the names of `history.csv`, and what kind of quantity each is in a point contact.
-pub(super) const CONTROLS: [(&str, &str); 19] = [
-    ("normal_force", "force"),
-    ("approach", "length"),
-    ("tangential_force_x", "force"),
-    ("tangential_force_y", "force"),
-    ("shift_x", "length"),
-    ("shift_y", "length"),
-    ("twist_moment", "force x length"),
-    ("twist", "rad"),
-    ("tilt_moment_x", "force x length"),
-    ("tilt_moment_y", "force x length"),
-    ("tilt_x", "-"),
-    ("tilt_y", "-"),
-    ("bulk_stress_x", "pressure"),
-    ("bulk_stress_y", "pressure"),
-    ("upper_bulk_stress_x", "pressure"),
-    ("upper_bulk_stress_y", "pressure"),
-    ("actuator_x", "length"),
-    ("actuator_y", "length"),
-    ("actuator_approach", "length"),
-];
-
-/// Where the actuator along x and y stands among them.
-pub(super) const ACTUATOR: [usize; 2] = [16, 17];
-/// Where its approach does.
-pub(super) const ACTUATOR_APPROACH: usize = 18;
-
-/// Columns that prescribe one thing, of which a table may have one.
-const RIVALS: [&[usize]; 10] =
-    [&[0, 1, 18], &[2, 4, 16], &[3, 5, 17], &[6, 7], &[8, 10], &[9, 11], &[12], &[13], &[14], &[15]];
+use crate::document::At;
 
 /// Rows of a table, at the most.
 const MOST_ROWS: usize = 1_000_000;
 
 /// Values of the controls, each in the order of the rows.
-pub(super) type Columns = BTreeMap<&'static str, Vec<f64>>;
+pub(super) type Columns = BTreeMap<String, Vec<f64>>;
 
 /// A chosen column: its control, where it stands, its name, and how its numbers become those of the case.
 struct Chosen {
-    control: usize,
+    control: Column,
     index: usize,
     name: String,
     unit: Option<String>,
@@ -61,14 +29,9 @@ struct Chosen {
 }
 
 /// The table of a stage, in the units of the case; `None` when it was refused.
-pub(super) fn table(
-    judge: &mut Judge,
-    place: &str,
-    file: &StageFile,
-    name: &Spanned<String>,
-) -> Option<Columns> {
+pub(super) fn table(judge: &mut Judge, place: &str, file: &StageFile, name: &At<String>) -> Option<Columns> {
     let text = judge.attached_text(&format!("{place}.table"), name)?;
-    let at = Words { place: format!("{place}.table {:?}", name.get_ref()), span: name.span() };
+    let at = Words { place: format!("{place}.table {:?}", &name.value), span: name.span() };
     let Layout { delimiter, line: head_line, text } = layout(&text);
     let decimal_comma = delimiter != b',';
     let mut reader =
@@ -78,7 +41,8 @@ pub(super) fn table(
         Err(error) => return at.refuse(judge, &unreadable(&error), ""),
     };
     let mut chosen = chosen(judge, file, &names, &at, head_line)?;
-    let mut columns: Columns = chosen.iter().map(|column| (CONTROLS[column.control].0, Vec::new())).collect();
+    let mut columns: Columns =
+        chosen.iter().map(|column| (column.control.name.clone(), Vec::new())).collect();
     let (mut is_first, mut decimals) = (true, Decimals::default());
     for row in reader.records() {
         let row = match row {
@@ -112,7 +76,7 @@ pub(super) fn table(
             let found = number(cell, decimal_comma)
                 .map(|value| column.conversion.of(value))
                 .and_then(|value| if value.is_finite() { Ok(value) } else { Err(NoNumber::NotFinite) });
-            match (found, columns.get_mut(CONTROLS[column.control].0)) {
+            match (found, columns.get_mut(&column.control.name)) {
                 (Ok(value), Some(values)) => values.push(value),
                 (Ok(_), None) => {}
                 (Err(why), _) => {
@@ -170,8 +134,8 @@ fn units_below(row: &csv::StringRecord, chosen: &mut [Chosen]) -> bool {
 fn convert(judge: &mut Judge, at: &Words, line: usize, chosen: &mut [Chosen]) -> Option<()> {
     for column in chosen {
         let Some(unit) = &column.unit else { continue };
-        let (control, kind) = CONTROLS[column.control];
-        let kind = if judge.is_line { Units::per_length(kind) } else { kind };
+        let Column { name: control, way, .. } = &column.control;
+        let kind = if judge.is_line { Units::per_length(way.unit) } else { way.unit };
         match conversion(unit, kind, judge.units.as_ref()) {
             Ok(conversion) => column.conversion = conversion,
             Err(error) => {
@@ -218,17 +182,18 @@ fn chosen(
     at: &Words,
     line: usize,
 ) -> Option<Vec<Chosen>> {
-    let controls = || CONTROLS.map(|(name, _)| name).join(", ");
-    let control_of = |word: &str| CONTROLS.iter().position(|(control, _)| *control == word);
+    let all = columns();
+    let controls = || all.iter().map(|known| known.name.as_str()).collect::<Vec<_>>().join(", ");
+    let control_of = |word: &str| all.iter().find(|known| known.name == word).cloned();
     let mut headings: Vec<Option<Heading>> = names.iter().map(|name| Heading::of(name)).collect();
-    let mut found: Vec<(usize, usize)> = Vec::new();
+    let mut found: Vec<(Column, usize)> = Vec::new();
     if let Some(given) = &file.columns {
-        for (control, column) in given {
-            let Some(known) = control_of(control.get_ref()) else {
-                let message = format!("{}: no control is called {:?}", at.place, control.get_ref());
+        for (control, column) in &given.0 {
+            let Some(known) = control_of(control) else {
+                let message = format!("{}: no control is called {:?}", at.place, &control.value);
                 return judge.refuse(control.span(), message, &format!("controls are: {}", controls()));
             };
-            let wanted = column.get_ref();
+            let wanted = &column.value;
             let whole = names.iter().position(|name| name == wanted);
             let without_unit =
                 |heading: &Option<Heading>| heading.as_ref().is_some_and(|heading| heading.name == *wanted);
@@ -252,20 +217,17 @@ fn chosen(
             found.push((known, index));
         }
     }
-    for rivals in RIVALS {
-        let there: Vec<&str> = rivals
-            .iter()
-            .flat_map(|&rival| found.iter().filter(move |(known, _)| *known == rival))
-            .map(|(known, _)| CONTROLS[*known].0)
-            .collect();
-        if let [one, other, ..] = there[..] {
-            let message = if one == other {
-                format!("column {one:?} stands there twice")
-            } else {
-                format!("{one} and {other} prescribe one thing, and one column may do so")
-            };
-            return at.refuse(judge, &message, "");
-        }
+    // in the order of the controls, whatever that of the columns
+    let order = |known: &Column| all.iter().position(|other| other.name == known.name);
+    let mut there: Vec<&Column> = found.iter().map(|(known, _)| known).collect();
+    there.sort_by_key(|known| (known.freedom, order(known)));
+    if let Some([one, other]) = there.windows(2).find(|two| two[0].freedom == two[1].freedom) {
+        let message = if one.name == other.name {
+            format!("column {:?} stands there twice", one.name)
+        } else {
+            format!("{} and {} prescribe one thing, and one column may do so", one.name, other.name)
+        };
+        return at.refuse(judge, &message, "");
     }
     if found.is_empty() {
         return at.refuse(judge, "no column", &format!("controls are: {}", controls()));

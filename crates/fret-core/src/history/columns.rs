@@ -219,3 +219,20 @@ pub(super) fn regime_word(regime: Regime) -> &'static str {
         Regime::Frictionless => "frictionless",
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::STEP_COLUMNS;
+    use crate::model::controls::ways;
+
+    /// So that a table of loads can be a table of results.
+    #[test]
+    fn every_control_is_a_column_with_its_name_and_unit() {
+        for (row, way) in ways() {
+            for (name, _) in row.columns(way) {
+                let column = STEP_COLUMNS.iter().find(|column| column.name == name);
+                assert_eq!(column.map(|column| column.unit), Some(way.unit), "{name}");
+            }
+        }
+    }
+}

@@ -1,18 +1,23 @@
 //! Friction that evolves: the coefficient of a cell as a function of what slip has done to it.
 
 use ndarray::Array2;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::accumulated::AccumulatedSlip;
 use super::friction::{CellValues, CoulombFriction};
+use crate::document::Table;
 
-/// What the coefficient of a cell follows.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+/// What the friction coefficient follows.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, Table, JsonSchema)]
 #[serde(rename_all = "snake_case")]
+#[schemars(rename = "DriverFile")]
 pub enum EvolutionDriver {
-    /// Energy dissipated in the cell, by area [pressure x length].
+    // [pressure x length]
+    /// Energy dissipated in the cell, by area.
     Energy,
-    /// Slip distance of the cell [length].
+    // [length]
+    /// Slip distance of the cell.
     SlipDistance,
     /// Number of cycles.
     Cycles,

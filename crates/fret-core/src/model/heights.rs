@@ -3,19 +3,23 @@
 use std::sync::Arc;
 
 use ndarray::Array2;
+use schemars::JsonSchema;
 use serde::{Serialize, Serializer};
 
 use super::digest::digest;
 use super::shape::ProfileError;
+use crate::document::Table;
 
-/// What is taken off heights before they are used.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+/// What is subtracted from heights.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Table, JsonSchema)]
+#[schemars(rename = "DetrendFile", rename_all = "lowercase")]
 pub enum Detrend {
     /// Nothing.
     None,
-    /// Their mean. The gap does not notice: it is counted from first touch.
+    // The gap does not notice: it is counted from first touch.
+    /// Their mean.
     Mean,
-    /// The plane of least squares.
+    /// The least-squares plane.
     Plane,
 }
 

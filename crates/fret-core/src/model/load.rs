@@ -4,6 +4,8 @@ use std::mem::discriminant;
 
 use serde::{Deserialize, Serialize};
 
+use super::controls::FREEDOMS;
+
 /// What is prescribed for one rigid degree of freedom.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub enum Control {
@@ -81,25 +83,32 @@ impl LoadStep {
         bulk_stress: [[0.0; 2]; 2],
     };
 
-    /// All controls: of the normal load, of the tangential loads along x and y, of the twist, of the tilts.
-    fn controls(&self) -> [Control; 6] {
-        let Self { normal, tangential: [x, y], twist, tilt: [along_x, along_y], .. } = *self;
-        [normal, x, y, twist, along_x, along_y]
+    /// What is prescribed for each degree of freedom (`controls.rs`); stresses as forces.
+    pub fn controls(&self) -> [Control; FREEDOMS] {
+        let Self { normal, tangential: [x, y], twist, tilt: [tilt_x, tilt_y], bulk_stress } = *self;
+        let [lower, upper] = bulk_stress.map(|stress| stress.map(Control::Force));
+        [normal, x, y, twist, tilt_x, tilt_y, lower[0], lower[1], upper[0], upper[1]]
     }
 
-    /// Change of what is prescribed to another step that prescribes the same kinds, each in its own unit: normal load, tangential loads, twist,
-    /// tilts, bulk stresses of the lower and the upper body along x and y. `None` where the kinds differ.
-    pub fn change_to(&self, other: &Self) -> Option<[f64; 10]> {
+    /// The load that prescribes these.
+    pub fn of(controls: [Control; FREEDOMS]) -> Self {
+        let [normal, x, y, twist, tilt_x, tilt_y, bulk @ ..] = controls;
+        let [lower_x, lower_y, upper_x, upper_y] = bulk.map(Control::value);
+        Self {
+            normal,
+            tangential: [x, y],
+            twist,
+            tilt: [tilt_x, tilt_y],
+            bulk_stress: [[lower_x, lower_y], [upper_x, upper_y]],
+        }
+    }
+
+    /// Change of what is prescribed to another step that prescribes the same kinds, each in its own unit, for each degree of freedom.
+    /// `None` where the kinds differ.
+    pub fn change_to(&self, other: &Self) -> Option<[f64; FREEDOMS]> {
         let (from, to) = (self.controls(), other.controls());
         let are_alike = from.iter().zip(&to).all(|(from, to)| discriminant(from) == discriminant(to));
-        let numbers = |controls: [Control; 6], step: &Self| {
-            controls.map(Control::value).into_iter().chain(step.bulk_stress.into_iter().flatten())
-        };
-        let mut change = [0.0; 10];
-        for (change, (to, from)) in change.iter_mut().zip(numbers(to, other).zip(numbers(from, self))) {
-            *change = to - from;
-        }
-        are_alike.then_some(change)
+        are_alike.then(|| std::array::from_fn(|freedom| to[freedom].value() - from[freedom].value()))
     }
 
     /// What is prescribed at a share of the straight way from one step to another that prescribes the same kinds.
@@ -110,17 +119,7 @@ impl LoadStep {
             (Control::FarEnd(a), Control::FarEnd(b)) if share < 1.0 => Control::FarEnd(a + (b - a) * share),
             (_, to) => to,
         };
-        Self {
-            normal: one(from.normal, to.normal),
-            tangential: [0, 1].map(|axis| one(from.tangential[axis], to.tangential[axis])),
-            twist: one(from.twist, to.twist),
-            tilt: [0, 1].map(|axis| one(from.tilt[axis], to.tilt[axis])),
-            bulk_stress: [0, 1].map(|body| {
-                [0, 1].map(|axis| {
-                    let (a, b) = (from.bulk_stress[body][axis], to.bulk_stress[body][axis]);
-                    if share < 1.0 { a + (b - a) * share } else { b }
-                })
-            }),
-        }
+        let (from, to) = (from.controls(), to.controls());
+        Self::of(std::array::from_fn(|freedom| one(from[freedom], to[freedom])))
     }
 }

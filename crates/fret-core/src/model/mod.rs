@@ -4,6 +4,7 @@ pub mod accumulated;
 pub mod beyond;
 pub mod bulk;
 pub mod conduction;
+pub mod controls;
 pub mod digest;
 pub mod evolution;
 pub mod friction;
@@ -19,8 +20,10 @@ pub mod residual;
 pub mod rig;
 pub mod scheme;
 pub mod shape;
+pub mod stage;
 pub mod state;
 pub mod symmetry;
+pub mod waveform;
 pub mod wear;
 pub mod wear_layers;
 

@@ -3,8 +3,10 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use crate::document::Table;
+
 /// How coupled pressure and shear are solved.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, Table, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Scheme {
     /// One Newton method for pressure and shear together.
@@ -16,7 +18,7 @@ pub enum Scheme {
 }
 
 /// How slip is integrated over an increment.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, Table, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Integration {
     /// Of second order in the increments: the friction law at the end of an increment by the direction of slip there; dissipated energy,

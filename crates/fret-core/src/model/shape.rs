@@ -1,6 +1,9 @@
 //! Shapes that can be written down: each a gap over the surface, zero where it touches first.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+
+use crate::document::Table;
 
 /// Why a profile was refused.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
@@ -32,8 +35,9 @@ pub enum ProfileError {
 }
 
 /// A direction in the surface.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, Table, JsonSchema)]
 #[serde(rename_all = "lowercase")]
+#[schemars(rename = "AxisFile")]
 pub enum Axis {
     /// Along x.
     X,

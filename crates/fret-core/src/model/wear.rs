@@ -1,16 +1,21 @@
 //! Wear: the depth that slip takes off the surfaces, so that the gap opens.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::wear_layers::WearLayers;
+use crate::document::Table;
 
 /// What the worn depth follows.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, Table, JsonSchema)]
 #[serde(rename_all = "snake_case")]
+#[schemars(rename = "WearLawFile", description = "Wear law.")]
 pub enum WearLaw {
     /// `k p |ds|`: mean pressure of the increment times slip. Archard (1953), J. Appl. Phys. 24, 981.
+    #[schemars(description = "Pressure times slip.")]
     Archard,
     /// `k q . ds`: the energy that friction dissipates. Fouvry, Kapsa & Vincent (1996), Wear 200, 186.
+    #[schemars(description = "Energy dissipated by friction.")]
     Energy,
 }
 

@@ -1,5 +1,7 @@
 //! What a text is refused for before its values are judged, and how the rest is judged beside what was refused.
 
+mod words;
+
 use super::{DEEPEST, LONGEST, MOST_MISTAKES, toml_of};
 use crate::case::Case;
 use crate::case::check::tests::BALL;
@@ -197,5 +199,24 @@ fn mistakes_of_several_kinds_are_told_together() {
             ("-100.0", "-100.0"),
             ("found 0.05", "0.05"),
         ],
+    );
+}
+
+/// An endless search for the depth at which such a coating is gone was the answer once.
+#[test]
+fn a_coating_without_a_thickness_is_refused_where_it_wears() {
+    let coated = changed(
+        "substrate = { young = 1.0, poisson = 0.3 }",
+        "substrate = { young = 1.0, poisson = 0.3, wear_coefficient = 1.0 }\n\
+         coatings = [{ thickness = nan, young = 1.0, poisson = 0.3, wear_coefficient = 1.0 }]\n[wear]",
+    );
+    told(&coated, &[("lower.coatings[0].thickness: ", "nan")]);
+}
+
+#[test]
+fn a_date_is_called_a_date() {
+    told(
+        &changed("radius = 100.0", "radius = 1979-05-27"),
+        &[("found the date 1979-05-27, expected a number", "1979")],
     );
 }

@@ -1,5 +1,7 @@
 //! What the judgement of histories lets pass at both ends of every range, and refuses just beyond.
 
+mod course;
+
 use super::apart;
 use crate::case::check::tests::{BALL, read, refused};
 use crate::case::{Attachments, Case};

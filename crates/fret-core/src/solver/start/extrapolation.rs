@@ -7,6 +7,7 @@ use ndarray::Array2;
 use super::super::ContactSolver;
 use super::super::memory::{Before, GridTractions};
 use super::self_similar::{SelfSimilarGrowth, sum_of};
+use crate::model::controls::{CONTROLS, ControlRow, FREEDOMS, TANGENTIAL};
 use crate::model::{ContactState, Control, LoadStep, Reached};
 
 impl ContactSolver<'_> {
@@ -112,14 +113,18 @@ impl ContactSolver<'_> {
     }
 }
 
-/// Squares of the lengths of two increments and their product, each of the normal load, the tangential loads, the twist, the tilt and the
-/// bulk stresses by itself in units of the longer one. Loads along x and y go together where `are_alike`.
-fn products(older: [f64; 10], newer: [f64; 10], are_alike: bool) -> [f64; 3] {
-    let tangential: &[&[usize]] = if are_alike { &[&[1, 2]] } else { &[&[1], &[2]] };
-    let others: &[&[usize]] = &[&[0], &[3], &[4, 5], &[6, 7], &[8, 9]];
+/// Squares of the lengths of two increments and their product, each of every control by itself in units of the longer one. Loads along x
+/// and y go together, tangential ones where `are_alike`.
+fn products(older: [f64; FREEDOMS], newer: [f64; FREEDOMS], are_alike: bool) -> [f64; 3] {
+    let apart = |row: &ControlRow| row.freedom == TANGENTIAL && !are_alike;
+    let (tangential, others): (Vec<_>, Vec<_>) = CONTROLS.iter().partition(|row| row.freedom == TANGENTIAL);
+    let groups = tangential.into_iter().chain(others).flat_map(|row| {
+        let freedoms = row.freedoms();
+        if apart(row) { freedoms.map(|one| one..one + 1).collect() } else { vec![freedoms] }
+    });
     let mut found = [0.0; 3];
-    for group in tangential.iter().chain(others) {
-        let product = |a: &[f64], b: &[f64]| group.iter().map(|&k| a[k] * b[k]).sum::<f64>();
+    for group in groups {
+        let product = |a: &[f64], b: &[f64]| group.clone().map(|k| a[k] * b[k]).sum::<f64>();
         let [old, both, new] = [product(&older, &older), product(&older, &newer), product(&newer, &newer)];
         let unit = old.max(new);
         if unit > 0.0 {

@@ -4,210 +4,108 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::invariants::Endurance;
+use crate::document::{Keys, Range, Table};
+
+/// An angle of a crack.
+const ANGLE: Range = Range::between(-90.0, 90.0, "must lie between -90 and 90 degrees");
 
 /// Constants of a layer for fatigue and fracture, each for what it is needed for.
-#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize, Table, JsonSchema)]
 #[serde(deny_unknown_fields)]
-#[schemars(rename = "FatigueConstants")]
-pub struct FatigueConstants<N = f64> {
+pub struct FatigueConstants {
     /// Yield strength [pressure], for Fatemi and Socie and for elastic shakedown.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub yield_strength: Option<N>,
+    #[range(Range::POSITIVE)]
+    pub yield_strength: Option<f64>,
     /// Weight of the normal stress in Fatemi and Socie's parameter [-]. Default: 1.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub normal_stress_sensitivity: Option<N>,
+    #[range(Range::NOT_NEGATIVE)]
+    pub normal_stress_sensitivity: Option<f64>,
     /// Fatigue limit in fully reversed torsion, amplitude [pressure], for Crossland and Dang Van.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub torsion_limit: Option<N>,
+    #[range(Range::POSITIVE)]
+    pub torsion_limit: Option<f64>,
     /// Fatigue limit in fully reversed tension or bending, amplitude [pressure], for Crossland and Dang Van.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub tension_limit: Option<N>,
+    #[range(Range::POSITIVE)]
+    pub tension_limit: Option<f64>,
     /// Critical distance L [length]: parameters are also told at the depth L/2 (point method) and as means down to 2 L (line method).
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub critical_distance: Option<N>,
+    #[range(Range::POSITIVE)]
+    pub critical_distance: Option<f64>,
     /// Life in tension over the normal strain, for cycles to initiation by Smith, Watson and Topper.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub strain_life: Option<StrainLife<N>>,
+    pub strain_life: Option<StrainLife>,
     /// Life in torsion over the shear strain, for cycles to initiation by Fatemi and Socie.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub shear_life: Option<StrainLife<N>>,
+    pub shear_life: Option<StrainLife>,
     /// Growth of a short crack from the most severe place of the surface.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub crack: Option<CrackConstants<N>>,
+    pub crack: Option<CrackConstants>,
     /// Fracture energy of a coating [force/length], for channelling cracks.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub fracture_energy: Option<N>,
+    #[range(Range::POSITIVE)]
+    pub fracture_energy: Option<f64>,
     /// Fracture energy of the interface below a coating [force/length], for delamination.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub interface_energy: Option<N>,
+    #[range(Range::POSITIVE)]
+    pub interface_energy: Option<f64>,
     /// Beuth's g(alpha, beta) of a coating [-], which channelling needs where coating and substrate differ in stiffness.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub channelling_factor: Option<N>,
+    #[range(Range::POSITIVE)]
+    pub channelling_factor: Option<f64>,
     /// Phase angle of the interface crack under tension [degrees], which the mode mix needs where coating and substrate differ in stiffness.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub interface_phase: Option<N>,
+    #[range(ANGLE)]
+    pub interface_phase: Option<f64>,
 }
 
 /// Coffin, Manson and Basquin's law: strain amplitude `= S/E (2N)^b + e (2N)^c`; in shear with G for E.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, Table, JsonSchema)]
 #[serde(deny_unknown_fields)]
-#[schemars(rename = "StrainLife")]
-pub struct StrainLife<N = f64> {
+pub struct StrainLife {
     /// Fatigue strength coefficient S [pressure], positive.
-    pub strength_coefficient: N,
+    #[range(Range::POSITIVE)]
+    pub strength_coefficient: f64,
     /// Fatigue strength exponent b [-], negative.
-    pub strength_exponent: N,
+    #[range(Range::NEGATIVE)]
+    pub strength_exponent: f64,
     /// Fatigue ductility coefficient e [-], positive.
-    pub ductility_coefficient: N,
+    #[range(Range::POSITIVE)]
+    pub ductility_coefficient: f64,
     /// Fatigue ductility exponent c [-], negative.
-    pub ductility_exponent: N,
+    #[range(Range::NEGATIVE)]
+    pub ductility_exponent: f64,
 }
 
 /// Constants of a short crack.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, Table, JsonSchema)]
 #[serde(deny_unknown_fields)]
-#[schemars(rename = "CrackConstants")]
-pub struct CrackConstants<N = f64> {
+pub struct CrackConstants {
     /// Threshold of long cracks, range of the stress intensity while the crack is open [pressure x sqrt(length)].
-    pub threshold: N,
+    #[range(Range::POSITIVE)]
+    pub threshold: f64,
     /// El Haddad's length l0 [length]: the threshold of a crack of length l is `threshold sqrt(l/(l + l0))`.
-    pub short_crack_length: N,
+    #[range(Range::POSITIVE)]
+    pub short_crack_length: f64,
     /// Length that the crack has first [length].
-    pub initial_length: N,
+    #[range(Range::POSITIVE)]
+    pub initial_length: f64,
     /// Length up to which it is followed [length].
-    pub final_length: N,
+    #[range(Range::POSITIVE)]
+    pub final_length: f64,
     /// Paris' C: growth per cycle [length] is `C dK^m`.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub paris_coefficient: Option<N>,
+    #[range(Range::POSITIVE)]
+    pub paris_coefficient: Option<f64>,
     /// Paris' m [-].
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub paris_exponent: Option<N>,
+    #[range(Range::POSITIVE)]
+    pub paris_exponent: Option<f64>,
     /// Fracture toughness [pressure x sqrt(length)]: there the crack runs through.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub toughness: Option<N>,
-}
-
-/// What a constant may be.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Range {
-    /// Above 0.
-    Positive,
-    /// Below 0.
-    Negative,
-    /// 0 or above.
-    NotNegative,
-    /// An angle between -90 and 90 degrees.
-    Angle,
-}
-
-impl Range {
-    /// Whether a finite number lies in it.
-    pub fn holds(self, value: f64) -> bool {
-        value.is_finite()
-            && match self {
-                Self::Positive => value > 0.0,
-                Self::Negative => value < 0.0,
-                Self::NotNegative => value >= 0.0,
-                Self::Angle => value.abs() <= 90.0,
-            }
-    }
-
-    /// In words.
-    pub fn words(self) -> &'static str {
-        match self {
-            Self::Positive => "must be positive and finite",
-            Self::Negative => "must be negative and finite",
-            Self::NotNegative => "must be zero or positive, and finite",
-            Self::Angle => "must lie between -90 and 90 degrees",
-        }
-    }
-}
-
-impl<N> StrainLife<N> {
-    fn numbers<'a>(&'a self, all: &mut Vec<(String, Range, &'a N)>, name: &str) {
-        let mut add = |key: &str, range, value| all.push((format!("{name}.{key}"), range, value));
-        add("strength_coefficient", Range::Positive, &self.strength_coefficient);
-        add("strength_exponent", Range::Negative, &self.strength_exponent);
-        add("ductility_coefficient", Range::Positive, &self.ductility_coefficient);
-        add("ductility_exponent", Range::Negative, &self.ductility_exponent);
-    }
-
-    fn plain(&self, number: &impl Fn(&N) -> f64) -> StrainLife {
-        StrainLife {
-            strength_coefficient: number(&self.strength_coefficient),
-            strength_exponent: number(&self.strength_exponent),
-            ductility_coefficient: number(&self.ductility_coefficient),
-            ductility_exponent: number(&self.ductility_exponent),
-        }
-    }
-}
-
-impl<N> FatigueConstants<N> {
-    /// All constants that are given: key, what it may be, value.
-    pub fn numbers(&self) -> Vec<(String, Range, &N)> {
-        use Range::{Angle, NotNegative, Positive};
-        let mut all = Vec::new();
-        for (key, range, value) in [
-            ("yield_strength", Positive, &self.yield_strength),
-            ("normal_stress_sensitivity", NotNegative, &self.normal_stress_sensitivity),
-            ("torsion_limit", Positive, &self.torsion_limit),
-            ("tension_limit", Positive, &self.tension_limit),
-            ("critical_distance", Positive, &self.critical_distance),
-            ("fracture_energy", Positive, &self.fracture_energy),
-            ("interface_energy", Positive, &self.interface_energy),
-            ("channelling_factor", Positive, &self.channelling_factor),
-            ("interface_phase", Angle, &self.interface_phase),
-        ] {
-            all.extend(value.as_ref().map(|value| (key.to_owned(), range, value)));
-        }
-        if let Some(life) = &self.strain_life {
-            life.numbers(&mut all, "strain_life");
-        }
-        if let Some(life) = &self.shear_life {
-            life.numbers(&mut all, "shear_life");
-        }
-        if let Some(crack) = &self.crack {
-            for (key, value) in [
-                ("crack.threshold", Some(&crack.threshold)),
-                ("crack.short_crack_length", Some(&crack.short_crack_length)),
-                ("crack.initial_length", Some(&crack.initial_length)),
-                ("crack.final_length", Some(&crack.final_length)),
-                ("crack.paris_coefficient", crack.paris_coefficient.as_ref()),
-                ("crack.paris_exponent", crack.paris_exponent.as_ref()),
-                ("crack.toughness", crack.toughness.as_ref()),
-            ] {
-                all.extend(value.map(|value| (key.to_owned(), Positive, value)));
-            }
-        }
-        all
-    }
-
-    /// The constants as plain numbers.
-    pub fn plain(&self, number: impl Fn(&N) -> f64) -> FatigueConstants {
-        let of = |value: &Option<N>| value.as_ref().map(&number);
-        FatigueConstants {
-            yield_strength: of(&self.yield_strength),
-            normal_stress_sensitivity: of(&self.normal_stress_sensitivity),
-            torsion_limit: of(&self.torsion_limit),
-            tension_limit: of(&self.tension_limit),
-            critical_distance: of(&self.critical_distance),
-            strain_life: self.strain_life.as_ref().map(|life| life.plain(&number)),
-            shear_life: self.shear_life.as_ref().map(|life| life.plain(&number)),
-            crack: self.crack.as_ref().map(|crack| CrackConstants {
-                threshold: number(&crack.threshold),
-                short_crack_length: number(&crack.short_crack_length),
-                initial_length: number(&crack.initial_length),
-                final_length: number(&crack.final_length),
-                paris_coefficient: of(&crack.paris_coefficient),
-                paris_exponent: of(&crack.paris_exponent),
-                toughness: of(&crack.toughness),
-            }),
-            fracture_energy: of(&self.fracture_energy),
-            interface_energy: of(&self.interface_energy),
-            channelling_factor: of(&self.channelling_factor),
-            interface_phase: of(&self.interface_phase),
-        }
-    }
+    #[range(Range::POSITIVE)]
+    pub toughness: Option<f64>,
 }
 
 impl FatigueConstants {
@@ -223,11 +121,11 @@ impl FatigueConstants {
 
     /// What is wrong with them: the key and the reason.
     pub fn fault(&self) -> Option<(String, String)> {
-        let numbers = self.numbers();
-        let out = numbers.iter().find(|(_, range, value)| !range.holds(**value));
-        if let Some((key, range, value)) = out {
-            return Some((key.clone(), format!("{key} = {value:?}: {}", range.words())));
-        }
+        self.key_fault().or_else(|| self.contradiction())
+    }
+
+    /// What of them does not go together: the key and the reason.
+    pub fn contradiction(&self) -> Option<(String, String)> {
         if self.torsion_limit.is_some() != self.tension_limit.is_some() {
             let what = "torsion_limit and tension_limit belong together: Crossland and Dang Van need both";
             return Some(("torsion_limit".to_owned(), what.to_owned()));

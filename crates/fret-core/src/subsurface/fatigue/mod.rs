@@ -13,7 +13,7 @@ mod plane_search;
 mod shakedown;
 mod surface;
 
-pub use constants::{CrackConstants, FatigueConstants, LayerConstants, Range, StrainLife};
+pub use constants::{CrackConstants, FatigueConstants, LayerConstants, StrainLife};
 pub use critical_plane::{CriticalPlane, fatemi_socie, smith_watson_topper};
 pub use invariants::{Endurance, crossland, dang_van};
 pub use life::{cycles_by_fatemi_socie, cycles_by_smith_watson_topper};

@@ -2,8 +2,10 @@
 
 use serde::Serialize;
 
+use super::controls::{FREEDOMS, Kind};
+use super::friction::CoulombFriction;
+use super::load::{Control, LoadStep};
 use super::waveform::{CycleTimes, Waveform};
-use crate::model::{Control, CoulombFriction, LoadStep};
 
 /// One stage of the loading history.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -196,31 +198,25 @@ impl Stage {
     /// What is prescribed at the end of increment `k`, from the controls `start` that the stage found.
     pub fn load(&self, start: &LoadStep, k: usize) -> LoadStep {
         let times = self.times();
-        let value = |control: &StageControl, start: f64| self.value(control, start, k, times.as_ref());
-        let one = |control: &Option<StageControl>, start: Control| match (control, start) {
-            (None, start) => start,
-            (Some(control), start) => control.prescribing(value(control, start.value())),
-        };
-        LoadStep {
-            normal: one(&self.normal, start.normal),
-            tangential: [0, 1].map(|axis| one(&self.tangential[axis], start.tangential[axis])),
-            twist: one(&self.twist, start.twist),
-            tilt: [0, 1].map(|axis| one(&self.tilt[axis], start.tilt[axis])),
-            bulk_stress: [0, 1].map(|body| {
-                [0, 1].map(|axis| {
-                    let from = start.bulk_stress[body][axis];
-                    let control = self.bulk_stress[body][axis].as_ref();
-                    control.map_or(from, |control| value(control, from))
-                })
-            }),
+        let mut controls = start.controls();
+        for (control, now) in self.by_freedom().into_iter().zip(&mut controls) {
+            let Some(control) = control else { continue };
+            *now = control.prescribing(self.value(control, now.value(), k, times.as_ref()));
         }
+        LoadStep::of(controls)
+    }
+
+    /// What it prescribes for each degree of freedom (`model/controls.rs`).
+    pub fn by_freedom(&self) -> [Option<&StageControl>; FREEDOMS] {
+        let [lower, upper] = &self.bulk_stress;
+        let [[x, y], tilt] = [&self.tangential, &self.tilt];
+        [&self.normal, x, y, &self.twist, &tilt[0], &tilt[1], &lower[0], &lower[1], &upper[0], &upper[1]]
+            .map(Option::as_ref)
     }
 
     /// All that the stage prescribes.
     pub fn controls(&self) -> impl Iterator<Item = &StageControl> {
-        let rigid = [&self.normal, &self.tangential[0], &self.tangential[1], &self.twist];
-        let bulk = self.bulk_stress.iter().flatten();
-        rigid.into_iter().chain(&self.tilt).chain(bulk).flatten()
+        self.by_freedom().into_iter().flatten()
     }
 
     /// Whether the stage prescribes a bulk stress.
@@ -235,6 +231,15 @@ impl Stage {
 }
 
 impl StageControl {
+    /// A control of a kind.
+    pub fn new(kind: Kind, path: Path) -> Self {
+        match kind {
+            Kind::Force => Self::Force(path),
+            Kind::Motion => Self::Motion(path),
+            Kind::FarEnd => Self::FarEnd(path),
+        }
+    }
+
     /// What it runs through.
     pub fn path(&self) -> &Path {
         let (Self::Force(path) | Self::Motion(path) | Self::FarEnd(path)) = self;
@@ -262,16 +267,15 @@ pub type KnownLoads = [Option<Control>; 4];
 /// Visits the loads of a history that starts from `start`, or from free bodies, as far as the case fixes them: number of the stage, and the loads at the end of an increment.
 /// Of a stage with cycles the first and the last are visited: its envelope is linear.
 pub fn walk(start: Option<&LoadStep>, stages: &[Stage], mut visit: impl FnMut(usize, &KnownLoads)) {
-    let LoadStep { normal, tangential: [x, y], twist, .. } = start.unwrap_or(&LoadStep::FREE);
-    let mut held: KnownLoads = [normal, x, y, twist].map(|control| Some(*control));
+    let loads = start.unwrap_or(&LoadStep::FREE).controls();
+    let mut held: KnownLoads = std::array::from_fn(|freedom| Some(loads[freedom]));
     for (number, stage) in stages.iter().enumerate() {
-        let controls = [&stage.normal, &stage.tangential[0], &stage.tangential[1], &stage.twist];
         let start = held;
         let all = stage.increments_in_all();
         let times = stage.times();
         let first = 1..=stage.increments;
         for k in first.chain((all - stage.increments + 1).max(stage.increments + 1)..=all) {
-            for (index, control) in controls.iter().enumerate() {
+            for (index, control) in stage.by_freedom().into_iter().take(held.len()).enumerate() {
                 let Some(control) = control else { continue };
                 held[index] = known(stage, control, start[index], (k, times.as_ref()));
             }
@@ -301,6 +305,3 @@ fn known(
         },
     }
 }
-
-#[cfg(test)]
-mod tests;

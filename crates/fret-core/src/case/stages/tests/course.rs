@@ -1,8 +1,8 @@
-use super::{KnownLoads, Path, Stage, walk};
 use crate::case::check::tests::{BALL, read};
 use crate::case::{Attachments, Case};
 use crate::model::Control::{self, FarEnd, Force, Motion};
 use crate::model::LoadStep;
+use crate::model::stage::{KnownLoads, Path, Stage, walk};
 
 /// The stages of a case with these tables [[load]] behind its first.
 fn stages(loads: &str, table: &str) -> Vec<Stage> {
@@ -252,8 +252,11 @@ fn a_stage_prescribes_its_controls_and_leaves_the_others() {
     assert_eq!(stages[2].load(&before, 2).tangential, [FarEnd(2.0), FarEnd(4.0)]);
     let counts: Vec<usize> = stages.iter().map(|stage| stage.controls().count()).collect();
     assert_eq!(counts, [1, 6, 2]);
-    let motions: Vec<bool> =
-        stages[1..].iter().flat_map(Stage::controls).map(super::StageControl::is_motion).collect();
+    let motions: Vec<bool> = stages[1..]
+        .iter()
+        .flat_map(Stage::controls)
+        .map(crate::model::stage::StageControl::is_motion)
+        .collect();
     assert_eq!(motions, [false, true, false, true, false, false, true, true]);
     let words = |stage: &Stage| (stage.is_tangential(), stage.tilts(), stage.stretches());
     assert_eq!(words(&stages[0]), (false, false, false));

@@ -1,0 +1,20 @@
+//! A written document, read once into typed values: every value knows its place, all mistakes of structure and range are collected.
+//! `#[derive(Table)]` (`crates/fret-table`) makes a struct a table, an enum of bare variants a word, and one whose variants hold a value a
+//! choice. No mechanics, and no relations between keys.
+
+mod at;
+mod mistake;
+mod parser_words;
+mod range;
+mod reader;
+mod values;
+mod words;
+
+pub use at::At;
+pub use fret_table::Table;
+pub use mistake::Mistake;
+pub use parser_words::in_words;
+pub use range::Range;
+pub use reader::{Keys, Places, Read, Reader, Reading, TableReader, Written, fault, is_word};
+pub use values::Named;
+pub use words::{printable, steers};
