@@ -153,9 +153,9 @@ def run_into(
     on_step: Callable[[dict[str, Any], int, int], object] | None,
 ) -> BaseException | None: ...
 def identify(
-    log: tuple[str, bytes],
+    log: Path,
     case: Case,
-    asked: tuple[list[tuple[str, str]], list[tuple[str, str]], float | None, str | None],
+    asked: tuple[list[tuple[str, str]], list[tuple[str, str]], float | None, str | None, bool],
     threads: int | None,
 ) -> tuple[str, str]: ...
 def study(

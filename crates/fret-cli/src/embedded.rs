@@ -1,6 +1,7 @@
 //! What a program that carries the command calls besides it, as the Python package does: the same runs, results and studies, without a
 //! terminal.
 
+use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -16,6 +17,7 @@ use crate::case_file::{Beside, CaseFile};
 use crate::commands::preparation::Wanted;
 use crate::commands::run;
 use crate::commands::study::{Question, studied};
+use crate::defect;
 use crate::estimate::{Estimate, NoBars};
 use crate::failure::{Failure, Unwritten};
 pub use crate::identify::Request as IdentifyRequest;
@@ -272,10 +274,15 @@ pub fn study(
 /// # Errors
 /// When the log cannot be read as fretting loops of such a case, or the case cannot be solved.
 pub fn identify(
-    log: (&str, &[u8]),
+    log: &Path,
     case: CaseText,
     request: &IdentifyRequest,
 ) -> Result<(Value, String), Stopped> {
-    let answer = crate::identify::identify(log, case.into(), request)?;
+    let name = crate::identify::name_of(log);
+    let bytes = crate::commands::identify::content(log)?;
+    let asked = || crate::identify::identify((&name, &bytes), case.into(), request);
+    // A mistake in the program is an error of the call, not the end of the caller.
+    let answer = catch_unwind(AssertUnwindSafe(asked))
+        .unwrap_or_else(|panic| Err(Failure::Defect(defect::words_of(panic.as_ref()))))?;
     Ok((answer.json, answer.page))
 }

@@ -79,18 +79,7 @@ impl Model {
         amplitude: f64,
         value: Option<f64>,
     ) -> Result<Loop, Failure> {
-        let mut case = match (&self.key, value) {
-            (Some((key, _)), Some(value)) => {
-                let text = with_value(&self.case_file, key, value)?;
-                let mut changed = reduced(self.case_file_of(text).case(None)?)?;
-                changed.size = self.case.size;
-                changed
-            }
-            _ => self.case.clone(),
-        };
-        case.friction = CoulombFriction::uniform(friction)
-            .map_err(|error| Failure::Call(format!("friction {error}"), String::new()))?
-            .with_max_shear_of(&case.friction);
+        let mut case = self.case_with(friction, value)?;
         let compliance = 1.0 / stiffness;
         case.rig = Some(Rig { normal: case.springs().normal, tangential: [compliance; 2] });
         let pressing: usize = case.stages.iter().map(Stage::increments_in_all).sum();
@@ -98,18 +87,7 @@ impl Model {
         let wave = |k: usize| (PI * k as f64 / HALF as f64).cos();
         path.extend((1..=HALF).map(|k| amplitude * wave(k)));
         path.extend((1..=HALF).map(|k| -amplitude * wave(k)));
-        case.stages.push(Stage {
-            name: "loop".to_owned(),
-            normal: None,
-            tangential: [Some(StageControl::FarEnd(Path::Through(path.clone()))), None],
-            twist: None,
-            tilt: [None, None],
-            bulk_stress: [[None, None], [None, None]],
-            increments: path.len(),
-            history_tolerance: None,
-            course: Course::Linear,
-            friction: None,
-        });
+        case.stages.push(driven(StageControl::FarEnd(Path::Through(path.clone())), path.len()));
         let plan = Plan::new(case)?;
         let history = Simulation::new(&plan).run(&mut Silent).map_err(Failure::Unsolved)?;
         let steps = &history.steps[pressing + FIRST - 1..];
@@ -130,6 +108,51 @@ impl Model {
         })
     }
 
+    /// First tangential displacement over the friction force [length/force], at so many fractions of that force.
+    ///
+    /// # Errors
+    /// When it cannot be solved.
+    pub fn first_loading(
+        &self,
+        friction: f64,
+        fractions: &[f64],
+        value: Option<f64>,
+    ) -> Result<Vec<f64>, Failure> {
+        let mut case = self.case_with(friction, value)?;
+        case.rig = Some(Rig { normal: case.springs().normal, tangential: [0.0; 2] });
+        let pressing: usize = case.stages.iter().map(Stage::increments_in_all).sum();
+        let mut slid = case.clone();
+        let size = Plan::new(case.clone())?.grid.size();
+        // As far as the contact is wide: it slides.
+        slid.stages.push(driven(StageControl::Motion(Path::To(size[0])), 1));
+        let solved = |case: Case| {
+            let plan = Plan::new(case)?;
+            Simulation::new(&plan).run(&mut Silent).map_err(Failure::Unsolved)
+        };
+        let limit = solved(slid)?.steps[pressing].tangential_force[0];
+        let path = fractions.iter().map(|fraction| fraction * limit).collect();
+        case.stages.push(driven(StageControl::Force(Path::Through(path)), fractions.len()));
+        let history = solved(case)?;
+        Ok(history.steps[pressing..].iter().map(|step| step.shift[0] / limit).collect())
+    }
+
+    /// The case with a coefficient of friction and a value of the key.
+    fn case_with(&self, friction: f64, value: Option<f64>) -> Result<Case, Failure> {
+        let mut case = match (&self.key, value) {
+            (Some((key, _)), Some(value)) => {
+                let text = with_value(&self.case_file, key, value)?;
+                let mut changed = reduced(self.case_file_of(text).case(None)?)?;
+                changed.size = self.case.size;
+                changed
+            }
+            _ => self.case.clone(),
+        };
+        case.friction = CoulombFriction::uniform(friction)
+            .map_err(|error| Failure::Call(format!("friction {error}"), String::new()))?
+            .with_max_shear_of(&case.friction);
+        Ok(case)
+    }
+
     fn case_file_of(&self, text: String) -> CaseFile {
         let folder = self.case_file.beside.as_ref().map_or_else(
             || self.case_file.path.parent().unwrap_or_else(|| std::path::Path::new("")).to_owned(),
@@ -142,6 +165,15 @@ impl Model {
 }
 
 impl Loop {
+    /// Whether the first increment after the turn tells the stiffness of the contact: it carries less than half of the change of force.
+    pub fn tells_stiffness(&self) -> bool {
+        let down = &self.branches[0];
+        let [turn, next, end] = [down.len() - 1, down.len() - 2, 0].map(|k| down[k][1]);
+        self.contact_stiffness.is_finite()
+            && self.contact_stiffness > 0.0
+            && (turn - next).abs() < 0.5 * (turn - end).abs()
+    }
+
     /// Force and its slope at a displacement of the actuator, on the way down or up; beyond the turns along the line there.
     pub fn at(&self, falling: bool, displacement: f64) -> [f64; 2] {
         let points = &self.branches[usize::from(!falling)];
@@ -172,6 +204,22 @@ impl Loop {
         let [quadratic, cubic] = [3.0 * chord - 2.0 * from - to, from + to - 2.0 * chord];
         let force = points[place][1] + width * share * (from + share * (quadratic + share * cubic));
         [force, from + share * (2.0 * quadratic + 3.0 * share * cubic)]
+    }
+}
+
+/// A stage that is driven along x.
+fn driven(control: StageControl, increments: usize) -> Stage {
+    Stage {
+        name: "loop".to_owned(),
+        normal: None,
+        tangential: [Some(control), None],
+        twist: None,
+        tilt: [None, None],
+        bulk_stress: [[None, None], [None, None]],
+        increments,
+        history_tolerance: None,
+        course: Course::Linear,
+        friction: None,
     }
 }
 

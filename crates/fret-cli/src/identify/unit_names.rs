@@ -9,6 +9,24 @@ use crate::failure::Failure;
 /// Powers of ten of prefixes.
 const PREFIXES: [(&str, i32); 9] =
     [("", 0), ("k", 3), ("M", 6), ("c", -2), ("m", -3), ("u", -6), ("µ", -6), ("μ", -6), ("n", -9)];
+/// Units of force in newtons: weights of a gram, a kilogram and a pound, of which many load cells write the mass alone.
+const FORCES: [(&str, f64); 6] = [
+    ("N", 1.0),
+    ("gf", 9.806_65e-3),
+    ("g", 9.806_65e-3),
+    ("kp", 9.806_65),
+    ("lbf", 4.448_221_615_260_5),
+    ("lb", 4.448_221_615_260_5),
+];
+/// Units of length in metres.
+const LENGTHS: [(&str, f64); 3] = [("m", 1.0), ("in", 0.0254), ("inch", 0.0254)];
+/// Units of other columns: known so that a line of units is not taken for names.
+const OTHERS: [&str; 22] = [
+    "-", "s", "sec", "ms", "min", "h", "Hz", "1/s", "°C", "C", "K", "%", "V", "mV", "A", "deg", "°", "Pa", "MPa",
+    "mm/s", "1", "rpm",
+];
+/// Those of mass, read as their weights.
+const MASSES: [&str; 4] = ["g", "kg", "mg", "lb"];
 
 /// Factors from the columns of a log to the units of the case: of displacements, forces, normal forces.
 ///
@@ -34,7 +52,9 @@ pub fn scales(
         if unit == into {
             continue;
         }
-        let (Some(from), Some(to)) = (power(&unit, base), power(into, base)) else {
+        let known: &[(&str, f64)] = if slot == 0 { &LENGTHS } else { &FORCES };
+        let (Some((from, ten)), Some((to, ten_to))) = (in_base(&unit, known), in_base(into, known)) else {
+            let others = if slot == 0 { "or in" } else { "or gf, kgf, lbf" };
             return Err(refused(
                 &table.name,
                 &format!(
@@ -42,11 +62,14 @@ pub fn scales(
                     column.name
                 ),
                 &format!(
-                    "--units \"{what}={base}\" says what it is in: {base} with a prefix, such as um, mm, mN, kN"
+                    "--units \"{what}={base}\" says what it is in: {base} with a prefix, such as um, mm, mN, kN, {others}"
                 ),
             ));
         };
-        found[slot] = 10_f64.powi(from - to);
+        found[slot] = from / to * 10_f64.powi(ten - ten_to);
+        if slot > 0 && MASSES.contains(&unit.as_str()) {
+            notes.push(format!("column {:?} is in {unit}: taken as the weight of that mass", column.name));
+        }
         if units.is_none() {
             notes.push(format!(
                 "column {:?} is in {unit}, and the case names no units: the case is taken in {base}",
@@ -66,7 +89,15 @@ pub fn scales(
     Ok(found)
 }
 
-fn power(unit: &str, base: &str) -> Option<i32> {
-    let prefix = unit.strip_suffix(base)?;
-    PREFIXES.iter().find(|(known, _)| *known == prefix).map(|(_, power)| *power)
+/// Whether a word is a unit of something that logs hold.
+pub fn is_known(word: &str) -> bool {
+    OTHERS.contains(&word) || in_base(word, &LENGTHS).is_some() || in_base(word, &FORCES).is_some()
+}
+
+/// A unit in the base unit, and its prefix as a power of ten.
+fn in_base(unit: &str, known: &[(&str, f64)]) -> Option<(f64, i32)> {
+    known.iter().find_map(|(base, factor)| {
+        let prefix = unit.strip_suffix(base)?;
+        PREFIXES.iter().find(|(known, _)| *known == prefix).map(|(_, power)| (*factor, *power))
+    })
 }

@@ -1,0 +1,131 @@
+//! The course of a signal: where it turns, its values there, its range without noise, the slope of a line through points.
+
+use std::f64::consts::TAU;
+
+/// Points of a parabola at a turn: this part of those of a cycle, at the least and at the most.
+const POINTS_OF_A_PARABOLA: [usize; 3] = [12, 3, 15];
+
+/// Slope of the line of least squares.
+pub fn slope(points: &[[f64; 2]]) -> Option<f64> {
+    if points.len() < 3 {
+        return None;
+    }
+    let n = points.len() as f64;
+    let [x, y] = [0, 1].map(|k| points.iter().map(|point| point[k]).sum::<f64>() / n);
+    let (mut xx, mut xy) = (0.0, 0.0);
+    for point in points {
+        xx += (point[0] - x).powi(2);
+        xy += (point[0] - x) * (point[1] - y);
+    }
+    (xx > 0.0).then(|| xy / xx)
+}
+
+/// Value at a turn, where a cycle has a corner (a triangle) or a top (a sine): parabolas of least squares through the points before it
+/// (side -1), behind it (1), or the mean of both. Means over a corner would cut it off.
+pub fn at_turn<const N: usize>(values: &[f64], turn: usize, sides: [isize; N]) -> f64 {
+    let count = values.len();
+    let points = (count / POINTS_OF_A_PARABOLA[0]).clamp(POINTS_OF_A_PARABOLA[1], POINTS_OF_A_PARABOLA[2]);
+    let of_side = |side: isize| {
+        let value =
+            |k: usize| values[(turn as isize + side * k as isize).rem_euclid(count as isize) as usize];
+        // Value at the end of the parabola of least squares through points 0, 1, ... n - 1: weights of the discrete orthogonal polynomials.
+        let n = points as f64;
+        let weight = |k: f64| {
+            3.0 * (3.0 * n * n - 3.0 * n + 2.0 - 6.0 * (2.0 * n - 1.0) * k + 10.0 * k * k)
+                / (n * (n + 1.0) * (n + 2.0))
+        };
+        (0..points).map(|k| weight(k as f64) * value(k)).sum::<f64>()
+    };
+    sides.into_iter().map(of_side).sum::<f64>() / N as f64
+}
+
+/// Smallest and largest value.
+pub fn range(values: &[f64]) -> [f64; 2] {
+    values
+        .iter()
+        .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], value| [low.min(*value), high.max(*value)])
+}
+
+/// The same of the means of five neighbours: noise has no extremes there.
+pub fn calm_range(values: &[f64]) -> [f64; 2] {
+    range(&calm(values))
+}
+
+fn calm(values: &[f64]) -> Vec<f64> {
+    let count = values.len();
+    (0..count).map(|k| (0..5).map(|near| values[(k + 2 * count + near - 2) % count]).sum::<f64>() / 5.0).collect()
+}
+
+/// Where the displacement is largest and smallest: the middle of the time that it spends in the outermost fifth of its range, which
+/// noise does not move.
+pub fn turns(displacement: &[f64]) -> [usize; 2] {
+    let [low, high] = calm_range(displacement);
+    let count = displacement.len();
+    let middle = |sign: f64| {
+        let outer = |value: f64| {
+            if sign > 0.0 { (value - low) / (high - low) } else { (high - value) / (high - low) }
+        };
+        let (mut cos, mut sin) = (0.0, 0.0);
+        for (row, value) in displacement.iter().enumerate() {
+            // A cycle has no first point: the mean of directions around it.
+            if outer(*value) > 0.8 {
+                let angle = TAU * row as f64 / count as f64;
+                cos += angle.cos();
+                sin += angle.sin();
+            }
+        }
+        let share = sin.atan2(cos).rem_euclid(TAU) / TAU;
+        (share * count as f64).round() as usize % count
+    };
+    [middle(1.0), middle(-1.0)]
+}
+
+/// Standard deviation of the noise of a signal: by the median of its second differences, to which neither turns nor single wrong samples
+/// add.
+pub fn noise(values: &[f64]) -> f64 {
+    let mut second: Vec<f64> =
+        values.windows(3).map(|three| (three[0] - 2.0 * three[1] + three[2]).abs()).collect();
+    second.sort_by(f64::total_cmp);
+    // The median of a normal distribution lies at 0.6745; a second difference has the variance of six.
+    second.get(second.len() / 2).map_or(0.0, |median| median / 0.6745 / 6_f64.sqrt())
+}
+
+/// Where the displacement turns back from its largest values.
+pub fn tops(displacement: &[f64]) -> Vec<usize> {
+    // Without the outermost hundredth on either side: a single wrong sample makes no range.
+    let mut sorted = displacement.to_vec();
+    sorted.sort_by(f64::total_cmp);
+    let out = sorted.len() / 100;
+    let threshold = sorted.get(out).map_or(0.0, |low| 0.5 * (sorted[sorted.len() - 1 - out] - low));
+    let mut found = Vec::new();
+    let (mut top, mut bottom) = (0, 0);
+    let mut climbs = true;
+    for (row, value) in displacement.iter().enumerate() {
+        if *value > displacement[top] {
+            top = row;
+        }
+        if *value < displacement[bottom] {
+            bottom = row;
+        }
+        if climbs && displacement[top] - value > threshold {
+            found.push(top);
+            (climbs, bottom) = (false, row);
+        } else if !climbs && value - displacement[bottom] > threshold {
+            (climbs, top) = (true, row);
+        }
+    }
+    found
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_parabola_of_least_squares_ends_where_a_parabola_does() {
+        let values: Vec<f64> = (0..60).map(|k| 3.0 - 0.2 * f64::from(k) + 0.01 * f64::from(k * k)).collect();
+        for turn in [20, 33] {
+            assert!((at_turn(&values, turn, [-1, 1]) - values[turn]).abs() < 1e-12);
+        }
+    }
+}
