@@ -273,11 +273,7 @@ pub fn study(
 ///
 /// # Errors
 /// When the log cannot be read as fretting loops of such a case, or the case cannot be solved.
-pub fn identify(
-    log: &Path,
-    case: CaseText,
-    request: &IdentifyRequest,
-) -> Result<(Value, String), Stopped> {
+pub fn identify(log: &Path, case: CaseText, request: &IdentifyRequest) -> Result<(Value, String), Stopped> {
     let name = crate::identify::name_of(log);
     let bytes = crate::commands::identify::content(log)?;
     let asked = || crate::identify::identify((&name, &bytes), case.into(), request);

@@ -44,8 +44,9 @@ pub fn identify(arguments: &IdentifyArguments, as_json: bool) -> Result<(), Fail
 /// # Errors
 /// When it is none, or too long, or cannot be read.
 pub fn content(log: &Path) -> Result<Vec<u8>, Failure> {
-    let unreadable =
-        |why: String| Failure::Call(format!("{}: {why}", name_of(log)), "a log is a text file with columns".to_owned());
+    let unreadable = |why: String| {
+        Failure::Call(format!("{}: {why}", name_of(log)), "a log is a text file with columns".to_owned())
+    };
     let found = std::fs::metadata(log).map_err(|error| unreadable(error.to_string()))?;
     if !found.is_file() {
         return Err(unreadable("no ordinary file".to_owned()));

@@ -124,7 +124,8 @@ pub fn choose(cycles: &[MeasuredCycle], number: Option<f64>, name: &str) -> Resu
     let others: Vec<f64> = cycles.iter().filter(|cycle| whole(cycle)).map(|cycle| cycle.name).collect();
     match (fault, number) {
         (Some(fault), Some(number)) if !others.is_empty() => {
-            let near = others.iter().copied().min_by(|a, b| (a - number).abs().total_cmp(&(b - number).abs()));
+            let near =
+                others.iter().copied().min_by(|a, b| (a - number).abs().total_cmp(&(b - number).abs()));
             let help = format!("fit a whole cycle: --cycle {}", near.unwrap_or_default());
             Err(refused(name, &fault.what, &help))
         }

@@ -77,7 +77,9 @@ impl Direction {
             (false, true) => {
                 "they were read from the last to the first; if they are in the order of time, one of the two signals lags behind the other, and this log tells neither friction nor rig"
             }
-            (true, true) => "the sign of the force was turned, and the rows were read from the last to the first",
+            (true, true) => {
+                "the sign of the force was turned, and the rows were read from the last to the first"
+            }
         };
         Some(format!("{}: {done}", self.in_words()?))
     }

@@ -69,7 +69,8 @@ pub fn bend(cycles: &[MeasuredCycle], chosen: usize) -> Option<Bend> {
         .collect();
     let squares: f64 = weights.iter().map(|weight| weight * weight).sum();
     // In time of cycles the drift is c t^2: a bend of c/4 from the middle of a cycle to its ends.
-    let value = 0.25 * weights.iter().zip(&middles).map(|(weight, middle)| weight * middle).sum::<f64>() / squares;
+    let value =
+        0.25 * weights.iter().zip(&middles).map(|(weight, middle)| weight * middle).sum::<f64>() / squares;
     // A value at a turn, by parabolas of a twelfth of the points on both sides, is as good as the mean of a quarter of these: 9/n of one
     // point's variance each. Twice that, for what is correlated.
     let unsure = near

@@ -15,12 +15,12 @@ use nalgebra::{DMatrix, DVector, Dyn};
 
 use super::cycles::MeasuredCycle;
 use super::drift::Bend;
+use super::found::Fitted;
 use super::intervals::{Left, Sureness, sureness};
 use super::model::{Loop, Model};
+use super::refused;
 use super::start::first_guess;
 use super::turns::calm_range;
-use super::found::Fitted;
-use super::refused;
 use crate::failure::Failure;
 
 /// Step of the differences by which derivatives by the constants are found, relative.
@@ -165,7 +165,12 @@ impl Fit<'_> {
         let column = DVector::from_iterator(count, column);
         let force = self.units[1];
         let of_force: Vec<f64> = self.weights.iter().map(|weight| (force * weight).powi(2)).collect();
-        sureness(&Left { jacobian: &jacobian, residuals: &residuals, of_force: &of_force, bend: (column, bend) })
+        sureness(&Left {
+            jacobian: &jacobian,
+            residuals: &residuals,
+            of_force: &of_force,
+            bend: (column, bend),
+        })
     }
 
     /// Whether the points tell a bend of the drift: the step of Gauss and Newton with it.
@@ -175,12 +180,12 @@ impl Fit<'_> {
         let column = DVector::from_fn(count, |row, _| jacobian[(row, 3)] * bent(time(row, count)));
         let mut wider = jacobian.insert_column(constants, 0.0);
         wider.set_column(constants, &column);
-        let of_force: Vec<f64> =
-            self.weights.iter().map(|weight| (self.units[1] * weight).powi(2)).collect();
+        let of_force: Vec<f64> = self.weights.iter().map(|weight| (self.units[1] * weight).powi(2)).collect();
         let nothing = DVector::zeros(count);
         let left =
             Left { jacobian: &wider, residuals: &residuals, of_force: &of_force, bend: (nothing, 0.0) };
-        let (Some(sure), Ok(step)) = (sureness(&left), wider.clone().svd(true, true).solve(&residuals, 1e-9)) else {
+        let (Some(sure), Ok(step)) = (sureness(&left), wider.clone().svd(true, true).solve(&residuals, 1e-9))
+        else {
             return false;
         };
         // Half-widths of 95 % are two standard deviations.

@@ -76,13 +76,15 @@ impl Flanks {
         let chord = energy / (4.0 * opening);
         let missing = (self.mean - self.half) / opening;
         let root = 1.0 - 4.0 * missing * chord;
-        let force = (energy > 0.0 && opening > 0.0 && root > 0.0).then(|| 2.0 * chord / (1.0 + root.sqrt()))?;
+        let force =
+            (energy > 0.0 && opening > 0.0 && root > 0.0).then(|| 2.0 * chord / (1.0 + root.sqrt()))?;
         (opening >= (self.whole - self.half) * force).then_some(force)
     }
 
     /// Way of the actuator from a turn to full sliding [length].
     pub fn way(&self, force: f64, stiffness: Option<f64>, slope: f64) -> f64 {
-        let spring = stiffness.map_or_else(|| (1.0 / slope - self.initial).max(0.0), |stiffness| 1.0 / stiffness);
+        let spring =
+            stiffness.map_or_else(|| (1.0 / slope - self.initial).max(0.0), |stiffness| 1.0 / stiffness);
         2.0 * force * (self.whole + spring)
     }
 }
@@ -94,8 +96,7 @@ mod tests {
     /// Mindlin: `h = 3/2 (1 - (1 - t)^(2/3))` of the initial compliance.
     #[test]
     fn the_flanks_of_spheres_are_those_of_the_closed_form() {
-        let yielded: Vec<f64> =
-            (1..12).map(|k| 1.5 * (1.0 - (1.0 - f64::from(k) / 12.0).powi(2))).collect();
+        let yielded: Vec<f64> = (1..12).map(|k| 1.5 * (1.0 - (1.0 - f64::from(k) / 12.0).powi(2))).collect();
         let flanks = Flanks::from_loading(&yielded);
         let half = 3.0 * (1.0 - 0.25_f64.cbrt());
         for (found, right) in [(flanks.whole, 1.5), (flanks.half, half), (flanks.mean, 1.2)] {

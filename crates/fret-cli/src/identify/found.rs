@@ -80,7 +80,8 @@ impl Fit<'_> {
         }
         let noise = (residuals.norm_squared() / freedom).sqrt();
         let is_alone = bend.is_none() && !self.bend_is_fitted;
-        let bend = bend.unwrap_or_else(|| if is_alone { noise.hypot(BENT * self.parameters[4]) } else { 0.0 });
+        let bend =
+            bend.unwrap_or_else(|| if is_alone { noise.hypot(BENT * self.parameters[4]) } else { 0.0 });
         let sure = self.sureness(bend).ok_or_else(lost)?;
         let half = |k: usize| sure.halves[k];
         let now = self.now.as_ref().ok_or_else(lost)?;

@@ -218,7 +218,8 @@ fn by_numbers(lines: &[&str], wanted: &[Option<String>; 4]) -> Option<Head> {
                 break;
             }
             if head.units.is_empty() && is_of_units(&words) {
-                head.units = words.iter().map(|word| word.trim_matches(['[', ']', '(', ')']).to_owned()).collect();
+                head.units =
+                    words.iter().map(|word| word.trim_matches(['[', ']', '(', ')']).to_owned()).collect();
             } else {
                 head.names = words;
                 break;
@@ -249,7 +250,12 @@ fn not_found(name: &str, lines: &[&str], wanted: &[Option<String>; 4]) -> Failur
             break;
         }
         // Words of a sentence are no columns.
-        if words.len() > 1 && numbers == 0 && words.len() >= best.len() && delimiter != ' ' && !is_of_units(&words) {
+        if words.len() > 1
+            && numbers == 0
+            && words.len() >= best.len()
+            && delimiter != ' '
+            && !is_of_units(&words)
+        {
             best = words;
         }
     }
@@ -271,11 +277,7 @@ fn not_found(name: &str, lines: &[&str], wanted: &[Option<String>; 4]) -> Failur
             format!("say which is which, by names or by numbers from 1, such as {example}"),
         )
     };
-    refused(
-        name,
-        &format!("no line names the columns {:?} and {:?}; {there}", missing[0], missing[1]),
-        &help,
-    )
+    refused(name, &format!("no line names the columns {:?} and {:?}; {there}", missing[0], missing[1]), &help)
 }
 
 /// `Weg [um]`, `Q (N)` and `Q / N` are a name and a unit.

@@ -59,8 +59,7 @@ pub fn sureness(left: &Left<'_>) -> Option<Sureness> {
     let inverse = inverse_of_square(left.jacobian)?;
     let own = variances(left, &inverse, mean_square);
     let correlation = correlation(residuals, constants);
-    let scaled =
-        DMatrix::from_fn(count, constants, |row, k| left.jacobian[(row, k)] * own[row].sqrt());
+    let scaled = DMatrix::from_fn(count, constants, |row, k| left.jacobian[(row, k)] * own[row].sqrt());
     // The fit takes more from correlated noise than from independent one: what residuals are left of it, by tr(V) - tr(H V).
     let kept = (count as f64 - (&inverse * correlated_square(left.jacobian, correlation)).trace()) / freedom;
     let middle = correlated_square(&scaled, correlation) / kept.max(0.1);
@@ -68,11 +67,10 @@ pub fn sureness(left: &Left<'_>) -> Option<Sureness> {
     let (column, unsure) = &left.bend;
     let by_bend = &inverse * left.jacobian.transpose() * column;
     let points = count as f64 * (1.0 - correlation) / (1.0 + correlation);
-    let quantile =
-        StudentsT::new(0.0, 1.0, (points - constants as f64).max(3.0)).map_or(1.96, |law| law.inverse_cdf(0.975));
-    let half = |k: usize, unsure: f64| {
-        quantile * (straight[(k, k)].max(0.0) + (unsure * by_bend[k]).powi(2)).sqrt()
-    };
+    let quantile = StudentsT::new(0.0, 1.0, (points - constants as f64).max(3.0))
+        .map_or(1.96, |law| law.inverse_cdf(0.975));
+    let half =
+        |k: usize, unsure: f64| quantile * (straight[(k, k)].max(0.0) + (unsure * by_bend[k]).powi(2)).sqrt();
     Some(Sureness {
         halves: (0..constants).map(|k| half(k, *unsure)).collect(),
         halves_of_straight: (0..constants).map(|k| half(k, 0.0)).collect(),

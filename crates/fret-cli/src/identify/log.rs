@@ -120,8 +120,7 @@ impl Rows<'_> {
             .enumerate()
             .filter_map(|(role, place)| Some((role, row.get((*place)?).unwrap_or(""))))
             .collect();
-        let values: Option<Vec<f64>> =
-            cells.iter().map(|(_, cell)| number(cell, decimal_comma)).collect();
+        let values: Option<Vec<f64>> = cells.iter().map(|(_, cell)| number(cell, decimal_comma)).collect();
         if let Some(values) = values {
             self.table.bad.append(&mut self.between);
             for ((role, _), value) in cells.iter().zip(values) {
@@ -143,7 +142,12 @@ impl Rows<'_> {
             && let Some(units) = self.head.units_in(&words)
         {
             let of = |units: &[String]| -> Vec<String> {
-                self.head.places.iter().flatten().map(|&place| units.get(place).cloned().unwrap_or_default()).collect()
+                self.head
+                    .places
+                    .iter()
+                    .flatten()
+                    .map(|&place| units.get(place).cloned().unwrap_or_default())
+                    .collect()
             };
             if of(&units) == of(&self.head.units) {
                 return Ok(());

@@ -99,15 +99,22 @@ pub fn identify(
     let table = log::read(name, bytes, request)?;
     let mut notes = Vec::new();
     let scale = unit_names::scales(&table, request, case.units.as_ref(), &mut notes)?;
-    let has_units = case.units.is_some() || table.columns.iter().flatten().any(|column| column.unit.is_some());
+    let has_units =
+        case.units.is_some() || table.columns.iter().flatten().any(|column| column.unit.is_some());
     if !table.heads.is_empty() {
         let blocks = table.heads.len() + 1;
-        notes.push(format!("the log has {blocks} blocks with a head each: they were read one after the other"));
+        notes.push(format!(
+            "the log has {blocks} blocks with a head each: they were read one after the other"
+        ));
     }
     let mut measured = cycles::split(&table, scale);
     let direction = direction::of(&measured);
     if let (Some(what), true) = (direction.in_words(), request.strict) {
-        return Err(refused(name, &what, "turn the column, or leave out --strict: then it is turned and told"));
+        return Err(refused(
+            name,
+            &what,
+            "turn the column, or leave out --strict: then it is turned and told",
+        ));
     }
     direction.apply(&mut measured);
     notes.extend(direction.note());

@@ -101,12 +101,14 @@ impl MeasuredCycle {
     /// What is read from the loop; of the contact's own too, with the stiffness of the rig.
     pub fn quantities(&self, known: Known<'_>) -> Quantities {
         let own = self.loop_of(|row| self.displacement[row]);
-        let contact =
-            known.stiffness.map(|stiffness| self.loop_of(|row| self.displacement[row] - self.force[row] / stiffness));
+        let contact = known
+            .stiffness
+            .map(|stiffness| self.loop_of(|row| self.displacement[row] - self.force[row] / stiffness));
         let pressed = self.normal_force.unwrap_or(known.normal_force);
         let [energy, force_amplitude, amplitude, opening] = own;
         let slope = self.slope_after_reversal();
-        let friction = known.flanks.and_then(|flanks| Some((flanks, flanks.friction_force(energy, opening)?)));
+        let friction =
+            known.flanks.and_then(|flanks| Some((flanks, flanks.friction_force(energy, opening)?)));
         Quantities {
             dissipated_energy: energy,
             force_amplitude,

@@ -63,10 +63,13 @@ pub fn first_guess(name: &str, cycle: &MeasuredCycle, model: &Model) -> Result<(
     let known = Known { normal_force: probe.normal_force, stiffness: None, flanks: None };
     let energy = cycle.quantities(known).dissipated_energy;
     // In partial slip more than the force asks for; the less is dissipated, the more.
-    let friction = cycle.plateau(slope, 0.0).map_or_else(|| {
-        let width = energy / (force * force / own);
-        ratio * (0.25 / width.max(0.01)).clamp(1.15, 3.0)
-    }, |plateau| plateau / cycle.normal_force.unwrap_or(probe.normal_force));
+    let friction = cycle.plateau(slope, 0.0).map_or_else(
+        || {
+            let width = energy / (force * force / own);
+            ratio * (0.25 / width.max(0.01)).clamp(1.15, 3.0)
+        },
+        |plateau| plateau / cycle.normal_force.unwrap_or(probe.normal_force),
+    );
     let start = [friction, stiffness, amplitude];
     let first = model.loop_of(friction, stiffness, amplitude, None)?;
     Ok((start, first))

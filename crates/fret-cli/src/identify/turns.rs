@@ -53,7 +53,9 @@ pub fn calm_range(values: &[f64]) -> [f64; 2] {
 
 fn calm(values: &[f64]) -> Vec<f64> {
     let count = values.len();
-    (0..count).map(|k| (0..5).map(|near| values[(k + 2 * count + near - 2) % count]).sum::<f64>() / 5.0).collect()
+    (0..count)
+        .map(|k| (0..5).map(|near| values[(k + 2 * count + near - 2) % count]).sum::<f64>() / 5.0)
+        .collect()
 }
 
 /// Where the displacement is largest and smallest: the middle of the time that it spends in the outermost fifth of its range, which

@@ -22,8 +22,8 @@ const FORCES: [(&str, f64); 6] = [
 const LENGTHS: [(&str, f64); 3] = [("m", 1.0), ("in", 0.0254), ("inch", 0.0254)];
 /// Units of other columns: known so that a line of units is not taken for names.
 const OTHERS: [&str; 22] = [
-    "-", "s", "sec", "ms", "min", "h", "Hz", "1/s", "°C", "C", "K", "%", "V", "mV", "A", "deg", "°", "Pa", "MPa",
-    "mm/s", "1", "rpm",
+    "-", "s", "sec", "ms", "min", "h", "Hz", "1/s", "°C", "C", "K", "%", "V", "mV", "A", "deg", "°", "Pa",
+    "MPa", "mm/s", "1", "rpm",
 ];
 /// Those of mass, read as their weights.
 const MASSES: [&str; 4] = ["g", "kg", "mg", "lb"];

@@ -18,10 +18,8 @@ fn numbered(change: impl Fn(usize, usize, String) -> Option<String>) -> String {
 }
 
 fn words(log: &str, request: &Request) -> String {
-    identify(("log.csv", log.as_bytes()), case(), request).map_or_else(
-        |failure| format!("{} | {failure:?}", failure.message()),
-        |answer| answer.text,
-    )
+    identify(("log.csv", log.as_bytes()), case(), request)
+        .map_or_else(|failure| format!("{} | {failure:?}", failure.message()), |answer| answer.text)
 }
 
 #[track_caller]
@@ -42,7 +40,11 @@ fn a_whole_log_leaves_nothing_out() {
 
 #[test]
 fn a_log_that_ends_or_begins_inside_a_cycle_is_identified() {
-    is_fitted(&numbered(|cycle, row, line| (cycle < 15 || row < 40).then_some(line)), 14.0, "15 (ends early)");
+    is_fitted(
+        &numbered(|cycle, row, line| (cycle < 15 || row < 40).then_some(line)),
+        14.0,
+        "15 (ends early)",
+    );
     is_fitted(&numbered(|cycle, row, line| (cycle > 1 || row > 50).then_some(line)), 15.0, "1 (starts late)");
     is_fitted(&numbered(|cycle, row, line| (cycle < 15 || row < 5).then_some(line)), 14.0, "15 (5 points)");
 }
@@ -71,9 +73,12 @@ fn missing_lines_leave_one_cycle_out() {
 /// Every row its own cycle, and rows in no order: refused in words.
 #[test]
 fn a_log_without_a_whole_cycle_is_refused_in_words() {
-    let counted = rows().iter().enumerate().fold("cycle;displacement [um];force [N]\n".to_owned(), |text, (k, [d, q])| {
-        text + &format!("{k};{d};{q}\n")
-    });
+    let counted = rows()
+        .iter()
+        .enumerate()
+        .fold("cycle;displacement [um];force [N]\n".to_owned(), |text, (k, [d, q])| {
+            text + &format!("{k};{d};{q}\n")
+        });
     let told = words(&counted, &Request::default());
     assert!(told.contains("none of its 301 cycles is whole: 0 (1 point), 1 (1 point)"), "{told}");
     assert!(told.contains("and 291 more"), "{told}");

@@ -22,7 +22,8 @@ struct Trial {
     cycles: usize,
 }
 
-const PLAIN: Trial = Trial { name: "independent", noises: [0.01; 2], correlation: 0.0, curved: 0.0, cycles: 1 };
+const PLAIN: Trial =
+    Trial { name: "independent", noises: [0.01; 2], correlation: 0.0, curved: 0.0, cycles: 1 };
 
 const TRIALS: [Trial; 7] = [
     PLAIN,
@@ -71,7 +72,10 @@ impl Trial {
         let all: Vec<[[f64; 2]; 2]> = (0..count)
             .into_par_iter()
             .map(|seed| {
-                let json = identified(&self.log(rig, seed % 2 == 1, seed), &Request { cycle: Some(self.cycles.min(2) as f64), ..Request::default() });
+                let json = identified(
+                    &self.log(rig, seed % 2 == 1, seed),
+                    &Request { cycle: Some(self.cycles.min(2) as f64), ..Request::default() },
+                );
                 [(0, rig.friction), (1, rig.stiffness)].map(|(place, truth)| {
                     let [value, _, high] = constant(&json, place);
                     [(value / truth).ln().abs() / (high / value).ln(), (high / value).ln()]

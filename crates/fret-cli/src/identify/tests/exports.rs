@@ -1,7 +1,7 @@
 //! Logs as machines export them. One synthetic loop in `tests/logs` (springs: mu = 0.45, rig 30 kN/mm; 3 cycles of 100 points, 0.5 % of
 //! noise, made elsewhere by an independent program), in the forms of several exports.
 
-use super::{CASE, Request, constant, identify, identified};
+use super::{CASE, Request, constant, identified, identify};
 use crate::failure::Failure;
 
 pub const LOOP: &str = include_str!("../../../tests/logs/loop.csv");
@@ -109,8 +109,9 @@ fn units_of_weight_are_known() {
     for (unit, newtons) in
         [("g", 9.80665e-3), ("gf", 9.80665e-3), ("kgf", 9.80665), ("lbf", 4.448_221_615_260_5), ("mN", 1e-3)]
     {
-        let log =
-            written(&format!("displacement [um],force [{unit}]\n"), |[d, q]| format!("{d},{:.9e}", q / newtons));
+        let log = written(&format!("displacement [um],force [{unit}]\n"), |[d, q]| {
+            format!("{d},{:.9e}", q / newtons)
+        });
         is_the_loop(&log, &Request::default());
     }
 }
@@ -131,7 +132,8 @@ fn columns_are_named_by_numbers_where_they_have_no_names() {
     is_the_loop(&commas, &by_number(&[("displacement", "3"), ("force", "2")]));
     // Units above the numbers are read there; a head without known names serves by its numbers, too.
     let titled = written("Rig 3\ns1;s2\nN;um\n", |[d, q]| format!("{q:.5};{d:.5}"));
-    let titled_by = Request { columns: columns(&[("displacement", "2"), ("force", "1")]), ..Request::default() };
+    let titled_by =
+        Request { columns: columns(&[("displacement", "2"), ("force", "1")]), ..Request::default() };
     is_the_loop(&titled, &titled_by);
     assert!(refusal(&spaced, &by_number(&[("displacement", "1"), ("force", "1")])).contains("one column"));
     let far = refusal(&spaced, &by_number(&[("displacement", "1"), ("force", "9")]));

@@ -14,9 +14,8 @@ use super::{PARTIAL, PRESSED, Request, Rig, identified};
 fn flanks() -> Flanks {
     let rig = Rig { stiffness: f64::INFINITY, ..PARTIAL };
     let limit = rig.friction * PRESSED;
-    let yielded: Vec<f64> = (1..12)
-        .map(|k| rig.first(limit * (1.0 - (1.0 - f64::from(k) / 12.0).powi(3))) / limit)
-        .collect();
+    let yielded: Vec<f64> =
+        (1..12).map(|k| rig.first(limit * (1.0 - (1.0 - f64::from(k) / 12.0).powi(3))) / limit).collect();
     Flanks::from_loading(&yielded)
 }
 
@@ -74,7 +73,10 @@ fn clean_loops_in_gross_slip_give_their_friction_from_the_onset_on() {
             assert!(energy < bound, "{points} {beyond}: {energy}");
             assert!(no_energy == 0, "{points} {beyond}: {no_energy} without");
             // Plateaus of less than a third of the way have too few points.
-            assert!(plateau < 0.01 && (beyond < 1.3 || no_plateau == 0), "{points} {beyond}: {plateau} {no_plateau}");
+            assert!(
+                plateau < 0.01 && (beyond < 1.3 || no_plateau == 0),
+                "{points} {beyond}: {plateau} {no_plateau}"
+            );
         }
     }
 }
@@ -87,7 +89,10 @@ fn noisy_loops_in_gross_slip_give_their_friction() {
             let [(energy, no_energy), (plateau, no_plateau)] = errors(beyond, points, 0.01);
             println!("{points} {beyond}: {energy:.4} ({no_energy} none), {plateau:.4} ({no_plateau} none)");
             assert!(energy < bound, "{points} {beyond}: {energy}");
-            assert!(beyond < 1.3 || no_energy + no_plateau == 0, "{points} {beyond}: {no_energy} {no_plateau}");
+            assert!(
+                beyond < 1.3 || no_energy + no_plateau == 0,
+                "{points} {beyond}: {no_energy} {no_plateau}"
+            );
             assert!(plateau < 0.025, "{points} {beyond}: {plateau}");
         }
     }
