@@ -52,11 +52,6 @@ pub fn of(cycles: &[MeasuredCycle]) -> Direction {
 }
 
 impl Direction {
-    /// Whether anything is to be turned.
-    pub fn is_forwards(self) -> bool {
-        self == Self::default()
-    }
-
     /// What is wrong, for a person.
     pub fn in_words(self) -> Option<String> {
         let turned = "force and displacement have opposite signs: the force is that on the other body, or one of the two is counted the other way";

@@ -39,12 +39,8 @@ pub struct Sureness {
     pub halves: Vec<f64>,
     /// The same without the bend of the drift.
     pub halves_of_straight: Vec<f64>,
-    /// Standard deviation of the points about the loop.
-    pub noise: f64,
     /// Correlation of neighbouring points; nothing where it may be chance.
     pub correlation: f64,
-    /// Change of the constants with the bend.
-    pub by_bend: DVector<f64>,
 }
 
 /// How sure the constants are. `None` where there are no more points than constants.
@@ -74,9 +70,7 @@ pub fn sureness(left: &Left<'_>) -> Option<Sureness> {
     Some(Sureness {
         halves: (0..constants).map(|k| half(k, *unsure)).collect(),
         halves_of_straight: (0..constants).map(|k| half(k, 0.0)).collect(),
-        noise: mean_square.sqrt(),
         correlation,
-        by_bend,
     })
 }
 
