@@ -10,7 +10,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from fretting import _case, _core
-from fretting.errors import MissingFileError
+from fretting._arguments import checked, content, mapping, of_kind
+from fretting.errors import UnreadableError
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -65,7 +66,9 @@ class Identification:
     """
 
     def __init__(self, answer: Mapping[str, Any], page: str) -> None:
-        self._answer, self._page = answer, page
+        if not isinstance(answer, Mapping) or "parameters" not in answer:
+            raise TypeError(f"answer: expected what a fit gives (fretting.identify), found {type(answer).__name__}")
+        self._answer, self._page = answer, of_kind("page", page, str)
         self.constants = {
             entry["name"]: Constant(entry["value"], (entry["low"], entry["high"]), entry["told"])
             for entry in answer["parameters"]
@@ -93,13 +96,18 @@ class Identification:
         """Return all of it as ``fret identify`` writes it into ``identified.json``."""
         return json.dumps(self._answer, indent=2)
 
+    @checked
     def save(self, folder: str | PathLike[str]) -> None:
         """Write ``identified.json`` and the page ``identified.html`` with its pictures into a folder."""
         place = Path(folder)
-        place.mkdir(parents=True, exist_ok=True)
-        (place / "identified.json").write_text(self.to_json() + "\n", encoding="utf-8")
-        (place / "identified.html").write_text(self._page, encoding="utf-8")
+        try:
+            place.mkdir(parents=True, exist_ok=True)
+            (place / "identified.json").write_text(self.to_json() + "\n", encoding="utf-8")
+            (place / "identified.html").write_text(self._page, encoding="utf-8")
+        except OSError as error:
+            raise UnreadableError(f"error: {place}: {error.strerror or error}", str(place)) from None
 
+    @checked
     def plot(self, ax: "Axes | None" = None) -> "Axes":
         """Draw the measured points, freed from offset and drift, beside the computed loop."""
         axes = self._axes(ax)
@@ -125,6 +133,7 @@ class Identification:
         return axes
 
 
+@checked
 def identify(
     log: str | PathLike[str],
     *,
@@ -173,17 +182,16 @@ def identify(
     ------
     CaseError
         When the case is refused.
-    MissingFileError
-        When there is no such log.
     ValueError
         When the log cannot be read as fretting loops of such a case; the message says where and what to do.
+    UnreadableError
+        When the log is no file that can be read; ``MissingFileError`` when there is none.
     RunError
         When a loop cannot be solved.
     """
-    path = Path(log)
-    if not path.exists():
-        raise MissingFileError(f"error: {path}: no such file\n  = help: name the log", str(path))
-    named = [(role, str(column)) for role, column in (columns or {}).items()]
-    asked = named, list((units or {}).items()), cycle, fit, strict
-    json_text, page = _core.identify(path, _case.read(case), asked, threads)
+    named = {"columns": {} if columns is None else columns, "units": {} if units is None else units}
+    names_of, units_of = (list(mapping(name, given).items()) for name, given in named.items())
+    names_of = [(role, str(column) if isinstance(column, int) else column) for role, column in names_of]
+    asked = names_of, units_of, cycle, fit, strict
+    json_text, page = _core.identify((str(log), content("log", log)), _case.read(case), asked, threads)
     return Identification(json.loads(json_text), page)

@@ -273,10 +273,12 @@ pub fn study(
 ///
 /// # Errors
 /// When the log cannot be read as fretting loops of such a case, or the case cannot be solved.
-pub fn identify(log: &Path, case: CaseText, request: &IdentifyRequest) -> Result<(Value, String), Stopped> {
-    let name = crate::identify::name_of(log);
-    let bytes = crate::commands::identify::content(log)?;
-    let asked = || crate::identify::identify((&name, &bytes), case.into(), request);
+pub fn identify(
+    log: (&str, &[u8]),
+    case: CaseText,
+    request: &IdentifyRequest,
+) -> Result<(Value, String), Stopped> {
+    let asked = || crate::identify::identify(log, case.into(), request);
     // A mistake in the program is an error of the call, not the end of the caller.
     let answer = catch_unwind(AssertUnwindSafe(asked))
         .unwrap_or_else(|panic| Err(Failure::Defect(defect::words_of(panic.as_ref()))))?;

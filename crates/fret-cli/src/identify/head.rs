@@ -1,6 +1,8 @@
 //! The head of a log: which line names the columns, which column holds what, and in which units.
 
-use super::log::{ROLES, number};
+use fret_core::case::{Heading, is_comment, number};
+
+use super::log::ROLES;
 use super::{Request, refused, unit_names};
 use crate::failure::Failure;
 
@@ -63,7 +65,7 @@ impl Head {
         for &place in self.places.iter().flatten() {
             let cell = cells.get(place).map_or("", String::as_str);
             any |= !cell.is_empty();
-            if cell.parse::<f64>().is_ok() || number(cell, true).is_some() {
+            if cell.parse::<f64>().is_ok() || number(cell, true).is_ok() {
                 return None;
             }
         }
@@ -73,7 +75,7 @@ impl Head {
 
 /// The cells of a line; a remark sign before them is left out.
 pub fn cells(line: &str, delimiter: char) -> Vec<String> {
-    let line = line.trim_start_matches('#');
+    let line = line.trim_start().trim_start_matches(['#', '%', '!', '/']);
     let plain = |cell: &str| cell.trim().trim_matches('"').trim().to_owned();
     if delimiter == ' ' {
         // A unit in brackets belongs to the word before it.
@@ -141,7 +143,7 @@ pub fn find(name: &str, text: &str, request: &Request) -> Result<Head, Failure> 
             }
         }
         let units = head.units_in(&row);
-        let is_remark = line.starts_with('#');
+        let is_remark = is_comment(line);
         if let Some(units) = units
             && (!is_remark || is_of_units(&units))
         {
@@ -182,11 +184,12 @@ fn by_names(lines: &[&str], wanted: &[Option<String>; 4]) -> Option<Head> {
             places[role].is_some() && (is_named(role) || by_name)
         });
         // Words of a title are a head only above numbers that stand as they do.
-        let below = |place: &usize| {
-            lines[row + 1..].iter().filter(|line| !line.trim().is_empty()).take(3).any(|line| {
-                cells(line, delimiter).get(*place).is_some_and(|cell| number(cell, true).is_some())
-            })
-        };
+        let below =
+            |place: &usize| {
+                lines[row + 1..].iter().filter(|line| !line.trim().is_empty()).take(3).any(|line| {
+                    cells(line, delimiter).get(*place).is_some_and(|cell| number(cell, true).is_ok())
+                })
+            };
         let fits = delimiter != ' ' || places[..2].iter().flatten().all(below);
         if places[0].is_some() && places[1].is_some() && given && named && fits {
             return Some(Head { above: row + 1, delimiter, places, names, units: Vec::new() });
@@ -202,11 +205,11 @@ fn by_numbers(lines: &[&str], wanted: &[Option<String>; 4]) -> Option<Head> {
         return None;
     }
     let places = places.map(Option::flatten);
-    for (row, line) in lines.iter().enumerate().filter(|(_, line)| !line.starts_with('#')) {
+    for (row, line) in lines.iter().enumerate().filter(|(_, line)| !is_comment(line)) {
         let fits = |delimiter: &char| {
             let row = cells(line, *delimiter);
             let is_number =
-                |place: &usize| row.get(*place).is_some_and(|cell| number(cell, *delimiter != ',').is_some());
+                |place: &usize| row.get(*place).is_some_and(|cell| number(cell, *delimiter != ',').is_ok());
             places.iter().flatten().all(is_number)
         };
         let Some(delimiter) = DELIMITERS.into_iter().find(fits) else { continue };
@@ -214,7 +217,7 @@ fn by_numbers(lines: &[&str], wanted: &[Option<String>; 4]) -> Option<Head> {
         let mut head = Head { above: row, delimiter, places, names: Vec::new(), units: Vec::new() };
         for above in lines[..row].iter().rev().filter(|line| !line.trim().is_empty()).take(2) {
             let words = cells(above, delimiter);
-            if words.len() != count || words.iter().any(|word| number(word, true).is_some()) {
+            if words.len() != count || words.iter().any(|word| number(word, true).is_ok()) {
                 break;
             }
             if head.units.is_empty() && is_of_units(&words) {
@@ -245,7 +248,7 @@ fn not_found(name: &str, lines: &[&str], wanted: &[Option<String>; 4]) -> Failur
     for line in lines {
         let delimiter = DELIMITERS.into_iter().find(|mark| line.contains(*mark)).unwrap_or(',');
         let words = cells(line, delimiter);
-        let numbers = words.iter().filter(|cell| number(cell, true).is_some()).count();
+        let numbers = words.iter().filter(|cell| number(cell, true).is_ok()).count();
         if words.len() > 1 && 2 * numbers > words.len() {
             break;
         }
@@ -280,16 +283,7 @@ fn not_found(name: &str, lines: &[&str], wanted: &[Option<String>; 4]) -> Failur
     refused(name, &format!("no line names the columns {:?} and {:?}; {there}", missing[0], missing[1]), &help)
 }
 
-/// `Weg [um]`, `Q (N)` and `Q / N` are a name and a unit.
+/// The name of a column and the unit behind it; a bracket that is not closed belongs to the name.
 fn name_and_unit(cell: &str) -> (String, Option<String>) {
-    for (open, close) in [('[', ']'), ('(', ')')] {
-        if let (Some(from), true) = (cell.rfind(open), cell.ends_with(close)) {
-            let unit = cell[from + 1..cell.len() - 1].trim();
-            return (cell[..from].trim().to_owned(), Some(unit.to_owned()));
-        }
-    }
-    match cell.split_once(" / ") {
-        Some((name, unit)) => (name.trim().to_owned(), Some(unit.trim().to_owned())),
-        None => (cell.trim().to_owned(), None),
-    }
+    Heading::of(cell).map_or_else(|| (cell.trim().to_owned(), None), |Heading { name, unit }| (name, unit))
 }

@@ -1,5 +1,7 @@
 //! A measured log as it comes from a rig: columns of numbers below a head, whatever stands above it, with the line of every row.
 
+use fret_core::case::{NoNumber, is_comment, letters, number};
+
 use super::head::{Head, find};
 use super::{Request, refused};
 use crate::failure::Failure;
@@ -8,6 +10,8 @@ use crate::failure::Failure;
 pub const ROLES: [&str; 4] = ["displacement", "force", "cycle", "normal_force"];
 /// Rows of numbers, at the least.
 pub const FEWEST_ROWS: usize = 12;
+/// Letters of a cell that messages repeat, at the most.
+const SHOWN: usize = 40;
 
 /// One column of a log.
 #[derive(Debug, Clone, Default)]
@@ -56,11 +60,9 @@ impl Table {
 /// # Errors
 /// What is wrong with it, with the line.
 pub fn read(name: &str, bytes: &[u8], request: &Request) -> Result<Table, Failure> {
-    let text = String::from_utf8(bytes.to_vec())
-        // What old programs write: every byte is a letter of Latin-1.
-        .unwrap_or_else(|_| bytes.iter().map(|&byte| char::from(byte)).collect());
-    let text = text.trim_start_matches('\u{feff}');
-    let head = find(name, text, request)?;
+    let text = letters(bytes)
+        .map_err(|error| refused(name, &error.to_string(), "a log is a text file with columns of numbers"))?;
+    let head = find(name, &text, request)?;
     let mut table = Table { name: name.to_owned(), ..Table::default() };
     for (role, place) in head.places.iter().enumerate() {
         if let Some(place) = place {
@@ -68,7 +70,9 @@ pub fn read(name: &str, bytes: &[u8], request: &Request) -> Result<Table, Failur
             table.columns[role] = Some(Column { name, unit, values: Vec::new() });
         }
     }
+    // Comments become empty lines, so that the others keep their numbers.
     let below = text.split_inclusive('\n').skip(head.above);
+    let below = below.map(|line| if is_comment(line) { "\n" } else { line });
     let (below, delimiter): (String, u8) = if head.delimiter == ' ' {
         (below.map(|line| line.split_whitespace().collect::<Vec<_>>().join("\t") + "\n").collect(), b'\t')
     } else {
@@ -78,7 +82,6 @@ pub fn read(name: &str, bytes: &[u8], request: &Request) -> Result<Table, Failur
         .delimiter(delimiter)
         .has_headers(false)
         .flexible(true)
-        .comment(Some(b'#'))
         .trim(csv::Trim::All)
         .from_reader(below.as_bytes());
     let mut rows = Rows { head: &head, table, between: Vec::new() };
@@ -120,7 +123,8 @@ impl Rows<'_> {
             .enumerate()
             .filter_map(|(role, place)| Some((role, row.get((*place)?).unwrap_or(""))))
             .collect();
-        let values: Option<Vec<f64>> = cells.iter().map(|(_, cell)| number(cell, decimal_comma)).collect();
+        let values: Option<Vec<f64>> =
+            cells.iter().map(|(_, cell)| number(cell, decimal_comma).ok()).collect();
         if let Some(values) = values {
             self.table.bad.append(&mut self.between);
             for ((role, _), value) in cells.iter().zip(values) {
@@ -159,7 +163,7 @@ impl Rows<'_> {
             ));
         }
         let bad = self.bad_row(&cells, line);
-        if row.iter().any(|cell| number(cell, decimal_comma).is_some()) {
+        if row.iter().any(|cell| number(cell, decimal_comma).is_ok()) {
             self.table.bad.append(&mut self.between);
             self.table.bad.push(bad);
         } else {
@@ -171,8 +175,9 @@ impl Rows<'_> {
     /// What is wrong with a row.
     fn bad_row(&self, cells: &[(usize, &str)], line: usize) -> BadRow {
         let decimal_comma = self.head.delimiter != ',';
-        let wrong = cells.iter().find(|(_, cell)| number(cell, decimal_comma).is_none());
-        let (role, cell) = wrong.copied().unwrap_or((0, ""));
+        let wrong =
+            cells.iter().find_map(|&(role, cell)| Some((role, cell, number(cell, decimal_comma).err()?)));
+        let (role, cell, why) = wrong.unwrap_or((0, "", NoNumber::Hole));
         let column = self.table.columns[role].as_ref().map_or("", |column| &column.name);
         if cell.is_empty() {
             return BadRow {
@@ -180,8 +185,12 @@ impl Rows<'_> {
                 help: "delete the line, or write the value that was measured",
             };
         }
+        let mut shown: String = cell.chars().take(SHOWN).collect();
+        if shown.len() < cell.len() {
+            shown += "...";
+        }
         BadRow {
-            what: format!("line {line}, column {column:?}: {cell:?} is not a number"),
+            what: format!("line {line}, column {column:?}: {shown:?} {why}"),
             help: "numbers look like 1.5e-6, or 1,5 where semicolons or tabs part the columns",
         }
     }
@@ -216,12 +225,6 @@ fn enough(table: &Table) -> Result<(), Failure> {
         }
     }
     Ok(())
-}
-
-/// A finite number, with a decimal comma where commas part nothing.
-pub fn number(cell: &str, decimal_comma: bool) -> Option<f64> {
-    let plain = if decimal_comma && !cell.contains('.') { cell.replace(',', ".") } else { cell.to_owned() };
-    plain.parse().ok().filter(|value: &f64| value.is_finite())
 }
 
 #[cfg(test)]

@@ -1,31 +1,15 @@
 //! Units of a log, turned into those of the case, and said.
 
-use fret_core::case::Units;
+use fret_core::case::{Units, conversion, is_unit, known_units};
 
 use super::log::Table;
 use super::{Request, refused};
 use crate::failure::Failure;
 
-/// Powers of ten of prefixes.
-const PREFIXES: [(&str, i32); 9] =
-    [("", 0), ("k", 3), ("M", 6), ("c", -2), ("m", -3), ("u", -6), ("µ", -6), ("μ", -6), ("n", -9)];
-/// Units of force in newtons: weights of a gram, a kilogram and a pound, of which many load cells write the mass alone.
-const FORCES: [(&str, f64); 6] = [
-    ("N", 1.0),
-    ("gf", 9.806_65e-3),
-    ("g", 9.806_65e-3),
-    ("kp", 9.806_65),
-    ("lbf", 4.448_221_615_260_5),
-    ("lb", 4.448_221_615_260_5),
-];
-/// Units of length in metres.
-const LENGTHS: [(&str, f64); 3] = [("m", 1.0), ("in", 0.0254), ("inch", 0.0254)];
 /// Units of other columns: known so that a line of units is not taken for names.
-const OTHERS: [&str; 22] = [
-    "-", "s", "sec", "ms", "min", "h", "Hz", "1/s", "°C", "C", "K", "%", "V", "mV", "A", "deg", "°", "Pa",
-    "MPa", "mm/s", "1", "rpm",
-];
-/// Those of mass, read as their weights.
+const OTHERS: [&str; 17] =
+    ["s", "sec", "ms", "min", "h", "Hz", "1/s", "°C", "C", "K", "%", "V", "mV", "A", "mm/s", "um/s", "rpm"];
+/// Units of mass, of which many load cells write their weights.
 const MASSES: [&str; 4] = ["g", "kg", "mg", "lb"];
 
 /// Factors from the columns of a log to the units of the case: of displacements, forces, normal forces.
@@ -39,6 +23,7 @@ pub fn scales(
     notes: &mut Vec<String>,
 ) -> Result<[f64; 3], Failure> {
     let mut found = [1.0; 3];
+    let own = units.cloned().unwrap_or_else(|| Units::new("m", "N"));
     for (slot, role, what, base) in
         [(0, 0, "displacement", "m"), (1, 1, "force", "N"), (2, 3, "normal_force", "N")]
     {
@@ -48,26 +33,24 @@ pub fn scales(
             notes.push(format!("column {:?} names no unit: taken in that of the case", column.name));
             continue;
         };
-        let into = units.map_or(base, |units| if slot == 0 { &units.length } else { &units.force });
-        if unit == into {
+        let (kind, into) = if slot == 0 { ("length", &own.length) } else { ("force", &own.force) };
+        if unit == *into {
             continue;
         }
-        let known: &[(&str, f64)] = if slot == 0 { &LENGTHS } else { &FORCES };
-        let (Some((from, ten)), Some((to, ten_to))) = (in_base(&unit, known), in_base(into, known)) else {
-            let others = if slot == 0 { "or in" } else { "or gf, kgf, lbf" };
+        let is_mass = kind == "force" && MASSES.contains(&unit.as_str());
+        let weight = if is_mass { format!("{unit}f") } else { unit.clone() };
+        let Ok(into_own) = conversion(&weight, kind, Some(&own)) else {
             return Err(refused(
                 &table.name,
                 &format!(
                     "column {:?} is in {unit:?}, and the case in {into:?}: nothing is known between them",
                     column.name
                 ),
-                &format!(
-                    "--units \"{what}={base}\" says what it is in: {base} with a prefix, such as um, mm, mN, kN, {others}"
-                ),
+                &format!("--units \"{what}={base}\" says what it is in; {}", known_units(kind)),
             ));
         };
-        found[slot] = from / to * 10_f64.powi(ten - ten_to);
-        if slot > 0 && MASSES.contains(&unit.as_str()) {
+        found[slot] = into_own.factor();
+        if is_mass {
             notes.push(format!("column {:?} is in {unit}: taken as the weight of that mass", column.name));
         }
         if units.is_none() {
@@ -91,13 +74,5 @@ pub fn scales(
 
 /// Whether a word is a unit of something that logs hold.
 pub fn is_known(word: &str) -> bool {
-    OTHERS.contains(&word) || in_base(word, &LENGTHS).is_some() || in_base(word, &FORCES).is_some()
-}
-
-/// A unit in the base unit, and its prefix as a power of ten.
-fn in_base(unit: &str, known: &[(&str, f64)]) -> Option<(f64, i32)> {
-    known.iter().find_map(|(base, factor)| {
-        let prefix = unit.strip_suffix(base)?;
-        PREFIXES.iter().find(|(known, _)| *known == prefix).map(|(_, power)| (*factor, *power))
-    })
+    OTHERS.contains(&word) || MASSES.contains(&word) || is_unit(word)
 }
