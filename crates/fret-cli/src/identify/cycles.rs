@@ -2,7 +2,7 @@
 
 use super::log::Table;
 use super::refused;
-use super::turns::{range, tops, turns};
+use super::turns::{range, rising_crossings, tops, turns};
 use crate::failure::Failure;
 
 /// Points of a cycle, at the least.
@@ -81,11 +81,12 @@ pub fn split(table: &Table, [length, force, normal]: [f64; 3]) -> Vec<MeasuredCy
         if highest.len() >= 3 {
             between(&highest)
         } else {
-            // One cycle, and perhaps parts of others around it.
-            let lowest = tops(&displacement.iter().map(|value| -value).collect::<Vec<_>>());
+            // One cycle, and perhaps parts of others around it: a whole one lies between any two points of the same kind.
+            let turned: Vec<f64> = displacement.iter().map(|value| -value).collect();
             let all = vec![cycle((1.0, 0, displacement.len()))];
-            [between(&highest), between(&lowest)]
-                .into_iter()
+            [highest, tops(&turned), rising_crossings(&displacement), rising_crossings(&turned)]
+                .iter()
+                .map(|ends| between(ends))
                 .find(|found| all[0].fault.is_some() && found.iter().any(|cycle| cycle.fault.is_none()))
                 .unwrap_or(all)
         }
@@ -190,9 +191,14 @@ impl MeasuredCycle {
         let [bottom, top] = range(&self.force);
         let ends = 3.min(count);
         let mean = |values: &[f64]| values.iter().sum::<f64>() / values.len() as f64;
+        // Where a branch begins steeply, the first points differ from the last by as much as from each other.
+        let steepest = |values: &[f64]| {
+            let steps = |part: &[f64]| range(part)[1] - range(part)[0];
+            steps(&values[..ends]).max(steps(&values[count - ends..]))
+        };
         let open = (mean(&self.force[count - ends..]) - mean(&self.force[..ends])).abs();
         let apart = (mean(&self.displacement[count - ends..]) - mean(&self.displacement[..ends])).abs();
-        if !(open <= OPEN * (top - bottom) && apart <= OPEN * (high - low)) {
+        if !(open <= OPEN * (top - bottom) + steepest(&self.force) && apart <= OPEN * (high - low)) {
             return fault(
                 "does not close",
                 format!(

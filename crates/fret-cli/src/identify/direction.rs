@@ -2,7 +2,7 @@
 //! displacement. A force of the other body, or a displacement of the other sense, turns both; rows from the last to the first turn the work.
 
 use super::cycles::{Fault, MeasuredCycle};
-use super::turns::{noise, turns};
+use super::turns::turns;
 
 /// Work counts where it is this many times what noise encloses.
 const SURE: f64 = 4.0;
@@ -22,21 +22,17 @@ fn work_and_growth(cycle: &MeasuredCycle) -> [f64; 2] {
     let count = force.len();
     let mean = |values: &[f64]| values.iter().sum::<f64>() / count as f64;
     let (middle, level) = (mean(along), mean(force));
-    let (mut work, mut by_force, mut by_length) = (0.0, 0.0, 0.0);
+    let mut work = 0.0;
     let (mut both, mut lengths, mut forces) = (0.0, 0.0, 0.0);
     for row in 0..count {
         let (before, after) = ((row + count - 1) % count, (row + 1) % count);
-        let [step, rise] = [0.5 * (along[after] - along[before]), 0.5 * (force[after] - force[before])];
-        work += (force[row] - level) * step;
-        by_force += step * step;
-        by_length += rise * rise;
+        work += (force[row] - level) * 0.5 * (along[after] - along[before]);
         both += (along[row] - middle) * (force[row] - level);
         lengths += (along[row] - middle).powi(2);
         forces += (force[row] - level).powi(2);
     }
-    let unsure = (noise(force).powi(2) * by_force + noise(along).powi(2) * by_length).sqrt();
     let rounding = 1e-9 * (lengths * forces).sqrt();
-    [work / unsure.max(rounding), both / (lengths * forces).sqrt()]
+    [work / cycle.unsure_work(0.0).max(rounding), both / (lengths * forces).sqrt()]
 }
 
 /// The direction of the loops, by all whole cycles together.

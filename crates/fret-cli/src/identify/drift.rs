@@ -77,7 +77,7 @@ pub fn bend(cycles: &[MeasuredCycle], chosen: usize) -> Option<Bend> {
         .iter()
         .map(|cycle| {
             let points = (cycle.force.len() as f64 / 12.0).clamp(3.0, 15.0);
-            noise(&cycle.displacement) * (9.0 / points / 2.0 / 2.0).sqrt()
+            noise(&cycle.displacement, 0.0) * (9.0 / points / 2.0 / 2.0).sqrt()
         })
         .fold(0.0, f64::max);
     Some(Bend { value, unsure: 2.0 * 0.25 * unsure / squares.sqrt() })

@@ -16,6 +16,8 @@ use crate::failure::Failure;
 
 /// Intervals of the force from nothing to full sliding.
 const INTERVALS: usize = 12;
+/// A friction force whose standard deviation, relative, is more than this is not told.
+const UNSURE: f64 = 0.03;
 
 /// The first tangential displacement of the contact over the friction force [length/force].
 #[derive(Debug, Clone, Copy)]
@@ -71,14 +73,22 @@ impl Flanks {
         Self { whole: by_radius[0], half: 2.0 * half, mean: 2.0 * mean, initial: yielded[0] / first }
     }
 
-    /// The friction force of a loop in gross slip [force]; `None` in partial slip.
-    pub fn friction_force(&self, energy: f64, opening: f64) -> Option<f64> {
+    /// The friction force of a loop in gross slip [force], from its energy and its half-width, each with its standard deviation; `None` in
+    /// partial slip, and where these leave it unsure.
+    pub fn friction_force(
+        &self,
+        [energy, of_energy]: [f64; 2],
+        [opening, of_opening]: [f64; 2],
+    ) -> Option<f64> {
         let chord = energy / (4.0 * opening);
         let missing = (self.mean - self.half) / opening;
         let root = 1.0 - 4.0 * missing * chord;
         let force =
             (energy > 0.0 && opening > 0.0 && root > 0.0).then(|| 2.0 * chord / (1.0 + root.sqrt()))?;
-        (opening >= (self.whole - self.half) * force).then_some(force)
+        // Derivatives of L - c L^2/delta_0 = W_d/(4 delta_0), relative.
+        let part = missing * force;
+        let unsure = ((1.0 - part) * of_energy / energy).hypot(of_opening / opening) / (1.0 - 2.0 * part);
+        (opening >= (self.whole - self.half) * force && unsure < UNSURE).then_some(force)
     }
 
     /// Way of the actuator from a turn to full sliding [length].
@@ -107,7 +117,10 @@ mod tests {
         for beyond in [0.0, 0.1, 1.0, 10.0] {
             let opening = 2.0 * (1.5 - half) + 1e-3 + beyond;
             let energy = 8.0 * (opening + 2.0 * (half - 1.2));
-            assert!((flanks.friction_force(energy, opening).unwrap() / 2.0 - 1.0).abs() < 1e-3);
+            assert!((flanks.friction_force([energy, 0.0], [opening, 0.0]).unwrap() / 2.0 - 1.0).abs() < 1e-3);
+            // A standard deviation of 5 % of either is too much, whatever the loop.
+            assert_eq!(flanks.friction_force([energy, 0.05 * energy], [opening, 0.0]), None);
+            assert_eq!(flanks.friction_force([energy, 0.0], [opening, 0.05 * opening]), None);
         }
     }
 }

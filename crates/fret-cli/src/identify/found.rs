@@ -46,6 +46,8 @@ pub struct Fitted {
     /// Displacement of the actuator, force and shift around the loop.
     pub computed: Vec<[f64; 3]>,
     pub notes: Vec<String>,
+    /// Correlation of the noise of neighbouring points, where there is more than chance.
+    pub correlation: f64,
     /// Value of the key.
     pub value_of_key: Option<f64>,
 }
@@ -161,6 +163,7 @@ impl Fit<'_> {
             slides: now.slides,
             computed: around,
             notes,
+            correlation: sure.correlation,
             value_of_key: value,
         })
     }

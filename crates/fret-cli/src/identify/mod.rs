@@ -129,7 +129,12 @@ pub fn identify(
     let friction = fitted.friction().or_else(|| model.friction()).unwrap_or(0.5);
     // Without it friction is not read from the single cycles; the fit itself stands.
     let flanks = flanks::Flanks::of(&model, friction, fitted.value_of_key).ok();
-    let known = Known { normal_force, stiffness: fitted.stiffness(), flanks: flanks.as_ref() };
+    let known = Known {
+        normal_force,
+        stiffness: fitted.stiffness(),
+        flanks: flanks.as_ref(),
+        correlation: fitted.correlation,
+    };
     let rows: Vec<Value> = measured
         .iter()
         .map(|cycle| quantities::row(cycle, cycle.fault.is_none().then(|| cycle.quantities(known))))

@@ -5,12 +5,16 @@ use serde_json::{Value, json};
 
 use super::cycles::MeasuredCycle;
 use super::flanks::Flanks;
-use super::turns::{at_turn, calm_range, slope};
+use super::turns::{at_turn, calm_range, noise, parabola, slope};
 
 /// Part of the way between the turns from which a plateau is read, and up to which.
 const PLATEAU: [f64; 2] = [0.75, 0.98];
 /// A plateau rises by less than this part of the slope after reversal.
 const FLAT: f64 = 0.1;
+/// Points from which a flank's middle is read by a parabola through that part of the amplitude of force on either side of it: at the
+/// least. With fewer it is read between the two points beside it.
+const FEWEST_OF_A_FLANK: usize = 6;
+const FLANK: f64 = 0.5;
 
 /// Columns of the table of cycles, with their units in the words of [`fret_core::case::Units::of`].
 pub const COLUMNS: [(&str, &str); 13] = [
@@ -57,6 +61,25 @@ pub struct Known<'a> {
     pub stiffness: Option<f64>,
     /// How the contact itself yields, where that is known.
     pub flanks: Option<&'a Flanks>,
+    /// Correlation of the noise of neighbouring points.
+    pub correlation: f64,
+}
+
+/// A loop, seen from the actuator or from the contact.
+#[derive(Debug, Clone, Copy)]
+pub struct LoopShape {
+    /// Enclosed energy.
+    pub energy: f64,
+    /// Half of the range of force.
+    pub force_amplitude: f64,
+    /// Half of the range of displacement.
+    pub amplitude: f64,
+    /// Half of its width at the middle of the force.
+    pub opening: f64,
+    /// Compliance there [length/force].
+    pub compliance: f64,
+    /// Variance of the half-width over that of a point's displacement.
+    pub scatter: f64,
 }
 
 /// The row of a cycle; without numbers where it was left out.
@@ -105,10 +128,12 @@ impl MeasuredCycle {
             .stiffness
             .map(|stiffness| self.loop_of(|row| self.displacement[row] - self.force[row] / stiffness));
         let pressed = self.normal_force.unwrap_or(known.normal_force);
-        let [energy, force_amplitude, amplitude, opening] = own;
+        let LoopShape { energy, force_amplitude, amplitude, opening, .. } = own;
         let slope = self.slope_after_reversal();
-        let friction =
-            known.flanks.and_then(|flanks| Some((flanks, flanks.friction_force(energy, opening)?)));
+        let friction = known.flanks.and_then(|flanks| {
+            let [of_energy, of_opening] = self.unsure(&own, known.correlation);
+            Some((flanks, flanks.friction_force([energy, of_energy], [opening, of_opening])?))
+        });
         Quantities {
             dissipated_energy: energy,
             force_amplitude,
@@ -116,9 +141,8 @@ impl MeasuredCycle {
             opening,
             energy_ratio: energy / (4.0 * force_amplitude * amplitude),
             sliding_ratio: opening / amplitude,
-            contact_energy_ratio: contact
-                .map(|[energy, force, amplitude, _]| energy / (4.0 * force * amplitude)),
-            contact_sliding_ratio: contact.map(|[_, _, amplitude, opening]| opening / amplitude),
+            contact_energy_ratio: contact.map(|own| own.energy / (4.0 * own.force_amplitude * own.amplitude)),
+            contact_sliding_ratio: contact.map(|own| own.opening / own.amplitude),
             slope,
             plateau_friction: friction
                 .and_then(|(flanks, limit)| self.plateau(slope?, flanks.way(limit, known.stiffness, slope?)))
@@ -127,29 +151,82 @@ impl MeasuredCycle {
         }
     }
 
-    /// Enclosed energy, amplitudes of force and displacement, half-width at the middle of the force.
-    pub fn loop_of(&self, displacement: impl Fn(usize) -> f64) -> [f64; 4] {
+    /// The loop with displacements of its points.
+    pub fn loop_of(&self, displacement: impl Fn(usize) -> f64) -> LoopShape {
         let count = self.force.len();
-        let mut energy = 0.0;
         let places: Vec<f64> = (0..count).map(&displacement).collect();
         let [high, low] = self.turns.map(|turn| at_turn(&places, turn, [-1, 1]));
         let [bottom, top] = self.range_of_force();
+        let force_amplitude = 0.5 * (top - bottom);
         let middle = f64::midpoint(bottom, top);
-        let (mut falling, mut rising) = (Vec::new(), Vec::new());
-        for row in 0..count {
+        let energy = (0..count)
+            .map(|row| {
+                let next = (row + 1) % count;
+                0.5 * (self.force[row] + self.force[next]) * (places[next] - places[row])
+            })
+            .sum();
+        let [falling, rising] =
+            [true, false].map(|falling| self.middle_of_flank(&places, falling, [middle, force_amplitude]));
+        LoopShape {
+            energy,
+            force_amplitude,
+            amplitude: 0.5 * (high - low),
+            opening: 0.5 * (rising.at - falling.at).abs(),
+            compliance: 0.5 * (rising.compliance + falling.compliance),
+            scatter: 0.25 * (rising.scatter + falling.scatter),
+        }
+    }
+
+    /// Where a flank passes the middle of the force.
+    fn middle_of_flank(&self, places: &[f64], falling: bool, [middle, amplitude]: [f64; 2]) -> Middle {
+        let count = self.force.len();
+        let points: Vec<[f64; 2]> = (0..count)
+            .filter(|&row| self.is_falling(row) == falling)
+            .map(|row| [(self.force[row] - middle) / amplitude, places[row]])
+            .filter(|[force, _]| force.abs() < FLANK)
+            .collect();
+        if points.len() >= FEWEST_OF_A_FLANK
+            && let Some([at, slope, scatter]) = parabola(&points)
+        {
+            return Middle { at, compliance: slope / amplitude, scatter };
+        }
+        let mut crossings: Vec<[f64; 2]> = Vec::new();
+        for row in (0..count).filter(|&row| self.is_falling(row) == falling) {
             let next = (row + 1) % count;
-            energy += 0.5 * (self.force[row] + self.force[next]) * (places[next] - places[row]);
             // Crossings of noise are averaged.
             if (self.force[row] - middle) * (self.force[next] - middle) <= 0.0
                 && self.force[row] != self.force[next]
             {
-                let share = (middle - self.force[row]) / (self.force[next] - self.force[row]);
-                let at = places[row] + share * (places[next] - places[row]);
-                if self.is_falling(row) { falling.push(at) } else { rising.push(at) }
+                let compliance = (places[next] - places[row]) / (self.force[next] - self.force[row]);
+                crossings.push([places[row] + (middle - self.force[row]) * compliance, compliance]);
             }
         }
-        let mean = |values: &[f64]| values.iter().sum::<f64>() / values.len().max(1) as f64;
-        [energy, 0.5 * (top - bottom), 0.5 * (high - low), 0.5 * (mean(&rising) - mean(&falling)).abs()]
+        let mean = |k: usize| {
+            crossings.iter().map(|crossing| crossing[k]).sum::<f64>() / crossings.len().max(1) as f64
+        };
+        // A place between two points has 2/3 of the variance of one, in the mean.
+        Middle { at: mean(0), compliance: mean(1), scatter: 2.0 / 3.0 }
+    }
+
+    /// Standard deviations of energy and half-width of a loop by the noise of its points.
+    fn unsure(&self, of: &LoopShape, correlation: f64) -> [f64; 2] {
+        let [force, length] = [&self.force, &self.displacement].map(|values| noise(values, correlation));
+        let point = length.hypot(force * of.compliance);
+        let scatter = (of.scatter * times_fewer(correlation)).min(0.5);
+        [self.unsure_work(correlation), point * scatter.sqrt()]
+    }
+
+    /// Standard deviation of the enclosed work by the noise of the points, whose neighbours are correlated by so much.
+    pub fn unsure_work(&self, correlation: f64) -> f64 {
+        let count = self.force.len();
+        let (mut by_force, mut by_length) = (0.0, 0.0);
+        for row in 0..count {
+            let (before, after) = ((row + count - 1) % count, (row + 1) % count);
+            by_force += (0.5 * (self.displacement[after] - self.displacement[before])).powi(2);
+            by_length += (0.5 * (self.force[after] - self.force[before])).powi(2);
+        }
+        let [force, length] = [&self.force, &self.displacement].map(|values| noise(values, correlation));
+        ((force * force * by_force + length * length * by_length) * times_fewer(correlation)).sqrt()
     }
 
     /// Smallest and largest force: those at the ends of the branches, where the loop has its corners, or beyond them where a branch has
@@ -190,7 +267,7 @@ impl MeasuredCycle {
     /// Half of the distance of the plateaus of sliding [force], which begin so far behind a turn: means over the last part of the way,
     /// unless they rise.
     pub fn plateau(&self, steep: f64, flank: f64) -> Option<f64> {
-        let [low, high] = calm_range(&self.displacement);
+        let [high, low] = self.turns.map(|turn| at_turn(&self.displacement, turn, [-1, 1]));
         let from = PLATEAU[0].max(flank / (high - low));
         let side = |falling: bool| {
             let points: Vec<[f64; 2]> = (0..self.force.len())
@@ -215,4 +292,19 @@ impl MeasuredCycle {
         };
         Some(0.5 * (side(false)? - side(true)?).abs())
     }
+}
+
+/// Where a flank passes the middle of the force.
+struct Middle {
+    /// Displacement [length].
+    at: f64,
+    /// Its derivative by the force [length/force].
+    compliance: f64,
+    /// Variance of the place over that of a point's displacement.
+    scatter: f64,
+}
+
+/// So many times fewer independent points are as good as those whose neighbours are correlated.
+fn times_fewer(correlation: f64) -> f64 {
+    (1.0 + correlation) / (1.0 - correlation)
 }

@@ -60,7 +60,7 @@ pub fn first_guess(name: &str, cycle: &MeasuredCycle, model: &Model) -> Result<(
     }
     let series = 1.0 / slope - 1.0 / own;
     let stiffness = if series > 0.05 / own { 1.0 / series } else { 20.0 * own };
-    let known = Known { normal_force: probe.normal_force, stiffness: None, flanks: None };
+    let known = Known { normal_force: probe.normal_force, stiffness: None, flanks: None, correlation: 0.0 };
     let energy = cycle.quantities(known).dissipated_energy;
     // In partial slip more than the force asks for; the less is dissipated, the more.
     let friction = cycle.plateau(slope, 0.0).map_or_else(

@@ -2,6 +2,8 @@
 
 use std::f64::consts::TAU;
 
+use nalgebra::{Matrix3, Vector3};
+
 /// Points of a parabola at a turn: this part of those of a cycle, at the least and at the most.
 const POINTS_OF_A_PARABOLA: [usize; 3] = [12, 3, 15];
 
@@ -18,6 +20,18 @@ pub fn slope(points: &[[f64; 2]]) -> Option<f64> {
         xy += (point[0] - x) * (point[1] - y);
     }
     (xx > 0.0).then(|| xy / xx)
+}
+
+/// Value and slope at 0 of the parabola of least squares, and the variance of that value over that of a point. `None` where the points do
+/// not determine it.
+pub fn parabola(points: &[[f64; 2]]) -> Option<[f64; 3]> {
+    let moment = |power: i32| points.iter().map(|point| point[0].powi(power)).sum::<f64>();
+    let square = Matrix3::from_fn(|row, column| moment((row + column) as i32));
+    let right = Vector3::from_fn(|row, _| points.iter().map(|[x, y]| x.powi(row as i32) * y).sum::<f64>());
+    let inverse = square.try_inverse()?;
+    let found = inverse * right;
+    let [value, slope, variance] = [found[0], found[1], inverse[(0, 0)]];
+    (value.is_finite() && slope.is_finite() && variance > 0.0).then_some([value, slope, variance])
 }
 
 /// Value at a turn, where a cycle has a corner (a triangle) or a top (a sine): parabolas of least squares through the points before it
@@ -82,14 +96,16 @@ pub fn turns(displacement: &[f64]) -> [usize; 2] {
     [middle(1.0), middle(-1.0)]
 }
 
-/// Standard deviation of the noise of a signal: by the median of its second differences, to which neither turns nor single wrong samples
-/// add.
-pub fn noise(values: &[f64]) -> f64 {
-    let mut second: Vec<f64> =
-        values.windows(3).map(|three| (three[0] - 2.0 * three[1] + three[2]).abs()).collect();
-    second.sort_by(f64::total_cmp);
-    // The median of a normal distribution lies at 0.6745; a second difference has the variance of six.
-    second.get(second.len() / 2).map_or(0.0, |median| median / 0.6745 / 6_f64.sqrt())
+/// Standard deviation of the noise of a signal, whose neighbouring points are correlated by so much: by the median of its third
+/// differences, to which neither turns nor single wrong samples add, and a sine of few points little.
+pub fn noise(values: &[f64], correlation: f64) -> f64 {
+    let mut third: Vec<f64> =
+        values.windows(4).map(|four| (four[3] - 3.0 * four[2] + 3.0 * four[1] - four[0]).abs()).collect();
+    third.sort_by(f64::total_cmp);
+    // The median of a normal distribution lies at 0.6745; a third difference has the variance of 1 + 9 + 9 + 1 points.
+    let r = correlation;
+    let variance = 20.0 - r * (30.0 - r * (12.0 - 2.0 * r));
+    third.get(third.len() / 2).map_or(0.0, |median| median / 0.6745 / variance.sqrt())
 }
 
 /// Where the displacement turns back from its largest values.
@@ -114,6 +130,34 @@ pub fn tops(displacement: &[f64]) -> Vec<usize> {
             (climbs, bottom) = (false, row);
         } else if !climbs && value - displacement[bottom] > threshold {
             (climbs, top) = (true, row);
+        }
+    }
+    // A log that begins on the way down begins at no top.
+    if let [first, second, ..] = found[..]
+        && displacement[second] - displacement[first] > 0.5 * threshold
+    {
+        found.remove(0);
+    }
+    found
+}
+
+/// Where the displacement passes the middle of its range on the way up.
+pub fn rising_crossings(displacement: &[f64]) -> Vec<usize> {
+    let [low, high] = calm_range(displacement);
+    let middle = f64::midpoint(low, high);
+    // Noise passes it many times: what counts is the last time before this part of the range above it.
+    let apart = 0.1 * (high - low);
+    let mut found = Vec::new();
+    let (mut is_below, mut last) = (false, 0);
+    for (row, value) in displacement.iter().enumerate() {
+        if *value < middle {
+            last = row + 1;
+        }
+        if *value < middle - apart {
+            is_below = true;
+        } else if is_below && *value > middle + apart {
+            found.push(last);
+            is_below = false;
         }
     }
     found
