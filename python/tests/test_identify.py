@@ -47,5 +47,5 @@ def test_columns_by_number_and_shuffled_rows(tmp_path: Path) -> None:
 def test_a_log_that_is_no_file_is_refused(tmp_path: Path) -> None:
     with pytest.raises(fretting.MissingFileError):
         fretting.identify(tmp_path / "none.csv", case=CASE)
-    with pytest.raises(ValueError, match="no ordinary file"):
+    with pytest.raises(fretting.UnreadableError, match="a folder, not a file"):
         fretting.identify(tmp_path, case=CASE)

@@ -83,12 +83,20 @@ pub fn split(table: &Table, [length, force, normal]: [f64; 3]) -> Vec<MeasuredCy
         } else {
             // One cycle, and perhaps parts of others around it: a whole one lies between any two points of the same kind.
             let turned: Vec<f64> = displacement.iter().map(|value| -value).collect();
+            let crossings = [&displacement, &turned].map(|values| rising_crossings(values));
+            let is_one = crossings.iter().all(|found| found.len() < 2);
             let all = vec![cycle((1.0, 0, displacement.len()))];
-            [highest, tops(&turned), rising_crossings(&displacement), rising_crossings(&turned)]
-                .iter()
-                .map(|ends| between(ends))
-                .find(|found| all[0].fault.is_some() && found.iter().any(|cycle| cycle.fault.is_none()))
-                .unwrap_or(all)
+            let [rising, falling] = &crossings;
+            let parts = [&highest, &tops(&turned), rising, falling].map(|ends| between(ends));
+            let whole =
+                |cycles: &[MeasuredCycle]| cycles.iter().filter(|cycle| cycle.fault.is_none()).count();
+            // The first of those with the most whole cycles.
+            let most = parts.into_iter().rev().max_by_key(|cycles| (whole(cycles), !cycles.is_empty()));
+            match most {
+                Some(most) if !(is_one && whole(&all) == 1) && whole(&most) > 0 => most,
+                Some(most) if !is_one && !most.is_empty() => most,
+                _ => all,
+            }
         }
     };
     name_ends(&mut cycles);

@@ -1,13 +1,16 @@
 //! Constants by least squares: the loop of the solver laid through the measured points, by Levenberg and Marquardt's method (MINPACK's,
 //! from the crate `levenberg-marquardt`).
 //!
-//! Noise sits in force and displacement alike, each relative to its amplitude: a point's residual is its difference of force over
-//! `sqrt(Q*^2 + (slope d*)^2)`. Offsets of both and a drift of the displacement are fitted with the constants, so that their
-//! uncertainty is in the intervals. These are linear about the solution (`intervals`); the error of the grid is not in them.
+//! Noise sits in force and displacement: a point's residual is its distance from the loop in units of both, `s_q` and `s_d`, which is
+//! `(Q - Q_l - slope (d - d_l))/sqrt(s_q^2 + (slope s_d)^2)` with the slope at the foot `(d_l, Q_l)` of the point on the loop. (At the
+//! measured displacement in place of that of the foot, noise in the displacement shifts the constants: 2 % of the amplitude, 5 % of the
+//! friction coefficient in partial slip.) Feet are those of the round before. The units are in the ratio of the noise that the
+//! signals have from point to point, and as large as the amplitudes. Offsets of both and a drift of the displacement are fitted with the
+//! constants, so that their uncertainty is in the intervals. These are linear about the solution (`intervals`); the error of the grid is not in them.
 //!
 //! A bend of the drift within the cycle changes the stiffness as much as itself, relative to the amplitude, and a loop hardly tells it.
 //! It is that of the middles of the neighbouring cycles, where there are two; else it counts in the intervals with as much as the
-//! noise hides and an eighth of the drift (an exponential approach with the time constant of a cycle), or is fitted where the loop tells it.
+//! noise hides and a quarter of the drift (an exponential approach with a time constant of half a cycle), or is fitted where the loop tells it.
 
 use levenberg_marquardt::{LeastSquaresProblem, LevenbergMarquardt, TerminationReason};
 use nalgebra::storage::Owned;
@@ -20,13 +23,19 @@ use super::intervals::{Left, Sureness, sureness};
 use super::model::{Loop, Model};
 use super::refused;
 use super::start::first_guess;
-use super::turns::calm_range;
+use super::turns::{calm_range, noise};
 use crate::failure::Failure;
 
 /// Step of the differences by which derivatives by the constants are found, relative.
 const STEP: f64 = 5e-3;
-/// Rounds in which the weights follow the solution.
-const ROUNDS: usize = 2;
+/// Rounds in which the feet of the points on the loop follow the solution.
+const ROUNDS: usize = 3;
+/// Steps to the foot of a point.
+const STEPS_TO_FOOT: usize = 3;
+/// Noise below this part of the amplitude does not count: what a loop is off is more.
+const QUIET: f64 = 1e-3;
+/// The noise of one signal over that of the other, relative to the amplitudes, at the most.
+const UNEQUAL: f64 = 4.0;
 /// Constants without a bend of the drift and a key.
 const ALWAYS: usize = 6;
 /// A bend is fitted where it is more than so many of its standard deviations.
@@ -50,7 +59,8 @@ pub fn fit(name: &str, cycle: &MeasuredCycle, model: &Model, bend: Option<Bend>)
         parameters: DVector::zeros(ALWAYS + usize::from(model.key().is_some())),
         bend: bend.map_or(0.0, |bend| bend.value / units[0]),
         bend_is_fitted: false,
-        weights: Vec::new(),
+        noises: noises(cycle, units),
+        feet: Vec::new(),
         now: Some(first),
     };
     fit.parameters[3] = f64::midpoint(low, high) / fit.units[0];
@@ -78,15 +88,17 @@ pub struct Fit<'a> {
     /// Bend of the drift over the amplitude, where it is not fitted.
     bend: f64,
     pub bend_is_fitted: bool,
-    weights: Vec<f64>,
+    /// Noise of displacement and force over their amplitudes, in their own unit: their squares are two.
+    noises: [f64; 2],
+    feet: Vec<Foot>,
     /// The loop of the parameters.
     pub now: Option<Loop>,
 }
 
 impl Fit<'_> {
     fn minimized(mut self, name: &str) -> Result<Self, Failure> {
-        for _ in 0..ROUNDS {
-            self.weigh();
+        for round in 0..ROUNDS {
+            self.find_feet(round);
             let (found, report) =
                 LevenbergMarquardt::new().with_ftol(1e-8).with_xtol(1e-6).with_patience(8).minimize(self);
             self = found;
@@ -130,31 +142,56 @@ impl Fit<'_> {
         self.model.loop_of(friction, stiffness, amplitude, value).ok()
     }
 
-    /// Difference of force of every point, with the slope of the loop there.
-    fn off(&self, of: &Loop) -> Vec<[f64; 2]> {
+    /// Displacements without offset and drift.
+    fn places(&self) -> impl Iterator<Item = f64> {
         let count = self.cycle.force.len();
-        let [length, force] = self.units;
-        let [offset, drift, level] = [3, 4, 5].map(|k| self.parameters[k]);
-        let bend = self.bend();
-        (0..count)
-            .map(|row| {
-                let moved = length * (offset + drift * time(row, count) + bend * bent(time(row, count)));
-                let [expected, slope] =
-                    of.at(self.cycle.is_falling(row), self.cycle.displacement[row] - moved);
-                [self.cycle.force[row] - force * level - expected, slope]
+        let [offset, drift, bend] = [self.parameters[3], self.parameters[4], self.bend()];
+        self.cycle.displacement.iter().enumerate().map(move |(row, displacement)| {
+            let moved = offset + drift * time(row, count) + bend * bent(time(row, count));
+            displacement - self.units[0] * moved
+        })
+    }
+
+    /// Noise of displacement and force, in one unit.
+    fn noises(&self) -> [f64; 2] {
+        [0, 1].map(|k| self.noises[k] * self.units[k])
+    }
+
+    /// The feet of the points on the loop; of the first round, at the measured displacements.
+    fn find_feet(&mut self, round: usize) {
+        let Some(now) = &self.now else { return };
+        let [length, force] = self.noises();
+        let level = self.units[1] * self.parameters[5];
+        let foot = |(row, place): (usize, f64)| {
+            let falling = self.cycle.is_falling(row);
+            let mut at = place;
+            for _ in 0..if round == 0 { 0 } else { STEPS_TO_FOOT } {
+                let [expected, slope] = now.at(falling, at);
+                let off = self.cycle.force[row] - level - expected - slope * (place - at);
+                at = place + slope * off / ((force / length).powi(2) + slope * slope);
+            }
+            let slope = now.at(falling, at)[1];
+            Foot { at, slope, weight: 1.0 / force.hypot(slope * length) }
+        };
+        self.feet = self.places().enumerate().map(foot).collect();
+    }
+
+    fn distances(&self, of: &Loop) -> Vec<f64> {
+        let level = self.units[1] * self.parameters[5];
+        self.places()
+            .enumerate()
+            .map(|(row, place)| {
+                let foot = &self.feet[row];
+                let expected = of.at(self.cycle.is_falling(row), foot.at)[0] + foot.slope * (place - foot.at);
+                foot.weight * (self.cycle.force[row] - level - expected)
             })
             .collect()
     }
 
-    fn weigh(&mut self) {
-        let Some(now) = &self.now else { return };
-        let [length, force] = self.units;
-        self.weights =
-            self.off(now).into_iter().map(|[_, slope]| 1.0 / force.hypot(slope * length)).collect();
-    }
-
-    fn weighted(&self, of: &Loop) -> Vec<f64> {
-        self.off(of).into_iter().zip(&self.weights).map(|([off, _], weight)| off * weight).collect()
+    /// Part of every residual's variance that is of the force.
+    fn of_force(&self) -> Vec<f64> {
+        let force = self.noises()[1];
+        self.feet.iter().map(|foot| (force * foot.weight).powi(2)).collect()
     }
 
     /// How sure the parameters are, with a bend of the drift of so much, relative to the amplitude, beside them.
@@ -163,12 +200,10 @@ impl Fit<'_> {
         let count = residuals.len();
         let column = (0..count).map(|row| jacobian[(row, 3)] * bent(time(row, count)));
         let column = DVector::from_iterator(count, column);
-        let force = self.units[1];
-        let of_force: Vec<f64> = self.weights.iter().map(|weight| (force * weight).powi(2)).collect();
         sureness(&Left {
             jacobian: &jacobian,
             residuals: &residuals,
-            of_force: &of_force,
+            of_force: &self.of_force(),
             bend: (column, bend),
         })
     }
@@ -180,10 +215,13 @@ impl Fit<'_> {
         let column = DVector::from_fn(count, |row, _| jacobian[(row, 3)] * bent(time(row, count)));
         let mut wider = jacobian.insert_column(constants, 0.0);
         wider.set_column(constants, &column);
-        let of_force: Vec<f64> = self.weights.iter().map(|weight| (self.units[1] * weight).powi(2)).collect();
         let nothing = DVector::zeros(count);
-        let left =
-            Left { jacobian: &wider, residuals: &residuals, of_force: &of_force, bend: (nothing, 0.0) };
+        let left = Left {
+            jacobian: &wider,
+            residuals: &residuals,
+            of_force: &self.of_force(),
+            bend: (nothing, 0.0),
+        };
         let (Some(sure), Ok(step)) = (sureness(&left), wider.clone().svd(true, true).solve(&residuals, 1e-9))
         else {
             return false;
@@ -191,6 +229,25 @@ impl Fit<'_> {
         // Half-widths of 95 % are two standard deviations.
         step[constants].abs() > BENDS * 0.5 * sure.halves[constants]
     }
+}
+
+/// The foot of a point on the loop.
+struct Foot {
+    /// Displacement [length].
+    at: f64,
+    /// Slope of the loop there [force/length].
+    slope: f64,
+    /// One over the noise of a distance in direction of the force.
+    weight: f64,
+}
+
+/// Noise of displacement and force over their amplitudes, as large as these together.
+fn noises(cycle: &MeasuredCycle, units: [f64; 2]) -> [f64; 2] {
+    let of = |values: &[f64], unit: f64| (noise(values, 0.0) / unit).hypot(QUIET);
+    let [length, force] = [of(&cycle.displacement, units[0]), of(&cycle.force, units[1])];
+    let ratio = (length / force).clamp(1.0 / UNEQUAL, UNEQUAL);
+    let force = (2.0 / (1.0 + ratio * ratio)).sqrt();
+    [ratio * force, force]
 }
 
 /// Time of a point in its cycle, from -1/2 to 1/2.
@@ -221,25 +278,24 @@ impl LeastSquaresProblem<f64, Dyn, Dyn> for Fit<'_> {
     }
 
     fn residuals(&self) -> Option<DVector<f64>> {
-        Some(DVector::from_vec(self.weighted(self.now.as_ref()?)))
+        Some(DVector::from_vec(self.distances(self.now.as_ref()?)))
     }
 
     fn jacobian(&self) -> Option<DMatrix<f64>> {
         let now = self.now.as_ref()?;
-        let here = self.weighted(now);
+        let here = self.distances(now);
         let count = here.len();
         let mut jacobian = DMatrix::zeros(count, self.parameters.len());
         for k in self.of_loop() {
             let mut beside = self.parameters.clone();
             beside[k] += STEP;
-            let there = self.weighted(&self.solve(&beside)?);
+            let there = self.distances(&self.solve(&beside)?);
             for row in 0..count {
                 jacobian[(row, k)] = (there[row] - here[row]) / STEP;
             }
         }
         let [length, force] = self.units;
-        for (row, [_, slope]) in self.off(now).into_iter().enumerate() {
-            let weight = self.weights[row];
+        for (row, &Foot { slope, weight, .. }) in self.feet.iter().enumerate() {
             jacobian[(row, 3)] = slope * length * weight;
             jacobian[(row, 4)] = slope * length * weight * time(row, count);
             jacobian[(row, 5)] = -force * weight;

@@ -18,6 +18,9 @@ use crate::failure::Failure;
 const INTERVALS: usize = 12;
 /// A friction force whose standard deviation, relative, is more than this is not told.
 const UNSURE: f64 = 0.03;
+/// Up to so many times the half-width at the onset of sliding the amplitude of force has to agree with the friction force, relative.
+const NEAR: f64 = 2.0;
+const AGREES: f64 = 0.02;
 
 /// The first tangential displacement of the contact over the friction force [length/force].
 #[derive(Debug, Clone, Copy)]
@@ -74,11 +77,13 @@ impl Flanks {
     }
 
     /// The friction force of a loop in gross slip [force], from its energy and its half-width, each with its standard deviation; `None` in
-    /// partial slip, and where these leave it unsure.
+    /// partial slip, and where these leave it unsure. Just beyond the onset, where it depends most on the half-width, the amplitude of force
+    /// has to agree: the contact slides at the ends of the loop alone, with this force.
     pub fn friction_force(
         &self,
         [energy, of_energy]: [f64; 2],
         [opening, of_opening]: [f64; 2],
+        amplitude: f64,
     ) -> Option<f64> {
         let chord = energy / (4.0 * opening);
         let missing = (self.mean - self.half) / opening;
@@ -88,7 +93,9 @@ impl Flanks {
         // Derivatives of L - c L^2/delta_0 = W_d/(4 delta_0), relative.
         let part = missing * force;
         let unsure = ((1.0 - part) * of_energy / energy).hypot(of_opening / opening) / (1.0 - 2.0 * part);
-        (opening >= (self.whole - self.half) * force && unsure < UNSURE).then_some(force)
+        let onset = (self.whole - self.half) * force;
+        let agrees = opening > NEAR * onset || (amplitude / force - 1.0).abs() < AGREES;
+        (opening >= onset && unsure < UNSURE && agrees).then_some(force)
     }
 
     /// Way of the actuator from a turn to full sliding [length].
@@ -117,10 +124,12 @@ mod tests {
         for beyond in [0.0, 0.1, 1.0, 10.0] {
             let opening = 2.0 * (1.5 - half) + 1e-3 + beyond;
             let energy = 8.0 * (opening + 2.0 * (half - 1.2));
-            assert!((flanks.friction_force([energy, 0.0], [opening, 0.0]).unwrap() / 2.0 - 1.0).abs() < 1e-3);
+            assert!(
+                (flanks.friction_force([energy, 0.0], [opening, 0.0], 2.0).unwrap() / 2.0 - 1.0).abs() < 1e-3
+            );
             // A standard deviation of 5 % of either is too much, whatever the loop.
-            assert_eq!(flanks.friction_force([energy, 0.05 * energy], [opening, 0.0]), None);
-            assert_eq!(flanks.friction_force([energy, 0.0], [opening, 0.05 * opening]), None);
+            assert_eq!(flanks.friction_force([energy, 0.05 * energy], [opening, 0.0], 2.0), None);
+            assert_eq!(flanks.friction_force([energy, 0.0], [opening, 0.05 * opening], 2.0), None);
         }
     }
 }

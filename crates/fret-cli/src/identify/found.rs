@@ -8,8 +8,8 @@ use super::intervals::Sureness;
 use super::{TOLD, refused};
 use crate::failure::Failure;
 
-/// Part of a straight drift that a bend may have: an exponential approach with the time constant of a cycle.
-const BENT: f64 = 0.125;
+/// Part of a straight drift that a bend may have: an exponential approach with a time constant of half a cycle.
+const BENT: f64 = 0.25;
 /// An interval is said to be wider from this factor on.
 const WIDER: f64 = 1.2;
 

@@ -6,8 +6,9 @@
 //!
 //! where `J` has the derivatives of the weighted residuals. The points' variances `s_i^2` are those of noise in the force and of noise in
 //! the displacement, each as large as the residuals say: where the loop is steep that of the displacement counts, on plateaus that of the
-//! force. `r` is the correlation of neighbours, where it is more than chance, with what the fit has taken from it: residuals of
-//! `p` constants and `n` points are correlated by about `p (1 + r)/n` less than the noise. `b` is what a bend of the drift adds to the constants.
+//! force. Few points tell the two apart badly: the interval is the wider one of this and of equal noise in both. `r` is the correlation of
+//! neighbours, where it is more than chance, with what the fit has taken from it (residuals of `p` constants and `n` points are correlated
+//! by about `p (1 + r)/n` less than the noise) and its own standard deviation. `b` is what a bend of the drift adds to the constants.
 
 use nalgebra::{DMatrix, DVector};
 use statrs::distribution::{ContinuousCDF, StudentsT};
@@ -55,18 +56,23 @@ pub fn sureness(left: &Left<'_>) -> Option<Sureness> {
     let inverse = inverse_of_square(left.jacobian)?;
     let own = variances(left, &inverse, mean_square);
     let correlation = correlation(residuals, constants);
-    let scaled = DMatrix::from_fn(count, constants, |row, k| left.jacobian[(row, k)] * own[row].sqrt());
     // The fit takes more from correlated noise than from independent one: what residuals are left of it, by tr(V) - tr(H V).
     let kept = (count as f64 - (&inverse * correlated_square(left.jacobian, correlation)).trace()) / freedom;
-    let middle = correlated_square(&scaled, correlation) / kept.max(0.1);
-    let straight = &inverse * middle * &inverse;
+    let covariance = |variance: &dyn Fn(usize) -> f64| {
+        let scaled =
+            DMatrix::from_fn(count, constants, |row, k| left.jacobian[(row, k)] * variance(row).sqrt());
+        &inverse * (correlated_square(&scaled, correlation) / kept.max(0.1)) * &inverse
+    };
+    let [straight, of_equal] = [covariance(&|row| own[row]), covariance(&|_| mean_square)];
     let (column, unsure) = &left.bend;
     let by_bend = &inverse * left.jacobian.transpose() * column;
     let points = count as f64 * (1.0 - correlation) / (1.0 + correlation);
     let quantile = StudentsT::new(0.0, 1.0, (points - constants as f64).max(3.0))
         .map_or(1.96, |law| law.inverse_cdf(0.975));
-    let half =
-        |k: usize, unsure: f64| quantile * (straight[(k, k)].max(0.0) + (unsure * by_bend[k]).powi(2)).sqrt();
+    let half = |k: usize, unsure: f64| {
+        let variance = straight[(k, k)].max(of_equal[(k, k)]).max(0.0);
+        quantile * (variance + (unsure * by_bend[k]).powi(2)).sqrt()
+    };
     Some(Sureness {
         halves: (0..constants).map(|k| half(k, *unsure)).collect(),
         halves_of_straight: (0..constants).map(|k| half(k, 0.0)).collect(),
@@ -106,14 +112,18 @@ fn correlated_square(rows: &DMatrix<f64>, correlation: f64) -> DMatrix<f64> {
     sum
 }
 
-/// Correlation of neighbours, with what the fit has taken from it; nothing where it may be chance.
+/// Correlation of neighbours, with what the fit has taken from it and its standard deviation; nothing where it may be chance.
 fn correlation(residuals: &DVector<f64>, constants: usize) -> f64 {
     let count = residuals.len();
     let square = residuals.norm_squared();
     let products: f64 = (1..count).map(|row| residuals[row] * residuals[row - 1]).sum();
     let found = products / square;
     let chance = CHANCE / (count as f64).sqrt();
-    if found > chance { (found + constants as f64 * (1.0 + found) / count as f64).min(MOST) } else { 0.0 }
+    if found <= chance {
+        return 0.0;
+    }
+    let whole = (found + constants as f64 * (1.0 + found) / count as f64).min(MOST);
+    (whole + ((1.0 - whole * whole) / count as f64).sqrt()).min(MOST)
 }
 
 /// Variances of the points: those of force and of displacement by least squares of the squared residuals, weighted once.

@@ -130,9 +130,14 @@ impl MeasuredCycle {
         let pressed = self.normal_force.unwrap_or(known.normal_force);
         let LoopShape { energy, force_amplitude, amplitude, opening, .. } = own;
         let slope = self.slope_after_reversal();
+        // In gross slip a flank goes as far as the amplitude is more than the half-width.
+        let steep = slope.or_else(|| (amplitude > opening).then(|| force_amplitude / (amplitude - opening)));
         let friction = known.flanks.and_then(|flanks| {
             let [of_energy, of_opening] = self.unsure(&own, known.correlation);
-            Some((flanks, flanks.friction_force([energy, of_energy], [opening, of_opening])?))
+            Some((
+                flanks,
+                flanks.friction_force([energy, of_energy], [opening, of_opening], force_amplitude)?,
+            ))
         });
         Quantities {
             dissipated_energy: energy,
@@ -145,7 +150,7 @@ impl MeasuredCycle {
             contact_sliding_ratio: contact.map(|own| own.opening / own.amplitude),
             slope,
             plateau_friction: friction
-                .and_then(|(flanks, limit)| self.plateau(slope?, flanks.way(limit, known.stiffness, slope?)))
+                .and_then(|(flanks, limit)| self.plateau(steep?, flanks.way(limit, known.stiffness, steep?)))
                 .map(|force| force / pressed),
             energy_friction: friction.map(|(_, limit)| limit / pressed),
         }

@@ -165,6 +165,9 @@ pub fn rising_crossings(displacement: &[f64]) -> Vec<usize> {
 
 #[cfg(test)]
 mod tests {
+    use rand_pcg::Pcg64Mcg;
+    use rand_pcg::rand_core::Rng;
+
     use super::*;
 
     #[test]
@@ -173,5 +176,38 @@ mod tests {
         for turn in [20, 33] {
             assert!((at_turn(&values, turn, [-1, 1]) - values[turn]).abs() < 1e-12);
         }
+    }
+
+    /// A long wave of fifty points with noise of standard deviation 0.1, independent or correlated from point to point: known to 5 % from
+    /// 4000 points, whose median is so to 2 %.
+    #[test]
+    fn noise_is_told_from_a_wave_also_where_it_is_correlated() {
+        let mut random = Pcg64Mcg::new(11);
+        let mut uniform = || f64::from(random.next_u32()) / 4_294_967_296.0;
+        for correlation in [0.0, 0.5, 0.8] {
+            let mut value = 0.0;
+            let values: Vec<f64> = (0..4000)
+                .map(|k| {
+                    // Twelve uniform numbers are a normal one, but for their mean.
+                    let fresh = (0..12).map(|_| uniform()).sum::<f64>() - 6.0;
+                    value = correlation * value + (1.0_f64 - correlation * correlation).sqrt() * fresh;
+                    (TAU * f64::from(k) / 50.0).sin() + 0.1 * value
+                })
+                .collect();
+            let found = noise(&values, correlation);
+            assert!((found / 0.1 - 1.0).abs() < 0.05, "{correlation}: {found}");
+        }
+    }
+
+    /// A triangle of forty points begins and ends inside a cycle: its tops and the crossings of its middle, by their places.
+    #[test]
+    fn tops_and_crossings_are_where_they_are() {
+        let wave = |k: i32| f64::from((k.rem_euclid(40) - 20).abs()) - 10.0;
+        // From k = 8 on the way down; tops at 40, 80 and 120, of which the last is the last point.
+        let values: Vec<f64> = (8..=120).map(wave).collect();
+        assert_eq!(tops(&values), [32, 72]);
+        // Upwards through the middle at 30, 70 and 110, downwards at 10, 50 and 90.
+        assert_eq!(rising_crossings(&values), [22, 62, 102]);
+        assert_eq!(rising_crossings(&values.iter().map(|value| -value).collect::<Vec<_>>()), [2, 42, 82]);
     }
 }
