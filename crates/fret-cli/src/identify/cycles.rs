@@ -2,7 +2,7 @@
 
 use super::log::Table;
 use super::refused;
-use super::turns::{range, rising_crossings, tops, turns};
+use super::turns::{falls, range, rising_crossings, tops, turns};
 use crate::failure::Failure;
 
 /// Points of a cycle, at the least.
@@ -27,7 +27,9 @@ pub struct MeasuredCycle {
     pub normal_force: Option<f64>,
     /// First and last line in the file.
     pub lines: [usize; 2],
-    /// Where the displacement is largest and where it is smallest; nothing where there are too few points.
+    /// Rows, with fractions, at which the displacement is largest and smallest; nothing where there are too few points.
+    pub turns_at: [f64; 2],
+    /// The points next to them.
     pub turns: [usize; 2],
     /// Why it is left out.
     pub fault: Option<Fault>,
@@ -54,6 +56,7 @@ pub fn split(table: &Table, [length, force, normal]: [f64; 3]) -> Vec<MeasuredCy
             .map(|column| (normal * column.values[from..to].iter().sum::<f64>() / (to - from) as f64).abs());
         let mut cycle = MeasuredCycle {
             name,
+            turns_at: [0.0; 2],
             turns: [0, 0],
             displacement: displacement[from..to].to_vec(),
             force: forces[from..to].to_vec(),
@@ -62,7 +65,7 @@ pub fn split(table: &Table, [length, force, normal]: [f64; 3]) -> Vec<MeasuredCy
             fault: None,
         };
         if to - from >= FEWEST {
-            cycle.turns = turns(&cycle.displacement);
+            cycle.find_turns();
         }
         cycle.fault = cycle.fault_of(&table.lines[from..to]);
         cycle
@@ -166,6 +169,13 @@ pub fn left_out(cycles: &[MeasuredCycle]) -> String {
 }
 
 impl MeasuredCycle {
+    /// Finds where the displacement turns.
+    pub fn find_turns(&mut self) {
+        let count = self.displacement.len();
+        self.turns_at = turns(&self.displacement);
+        self.turns = self.turns_at.map(|row| row.round() as usize % count);
+    }
+
     /// Why it is no whole loop; `lines` are those of its rows.
     fn fault_of(&self, lines: &[usize]) -> Option<Fault> {
         let place = format!("cycle {} (lines {} to {})", self.name, self.lines[0], self.lines[1]);
@@ -231,7 +241,6 @@ impl MeasuredCycle {
 
     /// Whether a point lies on the way down, from the largest displacement to the smallest.
     pub fn is_falling(&self, row: usize) -> bool {
-        let [top, bottom] = self.turns;
-        if top < bottom { (top..bottom).contains(&row) } else { row >= top || row < bottom }
+        falls(row as f64, self.turns_at)
     }
 }

@@ -2,7 +2,6 @@
 //! displacement. A force of the other body, or a displacement of the other sense, turns both; rows from the last to the first turn the work.
 
 use super::cycles::{Fault, MeasuredCycle};
-use super::turns::turns;
 
 /// Work counts where it is this many times what noise encloses.
 const SURE: f64 = 4.0;
@@ -89,7 +88,7 @@ impl Direction {
                 continue;
             }
             if self.backwards {
-                cycle.turns = turns(&cycle.displacement);
+                cycle.find_turns();
             }
             if work_and_growth(cycle)[0] < -SURE {
                 let what = format!(

@@ -16,26 +16,32 @@ use levenberg_marquardt::{LeastSquaresProblem, LevenbergMarquardt, TerminationRe
 use nalgebra::storage::Owned;
 use nalgebra::{DMatrix, DVector, Dyn};
 
+use super::computed::Loop;
 use super::cycles::MeasuredCycle;
 use super::drift::Bend;
 use super::found::Fitted;
 use super::intervals::{Left, Sureness, sureness};
-use super::model::{Loop, Model};
+use super::model::Model;
 use super::refused;
 use super::start::first_guess;
-use super::turns::{calm_range, noise};
+use super::turns::{calm_range, falls, noise};
 use crate::failure::Failure;
 
 /// Step of the differences by which derivatives by the constants are found, relative.
 const STEP: f64 = 5e-3;
 /// Rounds in which the feet of the points on the loop follow the solution.
 const ROUNDS: usize = 3;
+/// Points nearer to a turn than so many rows lie next to it: so well the displacement tells it.
+const AT_TURN: f64 = 1.5;
 /// Steps to the foot of a point.
 const STEPS_TO_FOOT: usize = 3;
 /// Noise below this part of the amplitude does not count: what a loop is off is more.
 const QUIET: f64 = 1e-3;
 /// The noise of one signal over that of the other, relative to the amplitudes, at the most.
 const UNEQUAL: f64 = 4.0;
+/// Logarithms of friction, stiffness and amplitude do not go farther than this from their start: the friction of a loop that sticks is
+/// bounded by nothing.
+const FARTHEST: [f64; 3] = [4.0, 12.0, 12.0];
 /// Constants without a bend of the drift and a key.
 const ALWAYS: usize = 6;
 /// A bend is fitted where it is more than so many of its standard deviations.
@@ -60,6 +66,7 @@ pub fn fit(name: &str, cycle: &MeasuredCycle, model: &Model, bend: Option<Bend>)
         bend: bend.map_or(0.0, |bend| bend.value / units[0]),
         bend_is_fitted: false,
         noises: noises(cycle, units),
+        falling: Vec::new(),
         feet: Vec::new(),
         now: Some(first),
     };
@@ -90,6 +97,8 @@ pub struct Fit<'a> {
     pub bend_is_fitted: bool,
     /// Noise of displacement and force over their amplitudes, in their own unit: their squares are two.
     noises: [f64; 2],
+    /// Whether a point lies on the way down.
+    falling: Vec<bool>,
     feet: Vec<Foot>,
     /// The loop of the parameters.
     pub now: Option<Loop>,
@@ -126,6 +135,11 @@ impl Fit<'_> {
         self.place_of_bend().map_or(self.bend, |place| self.parameters[place])
     }
 
+    /// Whether a constant went as far as it may: the points do not bound it.
+    pub fn is_unbounded(&self, constant: usize) -> bool {
+        FARTHEST.get(constant).is_some_and(|farthest| self.parameters[constant].abs() >= *farthest)
+    }
+
     /// The fit's own parameters that change the computed loop.
     fn of_loop(&self) -> impl Iterator<Item = usize> + use<> {
         (0..3).chain(self.value.is_some().then_some(ALWAYS))
@@ -133,7 +147,8 @@ impl Fit<'_> {
 
     /// Friction, stiffness of the rig and amplitude, and the value of the key.
     pub fn constants(&self, parameters: &DVector<f64>) -> ([f64; 3], Option<f64>) {
-        let constants = [0, 1, 2].map(|k| self.start[k] * parameters[k].clamp(-12.0, 12.0).exp());
+        let constants =
+            [0, 1, 2].map(|k| self.start[k] * parameters[k].clamp(-FARTHEST[k], FARTHEST[k]).exp());
         (constants, self.value.map(|value| value * parameters[6].clamp(-3.0, 3.0).exp()))
     }
 
@@ -162,8 +177,30 @@ impl Fit<'_> {
         let Some(now) = &self.now else { return };
         let [length, force] = self.noises();
         let level = self.units[1] * self.parameters[5];
-        let foot = |(row, place): (usize, f64)| {
-            let falling = self.cycle.is_falling(row);
+        let places: Vec<f64> = self.places().collect();
+        let turns = self.cycle.turns_at;
+        let count = places.len();
+        let near_turn = |row: usize| {
+            let apart = |turn: f64| {
+                let rows = (row as f64 - turn).rem_euclid(count as f64);
+                rows.min(count as f64 - rows)
+            };
+            round > 0 && apart(turns[0]).min(apart(turns[1])) < AT_TURN
+        };
+        // Next to a turn it is open on which side of it a point lies: on that whose branch is nearer.
+        let off = |row: usize, falling: bool| {
+            let [expected, slope] = now.at(falling, places[row]);
+            ((self.cycle.force[row] - level - expected) / force.hypot(slope * length)).abs()
+        };
+        let falling: Vec<bool> = (0..count)
+            .map(
+                |row| {
+                    if near_turn(row) { off(row, true) < off(row, false) } else { falls(row as f64, turns) }
+                },
+            )
+            .collect();
+        let foot = |(row, &place): (usize, &f64)| {
+            let falling = falling[row];
             let mut at = place;
             for _ in 0..if round == 0 { 0 } else { STEPS_TO_FOOT } {
                 let [expected, slope] = now.at(falling, at);
@@ -173,7 +210,8 @@ impl Fit<'_> {
             let slope = now.at(falling, at)[1];
             Foot { at, slope, weight: 1.0 / force.hypot(slope * length) }
         };
-        self.feet = self.places().enumerate().map(foot).collect();
+        self.feet = places.iter().enumerate().map(foot).collect();
+        self.falling = falling;
     }
 
     fn distances(&self, of: &Loop) -> Vec<f64> {
@@ -182,7 +220,7 @@ impl Fit<'_> {
             .enumerate()
             .map(|(row, place)| {
                 let foot = &self.feet[row];
-                let expected = of.at(self.cycle.is_falling(row), foot.at)[0] + foot.slope * (place - foot.at);
+                let expected = of.at(self.falling[row], foot.at)[0] + foot.slope * (place - foot.at);
                 foot.weight * (self.cycle.force[row] - level - expected)
             })
             .collect()

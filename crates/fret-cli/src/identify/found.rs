@@ -95,7 +95,7 @@ impl Fit<'_> {
                 unit,
                 value,
                 interval: [value * (-half).exp(), value * half.min(700.0).exp()],
-                told: half < TOLD,
+                told: half < TOLD && !self.is_unbounded(k),
             }
         };
         let mut constants = vec![
@@ -148,7 +148,6 @@ impl Fit<'_> {
                 now.normal_force
             ));
         }
-        let around = now.branches[0].iter().rev().chain(&now.branches[1]).copied().collect();
         Ok(Fitted {
             constants,
             normal_force: now.normal_force,
@@ -161,7 +160,7 @@ impl Fit<'_> {
             ],
             contact_stiffness: now.contact_stiffness,
             slides: now.slides,
-            computed: around,
+            computed: now.around(),
             notes,
             correlation: sure.correlation,
             value_of_key: value,

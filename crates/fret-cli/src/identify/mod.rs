@@ -1,9 +1,10 @@
 //! From measured fretting loops to the constants of a model: friction coefficient, stiffness of the rig, one constant of the case.
 //!
 //! From the ground: `log` (rows of numbers with their lines) below its `head`, `unit_names`; `turns` of a signal, `cycles` (which are
-//! whole), `direction`, `drift`; `model` (the loop that the solver computes), `flanks`, `quantities` (what is read from a cycle); `start`,
+//! whole), `direction`, `drift`; `computed` (a loop between its points), `model` (the loop that the solver computes), `flanks`, `quantities` (what is read from a cycle); `start`,
 //! `fit` (least squares), `intervals`, `found`; `summary` and `page` (pictures); the whole question here.
 
+mod computed;
 mod cycles;
 mod direction;
 mod drift;

@@ -5,7 +5,7 @@ use serde_json::{Value, json};
 
 use super::cycles::MeasuredCycle;
 use super::flanks::Flanks;
-use super::turns::{at_turn, calm_range, noise, parabola, slope};
+use super::turns::{at_turn, calm_range, falls, noise, parabola, slope};
 
 /// Part of the way between the turns from which a plateau is read, and up to which.
 const PLATEAU: [f64; 2] = [0.75, 0.98];
@@ -196,7 +196,7 @@ impl MeasuredCycle {
             return Middle { at, compliance: slope / amplitude, scatter };
         }
         let mut crossings: Vec<[f64; 2]> = Vec::new();
-        for row in (0..count).filter(|&row| self.is_falling(row) == falling) {
+        for row in (0..count).filter(|&row| falls(row as f64 + 0.5, self.turns_at) == falling) {
             let next = (row + 1) % count;
             // Crossings of noise are averaged.
             if (self.force[row] - middle) * (self.force[next] - middle) <= 0.0

@@ -1,7 +1,8 @@
 //! Where a fit starts, and units that cannot be.
 
+use super::computed::Loop;
 use super::cycles::MeasuredCycle;
-use super::model::{Loop, Model};
+use super::model::Model;
 use super::quantities::Known;
 use super::refused;
 use super::turns::calm_range;

@@ -1,11 +1,15 @@
 //! The course of a signal: where it turns, its values there, its range without noise, the slope of a line through points.
 
 use std::f64::consts::TAU;
+use std::ops::Range;
 
 use nalgebra::{Matrix3, Vector3};
 
 /// Points of a parabola at a turn: this part of those of a cycle, at the least and at the most.
 const POINTS_OF_A_PARABOLA: [usize; 3] = [12, 3, 15];
+
+/// Points before and behind a turn through which lines are laid: those between these parts of the range of displacement.
+const SIDE: Range<f64> = 0.5..0.9;
 
 /// Slope of the line of least squares.
 pub fn slope(points: &[[f64; 2]]) -> Option<f64> {
@@ -72,28 +76,72 @@ fn calm(values: &[f64]) -> Vec<f64> {
         .collect()
 }
 
-/// Where the displacement is largest and smallest: the middle of the time that it spends in the outermost fifth of its range, which
-/// noise does not move.
-pub fn turns(displacement: &[f64]) -> [usize; 2] {
-    let [low, high] = calm_range(displacement);
+/// Rows, with fractions, at which the displacement is largest and smallest: where the lines through the points before and behind meet. A
+/// drift does not move that, and noise little.
+pub fn turns(displacement: &[f64]) -> [f64; 2] {
     let count = displacement.len();
-    let middle = |sign: f64| {
-        let outer = |value: f64| {
-            if sign > 0.0 { (value - low) / (high - low) } else { (high - value) / (high - low) }
+    // What drifts is as much higher at the end of a cycle as its last points lead on above the first.
+    let drift = jump(displacement);
+    let along = |(row, value): (usize, &f64)| value - drift * (row as f64 + 0.5) / count as f64;
+    let displacement: Vec<f64> = displacement.iter().enumerate().map(along).collect();
+    let [low, high] = calm_range(&displacement);
+    let turn = |sign: f64| {
+        let outer =
+            |row: usize| 0.5 + sign * (displacement[row % count] - f64::midpoint(low, high)) / (high - low);
+        let about = middle_of_outer(count, outer);
+        let line = |side: isize| {
+            let points: Vec<[f64; 2]> = (0..count / 2)
+                .map(|step| side * step as isize)
+                .map(|step| [step as f64, outer((about as isize + step).rem_euclid(count as isize) as usize)])
+                .filter(|[_, outer]| SIDE.contains(outer))
+                .collect();
+            let rise = slope(&points)?;
+            let [step, value] =
+                [0, 1].map(|k| points.iter().map(|point| point[k]).sum::<f64>() / points.len() as f64);
+            Some((value - rise * step, rise))
         };
-        let (mut cos, mut sin) = (0.0, 0.0);
-        for (row, value) in displacement.iter().enumerate() {
-            // A cycle has no first point: the mean of directions around it.
-            if outer(*value) > 0.8 {
-                let angle = TAU * row as f64 / count as f64;
-                cos += angle.cos();
-                sin += angle.sin();
-            }
-        }
-        let share = sin.atan2(cos).rem_euclid(TAU) / TAU;
-        (share * count as f64).round() as usize % count
+        let meet =
+            line(-1).zip(line(1)).map(|((before, up), (behind, down))| (behind - before) / (up - down));
+        // Lines that do not meet here are none of a turn.
+        let meet = meet.filter(|meet| meet.abs() < count as f64 / 8.0).unwrap_or(0.0);
+        (about as f64 + meet).rem_euclid(count as f64)
     };
-    [middle(1.0), middle(-1.0)]
+    [turn(1.0), turn(-1.0)]
+}
+
+/// Whether a row, or a place between two, lies on the way down, between turns at these rows of a cycle.
+pub fn falls(row: f64, turns: [f64; 2]) -> bool {
+    let [top, bottom] = turns;
+    if top < bottom { (top..bottom).contains(&row) } else { row >= top || row < bottom }
+}
+
+/// How much higher the last points of a cycle are than those before its first would be: by lines through a few of both, led on by one row.
+fn jump(values: &[f64]) -> f64 {
+    let count = values.len();
+    let points = (count / 30).clamp(3, 8).min(count);
+    let n = points as f64;
+    // The line of least squares through points 0, 1, ... n - 1, at n: from the nearest point on.
+    let next = |value: &dyn Fn(usize) -> f64| {
+        (0..points)
+            .map(|k| (4.0 * n + 2.0 - 6.0 * (k as f64 + 1.0)) / (n * (n - 1.0)) * value(k))
+            .sum::<f64>()
+    };
+    let behind_last = next(&|k| values[count - 1 - k]);
+    let before_first = next(&|k| values[k]);
+    0.5 * (behind_last - values[0] + values[count - 1] - before_first)
+}
+
+/// The middle of the rows of a cycle in the outermost fifth of the range of displacement.
+fn middle_of_outer(count: usize, outer: impl Fn(usize) -> f64) -> usize {
+    let (mut cos, mut sin) = (0.0, 0.0);
+    for row in (0..count).filter(|&row| outer(row) > 0.8) {
+        // A cycle has no first point: the mean of directions around it.
+        let angle = TAU * row as f64 / count as f64;
+        cos += angle.cos();
+        sin += angle.sin();
+    }
+    let share = sin.atan2(cos).rem_euclid(TAU) / TAU;
+    (share * count as f64).round() as usize % count
 }
 
 /// Standard deviation of the noise of a signal, whose neighbouring points are correlated by so much: by the median of its third
@@ -209,5 +257,30 @@ mod tests {
         // Upwards through the middle at 30, 70 and 110, downwards at 10, 50 and 90.
         assert_eq!(rising_crossings(&values), [22, 62, 102]);
         assert_eq!(rising_crossings(&values.iter().map(|value| -value).collect::<Vec<_>>()), [2, 42, 82]);
+    }
+
+    /// Triangles and sines, begun anywhere, with a drift of a tenth of their range and 1 % of noise: to a row and a half of a hundred where a
+    /// triangle begins at its turn (what drifts and what turns are told apart there by one row, and noise), elsewhere to one.
+    #[test]
+    fn turns_are_found_in_spite_of_drift_and_noise() {
+        let mut random = Pcg64Mcg::new(5);
+        let mut noise = || f64::from(random.next_u32()) / 2_147_483_648.0 - 1.0;
+        for begins in [0.0, 0.4, 13.5, 30.4, 60.0] {
+            for is_sine in [false, true] {
+                let apart = if begins < 1.0 { 1.5 } else { 1.0 };
+                let values: Vec<f64> = (0..100)
+                    .map(|row| {
+                        let time = ((f64::from(row) - begins) / 100.0).rem_euclid(1.0);
+                        let triangle = (4.0 * time - 2.0).abs() - 1.0;
+                        let place = if is_sine { (TAU * time).cos() } else { triangle };
+                        place + 0.2 * f64::from(row) / 100.0 + 0.02 * noise()
+                    })
+                    .collect();
+                for (found, right) in turns(&values).into_iter().zip([begins, begins + 50.0]) {
+                    let off = (found - right + 50.0).rem_euclid(100.0) - 50.0;
+                    assert!(off.abs() < apart, "{begins} {is_sine}: {found} {right}");
+                }
+            }
+        }
     }
 }
