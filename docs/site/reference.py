@@ -111,7 +111,7 @@ def output_files() -> str:
         " (`convergence` in the JSON file). `efficient`: no other level takes less work (operator applications by the size of their grids) and is more accurate.\n",
         "## summary.csv\n\nWritten by `fret sweep`: one row per point with the values of the parameters, status, error message, the last row of `history.csv` and of `cycles.csv`.\n",
         "## uncertainty.json\n\nWritten by `fret sweep` where there are `[samples]`: `count`, `seed`, `indices`, `distributions`, `quantile_fractions`, and `quantities`: of every number of `summary.csv` `count` (the samples that gave it), `mean`, `deviation`, `min`, `max`, `quantiles` and, on request and where it varies, `sobol_indices` (`first`, `total`) of every key. With axes beside the samples a list `points` takes the place of `quantities`, each with its `values` and its `quantities`.\n",
-        "## identified.json, cycles.csv of a log, identified.html\n\nWritten by `fret identify`: the fitted constants with their 95 % intervals, what was removed from the log, notes, the quantities of every measured cycle (also as `cycles.csv`), the fitted cycle as measured and as computed; a page with the pictures.\n",
+        "## identified.json, cycles.csv of a log, identified.html\n\nWritten by `fret identify`: the fitted constants with their 95 % intervals, what was removed from the log, notes, the quantities of every measured cycle (also as `cycles.csv`, with units in its head; empty where a cycle was left out), which cycles and rows were left out and why, whether the loops were turned, the fitted cycle as measured and as computed; a page with the pictures.\n",
     ]
     return "\n".join(parts)
 

@@ -165,7 +165,7 @@ def run_into(
 def identify(
     log: tuple[str, bytes],
     case: Case,
-    asked: tuple[list[tuple[str, str]], list[tuple[str, str]], float | None, str | None],
+    asked: tuple[list[tuple[str, str]], list[tuple[str, str]], float | None, str | None, bool],
     threads: int | None,
 ) -> tuple[str, str]: ...
 def study(

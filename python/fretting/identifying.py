@@ -45,14 +45,17 @@ class Identification:
         ``"friction coefficient"``, ``"rig stiffness"`` [force/length], ``"actuator amplitude"`` [length], and the
         fitted key.
     cycles : dict of str to ndarray
-        Quantities of every cycle: ``cycle``, ``dissipated_energy``, ``force_amplitude``, ``displacement_amplitude``,
-        ``opening`` (delta_0), ``energy_ratio`` (A), ``sliding_ratio`` (D), the same of the contact without the rig
-        (``contact_energy_ratio``, ``contact_sliding_ratio``), ``slope_after_reversal``, ``plateau_friction``,
-        ``energy_friction``; NaN where there is none.
+        Quantities of every cycle: ``cycle``, ``points``, ``dissipated_energy``, ``force_amplitude``,
+        ``displacement_amplitude``, ``opening`` (delta_0), ``energy_ratio`` (A), ``sliding_ratio`` (D), the same of the
+        contact without the rig (``contact_energy_ratio``, ``contact_sliding_ratio``), ``slope_after_reversal``,
+        ``plateau_friction`` and ``energy_friction`` (in gross slip); NaN where there is none, and in cycles that were
+        left out.
+    left_out : dict of float to str
+        Cycles that are no whole loop, by number, with the reason.
     sliding_condition : str
         Of the fitted cycle: ``"partial_slip"``, ``"mixed"`` or ``"gross_slip"``.
     removed : dict
-        What was taken off the log: offset and drift of the displacement, offset of the force.
+        What was taken off the log: offset, drift and bend of the drift of the displacement, offset of the force.
     noise : float
         Standard deviation of the points about the computed loop, relative to the amplitudes.
     notes : list of str
@@ -75,6 +78,7 @@ class Identification:
             name: np.array([np.nan if row[name] is None else row[name] for row in rows], dtype=float)
             for name in (rows[0] if rows else {})
         }
+        self.left_out: dict[float, str] = {entry["cycle"]: entry["why"] for entry in answer["left_out"]["cycles"]}
         self.sliding_condition: str = answer["sliding_condition"]
         self.removed: dict[str, float | None] = dict(answer["removed"])
         self.noise: float = answer["noise"]
@@ -109,7 +113,10 @@ class Identification:
         axes = self._axes(ax)
         displacement, force = self.measured["displacement"], self.measured["force"]
         time = (np.arange(len(force)) + 0.5) / len(force) - 0.5
-        drift = self.removed["displacement_offset"] + time * (self.removed["displacement_drift"] or 0.0)  # type: ignore[operator]
+        offset, straight, bend = (
+            self.removed[f"displacement_{name}"] or 0.0 for name in ("offset", "drift", "bend")
+        )
+        drift = offset + time * straight + (4 * time**2 - 1 / 3) * bend
         axes.plot(displacement - drift, force - (self.removed["force_offset"] or 0.0), ".", ms=3, label="measured")
         axes.plot(self.computed["displacement"], self.computed["force"], label="computed, at the actuator")
         axes.plot(self.computed["shift"], self.computed["force"], "--", label="computed, the contact's own")
@@ -131,10 +138,11 @@ def identify(
     log: str | PathLike[str],
     *,
     case: _case.CaseLike,
-    columns: Mapping[str, str] | None = None,
+    columns: Mapping[str, str | int] | None = None,
     units: Mapping[str, str] | None = None,
     cycle: float | None = None,
     fit: str | None = None,
+    strict: bool = False,
     threads: int | None = None,
 ) -> Identification:
     """Identify friction coefficient and stiffness of the rig from measured fretting loops.
@@ -150,15 +158,18 @@ def identify(
     case : path, str or mapping
         Bodies, profile, grid and the stages that press them.
     columns : mapping, optional
-        Names of the columns of ``"displacement"``, ``"force"``, ``"cycle"``, ``"normal_force"``. Default: those of
+        Names of the columns, or their numbers from 1, of ``"displacement"``, ``"force"``, ``"cycle"``, ``"normal_force"``. Default: those of
         ``rig.columns`` in the case, else usual names.
     units : mapping, optional
         Units of ``"displacement"``, ``"force"``, ``"normal_force"``, such as ``"um"``. Default: those beside the
         names, or those of the case.
     cycle : float, optional
-        Number of the cycle that is fitted. Default: the last.
+        Number of the cycle that is fitted. Default: the last whole one.
     fit : str, optional
         A key of the case that is fitted too, such as ``"lower.substrate.young"``.
+    strict : bool, default False
+        Refuse a log with a cycle that is no whole loop, or a row without a number. Otherwise these are left out and
+        named, and only a bad cycle that is to be fitted is refused.
     threads : int, optional
         Worker threads. Default: all cores.
 
@@ -180,6 +191,7 @@ def identify(
     """
     named = {"columns": {} if columns is None else columns, "units": {} if units is None else units}
     names_of, units_of = (list(mapping(name, given).items()) for name, given in named.items())
-    asked = names_of, units_of, cycle, fit
+    names_of = [(role, str(column) if isinstance(column, int) else column) for role, column in names_of]
+    asked = names_of, units_of, cycle, fit, strict
     json_text, page = _core.identify((str(log), content("log", log)), _case.read(case), asked, threads)
     return Identification(json.loads(json_text), page)

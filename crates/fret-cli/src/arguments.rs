@@ -250,18 +250,21 @@ pub struct IdentifyArguments {
     /// The case: bodies, profile, grid and the stages that press them. Its friction is where the fit starts
     #[arg(long, value_name = "CASE")]
     pub case: PathBuf,
-    /// Which column holds what: `displacement=NAME,force=NAME,cycle=NAME,normal_force=NAME` [default: rig.columns of the case, else usual names]
+    /// Which column holds what, by name or by number from 1: `displacement=NAME,force=NAME,cycle=NAME,normal_force=NAME` [default: rig.columns of the case, else usual names]
     #[arg(long, value_name = "WHAT=NAME,...", value_delimiter = ',')]
     pub columns: Vec<String>,
     /// Units of the columns, such as displacement=um,force=N [default: those beside the names, or those of the case]
     #[arg(long, value_name = "WHAT=UNIT,...", value_delimiter = ',')]
     pub units: Vec<String>,
-    /// The cycle to fit, by its number [default: the last]
+    /// The cycle to fit, by its number [default: the last whole one]
     #[arg(long, value_name = "N")]
     pub cycle: Option<f64>,
     /// Also fit one number of the case, such as lower.substrate.young
     #[arg(long, value_name = "KEY")]
     pub fit: Option<String>,
+    /// Refuse a log with a cycle that is no whole loop, or a row without a number [default: leave these out and name them]
+    #[arg(long)]
+    pub strict: bool,
     /// Folder for the answer [default: results/ and the name of the log with -identified]
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,

@@ -1,6 +1,7 @@
 //! What a program that carries the command calls besides it, as the Python package does: the same runs, results and studies, without a
 //! terminal.
 
+use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -17,6 +18,7 @@ use crate::case_file::{Beside, CaseFile};
 use crate::commands::preparation::Wanted;
 use crate::commands::run;
 use crate::commands::study::{Question, studied};
+use crate::defect;
 use crate::estimate::{Estimate, NoBars};
 use crate::failure::{Failure, Unwritten};
 pub use crate::identify::Request as IdentifyRequest;
@@ -318,6 +320,9 @@ pub fn identify(
     case: CaseText,
     request: &IdentifyRequest,
 ) -> Result<(Value, String), Stopped> {
-    let answer = crate::identify::identify(log, case.into(), request)?;
+    let asked = || crate::identify::identify(log, case.into(), request);
+    // A mistake in the program is an error of the call, not the end of the caller.
+    let answer = catch_unwind(AssertUnwindSafe(asked))
+        .unwrap_or_else(|panic| Err(Failure::Defect(defect::words_of(panic.as_ref()))))?;
     Ok((answer.json, answer.page))
 }

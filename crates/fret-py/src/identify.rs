@@ -7,8 +7,8 @@ use crate::case::Case;
 use crate::error::stopped;
 use crate::threads::{self, Threads};
 
-/// What is asked: columns, units, the cycle, the key.
-type Asked = (Vec<(String, String)>, Vec<(String, String)>, Option<f64>, Option<String>);
+/// What is asked: columns, units, the cycle, the key, whether a log with bad cycles or rows is refused.
+type Asked = (Vec<(String, String)>, Vec<(String, String)>, Option<f64>, Option<String>, bool);
 
 /// Identifies a log, whose name and bytes are given, by a case; the answer as JSON text, and the page.
 #[pyfunction]
@@ -19,8 +19,8 @@ pub fn identify(
     asked: Asked,
     threads: Threads,
 ) -> PyResult<(String, String)> {
-    let (columns, units, cycle, key) = asked;
-    let request = IdentifyRequest { columns, units, cycle, key };
+    let (columns, units, cycle, key, strict) = asked;
+    let request = IdentifyRequest { columns, units, cycle, key, strict };
     let (name, bytes) = log;
     let pool = threads::pool(threads)?;
     let text = case.text()?;

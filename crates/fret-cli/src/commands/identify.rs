@@ -1,9 +1,7 @@
 //! `fret identify`: constants of a model from measured fretting loops.
 
-use std::fmt::Write;
+use std::io::Read;
 use std::path::{Path, PathBuf};
-
-use serde_json::Value;
 
 use crate::arguments::IdentifyArguments;
 use crate::case_file::CaseFile;
@@ -21,17 +19,13 @@ const MOST_BYTES: u64 = 1 << 30;
 /// Identifies a log by a case; writes what was found beside it.
 pub fn identify(arguments: &IdentifyArguments, as_json: bool) -> Result<(), Failure> {
     let name = name_of(&arguments.log);
-    let unreadable = |why: String| Failure::Call(format!("{name}: {why}"), String::new());
-    let size = std::fs::metadata(&arguments.log).map_err(|error| unreadable(error.to_string()))?.len();
-    if size > MOST_BYTES {
-        return Err(unreadable(format!("{size} bytes: more than {MOST_BYTES}")));
-    }
-    let bytes = std::fs::read(&arguments.log).map_err(|error| unreadable(error.to_string()))?;
+    let bytes = content(&arguments.log)?;
     let request = Request {
         columns: pairs("--columns", &arguments.columns)?,
         units: pairs("--units", &arguments.units)?,
         cycle: arguments.cycle,
         key: arguments.fit.clone(),
+        strict: arguments.strict,
     };
     let case_file = CaseFile::read(&arguments.case)?;
     let pool = threads::pool(threads::asked(arguments.threads))?;
@@ -48,6 +42,28 @@ pub fn identify(arguments: &IdentifyArguments, as_json: bool) -> Result<(), Fail
     Ok(())
 }
 
+/// The bytes of a log: an ordinary file, measured before it is read.
+///
+/// # Errors
+/// When it is none, or too long, or cannot be read.
+pub fn content(log: &Path) -> Result<Vec<u8>, Failure> {
+    let unreadable = |why: String| {
+        Failure::Call(format!("{}: {why}", name_of(log)), "a log is a text file with columns".to_owned())
+    };
+    let found = std::fs::metadata(log).map_err(|error| unreadable(error.to_string()))?;
+    if !found.is_file() {
+        return Err(unreadable("no ordinary file".to_owned()));
+    }
+    if found.len() > MOST_BYTES {
+        return Err(unreadable(format!("{} bytes: more than {MOST_BYTES}", found.len())));
+    }
+    // A file of a special file system may tell a wrong length.
+    let mut bytes = Vec::new();
+    let file = std::fs::File::open(log).map_err(|error| unreadable(error.to_string()))?;
+    file.take(MOST_BYTES).read_to_end(&mut bytes).map_err(|error| unreadable(error.to_string()))?;
+    Ok(bytes)
+}
+
 /// The folder for the answer, when none is named.
 fn default_folder(log: &Path) -> PathBuf {
     Path::new("results").join(format!("{}-identified", stem(log, "log").display()))
@@ -57,23 +73,8 @@ fn default_folder(log: &Path) -> PathBuf {
 pub fn write(folder: &Path, answer: &Identification) -> Result<(), Failure> {
     write_whole(&folder.join(IDENTIFIED), format!("{:#}\n", answer.json).as_bytes())?;
     write_whole(&folder.join("identified.html"), answer.page.as_bytes())?;
-    write_whole(&folder.join("cycles.csv"), table(&answer.json["cycles"]).as_bytes())?;
+    write_whole(&folder.join("cycles.csv"), answer.table.as_bytes())?;
     Ok(())
-}
-
-fn table(cycles: &Value) -> String {
-    let rows = cycles.as_array().map(Vec::as_slice).unwrap_or_default();
-    let names: Vec<&String> =
-        rows.first().and_then(Value::as_object).map(|row| row.keys().collect()).unwrap_or_default();
-    let mut text = names.iter().map(|name| name.as_str()).collect::<Vec<_>>().join(",") + "\n";
-    for row in rows {
-        let cells: Vec<String> = names
-            .iter()
-            .map(|name| if row[*name].is_null() { String::new() } else { row[*name].to_string() })
-            .collect();
-        let _ = writeln!(text, "{}", cells.join(","));
-    }
-    text
 }
 
 /// `role=name,role=name`.

@@ -1,181 +1,154 @@
 //! Constants by least squares: the loop of the solver laid through the measured points, by Levenberg and Marquardt's method (MINPACK's,
 //! from the crate `levenberg-marquardt`).
 //!
-//! Noise sits in force and displacement alike, each relative to its amplitude: a point's residual is its difference of force over
-//! `sqrt(Q*^2 + (slope d*)^2)`. Offsets of both and a drift of the displacement are fitted with the constants, so that their
-//! uncertainty is in the intervals. These are `t` quantiles times `sqrt(diagonal of s^2 (J^T J)^-1)`: linear about the solution,
-//! for independent errors; the error of the grid is not in them.
+//! Noise sits in force and displacement: a point's residual is its distance from the loop in units of both, `s_q` and `s_d`, which is
+//! `(Q - Q_l - slope (d - d_l))/sqrt(s_q^2 + (slope s_d)^2)` with the slope at the foot `(d_l, Q_l)` of the point on the loop. (At the
+//! measured displacement in place of that of the foot, noise in the displacement shifts the constants: 2 % of the amplitude, 5 % of the
+//! friction coefficient in partial slip.) Feet are those of the round before. The units are in the ratio of the noise that the
+//! signals have from point to point, and as large as the amplitudes. Offsets of both and a drift of the displacement are fitted with the
+//! constants, so that their uncertainty is in the intervals. These are linear about the solution (`intervals`); the error of the grid is not in them.
+//!
+//! A bend of the drift within the cycle changes the stiffness as much as itself, relative to the amplitude, and a loop hardly tells it.
+//! It is that of the middles of the neighbouring cycles, where there are two; else it counts in the intervals with as much as the
+//! noise hides and a quarter of the drift (an exponential approach with a time constant of half a cycle), or is fitted where the loop tells it.
 
-use levenberg_marquardt::{LeastSquaresProblem, LevenbergMarquardt};
+use levenberg_marquardt::{LeastSquaresProblem, LevenbergMarquardt, TerminationReason};
 use nalgebra::storage::Owned;
 use nalgebra::{DMatrix, DVector, Dyn};
-use serde_json::{Value, json};
-use statrs::distribution::{ContinuousCDF, StudentsT};
 
-use super::cycles::{MeasuredCycle, calm_range};
-use super::model::{Loop, Model};
-use super::{TOLD, refused};
+use super::computed::Loop;
+use super::cycles::MeasuredCycle;
+use super::drift::Bend;
+use super::found::Fitted;
+use super::intervals::{Left, Sureness, sureness};
+use super::model::Model;
+use super::refused;
+use super::start::first_guess;
+use super::turns::{calm_range, falls, noise};
 use crate::failure::Failure;
 
 /// Step of the differences by which derivatives by the constants are found, relative.
 const STEP: f64 = 5e-3;
-/// Rounds in which the weights follow the solution.
-const ROUNDS: usize = 2;
-/// Forces over the normal force outside of which units are wrong.
-const FORCES: [f64; 2] = [1e-3, 5.0];
-/// A rig, or a displacement, that is so many times what it is compared with is of another unit.
-const FAR: f64 = 300.0;
+/// Rounds in which the feet of the points on the loop follow the solution.
+const ROUNDS: usize = 3;
+/// Points nearer to a turn than so many rows lie next to it: so well the displacement tells it.
+const AT_TURN: f64 = 1.5;
+/// Steps to the foot of a point.
+const STEPS_TO_FOOT: usize = 3;
+/// Noise below this part of the amplitude does not count: what a loop is off is more.
+const QUIET: f64 = 1e-3;
+/// The noise of one signal over that of the other, relative to the amplitudes, at the most.
+const UNEQUAL: f64 = 4.0;
+/// Logarithms of friction, stiffness and amplitude do not go farther than this from their start: the friction of a loop that sticks is
+/// bounded by nothing.
+const FARTHEST: [f64; 3] = [4.0, 12.0, 12.0];
+/// Constants without a bend of the drift and a key.
+const ALWAYS: usize = 6;
+/// A bend is fitted where it is more than so many of its standard deviations.
+const BENDS: f64 = 3.0;
 
-/// A fitted constant.
-#[derive(Debug, Clone)]
-pub struct Constant {
-    pub name: String,
-    /// In the words of [`fret_core::case::Units::of`].
-    pub unit: &'static str,
-    pub value: f64,
-    /// 95 % interval.
-    pub interval: [f64; 2],
-    /// Whether the loop says anything of it.
-    pub told: bool,
-}
-
-impl Constant {
-    pub fn to_json(&self) -> Value {
-        let [low, high] = self.interval;
-        json!({"name": self.name, "unit": self.unit, "value": self.value, "low": low, "high": high, "told": self.told})
-    }
-}
-
-/// The answer of a fit.
-pub struct Fitted {
-    pub constants: Vec<Constant>,
-    pub normal_force: f64,
-    /// Standard deviation of the points about the loop, relative to the amplitudes.
-    pub noise: f64,
-    /// Offset of the displacement, its drift from the first point to the last, offset of the force.
-    pub removed: [f64; 3],
-    pub contact_stiffness: f64,
-    pub slides: bool,
-    /// Displacement of the actuator, force and shift around the loop.
-    pub computed: Vec<[f64; 3]>,
-    pub notes: Vec<String>,
-}
-
-impl Fitted {
-    /// Stiffness of the rig, where the loop tells it.
-    pub fn stiffness(&self) -> Option<f64> {
-        self.constants
-            .iter()
-            .find(|constant| constant.name == "rig stiffness" && constant.told)
-            .map(|constant| constant.value)
-    }
-}
-
-/// Fits the constants of a model to a cycle.
+/// Fits the constants of a model to a cycle, with the bend of its drift where that is known.
 ///
 /// # Errors
 /// When the cycle is none of such a contact, or a loop cannot be solved.
-pub fn fit(name: &str, cycle: &MeasuredCycle, model: &Model) -> Result<Fitted, Failure> {
+pub fn fit(name: &str, cycle: &MeasuredCycle, model: &Model, bend: Option<Bend>) -> Result<Fitted, Failure> {
     let (start, first) = first_guess(name, cycle, model)?;
     let [low, high] = calm_range(&cycle.displacement);
     let [bottom, top] = calm_range(&cycle.force);
+    let units = [0.5 * (high - low), 0.5 * (top - bottom)];
     let mut fit = Fit {
         cycle,
         model,
-        units: [0.5 * (high - low), 0.5 * (top - bottom)],
+        units,
         start,
         value: model.key().map(|(_, value)| value),
-        parameters: DVector::zeros(6 + usize::from(model.key().is_some())),
-        weights: Vec::new(),
+        parameters: DVector::zeros(ALWAYS + usize::from(model.key().is_some())),
+        bend: bend.map_or(0.0, |bend| bend.value / units[0]),
+        bend_is_fitted: false,
+        noises: noises(cycle, units),
+        falling: Vec::new(),
+        feet: Vec::new(),
         now: Some(first),
     };
     fit.parameters[3] = f64::midpoint(low, high) / fit.units[0];
     fit.parameters[5] = f64::midpoint(bottom, top) / fit.units[1];
-    for _ in 0..ROUNDS {
-        fit.weigh();
-        let (found, report) =
-            LevenbergMarquardt::new().with_ftol(1e-8).with_xtol(1e-6).with_patience(8).minimize(fit);
-        fit = found;
-        if fit.now.is_none() {
-            return Err(refused(
-                name,
-                &format!("no loop of the case comes near the measured one ({:?})", report.termination),
-                "compare bodies, normal force and units of the case with those of the test",
-            ));
-        }
+    fit = fit.minimized(name)?;
+    let known = bend.map(|bend| bend.unsure / units[0]);
+    if known.is_none() && fit.is_bent() {
+        fit.bend_is_fitted = true;
+        fit.parameters = fit.parameters.clone().push(0.0);
+        fit = fit.minimized(name)?;
     }
-    fit.answer(name)
-}
-
-/// Friction, stiffness of the rig and amplitude to start from, with their loop; refuses units that cannot be.
-fn first_guess(name: &str, cycle: &MeasuredCycle, model: &Model) -> Result<([f64; 3], Loop), Failure> {
-    let [low, high] = calm_range(&cycle.displacement);
-    let [bottom, top] = calm_range(&cycle.force);
-    let (amplitude, force) = (0.5 * (high - low), 0.5 * (top - bottom));
-    let slope = cycle.slope_after_reversal().unwrap_or(force / amplitude);
-    let probe = model.loop_of(model.friction().unwrap_or(0.5), slope, amplitude, None)?;
-    let ratio = force / probe.normal_force;
-    if !(FORCES[0]..=FORCES[1]).contains(&ratio) {
-        return Err(refused(
-            name,
-            &format!(
-                "the tangential force has an amplitude of {force:.4e}, {ratio:.3e} times the normal force of {:.4e}: friction coefficients lie between 0.01 and 2",
-                probe.normal_force
-            ),
-            "is the unit of the force right? --units \"force=mN\", or units in the case",
-        ));
-    }
-    let own = probe.contact_stiffness;
-    if slope > 5.0 * own {
-        return Err(refused(
-            name,
-            &format!(
-                "the loop rises by {slope:.4e} after reversal, {:.3e} times the stiffness of the contact itself, {own:.4e}: nothing in series with it can be stiffer",
-                slope / own
-            ),
-            "is the unit of the displacement right? --units \"displacement=um\"; and are the moduli of the case in its units?",
-        ));
-    }
-    if slope < own / FAR {
-        return Err(refused(
-            name,
-            &format!(
-                "the loop rises by {slope:.4e} after reversal, only {:.3e} times the stiffness of the contact itself, {own:.4e}: a rig that gives so much measures itself alone",
-                slope / own
-            ),
-            "is the unit of the displacement right? --units \"displacement=um\"; and are the moduli of the case in its units?",
-        ));
-    }
-    let series = 1.0 / slope - 1.0 / own;
-    let stiffness = if series > 0.05 / own { 1.0 / series } else { 20.0 * own };
-    let quantities = cycle.quantities(probe.normal_force, None);
-    // In partial slip more than the force asks for; the less is dissipated, the more.
-    let friction = quantities.plateau_friction.unwrap_or_else(|| {
-        let width = quantities.dissipated_energy / (force * force / own);
-        ratio * (0.25 / width.max(0.01)).clamp(1.15, 3.0)
-    });
-    let start = [friction, stiffness, amplitude];
-    let first = model.loop_of(friction, stiffness, amplitude, None)?;
-    Ok((start, first))
+    fit.answer(name, known)
 }
 
 /// The problem of least squares. Parameters: logarithms of friction, stiffness and amplitude over those to start from; offset and drift of
-/// the displacement and offset of the force over the amplitudes; logarithm of the value of a key.
-struct Fit<'a> {
-    cycle: &'a MeasuredCycle,
-    model: &'a Model,
+/// the displacement and offset of the force over the amplitudes; logarithm of the value of a key; bend of the drift, where it is fitted.
+pub struct Fit<'a> {
+    pub cycle: &'a MeasuredCycle,
+    pub model: &'a Model,
     /// Amplitudes of displacement and force.
-    units: [f64; 2],
+    pub units: [f64; 2],
     start: [f64; 3],
     value: Option<f64>,
-    parameters: DVector<f64>,
-    weights: Vec<f64>,
-    now: Option<Loop>,
+    pub parameters: DVector<f64>,
+    /// Bend of the drift over the amplitude, where it is not fitted.
+    bend: f64,
+    pub bend_is_fitted: bool,
+    /// Noise of displacement and force over their amplitudes, in their own unit: their squares are two.
+    noises: [f64; 2],
+    /// Whether a point lies on the way down.
+    falling: Vec<bool>,
+    feet: Vec<Foot>,
+    /// The loop of the parameters.
+    pub now: Option<Loop>,
 }
 
 impl Fit<'_> {
-    fn constants(&self, parameters: &DVector<f64>) -> ([f64; 3], Option<f64>) {
-        let constants = [0, 1, 2].map(|k| self.start[k] * parameters[k].clamp(-12.0, 12.0).exp());
+    fn minimized(mut self, name: &str) -> Result<Self, Failure> {
+        for round in 0..ROUNDS {
+            self.find_feet(round);
+            let (found, report) =
+                LevenbergMarquardt::new().with_ftol(1e-8).with_xtol(1e-6).with_patience(8).minimize(self);
+            self = found;
+            if self.now.is_none() || matches!(report.termination, TerminationReason::User(_)) {
+                let ([friction, stiffness, amplitude], _) = self.constants(&self.parameters);
+                return Err(refused(
+                    name,
+                    &format!(
+                        "no loop of the case comes near the measured one: the last one tried, with mu = {friction:.3e}, a rig stiffness of {stiffness:.3e} and an amplitude of {amplitude:.3e}, cannot be solved"
+                    ),
+                    "compare bodies, normal force and units of the case with those of the test",
+                ));
+            }
+        }
+        Ok(self)
+    }
+
+    /// The place of the bend of the drift among the parameters.
+    fn place_of_bend(&self) -> Option<usize> {
+        self.bend_is_fitted.then(|| self.parameters.len() - 1)
+    }
+
+    /// The bend of the drift over the amplitude.
+    pub fn bend(&self) -> f64 {
+        self.place_of_bend().map_or(self.bend, |place| self.parameters[place])
+    }
+
+    /// Whether a constant went as far as it may: the points do not bound it.
+    pub fn is_unbounded(&self, constant: usize) -> bool {
+        FARTHEST.get(constant).is_some_and(|farthest| self.parameters[constant].abs() >= *farthest)
+    }
+
+    /// The fit's own parameters that change the computed loop.
+    fn of_loop(&self) -> impl Iterator<Item = usize> + use<> {
+        (0..3).chain(self.value.is_some().then_some(ALWAYS))
+    }
+
+    /// Friction, stiffness of the rig and amplitude, and the value of the key.
+    pub fn constants(&self, parameters: &DVector<f64>) -> ([f64; 3], Option<f64>) {
+        let constants =
+            [0, 1, 2].map(|k| self.start[k] * parameters[k].clamp(-FARTHEST[k], FARTHEST[k]).exp());
         (constants, self.value.map(|value| value * parameters[6].clamp(-3.0, 3.0).exp()))
     }
 
@@ -184,132 +157,145 @@ impl Fit<'_> {
         self.model.loop_of(friction, stiffness, amplitude, value).ok()
     }
 
-    /// Difference of force of every point, with the slope of the loop there.
-    fn off(&self, of: &Loop) -> Vec<[f64; 2]> {
+    /// Displacements without offset and drift.
+    fn places(&self) -> impl Iterator<Item = f64> {
         let count = self.cycle.force.len();
-        let [length, force] = self.units;
-        let [offset, drift, level] = [3, 4, 5].map(|k| self.parameters[k]);
-        (0..count)
-            .map(|row| {
-                let moved = length * (offset + drift * time(row, count));
-                let [expected, slope] =
-                    of.at(self.cycle.is_falling(row), self.cycle.displacement[row] - moved);
-                [self.cycle.force[row] - force * level - expected, slope]
+        let [offset, drift, bend] = [self.parameters[3], self.parameters[4], self.bend()];
+        self.cycle.displacement.iter().enumerate().map(move |(row, displacement)| {
+            let moved = offset + drift * time(row, count) + bend * bent(time(row, count));
+            displacement - self.units[0] * moved
+        })
+    }
+
+    /// Noise of displacement and force, in one unit.
+    fn noises(&self) -> [f64; 2] {
+        [0, 1].map(|k| self.noises[k] * self.units[k])
+    }
+
+    /// The feet of the points on the loop; of the first round, at the measured displacements.
+    fn find_feet(&mut self, round: usize) {
+        let Some(now) = &self.now else { return };
+        let [length, force] = self.noises();
+        let level = self.units[1] * self.parameters[5];
+        let places: Vec<f64> = self.places().collect();
+        let turns = self.cycle.turns_at;
+        let count = places.len();
+        let near_turn = |row: usize| {
+            let apart = |turn: f64| {
+                let rows = (row as f64 - turn).rem_euclid(count as f64);
+                rows.min(count as f64 - rows)
+            };
+            round > 0 && apart(turns[0]).min(apart(turns[1])) < AT_TURN
+        };
+        // Next to a turn it is open on which side of it a point lies: on that whose branch is nearer.
+        let off = |row: usize, falling: bool| {
+            let [expected, slope] = now.at(falling, places[row]);
+            ((self.cycle.force[row] - level - expected) / force.hypot(slope * length)).abs()
+        };
+        let falling: Vec<bool> = (0..count)
+            .map(
+                |row| {
+                    if near_turn(row) { off(row, true) < off(row, false) } else { falls(row as f64, turns) }
+                },
+            )
+            .collect();
+        let foot = |(row, &place): (usize, &f64)| {
+            let falling = falling[row];
+            let mut at = place;
+            for _ in 0..if round == 0 { 0 } else { STEPS_TO_FOOT } {
+                let [expected, slope] = now.at(falling, at);
+                let off = self.cycle.force[row] - level - expected - slope * (place - at);
+                at = place + slope * off / ((force / length).powi(2) + slope * slope);
+            }
+            let slope = now.at(falling, at)[1];
+            Foot { at, slope, weight: 1.0 / force.hypot(slope * length) }
+        };
+        self.feet = places.iter().enumerate().map(foot).collect();
+        self.falling = falling;
+    }
+
+    fn distances(&self, of: &Loop) -> Vec<f64> {
+        let level = self.units[1] * self.parameters[5];
+        self.places()
+            .enumerate()
+            .map(|(row, place)| {
+                let foot = &self.feet[row];
+                let expected = of.at(self.falling[row], foot.at)[0] + foot.slope * (place - foot.at);
+                foot.weight * (self.cycle.force[row] - level - expected)
             })
             .collect()
     }
 
-    fn weigh(&mut self) {
-        let Some(now) = &self.now else { return };
-        let [length, force] = self.units;
-        self.weights =
-            self.off(now).into_iter().map(|[_, slope]| 1.0 / force.hypot(slope * length)).collect();
+    /// Part of every residual's variance that is of the force.
+    fn of_force(&self) -> Vec<f64> {
+        let force = self.noises()[1];
+        self.feet.iter().map(|foot| (force * foot.weight).powi(2)).collect()
     }
 
-    fn weighted(&self, of: &Loop) -> Vec<f64> {
-        self.off(of).into_iter().zip(&self.weights).map(|([off, _], weight)| off * weight).collect()
-    }
-
-    fn answer(self, name: &str) -> Result<Fitted, Failure> {
-        let lost = || refused(name, "the loop cannot be fitted: its constants do not determine it", "");
-        let residuals = self.residuals().ok_or_else(lost)?;
-        let jacobian = self.jacobian().ok_or_else(lost)?;
-        let freedom = residuals.len() as f64 - self.parameters.len() as f64;
-        if !(freedom >= 1.0) {
-            return Err(refused(name, "fewer points than constants", "a hundred points a cycle serve well"));
-        }
-        let variance = residuals.norm_squared() / freedom;
-        let quantile = StudentsT::new(0.0, 1.0, freedom).map_or(1.96, |law| law.inverse_cdf(0.975));
-        let decomposition = jacobian.svd(false, true);
-        let directions = decomposition.v_t.as_ref().ok_or_else(lost)?;
-        let largest = decomposition.singular_values.max();
-        let half = |k: usize| {
-            let square: f64 = decomposition
-                .singular_values
-                .iter()
-                .enumerate()
-                .map(|(row, value)| (directions[(row, k)] / value.max(1e-9 * largest)).powi(2))
-                .sum();
-            quantile * (variance * square).sqrt()
-        };
-        let now = self.now.as_ref().ok_or_else(lost)?;
-        let ([friction, stiffness, amplitude], value) = self.constants(&self.parameters);
-        let constant = |name: &str, unit, value: f64, k: usize| {
-            let half = half(k);
-            Constant {
-                name: name.to_owned(),
-                unit,
-                value,
-                interval: [value * (-half).exp(), value * half.min(700.0).exp()],
-                told: half < TOLD,
-            }
-        };
-        let mut constants = vec![
-            constant("friction coefficient", "", friction, 0),
-            constant("rig stiffness", "force/length", stiffness, 1),
-            constant("actuator amplitude", "length", amplitude, 2),
-        ];
-        if let (Some(value), Some((key, _))) = (value, self.model.key()) {
-            constants.push(constant(key, "", value, 6));
-        }
-        let [length, force] = self.units;
-        let mut notes = Vec::new();
-        let reached = force / now.normal_force;
-        // A loop that sticks is a line, whose ends a noisy one does not tell; friction is told by what is missing from it at its ends.
-        if !now.slips || !constants[0].told || !constants[2].told {
-            constants[0].told = false;
-            notes.push(format!(
-                "the contact sticks in this loop: it tells the rig, not friction; mu is more than {reached:.3}"
-            ));
-        }
-        if !constants[1].told {
-            notes.push(
-                "the flanks of this loop do not tell the rig: it may be much stiffer than the contact, or there are too few points on them; a loop in partial slip tells it".to_owned(),
-            );
-        }
-        if now.slides && constants[0].told {
-            notes.push("the plateaus determine the friction coefficient; the flanks, the stiffness of rig and contact in series".to_owned());
-        }
-        if let (Some(last), true) = (constants.get(3), self.model.key().is_some())
-            && !last.told
-        {
-            notes.push(format!(
-                "{}: the loop does not tell it beside the rig; fix one of the two by another measurement",
-                last.name
-            ));
-        }
-        let noise = variance.sqrt();
-        if noise > 0.05 {
-            notes.push(format!(
-                "the points lie {:.0} % of the amplitudes off the loop: more than noise; the case describes another contact, or the loop is not a steady one",
-                100.0 * noise
-            ));
-        }
-        if let Some(measured) = self.cycle.normal_force
-            && (measured / now.normal_force - 1.0).abs() > 0.05
-        {
-            notes.push(format!(
-                "the measured normal force is {measured:.4e}, that of the case {:.4e}: friction is that of the case",
-                now.normal_force
-            ));
-        }
-        let around = now.branches[0].iter().rev().chain(&now.branches[1]).copied().collect();
-        Ok(Fitted {
-            constants,
-            normal_force: now.normal_force,
-            noise,
-            removed: [length * self.parameters[3], length * self.parameters[4], force * self.parameters[5]],
-            contact_stiffness: now.contact_stiffness,
-            slides: now.slides,
-            computed: around,
-            notes,
+    /// How sure the parameters are, with a bend of the drift of so much, relative to the amplitude, beside them.
+    pub fn sureness(&self, bend: f64) -> Option<Sureness> {
+        let (residuals, jacobian) = (self.residuals()?, self.jacobian()?);
+        let count = residuals.len();
+        let column = (0..count).map(|row| jacobian[(row, 3)] * bent(time(row, count)));
+        let column = DVector::from_iterator(count, column);
+        sureness(&Left {
+            jacobian: &jacobian,
+            residuals: &residuals,
+            of_force: &self.of_force(),
+            bend: (column, bend),
         })
     }
+
+    /// Whether the points tell a bend of the drift: the step of Gauss and Newton with it.
+    fn is_bent(&self) -> bool {
+        let (Some(residuals), Some(jacobian)) = (self.residuals(), self.jacobian()) else { return false };
+        let (count, constants) = jacobian.shape();
+        let column = DVector::from_fn(count, |row, _| jacobian[(row, 3)] * bent(time(row, count)));
+        let mut wider = jacobian.insert_column(constants, 0.0);
+        wider.set_column(constants, &column);
+        let nothing = DVector::zeros(count);
+        let left = Left {
+            jacobian: &wider,
+            residuals: &residuals,
+            of_force: &self.of_force(),
+            bend: (nothing, 0.0),
+        };
+        let (Some(sure), Ok(step)) = (sureness(&left), wider.clone().svd(true, true).solve(&residuals, 1e-9))
+        else {
+            return false;
+        };
+        // Half-widths of 95 % are two standard deviations.
+        step[constants].abs() > BENDS * 0.5 * sure.halves[constants]
+    }
+}
+
+/// The foot of a point on the loop.
+struct Foot {
+    /// Displacement [length].
+    at: f64,
+    /// Slope of the loop there [force/length].
+    slope: f64,
+    /// One over the noise of a distance in direction of the force.
+    weight: f64,
+}
+
+/// Noise of displacement and force over their amplitudes, as large as these together.
+fn noises(cycle: &MeasuredCycle, units: [f64; 2]) -> [f64; 2] {
+    let of = |values: &[f64], unit: f64| (noise(values, 0.0) / unit).hypot(QUIET);
+    let [length, force] = [of(&cycle.displacement, units[0]), of(&cycle.force, units[1])];
+    let ratio = (length / force).clamp(1.0 / UNEQUAL, UNEQUAL);
+    let force = (2.0 / (1.0 + ratio * ratio)).sqrt();
+    [ratio * force, force]
 }
 
 /// Time of a point in its cycle, from -1/2 to 1/2.
 fn time(row: usize, count: usize) -> f64 {
     (row as f64 + 0.5) / count as f64 - 0.5
+}
+
+/// A bend of one, from the middle of the cycle to its ends, without its mean.
+fn bent(time: f64) -> f64 {
+    4.0 * time * time - 1.0 / 3.0
 }
 
 impl LeastSquaresProblem<f64, Dyn, Dyn> for Fit<'_> {
@@ -318,9 +304,7 @@ impl LeastSquaresProblem<f64, Dyn, Dyn> for Fit<'_> {
     type ParameterStorage = Owned<f64, Dyn>;
 
     fn set_params(&mut self, parameters: &DVector<f64>) {
-        let solver_alone = |parameters: &DVector<f64>| [0, 1, 2].map(|k| parameters[k]);
-        let same = solver_alone(parameters) == solver_alone(&self.parameters)
-            && (parameters.len() < 7 || parameters[6] == self.parameters[6]);
+        let same = self.of_loop().all(|k| parameters[k] == self.parameters[k]);
         self.parameters.clone_from(parameters);
         if !same || self.now.is_none() {
             self.now = self.solve(parameters);
@@ -332,31 +316,30 @@ impl LeastSquaresProblem<f64, Dyn, Dyn> for Fit<'_> {
     }
 
     fn residuals(&self) -> Option<DVector<f64>> {
-        Some(DVector::from_vec(self.weighted(self.now.as_ref()?)))
+        Some(DVector::from_vec(self.distances(self.now.as_ref()?)))
     }
 
     fn jacobian(&self) -> Option<DMatrix<f64>> {
         let now = self.now.as_ref()?;
-        let here = self.weighted(now);
+        let here = self.distances(now);
         let count = here.len();
         let mut jacobian = DMatrix::zeros(count, self.parameters.len());
-        for k in [0, 1, 2, 6] {
-            if k >= self.parameters.len() {
-                continue;
-            }
+        for k in self.of_loop() {
             let mut beside = self.parameters.clone();
             beside[k] += STEP;
-            let there = self.weighted(&self.solve(&beside)?);
+            let there = self.distances(&self.solve(&beside)?);
             for row in 0..count {
                 jacobian[(row, k)] = (there[row] - here[row]) / STEP;
             }
         }
         let [length, force] = self.units;
-        for (row, [_, slope]) in self.off(now).into_iter().enumerate() {
-            let weight = self.weights[row];
+        for (row, &Foot { slope, weight, .. }) in self.feet.iter().enumerate() {
             jacobian[(row, 3)] = slope * length * weight;
             jacobian[(row, 4)] = slope * length * weight * time(row, count);
             jacobian[(row, 5)] = -force * weight;
+            if let Some(place) = self.place_of_bend() {
+                jacobian[(row, place)] = slope * length * weight * bent(time(row, count));
+            }
         }
         Some(jacobian)
     }

@@ -1,21 +1,17 @@
 //! A measured log as it comes from a rig: columns of numbers below a head, whatever stands above it, with the line of every row.
 
+use fret_core::case::{NoNumber, is_comment, letters, number};
+
+use super::head::{Head, find};
 use super::{Request, refused};
 use crate::failure::Failure;
 
 /// What a column can hold.
 pub const ROLES: [&str; 4] = ["displacement", "force", "cycle", "normal_force"];
-/// Names by which columns are known when none are given.
-const KNOWN: [&[&str]; 4] = [
-    &["displacement", "actuator", "actuator_x", "delta", "stroke", "position", "weg"],
-    &["force", "tangential_force", "tangential_force_x", "friction_force", "q", "ft", "kraft"],
-    &["cycle", "cycles", "cycle_number", "zyklus"],
-    &["normal_force", "p", "fn", "normal_load", "normalkraft"],
-];
-/// Lines above the head, at the most.
-const MOST_ABOVE: usize = 200;
 /// Rows of numbers, at the least.
 pub const FEWEST_ROWS: usize = 12;
+/// Letters of a cell that messages repeat, at the most.
+const SHOWN: usize = 40;
 
 /// One column of a log.
 #[derive(Debug, Clone, Default)]
@@ -28,6 +24,15 @@ pub struct Column {
     pub values: Vec<f64>,
 }
 
+/// A row that is left out.
+#[derive(Debug, Clone)]
+pub struct BadRow {
+    /// Its line and what is wrong there.
+    pub what: String,
+    /// What to do about it.
+    pub help: &'static str,
+}
+
 /// The columns of a log that are used.
 #[derive(Debug, Default)]
 pub struct Table {
@@ -37,6 +42,10 @@ pub struct Table {
     pub columns: [Option<Column>; 4],
     /// Line of every row in the file, from 1.
     pub lines: Vec<usize>,
+    /// Rows without a number where one has to be.
+    pub bad: Vec<BadRow>,
+    /// Lines of the heads below the first one.
+    pub heads: Vec<usize>,
 }
 
 impl Table {
@@ -51,74 +60,140 @@ impl Table {
 /// # Errors
 /// What is wrong with it, with the line.
 pub fn read(name: &str, bytes: &[u8], request: &Request) -> Result<Table, Failure> {
-    let text = String::from_utf8(bytes.to_vec())
-        // What old programs write: every byte is a letter of Latin-1.
-        .unwrap_or_else(|_| bytes.iter().map(|&byte| char::from(byte)).collect());
-    let text = text.trim_start_matches('\u{feff}');
-    let wanted = wanted(name, request)?;
-    let (above, delimiter, places, names) = head(name, text, &wanted)?;
-    let decimal_comma = delimiter != b',';
+    let text = letters(bytes)
+        .map_err(|error| refused(name, &error.to_string(), "a log is a text file with columns of numbers"))?;
+    let head = find(name, &text, request)?;
     let mut table = Table { name: name.to_owned(), ..Table::default() };
-    for (role, place) in places.iter().enumerate() {
+    for (role, place) in head.places.iter().enumerate() {
         if let Some(place) = place {
-            let (name, unit) = name_and_unit(&names[*place]);
+            let (name, unit) = head.name_and_unit(*place);
             table.columns[role] = Some(Column { name, unit, values: Vec::new() });
         }
     }
-    let below: String = text.split_inclusive('\n').skip(above + 1).collect();
+    // Comments become empty lines, so that the others keep their numbers.
+    let below = text.split_inclusive('\n').skip(head.above);
+    let below = below.map(|line| if is_comment(line) { "\n" } else { line });
+    let (below, delimiter): (String, u8) = if head.delimiter == ' ' {
+        (below.map(|line| line.split_whitespace().collect::<Vec<_>>().join("\t") + "\n").collect(), b'\t')
+    } else {
+        (below.collect(), head.delimiter as u8)
+    };
     let mut reader = csv::ReaderBuilder::new()
         .delimiter(delimiter)
         .has_headers(false)
         .flexible(true)
-        .comment(Some(b'#'))
         .trim(csv::Trim::All)
         .from_reader(below.as_bytes());
-    let mut first = true;
+    let mut rows = Rows { head: &head, table, between: Vec::new() };
     for row in reader.records() {
         let row = row.map_err(|error| refused(name, &format!("not readable as CSV: {error}"), ""))?;
-        let line = above + 1 + row.position().map_or(0, |place| place.line() as usize);
-        if row.iter().all(str::is_empty) {
-            continue;
+        let line = head.above + row.position().map_or(0, |place| place.line() as usize);
+        if !row.iter().all(str::is_empty) {
+            rows.take(&row, line)?;
         }
-        let cells: Vec<(usize, &str)> = places
+    }
+    let Rows { mut table, between, .. } = rows;
+    table.bad.extend(between);
+    if let (Some(first), true) = (table.bad.first(), request.strict || table.bad.len() > table.lines.len()) {
+        let all = match table.bad.len() {
+            1 => String::new(),
+            bad => format!("; {bad} of {} rows are like it", bad + table.lines.len()),
+        };
+        return Err(refused(name, &format!("{}{all}", first.what), first.help));
+    }
+    enough(&table)?;
+    Ok(table)
+}
+
+/// The rows of a log as they are read.
+struct Rows<'a> {
+    head: &'a Head,
+    table: Table,
+    /// Lines without any number, which belong to a head that may follow.
+    between: Vec<BadRow>,
+}
+
+impl Rows<'_> {
+    fn take(&mut self, row: &csv::StringRecord, line: usize) -> Result<(), Failure> {
+        let decimal_comma = self.head.delimiter != ',';
+        let cells: Vec<(usize, &str)> = self
+            .head
+            .places
             .iter()
             .enumerate()
             .filter_map(|(role, place)| Some((role, row.get((*place)?).unwrap_or(""))))
             .collect();
-        let is_units = first && cells.iter().all(|(_, cell)| number(cell, decimal_comma).is_none());
-        first = false;
-        if is_units {
-            for (role, cell) in cells {
-                if let (Some(column), false) = (&mut table.columns[role], cell.is_empty()) {
-                    column.unit = Some(cell.trim_matches(['[', ']', '(', ')']).to_owned());
+        let values: Option<Vec<f64>> =
+            cells.iter().map(|(_, cell)| number(cell, decimal_comma).ok()).collect();
+        if let Some(values) = values {
+            self.table.bad.append(&mut self.between);
+            for ((role, _), value) in cells.iter().zip(values) {
+                if let Some(column) = &mut self.table.columns[*role] {
+                    column.values.push(value);
                 }
             }
-            continue;
+            self.table.lines.push(line);
+            return Ok(());
         }
-        for (role, cell) in cells {
-            let Some(column) = &mut table.columns[role] else { continue };
-            match number(cell, decimal_comma) {
-                Some(value) => column.values.push(value),
-                None if cell.is_empty() => {
-                    return Err(refused(
-                        name,
-                        &format!("line {line}: nothing stands in column {:?}", column.name),
-                        "delete the line, or write the value that was measured",
-                    ));
-                }
-                None => {
-                    return Err(refused(
-                        name,
-                        &format!("line {line}, column {:?}: {cell:?} is not a number", column.name),
-                        "numbers look like 1.5e-6, or 1,5 where semicolons or tabs part the columns",
-                    ));
-                }
+        let words: Vec<String> = row.iter().map(str::to_owned).collect();
+        if self.head.is_repeated_by(&words) {
+            // The next block of an export, with the lines above its head.
+            self.between.clear();
+            self.table.heads.push(line);
+            return Ok(());
+        }
+        if self.table.heads.last().is_some_and(|head| line <= head + 2)
+            && let Some(units) = self.head.units_in(&words)
+        {
+            let of = |units: &[String]| -> Vec<String> {
+                self.head
+                    .places
+                    .iter()
+                    .flatten()
+                    .map(|&place| units.get(place).cloned().unwrap_or_default())
+                    .collect()
+            };
+            if of(&units) == of(&self.head.units) {
+                return Ok(());
             }
+            return Err(refused(
+                &self.table.name,
+                &format!("line {line}: the units below this head are others than below the first"),
+                "cut the file at its heads, and identify its parts one by one",
+            ));
         }
-        table.lines.push(line);
+        let bad = self.bad_row(&cells, line);
+        if row.iter().any(|cell| number(cell, decimal_comma).is_ok()) {
+            self.table.bad.append(&mut self.between);
+            self.table.bad.push(bad);
+        } else {
+            self.between.push(bad);
+        }
+        Ok(())
     }
-    enough(&table)?;
-    Ok(table)
+
+    /// What is wrong with a row.
+    fn bad_row(&self, cells: &[(usize, &str)], line: usize) -> BadRow {
+        let decimal_comma = self.head.delimiter != ',';
+        let wrong =
+            cells.iter().find_map(|&(role, cell)| Some((role, cell, number(cell, decimal_comma).err()?)));
+        let (role, cell, why) = wrong.unwrap_or((0, "", NoNumber::Hole));
+        let column = self.table.columns[role].as_ref().map_or("", |column| &column.name);
+        if cell.is_empty() {
+            return BadRow {
+                what: format!("line {line}: nothing stands in column {column:?}"),
+                help: "delete the line, or write the value that was measured",
+            };
+        }
+        let mut shown: String = cell.chars().take(SHOWN).collect();
+        if shown.len() < cell.len() {
+            shown += "...";
+        }
+        BadRow {
+            what: format!("line {line}, column {column:?}: {shown:?} {why}"),
+            help: "numbers look like 1.5e-6, or 1,5 where semicolons or tabs part the columns",
+        }
+    }
 }
 
 /// Whether there are rows for a loop, and something changes in them.
@@ -152,82 +227,6 @@ fn enough(table: &Table) -> Result<(), Failure> {
     Ok(())
 }
 
-/// The names of columns that the request gives, by role.
-fn wanted(name: &str, request: &Request) -> Result<[Option<String>; 4], Failure> {
-    let mut wanted = [const { None }; 4];
-    for (role, column) in &request.columns {
-        let Some(index) = ROLES.iter().position(|known| known == role) else {
-            let help = format!("a column holds one of: {}", ROLES.join(", "));
-            return Err(refused(name, &format!("columns: {role:?} is nothing that a log holds"), &help));
-        };
-        wanted[index] = Some(column.clone());
-    }
-    Ok(wanted)
-}
-
-/// Lines above the head, the delimiter, the place of every role, and the names in the head.
-type Head = (usize, u8, [Option<usize>; 4], Vec<String>);
-
-/// Finds the head: the first line that has a displacement and a force.
-fn head(name: &str, text: &str, wanted: &[Option<String>; 4]) -> Result<Head, Failure> {
-    let mut best: Vec<String> = Vec::new();
-    for (above, line) in text.lines().enumerate().take(MOST_ABOVE) {
-        let delimiter = [';', '\t', ','].into_iter().find(|mark| line.contains(*mark)).unwrap_or(',');
-        let names: Vec<String> = line
-            .trim_start_matches('#')
-            .split(delimiter)
-            .map(|cell| cell.trim().trim_matches('"').to_owned())
-            .collect();
-        let place = |role: usize| match &wanted[role] {
-            Some(column) => names.iter().position(|name| name == column || name_and_unit(name).0 == *column),
-            None => names.iter().position(|name| {
-                let plain = name_and_unit(name).0.to_lowercase().replace([' ', '-'], "_");
-                KNOWN[role].contains(&plain.as_str())
-            }),
-        };
-        let places = [0, 1, 2, 3].map(place);
-        let given = (0..4).all(|role| wanted[role].is_none() || places[role].is_some());
-        if places[0].is_some() && places[1].is_some() && given {
-            return Ok((above, delimiter as u8, places, names));
-        }
-        let is_words = names.len() > 1 && names.iter().all(|cell| number(cell, true).is_none());
-        if is_words && names.len() >= best.len() {
-            best = names;
-        }
-    }
-    let missing: Vec<&str> = (0..2).map(|role| wanted[role].as_deref().unwrap_or(ROLES[role])).collect();
-    let there = if best.is_empty() {
-        "there are no names".to_owned()
-    } else {
-        format!("it has: {}", best.join(" | "))
-    };
-    Err(refused(
-        name,
-        &format!("no line names the columns {:?} and {:?}; {there}", missing[0], missing[1]),
-        "say which is which: --columns \"displacement=stroke,force=load\"",
-    ))
-}
-
-/// `Weg [um]`, `Q (N)` and `Q / N` are a name and a unit.
-fn name_and_unit(cell: &str) -> (String, Option<String>) {
-    for (open, close) in [('[', ']'), ('(', ')')] {
-        if let (Some(from), true) = (cell.rfind(open), cell.ends_with(close)) {
-            let unit = cell[from + 1..cell.len() - 1].trim();
-            return (cell[..from].trim().to_owned(), Some(unit.to_owned()));
-        }
-    }
-    match cell.split_once(" / ") {
-        Some((name, unit)) => (name.trim().to_owned(), Some(unit.trim().to_owned())),
-        None => (cell.trim().to_owned(), None),
-    }
-}
-
-/// A finite number, with a decimal comma where commas part nothing.
-fn number(cell: &str, decimal_comma: bool) -> Option<f64> {
-    let plain = if decimal_comma && !cell.contains('.') { cell.replace(',', ".") } else { cell.to_owned() };
-    plain.parse().ok().filter(|value: &f64| value.is_finite())
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -237,7 +236,7 @@ mod tests {
     }
 
     fn message(text: &str) -> String {
-        match read("log.csv", text.as_bytes(), &Request::default()) {
+        match read("log.csv", text.as_bytes(), &Request { strict: true, ..Request::default() }) {
             Ok(_) => String::new(),
             Err(failure) => failure.message(),
         }

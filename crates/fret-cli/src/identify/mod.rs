@@ -1,15 +1,27 @@
 //! From measured fretting loops to the constants of a model: friction coefficient, stiffness of the rig, one constant of the case.
 //!
-//! From the ground: `log` (rows of numbers with their lines), `unit_names`, `cycles` (what is read from a loop), `model` (the loop
-//! that the solver computes), `fit` (least squares), `page` (pictures); the whole question here.
+//! From the ground: `log` (rows of numbers with their lines) below its `head`, `unit_names`; `turns` of a signal, `cycles` (which are
+//! whole), `direction`, `drift`; `computed` (a loop between its points), `model` (the loop that the solver computes), `flanks`, `quantities` (what is read from a cycle); `start`,
+//! `fit` (least squares), `intervals`, `found`; `summary` and `page` (pictures); the whole question here.
 
+mod computed;
 mod cycles;
+mod direction;
+mod drift;
 mod fit;
+mod flanks;
+mod found;
+mod head;
+mod intervals;
 mod log;
 mod model;
 mod page;
+mod quantities;
+mod start;
+mod summary;
 #[cfg(test)]
 mod tests;
+mod turns;
 mod unit_names;
 
 use std::path::Path;
@@ -19,20 +31,24 @@ use serde_json::{Value, json};
 
 use crate::case_file::CaseFile;
 use crate::failure::Failure;
-use crate::figures::figure;
 
-pub use cycles::MeasuredCycle;
-pub use page::page;
+use cycles::MeasuredCycle;
+use page::page;
+use quantities::Known;
 
 /// Energy ratio of the contact's loop from which it slides: Fouvry, Kapsa and Vincent (1995).
 const SLIDING: f64 = 0.2;
 /// An interval wider than this on either side, relative, tells nothing of its constant.
 const TOLD: f64 = 0.5;
 
+/// Rows without a number that are named, at the most.
+const ROWS_NAMED: usize = 3;
+
 /// What is asked of a log.
 #[derive(Debug, Clone, Default)]
 pub struct Request {
-    /// Columns by what they hold: `displacement`, `force`, `cycle`, `normal_force`; before those that the case names.
+    /// Columns by what they hold: `displacement`, `force`, `cycle`, `normal_force`; by name, or by number from 1; before those that the
+    /// case names.
     pub columns: Vec<(String, String)>,
     /// Units by what they are of: `displacement`, `force`.
     pub units: Vec<(String, String)>,
@@ -40,6 +56,8 @@ pub struct Request {
     pub cycle: Option<f64>,
     /// A key of the case that is fitted too, such as `lower.substrate.young`.
     pub key: Option<String>,
+    /// Whether a log with a cycle that is no whole loop, or a row without a number, is refused; else these are left out and named.
+    pub strict: bool,
 }
 
 impl Request {
@@ -64,6 +82,8 @@ pub struct Identification {
     pub text: String,
     /// The page with its pictures.
     pub page: String,
+    /// The table of the cycles, as CSV.
+    pub table: String,
 }
 
 /// Identifies a log by a case.
@@ -80,33 +100,67 @@ pub fn identify(
     let table = log::read(name, bytes, request)?;
     let mut notes = Vec::new();
     let scale = unit_names::scales(&table, request, case.units.as_ref(), &mut notes)?;
-    let measured = cycles::split(&table, scale)?;
+    let has_units =
+        case.units.is_some() || table.columns.iter().flatten().any(|column| column.unit.is_some());
+    if !table.heads.is_empty() {
+        let blocks = table.heads.len() + 1;
+        notes.push(format!(
+            "the log has {blocks} blocks with a head each: they were read one after the other"
+        ));
+    }
+    let mut measured = cycles::split(&table, scale);
+    let direction = direction::of(&measured);
+    if let (Some(what), true) = (direction.in_words(), request.strict) {
+        return Err(refused(
+            name,
+            &what,
+            "turn the column, or leave out --strict: then it is turned and told",
+        ));
+    }
+    direction.apply(&mut measured);
+    notes.extend(direction.note());
+    if let (Some(fault), true) = (measured.iter().find_map(|cycle| cycle.fault.as_ref()), request.strict) {
+        return Err(refused(name, &fault.what, &fault.help));
+    }
     let model = model::Model::new(case_file, request.key.as_deref())?;
-    let chosen = cycles::choose(&measured, request.cycle, name)?;
-    let fitted = fit::fit(name, chosen, &model)?;
+    let place = cycles::choose(&measured, request.cycle, name)?;
+    let chosen = &measured[place];
+    let fitted = fit::fit(name, chosen, &model, drift::bend(&measured, place))?;
     let normal_force = fitted.normal_force;
+    let friction = fitted.friction().or_else(|| model.friction()).unwrap_or(0.5);
+    // Without it friction is not read from the single cycles; the fit itself stands.
+    let flanks = flanks::Flanks::of(&model, friction, fitted.value_of_key).ok();
+    let known = Known {
+        normal_force,
+        stiffness: fitted.stiffness(),
+        flanks: flanks.as_ref(),
+        correlation: fitted.correlation,
+    };
     let rows: Vec<Value> = measured
         .iter()
-        .map(|cycle| cycle.quantities(normal_force, fitted.stiffness()).to_json(cycle))
+        .map(|cycle| quantities::row(cycle, cycle.fault.is_none().then(|| cycle.quantities(known))))
         .collect();
-    let own = chosen.quantities(normal_force, fitted.stiffness());
-    let drift = cycles::drift(&measured);
+    let own = chosen.quantities(known);
+    let drift = drift::per_cycle(&measured);
     notes.extend(fitted.notes.iter().cloned());
     let units = case.units.clone().unwrap_or_else(|| Units::new("m", "N"));
-    let [offset, within, force_offset] = fitted.removed;
+    let [offset, within, bend, force_offset] = fitted.removed;
     let json = json!({
         "log": name,
         "units": {"length": units.length, "force": units.force},
         "cycle": chosen.name,
         "normal_force": normal_force,
-        "parameters": fitted.constants.iter().map(fit::Constant::to_json).collect::<Vec<_>>(),
+        "parameters": fitted.constants.iter().map(found::Constant::to_json).collect::<Vec<_>>(),
         "noise": fitted.noise,
         "removed": {
             "displacement_offset": offset,
             "displacement_drift": within,
+            "displacement_bend": bend,
             "force_offset": force_offset,
             "drift_per_cycle": drift,
         },
+        "turned": {"force": direction.turned, "order_of_rows": direction.backwards},
+        "left_out": left_out(&measured, &table),
         "sliding_condition": condition(own.contact_energy_ratio.unwrap_or(own.energy_ratio), fitted.slides),
         "contact_stiffness": fitted.contact_stiffness,
         "cycles": rows,
@@ -118,9 +172,34 @@ pub fn identify(
         },
         "notes": notes,
     });
-    let text = text(&json, &units, measured.len());
+    let text = summary::summary(&json, &units);
     let page = page(&json, &units, &measured);
-    Ok(Identification { json, text, page })
+    let table = quantities::table(&json["cycles"], has_units.then_some(&units));
+    Ok(Identification { json, text, page, table })
+}
+
+/// Cycles and rows that are left out, and why; in words where there are any.
+fn left_out(cycles: &[MeasuredCycle], table: &log::Table) -> Value {
+    let faults: Vec<Value> = cycles
+        .iter()
+        .filter_map(|cycle| {
+            let fault = cycle.fault.as_ref()?;
+            Some(json!({"cycle": cycle.name, "lines": cycle.lines, "why": fault.brief}))
+        })
+        .collect();
+    let cycles_in_words = (!faults.is_empty()).then(|| cycles::left_out(cycles));
+    let rows: Vec<&str> = table.bad.iter().map(|row| row.what.as_str()).collect();
+    let more = match rows.len() {
+        0..=ROWS_NAMED => String::new(),
+        bad => format!("; and {} rows more", bad - ROWS_NAMED),
+    };
+    let named = rows.iter().take(ROWS_NAMED).copied().collect::<Vec<_>>().join("; ");
+    json!({
+        "cycles": faults,
+        "rows": rows.len(),
+        "cycles_in_words": cycles_in_words,
+        "rows_in_words": (!rows.is_empty()).then(|| named + &more),
+    })
 }
 
 fn condition(energy_ratio: f64, slides: bool) -> &'static str {
@@ -129,72 +208,6 @@ fn condition(energy_ratio: f64, slides: bool) -> &'static str {
         (false, false) => "partial_slip",
         _ => "mixed",
     }
-}
-
-/// What a person reads.
-fn text(json: &Value, units: &Units, cycles: usize) -> String {
-    let number = |value: &Value| value.as_f64().map_or_else(|| "-".to_owned(), figure);
-    let mut lines = vec![format!(
-        "{}: {cycles} cycle{}, fitted: cycle {}",
-        json["log"].as_str().unwrap_or_default(),
-        if cycles == 1 { "" } else { "s" },
-        json["cycle"].as_f64().unwrap_or_default()
-    )];
-    for constant in json["parameters"].as_array().into_iter().flatten() {
-        let name = constant["name"].as_str().unwrap_or_default();
-        let unit = units.of(constant["unit"].as_str().unwrap_or_default());
-        if constant["told"].as_bool() == Some(true) {
-            lines.push(format!(
-                "  {name:<22} {} {unit}   95 %: {} .. {}",
-                number(&constant["value"]),
-                number(&constant["low"]),
-                number(&constant["high"])
-            ));
-        } else {
-            lines.push(format!("  {name:<22} not told by this loop"));
-        }
-    }
-    let last =
-        json["cycles"].as_array().and_then(|rows| rows.iter().find(|row| row["cycle"] == json["cycle"]));
-    if let Some(row) = last {
-        for (key, words, unit) in [
-            ("dissipated_energy", "dissipated energy W_d", "force x length"),
-            ("force_amplitude", "force amplitude Q*", "force"),
-            ("displacement_amplitude", "displacement amplitude", "length"),
-            ("opening", "delta_0", "length"),
-            ("energy_ratio", "A", ""),
-            ("sliding_ratio", "D", ""),
-            ("contact_energy_ratio", "A of the contact", ""),
-            ("contact_sliding_ratio", "D of the contact", ""),
-            ("plateau_friction", "mu of the plateaus", ""),
-            ("energy_friction", "mu by energy", ""),
-        ] {
-            if !row[key].is_null() {
-                lines.push(
-                    format!("  {words:<22} {} {}", number(&row[key]), units.of(unit)).trim_end().to_owned(),
-                );
-            }
-        }
-    }
-    lines.push(format!(
-        "  sliding condition      {}",
-        json["sliding_condition"].as_str().unwrap_or_default().replace('_', " ")
-    ));
-    let removed = &json["removed"];
-    lines.push(format!(
-        "  removed from the log: displacement offset {}, drift {} over the cycle; force offset {}",
-        number(&removed["displacement_offset"]),
-        number(&removed["displacement_drift"]),
-        number(&removed["force_offset"])
-    ));
-    lines.extend(
-        json["notes"]
-            .as_array()
-            .into_iter()
-            .flatten()
-            .map(|note| format!("  note: {}", note.as_str().unwrap_or_default())),
-    );
-    lines.join("\n")
 }
 
 /// A refusal of a log, with what to do about it.

@@ -3,11 +3,13 @@
 use std::f64::consts::PI;
 
 use fret_core::case::{Case, Course, GridSize, Output, Path, Stage, StageControl};
+use fret_core::history::StepRecord;
 use fret_core::model::{CoulombFriction, Rig};
 use fret_core::plan::Plan;
 use fret_core::run::{Silent, Simulation};
 use toml::{Table, Value};
 
+use super::computed::{Branch, Loop};
 use crate::case_file::CaseFile;
 use crate::failure::Failure;
 use crate::sweep::key;
@@ -22,19 +24,6 @@ pub struct Model {
     case: Case,
     /// A key of the case with its value there.
     key: Option<(String, f64)>,
-}
-
-/// A computed loop, between the same two turns again and again.
-pub struct Loop {
-    pub normal_force: f64,
-    /// Displacement of the actuator, force and shift, on the way down and on the way up, each from the lowest displacement on.
-    pub branches: [Vec<[f64; 3]>; 2],
-    /// Stiffness of the contact directly after reversal [force/length].
-    pub contact_stiffness: f64,
-    /// Whether all of the contact slides before it turns.
-    pub slides: bool,
-    /// Whether any of it slips.
-    pub slips: bool,
 }
 
 impl Model {
@@ -79,6 +68,68 @@ impl Model {
         amplitude: f64,
         value: Option<f64>,
     ) -> Result<Loop, Failure> {
+        let mut case = self.case_with(friction, value)?;
+        let compliance = 1.0 / stiffness;
+        case.rig = Some(Rig { normal: case.springs().normal, tangential: [compliance; 2] });
+        let pressing: usize = case.stages.iter().map(Stage::increments_in_all).sum();
+        let mut path: Vec<f64> = (1..=FIRST).map(|k| amplitude * k as f64 / FIRST as f64).collect();
+        let wave = |k: usize| (PI * k as f64 / HALF as f64).cos();
+        path.extend((1..=HALF).map(|k| amplitude * wave(k)));
+        path.extend((1..=HALF).map(|k| -amplitude * wave(k)));
+        case.stages.push(driven(StageControl::FarEnd(Path::Through(path.clone())), path.len()));
+        let plan = Plan::new(case)?;
+        let history = Simulation::new(&plan).run(&mut Silent).map_err(Failure::Unsolved)?;
+        let steps = &history.steps[pressing + FIRST - 1..];
+        let is_line = plan.grid.cells().contains(&1);
+        let branch = |sign: f64, steps: &[StepRecord]| {
+            let point = |step: &StepRecord| {
+                [step.actuator[0], step.tangential_force[0], step.shift[0]].map(|value| sign * value)
+            };
+            let sticks: Vec<bool> = steps.iter().map(|step| step.stick_cells > 0).collect();
+            Branch::new(steps.iter().map(point).collect(), &sticks, compliance, is_line)
+        };
+        let [turn, next] = [&steps[0], &steps[1]];
+        let contact_stiffness =
+            (turn.tangential_force[0] - next.tangential_force[0]) / (turn.shift[0] - next.shift[0]);
+        Ok(Loop {
+            normal_force: steps[0].normal_force,
+            branches: [branch(1.0, &steps[..=HALF]), branch(-1.0, &steps[HALF..])],
+            contact_stiffness,
+            slides: steps.iter().any(|step| step.stick_cells == 0),
+            slips: steps.iter().any(|step| step.stick_cells < step.contact_cells),
+        })
+    }
+
+    /// First tangential displacement over the friction force [length/force], at so many fractions of that force.
+    ///
+    /// # Errors
+    /// When it cannot be solved.
+    pub fn first_loading(
+        &self,
+        friction: f64,
+        fractions: &[f64],
+        value: Option<f64>,
+    ) -> Result<Vec<f64>, Failure> {
+        let mut case = self.case_with(friction, value)?;
+        case.rig = Some(Rig { normal: case.springs().normal, tangential: [0.0; 2] });
+        let pressing: usize = case.stages.iter().map(Stage::increments_in_all).sum();
+        let mut slid = case.clone();
+        let size = Plan::new(case.clone())?.grid.size();
+        // As far as the contact is wide: it slides.
+        slid.stages.push(driven(StageControl::Motion(Path::To(size[0])), 1));
+        let solved = |case: Case| {
+            let plan = Plan::new(case)?;
+            Simulation::new(&plan).run(&mut Silent).map_err(Failure::Unsolved)
+        };
+        let limit = solved(slid)?.steps[pressing].tangential_force[0];
+        let path = fractions.iter().map(|fraction| fraction * limit).collect();
+        case.stages.push(driven(StageControl::Force(Path::Through(path)), fractions.len()));
+        let history = solved(case)?;
+        Ok(history.steps[pressing..].iter().map(|step| step.shift[0] / limit).collect())
+    }
+
+    /// The case with a coefficient of friction and a value of the key.
+    fn case_with(&self, friction: f64, value: Option<f64>) -> Result<Case, Failure> {
         let mut case = match (&self.key, value) {
             (Some((key, _)), Some(value)) => {
                 let text = with_value(&self.case_file, key, value)?;
@@ -91,43 +142,7 @@ impl Model {
         case.friction = CoulombFriction::uniform(friction)
             .map_err(|error| Failure::Call(format!("friction {error}"), String::new()))?
             .with_max_shear_of(&case.friction);
-        let compliance = 1.0 / stiffness;
-        case.rig = Some(Rig { normal: case.springs().normal, tangential: [compliance; 2] });
-        let pressing: usize = case.stages.iter().map(Stage::increments_in_all).sum();
-        let mut path: Vec<f64> = (1..=FIRST).map(|k| amplitude * k as f64 / FIRST as f64).collect();
-        let wave = |k: usize| (PI * k as f64 / HALF as f64).cos();
-        path.extend((1..=HALF).map(|k| amplitude * wave(k)));
-        path.extend((1..=HALF).map(|k| -amplitude * wave(k)));
-        case.stages.push(Stage {
-            name: "loop".to_owned(),
-            normal: None,
-            tangential: [Some(StageControl::FarEnd(Path::Through(path.clone()))), None],
-            twist: None,
-            tilt: [None, None],
-            bulk_stress: [[None, None], [None, None]],
-            increments: path.len(),
-            history_tolerance: None,
-            course: Course::Linear,
-            friction: None,
-        });
-        let plan = Plan::new(case)?;
-        let history = Simulation::new(&plan).run(&mut Silent).map_err(Failure::Unsolved)?;
-        let steps = &history.steps[pressing + FIRST - 1..];
-        let point = |step: &fret_core::history::StepRecord| {
-            [step.actuator[0], step.tangential_force[0], step.shift[0]]
-        };
-        let mut down: Vec<[f64; 3]> = steps[..=HALF].iter().map(point).collect();
-        let up: Vec<[f64; 3]> = steps[HALF..].iter().map(point).collect();
-        let own = |from: &[f64; 3], to: &[f64; 3]| (from[1] - to[1]) / (from[2] - to[2]);
-        let contact_stiffness = own(&down[0], &down[1]);
-        down.reverse();
-        Ok(Loop {
-            normal_force: steps[0].normal_force,
-            branches: [down, up],
-            contact_stiffness,
-            slides: steps.iter().any(|step| step.stick_cells == 0),
-            slips: steps.iter().any(|step| step.stick_cells < step.contact_cells),
-        })
+        Ok(case)
     }
 
     fn case_file_of(&self, text: String) -> CaseFile {
@@ -141,37 +156,19 @@ impl Model {
     }
 }
 
-impl Loop {
-    /// Force and its slope at a displacement of the actuator, on the way down or up; beyond the turns along the line there.
-    pub fn at(&self, falling: bool, displacement: f64) -> [f64; 2] {
-        let points = &self.branches[usize::from(!falling)];
-        let last = points.len() - 2;
-        let place = points.partition_point(|point| point[0] <= displacement).saturating_sub(1).min(last);
-        let slope = |k: usize| (points[k + 1][1] - points[k][1]) / (points[k + 1][0] - points[k][0]);
-        // Slopes at the points, by the parabola through three of them.
-        let tangent = |k: usize| {
-            if k == 0 {
-                return slope(0);
-            }
-            if k == last + 1 {
-                return slope(last);
-            }
-            let (before, after) = (points[k][0] - points[k - 1][0], points[k + 1][0] - points[k][0]);
-            (slope(k - 1) * after + slope(k) * before) / (before + after)
-        };
-        let width = points[place + 1][0] - points[place][0];
-        let share = (displacement - points[place][0]) / width;
-        let [from, to] = [tangent(place), tangent(place + 1)];
-        if share < 0.0 {
-            return [points[place][1] + from * share * width, from];
-        }
-        if share > 1.0 {
-            return [points[place + 1][1] + to * (share - 1.0) * width, to];
-        }
-        let chord = slope(place);
-        let [quadratic, cubic] = [3.0 * chord - 2.0 * from - to, from + to - 2.0 * chord];
-        let force = points[place][1] + width * share * (from + share * (quadratic + share * cubic));
-        [force, from + share * (2.0 * quadratic + 3.0 * share * cubic)]
+/// A stage that is driven along x.
+fn driven(control: StageControl, increments: usize) -> Stage {
+    Stage {
+        name: "loop".to_owned(),
+        normal: None,
+        tangential: [Some(control), None],
+        twist: None,
+        tilt: [None, None],
+        bulk_stress: [[None, None], [None, None]],
+        increments,
+        history_tolerance: None,
+        course: Course::Linear,
+        friction: None,
     }
 }
 

@@ -4,7 +4,8 @@ use fret_core::case::Units;
 use maud::{Markup, html};
 use serde_json::Value;
 
-use super::MeasuredCycle;
+use super::cycles::MeasuredCycle;
+use super::quantities::COLUMNS;
 use crate::drawing::chart::{Chart, Curve, Stroke};
 use crate::drawing::scale::Label;
 use crate::report::html::{figure_of, number, table};
@@ -12,6 +13,9 @@ use crate::report::whole_page;
 
 /// Loops that the stack shows, at the most.
 const MOST_LOOPS: usize = 40;
+
+/// Columns of the table of cycles that are in `cycles.csv` alone.
+const NOT_ON_THE_PAGE: [&str; 3] = ["points", "contact_sliding_ratio", "slope_after_reversal"];
 
 /// The page.
 pub fn page(json: &Value, units: &Units, cycles: &[MeasuredCycle]) -> String {
@@ -74,7 +78,9 @@ fn beside(json: &Value, axes: [Label; 2]) -> Chart {
     let points = displacement.iter().zip(&force).enumerate().map(|(row, (d, q))| {
         let time = (row as f64 + 0.5) / count - 0.5;
         [
-            d - removed("displacement_offset") - time * removed("displacement_drift"),
+            d - removed("displacement_offset")
+                - time * removed("displacement_drift")
+                - (4.0 * time * time - 1.0 / 3.0) * removed("displacement_bend"),
             q - removed("force_offset"),
         ]
     });
@@ -102,15 +108,16 @@ fn beside(json: &Value, axes: [Label; 2]) -> Chart {
 
 /// The loops of a log, each moved on by a part of the range.
 fn stack(cycles: &[MeasuredCycle], axes: [Label; 2]) -> Chart {
-    let every = cycles.len().div_ceil(MOST_LOOPS);
+    let cycles: Vec<&MeasuredCycle> = cycles.iter().filter(|cycle| cycle.fault.is_none()).collect();
+    let every = cycles.len().div_ceil(MOST_LOOPS).max(1);
     let range = |of: &dyn Fn(&MeasuredCycle) -> &[f64]| {
-        let all = cycles.iter().flat_map(|cycle| of(cycle).iter().copied());
+        let all = cycles.iter().flat_map(|&cycle| of(cycle).iter().copied());
         let [low, high] = all
             .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], value| [low.min(value), high.max(value)]);
         high - low
     };
     let (along, up) = (range(&|cycle| &cycle.displacement), range(&|cycle| &cycle.force));
-    let shown: Vec<&MeasuredCycle> = cycles.iter().step_by(every).collect();
+    let shown: Vec<&MeasuredCycle> = cycles.iter().copied().step_by(every).collect();
     let curves = shown.iter().enumerate().map(|(k, cycle)| {
         let moved = 1.5 * k as f64 / shown.len() as f64;
         let points = cycle.displacement.iter().zip(&cycle.force);
@@ -128,20 +135,9 @@ fn stack(cycles: &[MeasuredCycle], axes: [Label; 2]) -> Chart {
 }
 
 fn rows(json: &Value, units: &Units) -> Markup {
-    let columns = [
-        ("cycle", ""),
-        ("dissipated_energy", "force x length"),
-        ("force_amplitude", "force"),
-        ("displacement_amplitude", "length"),
-        ("opening", "length"),
-        ("energy_ratio", ""),
-        ("sliding_ratio", ""),
-        ("contact_energy_ratio", ""),
-        ("plateau_friction", ""),
-        ("energy_friction", ""),
-    ];
+    let columns = COLUMNS.into_iter().filter(|(name, _)| !NOT_ON_THE_PAGE.contains(name));
     let head: Vec<String> = columns
-        .iter()
+        .clone()
         .map(|(name, unit)| {
             if unit.is_empty() {
                 name.replace('_', " ")
@@ -155,7 +151,13 @@ fn rows(json: &Value, units: &Units) -> Markup {
     let rows: Vec<Vec<String>> = all
         .iter()
         .step_by(every)
-        .map(|row| columns.iter().map(|(name, _)| shown(&row[*name])).collect())
+        .map(|row| {
+            let cell = |(name, _): (&str, &str)| match row[name].as_f64() {
+                Some(cycle) if name == "cycle" => cycle.to_string(),
+                _ => shown(&row[name]),
+            };
+            columns.clone().map(cell).collect()
+        })
         .collect();
     table(&head.iter().map(String::as_str).collect::<Vec<_>>(), &rows)
 }

@@ -1,5 +1,10 @@
 //! Loops of Mindlin and Deresiewicz in series with a spring, with noise and drift, given back their constants.
 
+mod bad_cycles;
+mod coverage;
+mod exports;
+mod friction;
+
 use std::f64::consts::TAU;
 use std::fmt::Write;
 use std::path::PathBuf;
@@ -22,6 +27,13 @@ const PRESSED: f64 = 100.0;
 
 fn case() -> CaseFile {
     CaseFile::of_text("case.toml", CASE.to_owned(), Beside { folder: PathBuf::new(), contents: Vec::new() })
+}
+
+/// A number of the normal distribution.
+fn normal(random: &mut Pcg64Mcg) -> f64 {
+    let mut uniform = || (f64::from(random.next_u32()) + 0.5) / 4_294_967_296.0;
+    let (radius, angle) = ((-2.0 * uniform().ln()).sqrt(), TAU * uniform());
+    radius * angle.cos()
 }
 
 /// A test in closed form.
@@ -62,11 +74,7 @@ impl Rig {
     /// Rows of one cycle, from the largest displacement down and up again: Masing's rule.
     fn rows(&self, random: &mut Pcg64Mcg) -> Vec<[f64; 2]> {
         let peak = self.force_at(self.amplitude);
-        let mut normal = || {
-            let mut uniform = || (f64::from(random.next_u32()) + 0.5) / 4_294_967_296.0;
-            let (radius, angle) = ((-2.0 * uniform().ln()).sqrt(), TAU * uniform());
-            radius * angle.cos()
-        };
+        let mut normal = || normal(random);
         (0..self.points)
             .map(|k| {
                 let time = k as f64 / self.points as f64;

@@ -1,10 +1,16 @@
 //! Units of a log, turned into those of the case, and said.
 
-use fret_core::case::{Units, conversion, known_units};
+use fret_core::case::{Units, conversion, is_unit, known_units};
 
 use super::log::Table;
 use super::{Request, refused};
 use crate::failure::Failure;
+
+/// Units of other columns: known so that a line of units is not taken for names.
+const OTHERS: [&str; 17] =
+    ["s", "sec", "ms", "min", "h", "Hz", "1/s", "°C", "C", "K", "%", "V", "mV", "A", "mm/s", "um/s", "rpm"];
+/// Units of mass, of which many load cells write their weights.
+const MASSES: [&str; 4] = ["g", "kg", "mg", "lb"];
 
 /// Factors from the columns of a log to the units of the case: of displacements, forces, normal forces.
 ///
@@ -31,7 +37,9 @@ pub fn scales(
         if unit == *into {
             continue;
         }
-        let Ok(into_own) = conversion(&unit, kind, Some(&own)) else {
+        let is_mass = kind == "force" && MASSES.contains(&unit.as_str());
+        let weight = if is_mass { format!("{unit}f") } else { unit.clone() };
+        let Ok(into_own) = conversion(&weight, kind, Some(&own)) else {
             return Err(refused(
                 &table.name,
                 &format!(
@@ -42,6 +50,9 @@ pub fn scales(
             ));
         };
         found[slot] = into_own.factor();
+        if is_mass {
+            notes.push(format!("column {:?} is in {unit}: taken as the weight of that mass", column.name));
+        }
         if units.is_none() {
             notes.push(format!(
                 "column {:?} is in {unit}, and the case names no units: the case is taken in {base}",
@@ -59,4 +70,9 @@ pub fn scales(
         ));
     }
     Ok(found)
+}
+
+/// Whether a word is a unit of something that logs hold.
+pub fn is_known(word: &str) -> bool {
+    OTHERS.contains(&word) || MASSES.contains(&word) || is_unit(word)
 }

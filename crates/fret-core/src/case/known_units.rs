@@ -218,7 +218,7 @@ pub fn conversion(word: &str, kind: &str, units: Option<&Units>) -> Result<Conve
 }
 
 /// Whether a word is a unit that is known.
-pub(super) fn is_unit(word: &str) -> bool {
+pub fn is_unit(word: &str) -> bool {
     unit(word).is_some()
 }
 

@@ -34,8 +34,8 @@ impl fmt::Display for Skipped {
     }
 }
 
-/// Whether a line is a comment by its first letters. A semicolon may also part an empty cell from the next: see [`semicolon`].
-pub(in crate::case) fn is_comment(line: &str) -> bool {
+/// Whether a line is a comment by its first letters. A semicolon may also part an empty cell from the next: that is judged apart.
+pub fn is_comment(line: &str) -> bool {
     let line = line.trim_start();
     ["%", "!", "//"].iter().any(|mark| line.starts_with(mark))
         || line.starts_with('#')

@@ -12,8 +12,7 @@ mod word;
 
 use ndarray::Array2;
 
-pub use comments::Skipped;
-pub(super) use comments::is_comment;
+pub use comments::{Skipped, is_comment};
 pub(super) use error::HOLES;
 pub use error::NumbersError;
 pub use letters::{NoText, letters};

@@ -1,0 +1,289 @@
+//! The head of a log: which line names the columns, which column holds what, and in which units.
+
+use fret_core::case::{Heading, is_comment, number};
+
+use super::log::ROLES;
+use super::{Request, refused, unit_names};
+use crate::failure::Failure;
+
+/// Names by which columns are known when none are given.
+const KNOWN: [&[&str]; 4] = [
+    &["displacement", "actuator", "actuator_x", "delta", "stroke", "position", "weg", "hub", "verschiebung"],
+    &[
+        "force",
+        "tangential_force",
+        "tangential_force_x",
+        "friction_force",
+        "q",
+        "ft",
+        "fx",
+        "kraft",
+        "reibkraft",
+        "tangentialkraft",
+    ],
+    &["cycle", "cycles", "cycle_number", "zyklus"],
+    &["normal_force", "p", "fn", "normal_load", "normalkraft"],
+];
+/// Lines above the first numbers, at the most.
+const MOST_ABOVE: usize = 200;
+/// What may part columns, the surest first; the last stands for any white space.
+const DELIMITERS: [char; 4] = [';', '\t', ',', ' '];
+
+/// Where the columns of a log are.
+#[derive(Debug)]
+pub struct Head {
+    /// Lines above the first row, those of the head included.
+    pub above: usize,
+    /// What parts the columns.
+    pub delimiter: char,
+    /// The place of every role.
+    pub places: [Option<usize>; 4],
+    /// Names, where there are any.
+    pub names: Vec<String>,
+    /// Units in the line below the names, by place.
+    pub units: Vec<String>,
+}
+
+impl Head {
+    /// The name of a column, and the unit beside or below it.
+    pub fn name_and_unit(&self, place: usize) -> (String, Option<String>) {
+        let cell = self.names.get(place).cloned().unwrap_or_else(|| format!("column {}", place + 1));
+        let (name, unit) = name_and_unit(&cell);
+        let below = self.units.get(place).filter(|unit| !unit.is_empty());
+        (name, below.cloned().or(unit))
+    }
+
+    /// Whether a line repeats the names at the places that are used.
+    pub fn is_repeated_by(&self, cells: &[String]) -> bool {
+        !self.names.is_empty()
+            && self.places.iter().flatten().all(|&place| cells.get(place) == self.names.get(place))
+    }
+
+    /// Whether a line has units, or nothing, at the places that are used.
+    pub fn units_in(&self, cells: &[String]) -> Option<Vec<String>> {
+        let mut any = false;
+        for &place in self.places.iter().flatten() {
+            let cell = cells.get(place).map_or("", String::as_str);
+            any |= !cell.is_empty();
+            if cell.parse::<f64>().is_ok() || number(cell, true).is_ok() {
+                return None;
+            }
+        }
+        any.then(|| cells.iter().map(|cell| cell.trim_matches(['[', ']', '(', ')']).to_owned()).collect())
+    }
+}
+
+/// The cells of a line; a remark sign before them is left out.
+pub fn cells(line: &str, delimiter: char) -> Vec<String> {
+    let line = line.trim_start().trim_start_matches(['#', '%', '!', '/']);
+    let plain = |cell: &str| cell.trim().trim_matches('"').trim().to_owned();
+    if delimiter == ' ' {
+        // A unit in brackets belongs to the word before it.
+        line.split_whitespace().map(plain).fold(Vec::new(), |mut words: Vec<String>, word| {
+            let opens = |word: &str| word.starts_with(['[', '(']);
+            match words.last_mut() {
+                Some(last) if opens(&word) && !opens(last) => *last += &format!(" {word}"),
+                _ => words.push(word),
+            }
+            words
+        })
+    } else {
+        line.split(delimiter).map(plain).collect()
+    }
+}
+
+/// The names of columns that the request gives, by role.
+fn wanted(name: &str, request: &Request) -> Result<[Option<String>; 4], Failure> {
+    let mut wanted = [const { None }; 4];
+    for (role, column) in &request.columns {
+        let Some(index) = ROLES.iter().position(|known| known == role) else {
+            let help = format!("a column holds one of: {}", ROLES.join(", "));
+            return Err(refused(name, &format!("columns: {role:?} is nothing that a log holds"), &help));
+        };
+        wanted[index] = Some(column.clone());
+    }
+    Ok(wanted)
+}
+
+/// The number of a column, from 1, as a place from 0.
+fn place_of_number(word: &str) -> Option<usize> {
+    word.parse::<usize>().ok()?.checked_sub(1)
+}
+
+/// Finds the head.
+///
+/// # Errors
+/// When no line names a displacement and a force, and no numbers of columns were given.
+pub fn find(name: &str, text: &str, request: &Request) -> Result<Head, Failure> {
+    let wanted = wanted(name, request)?;
+    let lines: Vec<&str> = text.lines().take(MOST_ABOVE).collect();
+    let found = by_names(&lines, &wanted).or_else(|| by_numbers(&lines, &wanted));
+    let Some(mut head) = found else { return Err(not_found(name, &lines, &wanted)) };
+    if head.places[0] == head.places[1] {
+        return Err(refused(
+            name,
+            &format!(
+                "displacement and force are one column: {:?}",
+                head.name_and_unit(head.places[0].unwrap_or_default()).0
+            ),
+            "say which is which: --columns \"displacement=stroke,force=load\"",
+        ));
+    }
+    // A line of units below the names; behind a remark sign only where they are units.
+    for line in lines.iter().skip(head.above) {
+        if line.trim().is_empty() {
+            head.above += 1;
+            continue;
+        }
+        let mut row = cells(line, head.delimiter);
+        // Where white space parts the columns, one without a unit leaves no trace: those that are there are the last.
+        if head.delimiter == ' ' {
+            while row.len() < head.names.len() {
+                row.insert(0, String::new());
+            }
+        }
+        let units = head.units_in(&row);
+        let is_remark = is_comment(line);
+        if let Some(units) = units
+            && (!is_remark || is_of_units(&units))
+        {
+            head.units = units;
+            head.above += 1;
+        } else if is_remark {
+            head.above += 1;
+            continue;
+        }
+        break;
+    }
+    Ok(head)
+}
+
+/// The first line that names a displacement and a force.
+fn by_names(lines: &[&str], wanted: &[Option<String>; 4]) -> Option<Head> {
+    let is_named = |role: usize| wanted[role].as_deref().is_none_or(|word| place_of_number(word).is_none());
+    for (row, line) in lines.iter().enumerate() {
+        let delimiter = DELIMITERS.into_iter().find(|mark| line.contains(*mark)).unwrap_or(',');
+        let names = cells(line, delimiter);
+        let place = |role: usize| match &wanted[role] {
+            Some(column) => names
+                .iter()
+                .position(|name| name == column || name_and_unit(name).0 == *column)
+                .or_else(|| place_of_number(column).filter(|place| *place < names.len())),
+            None => names.iter().position(|name| {
+                let plain = name_and_unit(name).0.to_lowercase().replace([' ', '-'], "_");
+                KNOWN[role].contains(&plain.as_str())
+            }),
+        };
+        let places = [0, 1, 2, 3].map(place);
+        let given = (0..4).all(|role| wanted[role].is_none() || places[role].is_some());
+        // A line of numbers has any place; a name has to be one.
+        let named = (0..2).any(|role| {
+            let by_name = wanted[role].as_ref().is_some_and(|column| {
+                names.iter().any(|name| name == column || name_and_unit(name).0 == *column)
+            });
+            places[role].is_some() && (is_named(role) || by_name)
+        });
+        // Words of a title are a head only above numbers that stand as they do.
+        let below =
+            |place: &usize| {
+                lines[row + 1..].iter().filter(|line| !line.trim().is_empty()).take(3).any(|line| {
+                    cells(line, delimiter).get(*place).is_some_and(|cell| number(cell, true).is_ok())
+                })
+            };
+        let fits = delimiter != ' ' || places[..2].iter().flatten().all(below);
+        if places[0].is_some() && places[1].is_some() && given && named && fits {
+            return Some(Head { above: row + 1, delimiter, places, names, units: Vec::new() });
+        }
+    }
+    None
+}
+
+/// Columns by their numbers alone: from the first line that has numbers there; names and units stand above it, where they do.
+fn by_numbers(lines: &[&str], wanted: &[Option<String>; 4]) -> Option<Head> {
+    let places = [0, 1, 2, 3].map(|role| wanted[role].as_deref().map(place_of_number));
+    if places[0].flatten().is_none() || places[1].flatten().is_none() || places.contains(&Some(None)) {
+        return None;
+    }
+    let places = places.map(Option::flatten);
+    for (row, line) in lines.iter().enumerate().filter(|(_, line)| !is_comment(line)) {
+        let fits = |delimiter: &char| {
+            let row = cells(line, *delimiter);
+            let is_number =
+                |place: &usize| row.get(*place).is_some_and(|cell| number(cell, *delimiter != ',').is_ok());
+            places.iter().flatten().all(is_number)
+        };
+        let Some(delimiter) = DELIMITERS.into_iter().find(fits) else { continue };
+        let count = cells(line, delimiter).len();
+        let mut head = Head { above: row, delimiter, places, names: Vec::new(), units: Vec::new() };
+        for above in lines[..row].iter().rev().filter(|line| !line.trim().is_empty()).take(2) {
+            let words = cells(above, delimiter);
+            if words.len() != count || words.iter().any(|word| number(word, true).is_ok()) {
+                break;
+            }
+            if head.units.is_empty() && is_of_units(&words) {
+                head.units =
+                    words.iter().map(|word| word.trim_matches(['[', ']', '(', ')']).to_owned()).collect();
+            } else {
+                head.names = words;
+                break;
+            }
+        }
+        return Some(head);
+    }
+    None
+}
+
+/// Whether all words are units or nothing.
+fn is_of_units(words: &[String]) -> bool {
+    let is_unit = |word: &String| {
+        let plain = word.trim_matches(['[', ']', '(', ')']);
+        plain.is_empty() || unit_names::is_known(plain)
+    };
+    words.iter().any(|word| !word.is_empty()) && words.iter().all(is_unit)
+}
+
+/// What is said where no line names the columns: the names that there are, from the line that looks most like a head.
+fn not_found(name: &str, lines: &[&str], wanted: &[Option<String>; 4]) -> Failure {
+    let mut best: Vec<String> = Vec::new();
+    for line in lines {
+        let delimiter = DELIMITERS.into_iter().find(|mark| line.contains(*mark)).unwrap_or(',');
+        let words = cells(line, delimiter);
+        let numbers = words.iter().filter(|cell| number(cell, true).is_ok()).count();
+        if words.len() > 1 && 2 * numbers > words.len() {
+            break;
+        }
+        // Words of a sentence are no columns.
+        if words.len() > 1
+            && numbers == 0
+            && words.len() >= best.len()
+            && delimiter != ' '
+            && !is_of_units(&words)
+        {
+            best = words;
+        }
+    }
+    let missing: Vec<&str> = (0..2).map(|role| wanted[role].as_deref().unwrap_or(ROLES[role])).collect();
+    let (there, help) = if best.is_empty() {
+        (
+            "there are no names".to_owned(),
+            "say which is which, by numbers from 1: --columns \"displacement=1,force=2\"".to_owned(),
+        )
+    } else {
+        let quoted = |place: usize| best.get(place).map(|cell| name_and_unit(cell).0).unwrap_or_default();
+        let example = if best.len() >= 2 && best[0].len() + best[1].len() < 40 {
+            format!("--columns \"displacement={},force={}\"", quoted(0), quoted(1))
+        } else {
+            "--columns \"displacement=1,force=2\"".to_owned()
+        };
+        (
+            format!("it has: {}", best.join(" | ")),
+            format!("say which is which, by names or by numbers from 1, such as {example}"),
+        )
+    };
+    refused(name, &format!("no line names the columns {:?} and {:?}; {there}", missing[0], missing[1]), &help)
+}
+
+/// The name of a column and the unit behind it; a bracket that is not closed belongs to the name.
+fn name_and_unit(cell: &str) -> (String, Option<String>) {
+    Heading::of(cell).map_or_else(|| (cell.trim().to_owned(), None), |Heading { name, unit }| (name, unit))
+}
