@@ -10,7 +10,7 @@ use toml::de::DeValue;
 
 use super::mistake::Mistake;
 use super::range::Range;
-use super::words::{expected, found, near_miss};
+use super::words::{expected, found, near_miss, shortened};
 
 /// A value as it is written.
 pub type Written<'d> = Spanned<DeValue<'d>>;
@@ -178,7 +178,7 @@ impl Reader {
             return Ok(meaning);
         }
         let meant = near_miss(text, &names);
-        self.unknown(value.span(), &format!("unknown name `{text}`"), &names, meant);
+        self.unknown(value.span(), &format!("unknown name `{}`", shortened(text)), &names, meant);
         Err(of(meant.unwrap_or(names[0])))
     }
 
@@ -239,7 +239,7 @@ impl<'v, 'd> TableReader<'v, 'd> {
         }
         for (name, entry) in table.iter().filter(|(name, _)| !keys.contains(&name.get_ref().as_ref())) {
             let meant = near_miss(name.get_ref(), keys);
-            reader.unknown(name.span(), &format!("unknown key `{}`", name.get_ref()), keys, meant);
+            reader.unknown(name.span(), &format!("unknown key `{}`", shortened(name.get_ref())), keys, meant);
             let place = place(name, entry);
             let free =
                 meant.and_then(|meant| keys.iter().find(|key| **key == meant && !entries.contains_key(*key)));

@@ -7,16 +7,22 @@ use toml::de::DeValue;
 
 /// Letters by which a word that is cut short is known, at the least.
 const SHORTEST: usize = 3;
+/// Letters of a text, or digits of a number, that a message shows at the most.
+const LONGEST: usize = 60;
 
 /// What stands in a document, in words.
 pub(super) fn found(value: &Spanned<DeValue<'_>>) -> String {
     match value.get_ref() {
-        DeValue::String(text) => format!("the text {text:?}"),
+        DeValue::String(text) => format!("the text {:?}", shortened(text)),
         DeValue::Integer(number) => number.to_string(),
         DeValue::Float(number) => match number.as_str().parse::<f64>() {
             Ok(value) if value.is_finite() => {
                 let text = value.to_string();
-                if text.contains('.') { text } else { text + ".0" }
+                match (text.len() > LONGEST, text.contains('.')) {
+                    (true, _) => format!("{value:e}"),
+                    (false, true) => text,
+                    (false, false) => text + ".0",
+                }
             }
             Ok(value) if number.as_str().contains("inf") || value.is_nan() => value.to_string(),
             _ => format!("{}, too large a number", number.as_str()),
@@ -25,6 +31,14 @@ pub(super) fn found(value: &Spanned<DeValue<'_>>) -> String {
         DeValue::Datetime(date) => format!("the date {date}"),
         DeValue::Array(_) => "a list".to_owned(),
         DeValue::Table(_) => "a table".to_owned(),
+    }
+}
+
+/// A text of which a message shows the beginning, when it is long.
+pub(super) fn shortened(text: &str) -> Cow<'_, str> {
+    match text.char_indices().nth(LONGEST) {
+        Some((end, _)) => format!("{} ...", &text[..end]).into(),
+        None => text.into(),
     }
 }
 
@@ -73,6 +87,25 @@ pub fn printable(text: &str) -> Cow<'_, str> {
 
 #[cfg(test)]
 mod tests {
+    use toml::Spanned;
+    use toml::de::{DeTable, DeValue};
+
+    #[test]
+    fn of_long_texts_and_numbers_a_message_shows_the_beginning() {
+        let text = format!(
+            "long = \"{}\"\nshort = \"ab\"\nlarge = -1e308\nplain = 2.5\nwhole = 3e2",
+            "x".repeat(100)
+        );
+        let table = DeTable::parse(&text).unwrap();
+        let found = |key: &str| -> String {
+            let value: &Spanned<DeValue<'_>> = table.get_ref().get(key).unwrap();
+            super::found(value)
+        };
+        assert_eq!(found("long"), format!("the text \"{} ...\"", "x".repeat(60)));
+        assert_eq!(found("short"), "the text \"ab\"");
+        assert_eq!([found("large"), found("plain"), found("whole")], ["-1e308", "2.5", "300.0"]);
+    }
+
     #[test]
     fn a_printable_text_shows_what_would_steer_a_terminal() {
         assert_eq!(super::printable("press\n\tµ 1"), "press\n\tµ 1");
