@@ -31,7 +31,7 @@ use crate::tally::Tally;
 use crate::terminal;
 use crate::threads;
 
-pub use crate::commands::run::Guest;
+pub use crate::commands::run_observer::Guest;
 
 /// Why a call ended without its answer.
 #[derive(Debug)]
@@ -102,6 +102,17 @@ pub enum Earlier {
     Replace,
     /// Continue an interrupted run; start where there is none.
     Resume,
+}
+
+impl Earlier {
+    /// What to do, by two answers: whether to go on with what is there, and whether to replace it.
+    pub fn of(resume: bool, replace: bool) -> Self {
+        match (resume, replace) {
+            (true, _) => Self::Resume,
+            (false, true) => Self::Replace,
+            (false, false) => Self::Keep,
+        }
+    }
 }
 
 impl From<Earlier> for Wish {

@@ -1,4 +1,4 @@
-//! Products in single precision, for numbers of which six digits are enough.
+//! Products in single precision, where a relative error of 1e-6 is enough.
 
 use super::Workspace;
 use super::lanes::LaneProduct;

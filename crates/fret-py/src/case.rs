@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use fret_cli::embedded::{CaseText, Earlier};
+use fret_cli::embedded::CaseText;
 use fret_core::case::{self, Attachments, CaseError};
 use fret_core::history;
 use fret_core::plan::{LeaveOut, Plan};
@@ -44,15 +44,6 @@ impl Source {
             case::Case::from_toml_with(&self.text, &self.name, attachments)
         };
         read.map_err(|error| refused(&error))
-    }
-}
-
-/// What to do with results that are in a folder already.
-pub fn earlier(resume: bool, replace: bool) -> Earlier {
-    match (resume, replace) {
-        (true, _) => Earlier::Resume,
-        (false, true) => Earlier::Replace,
-        (false, false) => Earlier::Keep,
     }
 }
 

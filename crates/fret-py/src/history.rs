@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use fret_cli::embedded::{self, CaseText, Solved};
+use fret_cli::embedded::{self, CaseText, Earlier, Solved};
 use fret_core::history::{
     self, CYCLE_COLUMNS, Column, FIELDS, Field, FieldValues, STEP_COLUMNS, StepRecord, Value, ZONE_WORDS,
     running_condition,
@@ -15,7 +15,6 @@ use pyo3::prelude::{Bound, PyAny, PyDictMethods, PyResult, Python, pyclass, pyfu
 use pyo3::types::PyDict;
 use serde_json::{Value as Json, json};
 
-use crate::case::earlier;
 use crate::error::{bad_value, stopped};
 
 /// One step as a dict of numbers.
@@ -125,7 +124,7 @@ impl History {
             error_bars: self.error_bars.as_deref(),
         };
         let case = self.case.clone();
-        py.detach(|| embedded::save(solved, case, &folder, earlier(false, replace))).map_err(stopped)
+        py.detach(|| embedded::save(solved, case, &folder, Earlier::of(false, replace))).map_err(stopped)
     }
 
     /// Names of the stages.

@@ -10,7 +10,7 @@ use fret_core::study::StageQuantities;
 use serde_json::{Value, json};
 
 use super::preparation::{Preparation, Wanted};
-use super::run_observer::{Clock, RunObserver};
+use super::run_observer::{Clock, Guest, RunObserver};
 use crate::arguments::RunArguments;
 use crate::commands::{heat, stress};
 use crate::defect;
@@ -287,9 +287,6 @@ impl Preparation {
         format!("{} and kept in {}", tally.standing(), self.folder.display())
     }
 }
-
-/// Somebody else who hears about a run, and may stop it.
-pub type Guest<'a> = dyn Observer + Send + 'a;
 
 /// How a run ended.
 struct Ended {

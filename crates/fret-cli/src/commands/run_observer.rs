@@ -8,11 +8,13 @@ use fret_core::model::{MirroredState, SurfaceGrid};
 use fret_core::run::{Iteration, Observer, Waypoint};
 use fret_core::study::StageQuantities;
 
-use crate::commands::run::Guest;
 use crate::failure::Failure;
 use crate::output::ResultFolder;
 use crate::progress::Progress;
 use crate::tally::Tally;
+
+/// Somebody else who hears about a run, and may stop it.
+pub type Guest<'a> = dyn Observer + Send + 'a;
 
 /// Time of the whole run, that before it was broken off included.
 pub struct Clock {

@@ -31,7 +31,7 @@ pub struct Section<'a> {
     pub values: &'a [Vec<f64>],
     /// Depths of interfaces.
     pub interfaces: &'a [f64],
-    /// Values of the lowest and the highest colour; those of the section when not given.
+    /// Values of the lowest and the highest colour; by default those of the section.
     pub range: Option<[f64; 2]>,
 }
 

@@ -183,7 +183,7 @@ mod tests {
 
     #[test]
     fn stretching_alone_leaves_the_middle_stuck() {
-        // E* eps/(2 mu p0) = sigma/(4 mu p0) = 0.25, 1: six digits of the dense program's closed form
+        // E* eps/(2 mu p0) = sigma/(4 mu p0) = 0.25, 1: 6 digits of the dense program's closed form
         for (load, stick) in [(0.25, 0.766_556), (1.0, 0.289_359)] {
             let strain = strain(0.4, load);
             let found = StretchedLine::new(&hertz(), 0.4, MODULUS, strain).unwrap();

@@ -17,7 +17,7 @@ pub struct EffectiveModuli {
     pub shear: f64,
     /// `1/G = Σ 1/G` [pressure]: torsion.
     pub torsional: f64,
-    /// Dundurs' `β = [(1 − 2ν)/G lower − upper] / (2 Σ (1 − ν)/G)` [-]: normal-tangential coupling, 0 for like bodies.
+    /// Dundurs' `β = [(1 − 2ν)/G lower − upper] / (2 Σ (1 − ν)/G)` [-]: normal-tangential coupling, 0 for elastically similar bodies.
     pub coupling: f64,
 }
 

@@ -146,7 +146,7 @@ mod tests {
         for (stick, load) in [(0.9, 0.161_327), (0.5, 0.945_460)] {
             let strain = load * 0.3 * hertz.max_pressure / 1.5;
             let found = EquibiaxialSphere::new(&hertz, 0.3, 1.5, strain).unwrap();
-            assert!((found.stick_radius / found.contact_radius - stick).abs() < 2e-6); // six digits of the load
+            assert!((found.stick_radius / found.contact_radius - stick).abs() < 2e-6); // 6 digits of the load
         }
     }
 }

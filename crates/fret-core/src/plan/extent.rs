@@ -14,7 +14,7 @@ use crate::model::{
 };
 use crate::solver::{ContactSolver, Coupling, SolveError, SolverSettings};
 
-/// Cells a side of the coarse grid.
+/// Cells per side of the coarse grid.
 pub(super) const COARSE: usize = 48;
 /// Cells of the coarse grid of a line contact.
 const COARSE_LINE: usize = 192;

@@ -2,7 +2,7 @@
 //!
 //! Normal: spheres, ellipsoids, rounded and flat punches, cones on homogeneous bodies that are frictionless or do not couple.
 //! Cylinders in line contacts likewise, with Cattaneo for forces along one axis and any Poisson's ratio.
-//! Tangential: Cattaneo and Mindlin with Masing's memory, for spheres under a steady normal force, one coefficient of friction, forces along one line, and like bodies with a
+//! Tangential: Cattaneo and Mindlin with Masing's memory, for spheres under a steady normal force, one coefficient of friction, forces along one line, and elastically similar bodies with a
 //! Poisson's ratio of zero: with any other the form neglects the slip across the force, and is no measure of a hundredth of a
 //! percent.
 

@@ -16,7 +16,7 @@ use crate::plan::{Coupling, Plan};
 
 /// Residual a companion is solved to at the least: far below what is estimated.
 const TOLERANCE: f64 = 1e-6;
-/// Fewest cells a side whose half still shows a contact.
+/// Fewest cells per side whose half still shows a contact.
 const FEWEST_CELLS: usize = 12;
 /// Edge of contact: read to this share of a cell.
 const EDGE: f64 = 0.08;

@@ -26,7 +26,7 @@ const SMALL: usize = 64 * 64;
 /// Cells of the largest grid that is tried as it is, where the case has no other.
 const LARGEST_TRIAL: usize = 128 * 128;
 /// Operator applications times cells that the coarse run may take, about half a second: a longer one is broken off after an increment,
-/// and its counts are carried on to the end. A count, so that the same is expected however busy the machine is.
+/// and its counts are extrapolated to the end. A count, so that the same is expected however busy the machine is.
 const ENOUGH: usize = 6_000_000;
 /// Time after which a coarse run is broken off all the same: on a machine that is slow, or busy with other work.
 const PATIENCE: Duration = Duration::from_secs(5);
@@ -136,7 +136,7 @@ pub fn expectation(plan: &Plan) -> Expectation {
     }
 }
 
-/// Counts of a coarse run, carried on to the end of the history.
+/// Counts of a coarse run, extrapolated to the end of the history.
 struct Counts {
     increments: f64,
     convolutions: f64,

@@ -3,8 +3,8 @@
 use pulp::aarch64::Neon;
 use pulp::{NullaryFnOnce, cast, f32x4, f64x2};
 
-use super::simd::{Lanes, Task};
-use super::vectors::{Entered, Single, lanes};
+use super::simd::{Lanes, Single, Task};
+use super::vectors::{Entered, lanes};
 
 /// NEON on pairs of registers.
 #[derive(Debug, Clone, Copy)]

@@ -8,9 +8,6 @@ use std::ops::IndexMut;
 
 use pulp::bytemuck::Pod;
 
-#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
-use super::vectors::Single;
-
 /// Most lanes of any instruction set.
 pub const MAX_WIDTH: usize = 16;
 
@@ -78,6 +75,18 @@ pub trait Lanes: Copy + Send + Sync + 'static {
     #[inline(always)]
     fn zero(self) -> Self::Reals {
         self.constant(0.0)
+    }
+}
+
+/// An instruction set on numbers of single precision.
+#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+#[derive(Debug, Clone, Copy)]
+pub struct Single<A>(pub A);
+
+#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+impl<A> From<A> for Single<A> {
+    fn from(set: A) -> Self {
+        Self(set)
     }
 }
 

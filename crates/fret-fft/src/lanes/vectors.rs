@@ -16,16 +16,6 @@ impl<L: Lanes, T: Task<L>> NullaryFnOnce for Entered<L, T> {
     }
 }
 
-/// An instruction set on numbers of single precision.
-#[derive(Debug, Clone, Copy)]
-pub struct Single<A>(pub A);
-
-impl<A> From<A> for Single<A> {
-    fn from(set: A) -> Self {
-        Self(set)
-    }
-}
-
 /// Lanes on the vectors of one instruction set: how to reach its operations, and their names.
 macro_rules! lanes {
     ($lanes:ty, |$self:ident| $set:expr, $number:ty, $width:literal, $vector:ty, $transpose:ident,

@@ -6,8 +6,8 @@ use pulp::core_arch::x86::Avx512f;
 use pulp::x86::{V3, V4};
 use pulp::{cast, f32x8, f32x16, f64x4, f64x8};
 
-use super::simd::{Lanes, Task};
-use super::vectors::{Entered, Single, lanes};
+use super::simd::{Lanes, Single, Task};
+use super::vectors::{Entered, lanes};
 
 lanes!(
     V3,
