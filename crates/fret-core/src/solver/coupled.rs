@@ -51,6 +51,10 @@ pub fn solve(
     let problem = increment.contact_problem(Pressure::Unknown, &counted_from);
     newton::make_shear_feasible(&problem, &mut tractions, operators);
     operators.compliance.full(tractions.parts(), displacements.parts_mut());
+    if std::env::var("AUG").is_ok() {
+        let goal = std::env::var("GOAL").ok().and_then(|v| v.parse().ok()).unwrap_or(1e-3);
+        super::augmented::solve(&problem, &mut tractions, &mut displacements, operators, settings, goal, callback)?;
+    }
     let start = (!increment.path.turns()).then(|| tractions.clone());
     let (p, u) = (&mut tractions, &mut displacements);
     let mut solution = match settings.scheme {

@@ -5,6 +5,7 @@
 //! pressure and shear together in `newton`, its linear problems in `linear`, the frictionless problem in `normal`. Theory: `docs/theory/contact-problem.md` and
 //! `docs/theory/solution-algorithm.md`.
 
+mod augmented;
 mod contact_edge;
 mod contact_problem;
 mod contact_set;

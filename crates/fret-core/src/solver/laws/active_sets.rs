@@ -66,6 +66,27 @@ impl ActiveSets {
         each_cell(&Classify(limits), read, write.map(Vec::as_mut_slice));
     }
 
+    /// Exploration: sets read off the trial shear `w` under bounds of the augmented pressure.
+    pub fn of_trial(w: &TangentialField, bound: &FrictionBound, self_influence: f64) -> Self {
+        let n = bound.bound.len();
+        let mut sets = Self { stick: vec![0.0; n], slip: vec![0.0; n], slip_compliance: vec![0.0; n], slip_weight: vec![0.0; n], direction: TangentialField::zeros(n), ..Self::default() };
+        let least = LEAST_BOUND * largest(&bound.bound);
+        for c in 0..n {
+            let [x, y] = w.at(c);
+            let size = x.hypot(y);
+            let b = bound.bound[c];
+            if b > 0.0 && size <= b { sets.stick[c] = 1.0; continue; }
+            if size > 0.0 { sets.direction.set(c, [x / size, y / size]); }
+            if b > 0.0 {
+                sets.slip[c] = 1.0;
+                let d = self_influence * (size - b) / b.max(least);
+                sets.slip_compliance[c] = d;
+                sets.slip_weight[c] = 1.0 / (1.0 + d / self_influence).sqrt();
+            }
+        }
+        sets
+    }
+
     /// Takes into account how slip turns on its `path`; `slip`: what is not yet turned, packed [length].
     pub fn turn(&mut self, path: &SlipPath, slip: &TangentialField) {
         self.turns = path.turns();
