@@ -199,6 +199,9 @@ impl<'ast> Visit<'ast> for Reader<'_> {
         self.import(&item.tree, &[], public);
     }
 
+    /// Who may see an item is no import.
+    fn visit_visibility(&mut self, _: &'ast syn::Visibility) {}
+
     fn visit_path(&mut self, path: &'ast syn::Path) {
         let names: Vec<String> = path.segments.iter().map(|segment| segment.ident.to_string()).collect();
         if names.len() > 1 {

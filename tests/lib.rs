@@ -115,13 +115,14 @@ impl Sphere {
         )
     }
 
-    /// Adds a stage of tangential force along x, in units of mu W.
+    /// Adds a stage of tangential force along x, in units of mu W: `pull`, and behind that `pull back`.
     pub fn pulled(&self, text: &str, share: f64, increments: usize, cycles: Option<usize>) -> String {
         let force = share * self.friction * self.force();
+        let name = if text.contains("\"pull\"") { "pull back" } else { "pull" };
         let mut text = text.to_owned();
         let _ = write!(
             text,
-            "[[load]]\nname = \"pull\"\ntangential_force = [{force:e}, 0.0]\nincrements = {increments}\n"
+            "[[load]]\nname = \"{name}\"\ntangential_force = [{force:e}, 0.0]\nincrements = {increments}\n"
         );
         if let Some(cycles) = cycles {
             let _ = writeln!(text, "cycles = {cycles}");

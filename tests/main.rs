@@ -8,6 +8,7 @@
 )]
 
 mod analytic_limits;
+mod body_ends;
 mod bulk_stress;
 mod certified;
 mod coated_limits;
@@ -15,6 +16,7 @@ mod coefficient_regimes;
 mod coefficient_tables;
 mod conduction;
 mod coupled_friction;
+mod elastic_energy;
 mod error_bars;
 mod evolving_friction;
 mod fretting_cycles;
@@ -25,14 +27,17 @@ mod interfaces;
 mod invariants;
 mod layers;
 mod leaving_out;
+mod limits;
 mod line_coefficients;
 mod line_contact;
 mod line_extremes;
 mod loadings;
+mod loads_of_cycles;
 mod misleading;
 mod mutilated_cases;
 mod normal_counts;
 mod periodic;
+mod public_cases;
 mod random_cases;
 mod reduced_contact;
 mod refinement;

@@ -97,18 +97,63 @@ fn motions_and_heights_of_another_unit_are_told_of() {
     assert!((slope / (2.0e5 * 2.0_f64.sqrt()) - 1.0).abs() < 1e-12, "{slope}");
 }
 
+/// Increments and ramp that the warning of rings calls enough.
+fn enough(warnings: &[Warning]) -> (usize, Option<String>) {
+    let help =
+        &warnings.iter().find(|warning| warning.name == Concern::PressingInFewIncrements).unwrap().help;
+    let count = help.strip_prefix("use at least ").unwrap().split(' ').next().unwrap().parse().unwrap();
+    (count, help.split('"').nth(1).filter(|word| *word != "auto").map(str::to_owned))
+}
+
 #[test]
 fn few_increments_of_coupled_pressing_are_told_of_and_many_are_not() {
     let pressed = |increments: usize, identical: bool| {
         let sphere = Sphere { cells: 96, size: 2.2, friction: 0.2, identical, ..Sphere::default() };
         solved(&sphere.pressed(1.0, increments, "cubic")).warnings
     };
-    // 44 cells in the radius: 2.2 cells an increment of 20, 0.7 of 60.
-    let ring = value(&pressed(20, false), Concern::PressingInFewIncrements);
-    assert!((ring / 2.2 - 1.0).abs() < 0.2, "{ring}");
-    assert!(names(&pressed(60, false)).is_empty() && names(&pressed(20, true)).is_empty());
+    // 44 cells in the radius: 5.5 cells an increment of 8. Of 20 it grows by less than a sixteenth.
+    let ring = value(&pressed(8, false), Concern::PressingInFewIncrements);
+    assert!((ring / 5.5 - 1.0).abs() < 0.1, "{ring}");
+    assert!(names(&pressed(20, false)).is_empty() && names(&pressed(8, true)).is_empty());
     // One increment makes the whole contact.
     assert!(value(&pressed(1, false), Concern::PressingInFewIncrements) > 40.0);
+}
+
+#[test]
+fn the_increments_that_a_warning_of_pressing_asks_for_are_enough() {
+    for (cells, ramp, increments) in [
+        (96, "cubic", 4),
+        (96, "square", 6),
+        (96, "linear", 10),
+        (32, "cubic", 6),
+        (32, "linear", 1),
+        (48, "square", 2),
+    ] {
+        let pressed = |increments: usize, ramp: &str| {
+            let sphere = Sphere { cells, size: 2.4, friction: 0.3, ..Sphere::default() };
+            solved(&sphere.pressed(1.0, increments, ramp)).warnings
+        };
+        let (count, other) = enough(&pressed(increments, ramp));
+        assert!(count > increments && count < 60, "{cells} {ramp} {increments}: {count}");
+        let left = pressed(count, other.as_deref().unwrap_or(ramp));
+        assert!(left.is_empty(), "{cells} {ramp} {increments} to {count}: {left:?}");
+    }
+}
+
+#[test]
+fn a_flat_touches_at_once() {
+    let punch = |cells: &str, size: &str, lower: &str, increments: usize| {
+        solved(&format!(
+            "grid = {{ cells = {cells}, size = {size} }}\nupper = {{ rigid = true }}\nlower = {{ {lower} }}\n             profile = {{ flat_punch = {{ radius = 1.0 }} }}\nfriction = {{ coefficient = 0.5 }}\n             [[load]]\nnormal_force = 0.001\nincrements = {increments}\n"
+        ))
+    };
+    let steel = "substrate = { young = 1.0, poisson = 0.3 }";
+    for increments in [1, 4, 64] {
+        let history = punch("[48, 48]", "[2.5, 2.5]", steel, increments);
+        assert!(history.warnings.is_empty(), "{increments}: {:?}", history.warnings);
+        let line = punch("256", "3.0", steel, increments);
+        assert!(line.warnings.is_empty(), "line, {increments}: {:?}", line.warnings);
+    }
 }
 
 #[test]
@@ -118,9 +163,10 @@ fn thin_coatings_deep_scars_and_narrow_grids_are_told_of() {
         Sphere { cells: 32, size, coating, ..Sphere::default() }.pressed(1.0, 1, "linear")
     };
     // Cells of 0.075.
-    let thin = before(&coated(0.03, 2.4));
+    let asked = |text: String| before(&format!("{text}[stress]\ndepths = [0.01]\n"));
+    let thin = asked(coated(0.03, 2.4));
     assert!((value(&thin, Concern::CoatingThinnerThanCell) - 0.4).abs() < 1e-12);
-    assert!(before(&coated(0.1, 2.4)).is_empty());
+    assert!(asked(coated(0.1, 2.4)).is_empty() && before(&coated(0.03, 2.4)).is_empty());
     let narrow =
         solved(&Sphere { cells: 32, size: 2.1, ..Sphere::default() }.pressed(1.0, 1, "linear")).warnings;
     assert_eq!(value(&narrow, Concern::ContactNearEdge), 1.0, "{narrow:?}");
@@ -132,7 +178,7 @@ fn a_gauge_says_the_same_in_pieces_and_in_one() {
     let text = sphere.pulled(&sphere.pressed(1.0, 6, "cubic"), 0.5, 4, None);
     let plan = Plan::new(Case::from_toml(&text, "case.toml").unwrap()).unwrap();
     let history = solved(&text);
-    let mut gauge = Gauge::default();
+    let mut gauge = Gauge::of(&plan);
     for step in &history.steps {
         gauge.add(step);
         // As a checkpoint keeps it.
@@ -140,4 +186,35 @@ fn a_gauge_says_the_same_in_pieces_and_in_one() {
     }
     assert_eq!(gauge.warnings(&plan), history.warnings);
     assert!(!history.warnings.is_empty());
+}
+
+/// Three cells per wave show crests of another height: cosines of 0, 120 and 240 degrees reach 1 and -1/2. Seven cells are enough.
+#[test]
+fn a_wave_of_few_cells_is_told_of_before_and_after_the_run() {
+    let text = |waves: f64| {
+        format!(
+            "[grid]\ncells = [21, 21]\nsize = [1e-3, 1e-3]\nperiodic = true\n[upper]\nrigid = true\n[lower]\n\
+             substrate = {{ young = 21e9, poisson = 0.3 }}\n[profile.wave]\namplitude = 1e-7\nwavelength_x = {:?}\n[friction]\n\
+             coefficient = 0.2\n[[load]]\nnormal_force = 10.0\nincrements = 1\n",
+            1e-3 / waves
+        )
+    };
+    for found in [before(&text(7.0)), solved(&text(7.0)).warnings] {
+        assert!((value(&found, Concern::FewCellsPerWave) - 3.0).abs() < 1e-9, "{found:?}");
+    }
+    assert!(before(&text(3.0)).is_empty(), "{:?}", before(&text(3.0)));
+}
+
+/// 50 times E is no stress of an elastic body: strains of 50 along it and of 15 across.
+#[test]
+fn a_bulk_stress_above_the_modulus_is_told_of() {
+    let text = |stress: &str| {
+        ball(
+            "210e9",
+            "\"auto\"",
+            &format!("{PRESS}[[load]]\nbulk_stress = [{stress}, 0.0]\nincrements = 4\n"),
+        )
+    };
+    assert!((value(&before(&text("1.05e13")), Concern::BulkStrain) - 50.0).abs() < 1e-9);
+    assert!(!names(&before(&text("1e9"))).contains(&Concern::BulkStrain));
 }

@@ -407,39 +407,65 @@ fn a_moved_operator_gives_the_bits_of_a_new_one_in_any_number_of_threads() {
 /// The tension behind a sliding sphere has a cusp at the rim: `(1 - 2 nu)/3 + pi mu (4 + nu)/8` of the largest pressure (Hamilton 1983).
 #[test]
 fn the_tension_behind_a_slider_is_found_at_the_rim() {
-    let (poisson, friction) = (0.3, 0.25);
-    let exact = (1.0 - 2.0 * poisson) / 3.0 + PI * friction * (4.0 + poisson) / 8.0;
-    let mut errors = Vec::new();
-    for cells in [64, 72, 80, 128, 144, 256] {
-        let sphere = Sphere { cells, size: 3.0, poisson, identical: true, friction, ..Sphere::default() };
-        let slide = "[[load]]\nshift = [0.05, 0.0]\nincrements = 1\n";
-        let history = solved(&(sphere.pressed(1.0, 1, "linear") + slide + &keeping(1)));
-        assert_eq!(history.steps[1].stick_cells, 0);
-        let (grid, peak) = (history.grid, sphere.max_pressure());
-        let kept = &history.fields[1];
-        let pressure = kept.pressure.as_ref().unwrap().mapv(|p| p / peak);
-        let shear = kept.shear.as_ref().unwrap()[0].mapv(|q| q / peak);
-        let none = Array2::zeros((cells, cells));
-        let surface = DepthPoint { depth: 0.0, layer: 0 };
-        let half_space = body(&[], Some((1.0, poisson)));
-        let field = stress(&half_space, surface, &grid, false, &pressure, Some([&shear, &none]));
-        let largest = |pressure: Option<&Array2<f64>>| {
-            let mut found = Vec::new();
-            look(&mut found, &field, surface, false, 0, pressure);
-            *found.iter().find(|largest| largest.measure == Measure::Tension).unwrap()
-        };
-        let (at_centres, at_rim) = (largest(None), largest(Some(&pressure)));
-        let place = grid.centre(0, at_rim.cell[0]) + at_rim.off[0] * grid.spacing()[0];
-        println!(
-            "{cells} cells: {:+.3} at centres, {:+.4} at the rim, x = {place:.4}",
-            at_centres.value / exact - 1.0,
-            at_rim.value / exact - 1.0
-        );
-        // Shear along +x on the body pulls at its rear, where x is negative. A fifth of a cell is what the rim is known to.
-        assert!((place.abs() - 1.0).abs() < 0.2 * grid.spacing()[0] + 0.003, "{cells}: {place}");
-        assert!(at_centres.value / exact - 1.0 < -0.05, "the cusp lies between the centres");
-        errors.push((at_rim.value / exact - 1.0).abs());
+    let mut finest = Vec::new();
+    // grids that end two, three and many cells beyond the rim, which falls anywhere between their cells
+    for (cells, size) in [
+        (48, 2.2),
+        (50, 2.2),
+        (48, 2.3),
+        (64, 2.4),
+        (64, 2.6),
+        (64, 3.0),
+        (72, 3.0),
+        (80, 3.0),
+        (88, 2.2),
+        (128, 3.0),
+        (144, 3.0),
+        (256, 3.0),
+    ] {
+        for (poisson, friction) in [(0.3, 0.25), (0.45, 0.9)] {
+            let [at_centres, at_rim, place] = tension_behind_a_slider(cells, size, poisson, friction);
+            let side = size / cells as f64;
+            println!(
+                "{cells} cells on {size}, nu {poisson}, mu {friction}: {at_centres:+.3} at centres, {at_rim:+.4} at the rim, x = {place:.4}"
+            );
+            // Shear along +x on the body pulls at its rear, where x is negative. The rim is known to a fifth of a cell, and that of a row
+            // of cells beside the middle lies less than half a cell nearer. Along the rim the tension falls with the cosine of the angle: what is
+            // known to two per cent may be the largest that far from the middle.
+            assert!((place.abs() - 1.0).abs() < 0.6 * side + 0.02, "{cells}: {place}");
+            assert!(at_centres < -0.05, "the cusp lies between the centres");
+            // 21 cells in the radius: two per cent; less from there on.
+            assert!(at_rim.abs() < 0.02, "{cells} {size} {poisson}: {at_rim}");
+            if cells == 256 {
+                finest.push(at_rim.abs());
+            }
+        }
     }
-    // 21 cells in the radius: two per cent; less from there on.
-    assert!(errors.iter().all(|error| *error < 0.02) && errors[5] < 0.015, "{errors:?}");
+    assert!(finest.iter().all(|error| *error < 0.015), "{finest:?}");
+}
+
+/// Errors of the largest tension of the cells and of the rims behind a sliding sphere of contact radius 1, relative, and the place of the
+/// latter along the slide.
+fn tension_behind_a_slider(cells: usize, size: f64, poisson: f64, friction: f64) -> [f64; 3] {
+    let exact = (1.0 - 2.0 * poisson) / 3.0 + PI * friction * (4.0 + poisson) / 8.0;
+    let sphere = Sphere { cells, size, poisson, identical: true, friction, ..Sphere::default() };
+    let slide = "[[load]]\nshift = [0.15, 0.0]\nincrements = 1\n";
+    let history = solved(&(sphere.pressed(1.0, 1, "linear") + slide + &keeping(1)));
+    assert_eq!(history.steps[1].stick_cells, 0);
+    let (grid, peak) = (history.grid, sphere.max_pressure());
+    let kept = &history.fields[1];
+    let pressure = kept.pressure.as_ref().unwrap().mapv(|p| p / peak);
+    let shear = kept.shear.as_ref().unwrap()[0].mapv(|q| q / peak);
+    let none = Array2::zeros((cells, cells));
+    let surface = DepthPoint { depth: 0.0, layer: 0 };
+    let half_space = body(&[], Some((1.0, poisson)));
+    let field = stress(&half_space, surface, &grid, false, &pressure, Some([&shear, &none]));
+    let largest = |pressure: Option<&Array2<f64>>| {
+        let mut found = Vec::new();
+        look(&mut found, &field, surface, false, 0, pressure);
+        *found.iter().find(|largest| largest.measure == Measure::Tension).unwrap()
+    };
+    let (at_centres, at_rim) = (largest(None), largest(Some(&pressure)));
+    let place = grid.centre(0, at_rim.cell[0]) + at_rim.off[0] * grid.spacing()[0];
+    [at_centres.value / exact - 1.0, at_rim.value / exact - 1.0, place]
 }

@@ -20,6 +20,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from experiments import experiments
 from orders import orders
 
 import fretting
@@ -331,7 +332,13 @@ def cost() -> dict[str, Any]:
     return {"rows": rows}
 
 
-MEASUREMENTS = {"verification": verification, "spence": spence, "cost": cost, "orders": orders}
+MEASUREMENTS = {
+    "verification": verification,
+    "spence": spence,
+    "cost": cost,
+    "orders": orders,
+    "experiments": experiments,
+}
 
 
 if __name__ == "__main__":

@@ -12,11 +12,15 @@ import json
 import math
 import os
 import re
+import sys
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 HERE = Path(__file__).parent
+sys.path.insert(0, str(HERE))
+import experiment_tables
+
 DOCS = HERE.parent
 ROOT = DOCS.parent
 PLACE = re.compile(r"<!-- (figure|table|number) ([\w-]+) -->(.*?)<!-- end -->", re.DOTALL)
@@ -95,7 +99,7 @@ def verification() -> str:
         ["subsurface stress, coated", "Hankel integrals", "$\\sigma_{zz}$, $\\sigma_{rr}$ on the axis", "256 x 256", "1.3e-8 ([record](@trust/verification-record.md#subsurface-stress))"],
         ["wear in partial slip", "Popov's limiting shape", "force / pressure", "48 x 48", "5e-3 / 9e-3 ([record](@trust/verification-record.md#loadings))"],
         ["rough contact", "ContactMechanics, same operator", "pressure", "40 x 40", "2.6e-12 ([record](@trust/verification-record.md#profiles))"],
-        ["**experiment**", "none yet", "", "", "**not validated**"],
+        experiment_tables.verification_row(data("experiments")),
     ]  # fmt: skip
     return _table(["capability", "reference", "quantity", "grid", "relative error"], rows, of)
 
@@ -285,6 +289,21 @@ def _slowest() -> str:
     return found[1] if found else "1"
 
 
+def _experiment(name: str) -> Callable[[], str]:
+    """Return what writes a table of the page Comparison with experiments."""
+
+    def table() -> str:
+        of = data("experiments")
+        return _table(*getattr(experiment_tables, name)(of), of)
+
+    return table
+
+
+def _number(name: str) -> Callable[[], str]:
+    """Return what writes a number of the page Comparison with experiments."""
+    return lambda: experiment_tables.numbers(data("experiments"))[name]
+
+
 TABLES: dict[str, Callable[[], str]] = {
     "verification": verification,
     "spence": spence,
@@ -293,6 +312,10 @@ TABLES: dict[str, Callable[[], str]] = {
     "others": others,
     "large": large,
     "threads": threads,
+    **{
+        name: _experiment(name)
+        for name in ("impact", "impact_spin", "scar", "coating", "titanium_scars", "titanium_energy")
+    },
 }
 NUMBERS: dict[str, Callable[[], str]] = {
     "random_cases": _random(1),
@@ -302,6 +325,7 @@ NUMBERS: dict[str, Callable[[], str]] = {
     "line_seconds": _line_seconds,
     "sliding_stick": _sliding("last_stick", 2),
     "sliding_far": _sliding("far", 4),
+    **{name: _number(name) for name in experiment_tables.numbers(data("experiments"))},
 }
 
 if __name__ == "__main__":

@@ -31,7 +31,7 @@ def picture(name: str) -> Path:
 
 
 def fingerprint(script: Path) -> str:
-    """Return the hash of a script, of what it imports from this folder, of the cases and data it names, of the style.
+    """Return the hash of a script, of what it imports from here and from the data, of what it names, of the style.
 
     Of scripts the words count, not how they are laid out.
     """
@@ -43,6 +43,11 @@ def fingerprint(script: Path) -> str:
         text = path.read_text(encoding="utf-8")
         todo += [
             p for n in re.findall(r"from (_\w+) import", text) if (p := HERE / f"{n}.py").exists() and p not in seen
+        ]
+        todo += [
+            p
+            for n in re.findall(r"^import (\w+) as", text, re.MULTILINE)
+            if (p := HERE.parent / "data" / f"{n}.py").exists() and p not in seen
         ]
         seen |= {p for n in re.findall(r'"([\w/]+\.(?:toml|json))"', text) for p in _named(n)}
     digest = hashlib.sha256()

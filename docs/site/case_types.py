@@ -42,10 +42,12 @@ def generated() -> str:
     text = re.sub(r"\(TypedDict, closed=True\)", "(TypedDict)", text)
     text = re.sub(r"\b([A-Z]\w+?)(?:File|Schema|Word)(Item)?\b", r"\1\2", text)
     text = text.replace(
-        "Array: TypeAlias = Sequence[Sequence[float]]",
-        "Array: TypeAlias = Sequence[Sequence[float]] | npt.NDArray[Any]",
+        "Array: TypeAlias = Sequence[Sequence[float] | float]",
+        "Array: TypeAlias = Sequence[Sequence[float] | float] | npt.NDArray[Any]",
     )
-    text = text.replace("str | Sequence[Sequence[float]]", "str | Sequence[Sequence[float]] | npt.NDArray[Any]")
+    text = text.replace(
+        "str | Sequence[Sequence[float] | float]", "str | Sequence[Sequence[float] | float] | npt.NDArray[Any]"
+    )
     text = re.sub(r"'([a-z_]*)'", r'"\1"', text)
     return HEAD + "from collections.abc import Sequence\n" + text.replace(" | None]", "]")
 

@@ -57,7 +57,7 @@ FILES = [
     ("report.html", "written by `fret report`"),
     (
         "stress/",
-        "written by `fret stress`: `stress.json` (maxima, fatigue parameters), `depths.csv` (one row per depth), sections (SVG), volume (VTK)",
+        "written by `fret stress`: `stress.json` (maxima, fatigue parameters), `depths.csv` (one row per depth), `fatigue.csv` (one row per parameter and layer), sections (SVG), volume (VTK)",
     ),
     (
         "heat/",
@@ -73,7 +73,10 @@ RUN = [
     ("totals", "increments, convolutions, iterations, dissipated energy, worn volume, largest residual, wall time"),
     ("warnings", "list of name, value, bound, stage, message, help"),
     ("start", "the state it started from, or null"),
-    ("worn_through", "cycle and place where a coating was worn through, or null"),
+    (
+        "worn_through",
+        'cycle and place where a coating was first worn through (`to` = "coating") or the limit reached ("limit"), or null',
+    ),
     ("worn_by_layer", "wear volume of each layer of the lower and the upper body, or null"),
     ("threads, started_unix_s, tolerance", "threads, start time, solver tolerance"),
 ]
@@ -96,7 +99,8 @@ def output_files() -> str:
         _table("key", RUN),
         "## study.csv, study.json\n\nWritten by `fret study`: one row per level with cells, increments, tolerance, wall time, convolutions, and error and observed order of each "
         "quantity of interest (sub-cell reconstruction; `_plain`: cell values; `_extrapolated`: Richardson;"
-        " of line contacts as without).\n",
+        " of line contacts as without). Error and order are empty where a quantity has no limit, the order also where its levels are not in the asymptotic range"
+        " (`convergence` in the JSON file). `efficient`: no other level takes less work (operator applications by the size of their grids) and is more accurate.\n",
         "## summary.csv\n\nWritten by `fret sweep`: one row per point with the values of the parameters, status, error message, the last row of `history.csv` and of `cycles.csv`.\n",
         "## uncertainty.json\n\nWritten by `fret sweep` where there are `[samples]`: `count`, `seed`, `indices`, `distributions`, `quantile_fractions`, and `quantities`: of every number of `summary.csv` `count` (the samples that gave it), `mean`, `deviation`, `min`, `max`, `quantiles` and, on request and where it varies, `sobol_indices` (`first`, `total`) of every key. With axes beside the samples a list `points` takes the place of `quantities`, each with its `values` and its `quantities`.\n",
         "## identified.json, cycles.csv of a log, identified.html\n\nWritten by `fret identify`: the fitted constants with their 95 % intervals, what was removed from the log, notes, the quantities of every measured cycle (also as `cycles.csv`), the fitted cycle as measured and as computed; a page with the pictures.\n",

@@ -10,6 +10,10 @@ from fretting import _core
 Reals: TypeAlias = npt.NDArray[np.float64]
 
 
+_LARGE = 1_000_000
+"""Arrays of more numbers are asked about before they are copied: a view may stand for any number of them."""
+
+
 def real_array(name: str, values: npt.ArrayLike, dimensions: int | None = None) -> Reals:
     """Turn `values` into a contiguous array of finite doubles; without a copy when it is one already.
 
@@ -27,6 +31,8 @@ def real_array(name: str, values: npt.ArrayLike, dimensions: int | None = None) 
         raise TypeError(f"{name}: expected real numbers, found an array of {given.dtype}")
     if dimensions is not None and given.ndim != dimensions:
         raise ValueError(f"{name} of shape {given.shape}: must have {dimensions} dimensions")
+    if given.size > _LARGE:
+        room_for(f"{name} of shape {given.shape}", given.size)
     array: Reals = np.require(given, np.float64, ["C_CONTIGUOUS", "ALIGNED"])
     if not np.isfinite(array).all():
         place = tuple(int(index) for index in np.argwhere(~np.isfinite(array))[0])
@@ -39,7 +45,7 @@ def room_for(what: str, reals: int) -> None:
 
     Raises
     ------
-    MemoryError
-        When the machine and the limits of this process leave less than so many real numbers need.
+    OutOfMemoryError
+        A ``MemoryError``: when the machine and the limits of this process leave less than so many real numbers need.
     """
     _core.check_memory(what, min(8 * reals, 2**63 - 1))

@@ -6,6 +6,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import numpy.typing as npt
 
+from fretting._arguments import checked
+from fretting._arguments import variable as _variable
+
 if TYPE_CHECKING:
     import xarray
     from matplotlib.axes import Axes
@@ -13,6 +16,7 @@ if TYPE_CHECKING:
 QUANTILES = (0.025, 0.5, 0.975)
 
 
+@checked
 def band(
     dataset: "xarray.Dataset",
     name: str,
@@ -55,6 +59,7 @@ def band(
     return axes
 
 
+@checked
 def loop_band(
     dataset: "xarray.Dataset",
     *,
@@ -104,6 +109,7 @@ def loop_band(
     return axes
 
 
+@checked
 def band_map(
     dataset: "xarray.Dataset",
     name: str,
@@ -145,6 +151,8 @@ def band_map(
         raise ValueError(
             f"band_map: {name} has the axes {', '.join(beside) or 'none'} beside the samples, not {x}, {y}"
         )
+    for named, axis in (("x", x), ("y", y)):
+        _variable(named, axis, dataset.coords)
     values = values.transpose("sample", y, x)
     label = values.attrs.get("long_name", name)
     if axes is None:
@@ -191,10 +199,9 @@ def _branches(course: npt.NDArray[np.float64]) -> list[tuple[int, int]]:
 
 def _own_samples(dataset: "xarray.Dataset", name: str) -> "xarray.DataArray":
     """The samples of a number, without those that only serve its indices."""
-    if "sample" not in dataset.dims:
+    if "sample" not in dataset.dims or not {"samples", "indices", "uncertain"} <= set(dataset.attrs):
         raise ValueError("the sweep has no samples; give it distributions, such as fretting.Normal(0.6, 0.05)")
-    if name not in dataset:
-        raise ValueError(f"the sweep has no number {name!r}")
+    _variable("name", name, dataset)
     count = int(dataset.attrs["samples"]) * (2 if dataset.attrs["indices"] else 1)
     return dataset[name].isel(sample=slice(count))
 

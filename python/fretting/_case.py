@@ -12,8 +12,9 @@ from typing import Any, TypeAlias
 import numpy as np
 import numpy.typing as npt
 
+from fretting import _arguments as arguments
 from fretting import _core
-from fretting._arrays import Reals
+from fretting._arrays import Reals, room_for
 from fretting.errors import CaseError, MissingFileError, UnreadableError
 
 CaseLike: TypeAlias = str | os.PathLike[str] | Mapping[str, object]
@@ -22,7 +23,7 @@ CaseLike: TypeAlias = str | os.PathLike[str] | Mapping[str, object]
 A ``str`` with a line break is TOML text, any other a path. In a mapping, NumPy arrays stand where heights or
 coefficients of friction are wanted for every cell: ``{"heights": {"values": array}}``,
 ``{"friction": {"map": array}}``, and ``friction`` of a stage. Relative names of files start at the folder of the case
-file; at the current folder for a text or a mapping.
+file; at the current folder for a text or a mapping. ``None`` in a mapping stands for an absent key.
 """
 
 Json: TypeAlias = bool | int | float | str | list["Json"] | dict[str, "Json"] | None
@@ -62,15 +63,13 @@ def text_of(case: str | os.PathLike[str]) -> tuple[str, str, Path]:
     if isinstance(case, str) and "\n" in case:
         return case, "case", Path()
     if isinstance(case, str | os.PathLike):
-        path = Path(case)
+        path = Path(arguments.path("case", case))
         try:
             return path.read_text(encoding="utf-8"), str(path), path.parent
         except OSError as error:
             raise _unreadable(path, error) from None
         except UnicodeDecodeError as error:
             raise _refusal(str(path), f"not readable as UTF-8 text: {error.reason} at byte {error.start}") from None
-        except ValueError as error:  # a null character: no name of a file
-            raise UnreadableError(f"error: {str(path)!r}: {error}", str(path)) from None
     raise TypeError(f"case: expected a path, TOML text or a dict, found {type(case).__name__}")
 
 
@@ -92,8 +91,14 @@ def plain(value: object, place: str, arrays: list[Reals] | None = None, depth: i
     ):
         arrays.append(_field(value, place))
         return {"array": len(arrays) - 1}
+    if value is np.ma.masked or isinstance(value, np.datetime64 | np.timedelta64):
+        raise _refusal("case", f"{place}: {value!r} is not a number, a word, a list or a table")
+    if isinstance(value, np.floating):
+        return plain(float(value), place, arrays, depth)
     if isinstance(value, np.generic | np.ndarray):
         return plain(value.tolist(), place, arrays, depth)
+    if isinstance(value, int) and not -(2**63) <= value < 2**64:
+        raise _refusal("case", f"{place}: a whole number of more than 64 bits: not a number of a case")
     if value is None or isinstance(value, bool | int | str):
         return value
     if isinstance(value, float):
@@ -110,20 +115,31 @@ def plain(value: object, place: str, arrays: list[Reals] | None = None, depth: i
                 raise _refusal("case", f"{place or 'the case'} has the key {key!r}: keys are words")
         return {key: plain(item, f"{place}.{key}" if place else key, arrays, depth + 1) for key, item in value.items()}
     if isinstance(value, Sequence) and not isinstance(value, bytes | bytearray):
+        missing = next((index for index, item in enumerate(value) if item is None), None)
+        if missing is not None:
+            raise _refusal("case", f"{place}[{missing}]: nothing stands there, or a value under a mask")
         return [plain(item, f"{place}[{index}]", arrays, depth + 1) for index, item in enumerate(value)]
     raise _refusal("case", f"{place}: {type(value).__name__} is not a number, a word, a list or a table")
+
+
+_HOLES = (
+    "cells without a measurement must be filled in before, as SurfaceTopography's "
+    "topography.interpolate_undefined_data() does"
+)
 
 
 def _field(values: npt.NDArray[Any], place: str) -> Reals:
     """Turn an array with a number for every cell into doubles; whether they are of use is the core's to say."""
     if np.ma.is_masked(values):
         count = int(np.count_nonzero(np.ma.getmaskarray(values)))
-        raise _refusal("case", f"{place}: {count} masked values: cells without a measurement must be filled in before")
+        raise _refusal("case", f"{place}: {count} masked values: {_HOLES}")
     if values.dtype.kind not in "fiu":
         raise _refusal("case", f"{place}: an array of {values.dtype}: must be real numbers")
-    if values.ndim != 2:
-        raise _refusal("case", f"{place}: an array of shape {values.shape}: must have two dimensions")
-    return np.ascontiguousarray(np.ma.getdata(values), dtype=np.float64)
+    if values.ndim not in (1, 2):
+        raise _refusal("case", f"{place}: an array of shape {values.shape}: must have one or two dimensions")
+    room_for(f"{place} of shape {values.shape}", values.size)
+    numbers = np.ascontiguousarray(np.ma.getdata(values), dtype=np.float64)
+    return numbers.reshape(-1, 1) if values.ndim == 1 else numbers
 
 
 def _unreadable(path: Path, error: OSError) -> UnreadableError:

@@ -52,6 +52,7 @@ __all__ = [
     "stretched_line",
     "stretched_sphere",
     "study",
+    "subsurface_displacement",
     "subsurface_stress",
     "surface_temperature",
     "tangential_history",
@@ -196,6 +197,13 @@ def contact_resistance(
     pressure: npt.NDArray[np.float64],
     threads: int | None,
 ) -> float: ...
+def subsurface_displacement(
+    bodies: tuple[str, bool],
+    setting: tuple[tuple[float, float], bool],
+    tractions: tuple[npt.NDArray[np.float64], tuple[npt.NDArray[np.float64], npt.NDArray[np.float64]] | None],
+    depths: list[float],
+    threads: int | None,
+) -> dict[str, npt.NDArray[Any]]: ...
 def subsurface_stress(
     bodies: tuple[str, bool],
     setting: tuple[tuple[float, float], bool],
@@ -267,7 +275,7 @@ def fatigue(
     depths: list[float],
     constants: str,
     threads: int | None,
-) -> dict[str, npt.NDArray[Any]]: ...
+) -> dict[str, Any]: ...
 def crack(
     bodies: tuple[str, bool],
     setting: tuple[tuple[float, float], bool],

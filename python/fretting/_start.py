@@ -4,6 +4,7 @@ import os
 from pathlib import Path
 from typing import TYPE_CHECKING, TypeAlias, Union
 
+from fretting import _arguments as arguments
 from fretting import _core
 from fretting.errors import MissingFileError
 
@@ -31,12 +32,14 @@ def read(start: StartLike | _core.Start | None) -> _core.Start | None:
     """
     if start is None or isinstance(start, _core.Start):
         return start
+    if isinstance(start, tuple) and len(start) != 2:
+        raise TypeError(f"start: expected a pair of a folder or a History and an increment, found {len(start)} things")
     source, increment = start if isinstance(start, tuple) else (start, None)
     if increment is not None and (not isinstance(increment, int) or isinstance(increment, bool)):
         raise TypeError(f"start: the number of an increment is an int, not {type(increment).__name__}")
     if not isinstance(source, str | os.PathLike):
         return _of_history(source, increment)
-    folder = Path(source)
+    folder = Path(arguments.path("start", source))
     if increment is None and isinstance(source, str) and not folder.exists():
         named, colon, number = source.rpartition(":")
         if colon and number.isdecimal():

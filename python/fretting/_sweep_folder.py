@@ -10,6 +10,7 @@ from typing import Any
 
 from fretting._core import __version__
 from fretting._points import Table
+from fretting.errors import UnreadableError
 
 FORMAT = 1
 """Version of the folder's format."""
@@ -17,6 +18,12 @@ FORMAT = 1
 
 _NAMES_A_FILE = ("file", "map", "friction", "max_shear", "table")
 """Keys of a case whose words are names of files."""
+
+
+class OccupiedError(UnreadableError, FileExistsError):
+    """A folder for a sweep holds something else."""
+
+    __module__ = "fretting"
 
 
 class SweepFolder:
@@ -31,14 +38,18 @@ class SweepFolder:
         self._settings = {"version": __version__, **settings}
         record = self.path / "sweep.json"
         if self.path.exists() and not self.path.is_dir():
-            raise FileExistsError(f"{self.path}: a file, not a folder for a sweep")
+            raise OccupiedError(f"{self.path}: a file, not a folder for a sweep", str(self.path))
         if not record.exists() and self.path.is_dir() and any(self.path.iterdir()):
-            raise FileExistsError(f"{self.path}: holds files that are no sweep; choose another folder")
+            what = "holds files that are no sweep; choose another folder"
+            raise OccupiedError(f"{self.path}: {what}", str(self.path))
         fingerprint = _hash([base, _contents(base)])
         before = _read(record)
         if before and before.get("base") not in (None, fingerprint):
             warnings.warn(f"{self.path}: the base case has changed since the last sweep", UserWarning, stacklevel=4)
-        (self.path / "points").mkdir(parents=True, exist_ok=True)
+        try:
+            (self.path / "points").mkdir(parents=True, exist_ok=True)
+        except OSError as error:
+            raise UnreadableError(f"error: {self.path}: {error.strerror or error}", str(self.path)) from None
         write_whole(record, {"format": FORMAT, "program": "fretting", "base": fingerprint, **self._settings})
 
     def finished(self, case: Table) -> Table | None:

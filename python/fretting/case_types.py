@@ -11,7 +11,7 @@ import numpy.typing as npt
 AlongPhase: TypeAlias = Sequence[float] | float
 
 
-Array: TypeAlias = Sequence[Sequence[float]] | npt.NDArray[Any]
+Array: TypeAlias = Sequence[Sequence[float] | float] | npt.NDArray[Any]
 
 
 Auto: TypeAlias = Literal["auto"]
@@ -29,13 +29,19 @@ The one foundation that is not a substrate.
 """
 
 
+Beyond: TypeAlias = Literal["body", 'no body']
+"""
+What lies beyond the edge of the grid.
+"""
+
+
 CellsItem: TypeAlias = int
 
 
 Cells: TypeAlias = Sequence[CellsItem] | int
 
 
-Coefficient: TypeAlias = float | str | Sequence[Sequence[float]] | npt.NDArray[Any]
+Coefficient: TypeAlias = float | str | Sequence[Sequence[float] | float] | npt.NDArray[Any]
 
 
 class Cone(TypedDict):
@@ -222,7 +228,7 @@ class LogColumns(TypedDict):
     """
 
 
-Map: TypeAlias = str | Sequence[Sequence[float]] | npt.NDArray[Any]
+Map: TypeAlias = str | Sequence[Sequence[float] | float] | npt.NDArray[Any]
 
 
 Of: TypeAlias = Literal["surface", "gap"]
@@ -668,6 +674,11 @@ class Grid(TypedDict):
     The mesh of the potential contact area, centred on the first point of touch.
     """
 
+    beyond: NotRequired[Beyond]
+    """
+    What lies beyond the edge of the grid: "body" (contact that reaches the edge is refused) or "no body": one of the bodies
+    ends there with a sharp edge, as a flat punch does, and contact may reach it (a rough specimen, a rectangular pad). Default: "body".
+    """
     cells: Cells
     """
     Number of cells along x and y; a single number makes a line contact: plane strain across it, all loads per unit length.
@@ -732,7 +743,7 @@ class Material(TypedDict):
     """
     fatigue: NotRequired[FatigueConstants]
     """
-    Constants for fatigue and fracture. What has no constants is not computed; none is built in.
+    Constants for fatigue and fracture. Criteria without constants are skipped; there are no built-in materials.
     """
     poisson: float
     """
@@ -852,7 +863,7 @@ class Coating(TypedDict):
     """
     fatigue: NotRequired[FatigueConstants]
     """
-    Constants for fatigue and fracture. What has no constants is not computed; none is built in.
+    Constants for fatigue and fracture. Criteria without constants are skipped; there are no built-in materials.
     """
     gradient: NotRequired[Gradient]
     """
@@ -949,7 +960,7 @@ class Stage(TypedDict):
     """
     phase: NotRequired[Phase]
     """
-    Phase lead of each control [degrees]. The cycle starts from the current value of the control.
+    Phase lead of each control [degrees]; all reversal points are ends of increments. The cycle starts from the current value of the control.
     """
     ramp: NotRequired[Ramp]
     """

@@ -1,7 +1,7 @@
 """Fatigue of a history over a cycle, as datasets: parameters under all cells, a short crack, cracks of the coating."""
 
 import json
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
@@ -27,6 +27,16 @@ PARAMETERS = {
     "ruiz_f2": "Ruiz parameter F2 [pressure^2 x length]",
     "smith_watson_topper_cycles": "cycles to initiation by Smith-Watson-Topper; inf: above 1e18",
     "fatemi_socie_cycles": "cycles to initiation by Fatemi-Socie; inf: above 1e18",
+}
+MOST_SEVERE = {
+    "largest": "largest value over all cells and depths, at the surface extrapolated to the rim of the contact",
+    "largest_cycles": "cycles to initiation at the largest value; inf: above 1e18",
+    "largest_cell": "largest value under the centres of cells, at that depth",
+    "largest_cell_cycles": "cycles to initiation at the largest value of the cells; inf: above 1e18",
+    "point_method": "largest value at half the critical distance",
+    "point_method_cycles": "cycles to initiation by the point method; inf: above 1e18",
+    "line_method": "largest mean down to twice the critical distance",
+    "line_method_cycles": "cycles to initiation by the line method; inf: above 1e18",
 }
 LENGTHS = {
     "k1_max": ("largest", "largest stress intensity K_I of the cycle [pressure x sqrt(length)]"),
@@ -63,11 +73,41 @@ def fatigue(
             described(PARAMETERS[name], history._units),
         )
         for name, values in answer.items()
-        if name not in ("depth", "layer")
+        if name not in ("depth", "layer", "most_severe")
     }
+    severe = answer["most_severe"]
+    variables |= _most_severe(history, severe)
+    coords = {**coordinates(history, answer), "parameter": list(severe), "axis": ["x", "y", "z"]}
     attributes = {"body": body, "increments": chosen}
-    dataset: xarray.Dataset = module.Dataset(variables, coords=coordinates(history, answer), attrs=attributes)
+    dataset: xarray.Dataset = module.Dataset(variables, coords=coords, attrs=attributes)
     return dataset
+
+
+def _most_severe(history: "History", severe: dict[str, dict[str, Any]]) -> dict[str, Any]:
+    """Return the largest value of each parameter with its place, as ``fret stress`` tells it."""
+
+    def column(
+        values: Iterable[float | None], words: str
+    ) -> tuple[tuple[str], npt.NDArray[np.float64], dict[str, str]]:
+        numbers = np.array([np.nan if value is None else value for value in values], dtype=float)
+        return ("parameter",), numbers, described(words, history._units)
+
+    found = severe.values()
+    variables: dict[str, Any] = {
+        name: column((one.get(name) for one in found), words)
+        for name, words in MOST_SEVERE.items()
+        if any(name in one for one in found)
+    }
+    for axis, (name, centres) in enumerate((("x", history.x), ("y", history.y))):
+        first = float(centres[0]) if len(centres) > 1 else 0.0
+        step = history._spacing[axis] if len(centres) > 1 else 0.0
+        places = (first + one["place"][axis] * step for one in found)
+        variables[f"largest_{name}"] = column(places, f"place of the largest value along {name} [length]")
+    variables["largest_depth"] = column((one["depth"] for one in found), "depth of the largest value [length]")
+    normals = [one["normal"] or [np.nan] * 3 for one in found]
+    words = "unit normal of the critical plane there"
+    variables["critical_plane"] = (("parameter", "axis"), np.reshape(normals, (-1, 3)), {"long_name": words})
+    return variables
 
 
 def crack(
@@ -84,7 +124,8 @@ def crack(
     attributes: dict[str, Any] = {"body": body, "increments": chosen}
     dataset: xarray.Dataset
     if "reason" in told:
-        dataset = module.Dataset(attrs={**attributes, "fate": "none", "reason": told["reason"]})
+        unknown = dict.fromkeys(("x", "y", "angle", "length", "cycles"), np.nan)
+        dataset = module.Dataset(attrs={**attributes, "fate": "none", "reason": told["reason"], **unknown})
         return dataset
     course = told["course"]
     centres = (history.x, history.y)
@@ -94,8 +135,8 @@ def crack(
     )
     attributes |= {"fate": course["fate"], "x": x, "y": y, "angle": told["angle"], "towards": told["towards"]}
     attributes["length"] = course["length"]
-    if course["cycles"] is not None:
-        attributes["cycles"] = course["cycles"]
+    ends = course["fate"] in ("does_not_grow", "stops")
+    attributes["cycles"] = course["cycles"] if course["cycles"] is not None else np.inf if ends else np.nan
     lengths = course["lengths"]
 
     def column(key: str) -> npt.NDArray[np.float64]:

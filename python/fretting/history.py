@@ -1,7 +1,6 @@
 """The result of a run."""
 
 import json
-import operator
 import os
 import shutil
 from pathlib import Path
@@ -10,11 +9,12 @@ from typing import TYPE_CHECKING, Any, Literal, Protocol, Self
 import numpy as np
 import numpy.typing as npt
 
-from fretting import _core, _dataset, fatigue, heat, plot, stress
+from fretting import _core, _dataset, _notebook, fatigue, heat, plot, stress
+from fretting._arguments import checked, of_kind, whole
 from fretting._arrays import Reals
-from fretting._meaning import FIELD_NAMES, VECTORS, FieldName, VectorName
+from fretting._meaning import FIELD_NAMES, VECTORS, FieldName, VectorName, in_units, unit
 from fretting.cycles import Columns, columns
-from fretting.errors import Fact
+from fretting.errors import Fact, UnreadableError
 
 if TYPE_CHECKING:
     import xarray
@@ -77,7 +77,7 @@ class History:
         ``full_grid_convolutions``, ``tilt_x``, ``tilt_y``, ``tilt_moment_x``, ``tilt_moment_y``, ``bulk_stress_x``,
         ``bulk_stress_y`` (of the lower body), ``upper_bulk_stress_x``, ``upper_bulk_stress_y``, ``bulk_work``,
         ``actuator_x``, ``actuator_y``, ``actuator_approach``, ``friction_coefficient`` (mean over the contact, weighted
-        with the pressure) (float); ``regime`` (str).
+        with the pressure), ``elastic_energy`` (float); ``regime`` (str).
     x, y : ndarray
         Coordinates of the cell centres [length], shapes (nx,) and (ny,); of a line contact `y` is one zero.
     stages : list of str
@@ -95,7 +95,8 @@ class History:
     running_conditions : list of str or None
         ``"partial"``, ``"mixed"`` or ``"gross"`` for each stage; None for one without cycles.
     worn_through : dict or None
-        ``increment``, ``stage``, ``cycles``, ``cell``, ``place`` of the first place worn to the limit.
+        Where and when a coating was first worn through, or the surfaces worn to the limit: ``to`` (``"coating"`` or
+        ``"limit"``), ``increment``, ``stage``, ``cycles``, ``cell``, ``place``. The history ends at the limit.
     worn_by_layer : dict or None
         Volumes lost by the layers of the ``lower`` and the ``upper`` body [length^3], from the surface down, the
         substrate last; None without ``wear_coefficient`` of layers.
@@ -147,8 +148,8 @@ class History:
     _periodic: bool
 
     def __init__(self, answer: _core.History, case: dict[str, Any]) -> None:
-        self._kept = answer
-        self.case = case
+        self._kept = of_kind("answer", answer, _core.History)
+        self.case = of_kind("case", case, dict)
         self.plan = json.loads(answer.plan())
         self.version = _core.__version__
         bars = json.loads(answer.error_bars() or "null")
@@ -267,12 +268,13 @@ class History:
 
     def _number(self, increment: int) -> int:
         """Return the number of an increment from 0."""
-        increment = _whole("increment", increment)
+        increment = whole("increment", increment)
         count = len(self)
         if not -count <= increment < count:
             raise IndexError(f"increment {increment}: the history has {count} increments")
         return increment % count
 
+    @checked
     def at(
         self,
         point: Literal["start", "end", "maximum", "minimum"] = "end",
@@ -292,6 +294,13 @@ class History:
         cycle : int, optional
             Computed cycle of the stage, from 0; negative from the end.
 
+        Raises
+        ------
+        ValueError
+            When no stage is called so, the point is none of these, or there is no such increment yet.
+        IndexError
+            When there is no such stage or cycle.
+
         Examples
         --------
         >>> history.plot_zones(history.at("maximum", stage="fretting", cycle=-1))  # doctest: +SKIP
@@ -304,7 +313,7 @@ class History:
             if not len(in_cycles):
                 raise ValueError("cycle: the history has no cycles")
             chosen = np.flatnonzero(in_cycles == (in_cycles[-1] if number is None else number))
-            if not -len(chosen) <= _whole("cycle", cycle) < len(chosen):
+            if not -len(chosen) <= whole("cycle", cycle) < len(chosen):
                 raise IndexError(f"cycle {cycle}: the stage has {len(chosen)} computed cycles, counted from 0")
             one = chosen[cycle]
             rows = np.arange(self.cycles["first_increment"][one], self.cycles["last_increment"][one] + 1)
@@ -320,6 +329,7 @@ class History:
             along = self.increments["twist_moment"][rows]
         return int(rows[along.argmax() if point == "maximum" else along.argmin()])
 
+    @checked
     def to_xarray(self, *, increments: Literal["all", "kept"] = "all") -> "xarray.Dataset":
         """Return everything as a Dataset: numbers of the increments and cycles, fields of the kept increments.
 
@@ -350,6 +360,7 @@ class History:
             raise ValueError(f"increments = {increments!r}: must be 'all' or 'kept'")
         return _dataset.of_history(self, every=increments == "all")
 
+    @checked
     def save(self, folder: str | os.PathLike[str], *, replace: bool = False) -> Path:
         """Write the history into a folder, as ``fret run --out FOLDER`` would have done.
 
@@ -374,31 +385,36 @@ class History:
         UnreadableError
             When a file cannot be written.
         """
-        path = Path(folder)
+        place = Path(folder)
         if isinstance(self._kept, _core.History):
             early = None if self.finished else (self.status, self.message or "")
-            self._kept.save(path, replace, early)
-            return path
+            self._kept.save(place, replace, early)
+            return place
         if self._folder is None:
             raise ValueError(
                 "save: a history that went through another process or a file holds no states; "
                 "save it where it was solved"
             )
-        if path.exists() and (not path.is_dir() or any(path.iterdir())) and not replace:
-            raise ValueError(f"{path}: holds something already\n  = help: choose another folder, or replace=True")
-        if not (path.exists() and path.samefile(self._folder)):
-            shutil.copytree(self._folder, path, dirs_exist_ok=True)
-        return path
+        if place.exists() and (not place.is_dir() or any(place.iterdir())) and not replace:
+            raise ValueError(f"{place}: holds something already\n  = help: choose another folder, or replace=True")
+        try:
+            if not (place.exists() and place.samefile(self._folder)):
+                shutil.copytree(self._folder, place, dirs_exist_ok=True)
+        except OSError as error:
+            raise UnreadableError(f"error: {place}: {error.strerror or error}", str(place)) from None
+        return place
 
+    @checked
     def subsurface(
         self,
         depths: npt.ArrayLike,
         *,
         increment: int = -1,
         body: Literal["lower", "upper"] = "lower",
+        displacement: bool = False,
         threads: int | None = None,
     ) -> "xarray.Dataset":
-        """Return the subsurface stress of one body, from the kept tractions of an increment.
+        """Return the subsurface stress of one body, and its displacements, from the kept tractions of an increment.
 
         Bulk stress and residual stress are included, layer by layer. Axes x and y of the contact, z into the body in
         question, from its own surface; tension is positive. Under the centres of the cells, exact for tractions that
@@ -413,6 +429,11 @@ class History:
             there is friction.
         body : {"lower", "upper"}
             The body.
+        displacement : bool
+            Also compute displacements, at depth 0 those of the surface; not of line contacts. They are those of the
+            tractions alone, without the strain of bulk and residual stress, and periodic ones without their mean. The
+            relative displacement of the surfaces along z is the sum of both bodies', along x and y that of the lower
+            less that of the upper body.
         threads : int, optional
             Worker threads. Default: all cores. The result is the same for any number.
 
@@ -420,7 +441,8 @@ class History:
         -------
         xarray.Dataset
             ``xx``, ``yy``, ``zz``, ``xy``, ``xz``, ``yz``, ``von_mises`` [pressure] with the dimensions (depth, y, x),
-            of a line contact (depth, x); ``principal`` with (order, depth, y, x), the largest first. Beside ``depth``
+            of a line contact (depth, x); ``principal`` with (order, depth, y, x), the largest first; `displacement`:
+            ``displacement_x``, ``displacement_y``, ``displacement_z`` [length], z into the body. Beside ``depth``
             stands ``layer``: 0 in the outermost coating, the number of coatings in the substrate. A depth at an
             interface appears twice, first as seen from above, then from below.
 
@@ -430,6 +452,8 @@ class History:
             When a depth is above the surface or in a rigid base, or the body is rigid.
         KeyError
             When the tractions of the increment were not kept.
+        IndexError
+            When there is no such increment.
 
         Examples
         --------
@@ -444,8 +468,9 @@ class History:
         >>> dict(history.subsurface([0.0, 20e-6]).von_mises.sizes)
         {'depth': 2, 'y': 32, 'x': 32}
         """
-        return stress.subsurface(self, depths, increment, body, threads)
+        return stress.subsurface(self, depths, increment, body, displacement, threads)
 
+    @checked
     def fatigue(
         self,
         depths: npt.ArrayLike,
@@ -479,18 +504,28 @@ class History:
         xarray.Dataset
             ``smith_watson_topper``, ``shakedown_strength``, and where all layers at the depths have their constants
             ``fatemi_socie``, ``crossland``, ``dang_van``, ``smith_watson_topper_cycles``, ``fatemi_socie_cycles``,
-            with the dimensions (depth, y, x), of a line contact (depth, x); ``ruiz_f1``, ``ruiz_f2`` at the surface,
-            where 0 is among the depths. Formulas and sources:
-            *Subsurface stress and fatigue* of the site.
+            with the dimensions (depth, y, x), of a line contact (depth, x), under the centres of the cells;
+            ``ruiz_f1``, ``ruiz_f2`` at the surface, where 0 is among the depths.
+            Over ``parameter``, what ``fret stress`` tells of the same depths: ``largest``, at the surface extrapolated
+            to the rim of the contact, where cells miss the cusp of the tension, with ``largest_cycles``,
+            ``largest_x``, ``largest_y``, ``largest_depth`` and the normal of the ``critical_plane``; beside it
+            ``largest_cell`` and ``largest_cell_cycles`` of the cells at that depth; and with ``critical_distance``
+            among the constants of the outermost layer and depths from 0 on ``point_method`` and ``line_method``, each
+            with its ``_cycles``. NaN: not known. Formulas and sources: *Subsurface stress and fatigue* of the site.
 
         Raises
         ------
         ValueError
             When a depth or a constant is out of its range, the body is rigid, or too few increments of the cycle are
             kept.
+        KeyError
+            When its increments were kept without what is needed.
+        IndexError
+            When there is no such cycle.
         """
-        return fatigue.fatigue(self, depths, _whole("cycle", cycle), body, constants, threads)
+        return fatigue.fatigue(self, depths, whole("cycle", cycle), body, constants, threads)
 
+    @checked
     def crack(
         self,
         *,
@@ -522,16 +557,22 @@ class History:
             ``k1_max``, ``k1_range``, ``k2_range``, ``threshold`` [pressure x sqrt(length)], and with constants of
             growth ``cycles``, over ``length``. Attributes: ``fate`` ("does_not_grow", "stops", "grows", "fractures";
             "none" with a ``reason``), ``x``, ``y``, ``angle`` from the normal of the surface [degrees] ``towards`` a
-            horizontal direction, ``length`` and ``cycles`` at its end.
+            horizontal direction, ``length`` and ``cycles`` at its end: inf of a crack that does not grow or stops, NaN
+            without constants of growth. Without a crack they are NaN.
 
         Raises
         ------
         ValueError
             When there are no constants of cracks, one is out of its range, the body is rigid, or too few increments
             are kept.
+        KeyError
+            When its increments were kept without what is needed.
+        IndexError
+            When there is no such cycle.
         """
-        return fatigue.crack(self, _whole("cycle", cycle), body, constants, threads)
+        return fatigue.crack(self, whole("cycle", cycle), body, constants, threads)
 
+    @checked
     def coating_fracture(
         self,
         *,
@@ -571,9 +612,14 @@ class History:
         ------
         ValueError
             When the body has no bonded coating on something that deforms, or too few increments are kept.
+        KeyError
+            When its increments were kept without what is needed.
+        IndexError
+            When there is no such cycle.
         """
-        return fatigue.coating_fracture(self, _whole("cycle", cycle), body, constants, threads)
+        return fatigue.coating_fracture(self, whole("cycle", cycle), body, constants, threads)
 
+    @checked
     def temperature(
         self, *, cycle: int = -1, frequency: float | None = None, threads: int | None = None
     ) -> "xarray.Dataset":
@@ -606,9 +652,12 @@ class History:
             When neither body conducts heat, the case is periodic or a line contact, or there is no frequency.
         KeyError
             When fields of an increment of the cycle were not kept.
+        IndexError
+            When there is no such cycle.
         """
-        return heat.temperature(self, _whole("cycle", cycle), frequency, threads)
+        return heat.temperature(self, whole("cycle", cycle), frequency, threads)
 
+    @checked
     def contact_resistance(
         self,
         *,
@@ -637,6 +686,8 @@ class History:
             When a body does not conduct, the bodies are apart, or it is a line contact.
         KeyError
             When the pressure of the increment was not kept.
+        IndexError
+            When there is no such increment.
 
         Examples
         --------
@@ -727,14 +778,19 @@ class History:
         if not len(self):
             return facts
         last = {name: column[-1] for name, column in self.increments.items()}
+
+        def told(name: str) -> str:
+            kind = in_units(unit(name), self._units) if self._units else ""
+            return f"{last[name]:.6g} {kind}".rstrip()
+
         facts += [
             ("sliding condition at the end", last["regime"].replace("_", " ")),
-            ("normal force", f"{last['normal_force']:.6g}"),
-            ("max pressure", f"{last['max_pressure']:.6g}"),
-            ("contact area", f"{last['contact_area']:.6g}"),
-            ("dissipated energy", f"{last['dissipated_energy']:.6g}"),
+            ("normal force", told("normal_force")),
+            ("max pressure", told("max_pressure")),
+            ("contact area", told("contact_area")),
+            ("dissipated energy", told("dissipated_energy")),
             *(
-                [("worn volume", f"{last['worn_volume']:.6g}"), ("max wear depth", f"{last['max_worn_depth']:.6g}")]
+                [("worn volume", told("worn_volume")), ("max wear depth", told("max_worn_depth"))]
                 if last["worn_volume"] > 0.0
                 else []
             ),
@@ -757,17 +813,7 @@ class History:
 
     def _repr_html_(self) -> str:
         """Return the same as a table, for notebooks."""
-        return plot.html_table("fretting.History", self._facts())
-
-
-def _whole(name: str, number: object) -> int:
-    """Return a number that counts as an int; a truth value, a text or a fraction does not count."""
-    if isinstance(number, bool | np.bool_):
-        raise TypeError(f"{name} = {number!r}: must be a whole number")
-    try:
-        return operator.index(number)  # type: ignore[arg-type]
-    except TypeError:
-        raise TypeError(f"{name} = {number!r}: must be a whole number") from None
+        return _notebook.html_table("fretting.History", self._facts())
 
 
 def _listed(numbers: list[int]) -> str:

@@ -10,6 +10,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from fretting import _case, _core
+from fretting._arguments import checked, content, mapping, of_kind
+from fretting.errors import UnreadableError
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -61,7 +63,9 @@ class Identification:
     """
 
     def __init__(self, answer: Mapping[str, Any], page: str) -> None:
-        self._answer, self._page = answer, page
+        if not isinstance(answer, Mapping) or "parameters" not in answer:
+            raise TypeError(f"answer: expected what a fit gives (fretting.identify), found {type(answer).__name__}")
+        self._answer, self._page = answer, of_kind("page", page, str)
         self.constants = {
             entry["name"]: Constant(entry["value"], (entry["low"], entry["high"]), entry["told"])
             for entry in answer["parameters"]
@@ -88,13 +92,18 @@ class Identification:
         """Return all of it as ``fret identify`` writes it into ``identified.json``."""
         return json.dumps(self._answer, indent=2)
 
+    @checked
     def save(self, folder: str | PathLike[str]) -> None:
         """Write ``identified.json`` and the page ``identified.html`` with its pictures into a folder."""
         place = Path(folder)
-        place.mkdir(parents=True, exist_ok=True)
-        (place / "identified.json").write_text(self.to_json() + "\n", encoding="utf-8")
-        (place / "identified.html").write_text(self._page, encoding="utf-8")
+        try:
+            place.mkdir(parents=True, exist_ok=True)
+            (place / "identified.json").write_text(self.to_json() + "\n", encoding="utf-8")
+            (place / "identified.html").write_text(self._page, encoding="utf-8")
+        except OSError as error:
+            raise UnreadableError(f"error: {place}: {error.strerror or error}", str(place)) from None
 
+    @checked
     def plot(self, ax: "Axes | None" = None) -> "Axes":
         """Draw the measured points, freed from offset and drift, beside the computed loop."""
         axes = self._axes(ax)
@@ -117,6 +126,7 @@ class Identification:
         return axes
 
 
+@checked
 def identify(
     log: str | PathLike[str],
     *,
@@ -163,10 +173,13 @@ def identify(
         When the case is refused.
     ValueError
         When the log cannot be read as fretting loops of such a case; the message says where and what to do.
+    UnreadableError
+        When the log is no file that can be read; ``MissingFileError`` when there is none.
     RunError
         When a loop cannot be solved.
     """
-    name = str(log)
-    asked = list((columns or {}).items()), list((units or {}).items()), cycle, fit
-    json_text, page = _core.identify((name, Path(log).read_bytes()), _case.read(case), asked, threads)
+    named = {"columns": {} if columns is None else columns, "units": {} if units is None else units}
+    names_of, units_of = (list(mapping(name, given).items()) for name, given in named.items())
+    asked = names_of, units_of, cycle, fit
+    json_text, page = _core.identify((str(log), content("log", log)), _case.read(case), asked, threads)
     return Identification(json.loads(json_text), page)

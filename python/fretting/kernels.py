@@ -7,6 +7,7 @@ import numpy as np
 import numpy.typing as npt
 
 from fretting import _case, _core
+from fretting._arguments import checked, reals, wholes
 from fretting._arrays import Reals, real_array, room_for
 
 Body: TypeAlias = Mapping[str, object]
@@ -91,8 +92,10 @@ def influence_coefficients(
     ValueError
         When a number of cells or a side is not positive. A body is refused as in a case, with a ``CaseError``.
     """
-    nx, ny = (int(count) for count in cells)
-    dx, dy = (float(side) for side in spacing)
+    found, sides = wholes("cells", cells), reals("spacing", spacing)
+    if len(found) != 2 or len(sides) != 2:
+        raise ValueError(f"cells = {found}, spacing = {sides}: must have two numbers each")
+    (nx, ny), (dx, dy) = found, sides
     if nx < 1 or ny < 1:
         raise ValueError(f"cells = {(nx, ny)}: each side needs at least one cell")
     if not (np.isfinite([dx, dy]).all() and dx > 0.0 and dy > 0.0):
@@ -122,6 +125,7 @@ class Convolution:
            [2. , 4. ]])
     """
 
+    @checked
     def __init__(self, values: npt.ArrayLike, *, parity: Parity = "even-even") -> None:
         kernel = real_array("values", values, dimensions=2)
         room_for(f"values of shape {kernel.shape}", 8 * kernel.size)  # the transformed kernel, and the work on a field

@@ -11,6 +11,7 @@ from typing import Any, NoReturn
 import numpy as np
 import numpy.typing as npt
 
+from fretting._arguments import checked
 from fretting._meaning import FIELD_NAMES, STEP_KINDS
 from fretting.cycles import MEANING as CYCLE_COLUMNS
 from fretting.cycles import columns
@@ -18,6 +19,7 @@ from fretting.errors import MissingFileError, UnreadableError
 from fretting.history import History, Table
 
 
+@checked
 def open_results(folder: str | os.PathLike[str]) -> History:
     """Open the folder of a run as a history; of one that is not finished what there is.
 

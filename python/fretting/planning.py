@@ -4,7 +4,7 @@ import json
 from collections.abc import Iterator, Mapping
 from typing import Any, TypedDict
 
-from fretting import _case, _core, _start, plot
+from fretting import _case, _core, _notebook, _start
 from fretting.errors import Fact
 
 
@@ -74,8 +74,9 @@ class Plan(Mapping[str, Any]):
         """Sizes, expected work, and automatic simplifications."""
         nx, ny = self["grid"]["cells"]
         dx, dy = self["grid"]["spacing"]
+        cells = f"{nx} x {ny} cells of {dx:.4g} x {dy:.4g} {(self['case'].get('units') or {}).get('length', '')}"
         lines = [
-            f"Plan: {nx} x {ny} cells of {dx:.4g} x {dy:.4g}, {self['increments']} increments, {self['coupling']}",
+            f"Plan: {cells.rstrip()}, {self['increments']} increments, {self['coupling']}",
             f"  memory about {_amount(self['memory_bytes'])}, kept fields {_amount(self['kept_bytes'])}",
             f"  {self._expected()}",
         ]
@@ -103,7 +104,7 @@ class Plan(Mapping[str, Any]):
         ]
         facts += [(f"simplification: {entry['what']}", entry["why"]) for entry in self.left_out]
         facts += [("warning", f"{fact['message']}; {fact['help']}") for fact in self.warnings]
-        return plot.html_table("fretting.Plan", facts)
+        return _notebook.html_table("fretting.Plan", facts)
 
 
 def _amount(count: int) -> str:
@@ -130,6 +131,10 @@ def plan(case: _case.CaseLike, *, start: _start.StartLike | None = None) -> Plan
     ------
     CaseError
         When the case is refused.
+    OutOfMemoryError
+        When there is not the memory to plan it.
+    UnreadableError, ValueError, IndexError
+        When `start` does not hold the state.
     """
     question = _case.read(case, _start.read(start))
     entries = json.loads(_core.plan(question))

@@ -3,9 +3,12 @@
 Every function draws into `ax`, or into a figure of its own when none is given, and returns the axes; further keywords
 go to the artist (``color=``, ``label=``, ``cmap=``). Units are those
 of the case: labels say what ``[units]`` of the case declares, else length, force, pressure.
+
+An argument of another kind is a ``TypeError``, as is a keyword that matplotlib does not know; a value out of its range
+a ``ValueError``; a field that is unknown or not kept a ``KeyError``; an increment or a stage that is not there an
+``IndexError``.
 """
 
-import html
 from collections.abc import Sequence
 from contextlib import suppress
 from typing import TYPE_CHECKING, Any, Literal
@@ -13,9 +16,13 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 import numpy.typing as npt
 
+from fretting._arguments import checked, texts
+from fretting._arguments import variable as _variable
 from fretting._arrays import Reals
 from fretting._bands import band, band_map, loop_band
-from fretting._meaning import VECTORS, ZONE_NAMES, in_units, label, unit
+from fretting._meaning import VECTORS, ZONE_NAMES, in_units
+from fretting._meaning import label as _label
+from fretting._meaning import unit as _unit
 
 if TYPE_CHECKING:
     import xarray
@@ -50,6 +57,7 @@ REGIMES = (
 """Names and colours of the sliding conditions, from less to more slip."""
 
 
+@checked
 def loop(
     history: "History",
     *,
@@ -89,6 +97,7 @@ def loop(
     return axes
 
 
+@checked
 def loop_stack(
     history: "History",
     *,
@@ -129,14 +138,18 @@ def loop_stack(
     numbers, rows = _loops(history, stage)
     if not rows:
         raise ValueError("no cycles: a stack of loops needs a stage with cycles = ...")
+    from matplotlib import colormaps
+
+    if cmap not in colormaps:
+        raise ValueError(f"cmap = {cmap!r}: matplotlib has no colours of that name")
+    if getattr(ax, "name", "3d") != "3d":
+        raise ValueError('ax: a stack of loops needs axes of three dimensions (projection="3d")')
     if most < 2:
         raise ValueError(f"most = {most}: must be at least 2")
     shown = np.unique(np.linspace(0, len(rows) - 1, min(most, len(rows))).round().astype(int))
     axes: Any = ax
     if axes is None:
         axes = _pyplot().figure(figsize=(6.4, 4.4), layout="constrained").add_subplot(projection="3d")
-    from matplotlib import colormaps
-
     for one in shown:
         colour = colormaps[cmap](one / max(len(rows) - 1, 1))
         across, up = (history.increments[name][rows[one]] for name in (motion, force))
@@ -148,6 +161,7 @@ def loop_stack(
     return drawn
 
 
+@checked
 def section(
     history: "History",
     fields: str | Sequence[str] = ("pressure", "shear_x"),
@@ -187,7 +201,7 @@ def section(
         if along == "y":
             raise ValueError("along = 'y': nothing changes along the line of a line contact")
         at = 0.0
-    names = [fields] if isinstance(fields, str) else list(fields)
+    names = texts("fields", fields)
     here, across = (history.x, history.y) if along == "x" else (history.y, history.x)
     half = 0.5 * (across[1] - across[0]) if len(across) > 1 else np.inf
     if not across[0] - half <= at <= across[-1] + half:
@@ -197,7 +211,7 @@ def section(
     axes = _own_axes(ax)
     for name, course in values.items():
         axes.plot(here, course, **{"lw": 1.4, "label": name.replace("_", " "), **_long_names(line)})
-    units = {in_units(unit(name), history._units) for name in names}
+    units = {in_units(_unit(name), history._units) for name in names}
     axes.set(
         xlabel=f"{along} [{in_units('length', history._units)}]", ylabel=f"[{units.pop()}]" if len(units) == 1 else ""
     )
@@ -206,6 +220,7 @@ def section(
     return axes
 
 
+@checked
 def field(
     history: "History",
     name: str = "pressure",
@@ -240,10 +255,11 @@ def field(
     values = history.field(name, increment)  # type: ignore[arg-type]
     axes = _own_axes(ax)
     drawn = _image(history, values, axes, image)
-    axes.figure.colorbar(drawn, ax=axes, label=label(name, history._units))
+    axes.figure.colorbar(drawn, ax=axes, label=_label(name, history._units))
     return axes
 
 
+@checked
 def zones(
     history: "History",
     increment: int = -1,
@@ -275,6 +291,7 @@ def zones(
     return axes
 
 
+@checked
 def animation(
     history: "History",
     name: str = "zone",
@@ -320,7 +337,7 @@ def animation(
         _colour_legend(right, ZONES)
     else:
         image = _image(history, frames[0], right, {}, limits=_limits(np.stack(frames)))
-        figure.colorbar(image, ax=right, label=label(name, history._units))
+        figure.colorbar(image, ax=right, label=_label(name, history._units))
 
     def draw(number: int) -> list[Any]:
         increment = kept[number]
@@ -332,6 +349,7 @@ def animation(
     return FuncAnimation(figure, draw, frames=len(kept), interval=interval)
 
 
+@checked
 def regime_map(
     dataset: "xarray.Dataset",
     x: str,
@@ -358,7 +376,12 @@ def regime_map(
     -------
     matplotlib Axes
     """
-    data = dataset[variable].transpose(y, x)
+    values = dataset[_variable("variable", variable, dataset)]
+    for name, axis in (("x", x), ("y", y)):
+        _variable(name, axis, dataset.coords)
+    if set(values.dims) != {x, y} or x == y:
+        raise ValueError(f"{variable} has the axes {', '.join(map(str, values.dims)) or 'none'}: must be {x} and {y}")
+    data = values.transpose(y, x)
     words = [name for name, _ in REGIMES]
     codes = np.asarray([[words.index(w) if w in words else np.nan for w in row] for row in data.values.tolist()])
     axes = _own_axes(ax)
@@ -371,16 +394,6 @@ def regime_map(
     axes.set(xlabel=x, ylabel=y)
     _colour_legend(axes, [entry for number, entry in enumerate(REGIMES) if (codes == number).any()], "upper left")
     return axes
-
-
-def html_table(title: str, facts: Sequence[tuple[str, str]]) -> str:
-    """Return names and values as a table of HTML."""
-    rows = "".join(
-        f"<tr><th style='text-align:left'>{html.escape(name)}</th>"
-        f"<td style='text-align:left'>{html.escape(value)}</td></tr>"
-        for name, value in facts
-    )
-    return f"<div><strong>{html.escape(title)}</strong><table>{rows}</table></div>"
 
 
 def _pyplot() -> Any:
@@ -454,6 +467,8 @@ def _loop_rows(history: "History", stage: int | str | None) -> npt.NDArray[np.in
         rows = np.flatnonzero(column >= in_cycles[0]) if len(in_cycles) else np.arange(len(history))
     else:
         rows = np.flatnonzero(column == stage_number(history, stage))
+    if not len(rows):
+        raise ValueError("no increment of that stage is solved")
     return np.concatenate([rows[:1] - 1, rows]) if rows[0] > 0 else rows
 
 
@@ -476,6 +491,7 @@ def _loops(history: "History", stage: int | str | None) -> tuple[npt.NDArray[np.
     return np.asarray(numbers, dtype=np.int64), rows
 
 
+@checked
 def stage_number(history: "History", stage: int | str) -> int:
     """Return the number of a stage that is named or numbered."""
     count = len(history.stages)

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any, TypeAlias
 
 from fretting import _case, _core, _start
+from fretting._arguments import path
 from fretting._progress import ProgressLine
 from fretting.errors import FrettingWarning, OutOfMemoryError, RunError, RunInterrupted, warn
 from fretting.history import History
@@ -76,6 +77,8 @@ def run(
         When Ctrl-C is pressed: a ``KeyboardInterrupt`` whose ``history`` holds what was solved.
     UnreadableError, ValueError
         When `start` does not hold the state; when `folder` holds something else or cannot be written.
+    IndexError
+        When a history to start from has no such increment.
 
     Warns
     -----
@@ -106,6 +109,8 @@ def run(
     10.000 0.500
     10.000 1.000
     """
+    if folder is not None:
+        folder = path("folder", folder)
     if folder is None and (resume or replace):
         raise ValueError("resume, replace: of a run with a folder")
     if estimate_error and start is not None:

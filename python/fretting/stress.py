@@ -27,11 +27,18 @@ def refuse_thinned(history: "History") -> None:
 
 
 def subsurface(
-    history: "History", depths: npt.ArrayLike, increment: int, body: Literal["lower", "upper"], threads: int | None
+    history: "History",
+    depths: npt.ArrayLike,
+    increment: int,
+    body: Literal["lower", "upper"],
+    displacement: bool,
+    threads: int | None,
 ) -> "xarray.Dataset":
-    """Return stresses: see :meth:`fretting.History.subsurface`."""
+    """Return stresses and displacements: see :meth:`fretting.History.subsurface`."""
     module = _dataset.module("subsurface")
     refuse_thinned(history)
+    if displacement and history.is_line:
+        raise ValueError("displacement: below the surface of a line contact displacements are not computed")
     pressure = on_grid(history, history.field("pressure", increment))
     shear = None
     if not frictionless(history):
@@ -63,6 +70,11 @@ def subsurface(
         principal,
         described("principal stress, tension positive [pressure]", history._units),
     )
+    if displacement:
+        moved = _core.subsurface_displacement(*setting, (pressure, shear), points(depths), threads)
+        for name, values in moved.items():
+            words = f"displacement of the {body} body along {name[-1]} [length]"
+            variables[name] = (("depth", *across), oriented(values), described(words, history._units))
     axes = {
         **coordinates(history, answer),
         "order": ("order", np.arange(1, 4), {"long_name": "1: the largest principal stress"}),

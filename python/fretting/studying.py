@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 
 from fretting import _case, _core, _dataset
+from fretting._arguments import reals, wholes
 
 if TYPE_CHECKING:
     import xarray
@@ -65,7 +66,9 @@ def study(
         where nothing is known; ``error_of_pressure``, ``error_of_shear``, ``wall_s``, ``convolutions``,
         ``is_efficient`` along ``level``. Beside ``level`` stand ``refined`` (``"cells"``, ``"increments"``,
         ``"together"``, ``"tolerance"``), ``nx``, ``ny``, ``increments`` (of all stages, as text) and ``tolerance``;
-        beside ``quantity``, ``measured_by``. The attribute ``choice`` says in words what to choose for 1 %, 0.1 % and
+        beside ``quantity``, ``measured_by`` and ``convergence`` (``"observed"``, ``"assumed"`` of two levels,
+        ``"not_asymptotic"``: no plausible order, not extrapolated, ``"no_limit"``: the maximum contact pressure at a
+        sharp edge or a tip). The attribute ``choice`` says in words what to choose for 1 %, 0.1 % and
         0.01 %.
 
     Raises
@@ -78,7 +81,9 @@ def study(
         When the finest level cannot be solved.
     """
     module = _dataset.module("study")
-    resolutions = [int(n) for n in cells], [int(n) for n in increments], [float(t) for t in tolerances], against
+    resolutions = wholes("cells", cells), wholes("increments", increments), reals("tolerances", tolerances), against
+    if any(number < 1 for number in resolutions[0] + resolutions[1]):
+        raise ValueError(f"cells = {resolutions[0]}, increments = {resolutions[1]}: must be positive")
     answer = json.loads(_core.study(_case.read(case), resolutions, threads, progress))
     levels = [(line["refined"], level) for line in answer["lines"] for level in line["levels"]]
 
@@ -100,6 +105,7 @@ def study(
     coordinates: dict[str, Any] = {
         "quantity": ("quantity", list(QUANTITIES)),
         "measured_by": ("quantity", [str(answer["measured_by"][q] or "") for q in QUANTITIES]),
+        "convergence": ("quantity", [str(answer["convergence"][q] or "") for q in QUANTITIES]),
         "refined": ("level", [refined for refined, _ in levels]),
         "nx": ("level", np.asarray([level["cells"][0] for _, level in levels], dtype=int)),
         "ny": ("level", np.asarray([level["cells"][1] for _, level in levels], dtype=int)),

@@ -3,6 +3,7 @@
 import contextlib
 import json
 import os
+import pickle
 import tomllib
 from collections.abc import Callable, Iterator, Mapping
 from concurrent.futures import BrokenExecutor, Executor, Future, ThreadPoolExecutor, as_completed
@@ -13,8 +14,10 @@ import numpy as np
 import numpy.typing as npt
 
 from fretting import _case, _core, _start, cycles
-from fretting._meaning import MEANING
-from fretting._points import RESERVED, Dimension, Draw, Parameters, Point, Table, dimensions, is_uncertain, points
+from fretting._arguments import path
+from fretting._meaning import MEANING, described
+from fretting._measuring import UNMEASURED, Measuring, measured, measured_variable
+from fretting._points import Dimension, Draw, Parameters, Point, Table, dimensions, is_uncertain, points
 from fretting._progress import PointLine
 from fretting._sweep_folder import SweepFolder, with_files_in
 from fretting.errors import CaseError, OutOfMemoryError, RunError
@@ -71,8 +74,10 @@ def sweep(
         Which increments the result has: the last of the history, the last of every stage (dimension ``stage``), or all
         (dimension ``increment``).
     measure : callable, optional
-        Called with the :class:`History` of every solved point, where it was solved; the numbers and arrays of the
-        mapping it returns become variables. An executor of processes needs a function that can be pickled.
+        Called with the :class:`History` of every solved point, where it was solved; the numbers, words and arrays of
+        the mapping it returns become variables. What it raises at the first point that is solved ends the sweep; at a
+        later one the numbers of the point stay, what is measured is missing (NaN, or an empty text), and ``error``
+        says why. An executor of processes needs a function that can be pickled.
     folder : path, optional
         Where finished points are written down, each as soon as it is solved; points found there are not solved again.
         A point that changed in any way (another base case, a file it names, `keep`, the version) is another point.
@@ -106,9 +111,15 @@ def sweep(
     ------
     CaseError
         When a parameter does not exist in the case, or every point is refused.
+    RunError
+        When no point could be solved.
+    UnreadableError
+        When `folder` cannot be used, or a file cannot be read.
+    IndexError
+        When a history to start from has no such increment.
     ImportError
         When xarray is not installed (``pip install fretting[xarray]``).
-    MemoryError
+    OutOfMemoryError
         When as many points as the executor has workers need more memory than there is.
     concurrent.futures.BrokenExecutor
         When the executor itself breaks down. What is finished stands in `folder`.
@@ -139,13 +150,15 @@ def sweep(
     origin = _start.read(start)
     if origin is not None:
         settings["start"] = origin.digest()
-    store = None if folder is None else SweepFolder(folder, base, settings)
+    store = None if folder is None else SweepFolder(path("folder", folder), base, settings)
     answers: dict[tuple[int, ...], Table] = {}
+    measuring = Measuring({name for one in found for name in (one.name, *one.coordinates)})
     if store:
         for point in asked:
             before = store.finished(point.case)
             if before:
                 answers[point.place] = before
+                measuring.judge(point, before, None)
     solved_before = sum(answer["status"] == "solved" for answer in answers.values())
     threads = threads or (None if executor is None else 1)
     open_points = [point for point in asked if point.place not in answers]
@@ -154,21 +167,32 @@ def sweep(
     with _Teller(progress, len(asked), answers.values()) as tell:
         tasks = [_Task(json.dumps(point.case), point.name, asked_of_all) for point in open_points]
         in_common = _in_common(tasks, executor)
-        for point, answer, lasting in _solved(open_points, tasks, executor, in_common):
-            if store and lasting:
+        for point, solved, lasting in _solved(open_points, tasks, executor, in_common):
+            answer = measuring.judge(point, solved.answer, solved.failure)
+            if store and lasting and not answer["error"].startswith(UNMEASURED):
                 store.keep(point.case, answer)
             answers[point.place] = answer
             tell(point, answer)
-    if all(answer["status"] == "refused" for answer in answers.values()):
-        first = answers[asked[0].place]
-        raise CaseError(f"all {len(asked)} points of the sweep are refused; the first:\n{first['error']}",
-                        [tuple(mistake) for mistake in first["mistakes"]])  # fmt: skip
+    _refuse_where_nothing_is_solved([answers[point.place] for point in asked])
+    measuring.warn(len(asked))
     increments = 0 if in_common is None else in_common.increments()
     attributes: dict[str, Any] = {"solved_before": solved_before, "increments_in_common": increments}
     if samples is not None and isinstance(parameters, Mapping):
         uncertain = [str(key) for key, values in parameters.items() if is_uncertain(values)]
         attributes |= {"samples": samples, "seed": seed, "indices": int(indices), "uncertain": uncertain}
     return _dataset(found, answers, keep, attributes)
+
+
+def _refuse_where_nothing_is_solved(answers: list[Table]) -> None:
+    statuses = {answer["status"] for answer in answers}
+    if "solved" in statuses:
+        return
+    first = answers[0]
+    if statuses == {"refused"}:
+        raise CaseError(f"all {len(answers)} points of the sweep are refused; the first:\n{first['error']}",
+                        [tuple(mistake) for mistake in first["mistakes"]])  # fmt: skip
+    first = next(answer for answer in answers if answer["status"] == "failed")
+    raise RunError(f"none of the {len(answers)} points of the sweep is solved; the first failure:\n{first['error']}")
 
 
 def _fits_memory(asked: list[Point], executor: Executor | None) -> None:
@@ -250,20 +274,43 @@ def _in_common(tasks: list[_Task], executor: Executor | None) -> _core.InCommon 
     return _core.InCommon(histories)
 
 
-def _solve(task: _Task, point: tuple[_core.InCommon, int] | None = None) -> Table:
+class _Solved(NamedTuple):
+    """The answer of a point, and what `measure` raised there."""
+
+    answer: Table
+    failure: Exception | None = None
+
+
+def _solve_elsewhere(task: _Task, point: tuple[_core.InCommon, int] | None = None) -> _Solved:
+    """Solve one point in another process: an exception that cannot travel goes as its words."""
+    answer, failure = _solve(task, point)
+    try:
+        pickle.loads(pickle.dumps(failure))
+    except Exception:
+        failure = RuntimeError(f"{type(failure).__name__}: {failure}")
+    return _Solved(answer, failure)
+
+
+def _solve(task: _Task, point: tuple[_core.InCommon, int] | None = None) -> _Solved:
     """Solve one point, wherever this is called; only what a person can do something about is caught."""
     nothing: Table = {"steps": {}, "cycle": {}, "measured": {}, "mistakes": []}
     try:
         history = ended(*_core.run(task.case(), task.asked.threads, None, False, point), json.loads(task.text))
     except CaseError as error:
-        return {**nothing, "status": "refused", "error": str(error), "mistakes": [list(m) for m in error.mistakes]}
+        mistakes = [list(mistake) for mistake in error.mistakes]
+        return _Solved({**nothing, "status": "refused", "error": str(error), "mistakes": mistakes})
     except OutOfMemoryError:
         raise  # no answer of the point: there may be room for it another time
     except RunError as error:
-        return {**nothing, "status": "failed", "error": str(error)}
+        return _Solved({**nothing, "status": "failed", "error": str(error)})
     rows = _rows(history, task.asked.keep)
-    measured = {} if task.asked.measure is None else dict(task.asked.measure(history))
-    return {
+    found, failure = {}, None
+    if task.asked.measure is not None:
+        try:
+            found = {name: measured(name, value) for name, value in dict(task.asked.measure(history)).items()}
+        except Exception as error:  # a mistake of the function, not of the point
+            failure = error
+    answer = {
         **nothing,
         "status": "solved",
         "error": "",
@@ -273,8 +320,10 @@ def _solve(task: _Task, point: tuple[_core.InCommon, int] | None = None) -> Tabl
             for name, column in history.cycles.items()
             if len(column) and column[-1] == column[-1]  # not a number: there is none
         },
-        "measured": {name: _measured(name, value) for name, value in measured.items()},
+        "measured": found,
+        "units": history._units,
     }
+    return _Solved(answer, failure)
 
 
 def _rows(history: History, keep: Keep) -> npt.NDArray[np.int64]:
@@ -286,20 +335,9 @@ def _rows(history: History, keep: Keep) -> npt.NDArray[np.int64]:
     return np.flatnonzero(np.append(stage[1:] != stage[:-1], True))
 
 
-def _measured(name: str, value: object) -> Any:
-    if name in MEANING or name.startswith("cycle_") or name in RESERVED:
-        raise ValueError(f"measure: the name {name!r} is taken")
-    array = np.asarray(value)
-    if array.dtype.kind not in "fiub":
-        raise TypeError(f"measure: {name} is no number and no array of numbers, but {type(value).__name__}")
-    if not np.isfinite(array).all():
-        raise ValueError(f"measure: {name} is not finite everywhere")
-    return array.astype(np.float64).tolist()
-
-
 def _solved(
     points: list[Point], tasks: list[_Task], executor: Executor | None, in_common: _core.InCommon | None
-) -> Iterator[tuple[Point, Table, bool]]:
+) -> Iterator[tuple[Point, _Solved, bool]]:
     """Answers as they come, and whether each would be the same another time."""
     shared = [None if in_common is None else (in_common, number) for number in range(len(tasks))]
     if executor is None:
@@ -309,8 +347,9 @@ def _solved(
             except Exception as error:  # whatever it is belongs to this point alone
                 yield point, _surprise(error), False
         return
-    futures: dict[Future[Table], Point] = {
-        executor.submit(_solve, task, common): point for point, task, common in zip(points, tasks, shared, strict=True)
+    solve = _solve if isinstance(executor, ThreadPoolExecutor) else _solve_elsewhere
+    futures: dict[Future[_Solved], Point] = {
+        executor.submit(solve, task, common): point for point, task, common in zip(points, tasks, shared, strict=True)
     }
     try:
         for future in as_completed(futures):
@@ -325,9 +364,9 @@ def _solved(
             future.cancel()
 
 
-def _surprise(error: Exception) -> Table:
+def _surprise(error: Exception) -> _Solved:
     text = f"{type(error).__name__}: {error}"
-    return {"status": "failed", "error": text, "steps": {}, "cycle": {}, "measured": {}, "mistakes": []}
+    return _Solved({"status": "failed", "error": text, "steps": {}, "cycle": {}, "measured": {}, "mistakes": []})
 
 
 class _Teller:
@@ -369,6 +408,7 @@ def _dataset(
         for place, answer in answers.items():
             column[place] = answer[name]
         variables[name] = (names, column.astype(str))
+    units: dict[str, str] = next((answer["units"] for answer in answers.values() if answer.get("units")), {})
     extra = _LENGTH[keep]
     length = max((len(answer["steps"].get("increment", ())) for answer in answers.values()), default=0)
     for name in _all_names(answers, "steps"):
@@ -383,15 +423,15 @@ def _dataset(
                 else:
                     table[place][: len(column)] = column
         dims = names if extra is None else (*names, extra)
-        variables[name] = (dims, table, {"long_name": MEANING[name]})
+        variables[name] = (dims, table, described(MEANING[name], units))
     for name in _all_names(answers, "cycle"):
         table = _filled(shape, _sample(answers, "cycle", name))
         for place, answer in answers.items():
             if name in answer["cycle"]:
                 table[place] = answer["cycle"][name]
-        variables[f"cycle_{name}"] = (names, table, {"long_name": f"last cycle: {cycles.MEANING[name]}"})
+        variables[f"cycle_{name}"] = (names, table, described(f"last cycle: {cycles.MEANING[name]}", units))
     for name in _all_names(answers, "measured"):
-        variables[name] = _measured_variable(name, names, shape, answers)
+        variables[name] = measured_variable(name, names, shape, answers)
     coordinates: dict[str, Any] = {}
     for dimension in found:
         for key, values in dimension.coordinates.items():
@@ -421,22 +461,6 @@ def _filled(shape: tuple[int, ...], sample: object) -> npt.NDArray[Any]:
     if isinstance(sample, int):
         return np.full(shape, -1, dtype=np.int64)
     return np.full(shape, np.nan)
-
-
-def _measured_variable(
-    name: str, names: tuple[str, ...], shape: tuple[int, ...], answers: dict[tuple[int, ...], Table]
-) -> Any:
-    if name in names:
-        raise ValueError(f"measure: the name {name!r} is taken by a parameter")
-    values = {place: np.asarray(a["measured"][name]) for place, a in answers.items() if name in a["measured"]}
-    shapes = {value.shape for value in values.values()}
-    if len(shapes) > 1:
-        raise ValueError(f"measure: {name} has different shapes at different points: {sorted(shapes)}")
-    inner = shapes.pop()
-    table = np.full((*shape, *inner), np.nan)
-    for place, value in values.items():
-        table[place] = value
-    return (*names, *(f"{name}_{number}" for number in range(len(inner)))), table
 
 
 def _import_xarray() -> Any:

@@ -8,6 +8,7 @@ import numpy as np
 import numpy.typing as npt
 
 from fretting import _core
+from fretting._arguments import checked, real, whole
 
 if TYPE_CHECKING:
     import xarray
@@ -24,7 +25,7 @@ class Distribution:
     def _described(self) -> dict[str, Any]:
         name = type(self).__name__.lower()
         words = {"low": "from", "high": "to"}
-        return {name: {words.get(key, key): float(value) for key, value in asdict(self).items()}}
+        return {name: {words.get(key, key): real(key, value) for key, value in asdict(self).items()}}
 
 
 @dataclass(frozen=True)
@@ -81,13 +82,15 @@ class Weibull(Distribution):
 
 def drawn(distributions: list[Distribution], count: int, seed: int, indices: bool) -> list[list[float]]:
     """Return the values of every distribution in every sample, row by row."""
-    if not (isinstance(count, int) and isinstance(seed, int) and 0 <= seed < 2**32):
+    count, seed = whole("samples", count), whole("seed", seed)
+    if not (0 < count < 2**32 and 0 <= seed < 2**32):
         raise ValueError(f"samples = {count}, seed = {seed}: whole numbers, the seed from 0 to 4294967295")
     described = [distribution._described() for distribution in distributions]
     design = {"distributions": described, "count": count, "seed": seed, "indices": bool(indices)}
     return _core.sample_rows(json.dumps(design))
 
 
+@checked
 def uncertainty(dataset: "xarray.Dataset") -> "xarray.Dataset":
     """Return what the samples of a sweep say about its numbers.
 
@@ -126,7 +129,7 @@ def uncertainty(dataset: "xarray.Dataset") -> "xarray.Dataset":
     told['max_pressure'].sel(statistic='mean')):.3f}")
     0.017
     """
-    if "sample" not in dataset.dims:
+    if "sample" not in dataset.dims or not {"samples", "indices", "uncertain"} <= set(dataset.attrs):
         raise ValueError(
             "uncertainty: the sweep has no samples; give it distributions, such as fretting.Normal(0.6, 0.05)"
         )

@@ -159,3 +159,110 @@ def test_a_coating_pulled_with_its_substrate_channels_and_delaminates_as_a_film_
     del case["lower"]["coatings"]
     with pytest.raises(ValueError, match="no coating that is bonded"):
         fretting.run(case).coating_fracture()
+
+
+def test_python_and_the_command_tell_one_life(tmp_path: Any) -> None:
+    """The tension behind a slider has a cusp between the cells: both extrapolate it to the rim, tell the largest cell
+    beside it, the critical plane, and the values at the critical distance.
+    """
+    substrate: Any = {"young": YOUNG, "poisson": POISSON}
+    constants: Any = {"strain_life": STRENGTH, "critical_distance": 20e-6}
+    case: Any = {
+        "grid": {"cells": 128, "size": 2.6e-3},
+        "upper": {"substrate": substrate},
+        "lower": {"substrate": {**substrate, "fatigue": constants}},
+        "profile": {"cylinder": {"radius": 50e-3, "axis": "y"}},
+        "friction": {"coefficient": 0.5},
+        "load": [
+            {"normal_force": 4e5, "increments": 1},
+            {"tangential_force": [1.6e5, 0.0], "cycles": 1, "increments": 8},
+        ],
+        "output": {"every": 1},
+        "stress": {"depths": [0.0, 5e-6, 10e-6, 20e-6, 40e-6]},
+    }
+    history = fretting.run(case, folder=tmp_path / "run")
+    found = history.fatigue(case["stress"]["depths"])
+    told = json.loads((tmp_path / "run" / "stress" / "stress.json").read_text())["fatigue"]["parameters"]
+    assert set(found.parameter.values) == {name for name in told if not name.startswith("ruiz")}
+    for name in found.parameter.values:
+        one, other = found.sel(parameter=name), told[name]
+        for ours, theirs in (
+            ("largest", "largest"),
+            ("largest_cell", "largest_cell"),
+            ("largest_x", "x"),
+            ("largest_depth", "depth"),
+        ):
+            assert float(one[ours]) == pytest.approx(other[theirs], rel=1e-12, abs=1e-18), (name, ours)
+    one, other = found.sel(parameter="smith_watson_topper"), told["smith_watson_topper"]
+    assert float(one["largest_cycles"]) == pytest.approx(other["cycles"], rel=1e-12)
+    assert float(one["largest_cell_cycles"]) == pytest.approx(other["largest_cell_cycles"], rel=1e-12)
+    assert list(one["critical_plane"].values) == pytest.approx(other["normal"])
+    # at the surface the largest cell is that of the array; the rim lies above it and fails earlier
+    array = found["smith_watson_topper"]
+    assert float(one["largest_depth"]) == 0.0
+    assert float(one["largest_cell"]) == pytest.approx(float(array.sel(depth=0.0).max()), rel=1e-12)
+    assert float(one["largest"]) > 1.02 * float(one["largest_cell"])
+    assert float(one["largest_cycles"]) < float(one["largest_cell_cycles"])
+    # the point method by hand: the largest value of the array at half the critical distance
+    assert float(one["point_method"]) == pytest.approx(float(array.sel(depth=10e-6).max()), rel=1e-12)
+    for method in ("point", "line"):
+        told_at = other["critical_distance"][method]
+        assert float(one[f"{method}_method"]) == pytest.approx(told_at["value"], rel=1e-9)
+        assert float(one[f"{method}_method_cycles"]) == pytest.approx(told_at["cycles"], rel=1e-9)
+    table = (tmp_path / "run" / "stress" / "fatigue.csv").read_text().splitlines()
+    row = dict(zip(table[0].split(","), table[1].split(","), strict=True))
+    assert row["parameter"] == "smith_watson_topper"
+    assert float(row["largest_cell"]) == pytest.approx(float(one["largest_cell"]), rel=1e-12)
+    assert float(row["point_method"]) == pytest.approx(float(one["point_method"]), rel=1e-12)
+    assert abs(float(row["normal_x"])) == pytest.approx(abs(float(one["critical_plane"][0])), rel=1e-9)
+
+
+def test_every_crack_has_cycles() -> None:
+    """A table over load cases asks each crack for its cycles: inf of one that stops or does not grow, NaN where
+    nothing says how fast it grows.
+    """
+    history = fretting.run(line_case(10.0, 150e6))
+    laws: list[dict[str, float]] = [{}, {"paris_coefficient": 1e-28, "paris_exponent": 3.0}]
+    fates = {}
+    for threshold in (1e6, 1e8):
+        for law in laws:
+            constants: Any = {"crack": {**CRACK, **law, "threshold": threshold}}
+            crack = history.crack(constants=constants)
+            fates[threshold, bool(law)] = crack.attrs["fate"], crack.attrs["cycles"]
+    assert fates[1e8, False] == fates[1e8, True] == ("does_not_grow", np.inf)
+    assert fates[1e6, False][0] == "grows"
+    assert np.isnan(fates[1e6, False][1])
+    assert np.isfinite(fates[1e6, True][1])
+    assert fates[1e6, True][1] > 0
+    pressed = fretting.run(line_case(9.327e4, 1e3)).crack(constants={"crack": CRACK})
+    assert pressed.attrs["fate"] in ("none", "does_not_grow", "stops")
+    assert not np.isfinite(pressed.attrs["cycles"])
+
+
+def test_a_graded_coating_and_a_cut_one_are_one_film() -> None:
+    """Energy of delamination: s^2/2 times the integral of (1 - nu^2)/E over the thickness, of a modulus that falls
+    linearly from 4 to 1 h (1 - nu^2) ln 4 / 3; a film cut in two is the film.
+    """
+
+    def fractured(coatings: list[Any]) -> Any:
+        case: Any = line_case(1e3, 1e3)
+        case["lower"]["coatings"] = coatings
+        case["lower"]["substrate"].pop("residual_stress")
+        return fretting.run(case).coating_fracture().sel(sense="tension")
+
+    thickness = 5.5e-6
+    film: Any = {"thickness": thickness, "poisson": 0.3, "residual_stress": 500e6}
+    graded = fractured([{**film, "gradient": {"young": [400e9, 100e9], "law": "linear", "layers": 80}}])
+    stress = float(graded["stress"])
+    assert stress == pytest.approx(500e6, rel=0.02)  # the contact adds 1 %
+    exact = stress**2 / 2 * (1 - 0.3**2) * thickness * np.log(4.0) / 3 / 100e9
+    assert float(graded["delamination"]) == pytest.approx(exact, rel=2e-4)  # of 80 sublayers 1.3e-4, order two
+    assert np.isnan(float(graded["channelling"]))
+    whole = fractured([{**film, "young": 400e9}])
+    for parts in ((0.5, 0.5), (0.9, 0.1)):
+        cut = fractured([{**film, "young": 400e9, "thickness": part * thickness} for part in parts])
+        for name in ("stress", "delamination"):
+            assert float(cut[name]) == pytest.approx(float(whole[name]), rel=1e-4), (parts, name)
+        # the substrate below is softer, however thin the layer of the film's own material is
+        assert np.isnan(float(cut["channelling"]))
+        assert np.isnan(float(cut["phase"]))

@@ -158,7 +158,7 @@ def test_increments_are_found_by_what_happens_there(case: dict[str, Any]) -> Non
     assert force[history.at("maximum", cycle=0)] == force.max()
     assert history.at("minimum", stage="fretting", cycle=-1) == force.argmin()
     assert history.at("start", cycle=0) == history.cycles["first_increment"][0]
-    with pytest.raises(ValueError, match="must be 'start'"):
+    with pytest.raises(ValueError, match="must be one of 'start'"):
         history.at("peak")  # type: ignore[arg-type]
     with pytest.raises(IndexError):
         history.at(cycle=1)

@@ -138,3 +138,96 @@ def test_an_interface_that_holds_nothing_is_refused_with_its_place(fretting_case
         with pytest.raises(fretting.CaseError, match=message) as refused:
             fretting.plan(fretting_case)
         assert "lower.coatings[0].interface" in str(refused.value)
+
+
+def sphere(**changes: Any) -> dict[str, Any]:
+    body = {"substrate": {"young": 1.0, "poisson": 0.3}}
+    return {
+        "grid": {"cells": [48, 48], "size": [3.2, 3.2]},
+        "upper": {"rigid": True},
+        "lower": body,
+        "profile": {"sphere": {"radius": 100.0}},
+        "load": [{"normal_force": 4.0 / 273.0, "increments": 1}],  # a = 1 on a half-space under a rigid sphere
+        **changes,
+    }
+
+
+def test_the_surface_outside_a_hertz_contact_is_where_hertz_has_it() -> None:
+    history = fretting.run(sphere())
+    moved = history.subsurface([0.0, 20.0], displacement=True)
+    r = np.hypot(*np.meshgrid(history.x, history.y))
+    p0 = 2.0 / (np.pi * 0.91 * 100.0)
+    within = np.pi * p0 / 4.0 * (2.0 - r**2)
+    beyond = np.maximum(r, 1.0)
+    outside = 0.5 * p0 * ((2.0 - r**2) * np.arcsin(1.0 / beyond) + np.sqrt(beyond**2 - 1.0))
+    exact = 0.91 * np.where(r < 1.0, within, outside)
+    # Cells of a fifteenth of the radius, whose edge is a staircase.
+    np.testing.assert_allclose(moved.displacement_z.values[0], exact, rtol=2e-3)
+    # Far below a force, Boussinesq: P (1 + nu) (3 - 2 nu) / (2 pi E z), up to (a/z)^2.
+    middle = moved.displacement_z.values[1, 23:25, 23:25].mean()
+    assert middle == pytest.approx(4.0 / 273.0 * 1.3 * 2.4 / (2.0 * np.pi * 20.0), rel=1e-2)
+    # Drawn to the middle by pressure, as nu < 0.5: u_r = -(1 - 2 nu)(1 + nu) P / (2 pi E r) outside.
+    along = moved.displacement_x.values[0, 24, -1]
+    assert along == pytest.approx(-0.4 * 1.3 * 4.0 / 273.0 / (2.0 * np.pi * history.x[-1]), rel=5e-3)
+
+
+def test_displacements_of_both_surfaces_close_the_gap_and_follow_the_motion() -> None:
+    body = {"substrate": {"young": 1.0, "poisson": 0.3}, "coatings": [{"thickness": 0.3, "young": 3.0, "poisson": 0.2}]}
+    history = fretting.run(
+        sphere(
+            upper=body,
+            lower=body,
+            friction={"coefficient": 0.5},
+            output={"fields": ["pressure", "shear", "slip", "gap", "zone"]},
+            load=[{"normal_force": 0.01, "increments": 1}, {"tangential_force": [0.001, 0.0], "increments": 1}],
+        )
+    )
+    lower, upper = (history.subsurface([0.0], body=which, displacement=True) for which in ("lower", "upper"))
+    end = {name: column[-1] for name, column in history.increments.items()}
+    gap = history.field("gap").T
+    r = np.hypot(*np.meshgrid(history.x, history.y))
+    together = (lower.displacement_z + upper.displacement_z).values[0]
+    # The same coefficients and products of them: rounding.
+    np.testing.assert_allclose(together, end["approach"] - r**2 / 200.0 + gap, atol=1e-9 * end["approach"])
+    # The shear on the upper body is opposite: what it lifts here it lowers on the other side.
+    mirrored = upper.displacement_z.values[:, :, ::-1]
+    np.testing.assert_allclose(lower.displacement_z, mirrored, atol=1e-9 * end["approach"])
+    sticks = (history.field("zone").T == 1) & (history.field("slip_x").T == 0.0)
+    apart = (lower.displacement_x - upper.displacement_x).values[0][sticks]
+    assert sticks.sum() > 100
+    np.testing.assert_allclose(apart, end["shift_x"], rtol=1e-6)  # the tolerance of the solver, 1e-8 of the tractions
+    energy = (
+        0.5 * (history.field("pressure").T * together).sum()
+        + 0.5
+        * (
+            history.field("shear_x").T * (lower.displacement_x - upper.displacement_x).values[0]
+            + history.field("shear_y").T * (lower.displacement_y - upper.displacement_y).values[0]
+        ).sum()
+    )
+    cell = (3.2 / 48) ** 2
+    assert end["elastic_energy"] == pytest.approx(energy * cell, rel=1e-7)
+
+
+def test_a_wave_in_full_contact_is_pressed_flat() -> None:
+    history = fretting.run(
+        {
+            "grid": {"cells": [32, 4], "size": [1.0, 0.125], "periodic": True},
+            "upper": {"rigid": True},
+            "lower": {"substrate": {"young": 1.0, "poisson": 0.3}},
+            "profile": {"wave": {"amplitude": 1e-3, "wavelength_x": 1.0}},
+            "load": [{"normal_force": 0.125 * 0.01, "increments": 1}],  # above p* = pi E* amplitude / wavelength
+        }
+    )
+    assert history.increments["contact_cells"][-1] == 128
+    moved = history.subsurface([0.0], displacement=True).displacement_z.values[0, 0]
+    wave = 1e-3 * np.cos(2.0 * np.pi * history.x)
+    # Collocation: the surfaces meet at the middles of the cells, to the tolerance of the gap.
+    np.testing.assert_allclose(np.abs(moved - moved.mean()), np.abs(wave - wave.mean()), atol=1e-9)
+
+
+def test_displacements_below_a_line_contact_are_refused() -> None:
+    history = fretting.run(
+        sphere(grid={"cells": 48, "size": 3.2}, profile={"cylinder": {"radius": 100.0, "axis": "y"}})
+    )
+    with pytest.raises(ValueError, match="line contact"):
+        history.subsurface([0.0], displacement=True)

@@ -59,14 +59,32 @@ def test_a_map_in_a_stage_holds_from_there_on() -> None:
     assert shear.sum() > 0
 
 
+def test_a_profile_of_one_dimension_and_pairs_are_a_line_contact() -> None:
+    x = (np.arange(64) - 31.5) / 10
+    question = case({})
+    question["grid"] = {"cells": 64, "size": 6.4}
+    pressures = []
+    for values in (-(x**2) / 200, np.column_stack((x, -(x**2) / 200)), list(-(x**2) / 200)):
+        question["profile"] = {"heights": {"values": values}}
+        pressures.append(fretting.run(question).field("pressure"))
+    question["profile"] = {"cylinder": {"radius": 100.0, "axis": "y"}}
+    formula = fretting.run(question).field("pressure")
+    for pressure in pressures:
+        # The gaps agree to rounding; the solver's tolerance is 1e-8.
+        np.testing.assert_allclose(pressure, formula, atol=1e-7 * formula.max())
+
+
 @pytest.mark.parametrize(
     ("profile", "said"),
     [
         ({"heights": {"values": np.zeros((3, 4))}}, "3 x 4 numbers"),
         ({"heights": {"values": np.full((CELLS, CELLS), np.nan)}}, "height [0, 0] = NaN"),
         ({"heights": {"values": np.zeros((CELLS, CELLS), dtype=complex)}}, "complex128: must be real numbers"),
-        ({"heights": {"values": np.zeros(CELLS)}}, "must have two dimensions"),
+        ({"heights": {"values": np.zeros((CELLS, CELLS, 1))}}, "must have one or two dimensions"),
+        ({"heights": {"values": np.zeros(CELLS)}}, "24 x 1 numbers"),
         ({"heights": {"values": np.ma.masked_equal(np.eye(CELLS), 1.0)}}, "24 masked values"),
+        ({"heights": {"values": np.ma.masked_equal(np.eye(CELLS), 1.0)}}, "interpolate_undefined_data()"),
+        ({"heights": {"values": np.where(np.eye(CELLS) > 0, -9999.0, GAP)}}, "height [0, 0] is -9999.0"),
         ({"heights": {"file": "nowhere.npy"}}, "nowhere.npy"),
     ],
 )
@@ -85,3 +103,22 @@ def test_a_topography_of_surface_topography_is_read_through_its_heights() -> Non
     question["grid"] = {"cells": list(topography.nb_grid_pts), "size": list(topography.physical_sizes)}
     expected = fretting.run(case({"sphere": {"radius": 100.0}})).field("pressure")
     np.testing.assert_allclose(fretting.run(question).field("pressure"), expected, atol=1e-7 * expected.max())
+
+
+@pytest.mark.long
+def test_the_recipe_for_measured_files_brings_them_to_one_unit(tmp_path: Path) -> None:
+    topographies = pytest.importorskip("SurfaceTopography")
+    cells, side = (64, 48), (320e-6, 240e-6)
+    x, y = (np.arange(n) * s / n for n, s in zip(cells, side, strict=True))
+    heights = -((x[:, None] - x.mean()) ** 2 + (y[None, :] - y.mean()) ** 2) / (2 * 5e-3)  # a ball of 5 mm, in metres
+    micro = "\N{MICRO SIGN}m"
+    head = f"Channel: Z\nWidth: {side[0] * 1e6:g} {micro}\nHeight: {side[1] * 1e6:g} {micro}\nValue units: {micro}"
+    np.savetxt(tmp_path / "scan.txt", heights.T * 1e6, fmt="%.9e", header=head, delimiter="\t", encoding="utf-8")
+    topography = topographies.read_topography(str(tmp_path / "scan.txt")).to_unit("m")
+    question = case({"heights": {"values": topography.heights()}})
+    question["grid"] = {"cells": list(topography.nb_grid_pts), "size": list(topography.physical_sizes)}
+    question["lower"] = {"substrate": {"young": 210e9, "poisson": 0.3}}
+    question["load"] = [{"normal_force": 10.0, "increments": 1}]
+    hertz = fretting.analytic.hertz(radius=5e-3, force=10.0, modulus=210e9 / 0.91)
+    # 9 cells in the radius of contact: within the 1 % of the manual
+    assert fretting.run(question).increments["max_pressure"][-1] == pytest.approx(hertz.max_pressure, rel=0.01)

@@ -321,3 +321,60 @@ def test_a_parameter_has_a_short_name(case: dict[str, Any]) -> None:
     assert answer["approach"].dims == ("mu",)
     by_key = fretting.sweep(case, {FRICTION: [0.2, 0.4]})
     np.testing.assert_array_equal(answer["dissipated_energy"].values, by_key["dissipated_energy"].values)
+
+
+def test_a_mistake_in_what_is_measured_ends_the_sweep_at_its_first_point(case: dict[str, Any]) -> None:
+    told: list[dict[str, Any]] = []
+
+    def mistaken(history: fretting.History) -> dict[str, Any]:
+        return {"x": undefined_name}  # type: ignore[name-defined]  # noqa: F821
+
+    with pytest.raises(NameError, match="undefined_name") as raised:
+        fretting.sweep(case, {FRICTION: [0.2, 0.3, 0.4]}, measure=mistaken, progress=told.append)
+    assert "at the first point that is solved: friction.coefficient = 0.2" in raised.value.__notes__[0]
+    assert not told
+    with concurrent.futures.ThreadPoolExecutor(2) as executor, pytest.raises(NameError):
+        fretting.sweep(case, {FRICTION: [0.2, 0.3]}, measure=mistaken, executor=executor)
+
+
+def test_where_nothing_is_measured_the_other_numbers_stay(case: dict[str, Any], tmp_path: Path) -> None:
+    mend = False
+
+    def unsure(history: fretting.History) -> dict[str, Any]:
+        friction = history.case["friction"]["coefficient"]
+        if friction == 0.3 and not mend:
+            raise RuntimeError("not here")
+        return {"twice": 2.0 * friction, "word": f"mu {friction}", "row": np.ones(3)}
+
+    axes = {FRICTION: [0.2, 0.3, 0.4]}
+    with pytest.warns(fretting.FrettingWarning, match=r"measure failed at 1 of 3 points.*0.3: RuntimeError: not here"):
+        answer = fretting.sweep(case, axes, measure=unsure, folder=tmp_path / "sweep")
+    assert answer["status"].values.tolist() == ["solved"] * 3
+    assert np.isfinite(answer["dissipated_energy"].values).all()
+    np.testing.assert_array_equal(answer["twice"].values, [0.4, np.nan, 0.8])
+    assert answer["word"].values.tolist() == ["mu 0.2", "", "mu 0.4"]
+    assert answer["row"].shape == (3, 3)
+    assert answer["error"].values[1] == "measure: RuntimeError: not here"
+    # A point that was not measured is not finished: once the mistake is corrected it is solved again, and alone.
+    mend = True
+    again = fretting.sweep(case, axes, measure=unsure, folder=tmp_path / "sweep")
+    assert again.attrs["solved_before"] == 2
+    np.testing.assert_array_equal(again["twice"].values, [0.4, 0.6, 0.8])
+
+
+def test_a_sweep_without_a_solved_point_raises(case: dict[str, Any]) -> None:
+    beyond = {
+        **case,
+        "grid": {"cells": [16, 16], "size": [1e-6, 1e-6]},
+        "profile": {"heights": {"values": np.zeros((16, 16)).tolist()}},
+    }
+    with pytest.raises(fretting.RunError, match=r"(?s)none of the 2 points .* edge of the grid"):
+        fretting.sweep(beyond, {FRICTION: [0.2, 0.3]})
+
+
+def test_declared_units_reach_the_dataset_of_a_sweep(case: dict[str, Any]) -> None:
+    answer = fretting.sweep({**case, "units": {"length": "m", "force": "N"}}, {FRICTION: [0.2, 0.3]})
+    assert answer["max_pressure"].attrs["units"] == "Pa"
+    assert answer["cycle_dissipated_energy"].attrs == {
+        "long_name": "last cycle: dissipated energy W_d of this simulated cycle", "units": "N m",
+    }  # fmt: skip

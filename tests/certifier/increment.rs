@@ -88,6 +88,9 @@ impl Increment<'_> {
         let u = &self.displacements[0];
         let total = p.sum();
         let mean = if total > 0.0 { (p * u).sum() / total } else { 0.0 };
+        // Flat periodic surfaces are not displaced; what a cell gives way by to the mean pressure is then what counts.
+        let loaded = p.iter().filter(|p| **p > 0.0).count().max(1) as f64;
+        let mean = mean.max(1e-5 * self.influence.own_normal * total / loaded);
         let largest = largest(p);
         for ((i, j), &p) in p.indexed_iter() {
             let at = [i, j];

@@ -4,8 +4,9 @@ use std::fmt::Write;
 use std::path::Path;
 
 use fret_core::case::{Stage, Units};
-use fret_core::history::{CycleRecord, StepRecord, Warning};
+use fret_core::history::{CycleRecord, CycleRegime, Drive, StepRecord, Warning, WornTo};
 use fret_core::plan::{Coupling, Plan};
+use fret_core::study::pressure_is_unbounded;
 use serde_json::{Value, json};
 
 use crate::estimate::Estimate;
@@ -53,7 +54,7 @@ impl Summary<'_> {
         let ends = &self.tally.stage_ends;
         let shown = &ends[ends.len().saturating_sub(MOST_COLUMNS)..];
         let names = shown.iter().map(|record| self.stage_name(record.stage));
-        row(&mut table, "at the end of", names.map(|name| shortened(name, COLUMN - 2)));
+        row(&mut table, "after stage", names.map(|name| shortened(name, COLUMN - 2)));
         for (name, reading) in self.readings() {
             row(&mut table, &self.heading(name), shown.iter().map(reading));
         }
@@ -73,10 +74,13 @@ impl Summary<'_> {
         if let Some(worn) = &self.tally.worn_through {
             let [x, y] = worn.place.map(|place| self.length(place));
             let after = counted(worn.cycles, "cycle");
+            let what = match worn.to {
+                WornTo::Coating => "coating worn through",
+                WornTo::Limit => "worn to the limit",
+            };
             let _ = writeln!(
                 table,
-                "{:<NAMES$}after {after} of {}, at ({x}, {y})",
-                "worn to the limit",
+                "{what:<NAMES$}after {after} of {}, at ({x}, {y})",
                 self.stage_name(worn.stage)
             );
         }
@@ -92,6 +96,10 @@ impl Summary<'_> {
                 "approach, shift relative to",
                 self.length(datum)
             );
+        }
+        if pressure_is_unbounded(&self.plan.case.profile.shapes) {
+            let none = "none: at a sharp edge or a tip it grows with the number of cells";
+            let _ = writeln!(table, "{:<NAMES$}{none}", "limit of max pressure");
         }
         for (name, value) in [
             ("increments", self.tally.solved.to_string()),
@@ -211,8 +219,35 @@ impl Summary<'_> {
             let _ =
                 writeln!(table, "(the first cycle and the last {} of {})", MOST_CYCLES - 1, energies.len());
         }
-        if !energies.is_empty() {
+        if let Some(last) = energies.last() {
+            self.loop_of(last, table);
             table.push('\n');
+        }
+    }
+
+    /// What the loop of a cycle tells: the sliding condition and the numbers that tribologists compare.
+    fn loop_of(&self, cycle: &CycleRecord, table: &mut String) {
+        let turns = cycle.drive == Drive::Torsional;
+        let [force, motion] = if turns {
+            [("moment amplitude", "force x length"), ("rotation amplitude", "rad")]
+        } else {
+            [("force amplitude Q*", "force"), ("displacement amplitude d*", "length")]
+        };
+        let slope = if turns { "force x length" } else { "force/length" };
+        let told = |value: Option<f64>| value.map_or("-".to_owned(), figure);
+        let stage = self.stage_name(cycle.stage);
+        let _ = writeln!(table, "in cycle {} of {stage}:", cycle.last_cycle);
+        row(table, "sliding condition", std::iter::once(sliding_condition(cycle).to_owned()));
+        for ((name, kind), value) in [
+            (force, Some(cycle.force_amplitude)),
+            (motion, Some(cycle.displacement_amplitude)),
+            (("stiffness after reversal", slope), cycle.stiffness),
+            (("energy ratio A", ""), cycle.energy_ratio),
+            (("sliding ratio D", ""), cycle.sliding_ratio),
+        ] {
+            let units = self.plan.case.units.as_ref();
+            let name = Units::heading(units, name, kind, self.plan.grid.is_line());
+            row(table, &name, std::iter::once(told(value)));
         }
     }
 
@@ -312,6 +347,17 @@ fn kind_of_row(name: &str) -> &'static str {
         _ if begins(&["worn volume"]) => "length^3",
         _ if begins(&["twist", "tilt"]) => "rad",
         _ => "",
+    }
+}
+
+/// The sliding condition of a cycle, in words.
+fn sliding_condition(cycle: &CycleRecord) -> &'static str {
+    match cycle.regime {
+        None => "-",
+        Some(CycleRegime::FullStick) => "full stick",
+        Some(CycleRegime::PartialSlip) => "partial slip",
+        Some(CycleRegime::Mixed) => "mixed",
+        Some(CycleRegime::GrossSlip) => "gross slip",
     }
 }
 

@@ -42,7 +42,7 @@ pub struct Tally {
     /// The cycles that are over. Their table keeps them for a run that goes on, however many they are.
     #[serde(skip)]
     pub cycles: Vec<CycleRecord>,
-    /// Where and when the surfaces were worn to the limit; the run ended there.
+    /// Where and when the surfaces were first worn through a coating, or to the limit, at which the run ended.
     pub worn_through: Option<WornThrough>,
     /// Volumes lost by the layers of both bodies.
     pub worn_by_layer: Option<WornByLayer>,
@@ -69,7 +69,7 @@ impl Tally {
             worn_by_layer: None,
             work: Work::default(),
             largest_residual: 0.0,
-            gauge: Gauge::default(),
+            gauge: Gauge::of(plan),
             stage_quantities: Vec::new(),
         }
     }

@@ -11,8 +11,12 @@ pyo3::import_exception!(fretting.errors, OutOfMemoryError);
 pyo3::import_exception!(fretting.errors, RunError);
 pyo3::import_exception!(fretting.errors, UnreadableError);
 
-/// A refused case: the text a person reads, and `(line, column, message, help)` of every mistake.
+/// A refused case: the text a person reads, and `(line, column, message, help)` of every mistake. A good one that there is not the
+/// memory for is no mistake of the case.
 pub fn refused(error: &case::CaseError) -> PyErr {
+    if error.lacks_memory() {
+        return OutOfMemoryError::new_err((error.render(false), 0));
+    }
     let mistakes: Vec<_> = error
         .mistakes()
         .iter()

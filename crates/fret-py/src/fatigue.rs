@@ -119,6 +119,40 @@ impl Cycle {
         Ok(severity.judged())
     }
 
+    /// The largest value of every parameter over all depths as `fret stress` tells it: by its name value, cycles, both of the largest cell,
+    /// place in cells from the first one, depth, normal of the critical plane, and values at the critical distance.
+    fn most_severe<'py>(&self, py: Python<'py>, judged: &Judged) -> PyResult<Bound<'py, PyDict>> {
+        let all = PyDict::new(py);
+        for parameter in Parameter::ALL {
+            let of = judged.found.iter().filter(|found| found.parameter == parameter);
+            let Some(found) = of.reduce(|most, next| if next.value > most.value { next } else { most })
+            else {
+                continue;
+            };
+            let one = PyDict::new(py);
+            one.set_item("largest", found.value)?;
+            one.set_item("largest_cycles", found.cycles)?;
+            one.set_item("largest_cell", found.of_cells)?;
+            one.set_item("largest_cell_cycles", found.cycles_of_cells)?;
+            one.set_item("place", [0, 1].map(|axis| found.cell[axis] as f64 + found.off[axis]))?;
+            one.set_item("depth", found.point.depth)?;
+            one.set_item("normal", found.normal)?;
+            if let Some((_, at)) = judged.at_distance.iter().find(|(of, _)| *of == parameter) {
+                let constants = constants_of(&self.half_space, &self.constants, 0);
+                let cycles = |value: f64| {
+                    material_of(&self.half_space, 0)
+                        .and_then(|material| parameter.cycles(value, &material, &constants))
+                };
+                for (name, (value, _)) in [("point_method", at.point), ("line_method", at.line)] {
+                    one.set_item(name, value)?;
+                    one.set_item(format!("{name}_cycles"), cycles(value))?;
+                }
+            }
+            all.set_item(parameter.name(), one)?;
+        }
+        Ok(all)
+    }
+
     /// Cycles to initiation at the values of a depth; `None` without a law for its layer.
     fn cycles(&self, parameter: Parameter, values: &Array2<f64>, layer: usize) -> Option<Array2<f64>> {
         let material = material_of(&self.half_space, layer)?;
@@ -136,7 +170,7 @@ fn stacked(planes: &[Option<Array2<f64>>]) -> Option<Array3<f64>> {
 }
 
 /// Fatigue parameters over increments `(pressure, shear, slip, bulk stress)`: arrays of shape (nz, nx, ny), and with `_cycles` behind their
-/// names cycles to initiation; `ruiz_f1` and `ruiz_f2` of shape (nx, ny); depth and layer of shape (nz,).
+/// names cycles to initiation; `ruiz_f1` and `ruiz_f2` of shape (nx, ny); depth and layer of shape (nz,); `most_severe` by parameter.
 #[pyfunction]
 pub fn fatigue<'py>(
     py: Python<'py>,
@@ -165,6 +199,7 @@ pub fn fatigue<'py>(
             items.set_item(format!("{}_cycles", parameter.name()), cycles.into_pyarray(py))?;
         }
     }
+    items.set_item("most_severe", cycle.most_severe(py, &judged)?)?;
     if let Some(ruiz) = judged.ruiz {
         items.set_item("ruiz_f1", ruiz.map(|ruiz| ruiz.f1).into_pyarray(py))?;
         items.set_item("ruiz_f2", ruiz.map(|ruiz| ruiz.f2).into_pyarray(py))?;
@@ -233,7 +268,7 @@ pub fn coating_fracture<'py>(
         return Err(PyValueError::new_err("no coating that is bonded to something that deforms"));
     };
     let depths: Vec<f64> =
-        (0..=DEPTHS_OF_COATING).map(|n| film.thickness * n as f64 / DEPTHS_OF_COATING as f64).collect();
+        (0..=DEPTHS_OF_COATING).map(|n| film.thickness() * n as f64 / DEPTHS_OF_COATING as f64).collect();
     let points = depth_points(&cycle.half_space, &depths).map_err(bad_value)?;
     let constants = constants_of(&cycle.half_space, &cycle.constants, 0);
     let fractured = || -> Result<Vec<FilmCrack>, fret_fft::ConvolutionError> {

@@ -77,7 +77,7 @@ impl History {
         serde_json::to_string(&self.solved.cycles).map_err(bad_value)
     }
 
-    /// Where and when the surfaces were worn to the limit, as JSON text.
+    /// Where and when the surfaces were first worn through a coating, or to the limit, as JSON text.
     fn worn_through(&self) -> PyResult<String> {
         serde_json::to_string(&self.solved.worn_through).map_err(bad_value)
     }

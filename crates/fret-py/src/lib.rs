@@ -60,7 +60,7 @@ mod _core {
     #[pymodule_export]
     use crate::study::study;
     #[pymodule_export]
-    use crate::subsurface::subsurface_stress;
+    use crate::subsurface::{subsurface_displacement, subsurface_stress};
     #[pymodule_export]
     use crate::threads::{check_memory, check_threads};
     #[pymodule_export]

@@ -3,7 +3,9 @@
 use fret_core::case::Side;
 use fret_core::model::{Body, ContactPair, HalfSpace, ResidualStress, SurfaceGrid};
 use fret_core::plan::memory_of_stress;
-use fret_core::subsurface::{EvenStress, LoadedSurface, StressTensor, depth_points, survey};
+use fret_core::subsurface::{
+    EvenStress, LoadedSurface, StressTensor, Tractions, depth_points, displacements, survey,
+};
 use ndarray::{Array2, Array3, Axis};
 use numpy::{IntoPyArray, PyReadonlyArray2};
 use pyo3::exceptions::PyValueError;
@@ -87,5 +89,54 @@ pub fn subsurface_stress<'py>(
     let layers: Vec<i64> = points.iter().map(|point| point.layer as i64).collect();
     items.set_item("depth", depths.into_pyarray(py))?;
     items.set_item("layer", layers.into_pyarray(py))?;
+    Ok(items)
+}
+
+/// Displacement at depths: arrays `displacement_x`, `_y`, `_z` of shape (nz, nx, ny), in the order of the points of the stresses.
+#[pyfunction]
+pub fn subsurface_displacement<'py>(
+    py: Python<'py>,
+    bodies: (&str, bool),
+    setting: ([f64; 2], bool),
+    tractions: TractionArrays<'py>,
+    depths: Vec<f64>,
+    threads: Threads,
+) -> PyResult<Bound<'py, PyDict>> {
+    let (spacing, periodic) = setting;
+    let (half_space, sign) = half_space_of(bodies)?;
+    let half_space = &half_space;
+    let points = depth_points(half_space, &depths).map_err(bad_value)?;
+    let shape = tractions.0.as_array().dim();
+    if shape.1 == 1 {
+        return Err(PyValueError::new_err(
+            "displacements below the surface of a line contact are not computed",
+        ));
+    }
+    let cells = shape.0 * shape.1;
+    // Nine kernels more than those of the stresses with what their transforms take, and three numbers a cell and depth.
+    let bytes = memory_of_stress(2 * cells, 1).saturating_add(24 * cells.saturating_mul(points.len()));
+    check_memory(&format!("{} depths of {} x {} cells", points.len(), shape.0, shape.1), bytes)?;
+    let pressure: Array2<f64> = tractions.0.as_array().to_owned();
+    let shear = tractions.1.map(|(x, y)| [x, y].map(|component| component.as_array().to_owned() * sign));
+    if shear.as_ref().is_some_and(|shear| shear.iter().any(|component| component.dim() != shape)) {
+        return Err(PyValueError::new_err(format!("shear of another shape than the pressure, {shape:?}")));
+    }
+    let grid = SurfaceGrid::new([shape.0, shape.1], spacing).map_err(bad_value)?;
+    let mut moved: [Array3<f64>; 3] =
+        std::array::from_fn(|_| Array3::zeros((points.len(), shape.0, shape.1)));
+    on_pool(py, threads, || {
+        let shear = shear.as_ref().map(|[x, y]| [x.view(), y.view()]);
+        let tractions = Tractions { pressure: pressure.view(), shear };
+        displacements(half_space, (&grid, periodic), &points, &tractions, |point, found| {
+            for (field, found) in moved.iter_mut().zip(&found) {
+                field.index_axis_mut(Axis(0), point).assign(found);
+            }
+        })
+    })?
+    .map_err(bad_value)?;
+    let items = PyDict::new(py);
+    for (name, values) in ["displacement_x", "displacement_y", "displacement_z"].into_iter().zip(moved) {
+        items.set_item(name, values.into_pyarray(py))?;
+    }
     Ok(items)
 }

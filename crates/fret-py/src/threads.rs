@@ -6,7 +6,7 @@ use std::sync::{Arc, Mutex, TryLockError};
 
 use fret_core::machine::threads::ThreadsError;
 use fret_core::machine::{memory, threads};
-use pyo3::exceptions::{PyMemoryError, PyRuntimeError, PyTypeError, PyValueError};
+use pyo3::exceptions::{PyRuntimeError, PyTypeError, PyValueError};
 use pyo3::prelude::{Borrowed, FromPyObject, PyAny, PyAnyMethods, PyErr, PyResult, Python, pyfunction};
 use pyo3::types::PyBool;
 use rayon::ThreadPool;
@@ -62,7 +62,7 @@ pub fn check_threads(threads: Threads) {
 /// Refuses work that needs more memory than can be had [bytes]; `what` it is begins the message.
 #[pyfunction]
 pub fn check_memory(what: &str, bytes: usize) -> PyResult<()> {
-    memory::check(bytes).map_err(|error| PyMemoryError::new_err(format!("{what}: {error}")))
+    memory::check(bytes).map_err(|error| OutOfMemoryError::new_err((format!("{what}: {error}"), 0)))
 }
 
 /// A pool of so many threads, the caller's own, so that runs beside each other have theirs each; one of all cores, which

@@ -8,6 +8,7 @@ import numpy as np
 import numpy.typing as npt
 
 from fretting import _core
+from fretting._arguments import real
 from fretting._arrays import Reals, real_array
 
 Material: TypeAlias = Mapping[str, float]
@@ -24,7 +25,7 @@ def entries(name: str, given: Mapping[str, float], keys: tuple[str, ...]) -> tup
         raise TypeError(f"{name}: expected a mapping as in a case, {{{wanted}}}, found {type(given).__name__}")
     if set(given) != set(keys):
         raise ValueError(f"{name}: has the keys {', '.join(map(str, given))}; must have {', '.join(keys)}")
-    return tuple(float(given[key]) for key in keys)
+    return tuple(real(f"{name}.{key}", given[key]) for key in keys)
 
 
 def material_numbers(name: str, material: Material) -> tuple[float, float]:

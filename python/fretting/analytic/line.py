@@ -6,6 +6,7 @@ import numpy as np
 import numpy.typing as npt
 
 from fretting import _core
+from fretting._arguments import checked
 from fretting._arrays import Reals
 from fretting.analytic._solution import curve, forces_of, numbers_of, of_each
 
@@ -31,6 +32,7 @@ class HertzLine:
         return curve(self._solution, "pressure", x)
 
 
+@checked
 def hertz_line(*, radius: float, line_force: float, modulus: float) -> HertzLine:
     """Press a cylinder on a half-space without friction, under a force per length [force/length].
 
@@ -74,6 +76,7 @@ class CattaneoLine:
         return curve(self._solution, "shear", x)
 
 
+@checked
 def cattaneo_line(
     cylinder: HertzLine, *, friction_coefficient: float, tangential_force: float, strain: float = 0.0
 ) -> CattaneoLine:
@@ -121,6 +124,7 @@ class LineHistory:
         return curve(self._solution, "shear", x)
 
 
+@checked
 def line_history(
     cylinder: HertzLine,
     *,
@@ -182,6 +186,7 @@ class StretchedLine:
     """Half-width c of what sticks [length]."""
 
 
+@checked
 def stretched_line(cylinder: HertzLine, *, friction_coefficient: float, strain: float) -> StretchedLine:
     """Stretch a Hertz line contact without a tangential force: both edges slip, in opposite senses.
 
@@ -220,6 +225,7 @@ class SlidingCylinder:
         return curve(self._solution, "pressure", x)
 
 
+@checked
 def sliding_cylinder(
     *, radius: float, line_force: float, modulus: float, coupling: float, friction_coefficient: float
 ) -> SlidingCylinder:
@@ -270,6 +276,7 @@ class TiltedLinePunch:
         return curve(self._solution, "pressure", x)
 
 
+@checked
 def tilted_line_punch(*, half_width: float, line_force: float, modulus: float, tilt: float) -> TiltedLinePunch:
     """Press a flat punch of infinite length that is tilted by a slope, all of it in contact.
 

@@ -4,6 +4,7 @@ import json
 from dataclasses import dataclass
 
 from fretting import _core
+from fretting._arguments import checked
 from fretting.analytic._solution import numbers_of
 
 
@@ -21,6 +22,7 @@ class NoSlipPunch:
     """Force over that of the frictionless punch at the same approach [-]."""
 
 
+@checked
 def no_slip_punch(*, radius: float, force: float, modulus: float, coupling: float) -> NoSlipPunch:
     """Press a flat circular punch that sticks; `coupling` is Dundurs' beta [-].
 
@@ -60,6 +62,7 @@ class NoSlipSphere:
     """Force over that of the frictionless sphere at the same contact radius [-]."""
 
 
+@checked
 def no_slip_sphere(*, radius: float, force: float, modulus: float, coupling: float) -> NoSlipSphere:
     """Press a sphere that sticks as it touches; `coupling` is Dundurs' beta [-], 0 gives the Hertz contact.
 
@@ -101,6 +104,7 @@ class SpencePoint:
     """Flat punch: force over the frictionless one at the same approach [-]."""
 
 
+@checked
 def spence_table() -> list[SpencePoint]:
     """Return the computed points of Spence's problem, by Poisson's ratio and stick ratio; uncertainty 1e-4.
 

@@ -6,6 +6,7 @@ import numpy as np
 import numpy.typing as npt
 
 from fretting import _core
+from fretting._arguments import checked
 from fretting._arrays import Reals, real_array
 from fretting.analytic._solution import Layer, Material, curve, layer_numbers, material_numbers, numbers_of, surface
 
@@ -24,6 +25,7 @@ class EffectiveModuli:
     """Dundurs' beta [-], 0 for elastically similar bodies."""
 
 
+@checked
 def effective_moduli(*, lower: Material, upper: Material | None = None) -> EffectiveModuli:
     """Effective moduli of two bodies, each ``{"young": ..., "poisson": ...}``; default: a rigid upper body.
 
@@ -61,6 +63,7 @@ class Hertz:
         return curve(self._solution, "pressure", r)
 
 
+@checked
 def hertz(*, radius: float, force: float, modulus: float) -> Hertz:
     """Press a sphere on a half-space without friction.
 
@@ -111,6 +114,7 @@ class HertzEllipse:
         return pressure
 
 
+@checked
 def hertz_ellipse(*, radius_x: float, radius_y: float, force: float, modulus: float) -> HertzEllipse:
     """Press an ellipsoid on a half-space without friction; relative radii of curvature [length].
 
@@ -151,6 +155,7 @@ class FlatPunch:
         return curve(self._solution, "pressure", r)
 
 
+@checked
 def flat_punch(*, radius: float, force: float, modulus: float) -> FlatPunch:
     """Press a flat circular punch on a half-space without friction.
 
@@ -188,6 +193,7 @@ class RoundedPunch:
         return curve(self._solution, "pressure", r)
 
 
+@checked
 def rounded_punch(*, flat_radius: float, edge_radius: float, force: float, modulus: float) -> RoundedPunch:
     """Press a flat punch with a rounded edge on a half-space without friction.
 
@@ -232,6 +238,7 @@ class TiltedPunch:
         return surface(self._solution, x, y)
 
 
+@checked
 def tilted_punch(*, radius: float, force: float, modulus: float, tilt: float) -> TiltedPunch:
     """Press a flat circular punch that is tilted by a slope, all of it in contact.
 
@@ -273,6 +280,7 @@ class Cone:
         return curve(self._solution, "pressure", r)
 
 
+@checked
 def cone(*, slope: float, force: float, modulus: float) -> Cone:
     """Press a blunt cone, of the `slope` [-] of its side against the surface, on a half-space without friction.
 
@@ -312,6 +320,7 @@ class Westergaard:
         return curve(self._solution, "pressure", x)
 
 
+@checked
 def westergaard(*, amplitude: float, wavelength: float, mean_pressure: float, modulus: float) -> Westergaard:
     """Press a sinusoidal surface on a flat half-space without friction.
 
@@ -355,6 +364,7 @@ class ThinLayer:
         return curve(self._solution, "pressure", r)
 
 
+@checked
 def thin_layer(*, radius: float, force: float, layer: Layer) -> ThinLayer:
     """Press a rigid sphere on a thin bonded layer.
 
@@ -389,6 +399,7 @@ class ThickLayer:
     """Approach [length]."""
 
 
+@checked
 def thick_layer(*, radius: float, contact_radius: float, layer: Layer) -> ThickLayer:
     """Press a rigid sphere on a thick bonded layer until it touches over a disc of `contact_radius`, at most 0.4 h.
 

@@ -5,6 +5,7 @@ from dataclasses import dataclass, field
 import numpy.typing as npt
 
 from fretting import _core
+from fretting._arguments import checked
 from fretting._arrays import Reals
 from fretting.analytic._solution import Branch, curve, forces_of, numbers_of, of_each, surface
 from fretting.analytic.normal import Hertz, hertz_numbers
@@ -43,6 +44,7 @@ class CattaneoMindlin:
         return curve(self._solution, "slip", r)
 
 
+@checked
 def cattaneo_mindlin(
     sphere: Hertz, *, friction_coefficient: float, shear_modulus: float, tangential_force: float
 ) -> CattaneoMindlin:
@@ -105,6 +107,7 @@ class MindlinDeresiewicz:
     peak: CattaneoMindlin
     """The contact at the first peak."""
 
+    @checked
     def at(self, branch: Branch, tangential_force: float) -> LoopPoint:
         """Return the contact at a tangential force [force] on a branch of the loop.
 
@@ -124,6 +127,7 @@ class MindlinDeresiewicz:
         return LoopPoint(**numbers_of(solution), _solution=solution)
 
 
+@checked
 def mindlin_deresiewicz(
     sphere: Hertz, *, friction_coefficient: float, shear_modulus: float, amplitude: float
 ) -> MindlinDeresiewicz:
@@ -178,6 +182,7 @@ class TangentialHistory:
         return curve(self._solution, "shear", r)
 
 
+@checked
 def tangential_history(
     sphere: Hertz, *, friction_coefficient: float, shear_modulus: float, tangential_forces: npt.ArrayLike
 ) -> TangentialHistory:
@@ -238,6 +243,7 @@ class Torsion:
         return curve(self._solution, "shear", r)
 
 
+@checked
 def torsion(sphere: Hertz, *, friction_coefficient: float, shear_modulus: float, moment: float) -> Torsion:
     """Twist a Hertz contact about its normal for the first time; exact for any pair of homogeneous bodies.
 
@@ -283,6 +289,7 @@ class StretchedSphere:
         return surface(self._solution, x, y)
 
 
+@checked
 def stretched_sphere(
     sphere: Hertz, *, friction_coefficient: float, shear_modulus: float, tangential_force: float, strain: float
 ) -> StretchedSphere:
@@ -319,6 +326,7 @@ class EquibiaxialSphere:
     """Radius c of the disc that sticks [length]."""
 
 
+@checked
 def equibiaxial_sphere(sphere: Hertz, *, friction_coefficient: float, strain: float) -> EquibiaxialSphere:
     """Stretch a Hertz contact alike in all directions: ``E* strain/(mu p0) = K(k) - E(k)``, ``k^2 = 1 - c^2/a^2``.
 

@@ -26,12 +26,14 @@ pub fn check(path: &Path, from: Option<&str>, as_json: bool) -> Result<(), Failu
         });
         return terminal::answer(&format!("{answer:#}"));
     }
+    let warnings = warnings(&plan);
+    let but = if warnings.is_empty() { "" } else { ", but" };
     terminal::answer(&format!(
-        "{}: good\n  {}\n  {}: {}{}",
+        "{}: good{but}\n  {}\n  {}: {}{}",
         case_file.name(),
         cells(&plan),
         counted(plan.increments, "increment"),
         stages(&plan),
-        warnings(&plan),
+        warnings,
     ))
 }

@@ -189,7 +189,12 @@ impl<'a> Fatigue<'a> {
         if let Some(normal) = found.normal {
             entry["normal"] = json!(normal);
         }
-        for (name, value) in [("cycles", found.cycles), ("factor_of_safety", found.factor_of_safety)] {
+        entry["largest_cell"] = json!(found.of_cells);
+        for (name, value) in [
+            ("cycles", found.cycles),
+            ("largest_cell_cycles", found.cycles_of_cells),
+            ("factor_of_safety", found.factor_of_safety),
+        ] {
             if let Some(value) = value {
                 entry[name] = finite(value);
             }
@@ -214,6 +219,12 @@ impl<'a> Fatigue<'a> {
         if let Some(factor) = found.factor_of_safety {
             let _ = write!(table, " factor of safety {}", worded(factor));
         }
+        if found.off != [0.0; 2] {
+            let cells = self.told(found.of_cells, kind_of_stress(found.parameter.name()));
+            let cycles =
+                found.cycles_of_cells.map_or(String::new(), |cycles| format!(", {} cycles", worded(cycles)));
+            let _ = write!(table, " (extrapolated to the rim; largest cell {cells}{cycles})");
+        }
         table.truncate(table.trim_end().len());
         table.push('\n');
     }
@@ -222,19 +233,28 @@ impl<'a> Fatigue<'a> {
     fn by_layer(&self, judged: &Judged) -> String {
         let head = |name: &str| Units::heading(self.run.units.as_ref(), name, "length", false);
         let [x, y, depth] = ["x", "y", "depth"].map(head);
-        let mut text = format!("parameter,layer,largest,{x},{y},{depth},cycles,factor_of_safety\n");
+        let mut text = format!(
+            "parameter,layer,largest,{x},{y},{depth},cycles,factor_of_safety,largest_cell,largest_cell_cycles,normal_x,normal_y,normal_z,point_method,line_method\n"
+        );
         for found in &judged.found {
             let [x, y] = self.place(found.cell, found.off);
             let optional = |value: Option<f64>| value.map_or(String::new(), |value| format!("{value:e}"));
+            let at =
+                judged.at_distance.iter().find(|(of, _)| *of == found.parameter && found.point.layer == 0);
+            let [point, line] = [at.map(|(_, at)| at.point.0), at.map(|(_, at)| at.line.0)].map(optional);
+            let [along, across, down] =
+                [0, 1, 2].map(|axis| optional(found.normal.map(|normal| normal[axis])));
             let _ = writeln!(
                 text,
-                "{},{},{:e},{x:e},{y:e},{:e},{},{}",
+                "{},{},{:e},{x:e},{y:e},{:e},{},{},{:e},{},{along},{across},{down},{point},{line}",
                 found.parameter.name(),
                 found.point.layer,
                 found.value,
                 found.point.depth,
                 optional(found.cycles),
-                optional(found.factor_of_safety)
+                optional(found.factor_of_safety),
+                found.of_cells,
+                optional(found.cycles_of_cells)
             );
         }
         text

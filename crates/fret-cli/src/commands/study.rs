@@ -7,7 +7,8 @@ use fret_core::machine::memory;
 use fret_core::plan::Plan;
 use fret_core::run::{Observer, RunError};
 use fret_core::study::{
-    Advice, ClosedForm, Kind, Level, Line, Place, Reference, RefinementStudy, Resolutions, solved_level,
+    Advice, ClosedForm, Convergence, Kind, Level, Line, Place, Quantity, Reference, RefinementStudy,
+    Resolutions, pressure_is_unbounded, solved_level,
 };
 use serde_json::{Value, json};
 
@@ -64,10 +65,10 @@ pub fn study(arguments: &StudyArguments, as_json: bool) -> Result<(), Failure> {
     if as_json {
         return terminal::answer(&text);
     }
-    let Studied { measured, choice, .. } = &studied;
+    let Studied { measured, choice, reference, .. } = &studied;
     terminal::answer(&format!(
         "{title}\n{measured}\n\n{}\n\n{choice}\n\nresults    {}",
-        table::table(study, lines),
+        table::table(study, lines, reference),
         folder.display()
     ))
 }
@@ -93,6 +94,7 @@ pub struct Studied {
     /// All of it, for programs.
     pub record: Value,
     study: RefinementStudy,
+    reference: Reference,
     lines: Vec<Line>,
     measured: String,
     choice: String,
@@ -108,24 +110,32 @@ pub fn studied(
 ) -> Result<Studied, Failure> {
     let Question { resolutions, against } = question;
     let (study, unsolved) = all_levels(plan, resolutions, kept, say, observer)?;
-    let reference = against.reference(&study).ok_or_else(|| {
+    let is_given = matches!(against, Against::Given(_));
+    let mut reference = against.reference(&study).ok_or_else(|| {
         Failure::Defect("a solved study has no finest level".to_owned()) // `all_levels` fails without it
     })?;
-    let lines = study.judged(&reference);
+    if pressure_is_unbounded(&plan.case.profile.shapes) && !is_given {
+        reference = reference.without_limit(Quantity::MaxPressure);
+    }
+    let lines = study.judged_while(&reference, || !interrupt::is_asked()).ok_or_else(|| {
+        let kept = "all levels of the study are solved and kept; the same command compares them";
+        Failure::Interrupted(kept.to_owned())
+    })?;
     let advice = ACCURACIES.map(|accuracy| study.advice(&reference, accuracy));
     let choice = words::choice(
         &advice,
+        &reference,
         study.resolutions().cells.len() > 1,
         study.resolutions().increments.len() > 1,
         plan.case.cells[1] as f64 / plan.case.cells[0] as f64,
     );
     let measured = if table::shows_errors(&lines) {
-        words::measured_by(&reference)
+        [words::measured_by(&reference), words::without_order(&reference)].join("\n").trim_end().to_owned()
     } else {
         words::NO_ERRORS.to_owned()
     };
     let record = answer(title, &reference, (&study, &lines), (&advice, &choice), &unsolved);
-    Ok(Studied { record, study, lines, measured, choice })
+    Ok(Studied { record, study, reference, lines, measured, choice })
 }
 
 fn resolutions(arguments: &StudyArguments, plan: &Plan) -> Result<Resolutions, Failure> {
@@ -278,18 +288,24 @@ fn answer(
     (advice, choice): (&[Advice], &str),
     unsolved: &Unsolved,
 ) -> Value {
-    let sources = fret_core::study::Quantity::ALL
+    let sources = Quantity::ALL
         .into_iter()
         .map(|quantity| (quantity.name().to_owned(), json!(reference.source(quantity))));
-    let references = fret_core::study::Quantity::ALL
-        .into_iter()
-        .map(|quantity| (quantity.name().to_owned(), json!(reference.of(quantity))));
+    let references =
+        Quantity::ALL.into_iter().map(|quantity| (quantity.name().to_owned(), json!(reference.of(quantity))));
+    // only where the study says something of it: a closed form or numbers from elsewhere do not ask how it converges
+    let convergence = Quantity::ALL.into_iter().map(|quantity| {
+        let told =
+            reference.source(quantity).is_some() || reference.convergence(quantity) == Convergence::NoLimit;
+        (quantity.name().to_owned(), json!(told.then(|| reference.convergence(quantity))))
+    });
     json!({
         "status": "studied",
         "title": title,
         "closed_form": reference.form().map(ClosedForm::name),
         "measured_by": Value::Object(sources.collect()),
         "references": Value::Object(references.collect()),
+        "convergence": Value::Object(convergence.collect()),
         "kinds": Kind::ALL,
         "lines": table::to_json(study, lines),
         "unsolved": unsolved.iter().map(|(place, why)| {

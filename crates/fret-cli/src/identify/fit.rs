@@ -268,7 +268,7 @@ impl Fit<'_> {
             );
         }
         if now.slides && constants[0].told {
-            notes.push("the plateaus tell friction, the flanks rig and contact in series".to_owned());
+            notes.push("the plateaus determine the friction coefficient; the flanks, the stiffness of rig and contact in series".to_owned());
         }
         if let (Some(last), true) = (constants.get(3), self.model.key().is_some())
             && !last.told

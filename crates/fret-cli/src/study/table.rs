@@ -2,7 +2,9 @@
 
 use std::fmt::Write;
 
-use fret_core::study::{Errors, Form, Judged, Kind, Line, Quantity, RefinementStudy, Variation};
+use fret_core::study::{
+    Convergence, Errors, Form, Judged, Kind, Line, Quantity, Reference, RefinementStudy, Variation,
+};
 use serde_json::{Value, json};
 
 use crate::study::words::name;
@@ -49,8 +51,13 @@ pub fn shows_errors(lines: &[Line]) -> bool {
     judged.flat_map(columns).any(|(error, _)| error.is_some())
 }
 
-/// The table: one block per refined quantity. `*` marks levels that no other level beats in time and in its largest error.
-pub fn table(study: &RefinementStudy, lines: &[Line]) -> String {
+/// The table: one block per refined quantity. `*` marks levels that no other level beats in work and in its largest error; `-` stands
+/// for an order that the levels do not show.
+pub fn table(study: &RefinementStudy, lines: &[Line], reference: &Reference) -> String {
+    let shows_none = |column: usize| {
+        let quantity = Quantity::ALL.get(column);
+        quantity.is_some_and(|quantity| reference.convergence(*quantity) != Convergence::Observed)
+    };
     let mut names: Vec<&str> = Quantity::ALL.into_iter().map(name).collect();
     names.extend(["pressure L2", "shear L2"]);
     let known: Vec<usize> = (0..names.len())
@@ -70,7 +77,7 @@ pub fn table(study: &RefinementStudy, lines: &[Line]) -> String {
             let _ = write!(table, "{:>COLUMN$}", names[*column]);
         }
         table.push('\n');
-        for judged in &line.levels {
+        for (row, judged) in line.levels.iter().enumerate() {
             let Some(level) = study.level(judged.place) else { continue };
             let [nx, ny] = level.variation.cells;
             let _ = write!(
@@ -89,7 +96,8 @@ pub fn table(study: &RefinementStudy, lines: &[Line]) -> String {
                 let error = error.map_or("-".to_owned(), |error| {
                     if error < ROUNDING { "0".to_owned() } else { format!("{error:.1e}") }
                 });
-                let order = order.map_or(String::new(), |order| format!("{order:.1}"));
+                let none = if row > 0 && shows_none(*column) { "-" } else { "" };
+                let order = order.map_or(none.to_owned(), |order| format!("{order:.1}"));
                 let _ = write!(table, "{error:>13} {order:>5}");
             }
             table.truncate(table.trim_end().len());
@@ -101,7 +109,7 @@ pub fn table(study: &RefinementStudy, lines: &[Line]) -> String {
         table.truncate(table.trim_end().len());
         return table;
     }
-    table.push_str("errors are relative, each followed by the observed order against the row above; * no other level is both faster and more accurate");
+    table.push_str("errors are relative, each followed by the observed order against the row above; * no other level takes less work and is more accurate");
     table
 }
 

@@ -1,6 +1,6 @@
 //! What a study says in words: what it was compared with, and what to choose.
 
-use fret_core::study::{Advice, Quantity, Reference, Source};
+use fret_core::study::{Advice, Convergence, Quantity, Reference, Source};
 
 /// Why a study shows no errors.
 pub const NO_ERRORS: &str = "no errors: no closed form is available for this case, and a single level cannot be compared \
@@ -38,14 +38,45 @@ pub fn measured_by(reference: &Reference) -> String {
     said.collect::<Vec<_>>().join("\n")
 }
 
+/// Which quantities have no observed order, and why; a sentence each, none where all have one.
+pub fn without_order(reference: &Reference) -> String {
+    let of = |convergence: Convergence| {
+        let is_one = |quantity: &Quantity| {
+            let is_told = convergence == Convergence::NoLimit || happens(reference, *quantity);
+            reference.convergence(*quantity) == convergence && is_told
+        };
+        let names: Vec<&str> = Quantity::ALL.into_iter().filter(is_one).map(name).collect();
+        (!names.is_empty()).then(|| names.join(", "))
+    };
+    let mut said = Vec::new();
+    if let Some(names) = of(Convergence::NoLimit) {
+        said.push(format!(
+            "{names}: no limit, it grows with the number of cells at a sharp edge or a tip; no error is told"
+        ));
+    }
+    if let Some(names) = of(Convergence::NotAsymptotic) {
+        said.push(format!("{names}: not in the asymptotic range (no order between half and twice the expected one), not extrapolated"));
+    }
+    if let Some(names) = of(Convergence::Assumed) {
+        said.push(format!("{names}: extrapolated with the expected order, since two levels show none"));
+    }
+    said.join("\n")
+}
+
 /// Whether a number is ever anything but zero.
 fn happens(reference: &Reference, quantity: Quantity) -> bool {
     reference.of(quantity).iter().flatten().any(|value| *value != [0.0; 2])
 }
 
-/// One sentence: what to choose for each accuracy. `cells` and `increments` tell which of them the study has several of, and
+/// One sentence: what to choose for each accuracy, and why another study may choose otherwise. `cells` and `increments` tell which of them the study has several of, and
 /// `ny_over_nx` the shape of its grids.
-pub fn choice(advice: &[Advice], cells: bool, increments: bool, ny_over_nx: f64) -> String {
+pub fn choice(
+    advice: &[Advice],
+    reference: &Reference,
+    cells: bool,
+    increments: bool,
+    ny_over_nx: f64,
+) -> String {
     let each = advice.iter().map(|advice| {
         let percent = format!("for {} % ", 100.0 * advice.accuracy);
         let grid = advice.cells.map(|nx| {
@@ -64,7 +95,27 @@ pub fn choice(advice: &[Advice], cells: bool, increments: bool, ny_over_nx: f64)
     if cells || increments {
         let open = advice.iter().any(|advice| cells && advice.cells.is_none());
         let more = if open { " Finer grids determine the cells: --cells with larger numbers." } else { "" };
-        format!("Choose {}.{more}", each.collect::<Vec<_>>().join("; "))
+        let is_one = |wanted: Convergence| {
+            move |quantity: &Quantity| {
+                reference.convergence(*quantity) == wanted
+                    && (wanted == Convergence::NoLimit || happens(reference, *quantity))
+            }
+        };
+        let names = |wanted| {
+            Quantity::ALL.into_iter().filter(is_one(wanted)).map(name).collect::<Vec<_>>().join(", ")
+        };
+        let mut why = String::new();
+        let [unbounded, outside] = [Convergence::NoLimit, Convergence::NotAsymptotic].map(names);
+        if !unbounded.is_empty() {
+            why += &format!(" The {unbounded} is left out: it has no limit.");
+        }
+        if !outside.is_empty() {
+            why += &format!(
+                " For {outside} the finest level stands in for the limit, since the levels are not in the asymptotic range: a study \
+                 with finer levels may choose otherwise."
+            );
+        }
+        format!("Choose {}.{more}{why}", each.collect::<Vec<_>>().join("; "))
     } else {
         "Nothing to choose: the study has neither two grids nor two numbers of increments.".to_owned()
     }

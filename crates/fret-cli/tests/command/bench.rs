@@ -55,6 +55,15 @@ pub struct Answer {
 }
 
 impl Bench {
+    /// Names of the warnings of the results in a folder, as a list.
+    pub fn warnings(&self, results: &str) -> String {
+        let record: serde_json::Value =
+            serde_json::from_str(&self.text(&format!("{results}/run.json"))).unwrap();
+        let warnings = record["warnings"].as_array().unwrap();
+        let names: Vec<&str> = warnings.iter().map(|warning| warning["name"].as_str().unwrap()).collect();
+        if names.is_empty() { "[]".to_owned() } else { names.join(", ") }
+    }
+
     /// A folder named after the test, empty.
     pub fn new(test: &str) -> Self {
         let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("{test}-{}", std::process::id()));

@@ -19,6 +19,7 @@ fn a_grid_of_the_wrong_unit_is_told_of_by_every_verb() {
         let answer = bench.fret(&[verb, "case.toml"]);
         assert_eq!(answer.code, Some(0), "{}", answer.err);
         assert!(answer.out.contains("warning: cells in the contact radius: "), "{}", answer.out);
+        assert_eq!(answer.out.starts_with("case.toml: good, but\n"), verb == "check", "{}", answer.out);
         assert!(names(&bench.fret(&[verb, "case.toml", "--json"]).out).contains(&"few_cells".to_owned()));
     }
     let answer = bench.fret(&["run", "case.toml", "--json"]);
@@ -165,4 +166,29 @@ fn a_report_of_a_line_contact_shows_cattaneo_where_it_holds() {
         assert!(found[0].is_none_or(|off| off.abs() < 3.1), "{name}: {found:?}");
         assert!(found[1].is_none_or(|off| off.abs() < 0.3), "{name}: {found:?}");
     }
+}
+
+/// A key of wear cut short is the key, with its place; two stages cannot have one name.
+#[test]
+fn keys_cut_short_and_stages_of_one_name_are_refused_with_their_places() {
+    let bench = Bench::new("cut-short");
+    let case = SPHERE.replace("[output]", "[wear]\ncoeff = 1\n\n[output]");
+    let answer = bench.file("case.toml", &case).fret(&["check", "case.toml"]);
+    assert_eq!(answer.code, Some(1));
+    assert_eq!(answer.err.matches("error: ").count(), 1, "{}", answer.err);
+    let line = case.lines().position(|line| line == "coeff = 1").unwrap() + 1;
+    assert!(answer.err.contains("did you mean `coefficient`?"), "{}", answer.err);
+    assert!(answer.err.contains(&format!("case.toml:{line}:1")), "{}", answer.err);
+
+    let case = SPHERE.replace("[output]", "[wear]\nlaw = \"energy\"\n\n[output]");
+    let answer = bench.file("case.toml", &case).fret(&["check", "case.toml"]);
+    let line = case.lines().position(|line| line == "[wear]").unwrap() + 1;
+    assert!(answer.err.contains("[wear] needs a coefficient"), "{}", answer.err);
+    assert!(answer.err.contains(&format!("case.toml:{line}:1")), "{}", answer.err);
+
+    let case = SPHERE.replace("name = \"fretting\"", "name = \"indent\"");
+    assert_ne!(case, SPHERE);
+    let answer = bench.file("case.toml", &case).fret(&["check", "case.toml"]);
+    assert_eq!(answer.code, Some(1), "{}", answer.out);
+    assert!(answer.err.contains("load[1].name = \"indent\": load[0] has that name, too"), "{}", answer.err);
 }

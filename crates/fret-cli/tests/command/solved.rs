@@ -9,7 +9,7 @@ const COLUMNS: &str = "increment,stage,normal_force,approach,tangential_force_x,
                        convolutions,preconditioner_passes,outer_iterations,wall_s,contact_cells,stick_cells,regime,\
                        full_grid_convolutions,parts,worn_volume,max_worn_depth,tilt_x,tilt_y,tilt_moment_x,tilt_moment_y,bulk_stress_x,\
                        bulk_stress_y,upper_bulk_stress_x,upper_bulk_stress_y,bulk_work,actuator_x,actuator_y,actuator_approach,\
-                       friction_coefficient";
+                       friction_coefficient,elastic_energy";
 
 /// Increments of the small case: 3 of the indentation, 2 cycles of 8.
 const INCREMENTS: usize = 19;
@@ -31,7 +31,20 @@ fn a_small_fretting_case_is_solved_and_written_down() {
     let bench = Bench::new("solved");
     let answer = bench.file("case.toml", SPHERE).fret(&["run", "case.toml", "--threads", "1"]);
     assert_eq!(answer.code, Some(0), "{}", answer.err);
-    for words in ["a small sphere", "normal force", "energy dissipated in cycle 2", "results/case"] {
+    for words in [
+        "a small sphere",
+        "after stage",
+        "normal force",
+        "energy dissipated in cycle 2",
+        "in cycle 2 of fretting:",
+        "sliding condition                partial slip",
+        "force amplitude Q*",
+        "displacement amplitude d*",
+        "stiffness after reversal",
+        "energy ratio A",
+        "sliding ratio D",
+        "results/case",
+    ] {
         assert!(answer.out.contains(words), "expected {words:?}:\n{}", answer.out);
     }
     assert!(answer.err.contains("indent done") && answer.err.contains("fretting done"), "{}", answer.err);
@@ -169,5 +182,28 @@ fn every_example_of_a_loading_runs() {
         assert_eq!(answer.code, Some(0), "{name}: {}", answer.err);
         let told = bench.text(&format!("{out}/run.json")) + &bench.text(&format!("{out}/cycles.csv"));
         assert!(told.contains(word), "{name}: no {word}");
+        assert_eq!(bench.warnings(&out), "[]", "{name}");
     }
+}
+
+/// An example that ends in a warning is no example.
+#[test]
+#[ignore = "long: all examples, half a minute"]
+fn no_example_ends_in_a_warning() {
+    let examples = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../examples");
+    let bench = Bench::new("all-examples");
+    let folders = ["", "friction", "surfaces"].map(|folder| examples.join(folder));
+    let mut count = 0;
+    for entry in folders.iter().flat_map(|folder| std::fs::read_dir(folder).unwrap()) {
+        let path = entry.unwrap().path();
+        if path.extension().is_none_or(|extension| extension != "toml") {
+            continue;
+        }
+        let answer =
+            bench.fret(&["run", path.to_str().unwrap(), "--out", "results/one", "--quiet", "--force"]);
+        assert_eq!(answer.code, Some(0), "{}: {}", path.display(), answer.err);
+        assert_eq!(bench.warnings("results/one"), "[]", "{}", path.display());
+        count += 1;
+    }
+    assert!(count >= 38, "{count} examples");
 }

@@ -30,6 +30,8 @@ fn every_example_of_a_surface_and_of_friction_is_solved() {
             assert_eq!(text.lines().next(), Some("#:schema ../fret.schema.json"), "{}", path.display());
             let answer = bench.fret(&["run", path.to_str().unwrap(), "--threads", "1", "--quiet"]);
             assert_eq!(answer.code, Some(0), "{}: {}", path.display(), answer.err);
+            let name = path.file_stem().unwrap().to_str().unwrap().to_owned();
+            assert_eq!(bench.warnings(&format!("results/{name}")), "[]", "{name}");
             count += 1;
         }
     }
@@ -81,7 +83,7 @@ fn every_bad_array_is_one_clear_message_at_its_place() {
         (file("nan.npy"), "14:8", vec!["height [1, 3] = NaN", "finite"]),
         (file("complex.npy"), "14:8", vec!["c16"]),
         (file("cut.npy"), "14:8", vec!["its header says 4608"]),
-        (file("words.txt"), "14:8", vec!["line 2: word 2 is not a number"]),
+        (file("words.txt"), "14:8", vec!["line 2, column 2: \"five\" is not a number"]),
         (file("ragged.txt"), "14:8", vec!["line 2: a row of 2 numbers after rows of 3"]),
         (file("bytes.bin"), "14:8", vec!["neither a .npy file nor a text"]),
         (heights("unit = 1e-6"), "13:", vec!["profile.heights: no heights"]),

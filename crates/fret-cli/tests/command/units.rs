@@ -148,7 +148,7 @@ fn what_the_program_computed_is_told_with_its_unit() {
     assert_eq!(bench.fret(&["run", "kept.toml", "--out", "kept", "--quiet"]).code, Some(0));
     let stress = bench.fret(&["stress", "kept", "--depths", "0,1e-5"]);
     let row = stress.out.lines().find(|line| line.contains("smith watson topper")).unwrap();
-    assert!(row.contains(" Pa ") && row.contains(" m ") && row.ends_with(" m"), "{row}");
+    assert!(row.contains(" Pa ") && row.contains(" m ") && row.ends_with(" Pa)"), "{row}");
     let row = stress.out.lines().find(|line| line.contains("fatemi socie")).unwrap();
     assert!(!row.contains(" Pa"), "a ratio has no unit: {row}");
     let heads = bench.text("kept/stress/fatigue.csv");

@@ -50,6 +50,11 @@ impl RoundedPunch {
         })
     }
 
+    /// Radius of the flat [length].
+    pub fn flat_radius(&self) -> f64 {
+        self.flat_radius
+    }
+
     /// Pressure at distance `r` from the middle [pressure]; zero outside the contact.
     pub fn pressure(&self, r: f64) -> f64 {
         let (r, b, a) = (r.abs(), self.flat_radius, self.contact_radius);

@@ -75,7 +75,7 @@ pub(super) struct CoatingFile {
     /// face [length] and stress (one, or along x and y), linear between them. It adds to the stresses below, and to nothing else.
     #[schemars(with = "Option<ResidualSchema>")]
     pub residual_stress: Option<Spanned<ResidualFile>>,
-    /// Constants for fatigue and fracture. What has no constants is not computed; none is built in.
+    /// Constants for fatigue and fracture. Criteria without constants are skipped; there are no built-in materials.
     #[schemars(with = "Option<FatigueConstants>")]
     pub fatigue: Option<Spanned<ConstantsFile>>,
     /// Thermal conductivity [power/(length temperature)], positive; of all layers of a body and its substrate, or of none.
@@ -131,7 +131,7 @@ pub(super) struct MaterialFile {
     /// Residual stress, as of a coating; below the last row of a table it stays as it is there.
     #[schemars(with = "Option<ResidualSchema>")]
     pub residual_stress: Option<Spanned<ResidualFile>>,
-    /// Constants for fatigue and fracture. What has no constants is not computed; none is built in.
+    /// Constants for fatigue and fracture. Criteria without constants are skipped; there are no built-in materials.
     #[schemars(with = "Option<FatigueConstants>")]
     pub fatigue: Option<Spanned<ConstantsFile>>,
     /// Thermal conductivity [power/(length temperature)], positive; of all layers of a body and its substrate, or of none.

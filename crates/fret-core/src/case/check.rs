@@ -2,11 +2,14 @@
 
 use toml::Spanned;
 
+use super::arrays::Cells;
 use super::attachments::Attachments;
+use super::beyond::beyond;
 use super::bodies::bodies;
 use super::conduction::conduction;
 use super::course::Stage;
-use super::definition::{Case, GridSize, Origin};
+use super::declared_units::declared_units;
+use super::definition::{Case, GridSize, Origin, way_to_slide};
 use super::evolution::evolution;
 use super::file::{CaseFile, CellsFile, OutputFile, SizeFile};
 use super::friction::{friction, of_stages};
@@ -48,20 +51,19 @@ pub(super) fn case(
     attachments: Attachments<'_>,
     is_whole: bool,
 ) -> Result<Case, Vec<Mistake>> {
-    let mut judge = Judge { mistakes: Vec::new(), attachments, force_unit: String::new() };
-    let units = file.units.as_ref().and_then(|file| super::units::units(&mut judge, file));
-    let is_line = matches!(file.grid.cells.get_ref(), CellsFile::Line(_));
-    judge.force_unit = Units::after(units.as_ref(), "force", is_line);
+    let mut judge = judge_of(&file, attachments);
+    let (units, is_line) = (judge.units.clone(), judge.is_line);
     let cells = cells(&mut judge, &file.grid.cells);
     let size = size(&mut judge, &file.grid.size, cells);
+    let over = cells.map(|count| Cells { count, size: size.and_then(GridSize::given) });
     let bodies = bodies(&mut judge, &file.upper, &file.lower);
     let residual_stress = [("lower", &file.lower), ("upper", &file.upper)]
         .map(|(which, body)| residual(&mut judge, which, body.get_ref()));
     let fatigue = [("lower", &file.lower), ("upper", &file.upper)]
         .map(|(which, body)| super::fatigue::fatigue(&mut judge, which, body.get_ref()));
-    let profile = profile(&mut judge, &file, cells);
-    let friction = friction(&mut judge, file.friction.as_ref(), cells);
-    let changes = of_stages(&mut judge, file.load.get_ref(), cells);
+    let profile = profile(&mut judge, &file, over);
+    let friction = friction(&mut judge, file.friction.as_ref(), over);
+    let changes = of_stages(&mut judge, file.load.get_ref(), over);
     let changes = friction.as_ref().zip(changes).map(|(first, changes)| of_one_interface(first, changes));
     let laws = friction.as_ref().zip(changes.as_ref()).map(|(first, changes)| in_force(first, changes));
     let history_tolerance = file.solver.as_ref().and_then(|solver| solver.history_tolerance.as_ref());
@@ -74,12 +76,13 @@ pub(super) fn case(
     let friction_evolution = evolution(&mut judge, file.friction.as_ref(), friction.as_ref(), evolving);
     let loading = (&file.load, stages.as_deref());
     let datum = datum(&mut judge, &file.grid, (is_line, size), bodies.as_ref());
+    let beyond = beyond(&mut judge, &file.grid, size);
     if is_line {
         line(&mut judge, &file.grid, loading, profile.as_ref());
         motion_without_datum(&mut judge, &file.grid, size, stages.as_deref(), bodies.as_ref());
     }
-    let periodic =
-        !is_line && repeats(&mut judge, &file.grid, size, loading, profile.as_ref(), bodies.as_ref());
+    let periodic = !is_line
+        && repeats(&mut judge, (&file.grid, cells, size), loading, profile.as_ref(), bodies.as_ref());
     bulk_and_tilt(&mut judge, &file.grid, loading, bodies.as_ref(), (is_line, size));
     let mapped = friction.iter().chain(changes.iter().flatten().flatten()).any(CoulombFriction::is_map);
     let has_arrays = mapped || profile.as_ref().is_some_and(|profile| !profile.heights.is_empty());
@@ -87,15 +90,17 @@ pub(super) fn case(
     let frictionless = laws.as_ref().is_some_and(|laws| laws.iter().all(|law| law.is_frictionless()));
     let files = [("lower", file.lower.get_ref()), ("upper", file.upper.get_ref())];
     sliding_coatings(&mut judge, files, frictionless || laws.is_none(), stages.as_deref());
+    let solver = file.solver.as_ref();
+    let tolerance = tolerance(&mut judge, solver.and_then(|solver| solver.tolerance.as_ref()));
     if let (true, Some(laws), Some(stages)) = (is_whole, &laws, &stages) {
         let strongest = friction_evolution.as_ref().zip(friction.as_ref());
         let strongest = strongest.map(|(evolution, first)| evolution.strongest(first));
-        sliding(&mut judge, (laws, strongest.as_ref()), &file.load, stages);
+        let friction = (laws.as_slice(), strongest.as_ref());
+        let limit = (tolerance.unwrap_or(TOLERANCE), way_to_slide(periodic, bodies.as_ref()));
+        sliding(&mut judge, friction, &file.load, stages, limit);
     }
     let wears = (file.wear.as_ref(), file.stress.as_ref());
     let wear = wear(&mut judge, wears, (bodies.as_ref(), files), stages.as_deref(), frictionless);
-    let solver = file.solver.as_ref();
-    let tolerance = tolerance(&mut judge, solver.and_then(|solver| solver.tolerance.as_ref()));
     let output = output(&mut judge, file.output.as_ref());
     let stress = stress(&mut judge, file.stress.as_ref(), bodies.as_ref(), output.as_ref(), frictionless);
     let conduction = conduction(
@@ -121,6 +126,7 @@ pub(super) fn case(
             cells,
             size,
             datum,
+            beyond,
             periodic,
             bodies,
             residual_stress,
@@ -135,18 +141,30 @@ pub(super) fn case(
             stages,
             wear,
             tolerance,
-            scheme: solver
-                .and_then(|solver| solver.scheme.as_ref())
-                .map_or_else(Scheme::default, |one| *one.get_ref()),
+            scheme: solver.and_then(|solver| solver.scheme.as_ref()).map_or_else(Scheme::default, value),
             integration: solver
                 .and_then(|solver| solver.integration.as_ref())
-                .map_or_else(Integration::default, |one| *one.get_ref()),
+                .map_or_else(Integration::default, value),
             output,
             stress,
             origin: Origin { name: name.to_owned(), text: text.to_owned(), size: file.grid.size.span() },
         }),
         _ => Err(judge.mistakes),
     }
+}
+
+/// What the whole case is judged with: its units, and whether it is a line contact.
+fn judge_of<'a>(file: &CaseFile, attachments: Attachments<'a>) -> Judge<'a> {
+    let is_line = matches!(file.grid.cells.get_ref(), CellsFile::Line(_));
+    let mut judge =
+        Judge { mistakes: Vec::new(), attachments, force_unit: String::new(), units: None, is_line };
+    judge.units = file.units.as_ref().and_then(|file| declared_units(&mut judge, file));
+    judge.force_unit = Units::after(judge.units.as_ref(), "force", is_line);
+    judge
+}
+
+fn value<T: Copy>(given: &Spanned<T>) -> T {
+    *given.get_ref()
 }
 
 fn tolerance(judge: &mut Judge, given: Option<&Spanned<f64>>) -> Option<f64> {

@@ -11,7 +11,7 @@ use super::judge::Judge;
 use super::pair::Pair;
 use super::phases::{Phases, phases};
 use super::stage_file::StageFile;
-use super::table::{ACTUATOR, ACTUATOR_APPROACH, COLUMNS, Columns};
+use super::table::{ACTUATOR, ACTUATOR_APPROACH, CONTROLS, Columns};
 
 /// What a stage prescribes, if anything.
 #[derive(Default)]
@@ -122,7 +122,7 @@ fn named(file: &StageFile) -> Option<Range<usize>> {
 }
 
 fn from_table(columns: &Columns) -> Controls {
-    let column = |index: usize| columns.get(COLUMNS[index]).map(|values| Path::Through(values.clone()));
+    let column = |index: usize| columns.get(CONTROLS[index].0).map(|values| Path::Through(values.clone()));
     let pair = |force: usize, motion: usize| {
         column(force).map(StageControl::Force).or_else(|| column(motion).map(StageControl::Motion))
     };

@@ -1,9 +1,8 @@
-//! How a control runs through the increments of a stage: ramps, waves of a cycle, tables.
-
-use std::f64::consts::TAU;
+//! How a control runs through the increments of a stage: ramps, waves of a cycle (whose heights are in `waveform`), tables.
 
 use serde::Serialize;
 
+use super::waveform::{CycleTimes, Waveform};
 use crate::model::{Control, CoulombFriction, LoadStep};
 
 /// One stage of the loading history.
@@ -83,21 +82,6 @@ pub struct Cycles {
     pub until_steady: Option<f64>,
 }
 
-/// Shape of a cycle: 0, +1, -1, 0 at the shares 0, 1/4, 3/4, 1 of its length.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Waveform {
-    /// Straight lines.
-    Triangle,
-    /// A sine.
-    Sine,
-    /// Straight lines with both extremes held for this share of the cycle.
-    Trapezoid {
-        /// Share of the cycle, below a half.
-        dwell: f64,
-    },
-}
-
 /// What a control runs through.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[serde(rename_all = "snake_case")]
@@ -125,67 +109,6 @@ impl Path {
     }
 }
 
-impl Waveform {
-    /// Turning points of a cycle: share of the cycle, and value.
-    fn corners(self) -> Vec<(f64, f64)> {
-        match self {
-            Self::Triangle => vec![(0.25, 1.0), (0.75, -1.0)],
-            Self::Sine => vec![(0.0, 0.0), (0.25, 1.0), (0.5, 0.0), (0.75, -1.0)],
-            Self::Trapezoid { dwell } => {
-                let half = 0.5 * dwell;
-                vec![(0.25 - half, 1.0), (0.25 + half, 1.0), (0.75 - half, -1.0), (0.75 + half, -1.0)]
-            }
-        }
-    }
-
-    /// Fewest increments of a cycle that meet all turning points.
-    pub fn fewest_increments(self) -> usize {
-        match self {
-            Self::Triangle | Self::Sine => 4,
-            Self::Trapezoid { dwell } => (1.0 / dwell.min(0.5 - dwell)).ceil() as usize,
-        }
-    }
-
-    /// Height after `k` of `increments` steps a cycle, ahead by a share `phase` of a cycle. The turning points are met, each
-    /// at the increment nearest to it.
-    pub fn at(self, k: usize, increments: usize, phase: f64) -> f64 {
-        let n = increments as f64;
-        let k = (k % increments) as f64;
-        let corners = self.corners();
-        // The corners in increments, one cycle before and two after: those on both sides of k are among them.
-        let mut before = (f64::NEG_INFINITY, 0.0, 0.0);
-        let mut after = (f64::INFINITY, 0.0, 0.0);
-        for turn in -2..=2 {
-            for &(share, value) in &corners {
-                let share = share + f64::from(turn);
-                let place = nearest((share - phase) * n);
-                if place <= k && place >= before.0 {
-                    before = (place, share, value);
-                }
-                if place > k && place < after.0 {
-                    after = (place, share, value);
-                }
-            }
-        }
-        if before.0 == k {
-            return before.2;
-        }
-        let done = (k - before.0) / (after.0 - before.0);
-        match self {
-            Self::Sine => (TAU * (before.1 + (after.1 - before.1) * done)).sin(),
-            // A line through zero is taken from there, so that a cycle ends exactly where it began.
-            _ if before.2 == -after.2 => before.2 * (after.0 + before.0 - 2.0 * k) / (after.0 - before.0),
-            _ => before.2 + (after.2 - before.2) * done,
-        }
-    }
-}
-
-/// The nearest whole number; halves go to the even one, also when rounding has moved them a little.
-fn nearest(place: f64) -> f64 {
-    const FINE: f64 = (1_u64 << 20) as f64;
-    ((place * FINE).round() / FINE).round_ties_even()
-}
-
 impl Stage {
     /// Increments of the whole stage, at the most.
     pub fn increments_in_all(&self) -> usize {
@@ -208,8 +131,28 @@ impl Stage {
         self.cycles().is_some() && k.is_multiple_of(self.increments)
     }
 
-    /// Value of a control at the end of increment `k` (from 1), when the stage found it at `start`.
-    pub fn value(&self, control: &StageControl, start: f64, k: usize) -> f64 {
+    /// Phases of the waves of its cycle, as fractions of a cycle; those of waves without amplitude are nobody's.
+    fn phases(&self) -> Vec<f64> {
+        let of = |control: &StageControl| match *control.path() {
+            Path::Wave { amplitude, phase } if amplitude != 0.0 => Some(phase),
+            _ => None,
+        };
+        self.controls().filter_map(of).collect()
+    }
+
+    /// When in its cycle each increment ends, when it has cycles.
+    pub fn times(&self) -> Option<CycleTimes> {
+        let cycles = self.cycles()?;
+        Some(CycleTimes::new(cycles.waveform, &self.phases(), self.increments))
+    }
+
+    /// Fewest increments that meet all reversal points of the cycle's waves; 1 without cycles.
+    pub fn fewest_increments(&self) -> usize {
+        self.cycles().map_or(1, |cycles| cycles.waveform.fewest_increments(&self.phases()))
+    }
+
+    /// Value of a control at the end of increment `k` (from 1), when the stage found it at `start`; `times` are those of the stage.
+    pub fn value(&self, control: &StageControl, start: f64, k: usize, times: Option<&CycleTimes>) -> f64 {
         let path = control.path();
         match (path, &self.course) {
             (Path::To(target), _) if k == self.increments => *target,
@@ -225,10 +168,15 @@ impl Stage {
                 start + (target - start) * share
             }
             (Path::Wave { amplitude, phase }, Course::Cycles(cycles)) => {
+                let Some(times) = times else { return start };
                 let [first, last] = cycles.envelope;
-                let share = first + (last - first) * k as f64 / self.increments_in_all() as f64;
-                let wave = |k| cycles.waveform.at(k, self.increments, *phase);
-                start + amplitude * (share * wave(k) - first * wave(0))
+                let done = if times.are_even() || k.is_multiple_of(self.increments) {
+                    (last - first) * k as f64 / self.increments_in_all() as f64
+                } else {
+                    (last - first) * ((k / self.increments) as f64 + times.at(k)) / cycles.most as f64
+                };
+                start
+                    + amplitude * ((first + done) * times.height(*phase, k) - first * times.height(*phase, 0))
             }
             (Path::Wave { .. }, _) => start,
             (Path::Through(values), _) => {
@@ -247,9 +195,11 @@ impl Stage {
 
     /// What is prescribed at the end of increment `k`, from the controls `start` that the stage found.
     pub fn load(&self, start: &LoadStep, k: usize) -> LoadStep {
+        let times = self.times();
+        let value = |control: &StageControl, start: f64| self.value(control, start, k, times.as_ref());
         let one = |control: &Option<StageControl>, start: Control| match (control, start) {
             (None, start) => start,
-            (Some(control), start) => control.prescribing(self.value(control, start.value(), k)),
+            (Some(control), start) => control.prescribing(value(control, start.value())),
         };
         LoadStep {
             normal: one(&self.normal, start.normal),
@@ -260,7 +210,7 @@ impl Stage {
                 [0, 1].map(|axis| {
                     let from = start.bulk_stress[body][axis];
                     let control = self.bulk_stress[body][axis].as_ref();
-                    control.map_or(from, |control| self.value(control, from, k))
+                    control.map_or(from, |control| value(control, from))
                 })
             }),
         }
@@ -318,30 +268,36 @@ pub fn walk(start: Option<&LoadStep>, stages: &[Stage], mut visit: impl FnMut(us
         let controls = [&stage.normal, &stage.tangential[0], &stage.tangential[1], &stage.twist];
         let start = held;
         let all = stage.increments_in_all();
+        let times = stage.times();
         let first = 1..=stage.increments;
         for k in first.chain((all - stage.increments + 1).max(stage.increments + 1)..=all) {
             for (index, control) in controls.iter().enumerate() {
                 let Some(control) = control else { continue };
-                held[index] = known(stage, control, start[index], k);
+                held[index] = known(stage, control, start[index], (k, times.as_ref()));
             }
             visit(number, &held);
         }
     }
 }
 
-fn known(stage: &Stage, control: &StageControl, start: Option<Control>, k: usize) -> Option<Control> {
+fn known(
+    stage: &Stage,
+    control: &StageControl,
+    start: Option<Control>,
+    (k, times): (usize, Option<&CycleTimes>),
+) -> Option<Control> {
     let path = control.path();
     match (control, start) {
         (StageControl::Force(_), Some(Control::Force(from)))
         | (StageControl::Motion(_), Some(Control::Motion(from)))
         | (StageControl::FarEnd(_), Some(Control::FarEnd(from))) => {
-            Some(control.prescribing(stage.value(control, from, k)))
+            Some(control.prescribing(stage.value(control, from, k, times)))
         }
         _ => match path {
             Path::To(_) if k < stage.increments => None,
             Path::Through(values) if k < stage.increments / values.len().max(1) => None,
             Path::Wave { .. } => None,
-            Path::To(_) | Path::Through(_) => Some(control.prescribing(stage.value(control, 0.0, k))),
+            Path::To(_) | Path::Through(_) => Some(control.prescribing(stage.value(control, 0.0, k, times))),
         },
     }
 }

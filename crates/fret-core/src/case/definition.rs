@@ -7,8 +7,9 @@ use super::output::Output;
 use super::refusal::{CaseError, Difference, Mistake};
 use super::stress::StressRequest;
 use super::units::Units;
+use crate::kernel::uniform_response;
 use crate::model::{
-    Conduction, ContactPair, CoulombFriction, FrictionEvolution, Integration, LoadStep, Profile,
+    Beyond, Conduction, ContactPair, CoulombFriction, FrictionEvolution, Integration, LoadStep, Profile,
     ResidualStress, Rig, Scheme, WearRule,
 };
 use crate::subsurface::fatigue::LayerConstants;
@@ -28,6 +29,9 @@ pub struct Case {
     /// Depth below the load that approach and shift of a line contact are relative to \[length\]; `None`: the size of the grid.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub datum: Option<f64>,
+    /// What lies beyond the edge of the grid.
+    #[serde(skip_serializing_if = "Beyond::is_body")]
+    pub beyond: Beyond,
     /// Whether the problem is periodic in x and y.
     pub periodic: bool,
     /// The two bodies.
@@ -102,7 +106,47 @@ pub enum GridSize {
     Auto,
 }
 
+/// What helps where friction does not carry the tangential force, in a periodic case or not.
+pub(super) fn way_to_slide(periodic: bool, bodies: Option<&ContactPair>) -> &'static str {
+    if periodic && bodies.is_some_and(|bodies| uniform_response(bodies).is_none()) {
+        "periodic half-spaces have no shift that could be prescribed instead: stay below mu P"
+    } else {
+        "prescribe the shift to slide"
+    }
+}
+
+impl GridSize {
+    /// The side lengths, where they are given.
+    pub fn given(self) -> Option<[f64; 2]> {
+        match self {
+            Self::Given(sides) => Some(sides),
+            Self::Auto => None,
+        }
+    }
+}
+
 impl Case {
+    /// What helps a contact that reaches the edge of the grid: heights end there, neither they nor a map grow with it, and an automatic size
+    /// has been tried where it is written.
+    pub(crate) fn way_from_the_edge(&self) -> &'static str {
+        let has_map = self.friction.is_map()
+            || self.stages.iter().filter_map(|stage| stage.friction.as_ref()).any(CoulombFriction::is_map);
+        if !self.profile.heights.is_empty() {
+            "the heights end there: grid.beyond = \"no body\" where the body ends there, too; grid.periodic = true lets the surface repeat; or a lower load, heights of a larger area"
+        } else if self.size == GridSize::Auto {
+            "write grid.size = [x, y], larger than what \"auto\" found, which fret plan shows"
+        } else if has_map {
+            "enlarge grid.size, with a friction map for it"
+        } else {
+            "enlarge grid.size, or write size = \"auto\"; grid.beyond = \"no body\" where a body ends there"
+        }
+    }
+
+    /// What helps where friction does not carry the tangential force.
+    pub(crate) fn way_to_slide(&self) -> &'static str {
+        way_to_slide(self.periodic, Some(&self.bodies))
+    }
+
     /// Whether it is a line contact: plane strain across a line along y, all loads per unit length.
     pub fn is_line(&self) -> bool {
         self.cells[1] == 1
@@ -127,7 +171,8 @@ impl Case {
 
     /// Refuses the case for its grid's side lengths.
     pub(crate) fn refuse_size(&self, message: String, help: &str) -> CaseError {
-        let mistake = Mistake { message, help: Some(help.to_owned()), span: Some(self.origin.size.clone()) };
+        let help = (!help.is_empty()).then(|| help.to_owned());
+        let mistake = Mistake { message, help, span: Some(self.origin.size.clone()) };
         CaseError::new(&self.origin.name, &self.origin.text, vec![mistake])
     }
 

@@ -10,7 +10,7 @@ use super::body_file::BodyFile;
 use super::pair::Pair;
 use super::stage_file::{AutoWord, StageFile, WearFile};
 use super::surface_file::{FrictionFile, ProfileFile};
-use crate::model::{Integration, Scheme};
+use crate::model::{Beyond, Integration, Scheme};
 
 /// A fretting contact: bodies, first gap, friction, and a loading history. Any consistent system of units.
 #[derive(Deserialize, JsonSchema)]
@@ -40,7 +40,8 @@ pub(super) struct CaseFile {
     #[schemars(with = "Vec<StageFile>")]
     pub load: Spanned<Vec<Spanned<StageFile>>>,
     /// Wear of the surfaces. Default: no wear.
-    pub wear: Option<WearFile>,
+    #[schemars(with = "Option<WearFile>")]
+    pub wear: Option<Spanned<WearFile>>,
     /// Accuracy of the solution.
     pub solver: Option<SolverFile>,
     /// What is written to the results.
@@ -112,6 +113,10 @@ pub(super) struct GridFile {
     /// an elastic base. Default: the size of the grid.
     #[schemars(with = "Option<f64>")]
     pub datum: Option<Spanned<f64>>,
+    /// What lies beyond the edge of the grid: "body" (contact that reaches the edge is refused) or "no body": one of the bodies
+    /// ends there with a sharp edge, as a flat punch does, and contact may reach it (a rough specimen, a rectangular pad). Default: "body".
+    #[schemars(with = "Option<Beyond>")]
+    pub beyond: Option<Spanned<Beyond>>,
     /// Periodic in x and y. Default: false, infinite half-space.
     #[schemars(with = "Option<bool>")]
     pub periodic: Option<Spanned<bool>>,

@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use toml::Spanned;
 
-use super::arrays;
+use super::arrays::{self, Cells, Layout};
 use super::judge::Judge;
 use super::stage_file::StageFile;
 use super::surface_file::{CoefficientFile, FrictionFile, MapFile};
@@ -14,7 +14,7 @@ use crate::model::{CellValues, CoulombFriction, FrictionError};
 pub(super) fn friction(
     judge: &mut Judge,
     given: Option<&FrictionFile>,
-    cells: Option<[usize; 2]>,
+    cells: Option<Cells>,
 ) -> Option<CoulombFriction> {
     let Some(given) = given else { return Some(CoulombFriction::NONE) };
     let law = match (&given.coefficient, &given.map) {
@@ -57,7 +57,7 @@ pub(super) fn friction(
 pub(super) fn of_stages(
     judge: &mut Judge,
     stages: &[Spanned<StageFile>],
-    cells: Option<[usize; 2]>,
+    cells: Option<Cells>,
 ) -> Option<Vec<Option<CoulombFriction>>> {
     let mut all = Vec::new();
     for (index, stage) in stages.iter().enumerate() {
@@ -78,7 +78,7 @@ fn values(
     place: &str,
     span: Range<usize>,
     given: &CoefficientFile,
-    cells: Option<[usize; 2]>,
+    cells: Option<Cells>,
 ) -> Option<CellValues> {
     match given {
         CoefficientFile::Uniform(value) => Some(CellValues::Uniform(*value)),
@@ -91,14 +91,14 @@ fn map(
     place: &str,
     span: Range<usize>,
     given: &MapFile,
-    cells: Option<[usize; 2]>,
+    cells: Option<Cells>,
 ) -> Option<CellValues> {
     cells?;
     let array = match given {
         MapFile::File(name) => arrays::of_file(judge, place, span.clone(), name),
         MapFile::Array(array) => arrays::given(judge, place, span.clone(), array),
     }?;
-    arrays::fitting(judge, cells, place, span, array).map(CellValues::Map)
+    arrays::fitting(judge, cells, (place, span), array, Layout::XY).map(CellValues::Map)
 }
 
 fn accepted(

@@ -5,7 +5,9 @@ use std::ops::Range;
 use toml::Spanned;
 
 use super::attachments::Attachments;
+use super::numbers::letters;
 use super::refusal::Mistake;
+use super::units::Units;
 
 /// Collects mistakes; `None` stands for a value that was refused.
 pub(super) struct Judge<'a> {
@@ -13,6 +15,10 @@ pub(super) struct Judge<'a> {
     pub(super) attachments: Attachments<'a>,
     /// A space and the unit of a force, in which loads are told that the case does not write down; empty without units.
     pub(super) force_unit: String,
+    /// Units that the case declares.
+    pub(super) units: Option<Units>,
+    /// Whether loads are those of a unit of length.
+    pub(super) is_line: bool,
 }
 
 impl Judge<'_> {
@@ -39,18 +45,14 @@ impl Judge<'_> {
         }
     }
 
-    /// The same as text.
+    /// The same as text, with line feeds at the ends of lines.
     pub(super) fn attached_text(&mut self, key: &str, name: &Spanned<String>) -> Option<String> {
         let content = self.attached(key, name)?;
-        match String::from_utf8(content) {
-            Ok(text) => Some(text),
+        match letters(&content) {
+            Ok(text) => Some(text.into_owned()),
             Err(error) => {
-                let place = error.utf8_error().valid_up_to();
-                let message = format!(
-                    "{key} = {:?}: not a text in UTF-8 (byte {place} is not part of a letter)",
-                    name.get_ref()
-                );
-                self.refuse(name.span(), message, "")
+                let message = format!("{key} = {:?}: no text that can be read: {error}", name.get_ref());
+                self.refuse(name.span(), message, "a text in UTF-8, UTF-16 or Latin-1")
             }
         }
     }

@@ -1,5 +1,7 @@
 //! The judgement of line contacts: what has no meaning in plane strain, and the depth that motions are relative to.
 
+use std::ops::RangeInclusive;
+
 use toml::Spanned;
 
 use super::course::StageControl;
@@ -8,6 +10,9 @@ use super::judge::Judge;
 use super::stage_file::StageFile;
 use super::{GridSize, Stage};
 use crate::model::{Axis, ContactPair, Profile, Shape};
+
+/// Depth of the datum in units of the size of the grid.
+pub const DATUM: RangeInclusive<f64> = 1e-3..=1e12;
 
 /// Refuses what a line contact has no place for: rotations, shapes that end or curve along the line, a second period.
 pub(super) fn line(
@@ -119,7 +124,9 @@ pub(super) fn datum(
         );
     }
     let usable = match size {
-        Some(GridSize::Given([length, _])) => (1e-3 * length..=1e12 * length).contains(&depth),
+        Some(GridSize::Given([length, _])) => {
+            (DATUM.start() * length..=DATUM.end() * length).contains(&depth)
+        }
         _ => depth.is_finite() && depth > 0.0,
     };
     if usable {

@@ -161,12 +161,17 @@ fn near_miss(message: &str) -> Option<String> {
     }
     let mut words = message.split('`').skip(1).step_by(2);
     let found = words.next()?;
-    words
-        .map(|word| (strsim::damerau_levenshtein(found, word), word))
-        .min()
-        .filter(|(distance, word)| *distance <= (word.len() / 3).max(1))
-        .map(|(_, word)| word.to_owned())
+    let words: Vec<&str> = words.collect();
+    let nearest = words.iter().map(|word| (strsim::damerau_levenshtein(found, word), *word)).min();
+    let close = nearest.filter(|(distance, word)| *distance <= (word.len() / 3).max(1)).map(|(_, word)| word);
+    // A word cut short is meant, too, where it can be no other.
+    let mut longer = words.iter().filter(|word| found.len() >= SHORTEST && word.starts_with(found));
+    let cut_short = longer.next().filter(|_| longer.next().is_none()).copied();
+    close.or(cut_short).map(str::to_owned)
 }
+
+/// Letters by which a word that is cut short is known, at the least.
+const SHORTEST: usize = 3;
 
 fn depth(table: &DeTable<'_>) -> usize {
     fn of_value(value: &DeValue<'_>) -> usize {

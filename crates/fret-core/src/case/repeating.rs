@@ -10,11 +10,13 @@ use super::stage_file::StageFile;
 use crate::kernel::uniform_response;
 use crate::model::{ContactPair, Profile, Shape};
 
+/// Cells per wave from which on a wave is resolved; fewer are warned of.
+pub const CELLS_PER_WAVE: f64 = 6.0;
+
 /// Whether the scene repeats; refuses what has no meaning then.
 pub(super) fn repeats(
     judge: &mut Judge,
-    grid: &GridFile,
-    size: Option<GridSize>,
+    (grid, cells, size): (&GridFile, Option<[usize; 2]>, Option<GridSize>),
     (stages, checked): (&Spanned<Vec<Spanned<StageFile>>>, Option<&[Stage]>),
     profile: Option<&Profile>,
     bodies: Option<&ContactPair>,
@@ -37,7 +39,7 @@ pub(super) fn repeats(
         (Some(GridSize::Given(sides)), Some(profile)) => {
             for shape in &profile.shapes {
                 if let Shape::Wave { wavelengths, .. } = shape {
-                    whole_waves(judge, grid, sides, wavelengths);
+                    whole_waves(judge, (grid, cells), sides, wavelengths);
                 }
             }
         }
@@ -107,18 +109,26 @@ fn endless(judge: &mut Judge, grid: &GridFile, profile: &Profile) {
         return;
     }
     for (axis, name) in ["x", "y"].into_iter().enumerate() {
-        if profile.is_straight_along(axis) {
+        let ends = grid.beyond.as_ref().is_some_and(|beyond| !beyond.get_ref().is_body());
+        if profile.is_straight_along(axis) && !ends {
             judge.refuse::<()>(
                 grid.cells.span(),
                 format!("profile: infinite along {name}, in a non-periodic case"),
-                "a cylinder's length = ..., or grid.periodic = true with a period many contact widths wide",
+                "a cylinder's length = ..., grid.beyond = \"no body\" where it ends at the edge of the grid, or grid.periodic = true with a \
+                 period many contact widths wide",
             );
         }
     }
 }
 
-fn whole_waves(judge: &mut Judge, grid: &GridFile, sides: [f64; 2], wavelengths: &[Option<f64>; 2]) {
-    for (side, wavelength) in sides.into_iter().zip(wavelengths) {
+/// Refuses waves that do not fit into the period, and those of which the cells show another one: of two cells a wave and less.
+fn whole_waves(
+    judge: &mut Judge,
+    (grid, cells): (&GridFile, Option<[usize; 2]>),
+    sides: [f64; 2],
+    wavelengths: &[Option<f64>; 2],
+) {
+    for (axis, (side, wavelength)) in sides.into_iter().zip(wavelengths).enumerate() {
         let Some(wavelength) = wavelength else { continue };
         let waves = side / wavelength;
         if (waves - waves.round()).abs() > 1e-9 * waves || waves.round() < 1.0 {
@@ -126,6 +136,23 @@ fn whole_waves(judge: &mut Judge, grid: &GridFile, sides: [f64; 2], wavelengths:
                 grid.size.span(),
                 format!("grid.size: {side:?} holds {waves:.6} waves of length {wavelength:?}"),
                 "a periodic case must contain whole wavelengths",
+            );
+            continue;
+        }
+        let Some(cells) = cells.map(|cells| cells[axis]) else { continue };
+        if cells as f64 <= 2.0 * waves.round() {
+            let along = ["x", "y"][axis];
+            judge.refuse::<()>(
+                grid.cells.span(),
+                format!(
+                    "grid.cells: {cells} along {along} for {} waves of profile.wave, {} per wave: the cells show another surface",
+                    waves.round(),
+                    cells as f64 / waves.round()
+                ),
+                &format!(
+                    "more than two cells per wave; from {CELLS_PER_WAVE} on, {} cells along {along} here, the wave is resolved",
+                    CELLS_PER_WAVE * waves.round()
+                ),
             );
         }
     }
@@ -163,17 +190,32 @@ mod tests {
         );
         // to rounding: a tenth has no last digit
         let tenth = WAVE.1.replacen("1.5", "0.1", 1);
-        read(BALL, &[PERIODIC, (WAVE.0, &tenth)]);
+        let fine = ("[16, 32]", "[16384, 4]");
+        let coarse_y = |wave: &str| wave.replacen("wavelength_y = 3.0", "", 1);
+        read(BALL, &[PERIODIC, fine, (WAVE.0, &coarse_y(&tenth))]);
         // to 1e-9 of all of them: 3000 waves, of which 6e-7 and 6e-6 are missing
-        let many = |length: &str| WAVE.1.replacen("1.5", length, 1);
-        read(BALL, &[PERIODIC, (WAVE.0, &many("0.0010000000002"))]);
+        let many = |length: &str| coarse_y(&WAVE.1.replacen("1.5", length, 1));
+        read(BALL, &[PERIODIC, fine, (WAVE.0, &many("0.0010000000002"))]);
         refused(
             BALL,
-            &[PERIODIC, (WAVE.0, &many("0.001000000002"))],
+            &[PERIODIC, fine, (WAVE.0, &many("0.001000000002"))],
             "holds 2999.999994 waves",
             "[3.0, 3.0]",
         );
         refused(BALL, &[PERIODIC, ("[3.0, 3.0]", "\"auto\"")], "the period must be given", "\"auto\"");
+    }
+
+    /// 16 cells along x, 32 along y: of two cells per wave and less the centres show a longer wave, or none.
+    #[test]
+    fn a_wave_needs_more_than_two_cells() {
+        let wave = |length: f64| WAVE.1.replacen("1.5", &format!("{length:?}"), 1);
+        for waves in [8.0, 16.0, 15.0, 17.0] {
+            let words = format!("16 along x for {waves} waves of profile.wave, {} per wave", 16.0 / waves);
+            refused(BALL, &[PERIODIC, (WAVE.0, &wave(3.0 / waves))], &words, "[16, 32]");
+        }
+        read(BALL, &[PERIODIC, (WAVE.0, &wave(3.0 / 7.0))]);
+        let across = WAVE.1.replacen("wavelength_y = 3.0", "wavelength_y = 0.1875", 1);
+        refused(BALL, &[PERIODIC, (WAVE.0, &across)], "32 along y for 16 waves", "[16, 32]");
     }
 
     #[test]

@@ -8,7 +8,7 @@ use super::along::AlongFile;
 use super::file::{LogColumnsFile, RigFile};
 use super::judge::Judge;
 use super::stage_file::StageFile;
-use super::table::{ACTUATOR, ACTUATOR_APPROACH, COLUMNS, Columns};
+use super::table::{ACTUATOR, ACTUATOR_APPROACH, CONTROLS, Columns};
 use crate::model::Rig;
 
 /// The machine of a case; `None` where there is none, or something about it was refused.
@@ -70,7 +70,7 @@ pub(super) fn driven(
     rig: Option<&RigFile>,
 ) {
     let has = |indices: &[usize]| {
-        let named = |index: &usize| columns.is_some_and(|columns| columns.contains_key(COLUMNS[*index]));
+        let named = |index: &usize| columns.is_some_and(|columns| columns.contains_key(CONTROLS[*index].0));
         indices.iter().any(named).then(|| file.table.as_ref().map(Spanned::span)).flatten()
     };
     let tangential = file.actuator.as_ref().map(Spanned::span).or_else(|| has(&ACTUATOR));

@@ -4,14 +4,16 @@ use std::ops::Range;
 
 use toml::Spanned;
 
-use super::arrays;
+use super::arrays::{self, Cells, Layout};
 use super::file::CaseFile;
+use super::holes::hole;
 use super::judge::Judge;
+use super::numbers;
 use super::surface_file::{AxisFile, DetrendFile, HeightsFile, OfFile, ProfileFile, WaveFile};
 use crate::model::{Axis, Detrend, Heights, Profile, Shape};
 
 /// The gap, as the sum of all profiles of a case; `None` when something about them was refused.
-pub(super) fn profile(judge: &mut Judge, file: &CaseFile, cells: Option<[usize; 2]>) -> Option<Profile> {
+pub(super) fn profile(judge: &mut Judge, file: &CaseFile, cells: Option<Cells>) -> Option<Profile> {
     let places = [
         ("profile", &file.profile),
         ("upper.profile", &file.upper.get_ref().profile),
@@ -50,7 +52,7 @@ pub(super) fn profile(judge: &mut Judge, file: &CaseFile, cells: Option<[usize; 
 struct Part<'a, 'b> {
     judge: &'a mut Judge<'b>,
     place: &'static str,
-    cells: Option<[usize; 2]>,
+    cells: Option<Cells>,
     sum: &'a mut Profile,
 }
 
@@ -230,11 +232,17 @@ impl Part<'_, '_> {
                 );
             }
         };
-        let array = match given.rows {
-            Some(AxisFile::Y) => array.reversed_axes().as_standard_layout().into_owned(),
-            Some(AxisFile::X) | None => array.as_standard_layout().into_owned(),
-        };
-        let mut array = arrays::fitting(self.judge, self.cells, &place, at.clone(), array)?;
+        let layout = Layout { rows: given.rows.unwrap_or(AxisFile::X), unit };
+        let mut array = arrays::fitting(self.judge, self.cells, (&place, at.clone()), array, layout)?;
+        if let Some((cell, mark, [low, high])) = hole(&array) {
+            return self.judge.refuse(
+                at,
+                format!(
+                    "{place}: height {cell:?} is {mark:?}, and all others lie between {low:?} and {high:?}: a cell without a measurement"
+                ),
+                numbers::HOLES,
+            );
+        }
         let sign = if of_gap.is_some() { -1.0 } else { 1.0 };
         array.mapv_inplace(|height| sign * unit * height);
         let detrend = match given.detrend {
@@ -244,11 +252,7 @@ impl Part<'_, '_> {
         };
         match Heights::new(source, array, detrend) {
             Ok(heights) => Some(heights),
-            Err(error) => self.judge.refuse(
-                at,
-                format!("{place}: {error}"),
-                "cells without a measurement must be filled in before",
-            ),
+            Err(error) => self.judge.refuse(at, format!("{place}: {error}"), numbers::HOLES),
         }
     }
 }

@@ -83,7 +83,7 @@ pub(super) struct StageFile {
     /// Fraction of a cycle for which a trapezoid holds each of its two extremes, below 0.5. Default: 0.25.
     #[schemars(with = "Option<f64>")]
     pub dwell: Option<Spanned<f64>>,
-    /// Phase lead of each control [degrees]. The cycle starts from the current value of the control.
+    /// Phase lead of each control [degrees]; all reversal points are ends of increments. The cycle starts from the current value of the control.
     #[schemars(with = "Option<PhaseFile>")]
     pub phase: Option<Spanned<PhaseFile>>,
     /// Fraction of the amplitudes at the start and at the end of the cycles, linear between. Default: [1, 1].

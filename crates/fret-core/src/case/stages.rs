@@ -3,13 +3,16 @@
 use toml::Spanned;
 
 use super::controls::{Controls, controls};
-use super::course::{Course, Cycles, Stage, StageControl, Waveform, walk};
+use super::course::{Course, Cycles, Stage, StageControl, walk};
 use super::file::RigFile;
 use super::judge::Judge;
 use super::rig::driven;
 use super::stage_file::{IncrementsFile, RampFile, StageFile, WaveformFile};
+use super::stage_names::own_names;
 use super::table::table;
+use super::waveform::Waveform;
 use crate::model::{Control, CoulombFriction};
+use crate::solver::sliding_fraction;
 
 /// Increments of a whole history, at the most.
 const MOST_INCREMENTS: usize = 10_000_000;
@@ -33,6 +36,7 @@ pub(super) fn stages(
             "[[load]] with normal_force = ... and increments = ...",
         );
     }
+    own_names(judge, list.get_ref());
     let mut checked = Vec::new();
     for (index, given) in list.get_ref().iter().enumerate() {
         let frictionless = friction.is_some_and(|laws| laws[index].is_frictionless());
@@ -116,8 +120,8 @@ fn stage(
             "bodies must be pressed together first: normal_force = ...; or start from a solved state, --from RESULTS",
         );
     }
-    let course = course(judge, &place, file, increments);
-    let stage = Stage {
+    let course = course(judge, &place, file);
+    let mut stage = Stage {
         name,
         normal,
         tangential: [x, y],
@@ -129,6 +133,18 @@ fn stage(
         course: course.unwrap_or(Course::Linear),
         friction: None,
     };
+    let fewest = if file.table.is_none() { stage.fewest_increments() } else { 1 };
+    if auto {
+        stage.increments = stage.increments.max(fewest);
+    } else if (1..fewest).contains(&increments) {
+        judge.refuse::<()>(
+            file.increments.span(),
+            format!(
+                "{place}.increments = {increments}: the reversal points of this cycle need at least {fewest}"
+            ),
+            "",
+        );
+    }
     if frictionless && stage.is_tangential_beyond_rest() {
         let spans = [
             file.tangential_force.as_ref().map(Spanned::span),
@@ -162,13 +178,15 @@ fn automatic(file: &StageFile) -> usize {
         (Some(_), _, _) => 4,
         (None, false, _) => 16,
         (None, true, Some(form)) if *form.get_ref() == WaveformFile::Trapezoid => {
-            Waveform::Trapezoid { dwell: dwell.clamp(0.001, 0.499) }.fewest_increments().max(32)
+            // An increment for its shorter piece.
+            let dwell = dwell.clamp(0.001, 0.499);
+            ((1.0 / dwell.min(0.5 - dwell)).ceil() as usize).max(32)
         }
         (None, true, _) => 32,
     }
 }
 
-fn course(judge: &mut Judge, place: &str, file: &StageFile, increments: usize) -> Option<Course> {
+fn course(judge: &mut Judge, place: &str, file: &StageFile) -> Option<Course> {
     let (most, until_steady) = match (&file.cycles, &file.until_steady) {
         (Some(cycles), Some(_)) => {
             return judge.refuse(
@@ -204,16 +222,6 @@ fn course(judge: &mut Judge, place: &str, file: &StageFile, increments: usize) -
         );
     }
     let waveform = waveform(judge, place, file)?;
-    if file.table.is_none() && (1..waveform.fewest_increments()).contains(&increments) {
-        return judge.refuse(
-            file.increments.span(),
-            format!(
-                "{place}.increments = {increments}: the turns of this cycle need at least {}",
-                waveform.fewest_increments()
-            ),
-            "",
-        );
-    }
     let envelope = match &file.envelope {
         None => [1.0; 2],
         Some(given) => {
@@ -311,6 +319,7 @@ pub(super) fn sliding(
     (laws, strongest): (&[&CoulombFriction], Option<&CoulombFriction>),
     list: &Spanned<Vec<Spanned<StageFile>>>,
     stages: &[Stage],
+    (tolerance, way_out): (f64, &str),
 ) {
     let friction: Vec<&CoulombFriction> = laws.iter().map(|law| strongest.unwrap_or(law)).collect();
     let mut worst: Vec<(f64, f64)> = vec![(0.0, f64::INFINITY); stages.len()];
@@ -324,7 +333,7 @@ pub(super) fn sliding(
             _ => 0.0,
         };
         let (asked, bound) = (part(x).hypot(part(y)), friction[number].largest() * normal.max(0.0));
-        if asked > bound * (1.0 + 1e-12) && asked > worst[number].0 {
+        if asked > bound * sliding_fraction(tolerance) && asked > worst[number].0 {
             worst[number] = (asked, bound);
         }
     });
@@ -355,7 +364,9 @@ pub(super) fn sliding(
                 format!(
                     "load[{index}] ({name}).{key}: the tangential force reaches {asked}{unit}, where friction carries at most mu P = {bound}{unit}"
                 ),
-                "a force above mu P has no equilibrium; prescribe the shift to slide",
+                &format!(
+                    "a force above mu P has no equilibrium, and one of mu P slides no one knows how far; {way_out}"
+                ),
             );
             return;
         }

@@ -134,10 +134,10 @@ pub(super) struct WaveFile {
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(super) struct HeightsFile {
-    /// A .npy file, or a text file with one row of numbers per line. Relative paths start at the case file.
+    /// A .npy file, or a text file with one row of numbers per line or one point x, y, height. Relative paths start at the case file.
     #[schemars(with = "Option<String>")]
     pub file: Option<Spanned<String>>,
-    /// The heights themselves, as rows of numbers; from Python an array.
+    /// The heights themselves, as rows of numbers, or in a line contact numbers; from Python an array.
     #[schemars(with = "Option<ArrayFile>")]
     pub values: Option<Spanned<ArrayFile>>,
     /// Length of one unit of the heights, in the case's unit of length. Default: 1.
@@ -251,6 +251,37 @@ fn wrong<E: de::Error>(found: de::Unexpected<'_>, expected: &str) -> E {
     E::invalid_type(found, &expected)
 }
 
+/// A row of numbers; a number alone is a row of one.
+struct Row(Vec<f64>);
+
+impl<'de> Deserialize<'de> for Row {
+    fn deserialize<D: de::Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct InRow;
+
+        impl<'de> Visitor<'de> for InRow {
+            type Value = Row;
+
+            fn expecting(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+                formatter.write_str("a row of numbers, or in a line contact a number")
+            }
+
+            fn visit_f64<E: de::Error>(self, value: f64) -> Result<Row, E> {
+                Ok(Row(vec![value]))
+            }
+
+            fn visit_i64<E: de::Error>(self, value: i64) -> Result<Row, E> {
+                Ok(Row(vec![value as f64]))
+            }
+
+            fn visit_seq<A: SeqAccess<'de>>(self, row: A) -> Result<Row, A::Error> {
+                Vec::deserialize(de::value::SeqAccessDeserializer::new(row)).map(Row)
+            }
+        }
+
+        deserializer.deserialize_any(InRow)
+    }
+}
+
 /// What can stand where an array is expected.
 enum Found {
     Number(f64),
@@ -283,7 +314,7 @@ impl<'de> Visitor<'de> for Anything {
 
     fn visit_seq<A: SeqAccess<'de>>(self, mut sequence: A) -> Result<Found, A::Error> {
         let mut rows = Vec::new();
-        while let Some(row) = sequence.next_element()? {
+        while let Some(Row(row)) = sequence.next_element()? {
             rows.push(row);
         }
         Ok(Found::Array(ArrayFile::Rows(rows)))
@@ -302,7 +333,8 @@ impl<'de> Visitor<'de> for Anything {
 }
 
 fn rows_schema() -> Schema {
-    json_schema!({ "type": "array", "items": { "type": "array", "items": { "type": "number" } } })
+    let row = json_schema!({ "type": "array", "items": { "type": "number" } });
+    json_schema!({ "type": "array", "items": { "anyOf": [row, { "type": "number" }] } })
 }
 
 impl JsonSchema for ArrayFile {

@@ -5,31 +5,35 @@ use std::ops::Range;
 
 use toml::Spanned;
 
+use super::heading::Heading;
 use super::judge::Judge;
+use super::known_units::{Conversion, UnitError, conversion, is_unit, known_units};
+use super::numbers::{NoNumber, number};
 use super::stage_file::StageFile;
+use super::table_layout::{Layout, layout};
 use super::units::Units;
 
-/// Controls a column can hold, by the names of `history.csv`.
-pub(super) const COLUMNS: [&str; 19] = [
-    "normal_force",
-    "approach",
-    "tangential_force_x",
-    "tangential_force_y",
-    "shift_x",
-    "shift_y",
-    "twist_moment",
-    "twist",
-    "tilt_moment_x",
-    "tilt_moment_y",
-    "tilt_x",
-    "tilt_y",
-    "bulk_stress_x",
-    "bulk_stress_y",
-    "upper_bulk_stress_x",
-    "upper_bulk_stress_y",
-    "actuator_x",
-    "actuator_y",
-    "actuator_approach",
+/// Controls a column can hold, by the names of `history.csv`, and what kind of quantity each is in a point contact.
+pub(super) const CONTROLS: [(&str, &str); 19] = [
+    ("normal_force", "force"),
+    ("approach", "length"),
+    ("tangential_force_x", "force"),
+    ("tangential_force_y", "force"),
+    ("shift_x", "length"),
+    ("shift_y", "length"),
+    ("twist_moment", "force x length"),
+    ("twist", "rad"),
+    ("tilt_moment_x", "force x length"),
+    ("tilt_moment_y", "force x length"),
+    ("tilt_x", "-"),
+    ("tilt_y", "-"),
+    ("bulk_stress_x", "pressure"),
+    ("bulk_stress_y", "pressure"),
+    ("upper_bulk_stress_x", "pressure"),
+    ("upper_bulk_stress_y", "pressure"),
+    ("actuator_x", "length"),
+    ("actuator_y", "length"),
+    ("actuator_approach", "length"),
 ];
 
 /// Where the actuator along x and y stands among them.
@@ -47,7 +51,16 @@ const MOST_ROWS: usize = 1_000_000;
 /// Values of the controls, each in the order of the rows.
 pub(super) type Columns = BTreeMap<&'static str, Vec<f64>>;
 
-/// The table of a stage; `None` when it was refused.
+/// A chosen column: its control, where it stands, its name, and how its numbers become those of the case.
+struct Chosen {
+    control: usize,
+    index: usize,
+    name: String,
+    unit: Option<String>,
+    conversion: Conversion,
+}
+
+/// The table of a stage, in the units of the case; `None` when it was refused.
 pub(super) fn table(
     judge: &mut Judge,
     place: &str,
@@ -55,39 +68,55 @@ pub(super) fn table(
     name: &Spanned<String>,
 ) -> Option<Columns> {
     let text = judge.attached_text(&format!("{place}.table"), name)?;
-    let text = text.strip_prefix('\u{feff}').unwrap_or(&text);
     let at = Words { place: format!("{place}.table {:?}", name.get_ref()), span: name.span() };
-    let head = text.lines().find(|line| !line.trim().is_empty() && !line.starts_with('#')).unwrap_or("");
-    let delimiter = [';', '\t'].into_iter().find(|&mark| head.contains(mark)).unwrap_or(',');
-    let mut reader = csv::ReaderBuilder::new()
-        .delimiter(delimiter as u8)
-        .comment(Some(b'#'))
-        .trim(csv::Trim::All)
-        .from_reader(text.as_bytes());
+    let Layout { delimiter, line: head_line, text } = layout(&text);
+    let decimal_comma = delimiter != b',';
+    let mut reader =
+        csv::ReaderBuilder::new().delimiter(delimiter).trim(csv::Trim::All).from_reader(text.as_bytes());
     let names: Vec<String> = match reader.headers() {
-        // a table of results has units in its head
-        Ok(names) => names.iter().map(|name| column_name(name).to_owned()).collect(),
+        Ok(names) => names.iter().map(str::to_owned).collect(),
         Err(error) => return at.refuse(judge, &unreadable(&error), ""),
     };
-    let chosen = chosen(judge, file, &names, &at)?;
-    let mut columns: Columns = chosen.iter().map(|&(control, _)| (control, Vec::new())).collect();
+    let mut chosen = chosen(judge, file, &names, &at, head_line)?;
+    let mut columns: Columns = chosen.iter().map(|column| (CONTROLS[column.control].0, Vec::new())).collect();
+    let (mut is_first, mut decimals) = (true, Decimals::default());
     for row in reader.records() {
         let row = match row {
             Ok(row) => row,
-            Err(error) => return at.refuse(judge, &unreadable(&error), ""),
+            Err(error) => {
+                let help = if delimiter == b',' && is_longer(&error) { DECIMAL_COMMAS } else { "" };
+                return at.refuse(judge, &unreadable(&error), help);
+            }
         };
         let line = row.position().map_or(0, csv::Position::line);
-        for &(control, index) in &chosen {
-            let cell = row.get(index).unwrap_or("");
-            match cell.parse::<f64>() {
-                Ok(value) if value.is_finite() => {
-                    if let Some(column) = columns.get_mut(control) {
-                        column.push(value);
-                    }
-                }
-                _ => {
-                    let message =
-                        format!("line {line}, column {:?}: {cell:?} is no finite number", names[index]);
+        if row.iter().all(str::is_empty) {
+            continue;
+        }
+        if is_first {
+            is_first = false;
+            let are_units = units_below(&row, &mut chosen);
+            convert(judge, &at, if are_units { line as usize } else { head_line }, &mut chosen)?;
+            if are_units {
+                continue;
+            }
+        }
+        for column in &chosen {
+            let cell = row.get(column.index).unwrap_or("");
+            if decimals.are_mixed(cell) {
+                let message = format!(
+                    "line {line}, column {:?}: {cell:?}, in a table with decimal commas and decimal points",
+                    column.name
+                );
+                return at.refuse(judge, &message, DECIMAL_COMMAS);
+            }
+            let found = number(cell, decimal_comma)
+                .map(|value| column.conversion.of(value))
+                .and_then(|value| if value.is_finite() { Ok(value) } else { Err(NoNumber::NotFinite) });
+            match (found, columns.get_mut(CONTROLS[column.control].0)) {
+                (Ok(value), Some(values)) => values.push(value),
+                (Ok(_), None) => {}
+                (Err(why), _) => {
+                    let message = format!("line {line}, column {:?}: {cell:?} {why}", column.name);
                     return at.refuse(judge, &message, "");
                 }
             }
@@ -101,10 +130,63 @@ pub(super) fn table(
     Some(columns)
 }
 
-/// The name of a column: of one of the controls without the unit that may stand behind it.
-fn column_name(head: &str) -> &str {
-    let name = Units::name_of(head);
-    if COLUMNS.contains(&name) { name } else { head }
+const DECIMAL_COMMAS: &str =
+    "write decimal points; or decimal commas, with semicolons or tabs between the columns";
+
+/// Decimal points and decimal commas of a table, of which there may be one kind.
+#[derive(Default)]
+struct Decimals {
+    comma: bool,
+    point: bool,
+}
+
+impl Decimals {
+    /// Whether both kinds have been seen, with this cell.
+    fn are_mixed(&mut self, cell: &str) -> bool {
+        self.comma |= cell.contains(',');
+        self.point |= cell.contains('.') && !cell.starts_with("1.#");
+        self.comma && self.point
+    }
+}
+
+/// Takes the units of a row below the head, where every chosen cell of it is a unit and no number.
+fn units_below(row: &csv::StringRecord, chosen: &mut [Chosen]) -> bool {
+    let unit = |column: &Chosen| {
+        let cell = row.get(column.index).unwrap_or("");
+        let inside = cell.strip_prefix('[').and_then(|cell| cell.strip_suffix(']'));
+        let inside = inside.or_else(|| cell.strip_prefix('(').and_then(|cell| cell.strip_suffix(')')));
+        let is_unit = number(cell, true) == Err(NoNumber::Other) && (inside.is_some() || is_unit(cell));
+        is_unit.then(|| inside.unwrap_or(cell).trim().to_owned())
+    };
+    let units: Option<Vec<String>> = chosen.iter().map(unit).collect();
+    let Some(units) = units else { return false };
+    for (column, unit) in chosen.iter_mut().zip(units) {
+        column.unit = Some(unit);
+    }
+    true
+}
+
+/// Finds how the numbers of each column become those of the case; `None` when a unit was refused.
+fn convert(judge: &mut Judge, at: &Words, line: usize, chosen: &mut [Chosen]) -> Option<()> {
+    for column in chosen {
+        let Some(unit) = &column.unit else { continue };
+        let (control, kind) = CONTROLS[column.control];
+        let kind = if judge.is_line { Units::per_length(kind) } else { kind };
+        match conversion(unit, kind, judge.units.as_ref()) {
+            Ok(conversion) => column.conversion = conversion,
+            Err(error) => {
+                let message = format!("line {line}, column {:?}: {control} in {error}", column.name);
+                let help = match error {
+                    UnitError::CaseWithout(_) => {
+                        "[units] length = \"mm\", force = \"N\" says what the case is in; without it units of SI without a prefix are taken"
+                    }
+                    _ => known_units(kind),
+                };
+                return at.refuse(judge, &message, help);
+            }
+        }
+    }
+    Some(())
 }
 
 /// Why a row cannot be read.
@@ -123,50 +205,58 @@ fn unreadable(error: &csv::Error) -> String {
     }
 }
 
+/// Whether a row has more cells than the head.
+fn is_longer(error: &csv::Error) -> bool {
+    matches!(error.kind(), csv::ErrorKind::UnequalLengths { expected_len, len, .. } if len > expected_len)
+}
+
 /// Which column of the file holds which control.
 fn chosen(
     judge: &mut Judge,
     file: &StageFile,
     names: &[String],
     at: &Words,
-) -> Option<Vec<(&'static str, usize)>> {
-    let control_of = |word: &str| COLUMNS.into_iter().find(|control| *control == word);
-    let mut chosen = Vec::new();
+    line: usize,
+) -> Option<Vec<Chosen>> {
+    let controls = || CONTROLS.map(|(name, _)| name).join(", ");
+    let control_of = |word: &str| CONTROLS.iter().position(|(control, _)| *control == word);
+    let mut headings: Vec<Option<Heading>> = names.iter().map(|name| Heading::of(name)).collect();
+    let mut found: Vec<(usize, usize)> = Vec::new();
     if let Some(given) = &file.columns {
         for (control, column) in given {
             let Some(known) = control_of(control.get_ref()) else {
                 let message = format!("{}: no control is called {:?}", at.place, control.get_ref());
-                return judge.refuse(
-                    control.span(),
-                    message,
-                    &format!("controls are: {}", COLUMNS.join(", ")),
-                );
+                return judge.refuse(control.span(), message, &format!("controls are: {}", controls()));
             };
-            let Some(index) = names.iter().position(|name| name == column.get_ref()) else {
-                let message =
-                    format!("{}: no column {:?}; it has: {}", at.place, column.get_ref(), names.join(", "));
+            let wanted = column.get_ref();
+            let whole = names.iter().position(|name| name == wanted);
+            let without_unit =
+                |heading: &Option<Heading>| heading.as_ref().is_some_and(|heading| heading.name == *wanted);
+            let Some(index) = whole.or_else(|| headings.iter().position(without_unit)) else {
+                let message = format!("{}: no column {wanted:?}; it has: {}", at.place, names.join(", "));
                 return judge.refuse(column.span(), message, "");
             };
-            chosen.push((known, index));
+            found.push((known, index));
         }
     } else {
         for (index, name) in names.iter().enumerate() {
-            let Some(known) = control_of(name) else {
+            let Some(heading) = &headings[index] else { return at.unclosed(judge, line, name) };
+            let Some(known) = control_of(&heading.name) else {
                 let message = format!("column {name:?} is no control");
                 let help = format!(
                     "controls are: {}; columns of other names are chosen with columns = {{ shift_x = {name:?} }}",
-                    COLUMNS.join(", ")
+                    controls()
                 );
                 return at.refuse(judge, &message, &help);
             };
-            chosen.push((known, index));
+            found.push((known, index));
         }
     }
     for rivals in RIVALS {
         let there: Vec<&str> = rivals
             .iter()
-            .flat_map(|&rival| chosen.iter().filter(move |(known, _)| *known == COLUMNS[rival]))
-            .map(|(known, _)| *known)
+            .flat_map(|&rival| found.iter().filter(move |(known, _)| *known == rival))
+            .map(|(known, _)| CONTROLS[*known].0)
             .collect();
         if let [one, other, ..] = there[..] {
             let message = if one == other {
@@ -177,8 +267,14 @@ fn chosen(
             return at.refuse(judge, &message, "");
         }
     }
-    if chosen.is_empty() {
-        return at.refuse(judge, "no column", &format!("controls are: {}", COLUMNS.join(", ")));
+    if found.is_empty() {
+        return at.refuse(judge, "no column", &format!("controls are: {}", controls()));
+    }
+    let mut chosen = Vec::new();
+    for (control, index) in found {
+        let name = names[index].clone();
+        let Some(heading) = headings[index].take() else { return at.unclosed(judge, line, &name) };
+        chosen.push(Chosen { control, index, name, unit: heading.unit, conversion: Conversion::NONE });
     }
     Some(chosen)
 }
@@ -193,138 +289,12 @@ impl Words {
     fn refuse<T>(&self, judge: &mut Judge, message: &str, help: &str) -> Option<T> {
         judge.refuse(self.span.clone(), format!("{}: {message}", self.place), help)
     }
+
+    fn unclosed<T>(&self, judge: &mut Judge, line: usize, name: &str) -> Option<T> {
+        let message = format!("line {line}, column {name:?}: a bracket that is not closed, or closed twice");
+        self.refuse(judge, &message, "a name and its unit are written like normal_force [N]")
+    }
 }
 
 #[cfg(test)]
-mod tests {
-    use crate::case::{Attachments, Case};
-
-    const HEAD: &str = "[grid]\ncells = [16, 16]\nsize = [3.0, 3.0]\n[upper]\nrigid = true\n[lower]\n\
-                        substrate = { young = 1.0, poisson = 0.3 }\n[profile.sphere]\nradius = 100.0\n\
-                        [friction]\ncoefficient = 0.3\n[[load]]\nnormal_force = 0.01\nincrements = 1\n";
-
-    /// Messages of a case whose second stage reads `more` and whose only file holds `file`.
-    fn refusal(more: &str, file: &str) -> String {
-        let text = format!("{HEAD}[[load]]\nincrements = 2\n{more}\n");
-        let attachments = |name: &str| match name {
-            "path.csv" => Ok(file.as_bytes().to_vec()),
-            _ => Err("no such file".to_owned()),
-        };
-        match Case::from_toml_with(&text, "case.toml", Attachments::files(&attachments)) {
-            Ok(_) => String::new(),
-            Err(error) => {
-                assert_eq!(error.mistakes().len(), 1, "{error}");
-                assert!(error.place(&error.mistakes()[0]).is_some(), "{error}");
-                error.mistakes()[0].message.clone()
-            }
-        }
-    }
-
-    #[test]
-    fn a_good_table_is_read_whatever_its_separator() {
-        for file in [
-            "tangential_force_x,twist\n1e-3,0\n-1e-3,1e-4\n",
-            "\u{feff}# rig 3\ntangential_force_x; twist\n 1e-3 ; 0\n-1e-3;1e-4\n",
-            "tangential_force_x\ttwist\n1e-3\t0\n-1e-3\t1e-4",
-        ] {
-            assert_eq!(refusal("table = \"path.csv\"", file), "");
-        }
-    }
-
-    #[test]
-    fn every_wrong_table_is_refused_once_and_in_words() {
-        let table = "table = \"path.csv\"";
-        let named = "table = \"path.csv\"\ncolumns = { shift_x = \"Q\" }";
-        for (more, file, words) in [
-            ("table = \"other.csv\"", "", "\"other.csv\": no such file"),
-            (table, "force\n1.0\n", "column \"force\" is no control"),
-            (table, "", "no column"),
-            (table, "shift_x\n", "0 rows"),
-            (table, "shift_x,shift_y\n1e-3\n", "line 2 has 1 cell, its head 2 cells"),
-            (table, "shift_x,shift_x\n1e-3,1e-3\n", "column \"shift_x\" stands there twice"),
-            (table, "shift_x\n1e-3\nnan\n", "line 3, column \"shift_x\": \"nan\" is no finite number"),
-            (table, "shift_x\n1,5\n", "line 2 has 2 cells, its head 1 cell"),
-            (table, "shift_x,tangential_force_x\n1e-3,0\n", "one column may do so"),
-            (named, "time,P\n0,1\n", "no column \"Q\"; it has: time, P"),
-            ("table = \"path.csv\"\ncolumns = { pull = \"Q\" }", "Q\n1\n", "no control is called \"pull\""),
-            ("table = \"path.csv\"\nshift = [1.0, 0.0]", "shift_y\n1\n", "a table and a control"),
-            ("table = \"path.csv\"\nramp = \"cubic\"", "shift_y\n1\n", "ramp and table"),
-            (table, "normal_force\n0.01\n-0.01\n", "normal_force reaches -0.01"),
-            (table, "tangential_force_x\n0.02\n", "friction carries at most"),
-            ("columns = { shift_x = \"Q\" }\nshift = [1.0, 0.0]", "", "there is no table"),
-        ] {
-            let found = refusal(more, file);
-            assert!(found.contains(words), "{more} {file:?}: {found:?}, expected {words:?}");
-        }
-    }
-
-    #[test]
-    fn wrong_cycles_waves_and_steady_states_are_refused() {
-        for (more, words) in [
-            ("shift = [1.0, 0.0]\ncycles = 2", "the turns of this cycle need at least 4"),
-            ("shift = [1.0, 0.0]\nwaveform = \"sine\"", "the stage has no cycles"),
-            ("shift = [1.0, 0.0]\nphase = { shift = [90.0, 0.0] }", "the stage has no cycles"),
-            ("shift = [1.0, \"held\"]\ntangential_force = [0.0, 0.0]", "both at once"),
-            ("shift = [\"held\", \"held\"]", "nothing is prescribed"),
-            (
-                "shift = [1.0, 0.0]\ncycles = 1\nuntil_steady = { tolerance = 1e-3, most_cycles = 3 }",
-                "both at once",
-            ),
-            ("shift = [1.0, 0.0]\nuntil_steady = { tolerance = 2.0, most_cycles = 3 }", "between 0 and 1"),
-        ] {
-            let found = refusal(more, "");
-            assert!(found.contains(words), "{more}: {found:?}, expected {words:?}");
-        }
-    }
-
-    #[test]
-    fn wrong_words_of_a_cycle_are_refused() {
-        for (more, words) in [
-            ("shift = [1.0, 0.0]\nphase = { twist = 90.0 }", "this stage has no twist"),
-            ("shift = [1.0, 0.0]\ndwell = 0.1", "only a trapezoid"),
-            ("shift = [1.0, 0.0]\nwaveform = \"trapezoid\"\ndwell = 0.5", "between 0.001 and 0.499"),
-            ("shift = [1.0, 0.0]\nramp = \"cubic\"", "ramp and cycles"),
-            ("normal_force = 0.02", "normal_force reaches -0.01"),
-            ("tangential_force = [2e-3, 2e-3]\nphase = { tangential_force = [inf, 0] }", "must be finite"),
-        ] {
-            let text = format!("{HEAD}[[load]]\nincrements = 8\ncycles = 1\n{more}\n");
-            let error = Case::from_toml(&text, "case.toml").unwrap_err();
-            assert_eq!(error.mistakes().len(), 1, "{error}");
-            assert!(error.mistakes()[0].message.contains(words), "{error}");
-        }
-    }
-
-    #[test]
-    fn a_motion_of_a_table_has_no_meaning_in_a_periodic_problem() {
-        let head = HEAD.replace("size = [3.0, 3.0]", "size = [3.0, 3.0]\nperiodic = true");
-        let text = format!("{head}[[load]]\nincrements = 1\ntable = \"path.csv\"\n");
-        for (table, words) in [
-            ("twist\n1e-3\n", "a rotation is not periodic"),
-            ("approach\n1e-3\n", "half-space under a periodic load has no such rigid motion"),
-            (
-                "normal_force,shift_x\n1e-3,1e-3\n",
-                "half-space under a periodic load has no such rigid motion",
-            ),
-        ] {
-            let files = |_: &str| Ok(table.as_bytes().to_vec());
-            let error = Case::from_toml_with(&text, "case.toml", Attachments::files(&files)).unwrap_err();
-            assert!(error.to_string().contains(words), "{error}");
-        }
-    }
-
-    #[test]
-    fn wrong_wear_is_refused() {
-        for (wear, words) in [
-            ("coefficient = -1.0", "must be zero or positive"),
-            ("coefficient = 1.0\nevery = 0", "between 1 and"),
-            ("coefficient = 1.0\nlargest_step = 0.0", "must lie above 0"),
-            ("coefficient = 1.0\nlimit = 0.0", "positive finite length"),
-            ("coefficient = 1.0\nthrough_coating_of = \"lower\"", "this body has no coating"),
-            ("coefficient = 1.0\nthrough_coating_of = \"upper\"", "this body has no coating"),
-        ] {
-            let error = Case::from_toml(&format!("{HEAD}[wear]\n{wear}\n"), "case.toml").unwrap_err();
-            assert_eq!(error.mistakes().len(), 1, "{error}");
-            assert!(error.mistakes()[0].message.contains(words), "{error}");
-        }
-    }
-}
+mod tests;

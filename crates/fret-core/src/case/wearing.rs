@@ -17,7 +17,7 @@ const MOST_THINNING: f64 = 0.5;
 /// The wear of a case; `None` when nothing wears or it was refused.
 pub(super) fn wear(
     judge: &mut Judge,
-    (file, stress): (Option<&WearFile>, Option<&Spanned<StressFile>>),
+    (given, stress): (Option<&Spanned<WearFile>>, Option<&Spanned<StressFile>>),
     (bodies, files): (Option<&ContactPair>, [(&str, &BodyFile); 2]),
     stages: Option<&[Stage]>,
     frictionless: bool,
@@ -25,17 +25,17 @@ pub(super) fn wear(
     let before = judge.mistakes.len();
     let layers = files.map(|(which, body)| layers(judge, which, body));
     let own: Option<&Spanned<f64>> = parts(files).into_iter().find_map(|part| part.coefficient);
-    let Some(file) = file else {
+    let Some(given) = given else {
         return own.and_then(|own| {
             judge.refuse(own.span(), "wear_coefficient without a table [wear]", "[wear] law = \"energy\"")
         });
     };
+    let file = given.get_ref();
     let span = file.coefficient.as_ref().or(own).map(Spanned::span);
     let Some(span) = span else {
-        let anywhere = file.thinning_tolerance.as_ref().map_or(0..0, Spanned::span);
         return judge.refuse(
-            anywhere,
-            "wear: nothing says how much wears off",
+            given.span(),
+            "[wear] needs a coefficient",
             "coefficient = ... in [wear], or wear_coefficient = ... in the layers that wear",
         );
     };
@@ -100,6 +100,7 @@ pub(super) fn wear(
     cycles_that_wear(judge, jumping, every, stages.unwrap_or_default());
     let layers = own.is_some().then(|| WearLayers::new(layers.map(Option::unwrap_or_default)));
     let limit = limit(judge, file, (bodies, files), layers.as_ref());
+    let coating = coating_gone(files, layers.as_ref());
     (judge.mistakes.len() == before).then_some(WearRule {
         law: match file.law.unwrap_or(WearLawFile::Energy) {
             WearLawFile::Archard => WearLaw::Archard,
@@ -110,6 +111,7 @@ pub(super) fn wear(
         every,
         largest_step,
         limit,
+        coating,
         tolerance,
         thinning_tolerance: thinning,
     })
@@ -269,136 +271,19 @@ fn limit(
     }
 }
 
-#[cfg(test)]
-mod tests {
-    use crate::case::Case;
-
-    fn read([upper, coating, substrate, wear]: [&str; 4]) -> Result<Case, String> {
-        let text = format!(
-            "[grid]\ncells = [16, 16]\nsize = [3.0, 3.0]\n[upper]\nrigid = true\n{upper}\n[lower]\n\
-             coatings = [{{ thickness = 0.5, young = 2.0, poisson = 0.3{coating} }}]\n\
-             substrate = {{ young = 1.0, poisson = 0.3{substrate} }}\n[profile.sphere]\nradius = 100.0\n\
-             [friction]\ncoefficient = 0.3\n{wear}\n[[load]]\nnormal_force = 0.01\nincrements = 1\n\
-             [[load]]\ntangential_force = [1e-3, 0.0]\nincrements = 8\ncycles = 1\n"
-        );
-        Case::from_toml(&text, "case.toml").map_err(|error| error.to_string())
-    }
-
-    const FILM: &str = ", wear_coefficient = 2.0";
-    const BASE: &str = ", wear_coefficient = 0.5";
-
-    #[test]
-    fn coefficients_of_layers_are_read() {
-        let wear = "[wear]\ntolerance = 0.1\nthinning_tolerance = 0.2\nthrough_coating_of = \"lower\"";
-        let rule = read(["wear_coefficient = 1.0", FILM, BASE, wear]).unwrap().wear.unwrap();
-        let [lower, upper] = rule.layers.as_ref().unwrap().bodies();
-        assert_eq!((lower[0].thickness, lower[0].coefficient, lower[1].coefficient), (0.5, 2.0, 0.5));
-        assert!(lower[1].thickness.is_infinite() && upper[0].coefficient == 1.0);
-        assert_eq!((rule.coefficient, rule.every, rule.largest_rate()), (None, 1_000_000, 3.0));
-        assert_eq!((rule.tolerance, rule.thinning_tolerance), (Some(0.1), Some(0.2)));
-        // Through 0.5 of the coating the other body has lost half as much.
-        assert!((rule.limit.unwrap() - 0.75).abs() < 1e-15);
-        let both = read(["", "", "", "[wear]\ncoefficient = 3.0"]).unwrap().wear.unwrap();
-        assert_eq!((both.coefficient, both.every, both.layers), (Some(3.0), 1, None));
-    }
-
-    #[test]
-    fn what_cannot_wear_is_refused_with_words() {
-        for (words, message) in [
-            (["", FILM, "", "[wear]"], "lower.substrate: no wear_coefficient"),
-            (["", FILM, BASE, ""], "without a table [wear]"),
-            (["", "", "", "[wear]\nevery = 2"], "nothing says how much wears off"),
-            (["", FILM, BASE, "[wear]\ncoefficient = 1.0"], "both at once"),
-            (["wear_coefficient = -1.0", "", "", "[wear]"], "must be zero or positive"),
-            (["", "", "", "[wear]\ncoefficient = 1.0\nthinning_tolerance = 0.1"], "which body wears"),
-            (["", FILM, BASE, "[wear]\ntolerance = 0.0"], "must lie above 0"),
-            (["", FILM, BASE, "[wear]\nthinning_tolerance = 0.9"], "at 0.5 at the most"),
-            (
-                ["", ", wear_coefficient = 0.0", BASE, "[wear]\nthrough_coating_of = \"lower\""],
-                "does not wear",
-            ),
-            (
-                ["", FILM, BASE, "[wear]\nthinning_tolerance = 0.1\n[stress]\ndepths = [0.1]"],
-                "stress and wear",
-            ),
-        ] {
-            let error = read(words).unwrap_err();
-            assert!(error.contains(message), "{words:?}: {error}");
+/// Depth off both bodies together at which the first of their outermost coatings is gone [length]; of one coefficient for both bodies
+/// that depth is taken for the coated body's. `None` without coatings that wear.
+fn coating_gone(files: [(&str, &BodyFile); 2], layers: Option<&WearLayers>) -> Option<f64> {
+    let of_body = |(number, (_, body)): (usize, &(&str, &BodyFile))| {
+        let written = body.coatings.as_ref()?.get_ref().first()?;
+        let thickness = *written.get_ref().thickness.get_ref();
+        match layers {
+            None => Some(thickness),
+            Some(layers) => layers.when_body_has_lost(number, thickness).map(|worn| worn.depth()),
         }
-    }
-
-    #[test]
-    fn settings_of_wear_lie_within_their_bounds() {
-        let with = |words: &str| read(["", FILM, BASE, &format!("[wear]\n{words}")]);
-        let wear = |words: &str| with(words).unwrap_or_else(|error| panic!("{words}: {error}")).wear.unwrap();
-        // on the bounds, and beyond
-        assert_eq!([1, 1_000_000].map(|every| wear(&format!("every = {every}")).every), [1, 1_000_000]);
-        assert_eq!(wear("largest_step = 1.0").largest_step, 1.0);
-        assert_eq!(wear("tolerance = 1.0").tolerance, Some(1.0));
-        assert_eq!(wear("thinning_tolerance = 0.5").thinning_tolerance, Some(0.5));
-        assert_eq!(wear("limit = 1e-9").limit, Some(1e-9));
-        for words in ["every = 0", "every = 1000001"] {
-            assert!(with(words).unwrap_err().contains("must lie between 1 and 1000000"), "{words}");
-        }
-        for key in ["largest_step", "tolerance", "thinning_tolerance"] {
-            for value in ["0.0", "-0.1", "1.001", "nan"] {
-                let error = with(&format!("{key} = {value}")).unwrap_err();
-                assert!(
-                    error.contains(&format!("wear.{key} = ")) && error.contains("must lie above 0"),
-                    "{error}"
-                );
-            }
-        }
-        for value in ["0.0", "-1.0", "inf", "nan"] {
-            assert!(
-                with(&format!("limit = {value}")).unwrap_err().contains("positive finite length"),
-                "{value}"
-            );
-        }
-        let both = |value: &str| read(["", "", "", &format!("[wear]\ncoefficient = {value}")]);
-        assert_eq!(both("0.0").unwrap().wear.unwrap().coefficient, Some(0.0));
-        for value in ["-1.0", "inf", "nan"] {
-            assert!(both(value).unwrap_err().contains("must be zero or positive"), "{value}");
-            let of_layer = read(["", &format!(", wear_coefficient = {value}"), BASE, "[wear]"]);
-            assert!(of_layer.unwrap_err().contains("lower.coatings[0].wear_coefficient"), "{value}");
-        }
-    }
-
-    #[test]
-    fn cycles_of_wear_stand_for_others_where_these_are_alike() {
-        let with = |every: usize, cycles: &str| {
-            let load = "[[load]]\nnormal_force = 0.01\nincrements = 1\n[[load]]\ntangential_force = [1e-3, 0.0]\nincrements = 8\n";
-            read(["", FILM, BASE, &format!("[wear]\nevery = {every}\n{load}{cycles}")])
-        };
-        for (every, envelope) in [(1, [1.0, 0.5]), (1, [1.0, 1.0]), (2, [0.5, 0.5])] {
-            let wear = with(every, &format!("cycles = 4\nenvelope = {envelope:?}")).unwrap().wear;
-            assert_eq!(wear.unwrap().every, every);
-        }
-        let found = with(2, "cycles = 4\nenvelope = [1.0, 0.5]").unwrap_err();
-        assert!(found.contains("wear and load[1]: amplitudes that change"), "{found}");
-        let found = with(1, "until_steady = { tolerance = 1e-3, most_cycles = 9 }").unwrap_err();
-        assert!(found.contains("wear and load[1]: until_steady"), "{found}");
-    }
-
-    #[test]
-    fn a_coefficient_of_a_body_is_that_of_what_has_no_layers() {
-        // a body that is rigid below its coating has no substrate to say it of
-        let film = "coatings = [{ thickness = 0.5, young = 2.0, poisson = 0.3, wear_coefficient = 2.0 }]";
-        let text = |body: &str| {
-            format!(
-                "[grid]\ncells = [16, 16]\nsize = [3.0, 3.0]\n[upper]\nrigid = true\n[lower]\n{body}\n[profile.sphere]\n\
-                 radius = 100.0\n[friction]\ncoefficient = 0.3\n[wear]\nthrough_coating_of = \"lower\"\n\
-                 [[load]]\nnormal_force = 0.01\nincrements = 1\n"
-            )
-        };
-        let read = |body: &str| Case::from_toml(&text(body), "case.toml").map_err(|error| error.to_string());
-        let layers = |body: &str| read(body).unwrap().wear.unwrap().layers.unwrap().bodies()[0].to_vec();
-        let of = |body: &str| layers(body).iter().map(|layer| layer.coefficient).collect::<Vec<_>>();
-        assert_eq!(of(&format!("base = \"rigid\"\n{film}")), [2.0, 0.0]);
-        assert_eq!(of(&format!("base = \"rigid\"\nwear_coefficient = 0.25\n{film}")), [2.0, 0.25]);
-        let substrate = "substrate = { young = 1.0, poisson = 0.3, wear_coefficient = 0.5 }";
-        assert_eq!(of(&format!("{film}\n{substrate}")), [2.0, 0.5]);
-        let found = read(&format!("wear_coefficient = 0.25\n{film}\n{substrate}")).unwrap_err();
-        assert!(found.contains("belongs into the substrate"), "{found}");
-    }
+    };
+    files.iter().enumerate().filter_map(of_body).reduce(f64::min)
 }
+
+#[cfg(test)]
+mod tests;

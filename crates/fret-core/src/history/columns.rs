@@ -202,6 +202,12 @@ pub static STEP_COLUMNS: &[Column<StepRecord>] = &[
         RATIO,
         |step| step.friction_coefficient,
     ),
+    real(
+        "elastic_energy",
+        "elastic energy that the tractions of the contact store in the bodies and the interface, of a line contact relative to the datum",
+        WORK,
+        |step| step.elastic_energy,
+    ),
 ];
 
 pub(super) fn regime_word(regime: Regime) -> &'static str {

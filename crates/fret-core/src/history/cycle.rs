@@ -58,14 +58,16 @@ pub struct CycleRecord {
     pub force_amplitude: f64,
     /// Half of the range of the shift along that direction, or of the twist: `d*`.
     pub displacement_amplitude: f64,
-    /// Half of the loop's width at the middle of the force's range: `d0`.
+    /// Half of the loop's width at the middle of the force's range: `d0`. Of a loop that slides as a whole both ways it does not depend on how
+    /// well the increments resolve the way between.
     pub opening: f64,
     /// Dissipated energy over `4 Q* d*` [-]; `None` for a cycle without motion.
     pub energy_ratio: Option<f64>,
     /// Opening over displacement amplitude [-]; `None` for a cycle without motion.
     pub sliding_ratio: Option<f64>,
-    /// Slope of the loop over the first increment back from the largest force, or else from the smallest. Tends to the
-    /// stiffness of a contact that sticks as the increments become small. `None` where neither is left on a rising line.
+    /// Slope of the loop directly after reversal: over the first increment back from the largest force, or else from the smallest; of a
+    /// loop that slides as a whole both ways that of the way between, which increments need not resolve. Tends to the stiffness of a contact
+    /// that sticks as the increments become small. `None` where neither is left on a rising line.
     pub stiffness: Option<f64>,
     /// What the contact does; `None` without friction or contact.
     pub regime: Option<CycleRegime>,

@@ -60,6 +60,9 @@ pub struct StepRecord {
     /// Energy dissipated by friction since the start [force x length]. Where a computed cycle stands for several, its last increment has the
     /// work of all of them.
     pub dissipated_energy: f64,
+    /// Elastic energy that the tractions of the contact store in both bodies and the interface [force x length], of a line contact relative
+    /// to the datum. What the springs of a rig store is not in it.
+    pub elastic_energy: f64,
     /// Volume worn off since the start, by all cycles that computed ones stand for [length^3].
     pub worn_volume: f64,
     /// Largest worn depth [length].
@@ -115,7 +118,7 @@ pub struct History {
     pub steps: Vec<StepRecord>,
     /// One record a cycle of the stages that have cycles.
     pub cycles: Vec<CycleRecord>,
-    /// Where and when the surfaces were worn to the limit; the history ends there.
+    /// Where and when the surfaces were first worn through a coating, or to the limit. The history ends at the limit.
     pub worn_through: Option<WornThrough>,
     /// Volumes lost by the layers of both bodies; of cases whose layers have wear coefficients.
     pub worn_by_layer: Option<WornByLayer>,
@@ -153,9 +156,21 @@ impl History {
     }
 }
 
-/// The first place at which the surfaces are worn to the limit.
+/// What is worn through.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum WornTo {
+    /// A coating, outermost of its body.
+    Coating,
+    /// The depth at which the run ends.
+    Limit,
+}
+
+/// The first place at which the surfaces are worn through a coating, or to the limit where that comes first.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct WornThrough {
+    /// What is worn through.
+    pub to: WornTo,
     /// Increment after which it happened, from 0.
     pub increment: usize,
     /// Stage, from 0.

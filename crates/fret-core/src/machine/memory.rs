@@ -81,7 +81,13 @@ impl fmt::Display for Limit {
 /// An amount of memory as a person reads it: `12.5 MB`, `4.3 GB`.
 pub fn amount(bytes: u64) -> String {
     let megabytes = bytes as f64 / 1e6;
-    if megabytes < 1e3 { format!("{megabytes:.1} MB") } else { format!("{:.1} GB", megabytes / 1e3) }
+    if megabytes < 0.05 {
+        format!("{:.0} kB", 1e3 * megabytes)
+    } else if megabytes < 1e3 {
+        format!("{megabytes:.1} MB")
+    } else {
+        format!("{:.1} GB", megabytes / 1e3)
+    }
 }
 
 /// Memory that this process can have now, beside what it holds already.
@@ -229,6 +235,7 @@ mod tests {
     #[test]
     fn amounts_are_told_in_the_unit_a_person_would_use() {
         assert_eq!(amount(12_540_000), "12.5 MB");
+        assert_eq!([0, 49_400, 50_000].map(amount), ["0 kB", "49 kB", "0.1 MB"]);
         assert_eq!(amount(4_322_200_000), "4.3 GB");
     }
 }

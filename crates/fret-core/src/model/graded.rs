@@ -150,8 +150,11 @@ impl GradedCoating {
                 Coating::new(ElasticMaterial::new(young, self.poisson)?, ends[1] - ends[0])
             })
             .collect::<Result<_, _>>()?;
-        if let Some(lowest) = sublayers.last_mut() {
+        if let Some((lowest, above)) = sublayers.split_last_mut() {
             *lowest = lowest.on(self.interface);
+            for sublayer in above {
+                *sublayer = sublayer.continued();
+            }
         }
         Ok(sublayers)
     }

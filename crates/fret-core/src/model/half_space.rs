@@ -74,6 +74,8 @@ pub struct Coating {
     thickness: f64,
     #[serde(default)]
     interface: Interface,
+    #[serde(default)]
+    continues: bool,
 }
 
 impl Coating {
@@ -90,13 +92,28 @@ impl Coating {
         if !Self::can_be(thickness) {
             return Err(MaterialError::Thickness(thickness));
         }
-        Ok(Self { material, thickness, interface: Interface::BONDED })
+        Ok(Self { material, thickness, interface: Interface::BONDED, continues: false })
     }
 
     /// The same coating on another interface.
     #[must_use]
     pub fn on(self, interface: Interface) -> Self {
         Self { interface, ..self }
+    }
+
+    /// The same coating as a sublayer of a graded one that goes on below it.
+    #[must_use]
+    pub fn continued(self) -> Self {
+        Self { continues: true, ..self }
+    }
+
+    /// The same coating with another thickness [length].
+    ///
+    /// # Errors
+    /// As [`Coating::new`].
+    pub fn of_thickness(self, thickness: f64) -> Result<Self, MaterialError> {
+        let Self { thickness, .. } = Self::new(self.material, thickness)?;
+        Ok(Self { thickness, ..self })
     }
 
     /// The coating's material.
@@ -112,6 +129,11 @@ impl Coating {
     /// How it is bonded to what lies below it.
     pub fn interface(&self) -> &Interface {
         &self.interface
+    }
+
+    /// Whether it is a sublayer of a graded coating that goes on below it.
+    pub fn continues(&self) -> bool {
+        self.continues
     }
 }
 
@@ -200,6 +222,7 @@ impl HalfSpace {
                 Some(last) if last.material == coating.material && last.interface.is_bonded() => {
                     last.thickness += coating.thickness;
                     last.interface = coating.interface;
+                    last.continues = coating.continues;
                 }
                 _ => coatings.push(*coating),
             }

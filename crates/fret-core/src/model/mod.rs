@@ -1,6 +1,7 @@
 //! The nouns of a contact: grid, bodies, profile, friction, loads, state. No numerics live here.
 
 pub mod accumulated;
+pub mod beyond;
 pub mod bulk;
 pub mod conduction;
 pub mod digest;
@@ -25,6 +26,7 @@ pub mod wear_layers;
 
 pub use crate::fields::TangentialField;
 pub use accumulated::AccumulatedSlip;
+pub use beyond::Beyond;
 pub use bulk::{BulkCompliance, bulk_stress_in_layer};
 pub use conduction::{ConductingLayer, Conduction, Conductor, ConductorError};
 pub use digest::digest;

@@ -1,6 +1,6 @@
 //! Shapes that can be written down: each a gap over the surface, zero where it touches first.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// Why a profile was refused.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
@@ -32,7 +32,7 @@ pub enum ProfileError {
 }
 
 /// A direction in the surface.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Axis {
     /// Along x.
@@ -42,7 +42,7 @@ pub enum Axis {
 }
 
 /// One part of the undeformed gap. A negative radius of a sphere, an ellipsoid or a cylinder is that of a hollow.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Shape {
     /// Paraboloid `r^2 / (2 R)`, the half-space model's own order of a sphere.

@@ -31,6 +31,9 @@ pub struct WearRule {
     pub largest_step: f64,
     /// Depth at which the run ends [length].
     pub limit: Option<f64>,
+    /// Depth at which the first coating is gone [length]; the run tells of it, and goes on.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub coating: Option<f64>,
     /// Error of the depth of such a block relative to that depth, at the most; `None`: not looked at.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub tolerance: Option<f64>,

@@ -164,8 +164,7 @@ fn thinned_body(body: &Body, depth: f64) -> Result<Body, MaterialError> {
         if above == 0.0 {
             coatings.push(*coating);
         } else if above < coating.thickness() && Coating::can_be(coating.thickness() - above) {
-            let rest = Coating::new(*coating.material(), coating.thickness() - above)?;
-            coatings.push(rest.on(*coating.interface()));
+            coatings.push(coating.of_thickness(coating.thickness() - above)?);
         }
     }
     HalfSpace::new(coatings, *half_space.base()).map(Body::Elastic)

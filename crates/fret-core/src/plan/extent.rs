@@ -4,20 +4,22 @@ use std::ops::ControlFlow;
 
 use serde::Serialize;
 
-use crate::case::{Case, walk};
+use crate::case::{Case, DATUM, walk};
 use crate::compliance::SurfaceResponse;
-use crate::kernel::{Components, influence_coefficients, line_coefficients};
+use crate::kernel::{
+    Components, cells_too_coarse_for_incompressible_film, influence_coefficients, line_coefficients,
+};
 use crate::model::{
     Axis, Base, Body, ContactState, Control, CoulombFriction, ElasticMaterial, LoadStep, Shape, SurfaceGrid,
 };
 use crate::solver::{ContactSolver, Coupling, SolveError, SolverSettings};
 
 /// Cells a side of the coarse grid.
-const COARSE: usize = 48;
+pub(super) const COARSE: usize = 48;
 /// Cells of the coarse grid of a line contact.
 const COARSE_LINE: usize = 192;
 /// Side of an automatic grid in units of the contact's width.
-const MARGIN: f64 = 1.2;
+pub(super) const MARGIN: f64 = 1.2;
 
 /// The contact under the heaviest load, without friction, as a coarse grid shows it.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -59,13 +61,26 @@ pub fn reaches_beyond(case: &Case, size: [f64; 2]) -> bool {
 }
 
 /// The coarse grid of a case.
-fn coarse_cells(case: &Case) -> [usize; 2] {
+pub(super) fn coarse_cells(case: &Case) -> [usize; 2] {
     if case.is_line() { [COARSE_LINE, 1] } else { [COARSE; 2] }
 }
 
 /// The axes along which the contact of a case ends.
-fn axes(case: &Case) -> std::ops::Range<usize> {
+pub(super) fn axes(case: &Case) -> std::ops::Range<usize> {
     if case.is_line() { 0..1 } else { 0..2 }
+}
+
+/// Why a contact is not known before the run.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Unexpected {
+    /// Nothing presses the bodies together, or nothing ends their contact.
+    NoContact,
+    /// A nearly incompressible film is too thin for the cells of the coarse grid.
+    UnseenFilm,
+    /// The datum lies too near or too far for a grid of this length around the contact [length].
+    Datum(f64),
+    /// The coarse problem was not solved.
+    Unsolved,
 }
 
 /// Extent of the contact of a case on a grid of side lengths `size`.
@@ -90,34 +105,59 @@ fn contact_extent(case: &Case, size: [f64; 2]) -> Extent {
 
 /// Side lengths such that a contact fits with a margin.
 pub fn automatic_size(case: &Case, contact: &ExpectedContact) -> [f64; 2] {
-    let [x, y] = contact.half_widths.map(|half| MARGIN * 2.0 * half);
+    let [x, y] = [0, 1].map(|axis| margin(case.cells[axis]) * 2.0 * contact.half_widths[axis]);
     if case.is_line() { [x, x / case.cells[0] as f64] } else { [x, y] }
 }
 
-/// The contact of a case on a coarse grid that it about fills; `None` when no contact was found.
-pub fn expected_contact(case: &Case) -> Option<ExpectedContact> {
+/// Side of a grid of so many cells in units of the contact's width: the margin, and at least so much that the outermost centres lie a quarter
+/// of a cell outside, which fewer than nine cells make more.
+fn margin(cells: usize) -> f64 {
+    if cells < 9 { MARGIN.max(cells as f64 / (cells as f64 - 1.5)) } else { MARGIN }
+}
+
+/// The contact of a case on a coarse grid that it about fills.
+///
+/// # Errors
+/// Why it is not known.
+pub fn expected_contact(case: &Case) -> Result<ExpectedContact, Unexpected> {
     if !case.profile.heights.is_empty() {
-        return None; // heights stand on the cells of the grid alone
+        return Err(Unexpected::NoContact); // heights stand on the cells of the grid alone
     }
-    let mut size = first_guess(case)?.map(|half| 3.0 * half);
+    let mut size = first_guess(case).ok_or(Unexpected::NoContact)?.map(|half| 3.0 * half);
     for _ in 0..60 {
         match contact_extent(case, size) {
             Extent::Beyond => size = size.map(|side| 2.0 * side),
             Extent::Inside(widths, approach) => {
                 let fine = axes(case).all(|axis| widths[axis] >= 0.45 * size[axis]);
                 if fine {
-                    return Some(ExpectedContact { half_widths: widths.map(|width| 0.5 * width), approach });
+                    return Ok(ExpectedContact { half_widths: widths.map(|width| 0.5 * width), approach });
                 }
                 size = [0, 1].map(|axis| size[axis].min(1.5 * widths[axis]));
             }
-            Extent::Nothing | Extent::Unknown => return None,
+            Extent::Nothing => return Err(Unexpected::NoContact),
+            Extent::Unknown => return Err(why_unsolved(case, size)),
         }
     }
-    None
+    Err(Unexpected::Unsolved)
+}
+
+/// Why the coarse problem on a grid of side lengths `size` was not solved.
+fn why_unsolved(case: &Case, size: [f64; 2]) -> Unexpected {
+    let cells = coarse_cells(case);
+    let spacing = [0, 1].map(|axis| size[axis] / cells[axis] as f64);
+    let is_unseen = |body: &Body| match body {
+        Body::Rigid => false,
+        Body::Elastic(half_space) => cells_too_coarse_for_incompressible_film(half_space, spacing),
+    };
+    match case.datum {
+        Some(datum) if case.is_line() && !DATUM.contains(&(datum / size[0])) => Unexpected::Datum(size[0]),
+        _ if is_unseen(case.bodies.upper()) || is_unseen(case.bodies.lower()) => Unexpected::UnseenFilm,
+        _ => Unexpected::Unsolved,
+    }
 }
 
 /// The largest prescribed normal force and the largest prescribed approach.
-fn heaviest_loads(case: &Case) -> Vec<Control> {
+pub(super) fn heaviest_loads(case: &Case) -> Vec<Control> {
     let mut force = 0.0_f64;
     let mut approach = 0.0_f64;
     let mut far_end = 0.0_f64;
@@ -140,18 +180,32 @@ fn heaviest_loads(case: &Case) -> Vec<Control> {
     loads
 }
 
-fn extent_under(case: &Case, size: [f64; 2], normal: Control) -> Extent {
-    let cells = coarse_cells(case);
-    let spacing = [size[0] / cells[0] as f64, size[1] / cells[1] as f64];
-    let Ok(grid) = SurfaceGrid::new(cells, spacing) else { return Extent::Unknown };
-    let frictionless = CoulombFriction::NONE;
-    let coefficients = if case.is_line() {
-        let datum = case.datum.unwrap_or(size[0]);
-        line_coefficients(&case.bodies, cells[0], spacing[0], datum, Components::NORMAL)
+/// The response of the bodies of a case on the cells of a grid of length `length`.
+pub(super) fn coarse_response(
+    case: &Case,
+    (grid, length): (&SurfaceGrid, f64),
+    components: Components,
+) -> SurfaceResponse {
+    let (cells, spacing) = (grid.cells(), grid.spacing());
+    SurfaceResponse::FreeSpace(if case.is_line() {
+        let datum = case.datum.unwrap_or(length);
+        line_coefficients(&case.bodies, cells[0], spacing[0], datum, components)
     } else {
-        influence_coefficients(&case.bodies, cells, spacing, Components::NORMAL)
-    };
-    let response = SurfaceResponse::FreeSpace(coefficients);
+        influence_coefficients(&case.bodies, cells, spacing, components)
+    })
+}
+
+/// The coarse grid of side lengths `size`.
+pub(super) fn coarse_grid(case: &Case, size: [f64; 2]) -> Option<SurfaceGrid> {
+    let cells = coarse_cells(case);
+    SurfaceGrid::new(cells, [0, 1].map(|axis| size[axis] / cells[axis] as f64)).ok()
+}
+
+fn extent_under(case: &Case, size: [f64; 2], normal: Control) -> Extent {
+    let Some(grid) = coarse_grid(case, size) else { return Extent::Unknown };
+    let (cells, spacing) = (grid.cells(), grid.spacing());
+    let frictionless = CoulombFriction::NONE;
+    let response = coarse_response(case, (&grid, size[0]), Components::NORMAL);
     let settings = SolverSettings::new(1e-4);
     let mut solver = ContactSolver::new(
         grid,

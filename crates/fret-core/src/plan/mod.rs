@@ -6,6 +6,7 @@ mod left_out;
 mod memory;
 mod precision;
 mod simplification;
+mod sliding_extent;
 mod symmetry;
 
 use std::sync::Arc;
@@ -21,10 +22,11 @@ use crate::model::{Body, ContactState, SurfaceGrid, Symmetry};
 pub use crate::solver::Coupling;
 pub use advance::Advance;
 pub use extent::ExpectedContact;
-use extent::{automatic_size, expected_contact, reaches_beyond};
+use extent::{COARSE, Unexpected, automatic_size, expected_contact, reaches_beyond};
 pub use left_out::LeftOut;
 pub use memory::of_stress as memory_of_stress;
 pub use simplification::{LeaveOut, Simplification};
+use sliding_extent::with_room_to_slide;
 
 /// A case ready to be computed.
 #[derive(Debug, Clone, Serialize)]
@@ -52,7 +54,8 @@ pub struct Plan {
     pub leave_out: LeaveOut,
     /// What is left out.
     pub left_out: Vec<LeftOut>,
-    /// The contact that is expected under the heaviest load; `None` where only the run can tell: on rough and on periodic surfaces.
+    /// The contact that is expected under the heaviest load; `None` where only the run can tell: on rough and on periodic surfaces, and
+    /// where a body ends with the grid.
     pub expected: Option<ExpectedContact>,
     /// Increments of the whole history.
     pub increments: usize,
@@ -100,18 +103,24 @@ impl Plan {
         } else {
             Coupling::Coupled
         };
-        let expected = if case.periodic { None } else { expected_contact(&case) };
+        let expected = if case.periodic || !case.beyond.is_body() {
+            Err(Unexpected::NoContact)
+        } else {
+            expected_contact(&case)
+        };
         let size = match case.size {
             GridSize::Given(size) => size,
-            GridSize::Auto => match start.as_deref().and_then(Start::spacing) {
-                Some(spacing) => [0, 1].map(|axis| spacing[axis] * case.cells[axis] as f64),
-                None => expected.as_ref().map(|contact| automatic_size(&case, contact)).ok_or_else(|| {
-                    let message =
-                        "grid.size = \"auto\": no contact was found under the heaviest load".to_owned();
-                    case.refuse_size(message, "give the side lengths")
-                })?,
-            },
+            GridSize::Auto => {
+                if let Some(spacing) = start.as_deref().and_then(Start::spacing) {
+                    [0, 1].map(|axis| spacing[axis] * case.cells[axis] as f64)
+                } else {
+                    let contact = expected.map_err(|why| without_size(&case, why))?;
+                    let size = automatic_size(&case, &contact);
+                    if coupling == Coupling::Coupled { with_room_to_slide(&case, size) } else { size }
+                }
+            }
         };
+        let expected = expected.ok();
         let given = [size[0] / case.cells[0] as f64, size[1] / case.cells[1] as f64];
         let same = start.as_deref().filter(|start| start.has_spacing(given));
         let spacing = same.and_then(Start::spacing).unwrap_or(given);
@@ -137,11 +146,11 @@ impl Plan {
             ));
         }
         let is_given = matches!(case.size, GridSize::Given(_)) || start.is_some();
-        if is_given && !case.periodic && reaches_beyond(&case, size) {
+        if is_given && !case.periodic && case.beyond.is_body() && reaches_beyond(&case, size) {
             let message = format!(
                 "grid.size = {size:?}: the contact under the heaviest load reaches the edge of the grid"
             );
-            return Err(case.refuse_size(message, "enlarge it, or write size = \"auto\""));
+            return Err(case.refuse_size(message, case.way_from_the_edge()));
         }
         let has_datum = case.is_line() && case.bodies.has_elastic_base();
         let datum = has_datum.then(|| case.datum.unwrap_or(size[0]));
@@ -204,6 +213,36 @@ impl Plan {
         self.kept_bytes = memory::of_kept_fields(case, grid);
         Ok(())
     }
+}
+
+/// Refuses an automatic size, since the contact is not known.
+fn without_size(case: &Case, why: Unexpected) -> CaseError {
+    let auto = "grid.size = \"auto\": ";
+    let (message, help) = match why {
+        Unexpected::NoContact => {
+            (format!("{auto}no contact was found under the heaviest load"), "give the side lengths")
+        }
+        Unexpected::UnseenFilm => (
+            format!(
+                "{auto}a nearly incompressible film on a stiff base is thinner than a fifth of a cell of the {COARSE} x {COARSE} that \
+                 the contact was looked for with; it moves sideways between the cells' centres, where displacements are taken, which \
+                 such a grid cannot resolve"
+            ),
+            "give the side lengths, with cells no longer than five thicknesses",
+        ),
+        Unexpected::Datum(size) => (
+            format!(
+                "{auto}grid.datum = {:?} must lie between a thousandth and 1e12 of the size of the grid, which the contact makes about {size:.1e}",
+                case.datum.unwrap_or(0.0)
+            ),
+            "without grid.datum the size of the grid serves",
+        ),
+        Unexpected::Unsolved => (
+            format!("{auto}the contact under the heaviest load was not solved on a coarse grid"),
+            "give the side lengths; check moduli, lengths and loads for extreme values",
+        ),
+    };
+    case.refuse_size(message, help)
 }
 
 fn mirrors(

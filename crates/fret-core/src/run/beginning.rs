@@ -38,7 +38,7 @@ impl Beginning {
 }
 
 impl Simulation<'_> {
-    /// Solves the first stages of the history, so many of them; `None` where surfaces are worn through in them.
+    /// Solves the first stages of the history, so many of them; `None` where surfaces are worn to the limit in them.
     ///
     /// # Errors
     /// As [`Simulation::run`].
@@ -50,8 +50,8 @@ impl Simulation<'_> {
         let mut until = Until { stages, observer, checkpoint: None };
         let (history, outcome) = self.follow(Checkpoint::start(self.plan()), &mut until);
         let Some(checkpoint) = until.checkpoint else { return outcome.map(|()| None) };
-        let worn_through = checkpoint.place.worn_through.is_some();
-        Ok((!worn_through).then_some(Beginning { checkpoint, steps: history.steps, cycles: history.cycles }))
+        let worn_out = checkpoint.place.worn_out;
+        Ok((!worn_out).then_some(Beginning { checkpoint, steps: history.steps, cycles: history.cycles }))
     }
 }
 

@@ -19,7 +19,7 @@ use crate::plan::Plan;
 use crate::solver::{Resultants, SolverMemory};
 
 /// Version of the bytes; another layout of what is stored gets another one.
-const FORMAT: u32 = 10;
+const FORMAT: u32 = 11;
 
 /// How far a run has come in its stages.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -40,8 +40,10 @@ pub(crate) struct Place {
     pub held: LoadStep,
     /// Resultants now.
     pub resultants: Resultants,
-    /// Where and when the surfaces were worn to the limit: all is over.
+    /// Where and when the surfaces were first worn through a coating, or to the limit.
     pub worn_through: Option<WornThrough>,
+    /// Whether they are worn to the limit: all is over.
+    pub worn_out: bool,
 }
 
 /// Where a run stands after an increment, as the run itself holds it: to be looked at or stored.
@@ -172,6 +174,7 @@ impl Checkpoint {
             held: loads,
             resultants,
             worn_through: None,
+            worn_out: false,
         };
         let wears = plan.case.wear.is_some();
         if wears {

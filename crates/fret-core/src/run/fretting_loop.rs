@@ -1,14 +1,15 @@
-//! The loop of force and displacement that a cycle runs through, followed and read.
+//! The loop of force and displacement that a cycle runs through, followed.
 
 use ndarray::Array2;
 use serde::{Deserialize, Serialize};
 
 use super::evolving::Evolved;
+use super::loop_reading::{LoopPoint, LoopReading};
 use super::recording::mean_coefficient;
 use super::thinning::LayersWorn;
 use crate::fields::stored;
 use crate::history::{CycleRecord, CycleRegime, Drive, Regime, SLIDING_ENERGY_RATIO, StepRecord};
-use crate::model::{ContactState, CoulombFriction, Rig};
+use crate::model::{ContactState, CoulombFriction, Rig, Zone};
 use crate::solver::friction_bounds;
 
 /// Force and moment, shift and twist at the end of an increment.
@@ -18,6 +19,26 @@ struct Point {
     moment: f64,
     shift: [f64; 2],
     twist: f64,
+    /// Way by which all of the contact has slid at the end of the increment [length].
+    slid: f64,
+    /// Energy dissipated so far less the work of the bulk stress [force x length].
+    dissipated: f64,
+}
+
+/// Way by which all of the contact has slid at the end of the increment between two states [length]: the least slip of a cell, for those
+/// that slip last are the last to have let go. 0 where some cells stick.
+pub fn slid(before: &ContactState, after: &ContactState) -> f64 {
+    let mut least = f64::INFINITY;
+    for (at, zone) in after.zone.indexed_iter() {
+        if *zone == Zone::Stick {
+            return 0.0;
+        }
+        if *zone == Zone::Slip && before.zone[at] != Zone::Open {
+            let [x, y] = [0, 1].map(|axis| after.slip[axis][at] - before.slip[axis][at]);
+            least = least.min(x.hypot(y));
+        }
+    }
+    if least.is_finite() { least } else { 0.0 }
 }
 
 /// What the end of a cycle is compared with, besides the first point.
@@ -31,6 +52,9 @@ struct Start {
     dissipated_energy: f64,
     bulk_work: f64,
 }
+
+/// Cosine of the angle to its axis within which an increment of motion is one along it.
+const STRAIGHT: f64 = 0.9999;
 
 /// Follows one cycle.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -74,7 +98,14 @@ impl FrettingLoop {
         force: [f64; 2],
         moment: f64,
     ) -> Self {
-        let first = Point { force, moment, shift: state.shift, twist: state.twist };
+        let first = Point {
+            force,
+            moment,
+            shift: state.shift,
+            twist: state.twist,
+            slid: 0.0,
+            dissipated: state.dissipated_energy - state.bulk_work,
+        };
         Self {
             stage,
             cycle,
@@ -105,9 +136,11 @@ impl FrettingLoop {
         self.contact_area
     }
 
-    /// Adds an increment.
-    pub fn add(&mut self, record: &StepRecord) {
+    /// Adds an increment, at whose end all of the contact has `slid` by a way [length].
+    pub fn add(&mut self, record: &StepRecord, slid: f64) {
         self.points.push(Point {
+            slid,
+            dissipated: record.dissipated_energy - record.bulk_work,
             force: record.tangential_force,
             moment: record.twist_moment,
             shift: record.shift,
@@ -126,13 +159,26 @@ impl FrettingLoop {
     pub fn close(&self, state: &ContactState, friction: &CoulombFriction, end: CycleEnd) -> CycleRecord {
         let direction = main_axis(&self.points);
         let (cos, sin) = (direction.cos(), direction.sin());
-        let tangential: Vec<[f64; 2]> = self
-            .points
-            .iter()
-            .map(|p| [p.force[0] * cos + p.force[1] * sin, p.shift[0] * cos + p.shift[1] * sin])
-            .collect();
-        let torsional: Vec<[f64; 2]> = self.points.iter().map(|p| [p.moment, p.twist]).collect();
-        let (sideways, about) = (Reading::of(&tangential), Reading::of(&torsional));
+        let along = |[x, y]: [f64; 2]| x * cos + y * sin;
+        let slid = self.slid_along(direction);
+        let tangential = |displacement: &dyn Fn(&Point) -> [f64; 2]| {
+            let point = |(p, slid): (&Point, &f64)| LoopPoint {
+                force: along(p.force),
+                displacement: along(displacement(p)),
+                slid: *slid,
+                dissipated: p.dissipated,
+            };
+            LoopReading::of(&self.points.iter().zip(&slid).map(point).collect::<Vec<_>>())
+        };
+        // Twisted, the last cell slips after a twist beyond all bounds: such a loop has no plateau.
+        let torsional = self.points.iter().map(|p| LoopPoint {
+            force: p.moment,
+            displacement: p.twist,
+            slid: 0.0,
+            dissipated: 0.0,
+        });
+        let sideways = tangential(&|point| point.shift);
+        let about = LoopReading::of(&torsional.collect::<Vec<_>>());
         let drive =
             if about.work_scale() > sideways.work_scale() { Drive::Torsional } else { Drive::Tangential };
         let read = if drive == Drive::Torsional { about } else { sideways };
@@ -141,11 +187,15 @@ impl FrettingLoop {
         let energy_ratio = moves.then(|| dissipated_energy / (4.0 * read.work_scale()));
         let closure = self.closure(state, friction);
         let at_actuator = end.rig.filter(|_| drive == Drive::Tangential).map(|rig| {
-            let far = |point: &Point| {
-                let [x, y] = rig.actuator(point.shift, point.force);
-                [point.force[0] * cos + point.force[1] * sin, x * cos + y * sin]
-            };
-            Reading::of(&self.points.iter().map(far).collect::<Vec<_>>())
+            let far = tangential(&|point| rig.actuator(point.shift, point.force));
+            if !read.slides {
+                return far;
+            }
+            // At the middle force the machine gives the same on both sides, and after reversal it is in series with the contact.
+            let [x, y] = rig.tangential;
+            let gives = x * cos * cos + y * sin * sin;
+            let stiffness = read.stiffness.map(|slope| (slope.recip() + gives).recip());
+            LoopReading { opening: read.opening, stiffness, ..far }
         });
         let moving = at_actuator.as_ref().filter(|far| far.work_scale() > 0.0);
         CycleRecord {
@@ -183,6 +233,16 @@ impl FrettingLoop {
             actuator_sliding_ratio: moving.map(|far| far.opening / far.displacement_amplitude),
             actuator_stiffness: at_actuator.as_ref().and_then(|far| far.stiffness),
         }
+    }
+
+    /// Way by which all of the contact has slid at the end of each increment, where it moved along an axis; 0 where it did not.
+    fn slid_along(&self, direction: f64) -> Vec<f64> {
+        let of = |pair: &[Point]| {
+            let [x, y] = [0, 1].map(|axis| pair[1].shift[axis] - pair[0].shift[axis]);
+            let along = (x * direction.cos() + y * direction.sin()).abs();
+            if along >= STRAIGHT * x.hypot(y) { pair[1].slid } else { 0.0 }
+        };
+        std::iter::once(0.0).chain(self.points.windows(2).map(of)).collect()
     }
 
     fn regime(&self, drive: Drive, energy_ratio: Option<f64>) -> Option<CycleRegime> {
@@ -233,55 +293,6 @@ impl FrettingLoop {
         ]
         .into_iter()
         .fold(0.0, f64::max)
-    }
-}
-
-/// What is read from a loop of force against displacement.
-struct Reading {
-    force_amplitude: f64,
-    displacement_amplitude: f64,
-    opening: f64,
-    stiffness: Option<f64>,
-}
-
-impl Reading {
-    fn of(points: &[[f64; 2]]) -> Self {
-        let range = |index: usize| {
-            points.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), point| {
-                (low.min(point[index]), high.max(point[index]))
-            })
-        };
-        let (force, displacement) = (range(0), range(1));
-        let middle = f64::midpoint(force.0, force.1);
-        let mut crossings = (f64::INFINITY, f64::NEG_INFINITY);
-        for pair in points.windows(2) {
-            let ([f0, d0], [f1, d1]) = (pair[0], pair[1]);
-            if (f0 - middle) * (f1 - middle) <= 0.0 && f0 != f1 {
-                let at = d0 + (d1 - d0) * (middle - f0) / (f1 - f0);
-                crossings = (crossings.0.min(at), crossings.1.max(at));
-            }
-        }
-        // On the plateau of sliding the force differs by what the solver leaves.
-        let nearly = 1e-6 * (force.1 - force.0);
-        let back_from = |turn: Option<usize>| {
-            let pair = points.get(turn?..turn? + 2)?;
-            let slope = (pair[0][0] - pair[1][0]) / (pair[0][1] - pair[1][1]);
-            (slope.is_finite() && slope > 0.0).then_some(slope)
-        };
-        let highest = points.iter().rposition(|point| point[0] >= force.1 - nearly);
-        let lowest = points.iter().rposition(|point| point[0] <= force.0 + nearly);
-        let stiffness = back_from(highest).or_else(|| back_from(lowest));
-        Self {
-            force_amplitude: 0.5 * (force.1 - force.0),
-            displacement_amplitude: 0.5 * (displacement.1 - displacement.0),
-            opening: if crossings.0 <= crossings.1 { 0.5 * (crossings.1 - crossings.0) } else { 0.0 },
-            stiffness,
-        }
-    }
-
-    /// `Q* d*` [force x length], by which the loops of shift and twist are compared.
-    fn work_scale(&self) -> f64 {
-        self.force_amplitude * self.displacement_amplitude
     }
 }
 

@@ -5,7 +5,7 @@ use std::time::Instant;
 
 use super::checkpoint::{Place, Waypoint, solved_state};
 use super::evolving::Evolving;
-use super::fretting_loop::{CycleEnd, FrettingLoop};
+use super::fretting_loop::{CycleEnd, FrettingLoop, slid};
 use super::observer::{Iteration, Observer};
 use super::pair_compliance::PairCompliance;
 use super::plausibility::Gauge;
@@ -19,7 +19,7 @@ use super::surfaces::{Block, Surfaces};
 use super::thinning::{LayersWorn, bodies_left, due, layers_worn};
 use super::wear::{Wearing, worn};
 use crate::case::{Case, Stage};
-use crate::history::{CycleRecord, History, KeptFields, StepRecord, WornThrough};
+use crate::history::{CycleRecord, History, KeptFields, StepRecord, WornThrough, WornTo};
 use crate::model::{ContactState, CoulombFriction, LoadStep, MirroredState, SolvedState};
 use crate::plan::{Coupling, Plan};
 use crate::solver::{ContactSolver, Resultants};
@@ -124,9 +124,6 @@ impl<'a> Journey<'a> {
         let (number, all) = (self.place.stage, stage.increments_in_all());
         let may_keep = k == all || stage.ends_cycle(k) || self.case().keeps(number, k);
         let (mut record, mut kept) = self.solved([from, to], may_keep)?;
-        if let Some(cycle) = &mut self.cycle {
-            cycle.add(&record);
-        }
         let ended =
             if stage.ends_cycle(k) || k == all { self.cycle_over(stage, record.increment)? } else { None };
         record.dissipated_energy = self.state.dissipated_energy;
@@ -134,7 +131,7 @@ impl<'a> Journey<'a> {
         [record.worn_volume, record.max_worn_depth] = worn(&self.state, self.plan);
         let steady = ended.as_ref().is_some_and(|cycle| cycle.steady);
         let enough = stage.cycles().is_some_and(|course| self.place.cycles >= course.most);
-        let last = k == all || steady || enough || self.place.worn_through.is_some();
+        let last = k == all || steady || enough || self.place.worn_out;
         if !last && !self.case().keeps(number, k) {
             kept = None;
         }
@@ -163,8 +160,7 @@ impl<'a> Journey<'a> {
             self.records.cycles.push(cycle);
         }
         if last {
-            self.place.stage =
-                if self.place.worn_through.is_some() { self.case().stages.len() } else { number + 1 };
+            self.place.stage = if self.place.worn_out { self.case().stages.len() } else { number + 1 };
             self.place.solved_of_stage = 0;
             self.cycle = None;
         }
@@ -250,6 +246,9 @@ impl<'a> Journey<'a> {
         let kept =
             may_keep.then(|| kept(&solved, (friction, symmetry), increment, &case.output.fields)).transpose();
         let kept = kept.map_err(|error| RunError::OutOfMemory { increment, error })?;
+        if let Some(cycle) = &mut self.cycle {
+            cycle.add(&record, slid(&self.state, &solved.state));
+        }
         self.place.resultants = solved.outcome.resultants;
         self.place.held = *to;
         self.state = solved.state;
@@ -302,6 +301,20 @@ impl<'a> Journey<'a> {
         Ok(())
     }
 
+    /// What is told of a place that is worn through after more cycles of the stage at work.
+    fn worn_through(&self, increment: usize, cell: [usize; 2], cycles: usize, to: WornTo) -> WornThrough {
+        let Plan { grid, symmetry, .. } = self.plan;
+        let cell = symmetry.image_behind(cell, symmetry.part_of(grid.cells()));
+        WornThrough {
+            to,
+            increment,
+            stage: self.place.stage,
+            cycles: self.place.cycles + cycles,
+            cell,
+            place: [grid.centre(0, cell[0]), grid.centre(1, cell[1])],
+        }
+    }
+
     /// Opens the gap, thins the bodies and changes friction by what slip has done since the last time.
     fn change_surfaces(&mut self, stage: &Stage, increment: usize) -> Result<Block, RunError> {
         let left = stage.cycles().map_or(1, |course| course.most - self.place.cycles);
@@ -321,17 +334,13 @@ impl<'a> Journey<'a> {
         if let Some(evolving) = &self.surfaces.evolving {
             self.solver.set_friction(Cow::Owned(evolving.friction().clone()));
         }
-        let Plan { grid, symmetry, .. } = self.plan;
-        self.place.worn_through = block.through.map(|cell| {
-            let cell = symmetry.image_behind(cell, symmetry.part_of(grid.cells()));
-            WornThrough {
-                increment,
-                stage: self.place.stage,
-                cycles: self.place.cycles + block.cycles,
-                cell,
-                place: [grid.centre(0, cell[0]), grid.centre(1, cell[1])],
-            }
-        });
+        self.place.worn_out = block.through.is_some();
+        if self.place.worn_through.is_none() {
+            let coating = block.coating_through.map(|(cell, cycles)| (cell, cycles, WornTo::Coating));
+            let limit = block.through.map(|cell| (cell, block.cycles, WornTo::Limit));
+            self.place.worn_through =
+                coating.or(limit).map(|(cell, cycles, to)| self.worn_through(increment, cell, cycles, to));
+        }
         Ok(block)
     }
 }

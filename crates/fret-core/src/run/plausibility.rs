@@ -3,10 +3,11 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::case::Units;
+use super::rings::Rings;
+use crate::case::{Path, Units};
 use crate::history::{Concern, CycleRecord, STIFFEST, StepRecord, Warning};
-use crate::model::{Base, Body, Coating, Control, ElasticMaterial};
-use crate::plan::{Coupling, Plan};
+use crate::model::{Base, Body, BulkCompliance, Coating, Control, ElasticMaterial, Shape};
+use crate::plan::Plan;
 
 /// What follows from the case alone, with the contact that its plan expects.
 pub fn of_plan(plan: &Plan) -> Vec<Warning> {
@@ -27,8 +28,16 @@ pub fn of_plan(plan: &Plan) -> Vec<Warning> {
         look(Concern::ShiftOverContactRadius, largest_shift(plan) / radius);
     }
     look(Concern::SteepTopography, steepest(plan));
-    look(Concern::CoatingThinnerThanCell, thinnest_coating(plan) / longer_side(plan));
+    look(Concern::CoatingThinnerThanCell, coating_where_stresses_are_asked(plan) / longer_side(plan));
+    look(Concern::FewCellsPerWave, cells_per_wave(plan));
+    look(Concern::BulkStrain, largest_bulk_strain(plan));
     found
+}
+
+/// As [`thinnest_coating`], where the case asks for stresses below; infinite where it does not, as displacements and tractions are
+/// accurate on coatings however thin.
+fn coating_where_stresses_are_asked(plan: &Plan) -> f64 {
+    if plan.case.stress.is_some() { thinnest_coating(plan) } else { f64::INFINITY }
 }
 
 /// The largest Young's modulus of coatings and substrates [pressure].
@@ -95,6 +104,44 @@ fn largest_shift(plan: &Plan) -> f64 {
     largest
 }
 
+/// Cells per wave along an axis, of the wave that has fewest; infinite where there is none.
+fn cells_per_wave(plan: &Plan) -> f64 {
+    let spacing = plan.grid.spacing();
+    let waves = plan.case.profile.shapes.iter().filter_map(|shape| match shape {
+        Shape::Wave { wavelengths, .. } => Some(wavelengths),
+        _ => None,
+    });
+    let cells = |lengths: &[Option<f64>; 2]| {
+        let along = |axis: usize| lengths[axis].map_or(f64::INFINITY, |length| length / spacing[axis]);
+        along(0).min(along(1))
+    };
+    // The length of a cell is rounded.
+    waves.map(cells).fold(f64::INFINITY, f64::min) * (1.0 + 1e-12)
+}
+
+/// Largest strain of a body by its bulk stress along x or y, over the ends of stages, of half a wave and of all rows of a table.
+fn largest_bulk_strain(plan: &Plan) -> f64 {
+    let compliance = BulkCompliance::of(&plan.case.bodies, plan.case.is_line());
+    let largest = |path: &Path| match path {
+        Path::To(stress) | Path::Wave { amplitude: stress, .. } => stress.abs(),
+        Path::Through(stresses) => stresses.iter().fold(0.0_f64, |most, stress| most.max(stress.abs())),
+    };
+    let mut most = 0.0_f64;
+    for stage in &plan.case.stages {
+        for body in 0..2 {
+            let mut stress = [[0.0; 2]; 2];
+            stress[body] = [0, 1].map(|axis| {
+                stage.bulk_stress[body][axis].as_ref().map_or(0.0, |control| largest(control.path()))
+            });
+            most = compliance
+                .relative_strain(stress)
+                .into_iter()
+                .fold(most, |most, strain| most.max(strain.abs()));
+        }
+    }
+    most
+}
+
 /// Root mean square slope of the steepest topography; 0 without any.
 fn steepest(plan: &Plan) -> f64 {
     let [dx, dy] = plan.grid.spacing();
@@ -120,13 +167,8 @@ pub struct Gauge {
     ends: Vec<End>,
     /// Largest shift over contact radius, and its stage.
     shift: Option<(f64, usize)>,
-    /// Largest growth of the contact radius in an increment [cells], and its stage.
-    ring: Option<(f64, usize)>,
-    /// Contact radius of the first increment with contact [cells], and its stage.
-    first: Option<(f64, usize)>,
-    /// Contact radius of the increment before, and the largest so far [cells].
-    radius: Option<f64>,
-    largest_radius: f64,
+    /// How the contact grows.
+    rings: Rings,
     worn_depth: f64,
     /// Largest relative change of friction in a single cycle, and its stage.
     friction_change: Option<(f64, usize)>,
@@ -146,6 +188,11 @@ struct End {
 }
 
 impl Gauge {
+    /// Of a run that has yet to begin.
+    pub fn of(plan: &Plan) -> Self {
+        Self { rings: Rings::of(plan), ..Self::default() }
+    }
+
     /// Reads an increment.
     pub fn add(&mut self, record: &StepRecord) {
         let end = End {
@@ -165,21 +212,11 @@ impl Gauge {
                 *most = Some((value, record.stage));
             }
         };
-        if record.contact_cells == 0 {
-            self.radius = None;
-            return;
+        self.rings.add(record);
+        if record.contact_cells > 0 {
+            let [x, y] = record.shift;
+            larger(&mut self.shift, x.hypot(y) / equivalent_radius(record.contact_area));
         }
-        let [x, y] = record.shift;
-        larger(&mut self.shift, x.hypot(y) / equivalent_radius(record.contact_area));
-        let radius = equivalent_radius(record.contact_cells as f64);
-        if let Some(before) = self.radius {
-            larger(&mut self.ring, (radius - before) / record.parts.max(1) as f64);
-        }
-        if self.first.is_none() {
-            self.first = Some((radius / record.parts.max(1) as f64, record.stage));
-        }
-        self.radius = Some(radius);
-        self.largest_radius = self.largest_radius.max(radius);
     }
 
     /// Reads a cycle.
@@ -227,10 +264,12 @@ impl Gauge {
         );
         look(Concern::ShiftOverContactRadius, &mut self.shift.into_iter());
         look(Concern::SteepTopography, &mut std::iter::once((steepest(plan), usize::MAX)));
+        look(Concern::FewCellsPerWave, &mut std::iter::once((cells_per_wave(plan), usize::MAX)));
+        look(Concern::BulkStrain, &mut std::iter::once((largest_bulk_strain(plan), usize::MAX)));
         let coating = thinnest_coating(plan);
         look(
             Concern::CoatingThinnerThanCell,
-            &mut std::iter::once((coating / longer_side(plan), usize::MAX)),
+            &mut std::iter::once((coating_where_stresses_are_asked(plan) / longer_side(plan), usize::MAX)),
         );
         let last = self.ends.last().map_or(usize::MAX, |end| end.stage);
         if plan.case.wear.as_ref().is_none_or(|wear| wear.thinning_tolerance.is_none()) {
@@ -239,14 +278,10 @@ impl Gauge {
         }
         look(Concern::ComplianceSpread, &mut self.spread.into_iter());
         look(Concern::FrictionChangesInOneCycle, &mut self.friction_change.into_iter());
-        if !plan.case.periodic {
+        if !plan.case.periodic && plan.case.beyond.is_body() {
             look(Concern::ContactNearEdge, &mut touching().map(|end| (end.free as f64, end.stage)));
         }
-        if plan.coupling == Coupling::Coupled && !rough {
-            // A first increment that makes half the contact is a ring like any other.
-            let first = self.first.filter(|(radius, _)| *radius > 0.5 * self.largest_radius);
-            look(Concern::PressingInFewIncrements, &mut self.ring.into_iter().chain(first));
-        }
+        found.extend(self.rings.warning(plan));
         found
     }
 }

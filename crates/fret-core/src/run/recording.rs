@@ -47,6 +47,7 @@ pub fn record(
         stick_cells: outcome.stick_cells,
         footprint: Footprint::of(&state.zone, symmetry),
         dissipated_energy: state.dissipated_energy,
+        elastic_energy: outcome.elastic_energy,
         worn_volume: 0.0,
         max_worn_depth: 0.0,
         friction_coefficient: mean_coefficient(friction, &state.pressure),

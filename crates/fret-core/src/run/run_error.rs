@@ -27,19 +27,19 @@ pub enum RunError {
         advice: String,
     },
     /// The contact reaches the edge of the grid.
-    #[error(
-        "increment {increment} ({stage}): the contact reaches the edge of the grid; enlarge grid.size, or write size = \"auto\""
-    )]
+    #[error("increment {increment} ({stage}): the contact reaches the edge of the grid; {advice}")]
     ContactAtEdge {
         /// Number of the increment, from 0.
         increment: usize,
         /// Name of its stage.
         stage: String,
+        /// What to try.
+        advice: &'static str,
     },
-    /// A tangential load above what friction carries.
+    /// A tangential load above what friction carries, or as large.
     #[error(
-        "increment {increment} ({stage}): tangential force {}{unit} is above mu P = {}{unit}: no equilibrium; prescribe the shift to slide",
-        apart(*asked, *bound)[0], apart(*asked, *bound)[1]
+        "increment {increment} ({stage}): tangential force {}{unit} {} {}{unit}: {}; {advice}",
+        apart(*asked, *bound)[0], limit(*asked, *bound, *has_strength), apart(*asked, *bound)[1], consequence(*asked, *bound)
     )]
     AboveSliding {
         /// Number of the increment, from 0.
@@ -48,10 +48,14 @@ pub enum RunError {
         stage: String,
         /// Force asked for.
         asked: f64,
-        /// mu P.
+        /// What friction carries: mu P, or less where the shear strength of the interface bounds it.
         bound: f64,
+        /// Whether the interface has a shear strength, which bounds the force beside mu P.
+        has_strength: bool,
         /// A space and the unit of both; empty where the case declares no units.
         unit: String,
+        /// What to try.
+        advice: &'static str,
     },
     /// Tangential force and moment together above what friction carries.
     #[error(
@@ -159,6 +163,25 @@ impl RunError {
     }
 }
 
+/// How a force stands to the limit of friction, and what that is.
+fn limit(asked: f64, bound: f64, has_strength: bool) -> &'static str {
+    match (asked > bound, has_strength) {
+        (true, false) => "is above mu P =",
+        (false, false) => "reaches mu P =",
+        (true, true) => {
+            "is above what mu P and the shear strength of the interface (friction.max_shear) carry together,"
+        }
+        (false, true) => {
+            "reaches what mu P and the shear strength of the interface (friction.max_shear) carry together,"
+        }
+    }
+}
+
+/// What that means.
+fn consequence(asked: f64, bound: f64) -> &'static str {
+    if asked > bound { "no equilibrium" } else { "the contact slides, and no force tells how far" }
+}
+
 /// That layers are worn too thin in the increment before a place.
 pub fn too_thin(case: &Case, place: &Place, reason: &str) -> RunError {
     let stage = case.stages.get(place.stage).map_or_else(String::new, |stage| stage.name.clone());
@@ -178,14 +201,17 @@ pub fn run_error(error: &SolveError, increment: usize, case: &Case, stage: usize
             iterations,
             advice: "try more increments in this stage, or a larger solver.tolerance".to_owned(),
         },
-        SolveError::AboveSliding { asked, bound } => {
-            RunError::AboveSliding { increment, stage, asked, bound, unit: unit("force") }
+        SolveError::AboveSliding { asked, bound, has_strength } => {
+            let (unit, advice) = (unit("force"), case.way_to_slide());
+            RunError::AboveSliding { increment, stage, asked, bound, has_strength, unit, advice }
         }
         SolveError::AboveFullSlip { fraction } => RunError::AboveFullSlip { increment, stage, fraction },
         SolveError::NoTilt { asked, reached } => {
             RunError::NoTilt { increment, stage, asked, reached, unit: unit("force x length") }
         }
-        SolveError::ContactAtEdge => RunError::ContactAtEdge { increment, stage },
+        SolveError::ContactAtEdge => {
+            RunError::ContactAtEdge { increment, stage, advice: case.way_from_the_edge() }
+        }
         SolveError::OperatorsMissing(error) => RunError::NotConverged {
             increment,
             stage,

@@ -131,7 +131,7 @@ impl<'a> Simulation<'a> {
         solver.set_tilt(state.tilt);
         // Last: a new gap makes a solver forget.
         solver.restore_memory(memory);
-        let (records, gauge) = (Records::default(), Gauge::default());
+        let (records, gauge) = (Records::default(), Gauge::of(plan));
         let journey = Journey { plan, solver, surfaces, state, records, gauge, place, cycle, observer };
         journey.through_all_stages()
     }
@@ -159,6 +159,7 @@ impl<'a> Simulation<'a> {
         .with_shear_axis(plan.along)
         .with_bulk(BulkCompliance::of(&case.bodies, case.is_line()))
         .with_rig(case.springs())
+        .with_beyond(case.beyond)
         .with_symmetry(plan.symmetry);
         let solver = if plan.grid.len() < GIVES_BACK {
             solver

@@ -16,12 +16,12 @@ pub fn add_slip(
     add_path(states, integration, &mut to.distance);
 }
 
-/// Adds the length of the way of slip [length] between two states that follow each other.
+/// Adds the length of the slip path [length] between two states that follow each other.
 pub fn add_path(states: [&ContactState; 2], integration: Integration, path: &mut Array2<f64>) {
     *path += &ways(states, integration);
 }
 
-/// Length of the way of slip in every cell [length] between two states that follow each other.
+/// Length of the slip path in every cell [length] between two states that follow each other.
 fn ways([before, after]: [&ContactState; 2], integration: Integration) -> Array2<f64> {
     Array2::from_shape_fn(after.zone.dim(), |at| {
         let slip = [0, 1].map(|axis| after.slip[axis][at] - before.slip[axis][at]);

@@ -25,6 +25,8 @@ pub struct Block {
     pub opened: bool,
     /// The deepest cell, when it has reached the limit of wear.
     pub through: Option<[usize; 2]>,
+    /// The first cell through whose coating these cycles wear, and after how many of them.
+    pub coating_through: Option<([usize; 2], usize)>,
     /// What became of friction.
     pub evolved: Option<Evolved>,
     /// Relative error of the wear depth by the cycle jump before, where it is looked at.
@@ -80,11 +82,18 @@ impl Surfaces {
             }
             most = evolving.cycles(slipped, most);
         }
-        let mut block =
-            Block { cycles: most, opened: false, through: None, evolved: None, wear_jump_error: None };
+        let mut block = Block {
+            cycles: most,
+            opened: false,
+            through: None,
+            coating_through: None,
+            evolved: None,
+            wear_jump_error: None,
+        };
         if let Some(wearing) = wearing {
             let worn = wearing.block(state, most)?;
-            (block.cycles, block.through) = (worn.cycles, worn.through);
+            (block.cycles, block.through, block.coating_through) =
+                (worn.cycles, worn.through, worn.coating_through);
             block.wear_jump_error = worn.jump_error;
             if let Some(depth) = &mut state.worn_depth
                 && worn.depth.iter().any(|depth| *depth > 0.0)

@@ -112,6 +112,8 @@ pub struct Block {
     pub depth: Array2<f64>,
     /// The deepest cell, when it has reached the limit.
     pub through: Option<[usize; 2]>,
+    /// The first cell through whose coating these cycles wear, and after how many of them.
+    pub coating_through: Option<([usize; 2], usize)>,
     /// Error of the depth by the jump before relative to the depth of that jump, where it is looked at.
     pub jump_error: Option<f64>,
 }
@@ -219,13 +221,39 @@ impl Wearing {
         // Depths through layers are rounded.
         let rounding = if rule.layers.is_some() { 1e-12 } else { 0.0 };
         let through = rule.limit.filter(|limit| deepest.1 >= *limit * (1.0 - rounding)).map(|_| deepest.0);
+        let coating_through = rule.coating.and_then(|coating| self.first_through(coating, worn, cycles));
         let jump_error = rule.tolerance.map(|_| self.jump_error());
         let Collected { wear, path, last, last_cycles, .. } = &mut self.collected;
         *last = rule.tolerance.map(|_| wear.clone());
         *last_cycles = cycles;
         wear.fill(0.0);
         path.fill(0.0);
-        Ok(Block { cycles, depth, through, jump_error })
+        Ok(Block { cycles, depth, through, coating_through, jump_error })
+    }
+
+    /// The first cell whose depth reaches that of a coating within so many cycles, and after how many; of several the most worn. `None`
+    /// where one is through already.
+    fn first_through(
+        &self,
+        coating: f64,
+        worn: impl Fn((usize, usize)) -> f64,
+        cycles: usize,
+    ) -> Option<([usize; 2], usize)> {
+        // Depths through layers are rounded.
+        let rounding = if self.rule.layers.is_some() { 1e-12 } else { 0.0 };
+        let mut first: Option<((usize, usize), f64)> = None;
+        for (cell, each) in self.collected.wear.indexed_iter() {
+            if worn(cell) >= coating * (1.0 - rounding) {
+                return None;
+            }
+            let needed = self.left_to(coating, worn(cell)) / each;
+            if *each > 0.0 && first.is_none_or(|(_, least)| needed < least) {
+                first = Some((cell, needed));
+            }
+        }
+        let ((i, j), needed) = first?;
+        let needed = (needed * (1.0 - rounding)).ceil().max(1.0);
+        (needed <= cycles as f64).then_some(([i, j], needed as usize))
     }
 
     /// What has to be collected in a cell until the depth there is at a limit.

@@ -196,7 +196,7 @@ fn level_of(
             slopes.read([three[0], three[0], three[ny], three[2 * ny]]);
         }
     }
-    let reach = median(&mut slopes.reaches)?;
+    let reach = slopes.reach()?;
     let kappa = slopes.ratio()? * rise.steeper;
     let mut lowest = 0.0_f64;
     for value in &mut level {
@@ -216,6 +216,8 @@ fn level_of(
 struct Slopes {
     rises: Vec<f64>,
     falls: Vec<f64>,
+    /// Size of the level in the open cells.
+    depths: Vec<f64>,
     /// Where the level inside would reach zero [cells beyond the last loaded one].
     reaches: Vec<f64>,
 }
@@ -231,8 +233,17 @@ impl Slopes {
         if b > 0.0 && is_open(c) && is_open(d) {
             self.rises.push((a - b).abs());
             self.falls.push((d - c).abs());
+            self.depths.push(c.abs().max(d.abs()));
             self.reaches.push(if a > b { b / (a - b) } else { f64::INFINITY });
         }
+    }
+
+    /// Where the level inside would reach zero, in the median of the edges [cells beyond the last loaded one]: nowhere where two open cells
+    /// in a row have the same gap but for rounding, as between two contacts that mirror each other, which tells of no edge.
+    fn reach(&mut self) -> Option<f64> {
+        let reach = median(&mut self.reaches)?;
+        let rounding = (1.0 - FALLS) * median(&mut self.depths)?;
+        Some(if median(&mut self.falls)? > rounding { reach } else { f64::INFINITY })
     }
 
     /// Median slope inside over the one outside, where there are any.

@@ -2,12 +2,13 @@
 
 use super::contact_problem::{ContactProblem, Pressure, Solution};
 use super::exact_newton;
-use super::increment_problem::{IncrementProblem, Solved};
+use super::increment_problem::{COUPLED_LIMIT, IncrementProblem, Solved};
 use super::laws::projection::project_pressure;
 use super::newton;
 use super::normal::solve_normal;
 use super::operators::{Method, RegionOperators};
 use super::settings::{IterationCallback, SolveError, SolverSettings};
+use super::sliding_limit::check_sliding;
 use super::staggered;
 use super::tractions::{Displacements, Tractions};
 use crate::compliance::SurfaceCompliance;
@@ -39,14 +40,16 @@ pub fn solve(
     let touched = increment.touched();
     let mut displacements = Displacements::zeros(increment.region.len());
     let before = increment.displacement_before(last.filter(|_| touched), operators);
-    if !touched {
+    // A contact that has shrunk to less than a cell leaves no pressure to go on from: nor does a first one.
+    let goes_on = touched && make_pressure_feasible(&mut tractions, increment.normal.total);
+    if !goes_on {
         tractions.shear.clear();
         tractions.pressure = increment.first_pressure(operators);
         let rough = SolverSettings { tolerance: ROUGH, ..*settings };
         let fields = [&mut tractions.pressure[..], &mut displacements.normal];
         solve_normal(&increment.normal_equations(), fields, operators, &rough, callback)?;
+        make_pressure_feasible(&mut tractions, increment.normal.total);
     }
-    make_pressure_feasible(&mut tractions, increment.normal.total);
     let counted_from = increment.counted_from(&before);
     let problem = increment.contact_problem(Pressure::Unknown, &counted_from);
     newton::make_shear_feasible(&problem, &mut tractions, operators);
@@ -67,7 +70,8 @@ pub fn solve(
         (&solution, settings.scheme, &start)
     {
         let frictionless = without_friction(increment, start, operators, settings, callback)?;
-        increment.check_limit(&frictionless)?;
+        increment.check_limit(&frictionless, COUPLED_LIMIT)?;
+        check_sliding(increment, &problem, &frictionless, operators, settings, callback)?;
         tractions.clone_from(&frictionless);
         let (p, u) = (&mut tractions, &mut displacements);
         let mut found = from_sweeps(&problem, p, u, operators, settings, callback)?;
@@ -121,7 +125,8 @@ fn from_sweeps(
 }
 
 /// Brings predicted pressure to what its laws allow. Shear keeps its ratio to the pressure, and so a cell under `mu p` stays on its circle.
-fn make_pressure_feasible(tractions: &mut Tractions, total: Option<f64>) {
+/// False when a force is prescribed and no pressure is left to carry it.
+fn make_pressure_feasible(tractions: &mut Tractions, total: Option<f64>) -> bool {
     if let Some(total) = total {
         let found: f64 = tractions.pressure.iter().map(|p| p.max(0.0)).sum();
         if found > 0.0 {
@@ -130,7 +135,7 @@ fn make_pressure_feasible(tractions: &mut Tractions, total: Option<f64>) {
             }
         }
     }
-    project_pressure(&mut tractions.pressure, total);
+    project_pressure(&mut tractions.pressure, total)
 }
 
 /// The pressure without friction, from that of other tractions; as far as it is found.

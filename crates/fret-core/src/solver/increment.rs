@@ -5,6 +5,7 @@ use ndarray::Array2;
 
 use super::coupled;
 use super::increment_problem::{IncrementProblem, Solved};
+use super::laws::limit::sliding_fraction;
 use super::linear::preconditioner::CellWaves;
 use super::memory::{Before, Drift, GridTractions, LastIncrement};
 use super::normal::coarse_grids::CoarseGrids;
@@ -33,7 +34,7 @@ impl ContactSolver<'_> {
         callback: IterationCallback<'_>,
     ) -> Result<Increment, SolveError> {
         if let Some(normal) = load.normal.force() {
-            self.check_friction_carries(load, normal, 1e-12)?;
+            self.check_friction_carries(load, normal, sliding_fraction(self.settings.tolerance))?;
         }
         self.take_last_load_as(load, state);
         let mut start = self.pressure_from_coarse_grids(state, load, callback)?;
@@ -106,6 +107,9 @@ impl ContactSolver<'_> {
         let solved = solved?;
         let (after, outcome) = state_after(&increment, &solved, self_influence, self.settings.integration);
         self.work.outer_iterations += solved.solution.iterations;
+        if outcome.residual.equilibrium > self.settings.tolerance {
+            increment.check_limit(&solved.tractions, 1.0)?;
+        }
         Ok((solved, after, outcome))
     }
 
@@ -302,7 +306,7 @@ impl ContactSolver<'_> {
     ) -> Result<(), SolveError> {
         self.check_equilibrium(load, outcome, iterations)?;
         self.check_across(after, iterations)?;
-        if self.touches_edge(&after.pressure) {
+        if self.beyond.is_body() && self.touches_edge(&after.pressure) {
             return Err(SolveError::ContactAtEdge);
         }
         Ok(())
@@ -315,7 +319,7 @@ impl ContactSolver<'_> {
         outcome: &Outcome,
         iterations: usize,
     ) -> Result<(), SolveError> {
-        self.check_friction_carries(load, outcome.resultants.normal, self.settings.tolerance)?;
+        self.check_friction_carries(load, outcome.resultants.normal, 1.0 + self.settings.tolerance)?;
         let reached = outcome.residual.equilibrium;
         if reached <= self.settings.tolerance {
             return Ok(());
@@ -336,11 +340,12 @@ impl ContactSolver<'_> {
         Err(SolveError::NotConverged { reached, iterations })
     }
 
-    fn check_friction_carries(&self, load: &LoadStep, normal: f64, tolerance: f64) -> Result<(), SolveError> {
+    /// Whether the prescribed tangential force is at most a `fraction` of what the friction coefficient carries.
+    fn check_friction_carries(&self, load: &LoadStep, normal: f64, fraction: f64) -> Result<(), SolveError> {
         let asked = tangential_force(load);
         let bound = self.friction.largest() * normal.max(0.0);
-        if asked > bound * (1.0 + tolerance) {
-            return Err(SolveError::AboveSliding { asked, bound });
+        if asked > bound * fraction {
+            return Err(SolveError::AboveSliding { asked, bound, has_strength: false });
         }
         Ok(())
     }

@@ -20,9 +20,9 @@ use crate::compliance::SurfaceCompliance;
 use crate::model::{ContactState, Control, CoulombFriction, LoadStep, Rig, SurfaceGrid, TangentialField};
 
 /// Friction that carries less than this fraction of what is prescribed is the reason why there is no solution. By the pressure without
-/// friction: coupling takes some of it away. A sphere that slides at a given approach carried 0.89 to 0.997 of it (friction 0.3 to 2,
+/// friction where the two are coupled: that takes some of it away. A sphere that slides at a given approach carried 0.89 to 0.997 of it (friction 0.3 to 2,
 /// Poisson's ratio -0.5 to 0.3, with and without coatings).
-const LIMIT: f64 = 0.98;
+pub const COUPLED_LIMIT: f64 = 0.98;
 
 /// Newton iterations of the rule of second order; where it converges it takes about six.
 const MOST_TURNING: usize = 24;
@@ -172,15 +172,15 @@ impl<'a> IncrementProblem<'a> {
         SolverSettings { max_newton_iterations: settings.max_newton_iterations.min(most), ..*settings }
     }
 
-    /// Whether friction can carry what is prescribed, at the pressure without it.
-    pub fn check_limit(&self, tractions: &Tractions) -> Result<(), SolveError> {
+    /// Whether friction carries more than a fraction `limit` of what is prescribed, at the pressure of `tractions`.
+    pub fn check_limit(&self, tractions: &Tractions, limit: f64) -> Result<(), SolveError> {
         let contact = ContactSet::loaded(&tractions.pressure);
         let bound = self.friction.packed(&contact).bound(&contact.packed(&tractions.pressure));
         let loads = TangentialLoads { by_force: self.tangential.held(), ..self.tangential };
         let motions = self.positions.motions_of(&contact, loads);
         let prescribed = loads.only_by_force(loads.resultant);
         let fraction = carried_fraction(&bound.bound, &motions, prescribed);
-        if fraction > LIMIT {
+        if fraction > limit {
             return Ok(());
         }
         let [x, y, moment] = prescribed;
@@ -188,6 +188,7 @@ impl<'a> IncrementProblem<'a> {
             return Err(SolveError::AboveFullSlip { fraction });
         }
         let asked = x.hypot(y) * self.grid.cell_area();
-        Err(SolveError::AboveSliding { asked, bound: fraction * asked })
+        let has_strength = self.friction.has_strength();
+        Err(SolveError::AboveSliding { asked, bound: fraction * asked, has_strength })
     }
 }

@@ -33,6 +33,7 @@ mod region_fields;
 mod relative_displacement;
 mod sequential;
 mod settings;
+mod sliding_limit;
 mod slip_history;
 mod staggered;
 mod start;
@@ -47,9 +48,12 @@ use ndarray::Array2;
 
 use crate::compliance::{SharedWorkspace, SpectralCompliance, SurfaceResponse};
 use crate::kernel::ResponseTable;
-use crate::model::{BulkCompliance, ContactState, CoulombFriction, LoadStep, Rig, SurfaceGrid, Symmetry};
+use crate::model::{
+    Beyond, BulkCompliance, ContactState, CoulombFriction, LoadStep, Rig, SurfaceGrid, Symmetry,
+};
 
 pub(crate) use laws::friction::{bounds_on_grid as friction_bounds, dissipation};
+pub(crate) use laws::limit::sliding_fraction;
 pub(crate) use laws::slip_path::{length_of_way, weights_of_ends};
 pub use memory::SolverMemory;
 pub(crate) use outcome::worst;
@@ -92,6 +96,8 @@ pub struct ContactSolver<'a> {
     bulk: BulkCompliance,
     /// Springs between the upper body and what is driven, of the whole contact.
     rig: Rig,
+    /// What lies beyond the edge of the grid.
+    beyond: Beyond,
     /// Slope of the upper body that is in the gap, and the gap without it.
     tilt: [f64; 2],
     level: Option<Array2<f64>>,
@@ -128,6 +134,7 @@ impl<'a> ContactSolver<'a> {
             middle: [0.0; 2],
             bulk: BulkCompliance::NONE,
             rig: Rig::RIGID,
+            beyond: Beyond::Body,
             tilt: [0.0; 2],
             level: None,
         }
@@ -143,6 +150,12 @@ impl<'a> ContactSolver<'a> {
     #[must_use]
     pub fn with_rig(self, rig: Rig) -> Self {
         Self { rig, ..self }
+    }
+
+    /// The same solver of bodies that go on beyond the grid, or of one that ends there.
+    #[must_use]
+    pub fn with_beyond(self, beyond: Beyond) -> Self {
+        Self { beyond, ..self }
     }
 
     /// The same solver, which also knows the frequency response of the pair: for non-periodic problems, where coefficients on a region

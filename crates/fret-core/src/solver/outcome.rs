@@ -8,8 +8,8 @@ use crate::model::{ContactState, Symmetry};
 /// How well an increment satisfies its equations; all parts dimensionless.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct Residual {
-    /// Largest `|min(g, K p)|` over the cells, relative to the mean displacement under the load; g gap, p pressure, K normal
-    /// self-influence of a cell.
+    /// Largest `|min(g, K p)|` over the cells, relative to the mean displacement under the load (no less than 1e-5 K times the mean pressure);
+    /// g gap, p pressure, K normal self-influence of a cell.
     pub complementarity: f64,
     /// `|q - Proj(q + slip / K)| / |b|`, Euclidean norms over the cells in contact; Proj onto the friction disc of radius b, K tangential
     /// self-influence (the smaller of both axes), slip that at the end of the increment.
@@ -111,6 +111,9 @@ pub struct Outcome {
     pub contact_cells: usize,
     /// Cells that stick.
     pub stick_cells: usize,
+    /// Elastic energy that the tractions of the contact have stored in both bodies and the interface [force x length]: half the sum of
+    /// tractions times relative displacements, in a line contact relative to the datum.
+    pub elastic_energy: f64,
     /// What the contact does.
     pub regime: Regime,
     /// How well the equations hold.

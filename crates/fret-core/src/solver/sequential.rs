@@ -3,6 +3,7 @@
 use super::contact_problem::{Pressure, Solution};
 use super::increment_problem::{IncrementProblem, Solved};
 use super::laws::complementarity::normal_residual;
+use super::laws::limit::sliding_fraction;
 use super::laws::projection::project_pressure;
 use super::newton;
 use super::normal::{NormalSolution, solve_normal};
@@ -50,12 +51,16 @@ pub fn solve(
         let before = increment.displacement_before(last, operators);
         let counted_from = increment.counted_from(&before);
         let problem = increment.contact_problem(Pressure::Given, &counted_from);
+        if !increment.tangential.held()[2] {
+            // Without a moment the limit is the sum of the bounds.
+            increment.check_limit(&tractions, 1.0 / sliding_fraction(settings.tolerance))?;
+        }
         newton::make_shear_feasible(&problem, &mut tractions, operators);
         operators.compliance.tangential(tractions.shear.parts(), displacements.tangential.parts_mut());
         let found =
             newton::solve(&problem, &mut tractions, &mut displacements, operators, settings, callback);
         if let (Err(SolveError::NotConverged { .. }), false) = (&found, increment.path.turns()) {
-            increment.check_limit(&tractions)?;
+            increment.check_limit(&tractions, 1.0)?;
         }
         solution = found?;
         drift = increment.drift(&before, &displacements.tangential, solution.tangential.motion);

@@ -70,12 +70,14 @@ pub enum SolveError {
         /// Iterations made.
         iterations: usize,
     },
-    /// More tangential force than friction carries.
+    /// More tangential force than friction carries, or as much: the contact slides, and no force tells how far.
     AboveSliding {
         /// Force asked for [force].
         asked: f64,
         /// What friction carries [force].
         bound: f64,
+        /// Whether the shear strength of the interface bounds it, beside the friction coefficient.
+        has_strength: bool,
     },
     /// More force and moment together than friction carries.
     AboveFullSlip {
@@ -107,9 +109,9 @@ impl SolveError {
     /// The error of a grid of whose cells one in `copies` was solved.
     pub(super) fn of_whole(self, copies: usize) -> Self {
         match self {
-            Self::AboveSliding { asked, bound } => {
+            Self::AboveSliding { asked, bound, has_strength } => {
                 let copies = copies as f64;
-                Self::AboveSliding { asked: asked * copies, bound: bound * copies }
+                Self::AboveSliding { asked: asked * copies, bound: bound * copies, has_strength }
             }
             Self::NoTilt { asked, reached } => {
                 let copies = copies as f64;

@@ -1,4 +1,5 @@
-//! From a solved region to the state after the increment: what every cell did, what friction dissipated, resultants and residuals.
+//! From a solved region to the state after the increment: what every cell did, what friction dissipated and elasticity stored, resultants
+//! and residuals.
 
 use super::contact_set::ContactSet;
 use super::increment_problem::{IncrementProblem, Solved};
@@ -31,6 +32,8 @@ pub(super) fn state_after(
     let mut moment = 0.0;
     let mut tilt_moment = [0.0; 2];
     let mut dissipated = 0.0;
+    let mut stored = 0.0;
+    let moved = &solved.displacements;
     for (place, cell) in contact.cells().enumerate() {
         let at = region.at(cell);
         let [q, end] = [shear.at(place), end_slip.at(place)];
@@ -39,6 +42,8 @@ pub(super) fn state_after(
             tilt_moment[axis] +=
                 (problem.stretch.middle[axis] + grid.centre(axis, at[axis])) * pressure[cell];
         }
+        let [ux, uy] = moved.tangential.at(cell);
+        stored += pressure[cell] * moved.normal[cell] + q[0] * ux + q[1] * uy;
         let (zone, slip) = if slips(q, end, bound[place], stiffness) {
             (Zone::Slip, slip.at(place))
         } else {
@@ -79,7 +84,9 @@ pub(super) fn state_after(
         coulomb: solution.tangential.residual,
         equilibrium: off_equilibrium(problem, &resultants, limit * area),
     };
-    let outcome = Outcome { resultants, contact_cells: contact.len(), stick_cells, regime, residual };
+    let elastic_energy = 0.5 * stored * area_of_copies;
+    let contact_cells = contact.len();
+    let outcome = Outcome { resultants, contact_cells, stick_cells, elastic_energy, regime, residual };
     (state, outcome)
 }
 

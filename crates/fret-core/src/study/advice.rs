@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use super::errors::Errors;
+use super::errors::between;
 use super::level::Level;
 use super::quantities::Quantity;
 use super::reference::{Reference, has_order};
@@ -36,16 +36,16 @@ const SCATTER: f64 = 1.5;
 pub fn advice<'a>(
     resolutions: &Resolutions,
     level: &impl Fn(Place) -> Option<&'a Level>,
-    judged: &impl Fn(Place) -> Option<Errors>,
+    judged: &impl Fn(Place) -> Option<[Option<f64>; 6]>,
     accuracy: f64,
 ) -> Advice {
     let cells_line = resolutions.line(Kind::Cells);
     let increments_line = resolutions.line(Kind::Increments);
     let alone = limit_of_increments(resolutions, level);
-    let by_increments = |place: &Place| Some(super::errors::errors(alone.as_ref()?, level(*place)?, None));
+    let by_increments = |place: &Place| Some(between(alone.as_ref()?, level(*place)?));
     let cells = choose(
         &cells_line.iter().map(|[i, ..]| resolutions.cells[*i][0]).collect::<Vec<_>>(),
-        &cells_line.iter().map(|place| between(judged(*place).as_ref())).collect::<Vec<_>>(),
+        &cells_line.iter().map(|place| judged(*place).unwrap_or_default()).collect::<Vec<_>>(),
         Kind::Cells,
         accuracy / 2.0,
     );
@@ -54,7 +54,7 @@ pub fn advice<'a>(
             .iter()
             .map(|[_, j, _]| resolutions.refined(*j).max().unwrap_or(1))
             .collect::<Vec<_>>(),
-        &increments_line.iter().map(|place| between(by_increments(place).as_ref())).collect::<Vec<_>>(),
+        &increments_line.iter().map(|place| by_increments(place).unwrap_or_default()).collect::<Vec<_>>(),
         Kind::Increments,
         accuracy / 2.0,
     );
@@ -64,11 +64,6 @@ pub fn advice<'a>(
         increments: increments.map(|choice| choice.count),
         concluded: cells.iter().chain(&increments).any(|choice| choice.is_beyond),
     }
-}
-
-/// Errors of the quantities of interest; none of a level that was not solved.
-fn between(errors: Option<&Errors>) -> [Option<f64>; 6] {
-    errors.map_or([None; 6], |errors| errors.between)
 }
 
 /// The limit along the increments alone, at the most cells.
@@ -157,16 +152,16 @@ fn within(counts: &[usize], errors: &[Option<f64>], bound: f64) -> Option<usize>
     (good > 0).then(|| counts[counts.len() - good])
 }
 
-/// Which of some levels are efficient: none is both quicker and closer. Points are time and error.
+/// Which of some levels are efficient: none takes less and is closer. Points are what a level takes, as work or time, and its error.
 pub fn frontier(points: &[(f64, Option<f64>)]) -> Vec<bool> {
-    let is_beaten = |(time, error): (f64, f64)| {
-        points.iter().any(|(other_time, other)| {
+    let is_beaten = |(takes, error): (f64, f64)| {
+        points.iter().any(|(other_takes, other)| {
             other.is_some_and(|other| {
-                *other_time <= time && other <= error && (*other_time < time || other < error)
+                *other_takes <= takes && other <= error && (*other_takes < takes || other < error)
             })
         })
     };
-    points.iter().map(|(time, error)| error.is_some_and(|error| !is_beaten((*time, error)))).collect()
+    points.iter().map(|(takes, error)| error.is_some_and(|error| !is_beaten((*takes, error)))).collect()
 }
 
 #[cfg(test)]

@@ -10,6 +10,7 @@ use std::f64::consts::PI;
 
 use super::line_form::{LinePressed, at_datum};
 use super::quantities::Quantity;
+use super::radial_table::RadialTable;
 use crate::analytic::{
     Cone, EffectiveModuli, FlatPunch, Hertz, HertzEllipse, LineHistory, RoundedPunch, TangentialHistory,
 };
@@ -66,7 +67,7 @@ impl ClosedForm {
         let case = &plan.case;
         let tilts = case.tilts(0) || case.tilts(1);
         let changes = case.wear.is_some() || case.is_open_ended() || tilts;
-        if case.periodic || changes || plan.coupling == Coupling::Coupled {
+        if case.periodic || !case.beyond.is_body() || changes || plan.coupling == Coupling::Coupled {
             return None;
         }
         let moduli = moduli(plan)?;
@@ -119,6 +120,15 @@ impl ClosedForm {
             Some(Pressed::Line(line)) => line.hertz.pressure(x),
             None => 0.0,
         }
+    }
+
+    /// Pressure as a function of the place at the end of the history, for many places: what takes an integral comes from a table.
+    pub fn pressure_everywhere(&self) -> Box<dyn Fn(f64, f64) -> f64 + '_> {
+        if let Some(Pressed::Rounded(punch)) = &self.last {
+            let table = RadialTable::new(punch.flat_radius(), punch.contact_radius, |r| punch.pressure(r));
+            return Box::new(move |x: f64, y: f64| table.at(x.hypot(y)));
+        }
+        Box::new(move |x: f64, y: f64| self.pressure(x, y))
     }
 
     /// Whether it knows the shear.

@@ -4,10 +4,8 @@ use serde::Serialize;
 
 use super::level::Level;
 use super::quantities::{Quantity, StageQuantities};
-use super::reference::Reference;
+use super::reference::{NOTHING, Reference};
 
-/// Fraction below which a motion or an energy is none.
-const NOTHING: f64 = 1e-9;
 /// Errors below this are rounding, and show no order.
 const ROUNDING: f64 = 1e-12;
 
@@ -68,25 +66,36 @@ impl Errors {
 
 /// Errors of a level; `coarser` is the level of half the cells, when there is one.
 pub fn errors(reference: &Reference, level: &Level, coarser: Option<&Level>) -> Errors {
-    let judged = |reading: &dyn Fn(usize, Quantity) -> [f64; 2]| {
-        Quantity::ALL.map(|quantity| {
-            (!reference.is_itself(quantity, level))
-                .then(|| error(reference, quantity, level.ends.len(), reading))?
-        })
-    };
     let extrapolated = coarser.map_or([None; 6], |coarser| {
-        judged(&|end, quantity| match coarser.ends.get(end) {
+        judged(reference, level, &|end, quantity| match coarser.ends.get(end) {
             Some(coarse) => extrapolated(&level.ends[end], coarse, quantity),
             None => level.ends[end].between(quantity),
         })
     });
     Errors {
-        plain: judged(&|end, quantity| level.ends[end].plain(quantity)),
-        between: judged(&|end, quantity| level.ends[end].between(quantity)),
+        plain: judged(reference, level, &|end, quantity| level.ends[end].plain(quantity)),
+        between: between(reference, level),
         extrapolated,
         pressure: reference.error_of_pressure(level),
         shear: reference.error_of_shear(level),
     }
+}
+
+/// Errors of the quantities of interest of a level alone, read between the cells.
+pub(super) fn between(reference: &Reference, level: &Level) -> [Option<f64>; 6] {
+    judged(reference, level, &|end, quantity| level.ends[end].between(quantity))
+}
+
+/// Errors of the quantities of interest of a level in one reading; none of what is compared with itself.
+fn judged(
+    reference: &Reference,
+    level: &Level,
+    reading: &dyn Fn(usize, Quantity) -> [f64; 2],
+) -> [Option<f64>; 6] {
+    Quantity::ALL.map(|quantity| {
+        (!reference.is_itself(quantity, level))
+            .then(|| error(reference, quantity, level.ends.len(), reading))?
+    })
 }
 
 /// A quantity of interest with its error of second order taken off; only pressure and approach have one of a known order and sign, and of a
@@ -110,21 +119,9 @@ fn error(
     reading: &dyn Fn(usize, Quantity) -> [f64; 2],
 ) -> Option<f64> {
     let exact = reference.of(quantity);
-    let scale_from =
-        if quantity == Quantity::StickArea { reference.of(Quantity::ContactArea) } else { exact };
-    let largest =
-        |values: &[Option<[f64; 2]>]| values.iter().flatten().map(|[x, y]| x.hypot(*y)).reduce(f64::max);
-    let scale = largest(scale_from)?;
-    // Beside these a shift or an energy is none: what rounding leaves of a symmetric case.
-    let beside = match quantity {
-        Quantity::Shift => largest(reference.of(Quantity::Approach)),
-        Quantity::DissipatedEnergy => largest(reference.of(Quantity::Approach))
-            .zip(largest(reference.of(Quantity::MaxPressure)))
-            .zip(largest(reference.of(Quantity::ContactArea)))
-            .map(|((approach, peak), area)| approach * peak * area),
-        _ => None,
-    };
-    if scale <= NOTHING * beside.unwrap_or(0.0) {
+    let scaled_by = if quantity == Quantity::StickArea { Quantity::ContactArea } else { quantity };
+    let scale = reference.largest(scaled_by)?;
+    if scale <= NOTHING * reference.beside(quantity).unwrap_or(0.0) {
         return None;
     }
     let never_sticks = || exact.iter().flatten().all(|[area, _]| *area == 0.0);

@@ -8,6 +8,7 @@ use serde::Serialize;
 use super::errors::extrapolated;
 use super::quantities::{Quantity, StageQuantities};
 use super::resolutions::{ResolutionError, only_one_grid};
+use super::unbounded::pressure_is_unbounded;
 use super::variation::{Variation, fewest};
 use crate::history::warning::CELLS_IN_RADIUS;
 use crate::model::{Integration, Shape};
@@ -151,15 +152,13 @@ struct Scene {
 impl Scene {
     fn of(plan: &Plan) -> Self {
         let shapes = &plan.case.profile.shapes;
-        let ends = shapes
-            .iter()
-            .any(|shape| matches!(shape, Shape::FlatPunch { .. } | Shape::Cylinder { length: Some(_), .. }));
+        let ends = shapes.iter().any(super::unbounded::ends);
         Self {
             is_smooth: shapes
                 .iter()
                 .all(|shape| shape.curvatures().is_some() || matches!(shape, Shape::Wave { .. })),
             ends,
-            is_pointed: ends || shapes.iter().any(|shape| matches!(shape, Shape::Cone { .. })),
+            is_pointed: pressure_is_unbounded(shapes),
             is_coupled: plan.coupling == Coupling::Coupled,
             has_friction: plan.coupling != Coupling::Frictionless,
             is_line: plan.grid.is_line(),

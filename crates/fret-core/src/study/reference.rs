@@ -6,11 +6,17 @@ use serde::Serialize;
 
 use super::closed_form::ClosedForm;
 use super::level::Level;
-use super::limit::still_missing;
+use super::limit::{Heading, heading};
 use super::means;
 use super::quantities::{Quantity, StageQuantities};
 use super::resolutions::{Kind, Place, Resolutions};
 use crate::model::SurfaceGrid;
+
+/// Quantities change by less than so many times the tolerance of the solver, relative, where refinement changes nothing.
+const NOISE: f64 = 10.0;
+
+/// Fraction below which a motion or an energy is none.
+pub(super) const NOTHING: f64 = 1e-9;
 
 /// Where a reference comes from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
@@ -26,11 +32,26 @@ pub enum Source {
     Finest,
 }
 
+/// What is known of the way a quantity approaches its limit in a study.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Convergence {
+    /// With the order its levels show.
+    Observed,
+    /// With an order that was taken for granted: two levels show none.
+    Assumed,
+    /// Its levels show no order that is plausible: they are not in the asymptotic range.
+    NotAsymptotic,
+    /// It has no limit: the largest pressure at a sharp edge or a tip grows with the number of cells without bound.
+    NoLimit,
+}
+
 /// Reference values.
 #[derive(Debug, Clone)]
 pub struct Reference {
     /// For each quantity of interest its values at the end of each stage, and where they come from; `None` where nothing is known.
     numbers: [(Vec<Option<[f64; 2]>>, Source); 6],
+    convergence: [Convergence; 6],
     form: Option<ClosedForm>,
     finest: Option<Fields>,
 }
@@ -49,7 +70,12 @@ impl Reference {
             let values = form.ends().iter().map(|said| said.of(quantity)).collect();
             (values, Source::ClosedForm)
         };
-        Self { numbers: Quantity::ALL.map(of), form: Some(form), finest: None }
+        Self {
+            numbers: Quantity::ALL.map(of),
+            convergence: [Convergence::Observed; 6],
+            form: Some(form),
+            finest: None,
+        }
     }
 
     /// The finest level of a solved study.
@@ -57,7 +83,13 @@ impl Reference {
         let of = |quantity: Quantity| {
             (finest.ends.iter().map(|end| Some(end.between(quantity))).collect(), Source::Finest)
         };
-        Self { numbers: Quantity::ALL.map(of), form: None, finest: Some(Fields::of(finest)) }
+        let fields = Some(Fields::of(finest));
+        Self {
+            numbers: Quantity::ALL.map(of),
+            convergence: [Convergence::Observed; 6],
+            form: None,
+            finest: fields,
+        }
     }
 
     /// The limit a solved study is heading for; for the fields, and for quantities that show no limit, its finest level. `level`
@@ -73,26 +105,42 @@ impl Reference {
             let (counts, levels): (Vec<f64>, Vec<&Level>) = solved.unzip();
             (kind, counts, levels)
         });
-        for (quantity, (values, source)) in Quantity::ALL.iter().zip(&mut reference.numbers) {
+        for quantity in Quantity::ALL {
+            let least = NOTHING * reference.beside(quantity).unwrap_or(0.0);
+            let noise =
+                least.max(NOISE * finest.variation.tolerance * reference.largest(quantity).unwrap_or(0.0));
+            let (values, source) = &mut reference.numbers[quantity as usize];
+            let own = values.clone();
             let mut shows_a_limit = false;
+            let mut convergence = Convergence::Observed;
             for (end, value) in values.iter_mut().enumerate() {
                 let Some(value) = value else { continue };
-                for (kind, counts, levels) in lines.iter().filter(|(kind, ..)| has_order(*quantity, *kind)) {
-                    let order = known_order(*quantity, *kind).filter(|_| !finest.grid.is_line());
+                for (kind, counts, levels) in lines.iter().filter(|(kind, ..)| has_order(quantity, *kind)) {
+                    let order = known_order(quantity, *kind).filter(|_| !finest.grid.is_line());
                     for (axis, part) in value.iter_mut().enumerate() {
                         let along: Vec<f64> = levels
                             .iter()
                             .filter_map(|level| level.ends.get(end))
-                            .map(|end: &StageQuantities| end.between(*quantity)[axis])
+                            .map(|end: &StageQuantities| end.between(quantity)[axis])
                             .collect();
-                        if let Some(missing) = still_missing(counts, &along, order) {
-                            *part += missing;
-                            shows_a_limit |= along.iter().any(|value| *value != 0.0);
+                        let (missing, shown) = match heading(counts, &along, order, noise) {
+                            Heading::Alone => continue,
+                            Heading::Limit(missing) => (missing, Convergence::Observed),
+                            Heading::Assumed(missing) => (missing, Convergence::Assumed),
+                            Heading::NotAsymptotic => (0.0, Convergence::NotAsymptotic),
+                        };
+                        *part += missing;
+                        shows_a_limit |= along.iter().any(|value| *value != 0.0);
+                        if convergence != Convergence::NotAsymptotic && shown != Convergence::Observed {
+                            convergence = shown;
                         }
                     }
                 }
             }
-            if shows_a_limit {
+            reference.convergence[quantity as usize] = convergence;
+            if convergence == Convergence::NotAsymptotic {
+                *values = own;
+            } else if shows_a_limit {
                 *source = Source::Limit;
             }
         }
@@ -102,14 +150,28 @@ impl Reference {
     /// This reference where it says something, another one elsewhere.
     #[must_use]
     pub fn or(mut self, other: Self) -> Self {
-        for (own, other) in self.numbers.iter_mut().zip(other.numbers) {
-            if own.0.iter().all(Option::is_none) {
-                *own = other;
+        for (number, other_numbers) in other.numbers.into_iter().enumerate() {
+            if self.numbers[number].0.iter().all(Option::is_none) {
+                self.numbers[number] = other_numbers;
+                self.convergence[number] = other.convergence[number];
             }
         }
         self.finest = self.finest.or(other.finest);
         self.form = self.form.or(other.form);
         self
+    }
+
+    /// This reference without a quantity that has no limit.
+    #[must_use]
+    pub fn without_limit(mut self, quantity: Quantity) -> Self {
+        self.numbers[quantity as usize].0.fill(None);
+        self.convergence[quantity as usize] = Convergence::NoLimit;
+        self
+    }
+
+    /// How a quantity approaches its limit in the study.
+    pub fn convergence(&self, quantity: Quantity) -> Convergence {
+        self.convergence[quantity as usize]
     }
 
     /// This reference with numbers from elsewhere for the end of the history.
@@ -128,6 +190,7 @@ impl Reference {
     pub fn nothing(stages: usize) -> Self {
         Self {
             numbers: std::array::from_fn(|_| (vec![None; stages], Source::Given)),
+            convergence: [Convergence::Observed; 6],
             form: None,
             finest: None,
         }
@@ -136,6 +199,23 @@ impl Reference {
     /// Values of a quantity of interest at the end of each stage, scalars first.
     pub fn of(&self, quantity: Quantity) -> &[Option<[f64; 2]>] {
         &self.numbers[quantity as usize].0
+    }
+
+    /// The largest value of a quantity of interest over the stages.
+    pub(super) fn largest(&self, quantity: Quantity) -> Option<f64> {
+        self.of(quantity).iter().flatten().map(|[x, y]| x.hypot(*y)).reduce(f64::max)
+    }
+
+    /// What a shift or an energy is none beside, if it is as small as rounding leaves it in a symmetric case.
+    pub(super) fn beside(&self, quantity: Quantity) -> Option<f64> {
+        let approach = self.largest(Quantity::Approach)?;
+        match quantity {
+            Quantity::Shift => Some(approach),
+            Quantity::DissipatedEnergy => {
+                Some(approach * self.largest(Quantity::MaxPressure)? * self.largest(Quantity::ContactArea)?)
+            }
+            _ => None,
+        }
     }
 
     /// Where a quantity of interest comes from; `None` where nothing is known of it.
@@ -152,7 +232,8 @@ impl Reference {
     /// Relative error of a level's pressure in the mean square, at the end of the history.
     pub fn error_of_pressure(&self, level: &Level) -> Option<f64> {
         let exact = if let Some(form) = &self.form {
-            means::of_formula(&|x, y| form.pressure(x, y), &level.grid)
+            let pressure = form.pressure_everywhere();
+            means::of_formula(&|x, y| pressure(x, y), &level.grid)
         } else {
             let fields =
                 self.finest.as_ref().filter(|fields| fields.grid != level.grid || !self.is_own(level))?;

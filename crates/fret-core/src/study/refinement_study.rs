@@ -3,10 +3,10 @@
 use serde::Serialize;
 
 use super::advice::{Advice, advice, frontier};
-use super::errors::{Errors, Form, errors, orders};
+use super::errors::{Errors, Form, between, errors, orders};
 use super::level::Level;
 use super::quantities::Quantity;
-use super::reference::{Reference, Source, has_order};
+use super::reference::{Convergence, Reference, Source, has_order};
 use super::resolutions::{Kind, Place, Resolutions};
 
 /// A solved study. Levels that could not be solved are missing; without the finest one there is nothing to judge by.
@@ -24,11 +24,11 @@ pub struct Judged {
     /// Its errors.
     pub errors: Errors,
     /// Orders its quantities of interest, read between the cells, show against the level before it in the line; areas have none
-    /// over the cells.
+    /// over the cells, nor has a quantity whose limit was not found from an observed order.
     pub orders: [Option<f64>; 6],
     /// The same of pressure and shear in the mean square.
     pub field_orders: [Option<f64>; 2],
-    /// Whether no level of the study is both quicker and closer, by the worst quantity of interest in the order of [`Form::ALL`].
+    /// Whether no level of the study takes less work and is closer, by the worst quantity of interest in the order of [`Form::ALL`].
     pub is_efficient: [bool; 3],
 }
 
@@ -75,10 +75,22 @@ impl RefinementStudy {
 
     /// Time a form of a level takes [s]: an extrapolation pays for the coarser level too.
     pub fn seconds(&self, place: Place, form: Form) -> Option<f64> {
-        let own = self.level(place)?.wall_s;
+        self.spent(place, form, |level| level.wall_s)
+    }
+
+    /// The same as work, which is the same whenever it is done: operator applications by the size of their grids, `n log n` of the cells.
+    pub fn work(&self, place: Place, form: Form) -> Option<f64> {
+        self.spent(place, form, |level| {
+            let cells = level.grid.len() as f64;
+            level.work.full_grid_convolutions * cells * (4.0 * cells).log2()
+        })
+    }
+
+    fn spent(&self, place: Place, form: Form, of: impl Fn(&Level) -> f64) -> Option<f64> {
+        let own = of(self.level(place)?);
         match form {
             Form::Plain | Form::Between => Some(own),
-            Form::Extrapolated => Some(own + self.coarser(place)?.wall_s),
+            Form::Extrapolated => Some(own + of(self.coarser(place)?)),
         }
     }
 
@@ -89,14 +101,19 @@ impl RefinementStudy {
 
     /// The lines of the study judged by `reference`.
     pub fn judged(&self, reference: &Reference) -> Vec<Line> {
+        self.judged_while(reference, || true).unwrap_or_default()
+    }
+
+    /// The same, asked before each level whether to go on; `None` where not.
+    pub fn judged_while(&self, reference: &Reference, goes_on: impl Fn() -> bool) -> Option<Vec<Line>> {
         let all: Vec<(Place, Errors)> = self
             .levels
             .iter()
-            .map(|(place, level)| (*place, errors(reference, level, self.coarser(*place))))
-            .collect();
+            .map(|(place, level)| goes_on().then(|| (*place, errors(reference, level, self.coarser(*place)))))
+            .collect::<Option<_>>()?;
         let efficient = Form::ALL.map(|form| {
             let point = |(place, errors): &(Place, Errors)| {
-                (self.seconds(*place, form).unwrap_or(f64::INFINITY), errors.worst(form))
+                (self.work(*place, form).unwrap_or(f64::INFINITY), errors.worst(form))
             };
             frontier(&all.iter().map(point).collect::<Vec<_>>())
         });
@@ -109,7 +126,9 @@ impl RefinementStudy {
                 orders(&counts, &solved.iter().map(|k| error(&all[*k].1)).collect::<Vec<_>>())
             };
             let of_numbers = Quantity::ALL.map(|quantity| {
-                along(&|errors| errors.of_quantity(quantity).filter(|_| has_order(quantity, kind)))
+                let is_observed =
+                    reference.convergence(quantity) == Convergence::Observed && has_order(quantity, kind);
+                along(&|errors| errors.of_quantity(quantity).filter(|_| is_observed))
             });
             let of_fields = [along(&|errors| errors.pressure), along(&|errors| errors.shear)];
             let judged = |(row, k): (usize, &usize)| Judged {
@@ -121,7 +140,7 @@ impl RefinementStudy {
             };
             Line { kind, levels: solved.iter().enumerate().map(judged).collect() }
         };
-        Kind::ALL.into_iter().map(line).filter(|line| line.levels.len() > 1).collect()
+        Some(Kind::ALL.into_iter().map(line).filter(|line| line.levels.len() > 1).collect())
     }
 
     /// The errors of a level as its line shows them: without those of quantities that have no order in what the line refines and
@@ -146,7 +165,7 @@ impl RefinementStudy {
         advice(
             &self.resolutions,
             &|place| self.level(place),
-            &|place| self.errors(reference, place),
+            &|place| Some(between(reference, self.level(place)?)),
             accuracy,
         )
     }

@@ -79,8 +79,7 @@ impl Variation {
 
 /// Fewest increments a stage can have: all turning points of its cycle, all rows of its table.
 pub(super) fn fewest(stage: &Stage) -> usize {
-    let turns = stage.cycles().map_or(1, |cycles| cycles.waveform.fewest_increments());
-    if rows(stage) > 1 { rows(stage) } else { turns }
+    if rows(stage) > 1 { rows(stage) } else { stage.fewest_increments() }
 }
 
 /// Rows of a stage's table, each of which takes the same number of increments; 1 without a table.

@@ -160,6 +160,8 @@ mod tests {
             point: DepthPoint { depth: 0.0, layer: 0 },
             cycles: None,
             factor_of_safety: None,
+            of_cells: value,
+            cycles_of_cells: None,
         }
     }
 

@@ -41,7 +41,7 @@ impl FilmStress {
 
     /// Takes the stress at one depth in one increment; depths from 0 on, not falling.
     pub fn look(&mut self, point: DepthPoint, surface: usize, field: &StressField) {
-        if point.layer != 0 {
+        if !self.film.holds(point.layer) {
             return;
         }
         let [xx, yy, _, xy, ..] = &field.components;
@@ -65,7 +65,7 @@ impl FilmStress {
 
     /// The largest tension and the largest compression of the film; none where the depths do not go from the surface to its lower face.
     pub fn most_severe(&self, constants: &FatigueConstants) -> Vec<FilmCrack> {
-        let thickness = self.film.thickness;
+        let thickness = self.film.thickness();
         let whole = |(depth, _): &(f64, [Array2<f64>; 3])| (depth - thickness).abs() <= 1e-9 * thickness;
         if self.last.is_empty() || !self.last.iter().all(whole) {
             return Vec::new();
@@ -120,5 +120,31 @@ mod tests {
         );
         assert!((found[1].stress + 5.0).abs() < 1e-14 && found[1].cell == [1, 0]);
         assert!((found[1].direction - 135.0).abs() < 1e-12 && found[1].released.channelling == Some(0.0));
+    }
+
+    /// The mean goes over all layers of a film: one that is cut at a third of its thickness gives the numbers of the whole one, and of
+    /// stress that jumps from sublayer to sublayer each counts by its thickness.
+    #[test]
+    fn the_mean_goes_over_all_layers_of_the_film() {
+        let [film, base] = [200.0, 100.0].map(|young| ElasticMaterial::new(young, 0.25).unwrap());
+        let found = |layers: Vec<Coating>, stresses: &[(f64, usize, f64)]| {
+            let body = HalfSpace::new(layers, Base::Elastic(base)).unwrap();
+            let mut collected = FilmStress::new(Film::outermost(&body).unwrap());
+            for &(depth, layer, stress) in stresses {
+                let mut field = StressField::zeros([1, 1]);
+                field.components[0][[0, 0]] = stress;
+                collected.look(DepthPoint { depth, layer }, 0, &field);
+            }
+            collected.most_severe(&FatigueConstants::default())
+        };
+        let layer = |thickness: f64| Coating::new(film, thickness).unwrap();
+        let whole = found(vec![layer(3.0)], &[(0.0, 0, 8.0), (1.0, 0, 6.0), (3.0, 0, 2.0), (3.0, 1, 9.0)]);
+        let stresses = [(0.0, 0, 8.0), (1.0, 0, 6.0), (1.0, 1, 6.0), (3.0, 1, 2.0), (3.0, 2, 9.0)];
+        assert_eq!(found(vec![layer(1.0), layer(2.0)], &stresses), whole);
+        assert!((whole[0].stress - 5.0).abs() < 1e-14 && whole.len() == 1);
+        let stiffer = Coating::new(ElasticMaterial::new(400.0, 0.25).unwrap(), 1.0).unwrap();
+        let jumps = [(0.0, 0, 8.0), (1.0, 0, 8.0), (1.0, 1, 2.0), (3.0, 1, 2.0), (3.0, 2, 9.0)];
+        let graded = found(vec![stiffer.continued(), layer(2.0)], &jumps);
+        assert!((graded[0].stress - 4.0).abs() < 1e-14, "{graded:?}");
     }
 }

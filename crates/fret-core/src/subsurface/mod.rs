@@ -25,5 +25,5 @@ pub use even::EvenStress;
 pub use largest::{Largest, Measure};
 pub use operator::{DepthOperator, Tractions};
 pub use severity::{Judged, MostSevere, Severity};
-pub use survey::{LoadedSurface, survey};
+pub use survey::{LoadedSurface, displacements, survey};
 pub use tensor::{Principal, StressField, StressTensor};

@@ -19,7 +19,7 @@ pub struct AtRim {
 }
 
 /// Values at the rims of a line of surface cells, where they rise to a cusp: from outside, as `S - b sqrt(d)` through two centres, or
-/// `S - b sqrt(d) + c d` through three where the first one is very near. The rim is where the quadratic through `p^2` of the loaded
+/// `S - b sqrt(d) + c d` through three where the first one is very near, as far as the line has them: two open cells at least. The rim is where the quadratic through `p^2` of the loaded
 /// cells behind the last one vanishes. There is no cusp where the pressure falls linearly, as on thin films.
 ///
 /// Within 2 % on Hertz contacts that slide, from 20 cells in the radius on; first order in the cell, where centres alone have an order
@@ -39,15 +39,20 @@ pub(super) fn at_rims_of(value: impl Fn(usize) -> f64, pressure: &[f64]) -> Vec<
         for outwards in [-1_isize, 1] {
             let at =
                 |distance: isize| cell.checked_add_signed(outwards * distance).filter(|&place| place < n);
-            let all = |range: std::ops::RangeInclusive<isize>, loaded: bool| {
-                range.into_iter().all(|k| at(k).is_some_and(|place| (pressure[place] > 0.0) == loaded))
+            let is = |distance: isize, loaded: bool| {
+                at(distance).is_none_or(|place| (pressure[place] > 0.0) == loaded)
             };
-            if !(all(1..=4, false) && all(-3..=-1, true)) {
+            // two open cells at least; beyond the end of the line all are open
+            if at(2).is_none() || at(-3).is_none() {
+                continue;
+            }
+            if !((1..=4).all(|k| is(k, false)) && (-3..=-1).all(|k| is(k, true))) {
                 continue;
             }
             let inside = [-1, -2, -3].map(|k| at(k).map_or(0.0, |place| pressure[place]));
-            let outside = [1, 2, 3, 4].map(|k| at(k).map_or(0.0, &value));
-            if let Some((off, value)) = cusp(inside, outside) {
+            let near = [1, 2].map(|k| at(k).map_or(0.0, &value));
+            let far = [3, 4].map(|k| at(k).map(&value));
+            if let Some((off, value)) = cusp(inside, near, far) {
                 found.push(AtRim { cell, off: outwards as f64 * off, value });
             }
         }
@@ -56,11 +61,11 @@ pub(super) fn at_rims_of(value: impl Fn(usize) -> f64, pressure: &[f64]) -> Vec<
 }
 
 /// Distance of the rim from the centre of the last loaded cell, and the value there; from the pressures of the three cells behind it
-/// and the values of the four open ones before it.
-fn cusp([p1, p2, p3]: [f64; 3], [v1, v2, v3, v4]: [f64; 4]) -> Option<(f64, f64)> {
+/// and the values of the four open ones before it, of which the last two may lie beyond the end of the line.
+fn cusp([p1, p2, p3]: [f64; 3], [v1, v2]: [f64; 2], [v3, v4]: [Option<f64>; 2]) -> Option<(f64, f64)> {
     let bend = |a: f64, b: f64, c: f64| ((a - 2.0 * b + c) / (c - a)).abs();
     let squares = [p1, p2, p3].map(|p| p * p);
-    let rises = p1 < p2 && p2 < p3 && v1 > v2 && v2 > v3;
+    let rises = p1 < p2 && p2 < p3 && v1 > v2 && v3.is_none_or(|v3| v2 > v3);
     if !rises || bend(squares[0], squares[1], squares[2]) > bend(p1, p2, p3) {
         return None;
     }
@@ -74,13 +79,17 @@ fn cusp([p1, p2, p3]: [f64; 3], [v1, v2, v3, v4]: [f64; 4]) -> Option<(f64, f64)
         return None;
     }
     let root_at = |cells: f64| (cells - rim).sqrt();
-    let value = if 1.0 - rim > NEAREST {
-        let [near, far] = [root_at(1.0), root_at(2.0)];
-        (v1 * far - v2 * near) / (far - near)
-    } else {
-        // Lagrange's polynomial of second degree in the root, at 0.
-        let [r, s, t] = [root_at(2.0), root_at(3.0), root_at(4.0)];
-        v2 * s * t / ((r - s) * (r - t)) + v3 * r * t / ((s - r) * (s - t)) + v4 * r * s / ((t - r) * (t - s))
+    let through_two = |[v, w]: [f64; 2], [near, far]: [f64; 2]| (v * far - w * near) / (far - near);
+    let value = match (v3, v4) {
+        (Some(v3), Some(v4)) if 1.0 - rim <= NEAREST => {
+            // Lagrange's polynomial of second degree in the root, at 0.
+            let [r, s, t] = [root_at(2.0), root_at(3.0), root_at(4.0)];
+            v2 * s * t / ((r - s) * (r - t))
+                + v3 * r * t / ((s - r) * (s - t))
+                + v4 * r * s / ((t - r) * (t - s))
+        }
+        (Some(v3), None) if 1.0 - rim <= NEAREST => through_two([v2, v3], [root_at(2.0), root_at(3.0)]),
+        _ => through_two([v1, v2], [root_at(1.0), root_at(2.0)]),
     };
     (value > v1).then_some((rim, value))
 }

@@ -43,6 +43,10 @@ pub struct MostSevere {
     pub cycles: Option<f64>,
     /// Factor of safety, where the layer's constants tell it.
     pub factor_of_safety: Option<f64>,
+    /// Its largest value under the centres of cells at that depth: the value itself but at a rim, to which that is extrapolated.
+    pub of_cells: f64,
+    /// Cycles to initiation at that value.
+    pub cycles_of_cells: Option<f64>,
 }
 
 /// Values of a parameter at the points of a body; `None` where its constants are not given.
@@ -157,11 +161,11 @@ impl<'a> Severity<'a> {
                 values = look.in_row(&self.here, row);
                 let in_row = values.iter().copied().fold(known, f64::max);
                 if let Some((cell, value)) = look.largest(&self.here, in_row) {
-                    self.note(&look, value, (cell, [0.0; 2]), place);
+                    self.note(&look, [value; 2], (cell, [0.0; 2]), place);
                 } else if in_row > known
                     && let Some(i) = values.iter().position(|value| *value == in_row)
                 {
-                    self.note(&look, in_row, ([i, row], [0.0; 2]), place);
+                    self.note(&look, [in_row; 2], ([i, row], [0.0; 2]), place);
                 }
             }
             self.fields[index].1.push(Some(values));
@@ -197,6 +201,7 @@ impl<'a> Severity<'a> {
                 best = Some((value, [i, j], [0.0; 2]));
             }
         }
+        let of_cells = best.map_or(0.0, |(value, ..)| value);
         if place.depth == 0.0 {
             for &surface in &self.cycle {
                 for rim in along_lines(|cell| values[cell], &self.surfaces[surface].pressure) {
@@ -207,11 +212,18 @@ impl<'a> Severity<'a> {
             }
         }
         if let Some((value, cell, off)) = best {
-            self.note(look, value, (cell, off), place);
+            self.note(look, [value, of_cells], (cell, off), place);
         }
     }
 
-    fn note(&mut self, look: &Look, value: f64, (cell, off): ([usize; 2], [f64; 2]), point: DepthPoint) {
+    /// Notes a value, and the largest one of the cells.
+    fn note(
+        &mut self,
+        look: &Look,
+        [value, of_cells]: [f64; 2],
+        (cell, off): ([usize; 2], [f64; 2]),
+        point: DepthPoint,
+    ) {
         let cycle = cycle_at(&self.here, cell);
         let normal =
             look.parameter.of(&cycle, &look.material, &look.constants).and_then(|found| found.normal);
@@ -223,6 +235,8 @@ impl<'a> Severity<'a> {
             off,
             point,
             cycles: look.parameter.cycles(value, &look.material, &look.constants),
+            of_cells,
+            cycles_of_cells: look.parameter.cycles(of_cells, &look.material, &look.constants),
             factor_of_safety: look.parameter.factor_of_safety(value, &look.constants),
         };
         if point.depth == 0.0 {

@@ -25,6 +25,36 @@ pub struct LoadedSurface {
     pub even: EvenStress,
 }
 
+/// Displacement `u_x, u_y, u_z` at all points under one surface [length], `z` into the body: of the tractions alone, without that of bulk
+/// and residual stress; in a periodic problem without the mean, which a half-space does not determine. `visit(point, field)`.
+///
+/// # Errors
+/// As [`survey`].
+///
+/// # Panics
+/// In a line contact, whose displacements need a datum.
+pub fn displacements(
+    half_space: &HalfSpace,
+    (grid, periodic): (&SurfaceGrid, bool),
+    points: &[DepthPoint],
+    tractions: &Tractions<'_>,
+    mut visit: impl FnMut(usize, [Array2<f64>; 3]),
+) -> Result<(), ConvolutionError> {
+    assert!(!grid.is_line(), "displacements of a line contact need a datum");
+    let Some(&first) = points.first() else { return Ok(()) };
+    let with_shear = tractions.shear.is_some();
+    let mut operator = DepthOperator::new(half_space, first, grid, periodic, with_shear, true)?;
+    for (number, &point) in points.iter().enumerate() {
+        if number > 0 {
+            operator.move_to(point)?;
+        }
+        if let Some(found) = operator.displacement(tractions) {
+            visit(number, found);
+        }
+    }
+    Ok(())
+}
+
 /// Stress at all points under all surfaces, that of the bulk and residual stress included: `visit(point, surface, field)` with their indices, points outermost. `visit`
 /// returns whether to go on.
 ///

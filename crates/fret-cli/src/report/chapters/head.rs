@@ -1,5 +1,7 @@
 //! The run at a glance: title, how it ended, its most telling numbers, what about them may mislead.
 
+use fret_core::model::Shape;
+use fret_core::study::pressure_is_unbounded;
 use maud::{Markup, html};
 use serde_json::Value;
 
@@ -43,7 +45,11 @@ fn how_it_ended(view: &Overview<'_>) -> String {
         },
     ];
     if let Some(cycles) = record["worn_through"]["cycles"].as_u64() {
-        line.push(format!("worn to the limit after {}", counted(cycles as usize, "cycle")));
+        let what = match record["worn_through"]["to"].as_str() {
+            Some("coating") => "coating worn through",
+            _ => "worn to the limit",
+        };
+        line.push(format!("{what} after {}", counted(cycles as usize, "cycle")));
     }
     if let Some(wall_s) = record["totals"]["wall_s"].as_f64() {
         let threads = record["threads"].as_u64().unwrap_or(1) as usize;
@@ -64,8 +70,15 @@ fn cards(view: &Overview<'_>) -> Vec<(&'static str, String)> {
     let Some(last) = table.rows().checked_sub(1) else { return Vec::new() };
     let largest = |name: &str| table.column(name).iter().copied().fold(0.0, f64::max);
     let area = if view.results.fields.is_line() { "max contact width" } else { "max contact area" };
+    let shapes: Option<Vec<Shape>> = view.results.planned("/case/profile/shapes");
+    let is_unbounded = shapes.is_some_and(|shapes| pressure_is_unbounded(&shapes));
+    let pressure = if is_unbounded {
+        "max pressure (no limit: it grows with the number of cells)"
+    } else {
+        "max pressure"
+    };
     let mut cards = vec![
-        ("max pressure", view.number(largest("max_pressure"), "pressure")),
+        (pressure, view.number(largest("max_pressure"), "pressure")),
         (area, view.number(largest("contact_area"), "length^2")),
     ];
     if view.direction.is_some() || view.twists {

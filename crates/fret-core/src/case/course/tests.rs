@@ -1,81 +1,15 @@
-use super::{KnownLoads, Path, Stage, Waveform, walk};
+use super::{KnownLoads, Path, Stage, walk};
 use crate::case::check::tests::{BALL, read};
 use crate::case::{Attachments, Case};
 use crate::model::Control::{self, FarEnd, Force, Motion};
 use crate::model::LoadStep;
-
-const WAVES: [Waveform; 3] = [Waveform::Triangle, Waveform::Sine, Waveform::Trapezoid { dwell: 0.2 }];
-
-#[test]
-fn a_wave_meets_its_turns_for_any_number_of_increments_and_any_phase() {
-    for wave in WAVES {
-        for increments in wave.fewest_increments()..40 {
-            for phase in [0.0, 0.25, 0.1, -0.4, 0.75] {
-                let values: Vec<f64> = (1..=increments).map(|k| wave.at(k, increments, phase)).collect();
-                assert!(
-                    values.contains(&1.0) && values.contains(&-1.0),
-                    "{wave:?} {increments} {phase}: {values:?}"
-                );
-                assert!(values.iter().all(|value| value.abs() <= 1.0));
-                assert_eq!(wave.at(increments, increments, phase), wave.at(0, increments, phase));
-            }
-        }
-    }
-}
-
-#[test]
-fn a_wave_without_phase_ends_at_zero() {
-    for wave in WAVES {
-        for increments in wave.fewest_increments()..40 {
-            assert_eq!(wave.at(increments, increments, 0.0), 0.0, "{wave:?} {increments}");
-        }
-    }
-}
-
-#[test]
-fn waves_are_what_their_names_say() {
-    for k in 0..48 {
-        let share = k as f64 / 48.0;
-        let sine = (std::f64::consts::TAU * (share + 0.125)).sin();
-        // Rounding of the sine's argument.
-        assert!((Waveform::Sine.at(k, 48, 0.125) - sine).abs() < 1e-14);
-        let triangle = (std::f64::consts::TAU * share).sin().asin() / std::f64::consts::FRAC_PI_2;
-        // The inverse sine loses half of the digits at the turns.
-        assert!((Waveform::Triangle.at(k, 48, 0.0) - triangle).abs() < 1e-7);
-        let trapezoid = (triangle / (1.0 - 4.0 * 0.125)).clamp(-1.0, 1.0);
-        assert!((Waveform::Trapezoid { dwell: 0.25 }.at(k, 48, 0.0) - trapezoid).abs() < 1e-7);
-    }
-}
-
-#[test]
-fn a_trapezoid_needs_an_increment_for_its_shorter_piece() {
-    for (dwell, fewest) in [(0.25, 4), (0.2, 5), (0.3, 5), (0.1, 10), (0.375, 8)] {
-        assert_eq!(Waveform::Trapezoid { dwell }.fewest_increments(), fewest, "{dwell}");
-    }
-    assert_eq!([Waveform::Triangle, Waveform::Sine].map(Waveform::fewest_increments), [4, 4]);
-}
-
-#[test]
-fn turns_halfway_between_increments_are_met_at_the_even_one() {
-    // a quarter of six increments is 1.5, three quarters 4.5
-    let values: Vec<f64> = (0..6).map(|k| Waveform::Triangle.at(k, 6, 0.0)).collect();
-    assert_eq!(values, [0.0, 0.5, 1.0, 0.0, -1.0, -0.5]);
-    // a sine between its turns at 0, 2, 3, 4 and 6
-    let half = (std::f64::consts::FRAC_PI_4).sin();
-    let values = [1, 5].map(|k| Waveform::Sine.at(k, 6, 0.0));
-    assert!((values[0] - half).abs() < 1e-15 && (values[1] + half).abs() < 1e-15, "{values:?}");
-    // phases that rounding has moved off a half: 1.5 +- 1e-9 increments are 1.5
-    for small in [1e-10, -1e-10] {
-        assert_eq!(Waveform::Triangle.at(2, 6, small), 1.0);
-    }
-}
 
 /// The stages of a case with these tables [[load]] behind its first.
 fn stages(loads: &str, table: &str) -> Vec<Stage> {
     let text = format!(
         "[grid]\ncells = [16, 16]\nsize = [3.0, 3.0]\n[upper]\nsubstrate = {{ young = 1.0, poisson = 0.3 }}\n[lower]\n\
          substrate = {{ young = 1.0, poisson = 0.3 }}\n[profile.sphere]\nradius = 100.0\n\
-         [friction]\ncoefficient = 0.5\n[rig]\nnormal_stiffness = 1.0\ntangential_stiffness = 1.0\n\
+         [friction]\ncoefficient = 0.51\n[rig]\nnormal_stiffness = 1.0\ntangential_stiffness = 1.0\n\
          [[load]]\nnormal_force = 64.0\nincrements = 4\nramp = \"cubic\"\n{loads}"
     );
     let files = |_: &str| Ok(table.as_bytes().to_vec());
@@ -84,7 +18,7 @@ fn stages(loads: &str, table: &str) -> Vec<Stage> {
 
 fn normal(stage: &Stage, start: f64) -> Vec<f64> {
     let control = stage.normal.as_ref().unwrap();
-    (1..=stage.increments_in_all()).map(|k| stage.value(control, start, k)).collect()
+    (1..=stage.increments_in_all()).map(|k| stage.value(control, start, k, stage.times().as_ref())).collect()
 }
 
 #[test]
@@ -151,6 +85,111 @@ fn waves_grow_with_their_envelope_and_start_where_the_control_is() {
     let ends: Vec<usize> = (1..=8).filter(|&k| stages[1].ends_cycle(k)).collect();
     assert_eq!(ends, [4, 8]);
     assert_eq!(stages[1].cycles().unwrap().most, 2);
+}
+
+/// Least and largest of some values.
+fn range(values: impl IntoIterator<Item = f64>) -> [f64; 2] {
+    values
+        .into_iter()
+        .fold([f64::INFINITY, f64::NEG_INFINITY], |[least, most], v| [least.min(v), most.max(v)])
+}
+
+#[test]
+fn a_force_ahead_by_a_twelfth_runs_through_the_same_loads_with_any_number_of_increments() {
+    // Amplitude 2, ahead by 30 degrees: it starts at half of its amplitude above the middle, so from 0 it goes from -3 to +1.
+    for increments in [4, 5, 6, 7, 8, 12, 16, 20, 24, 32] {
+        for waveform in ["sine", "triangle"] {
+            let stages = stages(
+                &format!(
+                    "[[load]]\ntangential_force = [2.0, 0.0]\nincrements = {increments}\ncycles = 1\nwaveform = \"{waveform}\"\n\
+                     phase = {{ tangential_force = [30, 0] }}\n"
+                ),
+                "",
+            );
+            let force = |k| match stages[1].load(&LoadStep::FREE, k).tangential {
+                [Force(x), Force(y)] => {
+                    assert_eq!(y, 0.0);
+                    x
+                }
+                other => panic!("{other:?}"),
+            };
+            let middle = if waveform == "sine" { -1.0 } else { -2.0 / 3.0 };
+            let [least, most] = range((0..=increments).map(force));
+            // Rounding of a sum of a few numbers of order 1.
+            assert!(
+                (least - middle + 2.0).abs() < 1e-14 && (most - middle - 2.0).abs() < 1e-14,
+                "{increments} {waveform}: {least} {most}"
+            );
+            assert_eq!((force(0), force(increments)), (0.0, 0.0), "{increments} {waveform}");
+        }
+    }
+}
+
+#[test]
+fn every_control_of_a_cycle_reaches_its_extremes() {
+    let loads = |increments: usize| {
+        format!(
+            "[[load]]\nnormal_force = 5.0\ntangential_force = [2.0, 3.0]\ntwist_moment = 1.5\ntilt = [0.5, \"held\"]\n\
+             bulk_stress = [7.0, \"held\"]\nupper_bulk_stress = [\"held\", 4.0]\ncycles = 2\nwaveform = \"sine\"\nincrements = {increments}\n\
+             phase = {{ normal_force = 60, tangential_force = [10, -35], twist_moment = 145, tilt = [20, 0], bulk_stress = [300, 0], \
+             upper_bulk_stress = [0, 777] }}\n"
+        )
+    };
+    let start = LoadStep { normal: Force(64.0), ..LoadStep::FREE };
+    for increments in [13, 16, 17, 23, 40] {
+        let stage = &stages(&loads(increments), "")[1];
+        let all = |of: fn(LoadStep) -> f64| range((1..=increments).map(|k| of(stage.load(&start, k))));
+        let found = [
+            all(|load| load.normal.value()),
+            all(|load| load.tangential[0].value()),
+            all(|load| load.tangential[1].value()),
+            all(|load| load.twist.value()),
+            all(|load| load.tilt[0].value()),
+            all(|load| load.bulk_stress[0][0]),
+            all(|load| load.bulk_stress[1][1]),
+        ];
+        let controls = [
+            (64.0, 5.0, 60.0_f64),
+            (0.0, 2.0, 10.0),
+            (0.0, 3.0, -35.0),
+            (0.0, 1.5, 145.0),
+            (0.0, 0.5, 20.0),
+            (0.0, 7.0, 300.0),
+            (0.0, 4.0, 777.0),
+        ];
+        for ([least, most], (from, amplitude, phase)) in found.into_iter().zip(controls) {
+            let middle = from - amplitude * phase.to_radians().sin();
+            // Rounding of the phase in degrees, and of sums of numbers up to 70.
+            assert!((least - middle + amplitude).abs() < 1e-12, "{increments} {phase}: {least} {middle}");
+            assert!((most - middle - amplitude).abs() < 1e-12, "{increments} {phase}: {most} {middle}");
+        }
+    }
+    // Seven waves, two of which are half a cycle apart, turn twelve times.
+    assert_eq!(stages(&loads(16), "")[1].fewest_increments(), 13);
+    assert_eq!(stages(&loads(16), "")[0].fewest_increments(), 1);
+}
+
+#[test]
+fn what_does_not_move_has_no_reversal_points() {
+    let stages = stages(
+        "[[load]]\ntangential_force = [2.0, 0.0]\nincrements = 6\ncycles = 1\nphase = { tangential_force = [0, 77] }\n",
+        "",
+    );
+    let pulled: Vec<_> = (1..=6).map(|k| stages[1].load(&LoadStep::FREE, k).tangential[0].value()).collect();
+    assert_eq!(pulled, [1.0, 2.0, 0.0, -2.0, -1.0, 0.0]);
+}
+
+#[test]
+fn an_envelope_grows_with_time_where_increments_are_unequal() {
+    let stages = stages(
+        "[[load]]\ntangential_force = [8.0, \"held\"]\nincrements = 7\ncycles = 2\nenvelope = [0.0, 1.0]\n",
+        "",
+    );
+    let values: Vec<_> = (1..=14).map(|k| stages[1].load(&LoadStep::FREE, k).tangential[0].value()).collect();
+    // Extremes at 1/4, 3/4, 5/4 and 7/4 of two cycles, whatever increment ends there.
+    for (k, exact) in [(2, 1.0), (5, -3.0), (9, 5.0), (12, -7.0)] {
+        assert!((values[k - 1] - exact).abs() < 1e-14, "{k}: {values:?}");
+    }
 }
 
 #[test]

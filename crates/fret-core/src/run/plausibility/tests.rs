@@ -7,8 +7,9 @@ use crate::history::Concern::{
     ContactRadiusOverBodyRadius, FewCells, FrictionChangesInOneCycle, PressingInFewIncrements,
     ShiftOverContactRadius, WearDepthOverCoatingThickness,
 };
-use crate::plan::ExpectedContact;
+use crate::plan::{Coupling, ExpectedContact};
 use crate::run::{Silent, Simulation};
+use crate::solver::Regime;
 
 /// A rigid shape on layers, cells of 0.1 by 0.2, cycles of shift at the end.
 fn plan(lower: &str, profile: &str, loads: &str) -> Plan {
@@ -70,7 +71,10 @@ fn layers_on_a_rigid_base_are_strained_by_the_approach() {
 fn coatings_are_measured_by_the_longer_side_of_a_cell() {
     let film = |thickness: f64| {
         let film = format!("coatings = [{{ young = 2.0, poisson = 0.3, thickness = {thickness} }}]\n{STEEL}");
-        expecting(plan(&film, BALL, PRESS), [1.5, 1.5], 0.01)
+        let with = |more: &str| expecting(plan(&film, BALL, &format!("{PRESS}{more}")), [1.5, 1.5], 0.01);
+        // Nobody asks for stresses inside.
+        same(&with(""), &[]);
+        with("[stress]\ndepths = [0.05]\n")
     };
     same(&film(0.2), &[]);
     same(&film(0.15), &[(Concern::CoatingThinnerThanCell, 0.75)]);
@@ -152,7 +156,7 @@ fn told(found: &[Told], name: Concern, value: f64, stage: &str) {
 }
 
 fn gauged(plan: &Plan, steps: &[StepRecord]) -> Vec<Told> {
-    let mut gauge = Gauge::default();
+    let mut gauge = Gauge::of(plan);
     for step in steps {
         gauge.add(step);
     }
@@ -234,24 +238,29 @@ fn rings_are_counted_in_cells_and_in_parts_where_pressure_and_shear_are_coupled(
     assert_eq!(coupled.coupling, Coupling::Coupled);
     let uncoupled = staged("substrate = { young = 1.0, poisson = 0.5 }");
     let good = record(&coupled);
-    // contacts of whole radii in cells, near enough
+    // contacts of radii in cells of 0.1 by 0.2, whose shear is 0.4 of what friction allows
     let cells = |radius: f64, parts: usize| StepRecord {
-        contact_cells: (PI * radius * radius).round() as usize,
+        contact_area: PI * radius * radius * 0.1 * 0.2,
         parts,
+        max_pressure: 1.0,
+        friction_coefficient: 0.5,
+        max_shear: 0.2,
+        regime: Regime::PartialSlip,
         ..good.clone()
     };
     let ring = |plan: &Plan, steps: &[StepRecord]| {
         let found = gauged(plan, steps);
-        found.iter().find(|found| found.0 == Concern::PressingInFewIncrements).map(|found| found.1)
+        found.iter().find(|found| found.0 == PressingInFewIncrements).map(|found| found.1)
     };
-    // a count of cells is whole: a radius of 20 to 3e-3
+    // rounding of roots
     let near = |found: Option<f64>, exact: f64| {
         let found = found.unwrap();
-        assert!((found - exact).abs() < 1e-2, "{found}, not {exact}");
+        assert!((found - exact).abs() < 1e-12, "{found}, not {exact}");
     };
-    near(ring(&coupled, &[cells(20.0, 30), cells(23.0, 1), cells(25.0, 1)]), 3.0);
-    assert_eq!(ring(&uncoupled, &[cells(20.0, 30), cells(23.0, 1), cells(25.0, 1)]), None);
-    // three parts make a cell each
+    let grows = [cells(20.0, 30), cells(23.0, 1), cells(25.0, 1)];
+    near(ring(&coupled, &grows), 3.0);
+    assert_eq!(ring(&uncoupled, &grows), None);
+    // four parts make less than a cell each
     assert_eq!(ring(&coupled, &[cells(20.0, 30), cells(23.0, 4), cells(25.0, 3)]), None);
     near(ring(&coupled, &[cells(20.0, 30), cells(26.0, 2)]), 3.0);
     // shrinking leaves none, and a contact that was lost begins anew
@@ -262,6 +271,49 @@ fn rings_are_counted_in_cells_and_in_parts_where_pressure_and_shear_are_coupled(
     near(ring(&coupled, &[cells(11.0, 1), cells(20.0, 100)]), 11.0);
     assert_eq!(ring(&coupled, &[cells(9.0, 1), cells(20.0, 20)]), None);
     assert_eq!(ring(&coupled, &[cells(15.0, 2), cells(20.0, 20)]), None);
+    // but not of a run that was resumed
+    let later = StepRecord { increment: 7, ..cells(11.0, 1) };
+    assert_eq!(ring(&coupled, &[later, cells(20.0, 100)]), None);
+    // on fine grids a sixteenth of the radius is the bound
+    assert_eq!(ring(&coupled, &[cells(60.0, 100), cells(63.9, 1), cells(64.0, 1)]), None);
+    near(ring(&coupled, &[cells(60.0, 100), cells(65.0, 1), cells(64.0, 1)]), 5.0);
+}
+
+#[test]
+fn rings_that_change_nothing_are_not_told_of() {
+    let coupled = staged(STEEL);
+    let good = record(&coupled);
+    let grown = |radius: f64, shear: f64, regime: Regime| StepRecord {
+        contact_area: PI * radius * radius * 0.1 * 0.2,
+        max_pressure: 1.0,
+        friction_coefficient: 0.5,
+        max_shear: shear,
+        regime,
+        ..good.clone()
+    };
+    let told_of = |plan: &Plan, steps: &[StepRecord]| {
+        gauged(plan, steps).iter().any(|found| found.0 == PressingInFewIncrements)
+    };
+    let pressed = [grown(10.0, 0.2, Regime::PartialSlip), grown(20.0, 0.2, Regime::PartialSlip)];
+    assert!(told_of(&coupled, &pressed));
+    // sliding as a whole wipes them out; what grows afterwards counts again
+    let slid = [&pressed[..], &[grown(20.0, 0.5, Regime::GrossSlip)]].concat();
+    assert!(!told_of(&coupled, &slid));
+    assert!(told_of(&coupled, &[&slid[..], &[grown(23.0, 0.2, Regime::PartialSlip)]].concat()));
+    // shear by pressing of less than a fifth of what friction allows
+    assert!(!told_of(&coupled, &pressed.clone().map(|step| StepRecord { max_shear: 0.09, ..step })));
+    // flats touch at once: 1.2 is 8.5 cells of 0.1 by 0.2
+    let on = |profile: &str| {
+        plan(STEEL, profile, "[[load]]\nname = \"press\"\nnormal_force = 0.01\nincrements = 2\n")
+    };
+    let flat = on("[profile.flat_punch]\nradius = 1.2");
+    let rounded = on("[profile.rounded_punch]\nflat_radius = 1.2\nedge_radius = 100.0");
+    let steps = |radii: [f64; 2]| radii.map(|radius| grown(radius, 0.2, Regime::PartialSlip));
+    assert!(!told_of(&flat, &steps([8.5, 8.5])) && !told_of(&flat, &steps([4.0, 8.5])));
+    assert!(!told_of(&rounded, &steps([8.5, 9.4])) && told_of(&rounded, &steps([8.5, 11.0])));
+    // what the program divides has a bound of its own
+    let auto = plan(STEEL, BALL, "[[load]]\nname = \"press\"\nnormal_force = 0.01\nincrements = \"auto\"\n");
+    assert!(!told_of(&auto, &pressed));
 }
 
 #[test]
@@ -270,7 +322,7 @@ fn cycles_tell_the_largest_change_of_friction_and_spread_of_compliance() {
     let plan = plan("substrate = { young = 1.0, poisson = 0.5 }", BALL, &loads);
     let cycle = Simulation::new(&plan).run(&mut Silent).unwrap().cycles[0].clone();
     let gauged = |cycles: &[CycleRecord]| {
-        let mut gauge = Gauge::default();
+        let mut gauge = Gauge::of(&plan);
         for cycle in cycles {
             gauge.add_cycle(cycle);
         }

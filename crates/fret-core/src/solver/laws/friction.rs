@@ -53,6 +53,11 @@ impl FrictionLaw {
         Self { uniform: None, coefficient: values(friction.coefficient()), max_shear }
     }
 
+    /// Whether the interface has a shear strength.
+    pub fn has_strength(&self) -> bool {
+        !self.max_shear.is_empty()
+    }
+
     /// The law in the cells of a contact.
     pub fn packed(&self, contact: &ContactSet) -> Self {
         let packed =

@@ -3,6 +3,15 @@
 
 use super::rigid_motions::RigidMotions;
 
+/// Tangential forces that are nearer to the limit of friction than this times the tolerance slide: what sticks is less than a residual tells
+/// from nothing, and the shift is rounding.
+const OF_TOLERANCE: f64 = 0.1;
+
+/// The fraction of the limit of friction from which on a contact is taken to slide as a whole, under a tolerance of the residual.
+pub fn sliding_fraction(tolerance: f64) -> f64 {
+    1.0 - OF_TOLERANCE * tolerance
+}
+
 /// Iterations of the search for the motion; each one gives a bound, later ones better ones.
 const MOST_ITERATIONS: usize = 60;
 
@@ -36,6 +45,9 @@ pub fn carried_fraction(bound: &[f64], motions: &RigidMotions, resultant: [f64; 
             }
         }
         least = least.min(dissipated / work);
+        if !motions.loads.by_force[2] {
+            break; // without rotation all cells slide along the force
+        }
         motion = motions.solve(gram, resultant);
     }
     least

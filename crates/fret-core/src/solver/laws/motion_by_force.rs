@@ -34,6 +34,13 @@ struct Potential {
     curvature: [f64; 6],
 }
 
+/// Steps of the search at the most; where springs pull, whose far ends may be anywhere, so many more.
+const MOST_STEPS: usize = 60;
+const MOST_STEPS_TO_SPRINGS: usize = 60;
+/// Longest step, in units of the common size of trial vectors and bounds; where springs pull it doubles after so many that were cut short.
+const LONGEST_STEP: f64 = 4.0;
+const MOST_CUT_SHORT: usize = 58;
+
 impl MotionByForce<'_> {
     /// Root of `sum Proj(trial + motion) . mode + spring x motion = resultant`, from a guess.
     pub fn find(&self, scale: Scale, guess: [f64; 3]) -> [f64; 3] {
@@ -48,15 +55,25 @@ impl MotionByForce<'_> {
                 here = at_rest;
             }
         }
-        for _ in 0..60 {
+        let mut longest = LONGEST_STEP * scale.spread;
+        let mut cut_short = 0;
+        let springs = if motions.loads.any_spring() { MOST_STEPS_TO_SPRINGS } else { 0 };
+        for step in 0..MOST_STEPS + springs {
+            if step == MOST_STEPS && cut_short <= MOST_CUT_SHORT {
+                break;
+            }
             let defect = size(&here.defect);
             if defect <= 4e-16 * scale.total {
                 break;
             }
             let mut change = motions.solve(here.curvature, here.defect.map(|d| -d));
             let length = size(&change);
-            if length > 4.0 * scale.spread {
-                change = change.map(|c| c * 4.0 * scale.spread / length);
+            if length > longest {
+                change = change.map(|c| c * longest / length);
+                cut_short += 1;
+                if springs > 0 && cut_short > MOST_CUT_SHORT {
+                    longest *= 2.0;
+                }
             }
             let slope: f64 = change.iter().zip(&here.defect).map(|(c, d)| c * d).sum();
             if slope >= 0.0 {
@@ -83,6 +100,16 @@ impl MotionByForce<'_> {
             }
         }
         motion
+    }
+
+    /// By how much the resultants under a motion miss what springs pull with, over the sum of the bounds; 0 where it is rounding.
+    pub fn missed_by_springs(&self, scale: Scale, motion: [f64; 3]) -> f64 {
+        if !self.motions.loads.any_spring() {
+            return 0.0;
+        }
+        let missed = size(&self.potential(motion).defect);
+        let rounding = 1e-9 * scale.total + 1e-13 * size(&self.motions.loads.resultant);
+        if missed > rounding { missed / scale.total } else { 0.0 }
     }
 
     fn potential(&self, motion: [f64; 3]) -> Potential {

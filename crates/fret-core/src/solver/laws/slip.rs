@@ -70,6 +70,7 @@ impl SlipIncrement {
         let rule = PrescribedSlip { motion: loads.motion, stiffness };
         let [trial_squares, bounds, bound_squares] = each_cell(&rule, read, write);
         // Without anything to carry a force a spring keeps its length.
+        let mut missed = 0.0;
         let mut found = [0, 1, 2].map(|mode| {
             if loads.spring[mode] > 0.0 { loads.resultant[mode] / loads.spring[mode] } else { 0.0 }
         });
@@ -87,6 +88,7 @@ impl SlipIncrement {
                 }
                 guess = found;
             }
+            missed = self.by_force(problem).missed_by_springs(scale, found.map(|motion| stiffness * motion));
         }
         let Self { slip, at_end, .. } = self;
         reset(&mut at_end.x, bound.len());
@@ -99,7 +101,7 @@ impl SlipIncrement {
         let motion =
             [0, 1, 2].map(|mode| if loads.by_force[mode] { found[mode] } else { loads.motion[mode] });
         let residual = if bound_squares > 0.0 { (off / bound_squares).sqrt() } else { 0.0 };
-        TangentialResidual { motion, residual }
+        TangentialResidual { motion, residual: residual.max(missed) }
     }
 
     /// What a step is to remove [length]: the slip of cells that stick; of those that slip the part across the shear of the slip at the end, as

@@ -4,7 +4,7 @@
 //! Measured on a coating 1e3 times stiffer than the half-space below: the contact, begun a little too large, shrinks in two
 //! to four changes; it need not in general (rough surfaces cycle), so it gives up when its violations stop falling.
 
-use super::super::laws::complementarity::NormalResidual;
+use super::super::laws::complementarity::{NormalResidual, length_scale};
 use super::super::laws::projection::project_pressure;
 use super::super::settings::SolveError;
 use super::problem::{Ending, NormalIteration};
@@ -18,7 +18,7 @@ const MAX_STALLED: usize = 6;
 /// What is wrong on a fixed contact.
 struct Violations {
     approach: f64,
-    /// Largest gap on the contact or violation, in units of the mean displacement under the load.
+    /// Largest gap on the contact or violation, over [`length_scale`].
     residual: f64,
     /// The same, gap alone.
     inner: f64,
@@ -97,7 +97,8 @@ fn examine(problem: &mut NormalIteration<'_>) -> Violations {
     let [inner_square, outer_square, tense] = each_cell(&rule, [pressure, active], [gap, residual]);
     let inner = largest_of(&Size, [residual]);
     let outer = largest_of(&Violation { own }, [gap, pressure, active]);
-    let scale = if load > 0.0 { (work / load - problem.task.load.give * load).abs() } else { 0.0 };
+    let mean = work / load - problem.task.load.give * load;
+    let scale = if load > 0.0 { length_scale(mean, own, load / count.max(1.0)) } else { 0.0 };
     let relative = |size: f64| if scale > 0.0 { size / scale } else { f64::INFINITY };
     Violations {
         approach,

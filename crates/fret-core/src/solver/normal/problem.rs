@@ -1,6 +1,6 @@
 //! The frictionless problem in a region: its equations, the fields both iterations work on, and how they report.
 
-use super::super::laws::complementarity::NormalResidual;
+use super::super::laws::complementarity::{NormalResidual, length_scale};
 use super::super::operators::RegionOperators;
 use super::super::prescribed::NormalLoad;
 use super::super::settings::{IterationCallback, SolveError};
@@ -127,8 +127,8 @@ impl<'a> NormalIteration<'a> {
         self.operators.preconditioner.normal(&self.residual, &mut self.steepest);
     }
 
-    /// Height `u + g0` into `gap`; the approach (mean height of the loaded cells under a force) and the mean displacement under
-    /// the load. `None` when no cell is loaded.
+    /// Height `u + g0` into `gap`; the approach (mean height of the loaded cells under a force) and what violations are
+    /// measured by. `None` when no cell is loaded.
     pub fn measure(&mut self) -> (f64, Option<f64>) {
         let read = [&*self.displacement, self.task.undeformed, &*self.pressure];
         let [heights, count, work, load] = each_cell(&Measure, read, [&mut self.gap]);
@@ -136,7 +136,9 @@ impl<'a> NormalIteration<'a> {
             Some(_) if count > 0.0 => heights / count,
             _ => self.task.load.approach,
         };
-        (approach, (load > 0.0).then(|| (work / load - self.task.load.give * load).abs()))
+        let scale =
+            || length_scale(work / load - self.task.load.give * load, self.self_influence, load / count);
+        (approach, (load > 0.0).then(scale))
     }
 
     /// Adds `fraction` of the change to pressures and displacements; rounding leaves no tension.

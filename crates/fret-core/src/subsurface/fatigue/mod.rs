@@ -9,6 +9,7 @@ mod critical_plane;
 mod invariants;
 mod life;
 mod parameter;
+mod plane_search;
 mod shakedown;
 mod surface;
 

@@ -1,75 +1,17 @@
-//! An array of numbers from the bytes of a file: `NumPy`'s .npy, or text with a row a line. Reading the file is somebody else's.
+//! An array of numbers from the bytes of a .npy file of `NumPy`.
 //!
 //! The readers of .npy among the crates bring a C compiler into the build; what is needed of the format is a page.
 //! Format: <https://numpy.org/doc/stable/reference/generated/numpy.lib.format.html>, versions 1 to 3.
 
 use ndarray::{Array2, ShapeBuilder};
 
-/// Why bytes are no array of numbers.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-pub enum NumbersError {
-    /// A .npy file that ends before its header does.
-    #[error("a .npy file cut off in its header, after {0} bytes")]
-    CutHeader(usize),
-    /// A header that is not one.
-    #[error("a .npy file whose header cannot be understood: {0}")]
-    Header(String),
-    /// Numbers of a kind that is not read.
-    #[error("a .npy file with numbers of type {0:?}: real numbers are read, f4 f8 i1 i2 i4 i8 u1 u2 u4 u8")]
-    Kind(String),
-    /// Not two dimensions.
-    #[error("a .npy file of shape {0:?}: two dimensions are wanted")]
-    Dimensions(Vec<usize>),
-    /// More or fewer bytes than the header says.
-    #[error("a .npy file with {found} bytes of numbers: its header says {expected}")]
-    Length {
-        /// Bytes that follow the header.
-        found: usize,
-        /// Bytes that the header asks for.
-        expected: usize,
-    },
-    /// A text that is not UTF-8.
-    #[error("neither a .npy file nor a text")]
-    Bytes,
-    /// A text without a number.
-    #[error("a text without a number")]
-    Empty,
-    /// A word that is no number.
-    #[error("line {line}: word {column} is not a number")]
-    Word {
-        /// Line of the text, from 1.
-        line: usize,
-        /// Word of the line, from 1.
-        column: usize,
-    },
-    /// Rows of different lengths.
-    #[error("line {line}: a row of {found} numbers after rows of {expected}")]
-    Ragged {
-        /// Line of the text, from 1.
-        line: usize,
-        /// Numbers in it.
-        found: usize,
-        /// Numbers in the rows before.
-        expected: usize,
-    },
-}
+use super::error::NumbersError;
 
-/// Array `[row, column]` of the bytes of a .npy file or of a text. Numbers of a text stand between blanks, commas or semicolons;
-/// what follows a `#` is a comment.
-///
-/// # Errors
-/// When the bytes are neither, are cut off, or hold anything but real numbers in two dimensions.
-pub fn numbers(bytes: &[u8]) -> Result<Array2<f64>, NumbersError> {
-    if bytes.starts_with(MAGIC) {
-        npy(bytes)
-    } else {
-        text(std::str::from_utf8(bytes).map_err(|_| NumbersError::Bytes)?)
-    }
-}
+/// What such a file begins with.
+pub(super) const MAGIC: &[u8] = b"\x93NUMPY";
 
-const MAGIC: &[u8] = b"\x93NUMPY";
-
-fn npy(bytes: &[u8]) -> Result<Array2<f64>, NumbersError> {
+/// Array `[row, column]` of the file; numbers of one dimension become a column.
+pub(super) fn npy(bytes: &[u8]) -> Result<Array2<f64>, NumbersError> {
     let cut = || NumbersError::CutHeader(bytes.len());
     let version = *bytes.get(6).ok_or_else(cut)?;
     let (start, length) = match version {
@@ -96,7 +38,11 @@ fn npy(bytes: &[u8]) -> Result<Array2<f64>, NumbersError> {
         .filter(|word| !word.is_empty())
         .map(|word| word.parse().map_err(|_| NumbersError::Header(format!("shape {shape}"))))
         .collect::<Result<_, _>>()?;
-    let [rows, columns] = shape[..] else { return Err(NumbersError::Dimensions(shape)) };
+    let [rows, columns] = match shape[..] {
+        [rows, columns] => [rows, columns],
+        [rows] => [rows, 1],
+        _ => return Err(NumbersError::Dimensions(shape)),
+    };
     let (width, read) = reader(kind).ok_or_else(|| NumbersError::Kind(kind.to_owned()))?;
     let expected = rows.checked_mul(columns).and_then(|count| count.checked_mul(width)).unwrap_or(usize::MAX);
     let body = &bytes[end..];
@@ -160,36 +106,11 @@ fn reader(kind: &str) -> Option<(usize, Read)> {
     }
 }
 
-fn text(text: &str) -> Result<Array2<f64>, NumbersError> {
-    let mut values = Vec::new();
-    let mut columns = 0;
-    for (number, line) in text.trim_start_matches('\u{feff}').lines().enumerate() {
-        let line_number = number + 1;
-        let line = line.split('#').next().unwrap_or_default();
-        let before = values.len();
-        let words = line.split(|c: char| c.is_whitespace() || c == ',' || c == ';').filter(|w| !w.is_empty());
-        for (column, word) in words.enumerate() {
-            let value =
-                word.parse().map_err(|_| NumbersError::Word { line: line_number, column: column + 1 })?;
-            values.push(value);
-        }
-        let found = values.len() - before;
-        if found > 0 && columns > 0 && found != columns {
-            return Err(NumbersError::Ragged { line: line_number, found, expected: columns });
-        }
-        columns = columns.max(found);
-    }
-    if columns == 0 {
-        return Err(NumbersError::Empty);
-    }
-    Array2::from_shape_vec((values.len() / columns, columns), values).map_err(|_| NumbersError::Empty)
-}
-
 #[cfg(test)]
 mod tests {
     use ndarray::array;
 
-    use super::*;
+    use super::super::{NumbersError, numbers};
 
     /// A .npy file of version 1, as `NumPy` writes it.
     fn file(header: &str, body: &[u8]) -> Vec<u8> {
@@ -207,6 +128,8 @@ mod tests {
         assert_eq!(numbers(&rows).unwrap(), array![[1.0, 2.0, 3.0], [4.0, 5.0, 6.0]]);
         let columns = file("{'descr': '<f8', 'fortran_order': True, 'shape': (2, 3), }\n", &body);
         assert_eq!(numbers(&columns).unwrap(), array![[1.0, 3.0, 5.0], [2.0, 4.0, 6.0]]);
+        let line = file("{'descr': '<f8', 'fortran_order': False, 'shape': (6,), }\n", &body);
+        assert_eq!(numbers(&line).unwrap(), array![[1.0], [2.0], [3.0], [4.0], [5.0], [6.0]]);
         let whole =
             file("{'descr': '>i2', 'fortran_order': False, 'shape': (1, 2), }\n", &[0xff, 0xfe, 1, 0]);
         assert_eq!(numbers(&whole).unwrap(), array![[-2.0, 256.0]]);
@@ -269,7 +192,10 @@ mod tests {
         assert!(words(&file(good, &[0; 8])[..40]).contains("cut off"));
         assert!(words(b"\x93NUMPY").contains("cut off"));
         assert!(words(&file(&good.replace("<f8", "<c16"), &[0; 16])).contains("c16"));
-        assert!(words(&file(&good.replace("(1, 1)", "(1,)"), &[0; 8])).contains("two dimensions"));
+        assert!(
+            words(&file(&good.replace("(1, 1)", "(1, 1, 1)"), &[0; 8])).contains("one or two dimensions")
+        );
+        assert!(words(&file(&good.replace("(1, 1)", "()"), &[0; 8])).contains("one or two dimensions"));
         assert!(
             words(&file(&good.replace("(1, 1)", "(4294967296, 4294967296)"), &[])).contains("header says")
         );
@@ -279,18 +205,6 @@ mod tests {
         assert!(words(&file(&good.replace("False", "Maybe"), &[0; 8])).contains("fortran_order Maybe"));
         assert!(words(&file(&good.replace("(1, 1)", "(1, x)"), &[0; 8])).contains("shape (1, x)"));
         assert!(words(b"\x93NUMPY\x04\x00    ").contains("version 4"));
-        assert!(words(&[0xff, 0xfe]).contains("neither"));
-    }
-
-    #[test]
-    fn a_text_has_a_row_a_line() {
-        assert_eq!(
-            numbers(b"# um\n1 2.5\t3\n\n4,5;6e-1 # last\n").unwrap(),
-            array![[1.0, 2.5, 3.0], [4.0, 5.0, 0.6]]
-        );
-        let words = |text: &str| numbers(text.as_bytes()).unwrap_err().to_string();
-        assert_eq!(words("1 2\n3\n"), "line 2: a row of 1 numbers after rows of 2");
-        assert_eq!(words("1 2\n3 four\n"), "line 2: word 2 is not a number");
-        assert_eq!(words("# nothing\n"), "a text without a number");
+        assert!(words(&[7, 1, 2]).contains("neither"));
     }
 }
