@@ -66,22 +66,29 @@ impl ActiveSets {
         each_cell(&Classify(limits), read, write.map(Vec::as_mut_slice));
     }
 
-    /// Exploration: sets read off the trial shear `w` under bounds of the augmented pressure.
-    pub fn of_trial(w: &TangentialField, bound: &FrictionBound, self_influence: f64) -> Self {
-        let n = bound.bound.len();
-        let mut sets = Self { stick: vec![0.0; n], slip: vec![0.0; n], slip_compliance: vec![0.0; n], slip_weight: vec![0.0; n], direction: TangentialField::zeros(n), ..Self::default() };
+    /// Those of trial shear `q + slip / K`, which need not be feasible: cells stick inside their discs and slip along it outside.
+    pub fn of_trial(trial: &TangentialField, bound: &FrictionBound, self_influence: f64) -> Self {
+        let cells = bound.bound.len();
+        let field = || vec![0.0; cells];
+        let [stick, slip, slip_compliance, slip_weight] = [field(), field(), field(), field()];
+        let direction = TangentialField::zeros(cells);
+        let mut sets = Self { stick, slip, direction, slip_compliance, slip_weight, ..Self::default() };
         let least = LEAST_BOUND * largest(&bound.bound);
-        for c in 0..n {
-            let [x, y] = w.at(c);
-            let size = x.hypot(y);
-            let b = bound.bound[c];
-            if b > 0.0 && size <= b { sets.stick[c] = 1.0; continue; }
-            if size > 0.0 { sets.direction.set(c, [x / size, y / size]); }
-            if b > 0.0 {
-                sets.slip[c] = 1.0;
-                let d = self_influence * (size - b) / b.max(least);
-                sets.slip_compliance[c] = d;
-                sets.slip_weight[c] = 1.0 / (1.0 + d / self_influence).sqrt();
+        for (cell, &bound) in bound.bound.iter().enumerate() {
+            let trial = trial.at(cell);
+            let size = trial[0].hypot(trial[1]);
+            if bound > 0.0 && size <= bound {
+                sets.stick[cell] = 1.0;
+                continue;
+            }
+            if size > 0.0 {
+                sets.direction.set(cell, trial.map(|part| part / size));
+            }
+            if bound > 0.0 {
+                let stretched = (size - bound) / bound.max(least);
+                sets.slip[cell] = 1.0;
+                sets.slip_compliance[cell] = self_influence * stretched;
+                sets.slip_weight[cell] = 1.0 / (1.0 + stretched).sqrt();
             }
         }
         sets
@@ -111,6 +118,11 @@ impl ActiveSets {
     /// These vectors, or the direction of shear.
     pub fn rows(&self) -> [&[f64]; 2] {
         self.turned().unwrap_or_else(|| self.direction.parts())
+    }
+
+    /// The one of a cell.
+    pub fn row(&self, cell: usize) -> [f64; 2] {
+        self.rows().map(|row| row[cell])
     }
 
     /// Puts shear of cells that neither stick nor slip on their circles, along their slip.

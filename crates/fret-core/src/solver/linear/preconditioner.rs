@@ -7,6 +7,7 @@ use ndarray::{Array2, s};
 
 use super::super::contact_set::ContactSet;
 use super::super::region_fields::RegionFields;
+use super::edge_correction::EdgeCorrection;
 use super::inverse::{FieldsOfRegion, Inverse, Precision};
 use crate::compliance::{
     NORMAL_BLOCKS, OperatorSet, SharedWorkspace, SurfaceResponse, TANGENTIAL_BLOCKS, mirrors,
@@ -19,101 +20,11 @@ use fret_fft::{Block, ConvolutionError, Kernel, Parity, PeriodicProduct, Symbol}
 /// the shortest ones meet: a thin coating more than about five times stiffer than what lies below.
 const STIFF_ABOVE: f64 = 4.0;
 
-/// Exploration: correction at the edge of contact.
-struct Edge {
-    forward: Inverse,
-    kernel: Vec<f64>,
-    whole: [usize; 2],
-    part: [usize; 2],
-    mirrored: [bool; 2],
-    periodic: bool,
-    contact: ContactSet,
-    groups: Vec<(usize, usize)>,
-    inverse: Vec<f64>,
-    count: usize,
-}
-
-impl Edge {
-    fn prepare(&mut self, contact: &ContactSet) {
-        if self.contact == *contact && self.count > 0 { return; }
-        self.contact.clone_from(contact);
-        let [nx, ny] = self.part;
-        let mut inside = vec![false; nx * ny];
-        let cells: Vec<usize> = contact.cells().collect();
-        for &c in &cells { inside[c] = true; }
-        let at = |i: i64, j: i64| -> bool {
-            let fold = |k: i64, n: usize, mirrored: bool| -> Option<usize> {
-                if k < 0 { if mirrored { Some((-k - 1) as usize) } else if self.periodic { Some((k + n as i64) as usize) } else { None } }
-                else if k >= n as i64 { if self.periodic && !mirrored { Some(k as usize - n) } else { None } }
-                else { Some(k as usize) }
-            };
-            match (fold(i, nx, self.mirrored[0]), fold(j, ny, self.mirrored[1])) {
-                (Some(i), Some(j)) => inside[i * ny + j],
-                _ => false,
-            }
-        };
-        let edge: Vec<(usize, usize)> = cells.iter().enumerate().filter(|(_, c)| {
-            let (i, j) = ((**c / ny) as i64, (**c % ny) as i64);
-            !(at(i - 1, j) && at(i + 1, j) && (ny == 1 || at(i, j - 1) && at(i, j + 1)))
-        }).map(|(k, c)| (k, *c)).collect();
-        let most = std::env::var("EDGEMOST").ok().and_then(|v| v.parse().ok()).unwrap_or(128);
-        let mut s = 1;
-        let mut numbers = std::collections::BTreeMap::new();
-        loop {
-            numbers.clear();
-            for (_, c) in &edge {
-                let n = numbers.len();
-                numbers.entry((c / ny / s, c % ny / s)).or_insert(n);
-            }
-            if numbers.len() <= most { break; }
-            s *= 2;
-        }
-        self.groups = edge.iter().map(|(k, c)| (*k, numbers[&(c / ny / s, c % ny / s)])).collect();
-        let n = numbers.len();
-        self.count = n;
-        let [wx, wy] = self.whole;
-        let mut a = vec![0.0; n * n];
-        let images = |c: usize| -> Vec<[i64; 2]> {
-            let (i, j) = ((c / ny) as i64, (c % ny) as i64);
-            let xs = if self.mirrored[0] { vec![i, -1 - i] } else { vec![i] };
-            let ys = if self.mirrored[1] { vec![j, -1 - j] } else { vec![j] };
-            xs.iter().flat_map(|x| ys.iter().map(move |y| [*x, *y])).collect()
-        };
-        for (p, (_, c)) in edge.iter().enumerate() {
-            let (i, j) = ((c / ny) as i64, (c % ny) as i64);
-            let gp = self.groups[p].1;
-            for (q, (_, d)) in edge.iter().enumerate() {
-                let gq = self.groups[q].1;
-                for [x, y] in images(*d) {
-                    let (di, dj) = ((i - x).rem_euclid(wx as i64) as usize, (j - y).rem_euclid(wy as i64) as usize);
-                    a[gp * n + gq] += self.kernel[di * wy + dj];
-                }
-            }
-        }
-        let trace: f64 = (0..n).map(|k| a[k * n + k]).sum();
-        for k in 0..n { a[k * n + k] += 1e-12 * trace / n as f64; }
-        // Gauss-Jordan
-        let mut inv = vec![0.0; n * n];
-        for k in 0..n { inv[k * n + k] = 1.0; }
-        for k in 0..n {
-            let pivot = 1.0 / a[k * n + k];
-            for l in 0..n { a[k * n + l] *= pivot; inv[k * n + l] *= pivot; }
-            for r in 0..n {
-                if r == k { continue; }
-                let f = a[r * n + k];
-                if f != 0.0 {
-                    for l in 0..n { a[r * n + l] -= f * a[k * n + l]; inv[r * n + l] -= f * inv[k * n + l]; }
-                }
-            }
-        }
-        self.inverse = inv;
-    }
-}
-
 /// Approximate inverses for a region.
 pub struct Preconditioner {
-    edge: Option<Edge>,
     normal: Inverse,
+    /// Where the pair is stiff at the surface, and pressure and shear are solved together.
+    edge: Option<EdgeCorrection>,
     shear: Option<Inverse>,
     /// Smallest symbol of the tangential response [length/pressure].
     softest: f64,
@@ -210,21 +121,18 @@ impl Preconditioner {
             _ => symbol(zz, Parity::EvenEven)?,
         };
         let least = smallest_positive(&normal);
-        let edge = if std::env::var("EDGE").is_ok() && full {
-            let mut raised = normal.clone();
-            raised.mapv_inplace(|value| if value == 0.0 { 0.0 } else { value.max(least) });
-            let raised = Symbol { values: raised.view(), parity: Parity::EvenEven };
-            let forward = Inverse::new(PeriodicProduct::mirrored(part, &[raised], &NORMAL_BLOCKS, mirrors(symmetry, &[0]))?, single);
-            let plain = PeriodicProduct::new(shape, &[raised], &NORMAL_BLOCKS)?;
-            let mut delta = vec![0.0; shape[0] * shape[1]];
-            delta[0] = 1.0;
-            let mut kernel = delta.clone();
-            plain.apply(&mut plain.workspace(), &[&delta], &mut [&mut kernel]);
-            Some(Edge { forward, kernel, whole: shape, part, mirrored: symmetry.axes(), periodic: response.is_periodic(), contact: ContactSet::default(), groups: Vec::new(), inverse: Vec::new(), count: 0 })
-        } else { None };
-        normal.mapv_inplace(|value| if value == 0.0 { 0.0 } else { 1.0 / value.max(least) });
-        let normal = Symbol { values: normal.view(), parity: Parity::EvenEven };
+        normal.mapv_inplace(|value| if value == 0.0 { 0.0 } else { value.max(least) });
         let stiff = waves.is_some_and(|waves| waves.are_stiff(shape));
+        let edge = if stiff && full {
+            let forward = Symbol { values: normal.view(), parity: Parity::EvenEven };
+            let kernel = kernel_of(forward, shape)?;
+            let forward = product(&[forward], &[0], &NORMAL_BLOCKS)?;
+            Some(EdgeCorrection::new(forward, kernel, [shape, part], symmetry.axes()))
+        } else {
+            None
+        };
+        normal.mapv_inplace(|value| if value == 0.0 { 0.0 } else { 1.0 / value });
+        let normal = Symbol { values: normal.view(), parity: Parity::EvenEven };
         let mut softest = 0.0;
         let shear = if tangential || full {
             let [xx, yy, xy] = match (response, waves.filter(|_| stiff), xx, yy) {
@@ -253,8 +161,8 @@ impl Preconditioner {
             None
         };
         Ok(Self {
-            edge,
             normal: product(&[normal], &[0], &NORMAL_BLOCKS)?,
+            edge,
             shear,
             softest,
             shear_axis,
@@ -299,7 +207,9 @@ impl Preconditioner {
         each_cell(&Weights { softest: self.softest / compliance }, [slip_compliance], [elastic, slip]);
         weights.compliance = compliance;
         self.fields.begin(contact, self.cells);
-        if let Some(edge) = &mut self.edge { edge.prepare(contact); }
+        if let Some(edge) = &mut self.edge {
+            edge.prepare(contact);
+        }
     }
 
     /// Fields of the region for an operator, ready for the contact prepared last.
@@ -309,22 +219,12 @@ impl Preconditioner {
 
     /// Pressures that would remove normal displacements `right`, packed over the contact prepared last.
     pub fn pressure<N: Number>(&mut self, right: &[N], pressure: &mut [N], weights: &SlipWeights<N>) {
-        let Self { normal, fields, workspace, edge, .. } = self;
+        let Self { normal, edge, fields, workspace, .. } = self;
         self.passes += 1;
         normal.apply(&[right], &mut [&mut *pressure], weights.compliance, (fields, workspace));
         if let Some(edge) = edge {
             self.passes += 1;
-            let mut image = vec![N::default(); right.len()];
-            edge.forward.apply(&[pressure], &mut [&mut image], 1.0 / weights.compliance, (fields, workspace));
-            let n = edge.count;
-            let mut sums = vec![0.0; n];
-            for (k, g) in &edge.groups {
-                sums[*g] += right[*k].to_double(1.0) - image[*k].to_double(1.0);
-            }
-            let found: Vec<f64> = (0..n).map(|r| (0..n).map(|c| edge.inverse[r * n + c] * sums[c]).sum::<f64>() * weights.compliance).collect();
-            for (k, g) in &edge.groups {
-                pressure[*k] = N::of(pressure[*k].to_double(1.0) + found[*g], 1.0);
-            }
+            edge.add(right, pressure, weights.compliance, (fields, workspace));
         }
     }
 
@@ -390,6 +290,16 @@ impl CellRule<6, 2, 0> for Sum {
         *y = part_y * elastic + right_y * slip;
         []
     }
+}
+
+/// The circulant response of a symbol, at every offset by the cells of a whole region [length/pressure].
+fn kernel_of(symbol: Symbol<'_>, shape: [usize; 2]) -> Result<Vec<f64>, ConvolutionError> {
+    let product = PeriodicProduct::new(shape, &[symbol], &NORMAL_BLOCKS)?;
+    let mut unit = vec![0.0; shape[0] * shape[1]];
+    unit[0] = 1.0;
+    let mut kernel = vec![0.0; unit.len()];
+    product.apply(&mut product.workspace(), &[&unit], &mut [&mut kernel]);
+    Ok(kernel)
 }
 
 /// What a uniform traction on a region displaces, by the nearest image of each offset only.

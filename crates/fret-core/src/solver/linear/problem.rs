@@ -99,8 +99,6 @@ pub struct LinearWorkspace<N> {
     unweighted: [Vec<N>; 2],
     /// Part of the newest direction that turns shear: by itself, since beside the part that follows pressure digits would be lost.
     turning: Vec<N>,
-    /// Pressure of a unit of approach.
-    border: Vec<N>,
 }
 
 /// The linear problem in one precision.
@@ -128,12 +126,6 @@ impl<'a, N: Number> LinearProblem<'a, N> {
             reset(field, contact.len());
         }
         reset(&mut workspace.turning, contact.len());
-        workspace.border.clear();
-        if linearised.holds_force && !linearised.gap.is_empty() && std::env::var("BORDER").is_ok() {
-            let ones = vec![N::of(1.0_f64, 1.0); contact.len()];
-            reset(&mut workspace.border, contact.len());
-            preconditioner.pressure(&ones, &mut workspace.border, &workspace.slip_weights);
-        }
         Self {
             tractions: RigidProjector::new(motions, sets.fields()),
             equations: RigidProjector::new(motions, sets.fields_of_equations()),
@@ -148,7 +140,7 @@ impl<'a, N: Number> LinearProblem<'a, N> {
     /// resultants kept.
     pub fn precondition(&mut self, residual: &ContactVector<N>, tractions: &mut ContactVector<N>) {
         let Self { sets, workspace, preconditioner, .. } = self;
-        let LinearWorkspace { slip_weights, unweighted, turning, border } = &mut **workspace;
+        let LinearWorkspace { slip_weights, unweighted, turning } = &mut **workspace;
         let [stick, slip, along_x, along_y, around_x, around_y] = sets.fields();
         let (normal, [x, y]) = residual.parts();
         let [unweighted_x, unweighted_y] = unweighted;
@@ -167,12 +159,7 @@ impl<'a, N: Number> LinearProblem<'a, N> {
         }
         preconditioner.pressure(normal, pressure, slip_weights);
         if self.linearised.holds_force {
-            if border.is_empty() {
-                remove_mean(pressure);
-            } else {
-                let amount = sum(pressure) / sum(border);
-                crate::fields::add_scaled(pressure, -amount, border);
-            }
+            remove_mean(pressure);
         }
         let read = [stick, slip, along_x, along_y, &sets.slope, &*pressure, around_x, around_y];
         let resultant = each_cell(&FreeAndFollow, read, [&mut *x, &mut *y]);

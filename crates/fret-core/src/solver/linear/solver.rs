@@ -38,27 +38,6 @@ impl LinearSolver {
         self.single = Krylov::default();
     }
 
-    /// The `step` that the preconditioner alone makes of the right side; the size of that.
-    pub fn precondition(
-        &mut self,
-        problem: &Linearised<'_>,
-        preconditioner: &mut Preconditioner,
-        step: &mut ContactVector<f64>,
-    ) -> f64 {
-        right_side(problem, step);
-        let size = step.norm();
-        if !(size > 0.0) {
-            step.values_mut().fill(0.0);
-            return size;
-        }
-        let Krylov { sets, workspace, tractions, gmres, .. } = &mut self.double;
-        sets.take(problem, 1.0);
-        gmres.right().convert(step, 1.0 / size);
-        LinearProblem::new(problem, sets, 1.0, preconditioner, workspace).precondition(gmres.right(), tractions);
-        step.convert(tractions, size);
-        size
-    }
-
     /// Finds the `step` of the tractions.
     pub fn solve(
         &mut self,
