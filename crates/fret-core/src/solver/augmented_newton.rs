@@ -30,6 +30,8 @@ const NEARER: f64 = 1e-3;
 /// Below this fraction of the tolerance the quick way has nothing left to do but to say so.
 const ENOUGH: f64 = 0.1;
 
+/// Given up after so many steps that do not gain a tenth together: what is left over is rounding, or no step leads further.
+const LOST_AFTER: usize = 10;
 /// Halvings of a step at the most.
 const MOST_HALVINGS: usize = 9;
 /// A step is short enough when the residual falls by this fraction of it.
@@ -56,16 +58,19 @@ pub fn solve(
     let mut method = AugmentedNewton::new(problem, start, operators);
     let mut goal = NEAR.min(NEARER * method.left_over());
     let enough = ENOUGH * settings.tolerance;
-    while method.advance(goal.max(enough), operators, settings, callback)? {
+    loop {
+        let goes_on = method.advance(goal.max(enough), operators, settings, callback)? && goal > enough;
+        if !method.left_over().is_finite() {
+            return Ok(None);
+        }
         method.projected(tractions, displacements, operators);
         match newton::solve(problem, tractions, displacements, operators, settings, callback) {
-            Err(SolveError::NotConverged { .. }) if goal > enough => {}
-            Err(SolveError::NotConverged { .. }) => break,
+            Err(SolveError::NotConverged { .. }) if goes_on => {}
+            Err(SolveError::NotConverged { .. }) => return Ok(None),
             other => return other.map(Some),
         }
         goal *= NEARER;
     }
-    Ok(None)
 }
 
 /// The method on its way.
@@ -76,6 +81,9 @@ struct AugmentedNewton<'a> {
     merit: f64,
     forcing: f64,
     steps: usize,
+    /// Least merit so far, and steps since a tenth of it was gained.
+    best: f64,
+    stalled: usize,
 }
 
 impl<'a> AugmentedNewton<'a> {
@@ -87,10 +95,11 @@ impl<'a> AugmentedNewton<'a> {
         let here = equations.start(tractions, displacements);
         let merit = equations.merit(&here);
         operators.linear.begin();
-        if problem.give() != [0.0; 3] {
+        // Near the solution, and beside a machine that gives, single precision may be what stands in the way.
+        if problem.give() != [0.0; 3] || merit < NEAR * here.size() {
             operators.linear.avoid_single_precision();
         }
-        Self { equations, here, merit, forcing: most_forcing(operators), steps: 0 }
+        Self { equations, here, merit, forcing: most_forcing(operators), steps: 0, best: merit, stalled: 0 }
     }
 
     /// Goes on until the equations leave less than `goal` of the pressure over. False where no step leads there.
@@ -112,7 +121,8 @@ impl<'a> AugmentedNewton<'a> {
             if residual < goal {
                 return Ok(true);
             }
-            if self.steps == settings.max_newton_iterations || !residual.is_finite() {
+            let is_lost = self.steps == settings.max_newton_iterations || self.stalled == LOST_AFTER;
+            if is_lost || !residual.is_finite() {
                 return Ok(false);
             }
             self.steps += 1;
@@ -152,6 +162,10 @@ impl<'a> AugmentedNewton<'a> {
             // Eisenstat & Walker 1996, their second choice.
             self.forcing = if ratio < 1.0 { (0.5 * ratio.powf(1.5)).max(1e-4) } else { f64::INFINITY };
             (self.merit, self.here) = (merit, point);
+            self.stalled += 1;
+            if merit < 0.9 * self.best {
+                (self.best, self.stalled) = (merit, 0);
+            }
         }
     }
 

@@ -1,7 +1,7 @@
 //! Pressure and shear of one increment together, and what is done where the Newton method does not converge.
 
 use super::augmented_newton;
-use super::contact_problem::Pressure;
+use super::contact_problem::{Pressure, Solution};
 use super::increment_problem::{COUPLED_LIMIT, IncrementProblem, Solved};
 use super::laws::projection::project_pressure;
 use super::newton;
@@ -49,7 +49,7 @@ pub fn solve(
     let problem = increment.contact_problem(Pressure::Unknown, &counted_from);
     newton::make_shear_feasible(&problem, &mut tractions, operators);
     operators.compliance.full(tractions.parts(), displacements.parts_mut());
-    let mut start = tractions.clone();
+    let start = tractions.clone();
     let (p, u) = (&mut tractions, &mut displacements);
     let mut solution = match settings.scheme {
         Scheme::Monolithic => newton::solve(&problem, p, u, operators, settings, callback),
@@ -64,10 +64,11 @@ pub fn solve(
             let from = p.clone();
             found = augmented_newton::solve(&problem, &from, (p, u), operators, settings, callback)?;
         }
+        if found.is_none() && operators.preconditioner.is_stiff() && increment.changes_normal_load() {
+            let from = augmented_newton::nested_start(&problem, start.clone(), operators, method, callback)?;
+            found = augmented_newton::solve(&problem, &from, (p, u), operators, settings, callback)?;
+        }
         if found.is_none() {
-            if operators.preconditioner.is_stiff() && increment.changes_normal_load() {
-                start = augmented_newton::nested_start(&problem, start, operators, method, callback)?;
-            }
             found = augmented_newton::solve(&problem, &start, (p, u), operators, settings, callback)?;
         }
         if found.is_none() && !increment.path.turns() {
@@ -75,12 +76,26 @@ pub fn solve(
             increment.check_limit(&frictionless, COUPLED_LIMIT)?;
             check_sliding(increment, &problem, &frictionless, operators, settings, callback)?;
             found = augmented_newton::solve(&problem, &frictionless, (p, u), operators, settings, callback)?;
+            if found.is_none() {
+                p.clone_from(&frictionless);
+                newton::make_shear_feasible(&problem, p, operators);
+                operators.compliance.full(p.parts(), u.parts_mut());
+                found = swept(staggered::solve(&problem, p, u, operators, settings, callback))?;
+            }
         }
         solution = found.map_or(solution, Ok);
     }
     let solution = solution?;
     let drift = increment.drift(&before, &displacements.tangential, solution.tangential.motion);
     Ok(Solved { tractions, displacements, drift, solution })
+}
+
+/// What sweeps of pressure and shear in turn found, the last resort; `None` where they do not converge.
+fn swept(solved: Result<Solution, SolveError>) -> Result<Option<Solution>, SolveError> {
+    match solved {
+        Err(SolveError::NotConverged { .. }) => Ok(None),
+        other => other.map(Some),
+    }
 }
 
 /// Brings predicted pressure to what its laws allow. Shear keeps its ratio to the pressure, and so a cell under `mu p` stays on its circle.

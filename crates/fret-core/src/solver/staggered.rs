@@ -1,5 +1,6 @@
 //! The scheme of the published three-level methods (Panagiotopoulos 1975): pressure at given shear, then shear at given pressure, until
-//! the laws of both hold at once. It takes several times as many operator applications as the Newton method: a cross-check of that.
+//! the laws of both hold at once. It takes several times as many operator applications as the Newton method: a cross-check of that, and
+//! what is left where its active sets wander from every start.
 
 use super::contact_problem::{ContactProblem, Pressure, Solution};
 use super::newton;

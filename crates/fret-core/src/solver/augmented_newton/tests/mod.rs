@@ -39,9 +39,14 @@ fn a_newton_step_solves_the_equations_linearised_by_difference_quotients() {
                 || (trial[0].hypot(trial[1]) - bound).abs() < 1e-3
                 || (mu_p - asked.strength).abs() < 1e-3
         };
-        let touching = trials.iter().filter(|trial| trial.0 > 0.0).count();
-        // Two cells hardly hold a moment beside both forces: the motions of what may move of their shear are nearly dependent.
-        if trials.iter().any(near) || touching == 0 || asked.by_force[2] && touching < 3 {
+        // What may change of the shear: two components in stick, one in slip. It has to hold the forces with something to spare: of few
+        // slipping cells the motions are nearly dependent.
+        let touching = trials.iter().filter(|trial| trial.0 > 0.0);
+        let free: usize =
+            touching.map(|(_, trial, bound)| if trial[0].hypot(trial[1]) > *bound { 1 } else { 2 }).sum();
+        let held = (0..3).filter(|&mode| asked.by_force[mode] && asked.spring[mode] == 0.0).count();
+        let is_pressed = (0..cells.count()).any(|cell| trials[cell].0 > 0.0 && tractions[cell][0] > 0.0);
+        if trials.iter().any(near) || free == 0 || !is_pressed || (held > 0 && free < held + 2) {
             continue;
         }
         for (augmented, trial, bound) in &trials {
