@@ -57,9 +57,9 @@ fn certified(name: &str, ended: &Ended) -> String {
     };
     let contact = ended.run.iter().map(|kept| kept.record.contact_cells).max().unwrap_or(0);
     format!(
-        "{name}: up to {contact} cells in contact, {} applications, {} direct solves, {} of {} increments in parts",
+        "{name}: up to {contact} cells in contact, {} applications, {} steps of iterates that need not be feasible, {} of {} increments in parts",
         count(|step| step.work.convolutions),
-        count(|step| step.work.direct_solves),
+        count(|step| step.work.augmented_steps),
         ended.run.iter().filter(|kept| kept.record.parts > 1).count(),
         ended.run.len()
     )
@@ -167,13 +167,12 @@ fn stiff_film(cells: usize, ratio: f64) -> Ended {
     run_certified(&text, &[]).unwrap_or_else(|error| panic!("{error}"))
 }
 
-/// With the Newton method alone its seventh increment was not solved, nor was it by the exact one on so many cells; with pressure and shear
-/// in turn before it all are.
+/// With feasible iterates alone its seventh increment was not solved.
 #[test]
 fn a_film_five_thousand_times_stiffer_is_certified() {
     let ended = stiff_film(96, 5000.0);
     println!("{}", certified("stiff film, 5000 : 1", &ended));
-    assert!(ended.run.iter().all(|kept| kept.record.work.direct_solves == 0));
+    assert!(ended.run.iter().all(|kept| kept.record.parts == 1));
 }
 
 #[test]
@@ -187,13 +186,9 @@ fn stiff_films_on_fine_grids_are_certified() {
     }
 }
 
-/// What a direct solve counts for, in operator applications: on these grids it takes the time of a thousand or more.
-const DIRECT: usize = 1000;
-
-/// Operator applications per increment, or what takes as long.
+/// Operator applications per increment.
 fn effort(ended: &Ended) -> f64 {
-    let work = ended.run.iter().map(|kept| &kept.record.work);
-    let count: usize = work.map(|work| work.convolutions + DIRECT * work.direct_solves).sum();
+    let count: usize = ended.run.iter().map(|kept| kept.record.work.convolutions).sum();
     count as f64 / ended.run.len() as f64
 }
 

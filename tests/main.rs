@@ -43,6 +43,7 @@ mod reduced_contact;
 mod refinement;
 mod resumed;
 mod rig;
+mod rough_cases;
 mod rough_surfaces;
 mod second_order;
 mod severity;

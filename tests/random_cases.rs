@@ -17,7 +17,7 @@ fn certified_or_refused(seeds: Range<u64>, cells: [usize; 2], most_unsolved: u64
         match outcome {
             Outcome::Certified => certified += 1,
             Outcome::Refused(_) => refused += 1,
-            Outcome::Unsolved(why) => unsolved.push(format!("seed {seed}: {why}")),
+            Outcome::Unsolved(why) => unsolved.push(format!("seed {seed}: {why}\n{text}")),
             Outcome::Wrong(why) => wrong.push(format!("seed {seed}: {why}\n{text}")),
         }
     }

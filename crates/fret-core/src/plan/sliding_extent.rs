@@ -71,8 +71,7 @@ fn reach_on(case: &Case, size: [f64; 2], normal: Control, direction: usize) -> R
     // A start of a size: what does not converge from here is left to the run.
     let settings = SolverSettings {
         integration: Integration::EndPoint,
-        max_sweeps: 0,
-        max_direct_unknowns: 0,
+        another_way: false,
         ..SolverSettings::new(1e-3)
     };
     let friction = strongest(case);

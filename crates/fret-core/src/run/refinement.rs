@@ -255,8 +255,7 @@ mod tests {
             SurfaceResponse::FreeSpace(influence_coefficients(&pair, [CELLS; 2], spacing, Components::ALL));
         let settings = SolverSettings {
             max_newton_iterations: most_changes,
-            max_sweeps: 0,
-            max_direct_unknowns: 0,
+            another_way: false,
             integration: Integration::EndPoint, // whole steps and halves of one and the same rule
             ..SolverSettings::new(1e-9)
         };

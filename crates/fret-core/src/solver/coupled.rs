@@ -1,7 +1,7 @@
 //! Pressure and shear of one increment together, and what is done where the Newton method does not converge.
 
-use super::contact_problem::{ContactProblem, Pressure, Solution};
-use super::exact_newton;
+use super::augmented_newton;
+use super::contact_problem::{Pressure, Solution};
 use super::increment_problem::{COUPLED_LIMIT, IncrementProblem, Solved};
 use super::laws::projection::project_pressure;
 use super::newton;
@@ -18,11 +18,6 @@ use crate::model::Scheme;
 const ROUGH: f64 = 1e-2;
 /// Residual of the pressure without friction that a second start, and the limit of friction, are taken from.
 const FRICTIONLESS: f64 = 1e-6;
-
-/// Residual to which pressure and shear in turn lead to a further start; and where that does not help, times this. By trial: films a
-/// thousand times stiffer than what they lie on, and pressed flat.
-const NEAR: f64 = 1e-2;
-const NEARER: f64 = 0.1;
 
 /// Solves an increment from predicted `tractions`. `last`: displacements of the state before, when they are known.
 ///
@@ -54,27 +49,39 @@ pub fn solve(
     let problem = increment.contact_problem(Pressure::Unknown, &counted_from);
     newton::make_shear_feasible(&problem, &mut tractions, operators);
     operators.compliance.full(tractions.parts(), displacements.parts_mut());
-    let start = (!increment.path.turns()).then(|| tractions.clone());
+    let start = tractions.clone();
     let (p, u) = (&mut tractions, &mut displacements);
     let mut solution = match settings.scheme {
         Scheme::Monolithic => newton::solve(&problem, p, u, operators, settings, callback),
-        Scheme::Staggered => {
-            staggered::solve(&problem, p, u, operators, settings, staggered::MOST_SWEEPS, callback)
-        }
+        Scheme::Staggered => staggered::solve(&problem, p, u, operators, settings, callback),
     };
-    if let (Err(SolveError::NotConverged { .. }), Scheme::Monolithic, Some(start)) =
-        (&solution, settings.scheme, &start)
+    if let (Err(SolveError::NotConverged { reached, .. }), Scheme::Monolithic, true) =
+        (&solution, settings.scheme, settings.another_way)
     {
-        let frictionless = without_friction(increment, start, operators, settings, callback)?;
-        increment.check_limit(&frictionless, COUPLED_LIMIT)?;
-        check_sliding(increment, &problem, &frictionless, operators, settings, callback)?;
-        tractions.clone_from(&frictionless);
-        let (p, u) = (&mut tractions, &mut displacements);
-        let mut found = from_sweeps(&problem, p, u, operators, settings, callback)?;
+        let mut found = None;
+        if *reached < augmented_newton::NEAR {
+            // From where the quick way stands.
+            let from = p.clone();
+            found = augmented_newton::solve(&problem, &from, (p, u), operators, settings, callback)?;
+        }
+        if found.is_none() && operators.preconditioner.is_stiff() && increment.changes_normal_load() {
+            let from = augmented_newton::nested_start(&problem, start.clone(), operators, method, callback)?;
+            found = augmented_newton::solve(&problem, &from, (p, u), operators, settings, callback)?;
+        }
         if found.is_none() {
-            let starts = [start, &frictionless];
-            let ends = (&mut tractions, &mut displacements);
-            found = exact_newton::solve(&problem, starts, ends, operators, method, callback)?;
+            found = augmented_newton::solve(&problem, &start, (p, u), operators, settings, callback)?;
+        }
+        if found.is_none() && !increment.path.turns() {
+            let frictionless = without_friction(increment, &start, operators, settings, callback)?;
+            increment.check_limit(&frictionless, COUPLED_LIMIT)?;
+            check_sliding(increment, &problem, &frictionless, operators, settings, callback)?;
+            found = augmented_newton::solve(&problem, &frictionless, (p, u), operators, settings, callback)?;
+            if found.is_none() {
+                p.clone_from(&frictionless);
+                newton::make_shear_feasible(&problem, p, operators);
+                operators.compliance.full(p.parts(), u.parts_mut());
+                found = swept(staggered::solve(&problem, p, u, operators, settings, callback))?;
+            }
         }
         solution = found.map_or(solution, Ok);
     }
@@ -83,40 +90,11 @@ pub fn solve(
     Ok(Solved { tractions, displacements, drift, solution })
 }
 
-/// Solves the equations from tractions that sweeps of pressure and shear in turn lead near to the solution, and nearer while that is not
-/// enough; `None` where they do not.
-///
-/// # Errors
-/// When the iteration is stopped.
-fn from_sweeps(
-    problem: &ContactProblem<'_>,
-    tractions: &mut Tractions,
-    displacements: &mut Displacements,
-    operators: &mut RegionOperators,
-    settings: &SolverSettings,
-    callback: IterationCallback<'_>,
-) -> Result<Option<Solution>, SolveError> {
-    if settings.max_sweeps == 0 {
-        return Ok(None);
-    }
-    newton::make_shear_feasible(problem, tractions, operators);
-    operators.compliance.full(tractions.parts(), displacements.parts_mut());
-    let mut near = NEAR;
-    loop {
-        let nearer = SolverSettings { tolerance: near.max(settings.tolerance), ..*settings };
-        let sweeps = settings.max_sweeps;
-        match staggered::solve(problem, tractions, displacements, operators, &nearer, sweeps, callback) {
-            Ok(swept) if near <= settings.tolerance => return Ok(Some(swept)),
-            Ok(_) => {}
-            Err(SolveError::NotConverged { .. }) => return Ok(None),
-            Err(error) => return Err(error),
-        }
-        let start = (tractions.clone(), displacements.clone());
-        match newton::solve(problem, tractions, displacements, operators, settings, callback) {
-            Err(SolveError::NotConverged { .. }) => (*tractions, *displacements) = start,
-            other => return other.map(Some),
-        }
-        near *= NEARER;
+/// What sweeps of pressure and shear in turn found, the last resort; `None` where they do not converge.
+fn swept(solved: Result<Solution, SolveError>) -> Result<Option<Solution>, SolveError> {
+    match solved {
+        Err(SolveError::NotConverged { .. }) => Ok(None),
+        other => other.map(Some),
     }
 }
 

@@ -8,13 +8,10 @@ use super::operators::RegionOperators;
 use super::prescribed::{NormalLoad, TangentialLoads};
 use super::region::Region;
 use super::tractions::{Displacements, Tractions};
-use crate::compliance::{
-    CellResponse, DirectCompliance, OperatorSet, SharedWorkspace, SurfaceCompliance, SurfaceResponse,
-};
+use crate::compliance::{DirectCompliance, OperatorSet, SharedWorkspace, SurfaceCompliance, SurfaceResponse};
 use crate::kernel::{Components, InfluenceCoefficients, influence_coefficients};
 use crate::model::{
-    Base, Body, CellValues, ContactPair, CoulombFriction, ElasticMaterial, HalfSpace, Symmetry,
-    TangentialField,
+    Base, Body, CellValues, ContactPair, CoulombFriction, ElasticMaterial, HalfSpace, TangentialField,
 };
 use crate::random::Random;
 
@@ -60,10 +57,6 @@ impl Cells {
 
     pub(super) fn response(&self) -> SurfaceResponse {
         SurfaceResponse::FreeSpace(self.coefficients.clone())
-    }
-
-    pub(super) fn cell_response(&self) -> CellResponse {
-        CellResponse::new(&self.response(), self.shape, Symmetry::default()).unwrap()
     }
 
     pub(super) fn operators(&self) -> RegionOperators {

@@ -10,7 +10,7 @@ pub struct ForcingTerm {
     last: f64,
     /// Smallest residual so far.
     pub best: f64,
-    /// Iterations since then.
+    /// Iterations since a tenth of it was gained.
     pub without_gain: usize,
     /// Iterations in a row that did not pay.
     stalled: i32,
@@ -43,7 +43,7 @@ impl ForcingTerm {
         let ratio = residual / self.last;
         self.stalled = if ratio > Self::NO_GAIN { self.stalled + 1 } else { 0 };
         self.last = residual;
-        self.without_gain = if residual < self.best { 0 } else { self.without_gain + 1 };
+        self.without_gain = if residual < Self::NO_GAIN * self.best { 0 } else { self.without_gain + 1 };
         self.best = self.best.min(residual);
         let falling =
             if ratio > 0.0 { (Self::GAMMA * ratio).clamp(Self::LEAST, Self::MOST) } else { Self::MOST };

@@ -18,7 +18,7 @@ use super::state_after::state_after;
 use super::stretch::Stretch;
 use super::tractions::Tractions;
 use super::{ContactSolver, Coupling, Increment, IterationCallback, Outcome, SolveError};
-use crate::compliance::{CellResponse, OperatorSet, SurfaceCompliance};
+use crate::compliance::{OperatorSet, SurfaceCompliance};
 use crate::model::{ContactState, Control, Integration, LoadStep, Rig, Scheme};
 
 /// A normal load changes much when it changes by more than this fraction: starting on coarse grids is then cheaper than from the
@@ -124,12 +124,13 @@ impl ContactSolver<'_> {
         let last = self.memory.last.as_ref().filter(|last| last.region == increment.region);
         let keeps_pressure = self.whose_pressure_is_kept(increment.region, increment.load).is_some();
         let last = last.map(|last| &last.displacements);
-        let cells = || Ok(CellResponse::new(self.response.get(), self.grid.cells(), self.symmetry)?);
-        let method = Method { settings: &self.settings, cells: &cells };
+        let response = || self.response.get();
+        let (settings, operators_of) = (&self.settings, self.operator_set());
+        let method = Method { settings, response: &response, waves: self.waves(), operators: operators_of };
         match self.coupling {
             Coupling::Coupled => coupled::solve(increment, tractions, last, operators, &method, callback),
             Coupling::Uncoupled | Coupling::Frictionless => {
-                sequential::solve(increment, tractions, (last, keeps_pressure), operators, &method, callback)
+                sequential::solve(increment, tractions, (last, keeps_pressure), operators, settings, callback)
             }
         }
     }
@@ -224,27 +225,35 @@ impl ContactSolver<'_> {
             self.response.give_back();
             return Ok(operators);
         }
-        let waves = self.table.as_ref().map(|table| CellWaves { table, spacing: self.grid.spacing() });
-        let in_alternation = self.settings.scheme == Scheme::Staggered;
-        let operators = OperatorSet {
-            normal: true,
-            tangential: match self.coupling {
-                Coupling::Frictionless => false,
-                Coupling::Uncoupled => true,
-                Coupling::Coupled => in_alternation,
-            },
-            full: self.coupling == Coupling::Coupled,
-            normal_from_all: false,
-            shear_axis: self.shear_axis,
-            symmetry: self.symmetry,
-            single: self.settings.single_precision,
-        };
+        let (waves, operators) = (self.waves(), self.operator_set());
         let operators = RegionOperators::new(self.response.get(), waves, region, operators, &self.workspace)?;
         // Hardly another region follows one that is this large, and nowhere is memory scarcer than in it.
         if 2 * region.len() > self.grid.len() {
             self.response.give_back();
         }
         Ok(operators)
+    }
+
+    /// The frequency response of the pair on the grid's cells, where it is known.
+    fn waves(&self) -> Option<CellWaves<'_>> {
+        self.table.as_ref().map(|table| CellWaves { table, spacing: self.grid.spacing() })
+    }
+
+    /// What operators of a region are asked for.
+    fn operator_set(&self) -> OperatorSet {
+        OperatorSet {
+            normal: true,
+            tangential: match self.coupling {
+                Coupling::Frictionless => false,
+                Coupling::Uncoupled => true,
+                Coupling::Coupled => self.settings.scheme == Scheme::Staggered,
+            },
+            full: self.coupling == Coupling::Coupled,
+            normal_from_all: false,
+            shear_axis: self.shear_axis,
+            symmetry: self.symmetry,
+            single: self.settings.single_precision,
+        }
     }
 
     /// A pressure from coarser grids: for a first contact, and where the normal load changes much.

@@ -24,6 +24,8 @@ use crate::model::{ContactState, Control, CoulombFriction, LoadStep, Rig, Surfac
 /// Poisson's ratio -0.5 to 0.3, with and without coatings).
 pub const COUPLED_LIMIT: f64 = 0.98;
 
+/// A relative change of the normal force that is rounding and what the tolerance leaves.
+const SAME_LOAD: f64 = 1e-6;
 /// Newton iterations of the rule of second order; where it converges it takes about six.
 const MOST_TURNING: usize = 24;
 
@@ -164,6 +166,16 @@ impl<'a> IncrementProblem<'a> {
             || !self.stretch.is_none()
             || resultant != [0.0; 3]
             || self.state.shear.iter().any(|shear| shear.iter().any(|q| *q != 0.0))
+    }
+
+    /// Whether more or less than before is prescribed along the normal.
+    pub fn changes_normal_load(&self) -> bool {
+        let NormalLoad { total, approach, give } = self.normal;
+        let before: f64 = self.state.pressure.iter().sum();
+        match total {
+            Some(total) => (total - before).abs() > SAME_LOAD * total,
+            None => approach - give * before != self.state.approach,
+        }
     }
 
     /// Settings with fewer iterations where the end-point rule is left to fall back on.

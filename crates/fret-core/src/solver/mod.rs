@@ -5,12 +5,12 @@
 //! pressure and shear together in `newton`, its linear problems in `linear`, the frictionless problem in `normal`. Theory: `docs/theory/contact-problem.md` and
 //! `docs/theory/solution-algorithm.md`.
 
+mod augmented_newton;
 mod contact_edge;
 mod contact_problem;
 mod contact_set;
 mod contact_vector;
 mod coupled;
-mod exact_newton;
 #[cfg(test)]
 mod few_cells;
 mod full_grid_check;

@@ -6,8 +6,8 @@ use super::linear::preconditioner::{CellWaves, Preconditioner};
 use super::linear::solver::LinearSolver;
 use super::outcome::Work;
 use super::region::Region;
-use super::settings::{SolveError, SolverSettings};
-use crate::compliance::{CellResponse, OperatorSet, SharedWorkspace, SpectralCompliance, SurfaceResponse};
+use super::settings::SolverSettings;
+use crate::compliance::{OperatorSet, SharedWorkspace, SpectralCompliance, SurfaceResponse};
 use fret_fft::ConvolutionError;
 
 /// The operators of a region.
@@ -20,8 +20,10 @@ pub struct RegionOperators {
     pub preconditioner: Preconditioner,
     /// Solver of linearised problems.
     pub linear: LinearSolver,
-    /// Iterations of the exact Newton method since the work was taken last.
-    pub direct_solves: usize,
+    /// Work on coarser grids since the work was taken last, their cells counted as those of the region.
+    pub coarse_work: Work,
+    /// Steps of Newton's method with iterates that need not be feasible since the work was taken last.
+    pub augmented_steps: usize,
 }
 
 impl RegionOperators {
@@ -43,26 +45,32 @@ impl RegionOperators {
             compliance: compliance.working_in(workspace),
             preconditioner: preconditioner.working_in(workspace),
             linear: LinearSolver::default(),
-            direct_solves: 0,
+            coarse_work: Work::default(),
+            augmented_steps: 0,
         })
     }
 
     /// The work since it was taken last; the region counts as this `fraction` of the whole grid.
     pub fn take_work(&mut self, fraction: f64) -> Work {
         let convolutions = take(&mut self.compliance.applications);
-        Work {
+        let mut work = take(&mut self.coarse_work);
+        work.full_grid_convolutions *= fraction;
+        work += Work {
             convolutions,
             full_grid_convolutions: convolutions as f64 * fraction,
             preconditioner_passes: take(&mut self.preconditioner.passes),
-            direct_solves: take(&mut self.direct_solves),
+            augmented_steps: take(&mut self.augmented_steps),
             ..Work::default()
-        }
+        };
+        work
     }
 }
 
-/// What an increment is solved with besides its operators.
+/// What an increment is solved with besides the operators of its region.
 pub struct Method<'a> {
     pub settings: &'a SolverSettings,
-    /// The response of a cell to another, for the exact Newton method.
-    pub cells: &'a dyn Fn() -> Result<CellResponse, SolveError>,
+    /// The response that these operators were made of, and with what they were.
+    pub response: &'a dyn Fn() -> &'a SurfaceResponse,
+    pub waves: Option<CellWaves<'a>>,
+    pub operators: OperatorSet,
 }

@@ -54,9 +54,9 @@ pub struct Work {
     pub preconditioner_passes: usize,
     /// Newton iterations; without coupling with those of the pressure before them.
     pub outer_iterations: usize,
-    /// Iterations of the exact Newton method, the last resort: 0 where the usual way solved the increment.
+    /// Those of them whose iterates need not be feasible, the other way: 0 where the usual one solved the increment.
     #[serde(default)]
-    pub direct_solves: usize,
+    pub augmented_steps: usize,
     /// Increments and sub-steps that were integrated by the end-point rule because that of second order did not converge.
     #[serde(default)]
     pub end_point_increments: usize,
@@ -68,7 +68,7 @@ impl std::ops::AddAssign for Work {
         self.full_grid_convolutions += other.full_grid_convolutions;
         self.preconditioner_passes += other.preconditioner_passes;
         self.outer_iterations += other.outer_iterations;
-        self.direct_solves += other.direct_solves;
+        self.augmented_steps += other.augmented_steps;
         self.end_point_increments += other.end_point_increments;
     }
 }

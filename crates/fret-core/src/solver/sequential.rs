@@ -7,8 +7,8 @@ use super::laws::limit::sliding_fraction;
 use super::laws::projection::project_pressure;
 use super::newton;
 use super::normal::{NormalSolution, solve_normal};
-use super::operators::{Method, RegionOperators};
-use super::settings::{Coupling, IterationCallback, SolveError};
+use super::operators::RegionOperators;
+use super::settings::{Coupling, IterationCallback, SolveError, SolverSettings};
 use super::tractions::{Displacements, Tractions};
 use crate::compliance::SurfaceCompliance;
 use crate::model::TangentialField;
@@ -23,10 +23,10 @@ pub fn solve(
     mut tractions: Tractions,
     (last, keeps_pressure): (Option<&Displacements>, bool),
     operators: &mut RegionOperators,
-    method: &Method<'_>,
+    settings: &SolverSettings,
     callback: IterationCallback<'_>,
 ) -> Result<Solved, SolveError> {
-    let settings = &increment.limited(method.settings);
+    let settings = &increment.limited(settings);
     let cells = increment.region.len();
     let mut displacements = Displacements::zeros(cells);
     let pressure = if let (true, Some(last)) = (keeps_pressure, last) {

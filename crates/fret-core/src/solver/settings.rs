@@ -30,11 +30,8 @@ pub struct SolverSettings {
     pub integration: Integration,
     /// Newton iterations, each with new active sets, before an increment is left to other methods.
     pub max_newton_iterations: usize,
-    /// Sweeps, of pressure and shear in turn, at the most for each tenth of the residual on the way to another start for the Newton method;
-    /// 0: never.
-    pub max_sweeps: usize,
-    /// Unknowns up to which the exact Newton method, with its dense matrix, is the last resort; 0: never.
-    pub max_direct_unknowns: usize,
+    /// What the quick way of Newton's method does not solve is left to the other one.
+    pub another_way: bool,
     /// Linear problems and approximate inverses in single precision. Residuals are found in double precision.
     pub single_precision: bool,
     /// Without coupling the pressure is not solved again while the normal load stays.
@@ -51,8 +48,7 @@ impl SolverSettings {
             scheme: Scheme::default(),
             integration: Integration::default(),
             max_newton_iterations: 60,
-            max_sweeps: 20,
-            max_direct_unknowns: 4500,
+            another_way: true,
             single_precision: false,
             reuse_pressure: true,
             skip_unloaded_shear: true,

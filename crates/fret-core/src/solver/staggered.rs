@@ -1,6 +1,6 @@
 //! The scheme of the published three-level methods (Panagiotopoulos 1975): pressure at given shear, then shear at given pressure, until
-//! the laws of both hold at once. It takes several times as many operator applications as the Newton method: a cross-check of that, and the
-//! way to a start for it where its active sets wander.
+//! the laws of both hold at once. It takes several times as many operator applications as the Newton method: a cross-check of that, and
+//! what is left where its active sets wander from every start.
 
 use super::contact_problem::{ContactProblem, Pressure, Solution};
 use super::newton;
@@ -14,8 +14,8 @@ use crate::fields::add_scaled;
 /// Fraction of the residual reached so far to which pressure and shear are solved in their turn.
 const INNER: f64 = 0.1;
 
-/// Sweeps at the most, where nothing else solves the equations.
-pub const MOST_SWEEPS: usize = 200;
+/// Sweeps at the most.
+const MOST_SWEEPS: usize = 200;
 
 /// Solves the coupled equations from feasible `tractions` with their `displacements`; both end at the solution.
 ///
@@ -27,7 +27,6 @@ pub fn solve(
     displacements: &mut Displacements,
     operators: &mut RegionOperators,
     settings: &SolverSettings,
-    sweeps: usize,
     callback: IterationCallback<'_>,
 ) -> Result<Solution, SolveError> {
     let cells = problem.undeformed.len();
@@ -35,7 +34,7 @@ pub fn solve(
     let mut from_pressure = Displacements::zeros(cells);
     let mut from_shear = Displacements::zeros(cells);
     let mut best = f64::INFINITY;
-    for sweep in 0..sweeps {
+    for sweep in 0..MOST_SWEEPS {
         let (residual, solution) = newton::evaluate(problem, tractions, displacements, operators);
         best = best.min(residual);
         if callback(sweep, residual).is_break() {
@@ -69,5 +68,5 @@ pub fn solve(
         }
         operators.compliance.full(tractions.parts(), displacements.parts_mut());
     }
-    Err(SolveError::NotConverged { reached: best, iterations: sweeps })
+    Err(SolveError::NotConverged { reached: best, iterations: MOST_SWEEPS })
 }

@@ -66,6 +66,34 @@ impl ActiveSets {
         each_cell(&Classify(limits), read, write.map(Vec::as_mut_slice));
     }
 
+    /// Those of trial shear `q + slip / K`, which need not be feasible: cells stick inside their discs and slip along it outside.
+    pub fn of_trial(trial: &TangentialField, bound: &FrictionBound, self_influence: f64) -> Self {
+        let cells = bound.bound.len();
+        let field = || vec![0.0; cells];
+        let [stick, slip, slip_compliance, slip_weight] = [field(), field(), field(), field()];
+        let direction = TangentialField::zeros(cells);
+        let mut sets = Self { stick, slip, direction, slip_compliance, slip_weight, ..Self::default() };
+        let least = LEAST_BOUND * largest(&bound.bound);
+        for (cell, &bound) in bound.bound.iter().enumerate() {
+            let trial = trial.at(cell);
+            let size = trial[0].hypot(trial[1]);
+            if bound > 0.0 && size <= bound {
+                sets.stick[cell] = 1.0;
+                continue;
+            }
+            if size > 0.0 {
+                sets.direction.set(cell, trial.map(|part| part / size));
+            }
+            if bound > 0.0 {
+                let stretched = (size - bound) / bound.max(least);
+                sets.slip[cell] = 1.0;
+                sets.slip_compliance[cell] = self_influence * stretched;
+                sets.slip_weight[cell] = 1.0 / (1.0 + stretched).sqrt();
+            }
+        }
+        sets
+    }
+
     /// Takes into account how slip turns on its `path`; `slip`: what is not yet turned, packed [length].
     pub fn turn(&mut self, path: &SlipPath, slip: &TangentialField) {
         self.turns = path.turns();
@@ -90,6 +118,11 @@ impl ActiveSets {
     /// These vectors, or the direction of shear.
     pub fn rows(&self) -> [&[f64]; 2] {
         self.turned().unwrap_or_else(|| self.direction.parts())
+    }
+
+    /// The one of a cell.
+    pub fn row(&self, cell: usize) -> [f64; 2] {
+        self.rows().map(|row| row[cell])
     }
 
     /// Puts shear of cells that neither stick nor slip on their circles, along their slip.

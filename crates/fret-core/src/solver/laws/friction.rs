@@ -60,12 +60,16 @@ impl FrictionLaw {
 
     /// The law in the cells of a contact.
     pub fn packed(&self, contact: &ContactSet) -> Self {
-        let packed =
-            |of_cells: &[f64]| if of_cells.is_empty() { Vec::new() } else { contact.packed(of_cells) };
+        self.map(|of_cells| contact.packed(of_cells))
+    }
+
+    /// The law with every field of the cells made another one.
+    pub fn map(&self, field: impl Fn(&[f64]) -> Vec<f64>) -> Self {
+        let mapped = |of_cells: &[f64]| if of_cells.is_empty() { Vec::new() } else { field(of_cells) };
         Self {
             uniform: self.uniform,
-            coefficient: packed(&self.coefficient),
-            max_shear: packed(&self.max_shear),
+            coefficient: mapped(&self.coefficient),
+            max_shear: mapped(&self.max_shear),
         }
     }
 

@@ -33,6 +33,19 @@ impl CellPositions {
         Self { x, y, length, rotates }
     }
 
+    /// Those of cells twice as wide; the motions keep their units.
+    pub fn coarser(&self) -> Self {
+        let pairs = |centres: &[f64]| -> Vec<f64> {
+            centres.chunks(2).map(|pair| 0.5 * (pair[0] + pair[pair.len() - 1])).collect()
+        };
+        Self { x: pairs(&self.x), y: pairs(&self.y), ..*self }
+    }
+
+    /// How many cells there are along x and y.
+    pub fn shape(&self) -> [usize; 2] {
+        [self.x.len(), self.y.len()]
+    }
+
     /// The motions of the cells in contact, with what is prescribed of them.
     pub fn motions_of(&self, contact: &ContactSet, loads: TangentialLoads) -> RigidMotions {
         let mut rotation = TangentialField::default();
@@ -55,6 +68,11 @@ impl RigidMotions {
         }
         let around = self.rotation.at(cell);
         [x + turned * around[0], y + turned * around[1]]
+    }
+
+    /// All three motions, a unit of each, at a cell.
+    pub fn modes(&self, cell: usize) -> [[f64; 2]; 3] {
+        [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]].map(|unit| self.at(unit, cell))
     }
 
     /// Solves the symmetric system `[xx, yy, rr, xy, xr, yr]` of the force-controlled modes, others zero; a singular

@@ -44,6 +44,14 @@ pub struct SlipPath {
 }
 
 impl SlipPath {
+    /// That of the end-point rule.
+    pub const END_POINT: Self = {
+        Self {
+            turn: TangentialField { x: Vec::new(), y: Vec::new() },
+            ahead: TangentialField { x: Vec::new(), y: Vec::new() },
+        }
+    };
+
     /// Paths that go straight from the start of the increment to its end, in so many cells.
     pub fn straight(cells: usize) -> Self {
         let zeros = || TangentialField::zeros(cells);
@@ -87,17 +95,6 @@ impl SlipPath {
         let straight = length(slip) * length(turn);
         let along = (slip[0] * turn[0] + slip[1] * turn[1] - FADED * straight).max(0.0);
         [slip[0] - along * turn[0], slip[1] - along * turn[1]]
-    }
-
-    /// The vector whose product with a change of slip is that of `across` with the change of the slip at the end.
-    pub fn row_across(&self, cell: usize, slip: [f64; 2], across: [f64; 2]) -> [f64; 2] {
-        if self.end_of(cell, slip) == slip {
-            return across;
-        }
-        let turn = self.turn.at(cell);
-        let share = FADED * length(turn) / length(slip);
-        let turned = across[0] * turn[0] + across[1] * turn[1];
-        [0, 1].map(|axis| across[axis] - turned * (turn[axis] - share * slip[axis]))
     }
 
     /// Slip increment of a cell, from its slip less the offset: from the moment of touch on, where it `was_open`.
@@ -332,7 +329,6 @@ mod tests {
         assert_eq!(packed.turn.at(1), path.turn.at(2));
         let nothing = SlipPath::default();
         assert!(!nothing.turns() && !nothing.packed(&ContactSet::of(3, |_| true)).turns());
-        assert_eq!(nothing.row_across(7, [1.0, 2.0], [0.6, 0.8]), [0.6, 0.8]);
         assert_eq!(nothing.counted(7, [1.0, 2.0], false), [1.0, 2.0]);
     }
 
@@ -345,18 +341,6 @@ mod tests {
         assert_eq!(path.end_of(1, [1.0, 2.0]), [1.0, 2.0]); // nothing known
         let along = path.end_of(0, [3.0, 4.0]);
         assert!((along[0] - 2.0).abs() < 1e-15 && (along[1] - 8.0 / 3.0).abs() < 1e-15);
-        // Differences of the slip at the end, 20 degrees off the last slip and beyond the angle from which on it is left alone.
-        for slip in [[1.0, 2.2], [2.0, -1.0]] {
-            let (across, step) = ([0.3, -0.9], 1e-6);
-            let row = path.row_across(0, slip, across);
-            for axis in 0..2 {
-                let mut there = slip;
-                there[axis] += step;
-                let [one, other] = [path.end_of(0, slip), path.end_of(0, there)];
-                let change = (0..2).map(|k| across[k] * (other[k] - one[k])).sum::<f64>() / step;
-                assert!((row[axis] - change).abs() < 1e-5, "{slip:?}: {row:?} {change}");
-            }
-        }
         assert_eq!(SlipPath::default().end_of(7, [1.0, 2.0]), [1.0, 2.0]);
         path.go_on(1, [2.0, -4.0], (0.5, 0.1, 0.0));
         let counted = path.counted(1, [1.0, 2.0], false);

@@ -1,6 +1,7 @@
 //! The linearised problem on fixed active sets, and its solution: a Krylov method with an approximate inverse in Fourier space.
 //! Single precision begins and ends in [`solver`].
 
+mod edge_correction;
 mod gmres;
 mod inverse;
 pub mod preconditioner;

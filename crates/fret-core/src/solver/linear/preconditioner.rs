@@ -7,6 +7,7 @@ use ndarray::{Array2, s};
 
 use super::super::contact_set::ContactSet;
 use super::super::region_fields::RegionFields;
+use super::edge_correction::EdgeCorrection;
 use super::inverse::{FieldsOfRegion, Inverse, Precision};
 use crate::compliance::{
     NORMAL_BLOCKS, OperatorSet, SharedWorkspace, SurfaceResponse, TANGENTIAL_BLOCKS, mirrors,
@@ -22,6 +23,8 @@ const STIFF_ABOVE: f64 = 4.0;
 /// Approximate inverses for a region.
 pub struct Preconditioner {
     normal: Inverse,
+    /// Where the pair is stiff at the surface, and pressure and shear are solved together.
+    edge: Option<EdgeCorrection>,
     shear: Option<Inverse>,
     /// Smallest symbol of the tangential response [length/pressure].
     softest: f64,
@@ -118,9 +121,18 @@ impl Preconditioner {
             _ => symbol(zz, Parity::EvenEven)?,
         };
         let least = smallest_positive(&normal);
-        normal.mapv_inplace(|value| if value == 0.0 { 0.0 } else { 1.0 / value.max(least) });
-        let normal = Symbol { values: normal.view(), parity: Parity::EvenEven };
+        normal.mapv_inplace(|value| if value == 0.0 { 0.0 } else { value.max(least) });
         let stiff = waves.is_some_and(|waves| waves.are_stiff(shape));
+        let edge = if stiff && full {
+            let forward = Symbol { values: normal.view(), parity: Parity::EvenEven };
+            let kernel = kernel_of(forward, shape)?;
+            let forward = product(&[forward], &[0], &NORMAL_BLOCKS)?;
+            Some(EdgeCorrection::new(forward, kernel, [shape, part], symmetry.axes()))
+        } else {
+            None
+        };
+        normal.mapv_inplace(|value| if value == 0.0 { 0.0 } else { 1.0 / value });
+        let normal = Symbol { values: normal.view(), parity: Parity::EvenEven };
         let mut softest = 0.0;
         let shear = if tangential || full {
             let [xx, yy, xy] = match (response, waves.filter(|_| stiff), xx, yy) {
@@ -150,6 +162,7 @@ impl Preconditioner {
         };
         Ok(Self {
             normal: product(&[normal], &[0], &NORMAL_BLOCKS)?,
+            edge,
             shear,
             softest,
             shear_axis,
@@ -194,6 +207,9 @@ impl Preconditioner {
         each_cell(&Weights { softest: self.softest / compliance }, [slip_compliance], [elastic, slip]);
         weights.compliance = compliance;
         self.fields.begin(contact, self.cells);
+        if let Some(edge) = &mut self.edge {
+            edge.prepare(contact);
+        }
     }
 
     /// Fields of the region for an operator, ready for the contact prepared last.
@@ -203,9 +219,13 @@ impl Preconditioner {
 
     /// Pressures that would remove normal displacements `right`, packed over the contact prepared last.
     pub fn pressure<N: Number>(&mut self, right: &[N], pressure: &mut [N], weights: &SlipWeights<N>) {
-        let Self { normal, fields, workspace, .. } = self;
+        let Self { normal, edge, fields, workspace, .. } = self;
         self.passes += 1;
-        normal.apply(&[right], &mut [pressure], weights.compliance, (fields, workspace));
+        normal.apply(&[right], &mut [&mut *pressure], weights.compliance, (fields, workspace));
+        if let Some(edge) = edge {
+            self.passes += 1;
+            edge.add(right, pressure, weights.compliance, (fields, workspace));
+        }
     }
 
     /// Shears that would remove tangential displacements `right`, before any restriction to what the active sets leave free; packed
@@ -270,6 +290,16 @@ impl CellRule<6, 2, 0> for Sum {
         *y = part_y * elastic + right_y * slip;
         []
     }
+}
+
+/// The circulant response of a symbol, at every offset by the cells of a whole region [length/pressure].
+fn kernel_of(symbol: Symbol<'_>, shape: [usize; 2]) -> Result<Vec<f64>, ConvolutionError> {
+    let product = PeriodicProduct::new(shape, &[symbol], &NORMAL_BLOCKS)?;
+    let mut unit = vec![0.0; shape[0] * shape[1]];
+    unit[0] = 1.0;
+    let mut kernel = vec![0.0; unit.len()];
+    product.apply(&mut product.workspace(), &[&unit], &mut [&mut kernel]);
+    Ok(kernel)
 }
 
 /// What a uniform traction on a region displaces, by the nearest image of each offset only.

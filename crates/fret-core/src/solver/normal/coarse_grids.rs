@@ -12,7 +12,7 @@ use super::super::settings::{IterationCallback, SolveError, SolverSettings};
 use super::grid_transfer::{coarser_heights, coarser_response, prolonged};
 use super::{NormalEquations, first_pressure, solve_normal};
 use crate::compliance::{OperatorSet, SharedWorkspace, SurfaceCompliance, SurfaceResponse};
-use crate::kernel::ResponseTable;
+use crate::kernel::{Components, ResponseTable};
 use crate::model::Symmetry;
 use fret_fft::good_length;
 
@@ -67,9 +67,8 @@ impl CoarseGrids {
             if cells[0].min(cells[1]) < COARSEST || !(halves(0) && halves(1)) {
                 break;
             }
-            let Some(response) = coarser_response(response, cells) else { break };
             let level = Level {
-                response,
+                response: coarser_response(response, cells, Components::NORMAL),
                 undeformed: coarser_heights(undeformed),
                 spacing: spacing.map(|side| 2.0 * side),
             };

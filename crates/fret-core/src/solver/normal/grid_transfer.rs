@@ -7,7 +7,7 @@ use ndarray::{Array2, ArrayView2};
 use super::super::contact_edge::level_function;
 use super::super::region::Region;
 use crate::compliance::SurfaceResponse;
-use crate::kernel::{InfluenceCoefficients, PeriodicSymbols};
+use crate::kernel::{Components, InfluenceCoefficients, PeriodicSymbols};
 
 /// Pressure on a grid twice as fine, of `cells`, from that of a region with its gap; scaled to a `total` where the force is prescribed.
 /// The edge is moved out by `shift` of a fine cell. `None` where there is no contact.
@@ -55,7 +55,7 @@ pub fn prolonged(
 }
 
 /// Bilinear interpolation to the centres of half cells.
-fn interpolated(coarse: &Array2<f64>, fine: [usize; 2]) -> Array2<f64> {
+pub fn interpolated(coarse: &Array2<f64>, fine: [usize; 2]) -> Array2<f64> {
     let (nx, ny) = coarse.dim();
     let places = |count: usize, cells: usize| -> Vec<(usize, usize, f64)> {
         (0..count)
@@ -89,49 +89,63 @@ pub fn coarser_heights(fine: &Array2<f64>) -> Array2<f64> {
     })
 }
 
-/// The normal response of cells twice as wide.
-pub fn coarser_response(fine: &SurfaceResponse, cells: [usize; 2]) -> Option<SurfaceResponse> {
-    let normal = |zz| (Some(zz), None, None, None, None, None);
-    Some(match fine {
-        SurfaceResponse::FreeSpace(coefficients) => {
-            let (zz, xx, yy, xy, zx, zy) = normal(coarser_coefficients(coefficients.zz.as_ref()?));
+/// The `wanted` response of cells twice as wide, as far as that of `cells` is there.
+pub fn coarser_response(fine: &SurfaceResponse, cells: [usize; 2], wanted: Components) -> SurfaceResponse {
+    let Components { normal, tangential, coupling } = wanted;
+    let is_wanted = [normal, tangential, tangential, tangential, coupling, coupling];
+    let odd = [[false; 2], [false; 2], [false; 2], [true; 2], [true, false], [false, true]];
+    match fine {
+        SurfaceResponse::FreeSpace(c) => {
+            let fine = [&c.zz, &c.xx, &c.yy, &c.xy, &c.zx, &c.zy];
+            let coarse = |k: usize| {
+                fine[k].as_ref().filter(|_| is_wanted[k]).map(|values| coarser_coefficients(values, odd[k]))
+            };
+            let [zz, xx, yy, xy, zx, zy] = [0, 1, 2, 3, 4, 5].map(coarse);
             SurfaceResponse::FreeSpace(InfluenceCoefficients { zz, xx, yy, xy, zx, zy })
         }
-        SurfaceResponse::Periodic(symbols) => {
-            let (zz, xx, yy, xy, zx, zy) = normal(coarser_symbols(symbols.zz.as_ref()?, cells));
+        SurfaceResponse::Periodic(s) => {
+            let fine = [&s.zz, &s.xx, &s.yy, &s.xy, &s.zx, &s.zy];
+            let coarse = |k: usize| {
+                fine[k].as_ref().filter(|_| is_wanted[k]).map(|values| coarser_symbols(values, cells, odd[k]))
+            };
+            let [zz, xx, yy, xy, zx, zy] = [0, 1, 2, 3, 4, 5].map(coarse);
             SurfaceResponse::Periodic(PeriodicSymbols { zz, xx, yy, xy, zx, zy })
         }
-    })
+    }
 }
 
-/// Mean displacement of two by two cells by one pressure on two by two others.
-fn coarser_coefficients(fine: &Array2<f64>) -> Array2<f64> {
+/// Mean displacement of two by two cells by one traction on two by two others. `odd`: along which axes coefficients change their sign.
+fn coarser_coefficients(fine: &Array2<f64>, odd: [bool; 2]) -> Array2<f64> {
     let (nx, ny) = fine.dim();
+    // The last offset of an odd count is missing, and no contact inside the grid asks for it.
+    let near =
+        |index: usize, count: usize| [(2 * index).abs_diff(1), 2 * index, (2 * index + 1).min(count - 1)];
+    let sign = |index: usize, axis: usize| if odd[axis] && index == 0 { -1.0 } else { 1.0 };
     let mut row = vec![0.0; ny];
     let mut coarse = Array2::zeros((nx.div_ceil(2), ny.div_ceil(2)));
     for (i, mut line) in coarse.rows_mut().into_iter().enumerate() {
-        // the quadrant is even; the last offset of an odd count is missing, and no contact inside the grid asks for it
-        let near = [(2 * i).abs_diff(1), 2 * i, (2 * i + 1).min(nx - 1)].map(|index| fine.row(index));
+        let near_x = near(i, nx).map(|index| fine.row(index.min(nx - 1)));
         for j in 0..ny {
-            row[j] = near[0][j] + 2.0 * near[1][j] + near[2][j];
+            row[j] = sign(i, 0) * near_x[0][j] + 2.0 * near_x[1][j] + near_x[2][j];
         }
         for (j, value) in line.iter_mut().enumerate() {
-            *value = 0.25 * (row[(2 * j).abs_diff(1)] + 2.0 * row[2 * j] + row[(2 * j + 1).min(ny - 1)]);
+            let [low, middle, high] = near(j, ny).map(|index| row[index.min(ny - 1)]);
+            *value = 0.25 * (sign(j, 1) * low + 2.0 * middle + high);
         }
     }
     coarse
 }
 
-/// The same in waves: each coarse wave is a mixture of four fine ones.
-fn coarser_symbols(fine: &Array2<f64>, cells: [usize; 2]) -> Array2<f64> {
+/// The same in waves: each coarse wave is a mixture of four fine ones, of which those folded over are counted from the other side.
+fn coarser_symbols(fine: &Array2<f64>, cells: [usize; 2], odd: [bool; 2]) -> Array2<f64> {
     let half = cells.map(|count| count / 2);
-    let fractions = |index: usize, count: usize| {
-        let (sine, cosine) = libm::sincos(std::f64::consts::PI * index as f64 / count as f64);
-        [cosine * cosine, sine * sine]
+    let fractions = |index: usize, axis: usize| {
+        let (sine, cosine) = libm::sincos(std::f64::consts::PI * index as f64 / cells[axis] as f64);
+        [cosine * cosine, if odd[axis] { -sine * sine } else { sine * sine }]
     };
     Array2::from_shape_fn(half.map(|count| count / 2 + 1), |(a, b)| {
-        let [wide_x, narrow_x] = fractions(a, cells[0]);
-        let [wide_y, narrow_y] = fractions(b, cells[1]);
+        let [wide_x, narrow_x] = fractions(a, 0);
+        let [wide_y, narrow_y] = fractions(b, 1);
         let (c, d) = (half[0] - a, half[1] - b);
         wide_x * (wide_y * fine[[a, b]] + narrow_y * fine[[a, d]])
             + narrow_x * (wide_y * fine[[c, b]] + narrow_y * fine[[c, d]])
@@ -142,7 +156,7 @@ fn coarser_symbols(fine: &Array2<f64>, cells: [usize; 2]) -> Array2<f64> {
 mod tests {
     use super::*;
     use crate::compliance::{OperatorSet, SpectralCompliance, SurfaceCompliance};
-    use crate::kernel::{Components, influence_coefficients, periodic_symbols};
+    use crate::kernel::{influence_coefficients, periodic_symbols};
     use crate::model::{Base, Body, Coating, ContactPair, ElasticMaterial, HalfSpace};
 
     fn pair() -> ContactPair {
@@ -155,27 +169,39 @@ mod tests {
     fn responses(cells: [usize; 2]) -> [SurfaceResponse; 2] {
         let spacing = [1.0, 1.5];
         [
-            SurfaceResponse::FreeSpace(influence_coefficients(&pair(), cells, spacing, Components::NORMAL)),
-            SurfaceResponse::Periodic(periodic_symbols(&pair(), cells, spacing, Components::NORMAL, 0)),
+            SurfaceResponse::FreeSpace(influence_coefficients(&pair(), cells, spacing, Components::ALL)),
+            SurfaceResponse::Periodic(periodic_symbols(&pair(), cells, spacing, Components::ALL, 0)),
         ]
     }
 
+    /// Pressure and shear, each of them its own, and all that they displace.
     #[test]
-    fn a_coarse_cell_is_four_cells_under_one_pressure() {
+    fn a_coarse_cell_is_four_cells_under_the_same_tractions() {
         let cells = [16, 12];
-        let normal = OperatorSet { normal: true, ..OperatorSet::default() };
+        let full = OperatorSet { full: true, ..OperatorSet::default() };
         for response in responses(cells) {
-            let coarse = coarser_response(&response, cells).unwrap();
-            let pressure = |i: usize, j: usize| ((3 * i + 5 * j * j) % 7) as f64;
-            let of_fine: Vec<f64> = (0..192).map(|cell| pressure(cell / 12 / 2, cell % 12 / 2)).collect();
-            let of_coarse: Vec<f64> = (0..48).map(|cell| pressure(cell / 6, cell % 6)).collect();
-            let (mut fine, mut found) = (vec![0.0; 192], vec![0.0; 48]);
-            SpectralCompliance::new(&response, cells, normal).unwrap().normal(&of_fine, &mut fine);
-            SpectralCompliance::new(&coarse, [8, 6], normal).unwrap().normal(&of_coarse, &mut found);
-            let exact = coarser_heights(&Array2::from_shape_vec(cells, fine).unwrap());
-            let size = exact.iter().copied().fold(0.0, f64::max);
-            for (found, exact) in found.iter().zip(&exact) {
-                assert!((found - exact).abs() < 1e-13 * size, "{found} {exact}"); // sums of 200 products
+            let coarse = coarser_response(&response, cells, Components::ALL);
+            let traction =
+                |part: usize, i: usize, j: usize| ((3 * i + 5 * j * j + part * (i + 2)) % 7) as f64;
+            let of_fine = [0, 1, 2].map(|part| -> Vec<f64> {
+                (0..192).map(|cell| traction(part, cell / 12 / 2, cell % 12 / 2)).collect()
+            });
+            let of_coarse = [0, 1, 2]
+                .map(|part| -> Vec<f64> { (0..48).map(|cell| traction(part, cell / 6, cell % 6)).collect() });
+            let (mut fine, mut found) = ([0, 1, 2].map(|_| vec![0.0; 192]), [0, 1, 2].map(|_| vec![0.0; 48]));
+            let apply = |response: &SurfaceResponse,
+                         cells: [usize; 2],
+                         from: &[Vec<f64>; 3],
+                         to: &mut [Vec<f64>; 3]| {
+                let mut operator = SpectralCompliance::new(response, cells, full).unwrap();
+                operator.full(from.each_ref().map(Vec::as_slice), to.each_mut().map(Vec::as_mut_slice));
+            };
+            apply(&response, cells, &of_fine, &mut fine);
+            apply(&coarse, [8, 6], &of_coarse, &mut found);
+            let exact = fine.map(|fine| coarser_heights(&Array2::from_shape_vec(cells, fine).unwrap()));
+            let size = exact[0].iter().copied().fold(0.0, f64::max);
+            for (found, exact) in found.iter().flatten().zip(exact.iter().flatten()) {
+                assert!((found - exact).abs() < 1e-13 * size, "{found} {exact}"); // sums of 600 products
             }
         }
     }

@@ -2,7 +2,7 @@
 
 mod active_set;
 pub mod coarse_grids;
-mod grid_transfer;
+pub mod grid_transfer;
 mod problem;
 mod projected_cg;
 
