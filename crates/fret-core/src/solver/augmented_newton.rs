@@ -9,7 +9,6 @@
 //! much of a step is taken costs nothing, since displacements are linear in it: so the squared residual falls in every step, and active sets
 //! that wander where they are read off feasible tractions settle here. Linear problems are those of `newton.rs`.
 
-mod coarse;
 mod equations;
 mod linear_step;
 mod point;
@@ -20,7 +19,6 @@ use super::operators::RegionOperators;
 use super::settings::{IterationCallback, SolveError, SolverSettings};
 use super::tractions::{Displacements, Tractions};
 use crate::compliance::SurfaceCompliance;
-pub use coarse::nested_start;
 use equations::Equations;
 use point::Point;
 
@@ -74,7 +72,7 @@ pub fn solve(
 }
 
 /// The method on its way.
-struct AugmentedNewton<'a> {
+pub struct AugmentedNewton<'a> {
     equations: Equations<'a>,
     here: Point,
     /// What the equations leave over at `here` [pressure].
@@ -88,7 +86,11 @@ struct AugmentedNewton<'a> {
 
 impl<'a> AugmentedNewton<'a> {
     /// From tractions, feasible or not.
-    fn new(problem: &'a ContactProblem<'a>, tractions: &Tractions, operators: &mut RegionOperators) -> Self {
+    pub fn new(
+        problem: &'a ContactProblem<'a>,
+        tractions: &Tractions,
+        operators: &mut RegionOperators,
+    ) -> Self {
         let equations = Equations::new(problem, tractions, operators);
         let mut displacements = Displacements::zeros(tractions.pressure.len());
         operators.compliance.full(tractions.parts(), displacements.parts_mut());
@@ -106,7 +108,7 @@ impl<'a> AugmentedNewton<'a> {
     ///
     /// # Errors
     /// When the iteration is stopped.
-    fn advance(
+    pub fn advance(
         &mut self,
         goal: f64,
         operators: &mut RegionOperators,
@@ -135,6 +137,11 @@ impl<'a> AugmentedNewton<'a> {
             let most = most_forcing(operators);
             self.forcing = self.forcing.min(most);
         }
+    }
+
+    /// Where it stands.
+    pub fn into_tractions(self) -> Tractions {
+        self.here.tractions
     }
 
     /// What the equations leave over, of the pressure.

@@ -4,6 +4,7 @@ use super::augmented_newton;
 use super::contact_problem::{Pressure, Solution};
 use super::increment_problem::{COUPLED_LIMIT, IncrementProblem, Solved};
 use super::laws::projection::project_pressure;
+use super::nested_start::nested_start;
 use super::newton;
 use super::normal::solve_normal;
 use super::operators::{Method, RegionOperators};
@@ -65,7 +66,7 @@ pub fn solve(
             found = augmented_newton::solve(&problem, &from, (p, u), operators, settings, callback)?;
         }
         if found.is_none() && operators.preconditioner.is_stiff() && increment.changes_normal_load() {
-            let from = augmented_newton::nested_start(&problem, start.clone(), operators, method, callback)?;
+            let from = nested_start(&problem, start.clone(), operators, method, callback)?;
             found = augmented_newton::solve(&problem, &from, (p, u), operators, settings, callback)?;
         }
         if found.is_none() {

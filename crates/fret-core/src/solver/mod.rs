@@ -22,6 +22,7 @@ mod iterate;
 mod laws;
 mod linear;
 mod memory;
+mod nested_start;
 mod newton;
 mod normal;
 mod operators;

@@ -132,7 +132,9 @@ impl Equations<'_> {
             if !(positive > 0.0) {
                 return None;
             }
-            pressure.iter_mut().for_each(|p| *p += missing * p.max(0.0) / positive);
+            for p in &mut pressure {
+                *p += missing * p.max(0.0) / positive;
+            }
         }
         let mut shear = contact.packed_tangential(&here.tractions.shear);
         for cell in (0..contact.len()).filter(|&cell| sets.stick[cell] == 0.0) {

@@ -1,22 +1,22 @@
-//! Where the method starts: at the solution on a grid twice as coarse, which starts in the same way (nested iteration). A coarse cell is four cells
+//! Where iterates that need not be feasible start under stiff coatings: at the solution on a grid twice as coarse, which starts in the same way (nested iteration). A coarse cell is four cells
 //! under the same tractions, whose gaps and displacements are their means (Galerkin), so that its coefficients are sums of the finer ones, right
 //! for all bodies.
 
 use ndarray::{Array2, ArrayView2};
 
-use super::super::contact_problem::{ContactProblem, Pressure};
-use super::super::laws::friction::FrictionLaw;
-use super::super::laws::rigid_motions::CellPositions;
-use super::super::laws::slip_path::SlipPath;
-use super::super::linear::preconditioner::CellWaves;
-use super::super::normal::grid_transfer::{coarser_heights, coarser_response, interpolated};
-use super::super::operators::{Method, RegionOperators};
-use super::super::outcome::Work;
-use super::super::prescribed::{NormalLoad, TangentialLoads};
-use super::super::region::Region;
-use super::super::settings::{IterationCallback, SolveError};
-use super::super::tractions::Tractions;
-use super::AugmentedNewton;
+use super::augmented_newton::AugmentedNewton;
+use super::contact_problem::{ContactProblem, Pressure};
+use super::laws::friction::FrictionLaw;
+use super::laws::rigid_motions::CellPositions;
+use super::laws::slip_path::SlipPath;
+use super::linear::preconditioner::CellWaves;
+use super::normal::grid_transfer::{coarser_heights, coarser_response, interpolated};
+use super::operators::{Method, RegionOperators};
+use super::outcome::Work;
+use super::prescribed::{NormalLoad, TangentialLoads};
+use super::region::Region;
+use super::settings::{IterationCallback, SolveError};
+use super::tractions::Tractions;
 use crate::compliance::{OperatorSet, SharedWorkspace, SurfaceResponse};
 use crate::kernel::Components;
 use crate::model::TangentialField;
@@ -102,7 +102,7 @@ impl Below<'_> {
         let is_solved = newton.advance(GOAL, &mut operators, method.settings, callback)?;
         work += operators.take_work(1.0);
         work.full_grid_convolutions *= SHARE;
-        Ok(is_solved.then(|| (newton.here.tractions, work)))
+        Ok(is_solved.then_some((newton.into_tractions(), work)))
     }
 
     /// Tractions of the grid below on the grid above, under the same normal force.
