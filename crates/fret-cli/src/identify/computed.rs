@@ -1,13 +1,14 @@
 //! The loop that the solver computes, between its points.
 //!
 //! A contact that slides does so from a corner on, which lies between two points. Before it the force lacks `L - Q` of the friction force
-//! `L`, in proportion to a power 3/2 of the displacement to the corner (Mindlin; the stick area shrinks as `c^2`, its force as `c^3`; of a
-//! line both as `c^2`). So it is `(L - Q)^(2/3)` that is interpolated, by cubics.
+//! `L`, in proportion to a power 3/2 of the contact's own displacement to the corner (Mindlin: the one is as `c^3`, the other as `c^2`,
+//! where the radius `c` sticks; of a line both are as `c^2`). So it is `(L - Q)^(2/3)` that is interpolated, over the contact's own
+//! displacement, by cubics; the rig in series is added.
 
-use std::ops::Range;
-
-/// Points of which the last before the corner lacks less than this part of all are taken as the corner.
-const AT_CORNER: f64 = 0.02;
+/// A point that lacks less than this part of all is taken for the corner.
+const AT_CORNER: f64 = 1e-3;
+/// Steps to the displacement of the contact below one of the actuator, at the most.
+const STEPS: usize = 60;
 
 /// A computed loop, between the same two turns again and again.
 pub struct Loop {
@@ -35,10 +36,12 @@ pub struct Branch {
 struct Corner {
     /// Displacement and force.
     at: [f64; 2],
-    /// Displacements and powers of what the force lacks, from the corner to the turn.
+    /// Displacements of the contact and powers of what the force lacks, from the corner to the turn.
     nodes: Vec<[f64; 2]>,
     /// That power.
     power: f64,
+    /// Of the rig [length/force].
+    compliance: f64,
 }
 
 impl Branch {
@@ -58,11 +61,8 @@ impl Branch {
         }
         let turn = self.nodes[last];
         let inside = displacement.min(turn[0]);
-        let [value, slope] = interpolated(&corner.nodes, inside);
-        let value = value.max(0.0);
-        let inverse = 1.0 / corner.power;
-        let slope = inverse * value.powf(inverse - 1.0) * slope;
-        [corner.at[1] + value.powf(inverse) + slope * (displacement - inside), slope]
+        let [force, slope] = corner.force_at(inside);
+        [force + slope * (displacement - inside), slope]
     }
 }
 
@@ -87,13 +87,43 @@ impl Corner {
                 point[2] * others.map(|other| lacks(other) / (lacks(other) - lacks(point))).product::<f64>()
             })
             .sum();
-        let between: Range<f64> = points[slid][0]..near[near.len() - 1][0];
-        let place = (shift + compliance * limit).clamp(between.start, between.end);
-        let mut nodes = vec![[place, 0.0]];
-        nodes.extend(sticking.iter().rev().map(|point| [point[0], lacks(point)]));
+        let shift = shift.clamp(points[slid][2], near[near.len() - 1][2]);
+        let mut nodes = vec![[shift, 0.0]];
+        nodes.extend(sticking.iter().rev().map(|point| [point[2], lacks(point)]));
         // Places that fall together determine no slope.
         nodes.dedup_by(|next, before| next[0] <= before[0]);
-        (nodes.len() > 2).then_some(Self { at: [place, limit], nodes, power })
+        let at = [shift + compliance * limit, limit];
+        (nodes.len() > 2).then_some(Self { at, nodes, power, compliance })
+    }
+
+    /// Force and its slope at a displacement of the contact.
+    fn of_contact(&self, shift: f64) -> [f64; 2] {
+        let [value, slope] = interpolated(&self.nodes, shift);
+        let (value, inverse) = (value.max(0.0), 1.0 / self.power);
+        [self.at[1] + value.powf(inverse), inverse * value.powf(inverse - 1.0) * slope]
+    }
+
+    /// The same at one of the actuator, between the corner and the turn: by Newton's steps, or halves of where it lies.
+    fn force_at(&self, displacement: f64) -> [f64; 2] {
+        let [mut low, mut high] = [self.nodes[0][0], self.nodes[self.nodes.len() - 1][0]];
+        let mut shift = f64::midpoint(low, high);
+        for _ in 0..STEPS {
+            let [force, slope] = self.of_contact(shift);
+            let off = shift + self.compliance * force - displacement;
+            if off > 0.0 {
+                high = shift
+            } else {
+                low = shift
+            }
+            let next = shift - off / (1.0 + self.compliance * slope);
+            let next = if (low..=high).contains(&next) { next } else { f64::midpoint(low, high) };
+            if next == shift {
+                break;
+            }
+            shift = next;
+        }
+        let [force, slope] = self.of_contact(shift);
+        [force, slope / (1.0 + self.compliance * slope)]
     }
 }
 
@@ -160,8 +190,8 @@ mod tests {
 
     use super::*;
 
-    /// Mindlin behind a spring, from just beyond the onset of sliding to six times as far: between 24 points as the solver has them the loop
-    /// lies within 1.5 % of the friction force, in the mean 0.3 %. (Cubics through the forces alone: 7 and 0.9 %.)
+    /// Mindlin behind a spring, from just beyond the onset of sliding to six times as far, between 24 points as the solver has them: what is
+    /// interpolated is a line. (Cubics through the forces are up to 7 % of the friction force off, in the mean 0.9 %.)
     #[test]
     fn the_corner_of_sliding_is_where_it_is() {
         for spring in [0.05, 1.0, 4.0] {
@@ -188,14 +218,11 @@ mod tests {
                     .collect();
                 let sticks: Vec<bool> = points.iter().map(|point| point[1] > -1.0 + 1e-9).collect();
                 let branch = Branch::new(points, &sticks, spring, false);
-                let mut square = 0.0;
                 for k in 0..=1000 {
                     let place = amplitude * (f64::from(k) / 500.0 - 1.0);
                     let off = (branch.at(place)[0] - down(place)).abs();
-                    assert!(off < 0.015, "{spring} {beyond} {place}: {off}");
-                    square += off * off / 1001.0;
+                    assert!(off < 1e-9, "{spring} {beyond} {place}: {off}");
                 }
-                assert!(square.sqrt() < 3e-3, "{spring} {beyond}: {}", square.sqrt());
             }
         }
     }
