@@ -11,7 +11,7 @@ pub mod plan;
 pub mod preparation;
 pub mod report;
 pub mod run;
-mod run_observer;
+pub mod run_observer;
 pub mod schema;
 pub mod stress;
 mod stress_tables;

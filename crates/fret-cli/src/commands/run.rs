@@ -5,7 +5,7 @@ use std::time::Instant;
 
 use fret_core::history::Warning;
 use fret_core::history::{WornByLayer, WornThrough};
-use fret_core::run::{Checkpoint, Observer, RunError, Simulation};
+use fret_core::run::{Checkpoint, RunError, Simulation};
 use fret_core::study::StageQuantities;
 use serde_json::{Value, json};
 
