@@ -39,25 +39,25 @@ pub fn first_guess(name: &str, cycle: &MeasuredCycle, model: &Model) -> Result<(
         probe = model.loop_of(friction, slope, CARRIED * friction * probe.normal_force / slope, None)?;
     }
     let own = probe.contact_stiffness;
+    let of_unit = "is the unit of the displacement right? --units \"displacement=um\"; and are the moduli of the case in its units?";
+    if !(own > 0.0 && own.is_finite()) {
+        let what = format!(
+            "the loop rises by {slope:.4e} after reversal: with such a displacement and this force nothing can be computed of the case"
+        );
+        return Err(refused(name, &what, of_unit));
+    }
+    let compared = format!("{:.3e} times the stiffness of the contact itself, {own:.4e}", slope / own);
     if slope > 5.0 * own {
-        return Err(refused(
-            name,
-            &format!(
-                "the loop rises by {slope:.4e} after reversal, {:.3e} times the stiffness of the contact itself, {own:.4e}: nothing in series with it can be stiffer",
-                slope / own
-            ),
-            "is the unit of the displacement right? --units \"displacement=um\"; and are the moduli of the case in its units?",
-        ));
+        let what = format!(
+            "the loop rises by {slope:.4e} after reversal, {compared}: nothing in series with it can be stiffer"
+        );
+        return Err(refused(name, &what, of_unit));
     }
     if slope < own / FAR {
-        return Err(refused(
-            name,
-            &format!(
-                "the loop rises by {slope:.4e} after reversal, only {:.3e} times the stiffness of the contact itself, {own:.4e}: a rig that gives so much measures itself alone",
-                slope / own
-            ),
-            "is the unit of the displacement right? --units \"displacement=um\"; and are the moduli of the case in its units?",
-        ));
+        let what = format!(
+            "the loop rises by {slope:.4e} after reversal, only {compared}: a rig that gives so much measures itself alone"
+        );
+        return Err(refused(name, &what, of_unit));
     }
     let series = 1.0 / slope - 1.0 / own;
     let stiffness = if series > 0.05 / own { 1.0 / series } else { 20.0 * own };
