@@ -113,9 +113,7 @@ class Identification:
         axes = self._axes(ax)
         displacement, force = self.measured["displacement"], self.measured["force"]
         time = (np.arange(len(force)) + 0.5) / len(force) - 0.5
-        offset, straight, bend = (
-            self.removed[f"displacement_{name}"] or 0.0 for name in ("offset", "drift", "bend")
-        )
+        offset, straight, bend = (self.removed[f"displacement_{name}"] or 0.0 for name in ("offset", "drift", "bend"))
         drift = offset + time * straight + (4 * time**2 - 1 / 3) * bend
         axes.plot(displacement - drift, force - (self.removed["force_offset"] or 0.0), ".", ms=3, label="measured")
         axes.plot(self.computed["displacement"], self.computed["force"], label="computed, at the actuator")
@@ -158,8 +156,8 @@ def identify(
     case : path, str or mapping
         Bodies, profile, grid and the stages that press them.
     columns : mapping, optional
-        Names of the columns, or their numbers from 1, of ``"displacement"``, ``"force"``, ``"cycle"``, ``"normal_force"``. Default: those of
-        ``rig.columns`` in the case, else usual names.
+        Names of the columns, or their numbers from 1, of ``"displacement"``, ``"force"``, ``"cycle"``,
+        ``"normal_force"``. Default: those of ``rig.columns`` in the case, else usual names.
     units : mapping, optional
         Units of ``"displacement"``, ``"force"``, ``"normal_force"``, such as ``"um"``. Default: those beside the
         names, or those of the case.
