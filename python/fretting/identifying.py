@@ -49,7 +49,7 @@ class Identification:
         ``displacement_amplitude``, ``opening`` (delta_0), ``energy_ratio`` (A), ``sliding_ratio`` (D), the same of the
         contact without the rig (``contact_energy_ratio``, ``contact_sliding_ratio``), ``slope_after_reversal``,
         ``plateau_friction`` and ``energy_friction`` (in gross slip); NaN where there is none, and in cycles that were
-        left out.
+        skipped.
     left_out : dict of float to str
         Cycles that are no whole loop, by number, with the reason.
     sliding_condition : str
@@ -166,7 +166,7 @@ def identify(
     fit : str, optional
         A key of the case that is fitted too, such as ``"lower.substrate.young"``.
     strict : bool, default False
-        Refuse a log with a cycle that is no whole loop, or a row without a number. Otherwise these are left out and
+        Refuse a log with a cycle that is no whole loop, or a row without a number. Otherwise these are skipped and
         named, and only a bad cycle that is to be fitted is refused.
     threads : int, optional
         Worker threads. Default: all cores.

@@ -164,6 +164,10 @@ fn by_names(lines: &[&str], wanted: &[Option<String>; 4]) -> Option<Head> {
     for (row, line) in lines.iter().enumerate() {
         let delimiter = DELIMITERS.into_iter().find(|mark| line.contains(*mark)).unwrap_or(',');
         let names = cells(line, delimiter);
+        // A line of nothing but numbers is none of names, whatever numbers of columns stand in it.
+        if names.iter().all(|name| name.is_empty() || number(name, true).is_ok()) {
+            continue;
+        }
         let place = |role: usize| match &wanted[role] {
             Some(column) => names
                 .iter()
