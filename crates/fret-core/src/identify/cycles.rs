@@ -1,9 +1,8 @@
 //! Cycles of a log: where each begins and ends, which of them are whole, and why the others are left out.
 
+use super::error::{IdentifyError, refused};
 use super::log::Table;
-use super::refused;
 use super::turns::{falls, range, rising_crossings, tops, turns};
-use crate::failure::Failure;
 
 /// Points of a cycle, at the least.
 const FEWEST: usize = 12;
@@ -28,9 +27,9 @@ pub struct MeasuredCycle {
     /// First and last line in the file.
     pub lines: [usize; 2],
     /// Rows, with fractions, at which the displacement is largest and smallest; nothing where there are too few points.
-    pub turns_at: [f64; 2],
+    pub(super) turns_at: [f64; 2],
     /// The points next to them.
-    pub turns: [usize; 2],
+    pub(super) turns: [usize; 2],
     /// Why it is left out.
     pub fault: Option<Fault>,
 }
@@ -122,7 +121,7 @@ fn name_ends(cycles: &mut [MeasuredCycle]) {
 ///
 /// # Errors
 /// When it is not there, or is none.
-pub fn choose(cycles: &[MeasuredCycle], number: Option<f64>, name: &str) -> Result<usize, Failure> {
+pub fn choose(cycles: &[MeasuredCycle], number: Option<f64>, name: &str) -> Result<usize, IdentifyError> {
     let whole = |cycle: &MeasuredCycle| cycle.fault.is_none();
     let chosen = match number {
         None => cycles.iter().rposition(whole),
@@ -159,9 +158,9 @@ pub fn choose(cycles: &[MeasuredCycle], number: Option<f64>, name: &str) -> Resu
 }
 
 /// The cycles that are left out, and why: `1234 (does not close), 5000 (ends early)`.
-pub fn left_out(cycles: &[MeasuredCycle]) -> String {
+pub fn left_out<'a>(cycles: impl IntoIterator<Item = &'a MeasuredCycle>) -> String {
     let all: Vec<String> = cycles
-        .iter()
+        .into_iter()
         .filter_map(|cycle| Some(format!("{} ({})", cycle.name, cycle.fault.as_ref()?.brief)))
         .collect();
     let named = all.iter().take(MOST_NAMED).cloned().collect::<Vec<_>>().join(", ");
@@ -170,7 +169,7 @@ pub fn left_out(cycles: &[MeasuredCycle]) -> String {
 
 impl MeasuredCycle {
     /// Finds where the displacement turns.
-    pub fn find_turns(&mut self) {
+    pub(super) fn find_turns(&mut self) {
         let count = self.displacement.len();
         self.turns_at = turns(&self.displacement);
         self.turns = self.turns_at.map(|row| row.round() as usize % count);
@@ -240,7 +239,7 @@ impl MeasuredCycle {
     }
 
     /// Whether a point lies on the way down, from the largest displacement to the smallest.
-    pub fn is_falling(&self, row: usize) -> bool {
+    pub(super) fn is_falling(&self, row: usize) -> bool {
         falls(row as f64, self.turns_at)
     }
 }
