@@ -27,6 +27,8 @@ use super::turns::{calm_range, falls, noise};
 
 /// Step of the differences by which derivatives by the constants are found, relative.
 const STEP: f64 = 5e-3;
+/// Distance of every point from a loop that cannot be solved, in amplitudes: more than from any other.
+const UNSOLVED: f64 = 1e3;
 /// Rounds in which the feet of the points on the loop follow the solution.
 const ROUNDS: usize = 3;
 /// Points nearer to a turn than so many rows lie next to it: so well the displacement tells it.
@@ -318,7 +320,11 @@ impl LeastSquaresProblem<f64, Dyn, Dyn> for Fit<'_> {
     }
 
     fn residuals(&self) -> Option<DVector<f64>> {
-        Some(DVector::from_vec(self.distances(self.now.as_ref()?)))
+        let Some(now) = &self.now else {
+            // Too long a step, to a contact that the grid does not hold, say: it is taken back.
+            return Some(DVector::from_element(self.cycle.force.len(), UNSOLVED));
+        };
+        Some(DVector::from_vec(self.distances(now)))
     }
 
     fn jacobian(&self) -> Option<DMatrix<f64>> {
@@ -327,11 +333,14 @@ impl LeastSquaresProblem<f64, Dyn, Dyn> for Fit<'_> {
         let count = here.len();
         let mut jacobian = DMatrix::zeros(count, self.parameters.len());
         for k in self.of_loop() {
-            let mut beside = self.parameters.clone();
-            beside[k] += STEP;
-            let there = self.distances(&self.solve(&beside)?);
+            let beside = |step: f64| {
+                let mut beside = self.parameters.clone();
+                beside[k] += step;
+                self.solve(&beside).map(|of| (step, self.distances(&of)))
+            };
+            let (step, there) = beside(STEP).or_else(|| beside(-STEP))?;
             for row in 0..count {
-                jacobian[(row, k)] = (there[row] - here[row]) / STEP;
+                jacobian[(row, k)] = (there[row] - here[row]) / step;
             }
         }
         let [length, force] = self.units;
