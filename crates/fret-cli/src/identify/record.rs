@@ -80,7 +80,7 @@ pub fn rows_in_words(found: &Identification) -> Option<String> {
     let named = rows.iter().take(ROWS_NAMED).map(String::as_str).collect::<Vec<_>>().join("; ");
     match rows.len() {
         0 => None,
-        0..=ROWS_NAMED => Some(named),
+        1..=ROWS_NAMED => Some(named),
         bad => Some(format!("{named}; and {} rows more", bad - ROWS_NAMED)),
     }
 }

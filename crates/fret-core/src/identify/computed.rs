@@ -111,9 +111,9 @@ impl Corner {
             let [force, slope] = self.of_contact(shift);
             let off = shift + self.compliance * force - displacement;
             if off > 0.0 {
-                high = shift
+                high = shift;
             } else {
-                low = shift
+                low = shift;
             }
             let next = shift - off / (1.0 + self.compliance * slope);
             let next = if (low..=high).contains(&next) { next } else { f64::midpoint(low, high) };
