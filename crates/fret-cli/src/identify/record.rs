@@ -42,7 +42,7 @@ pub fn record(found: &Identification) -> Value {
             "drift_per_cycle": found.removed.drift_per_cycle,
         },
         "turned": {"force": found.turned.turned, "order_of_rows": found.turned.backwards},
-        "left_out": left_out(found),
+        "skipped": skipped(found),
         "sliding_condition": found.regime,
         "contact_stiffness": found.contact_stiffness,
         "cycles": found.cycles.iter().map(row).collect::<Vec<_>>(),
@@ -60,21 +60,21 @@ fn row(cycle: &Cycle) -> Value {
     Value::Object(row)
 }
 
-/// Cycles and rows that were left out, and why; in words where there are any.
-fn left_out(found: &Identification) -> Value {
+/// Cycles and rows that were skipped, and why; in words where there are any.
+fn skipped(found: &Identification) -> Value {
     let cycles: Vec<Value> = found
-        .left_out()
+        .skipped()
         .map(|(cycle, fault)| json!({"cycle": cycle.name, "lines": cycle.lines, "why": fault.brief}))
         .collect();
     json!({
         "cycles": cycles,
         "rows": found.bad_rows.len(),
-        "cycles_in_words": found.left_out_in_words(),
+        "cycles_in_words": found.skipped_in_words(),
         "rows_in_words": rows_in_words(found),
     })
 }
 
-/// Rows that were left out.
+/// Rows that were skipped.
 pub fn rows_in_words(found: &Identification) -> Option<String> {
     let rows = &found.bad_rows;
     let named = rows.iter().take(ROWS_NAMED).map(String::as_str).collect::<Vec<_>>().join("; ");

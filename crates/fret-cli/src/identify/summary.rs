@@ -26,18 +26,18 @@ const TOLD: [Told; 10] = [
 pub fn summary(found: &Identification) -> String {
     let units = &found.units;
     let count = found.cycles.len();
-    let left_out = found.left_out().count();
-    let of = if left_out == 0 { String::new() } else { format!("{} of ", count - left_out) };
+    let skipped = found.skipped().count();
+    let of = if skipped == 0 { String::new() } else { format!("{} of ", count - skipped) };
     let fitted = found.fitted_cycle();
     let mut lines = vec![format!(
         "{}: {of}{count} cycle{}{}, fitted: cycle {}",
         found.log,
         if count == 1 { "" } else { "s" },
-        if left_out == 0 { "" } else { " used" },
+        if skipped == 0 { "" } else { " used" },
         fitted.measured.name
     )];
-    for words in [found.left_out_in_words(), rows_in_words(found)].into_iter().flatten() {
-        lines.push(format!("  left out: {words}"));
+    for words in [found.skipped_in_words(), rows_in_words(found)].into_iter().flatten() {
+        lines.push(format!("  skipped: {words}"));
     }
     for constant in &found.constants {
         let name = &constant.name;

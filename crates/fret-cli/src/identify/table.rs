@@ -41,7 +41,7 @@ impl Column {
     }
 }
 
-/// The rows as CSV; heads with units, where there are any; empty where a cycle was left out.
+/// The rows as CSV; heads with units, where there are any; empty where a cycle was skipped.
 pub fn table(found: &Identification) -> String {
     let units = found.has_units.then_some(&found.units);
     let head = COLUMNS.each_ref().map(|column| Units::heading(units, column.name, column.unit, false));

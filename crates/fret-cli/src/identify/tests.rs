@@ -20,7 +20,7 @@ fn answer(log: &str, request: &Request) -> Answer {
 
 /// Columns in the order of the page, heads with units, counted cycles; a cycle with missing points is named, and its row is empty.
 #[test]
-fn a_cycle_that_was_left_out_is_named_and_empty() {
+fn a_cycle_that_was_skipped_is_named_and_empty() {
     let rows: Vec<&str> = LOOP.lines().skip(1).collect();
     let mut log = "cycle,displacement [um],force [N]\n".to_owned();
     for cycle in 1..=4 {
@@ -33,7 +33,7 @@ fn a_cycle_that_was_left_out_is_named_and_empty() {
     let answer = answer(&log, &Request::default());
     let (text, table, json) = (answer.text(), answer.table(), answer.json());
     assert!(
-        text.starts_with("log.csv: 3 of 4 cycles used, fitted: cycle 4\n  left out: 3 (points are missing"),
+        text.starts_with("log.csv: 3 of 4 cycles used, fitted: cycle 4\n  skipped: 3 (points are missing"),
         "{text}"
     );
     assert!(

@@ -182,7 +182,7 @@ impl Fit<'_> {
         let [length, force] = self.noises();
         let level = self.units[1] * self.parameters[5];
         let places: Vec<f64> = self.places().collect();
-        let turns = self.cycle.turns_at;
+        let turns = self.cycle.turns;
         let count = places.len();
         let near_turn = |row: usize| {
             let apart = |turn: f64| {

@@ -78,7 +78,7 @@ impl Head {
     }
 }
 
-/// The cells of a line; a remark sign before them is left out.
+/// The cells of a line; a remark sign before them is skipped.
 pub fn cells(line: &str, delimiter: char) -> Vec<String> {
     let line = line.trim_start().trim_start_matches(['#', '%', '!', '/']);
     let plain = |cell: &str| cell.trim().trim_matches('"').trim().to_owned();
@@ -169,6 +169,10 @@ fn by_names(lines: &[&str], wanted: &[Option<String>; 4]) -> Option<Head> {
     for (row, line) in lines.iter().enumerate() {
         let delimiter = DELIMITERS.into_iter().find(|mark| line.contains(*mark)).unwrap_or(',');
         let names = cells(line, delimiter);
+        // Numbers are no names, also where a column is called by its number.
+        if names.iter().all(|name| name.is_empty() || number(name, delimiter != ',').is_ok()) {
+            continue;
+        }
         let place = |role: usize| match &wanted[role] {
             Some(column) => names
                 .iter()

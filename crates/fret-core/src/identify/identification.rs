@@ -37,7 +37,7 @@ pub struct Identification {
     pub removed: Removed,
     /// What was turned for the loops to run forwards.
     pub turned: Direction,
-    /// Rows without a number that were left out: their lines and what is wrong there.
+    /// Rows without a number that were skipped: their lines and what is wrong there.
     pub bad_rows: Vec<String>,
     /// Sliding condition of the fitted cycle.
     pub regime: CycleRegime,
@@ -56,7 +56,7 @@ pub struct Identification {
 pub struct Cycle {
     /// As measured.
     pub measured: MeasuredCycle,
-    /// What is read from it; nothing where it was left out.
+    /// What is read from it; nothing where it was skipped.
     pub quantities: Option<Quantities>,
 }
 
@@ -176,14 +176,14 @@ impl Identification {
         &self.cycles[self.fitted]
     }
 
-    /// Cycles that were left out, with the reason.
-    pub fn left_out(&self) -> impl Iterator<Item = (&MeasuredCycle, &cycles::Fault)> {
+    /// Cycles that were skipped, with the reason.
+    pub fn skipped(&self) -> impl Iterator<Item = (&MeasuredCycle, &cycles::Fault)> {
         self.cycles.iter().filter_map(|cycle| Some((&cycle.measured, cycle.measured.fault.as_ref()?)))
     }
 
     /// The same in words, `1234 (does not close), 5000 (ends early)`; `None` where there are none.
-    pub fn left_out_in_words(&self) -> Option<String> {
-        let words = cycles::left_out(self.cycles.iter().map(|cycle| &cycle.measured));
+    pub fn skipped_in_words(&self) -> Option<String> {
+        let words = cycles::skipped(self.cycles.iter().map(|cycle| &cycle.measured));
         (!words.is_empty()).then_some(words)
     }
 

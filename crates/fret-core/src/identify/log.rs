@@ -22,7 +22,7 @@ pub struct Column {
     pub values: Vec<f64>,
 }
 
-/// A row that is left out.
+/// A row that is skipped.
 #[derive(Debug, Clone)]
 pub struct BadRow {
     /// Its line and what is wrong there.

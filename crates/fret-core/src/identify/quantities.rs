@@ -146,7 +146,7 @@ impl MeasuredCycle {
             return Middle { at, compliance: slope / amplitude, scatter };
         }
         let mut crossings: Vec<[f64; 2]> = Vec::new();
-        for row in (0..count).filter(|&row| falls(row as f64 + 0.5, self.turns_at) == falling) {
+        for row in (0..count).filter(|&row| falls(row as f64 + 0.5, self.turns) == falling) {
             let next = (row + 1) % count;
             // Crossings of noise are averaged.
             if (self.force[row] - middle) * (self.force[next] - middle) <= 0.0
@@ -188,7 +188,8 @@ impl MeasuredCycle {
     /// its extreme on the way.
     fn range_of_force(&self) -> [f64; 2] {
         let [bottom, top] = calm_range(&self.force);
-        let [first, last] = self.turns.map(|turn| at_turn(&self.force, turn, [-1]));
+        // Not beyond the last point of a branch: its force ends there, or rises on.
+        let [first, last] = self.turns.map(|turn| at_turn(&self.force, turn.floor(), [-1]));
         [bottom.min(first).min(last), top.max(first).max(last)]
     }
 
@@ -196,14 +197,13 @@ impl MeasuredCycle {
     pub(super) fn slope_after_reversal(&self) -> Option<f64> {
         let [bottom, top] = calm_range(&self.force);
         let count = self.force.len();
-        let slopes: Vec<f64> = self
-            .turns
-            .iter()
-            .filter_map(|&turn| {
-                let begins = if self.is_falling(turn) { top } else { bottom };
+        let slopes: Vec<f64> = [top, bottom]
+            .into_iter()
+            .zip(self.turns)
+            .filter_map(|(begins, turn)| {
                 let mut points = Vec::new();
                 for step in 0..count / 2 {
-                    let row = (turn + step) % count;
+                    let row = (turn.ceil() as usize + step) % count;
                     let share = (self.force[row] - begins).abs() / (top - bottom);
                     if share > 0.4 {
                         break;

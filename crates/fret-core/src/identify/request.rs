@@ -15,7 +15,7 @@ pub struct Request {
     pub units: Vec<(String, String)>,
     /// The cycle that is fitted; default: the last whole one.
     pub cycle: Option<f64>,
-    /// Whether a log with a cycle that is no whole loop, or a row without a number, is refused; else these are left out and named.
+    /// Whether a log with a cycle that is no whole loop, or a row without a number, is refused; else these are skipped and named.
     pub strict: bool,
 }
 

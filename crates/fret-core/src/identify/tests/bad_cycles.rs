@@ -1,4 +1,4 @@
-//! Cycles that are no whole loops are left out and named; only that which is to be fitted is refused.
+//! Cycles that are no whole loops are skipped and named; only that which is to be fitted is refused.
 
 use super::exports::rows;
 use super::{Request, case, constant, identified, identify, refusal};
@@ -18,13 +18,13 @@ fn numbered(change: impl Fn(usize, usize, String) -> Option<String>) -> String {
 }
 
 #[track_caller]
-fn is_fitted(log: &str, cycle: f64, left_out: &str) {
+fn is_fitted(log: &str, cycle: f64, skipped: &str) {
     let found = identified(log, &Request::default());
     assert_eq!(found.fitted_cycle().measured.name, cycle);
     assert!((constant(&found, 0)[0] / 0.45 - 1.0).abs() < 3e-3, "{:?}", found.constants);
-    assert_eq!(found.left_out_in_words().unwrap_or_default(), left_out);
+    assert_eq!(found.skipped_in_words().unwrap_or_default(), skipped);
     let strict = Request { strict: true, ..Request::default() };
-    assert_eq!(left_out.is_empty(), identify(log, case(), &strict).is_ok());
+    assert_eq!(skipped.is_empty(), identify(log, case(), &strict).is_ok());
 }
 
 #[test]
@@ -45,7 +45,7 @@ fn a_log_that_ends_or_begins_inside_a_cycle_is_identified() {
 
 /// A lone row of another cycle at the start or at the end, as a rig that is stopped after it has counted on writes it.
 #[test]
-fn a_lone_row_of_another_cycle_is_left_out() {
+fn a_lone_row_of_another_cycle_is_skipped() {
     let log = numbered(|_, _, line| Some(line));
     is_fitted(&(log.clone() + "99;10.1;60.1\n"), 15.0, "99 (1 point)");
     is_fitted(&log.replacen("force [N]\n", "force [N]\n0;1.0;2.0\n", 1), 15.0, "0 (1 point)");
@@ -59,7 +59,7 @@ fn missing_lines_leave_one_cycle_out() {
     assert!(asked.contains("points are missing there"), "{asked}");
     assert!(asked.contains("--cycle 6") || asked.contains("--cycle 8"), "{asked}");
     let found = identified(&log, &Request::default());
-    assert_eq!(found.left_out().count(), 1);
+    assert_eq!(found.skipped().count(), 1);
     assert_eq!((found.cycles[6].measured.force.len(), found.cycles[6].quantities), (60, None));
 }
 
@@ -95,5 +95,5 @@ fn parts_of_cycles_around_a_whole_one_are_no_harm() {
     spiked[60] = "8000,1".to_owned();
     let found = identified(&spiked.join("\n"), &Request::default());
     assert!((constant(&found, 0)[0] / 0.45 - 1.0).abs() < 5e-3);
-    assert!(found.left_out_in_words().unwrap().contains("points are missing"));
+    assert!(found.skipped_in_words().unwrap().contains("points are missing"));
 }

@@ -151,7 +151,7 @@ fn an_unknown_head_is_shown_and_not_its_units() {
 
 /// One sample that is no number, in the middle of the cycle that is fitted.
 #[test]
-fn a_bad_sample_is_left_out_and_named() {
+fn a_bad_sample_is_skipped_and_named() {
     for bad in ["NaN", "", "OVER"] {
         let lines: Vec<String> = LOOP
             .lines()
