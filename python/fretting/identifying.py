@@ -50,7 +50,7 @@ class Identification:
         contact without the rig (``contact_energy_ratio``, ``contact_sliding_ratio``), ``slope_after_reversal``,
         ``plateau_friction`` and ``energy_friction`` (in gross slip); NaN where there is none, and in cycles that were
         skipped.
-    left_out : dict of float to str
+    skipped : dict of float to str
         Cycles that are no whole loop, by number, with the reason.
     sliding_condition : str
         Of the fitted cycle: ``"partial_slip"``, ``"mixed"`` or ``"gross_slip"``.
@@ -78,7 +78,7 @@ class Identification:
             name: np.array([np.nan if row[name] is None else row[name] for row in rows], dtype=float)
             for name in (rows[0] if rows else {})
         }
-        self.left_out: dict[float, str] = {entry["cycle"]: entry["why"] for entry in answer["left_out"]["cycles"]}
+        self.skipped: dict[float, str] = {entry["cycle"]: entry["why"] for entry in answer["skipped"]["cycles"]}
         self.sliding_condition: str = answer["sliding_condition"]
         self.removed: dict[str, float | None] = dict(answer["removed"])
         self.noise: float = answer["noise"]

@@ -18,10 +18,10 @@ def written(folder: Path, text: str) -> Path:
     return log
 
 
-def test_a_lone_row_of_another_cycle_is_left_out_and_named(tmp_path: Path) -> None:
+def test_a_lone_row_of_another_cycle_is_skipped_and_named(tmp_path: Path) -> None:
     log = written(tmp_path, LOG + "99;10,1;60,1\n")
     found = fretting.identify(log, case=CASE)
-    assert found.left_out == {99.0: "1 point"}
+    assert found.skipped == {99.0: "1 point"}
     # The log was made with a friction coefficient of 0.6.
     assert abs(found.constants["friction coefficient"].value / 0.6 - 1.0) < 0.01
     assert np.isnan(found.cycles["energy_friction"][-1])

@@ -331,9 +331,9 @@ pub fn identify(
     case: CaseText,
     request: &IdentifyRequest,
 ) -> Result<(Value, String), Stopped> {
-    let asked = || crate::identify::identify(log, case.into(), request);
+    let asked = || crate::identify::identify(log, &case.into(), request);
     // A mistake in the program is an error of the call, not the end of the caller.
     let answer = catch_unwind(AssertUnwindSafe(asked))
         .unwrap_or_else(|panic| Err(Failure::Defect(defect::words_of(panic.as_ref()))))?;
-    Ok((answer.json, answer.page))
+    Ok((answer.json(), answer.page()))
 }

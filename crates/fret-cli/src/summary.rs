@@ -352,12 +352,16 @@ fn kind_of_row(name: &str) -> &'static str {
 
 /// The sliding condition of a cycle, in words.
 fn sliding_condition(cycle: &CycleRecord) -> &'static str {
-    match cycle.regime {
-        None => "-",
-        Some(CycleRegime::FullStick) => "full stick",
-        Some(CycleRegime::PartialSlip) => "partial slip",
-        Some(CycleRegime::Mixed) => "mixed",
-        Some(CycleRegime::GrossSlip) => "gross slip",
+    cycle.regime.map_or("-", regime)
+}
+
+/// A sliding condition in words.
+pub fn regime(regime: CycleRegime) -> &'static str {
+    match regime {
+        CycleRegime::FullStick => "full stick",
+        CycleRegime::PartialSlip => "partial slip",
+        CycleRegime::Mixed => "mixed",
+        CycleRegime::GrossSlip => "gross slip",
     }
 }
 

@@ -101,7 +101,7 @@
 //! ```
 //!
 //! [`analytic`] has closed-form solutions to compare with, [`subsurface`] the stresses below the surface and what engineers judge them
-//! by, [`study`] error bars and convergence studies.
+//! by, [`study`] error bars and convergence studies; [`identify`] finds the constants of a model in measured fretting loops.
 //!
 //! # Where things are
 //!
@@ -115,6 +115,7 @@ pub mod conduction;
 mod document;
 mod fields;
 pub mod history;
+pub mod identify;
 pub mod kernel;
 pub mod machine;
 pub mod model;

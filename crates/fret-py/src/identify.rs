@@ -1,6 +1,7 @@
 //! Constants of a model from measured fretting loops.
 
 use fret_cli::embedded::{self, IdentifyRequest};
+use fret_core::identify::Request;
 use pyo3::prelude::{PyResult, Python, pyfunction};
 
 use crate::case::Case;
@@ -20,7 +21,7 @@ pub fn identify(
     threads: Threads,
 ) -> PyResult<(String, String)> {
     let (columns, units, cycle, key, strict) = asked;
-    let request = IdentifyRequest { columns, units, cycle, key, strict };
+    let request = IdentifyRequest { log: Request { columns, units, cycle, strict }, key };
     let (name, bytes) = log;
     let pool = threads::pool(threads)?;
     let text = case.text()?;

@@ -3,10 +3,12 @@
 use std::io::Read;
 use std::path::{Path, PathBuf};
 
+use fret_core::identify;
+
 use crate::arguments::IdentifyArguments;
 use crate::case_file::CaseFile;
 use crate::failure::Failure;
-use crate::identify::{Identification, Request, identify as identified, name_of};
+use crate::identify::{Answer, Request, identify as identified, name_of};
 use crate::output::{folder_for_answers, stem, write_whole};
 use crate::terminal;
 use crate::threads;
@@ -20,24 +22,24 @@ const MOST_BYTES: u64 = 1 << 30;
 pub fn identify(arguments: &IdentifyArguments, as_json: bool) -> Result<(), Failure> {
     let name = name_of(&arguments.log);
     let bytes = content(&arguments.log)?;
-    let request = Request {
+    let log = identify::Request {
         columns: pairs("--columns", &arguments.columns)?,
         units: pairs("--units", &arguments.units)?,
         cycle: arguments.cycle,
-        key: arguments.fit.clone(),
         strict: arguments.strict,
     };
+    let request = Request { log, key: arguments.fit.clone() };
     let case_file = CaseFile::read(&arguments.case)?;
     let pool = threads::pool(threads::asked(arguments.threads))?;
     let folder = arguments.out.clone().unwrap_or_else(|| default_folder(&arguments.log));
     let folder = folder_for_answers(&folder, &[IDENTIFIED], "an identification")?;
-    let answer = pool.install(|| identified((&name, &bytes), case_file, &request))?;
+    let answer = pool.install(|| identified((&name, &bytes), &case_file, &request))?;
     write(&folder, &answer)?;
     if as_json {
-        return terminal::answer_in_json(&answer.json);
+        return terminal::answer_in_json(&answer.json());
     }
     if !arguments.quiet {
-        terminal::answer(&format!("{}\nwritten to {}", answer.text, folder.display()))?;
+        terminal::answer(&format!("{}\nwritten to {}", answer.text(), folder.display()))?;
     }
     Ok(())
 }
@@ -70,10 +72,10 @@ fn default_folder(log: &Path) -> PathBuf {
 }
 
 /// Writes the answer: numbers, a table of the cycles, a page.
-pub fn write(folder: &Path, answer: &Identification) -> Result<(), Failure> {
-    write_whole(&folder.join(IDENTIFIED), format!("{:#}\n", answer.json).as_bytes())?;
-    write_whole(&folder.join("identified.html"), answer.page.as_bytes())?;
-    write_whole(&folder.join("cycles.csv"), answer.table.as_bytes())?;
+pub fn write(folder: &Path, answer: &Answer) -> Result<(), Failure> {
+    write_whole(&folder.join(IDENTIFIED), format!("{:#}\n", answer.json()).as_bytes())?;
+    write_whole(&folder.join("identified.html"), answer.page().as_bytes())?;
+    write_whole(&folder.join("cycles.csv"), answer.table().as_bytes())?;
     Ok(())
 }
 

@@ -1,83 +1,71 @@
 //! What a person reads of an identification.
 
-use fret_core::case::Units;
-use serde_json::Value;
+use fret_core::identify::{Identification, Quantities};
 
+use super::record::rows_in_words;
 use crate::figures::figure;
+use crate::summary::regime;
+
+/// What is told of the fitted cycle: its name, its unit, and what it is.
+type Told = (&'static str, &'static str, fn(&Quantities) -> Option<f64>);
+
+const TOLD: [Told; 10] = [
+    ("dissipated energy W_d", "force x length", |all| Some(all.dissipated_energy)),
+    ("force amplitude Q*", "force", |all| Some(all.force_amplitude)),
+    ("displacement amplitude", "length", |all| Some(all.displacement_amplitude)),
+    ("delta_0", "length", |all| Some(all.opening)),
+    ("A", "", |all| Some(all.energy_ratio)),
+    ("D", "", |all| Some(all.sliding_ratio)),
+    ("A of the contact", "", |all| all.contact_energy_ratio),
+    ("D of the contact", "", |all| all.contact_sliding_ratio),
+    ("mu of the plateaus", "", |all| all.plateau_friction),
+    ("mu by energy", "", |all| all.energy_friction),
+];
 
 /// What a person reads.
-pub fn summary(json: &Value, units: &Units) -> String {
-    let number = |value: &Value| value.as_f64().map_or_else(|| "-".to_owned(), figure);
-    let count = json["cycles"].as_array().map_or(0, Vec::len);
-    let left_out = json["left_out"]["cycles"].as_array().map_or(0, Vec::len);
-    let of = if left_out == 0 { String::new() } else { format!("{} of ", count - left_out) };
+pub fn summary(found: &Identification) -> String {
+    let units = &found.units;
+    let count = found.cycles.len();
+    let skipped = found.skipped().count();
+    let of = if skipped == 0 { String::new() } else { format!("{} of ", count - skipped) };
+    let fitted = found.fitted_cycle();
     let mut lines = vec![format!(
         "{}: {of}{count} cycle{}{}, fitted: cycle {}",
-        json["log"].as_str().unwrap_or_default(),
+        found.log,
         if count == 1 { "" } else { "s" },
-        if left_out == 0 { "" } else { " used" },
-        json["cycle"].as_f64().unwrap_or_default()
+        if skipped == 0 { "" } else { " used" },
+        fitted.measured.name
     )];
-    for key in ["cycles_in_words", "rows_in_words"] {
-        lines.extend(json["left_out"][key].as_str().map(|words| format!("  left out: {words}")));
+    for words in [found.skipped_in_words(), rows_in_words(found)].into_iter().flatten() {
+        lines.push(format!("  skipped: {words}"));
     }
-    for constant in json["parameters"].as_array().into_iter().flatten() {
-        let name = constant["name"].as_str().unwrap_or_default();
-        let unit = units.of(constant["unit"].as_str().unwrap_or_default());
-        if constant["told"].as_bool() == Some(true) {
-            lines.push(format!(
-                "  {name:<22} {} {unit}   95 %: {} .. {}",
-                number(&constant["value"]),
-                number(&constant["low"]),
-                number(&constant["high"])
-            ));
+    for constant in &found.constants {
+        let name = &constant.name;
+        let [low, high] = constant.interval.map(figure);
+        if constant.told {
+            let (value, unit) = (figure(constant.value), units.of(constant.unit));
+            lines.push(format!("  {name:<22} {value} {unit}   95 %: {low} .. {high}"));
         } else {
             lines.push(format!("  {name:<22} not told by this loop"));
         }
     }
-    let last =
-        json["cycles"].as_array().and_then(|rows| rows.iter().find(|row| row["cycle"] == json["cycle"]));
-    if let Some(row) = last {
-        for (key, words, unit) in [
-            ("dissipated_energy", "dissipated energy W_d", "force x length"),
-            ("force_amplitude", "force amplitude Q*", "force"),
-            ("displacement_amplitude", "displacement amplitude", "length"),
-            ("opening", "delta_0", "length"),
-            ("energy_ratio", "A", ""),
-            ("sliding_ratio", "D", ""),
-            ("contact_energy_ratio", "A of the contact", ""),
-            ("contact_sliding_ratio", "D of the contact", ""),
-            ("plateau_friction", "mu of the plateaus", ""),
-            ("energy_friction", "mu by energy", ""),
-        ] {
-            if !row[key].is_null() {
-                lines.push(
-                    format!("  {words:<22} {} {}", number(&row[key]), units.of(unit)).trim_end().to_owned(),
-                );
-            }
+    for (words, unit, of) in TOLD {
+        if let Some(value) = fitted.quantities.as_ref().and_then(of) {
+            lines.push(format!("  {words:<22} {} {}", figure(value), units.of(unit)).trim_end().to_owned());
         }
     }
-    lines.push(format!(
-        "  sliding condition      {}",
-        json["sliding_condition"].as_str().unwrap_or_default().replace('_', " ")
-    ));
-    let removed = &json["removed"];
+    lines.push(format!("  sliding condition      {}", regime(found.regime)));
+    let removed = &found.removed;
     lines.push(format!(
         "  removed from the log: displacement offset {}, drift {} over the cycle{}; force offset {}",
-        number(&removed["displacement_offset"]),
-        number(&removed["displacement_drift"]),
-        match removed["displacement_bend"].as_f64() {
-            Some(bend) if bend != 0.0 => format!(", which bends by {}", figure(bend)),
-            _ => String::new(),
+        figure(removed.displacement_offset),
+        figure(removed.displacement_drift),
+        match removed.displacement_bend {
+            0.0 => String::new(),
+            bend => format!(", which bends by {}", figure(bend)),
         },
-        number(&removed["force_offset"])
+        figure(removed.force_offset)
     ));
-    lines.extend(
-        json["notes"]
-            .as_array()
-            .into_iter()
-            .flatten()
-            .map(|note| format!("  note: {}", note.as_str().unwrap_or_default())),
-    );
+    lines.extend(found.notes.iter().map(|note| format!("  note: {note}")));
     lines.join("\n")
 }

@@ -127,15 +127,16 @@ fn a_log_tells_friction_from_cycle_to_cycle() {
             let _ = writeln!(log, "{},{:.6},{q:.6}", k + 1, d * 1e3);
         }
     }
-    let json = identified(&log, &Request { cycle: Some(4.0), ..Request::default() });
-    for (row, friction) in json["cycles"].as_array().unwrap().iter().zip(frictions) {
-        let [energy, plateau] = ["energy_friction", "plateau_friction"].map(|key| row[key].as_f64());
+    let found = identified(&log, &Request { cycle: Some(4.0), ..Request::default() });
+    for (cycle, friction) in found.cycles.iter().zip(frictions) {
+        let read = cycle.quantities.unwrap();
+        let [energy, plateau] = [read.energy_friction, read.plateau_friction];
         if friction < 1.0 {
-            assert!((energy.unwrap() / friction - 1.0).abs() < 0.02, "{row}");
-            assert!((plateau.unwrap() / friction - 1.0).abs() < 0.01, "{row}");
+            assert!((energy.unwrap() / friction - 1.0).abs() < 0.02, "{read:?}");
+            assert!((plateau.unwrap() / friction - 1.0).abs() < 0.01, "{read:?}");
         } else {
             // A contact of 1.3 slides from 9.1 um on: 130 N on 30 N/um, and 4.8 um that it yields itself.
-            assert_eq!([energy, plateau], [None; 2], "{row}");
+            assert_eq!([energy, plateau], [None; 2], "{read:?}");
         }
     }
 }

@@ -1,10 +1,9 @@
 //! The head of a log: which line names the columns, which column holds what, and in which units.
 
-use fret_core::case::{Heading, is_comment, number};
+use crate::case::{Heading, is_comment, is_unit, number};
 
-use super::log::ROLES;
-use super::{Request, refused, unit_names};
-use crate::failure::Failure;
+use super::error::{IdentifyError, refused};
+use super::request::{ROLES, Request};
 
 /// Names by which columns are known when none are given.
 const KNOWN: [&[&str]; 4] = [
@@ -28,6 +27,12 @@ const KNOWN: [&[&str]; 4] = [
 const MOST_ABOVE: usize = 200;
 /// What may part columns, the surest first; the last stands for any white space.
 const DELIMITERS: [char; 4] = [';', '\t', ',', ' '];
+
+/// Units of other columns: known so that a line of units is not taken for names.
+const OTHERS: [&str; 17] =
+    ["s", "sec", "ms", "min", "h", "Hz", "1/s", "°C", "C", "K", "%", "V", "mV", "A", "mm/s", "um/s", "rpm"];
+/// Units of mass, of which many load cells write their weights.
+pub(super) const MASSES: [&str; 4] = ["g", "kg", "mg", "lb"];
 
 /// Where the columns of a log are.
 #[derive(Debug)]
@@ -73,7 +78,7 @@ impl Head {
     }
 }
 
-/// The cells of a line; a remark sign before them is left out.
+/// The cells of a line; a remark sign before them is skipped.
 pub fn cells(line: &str, delimiter: char) -> Vec<String> {
     let line = line.trim_start().trim_start_matches(['#', '%', '!', '/']);
     let plain = |cell: &str| cell.trim().trim_matches('"').trim().to_owned();
@@ -93,7 +98,7 @@ pub fn cells(line: &str, delimiter: char) -> Vec<String> {
 }
 
 /// The names of columns that the request gives, by role.
-fn wanted(name: &str, request: &Request) -> Result<[Option<String>; 4], Failure> {
+fn wanted(name: &str, request: &Request) -> Result<[Option<String>; 4], IdentifyError> {
     let mut wanted = [const { None }; 4];
     for (role, column) in &request.columns {
         let Some(index) = ROLES.iter().position(|known| known == role) else {
@@ -114,7 +119,7 @@ fn place_of_number(word: &str) -> Option<usize> {
 ///
 /// # Errors
 /// When no line names a displacement and a force, and no numbers of columns were given.
-pub fn find(name: &str, text: &str, request: &Request) -> Result<Head, Failure> {
+pub fn find(name: &str, text: &str, request: &Request) -> Result<Head, IdentifyError> {
     let wanted = wanted(name, request)?;
     let lines: Vec<&str> = text.lines().take(MOST_ABOVE).collect();
     let found = by_names(&lines, &wanted).or_else(|| by_numbers(&lines, &wanted));
@@ -165,7 +170,7 @@ fn by_names(lines: &[&str], wanted: &[Option<String>; 4]) -> Option<Head> {
         let delimiter = DELIMITERS.into_iter().find(|mark| line.contains(*mark)).unwrap_or(',');
         let names = cells(line, delimiter);
         // A line of nothing but numbers is none of names, whatever numbers of columns stand in it.
-        if names.iter().all(|name| name.is_empty() || number(name, true).is_ok()) {
+        if names.iter().all(|name| name.is_empty() || number(name, delimiter != ',').is_ok()) {
             continue;
         }
         let place = |role: usize| match &wanted[role] {
@@ -241,13 +246,13 @@ fn by_numbers(lines: &[&str], wanted: &[Option<String>; 4]) -> Option<Head> {
 fn is_of_units(words: &[String]) -> bool {
     let is_unit = |word: &String| {
         let plain = word.trim_matches(['[', ']', '(', ')']);
-        plain.is_empty() || unit_names::is_known(plain)
+        plain.is_empty() || is_known(plain)
     };
     words.iter().any(|word| !word.is_empty()) && words.iter().all(is_unit)
 }
 
 /// What is said where no line names the columns: the names that there are, from the line that looks most like a head.
-fn not_found(name: &str, lines: &[&str], wanted: &[Option<String>; 4]) -> Failure {
+fn not_found(name: &str, lines: &[&str], wanted: &[Option<String>; 4]) -> IdentifyError {
     let mut best: Vec<String> = Vec::new();
     for line in lines {
         let delimiter = DELIMITERS.into_iter().find(|mark| line.contains(*mark)).unwrap_or(',');
@@ -290,4 +295,9 @@ fn not_found(name: &str, lines: &[&str], wanted: &[Option<String>; 4]) -> Failur
 /// The name of a column and the unit behind it; a bracket that is not closed belongs to the name.
 fn name_and_unit(cell: &str) -> (String, Option<String>) {
     Heading::of(cell).map_or_else(|| (cell.trim().to_owned(), None), |Heading { name, unit }| (name, unit))
+}
+
+/// Whether a word is a unit of something that logs hold.
+fn is_known(word: &str) -> bool {
+    OTHERS.contains(&word) || MASSES.contains(&word) || is_unit(word)
 }

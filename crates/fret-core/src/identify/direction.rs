@@ -2,6 +2,7 @@
 //! displacement. A force of the other body, or a displacement of the other sense, turns both; rows from the last to the first turn the work.
 
 use super::cycles::{Fault, MeasuredCycle};
+use super::turns::turns;
 
 /// Work counts where it is this many times what noise encloses.
 const SURE: f64 = 4.0;
@@ -74,7 +75,7 @@ impl Direction {
         Some(format!("{}: {done}", self.in_words()?))
     }
 
-    /// Turns all cycles; a cycle that then encloses negative work is left out.
+    /// Turns all cycles; a cycle that then encloses negative work is skipped.
     pub fn apply(self, cycles: &mut [MeasuredCycle]) {
         for cycle in cycles.iter_mut() {
             if self.turned {
@@ -88,7 +89,7 @@ impl Direction {
                 continue;
             }
             if self.backwards {
-                cycle.find_turns();
+                cycle.turns = turns(&cycle.displacement);
             }
             if work_and_growth(cycle)[0] < -SURE {
                 let what = format!(

@@ -11,8 +11,8 @@
 //! so that `W_d/(4 delta_0) = L (1 - (2 int h dt - 2 h(1/2)) L/delta_0)`, whatever the spring: 1.2 and 1.110 of the initial compliance for
 //! spheres, and 1.5 for `h(1)` (Mindlin). The contact slides where `delta_0` is more than at the onset, `(h(1) - 2 h(1/2)) L`.
 
+use super::error::IdentifyError;
 use super::model::Model;
-use crate::failure::Failure;
 
 /// Intervals of the force from nothing to full sliding.
 const INTERVALS: usize = 12;
@@ -40,7 +40,7 @@ impl Flanks {
     ///
     /// # Errors
     /// When the case cannot be solved.
-    pub fn of(model: &Model, friction: f64, value: Option<f64>) -> Result<Self, Failure> {
+    pub fn of(model: &Model<'_>, friction: f64, value: Option<f64>) -> Result<Self, IdentifyError> {
         // Equal steps of u, the radius of stick of a sphere: t = 1 - u^3. In u the displacement of a sphere is a parabola.
         let step = 1.0 / INTERVALS as f64;
         let fractions: Vec<f64> = (1..INTERVALS).map(|k| 1.0 - (1.0 - k as f64 * step).powi(3)).collect();

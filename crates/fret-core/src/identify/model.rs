@@ -2,52 +2,40 @@
 
 use std::f64::consts::PI;
 
-use fret_core::case::{Case, Course, GridSize, Output, Path, Stage, StageControl};
-use fret_core::history::StepRecord;
-use fret_core::model::{CoulombFriction, Rig};
-use fret_core::plan::Plan;
-use fret_core::run::{Silent, Simulation};
-use toml::{Table, Value};
-
 use super::computed::{Branch, Loop};
-use crate::case_file::CaseFile;
-use crate::failure::Failure;
-use crate::sweep::key;
+use super::error::IdentifyError;
+use super::request::Key;
+use crate::case::{Case, Course, GridSize, Output, Path, Stage, StageControl};
+use crate::history::StepRecord;
+use crate::model::{CoulombFriction, Rig};
+use crate::plan::Plan;
+use crate::run::{Silent, Simulation};
 
 /// Increments from rest to the first turn, and from one turn to the next; closer to each other near the turns.
 const FIRST: usize = 6;
 const HALF: usize = 24;
 
 /// What the loops are computed from.
-pub struct Model {
-    case_file: CaseFile,
+pub struct Model<'a> {
     case: Case,
-    /// A key of the case with its value there.
-    key: Option<(String, f64)>,
+    key: Option<Key<'a>>,
 }
 
-impl Model {
+impl<'a> Model<'a> {
     /// The model of a case: its stages up to the first tangential one.
     ///
     /// # Errors
-    /// When the case is none of a single contact that is pressed, or has no such key.
-    pub fn new(case_file: CaseFile, key: Option<&str>) -> Result<Self, Failure> {
-        let key = match key {
-            None => None,
-            Some(key) => Some((key.to_owned(), value_of(&case_file, key)?)),
-        };
-        let mut model = Self { case: case_file.case(None)?, case_file, key };
-        model.case = reduced(model.case)?;
-        let plan = Plan::new(model.case.clone())?;
-        let size = plan.grid.size();
+    /// When the case is none of a single contact that is pressed.
+    pub fn new(case: Case, key: Option<Key<'a>>) -> Result<Self, IdentifyError> {
+        let mut case = reduced(case)?;
         // The same cells for all values of the constants, so that nothing but these changes the loop.
-        model.case.size = GridSize::Given(size);
-        Ok(model)
+        case.size = GridSize::Given(Plan::new(case.clone())?.grid.size());
+        Ok(Self { case, key })
     }
 
     /// The value that the case has for the key that is fitted.
     pub fn key(&self) -> Option<(&str, f64)> {
-        self.key.as_ref().map(|(key, value)| (key.as_str(), *value))
+        self.key.map(|key| (key.name, key.value))
     }
 
     /// Friction of the case, where it is one number.
@@ -67,7 +55,7 @@ impl Model {
         stiffness: f64,
         amplitude: f64,
         value: Option<f64>,
-    ) -> Result<Loop, Failure> {
+    ) -> Result<Loop, IdentifyError> {
         let mut case = self.case_with(friction, value)?;
         let compliance = 1.0 / stiffness;
         case.rig = Some(Rig { normal: case.springs().normal, tangential: [compliance; 2] });
@@ -78,7 +66,7 @@ impl Model {
         path.extend((1..=HALF).map(|k| -amplitude * wave(k)));
         case.stages.push(driven(StageControl::FarEnd(Path::Through(path.clone())), path.len()));
         let plan = Plan::new(case)?;
-        let history = Simulation::new(&plan).run(&mut Silent).map_err(Failure::Unsolved)?;
+        let history = Simulation::new(&plan).run(&mut Silent)?;
         let steps = &history.steps[pressing + FIRST - 1..];
         let is_line = plan.grid.cells().contains(&1);
         let branch = |sign: f64, steps: &[StepRecord]| {
@@ -109,7 +97,7 @@ impl Model {
         friction: f64,
         fractions: &[f64],
         value: Option<f64>,
-    ) -> Result<Vec<f64>, Failure> {
+    ) -> Result<Vec<f64>, IdentifyError> {
         let mut case = self.case_with(friction, value)?;
         case.rig = Some(Rig { normal: case.springs().normal, tangential: [0.0; 2] });
         let pressing: usize = case.stages.iter().map(Stage::increments_in_all).sum();
@@ -119,7 +107,7 @@ impl Model {
         slid.stages.push(driven(StageControl::Motion(Path::To(size[0])), 1));
         let solved = |case: Case| {
             let plan = Plan::new(case)?;
-            Simulation::new(&plan).run(&mut Silent).map_err(Failure::Unsolved)
+            Simulation::new(&plan).run(&mut Silent).map_err(IdentifyError::Unsolved)
         };
         let limit = solved(slid)?.steps[pressing].tangential_force[0];
         let path = fractions.iter().map(|fraction| fraction * limit).collect();
@@ -129,30 +117,19 @@ impl Model {
     }
 
     /// The case with a coefficient of friction and a value of the key.
-    fn case_with(&self, friction: f64, value: Option<f64>) -> Result<Case, Failure> {
-        let mut case = match (&self.key, value) {
-            (Some((key, _)), Some(value)) => {
-                let text = with_value(&self.case_file, key, value)?;
-                let mut changed = reduced(self.case_file_of(text).case(None)?)?;
+    fn case_with(&self, friction: f64, value: Option<f64>) -> Result<Case, IdentifyError> {
+        let mut case = match (self.key, value) {
+            (Some(key), Some(value)) => {
+                let mut changed = reduced((key.case_with)(value)?)?;
                 changed.size = self.case.size;
                 changed
             }
             _ => self.case.clone(),
         };
         case.friction = CoulombFriction::uniform(friction)
-            .map_err(|error| Failure::Call(format!("friction {error}"), String::new()))?
+            .map_err(|error| IdentifyError::Log { what: format!("friction {error}"), help: String::new() })?
             .with_max_shear_of(&case.friction);
         Ok(case)
-    }
-
-    fn case_file_of(&self, text: String) -> CaseFile {
-        let folder = self.case_file.beside.as_ref().map_or_else(
-            || self.case_file.path.parent().unwrap_or_else(|| std::path::Path::new("")).to_owned(),
-            |beside| beside.folder.clone(),
-        );
-        let contents =
-            self.case_file.beside.as_ref().map(|beside| beside.contents.clone()).unwrap_or_default();
-        CaseFile::of_text(&self.case_file.name(), text, crate::case_file::Beside { folder, contents })
     }
 }
 
@@ -173,8 +150,10 @@ fn driven(control: StageControl, increments: usize) -> Stage {
 }
 
 /// The case up to its first tangential stage, without what a loop does not need.
-fn reduced(mut case: Case) -> Result<Case, Failure> {
-    let refuse = |what: &str, help: &str| Err(Failure::Call(format!("the case {what}"), help.to_owned()));
+fn reduced(mut case: Case) -> Result<Case, IdentifyError> {
+    let refuse = |what: &str, help: &str| {
+        Err(IdentifyError::Log { what: format!("the case {what}"), help: help.to_owned() })
+    };
     if case.periodic {
         return refuse("is periodic: a rig presses one contact", "grid.periodic = false");
     }
@@ -191,28 +170,4 @@ fn reduced(mut case: Case) -> Result<Case, Failure> {
     case.stress = None;
     case.output = Output { fields: Vec::new(), every: None };
     Ok(case)
-}
-
-fn value_of(case_file: &CaseFile, key: &str) -> Result<f64, Failure> {
-    let table: Table = case_file.text.parse().map_err(|_| unknown(key))?;
-    let root = Value::Table(table);
-    let found = key.split('.').try_fold(&root, |here, part| {
-        part.parse::<usize>().map_or_else(|_| here.get(part), |index| here.get(index))
-    });
-    let value =
-        found.and_then(|value| value.as_float().or_else(|| value.as_integer().map(|value| value as f64)));
-    value.filter(|value| *value > 0.0).ok_or_else(|| unknown(key))
-}
-
-fn unknown(key: &str) -> Failure {
-    Failure::Call(
-        format!("--fit {key}: the case has no positive number there"),
-        "a key such as lower.substrate.young or lower.coatings.0.thickness".to_owned(),
-    )
-}
-
-fn with_value(case_file: &CaseFile, name: &str, value: f64) -> Result<String, Failure> {
-    let mut table: Table = case_file.text.parse().map_err(|_| unknown(name))?;
-    key::put(&mut table, name, &Value::Float(value)).map_err(|why| Failure::Call(why, String::new()))?;
-    toml::to_string(&table).map_err(|error| Failure::Defect(error.to_string()))
 }

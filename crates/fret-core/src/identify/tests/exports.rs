@@ -1,12 +1,12 @@
-//! Logs as machines export them. One synthetic loop in `tests/logs` (springs: mu = 0.45, rig 30 kN/mm; 3 cycles of 100 points, 0.5 % of
+//! Logs as machines export them. One synthetic loop in `tests/golden/logs` (springs: mu = 0.45, rig 30 kN/mm; 3 cycles of 100 points, 0.5 % of
 //! noise, made elsewhere by an independent program), in the forms of several exports.
 
-use super::{CASE, Request, constant, identified, identify};
-use crate::failure::Failure;
+use super::{Identification, Request, constant, identified, refusal};
+use crate::identify::Direction;
 
-pub const LOOP: &str = include_str!("../../../tests/logs/loop.csv");
+pub const LOOP: &str = include_str!(concat!(env!("CARGO_MANIFEST_DIR"), "/../../tests/golden/logs/loop.csv"));
 /// As a tribometer exports it: two steps with a head each, grams of force, millimetres.
-const BLOCKS: &str = include_str!("../../../tests/logs/umt.csv");
+const BLOCKS: &str = include_str!(concat!(env!("CARGO_MANIFEST_DIR"), "/../../tests/golden/logs/umt.csv"));
 
 fn columns(pairs: &[(&str, &str)]) -> Vec<(String, String)> {
     pairs.iter().map(|(what, name)| ((*what).to_owned(), (*name).to_owned())).collect()
@@ -27,26 +27,18 @@ fn written(head: &str, row: impl Fn([f64; 2]) -> String) -> String {
 
 /// The constants that the loop was made with: friction 0.450, rig 3.0e4. With 0.5 % of noise friction is told to 0.1 %, the rig to 1 %.
 #[track_caller]
-fn is_the_loop(log: &str, request: &Request) -> serde_json::Value {
-    let json = identified(log, request);
-    let [friction, stiffness] = [0, 1].map(|place| constant(&json, place)[0]);
+fn is_the_loop(log: &str, request: &Request) -> Identification {
+    let found = identified(log, request);
+    let [friction, stiffness] = [0, 1].map(|place| constant(&found, place)[0]);
     assert!((friction / 0.45 - 1.0).abs() < 2e-3, "{friction}");
     assert!((stiffness / 3e4 - 1.0).abs() < 0.025, "{stiffness}");
-    json
-}
-
-fn refusal(log: &str, request: &Request) -> String {
-    match identify(("log.csv", log.as_bytes()), super::case(), request) {
-        Ok(answer) => panic!("{}", answer.text),
-        Err(Failure::Call(what, help)) => format!("{what} | {help}"),
-        Err(failure) => failure.message(),
-    }
+    found
 }
 
 #[test]
 fn the_loop_as_it_is() {
-    let json = is_the_loop(LOOP, &Request::default());
-    assert_eq!(json["turned"], serde_json::json!({"force": false, "order_of_rows": false}));
+    let found = is_the_loop(LOOP, &Request::default());
+    assert_eq!(found.turned, Direction::default());
 }
 
 /// Force of the other body, displacement of the other sense, rows from the last to the first, and both of these.
@@ -64,10 +56,10 @@ fn loops_that_run_backwards_are_turned_and_said_to_be() {
         (backwards(-1.0), true, true, "the sign of the force was turned, and the rows were read"),
         (written(head, |[d, q]| format!("{},{}", -d, -q)), false, false, ""),
     ] {
-        let json = is_the_loop(&log, &Request::default());
-        assert_eq!(json["turned"], serde_json::json!({"force": force, "order_of_rows": order}), "{words}");
-        assert!(json["notes"].to_string().contains(words), "{words}: {}", json["notes"]);
-        assert!(json["cycles"][0]["dissipated_energy"].as_f64().unwrap() > 0.0);
+        let found = is_the_loop(&log, &Request::default());
+        assert_eq!(found.turned, Direction { turned: force, backwards: order }, "{words}");
+        assert!(found.notes.concat().contains(words), "{words}: {:?}", found.notes);
+        assert!(found.cycles[0].quantities.unwrap().dissipated_energy > 0.0);
         if force || order {
             let strict = Request { strict: true, ..Request::default() };
             assert!(refusal(&log, &strict).contains("leave out --strict"), "{words}");
@@ -90,13 +82,13 @@ fn a_log_without_units_is_asked_for_them() {
 fn blocks_with_a_head_each_are_read_one_after_the_other() {
     let asked = columns(&[("displacement", "X"), ("force", "Fx"), ("normal_force", "Fz")]);
     let request = Request { columns: asked, ..Request::default() };
-    let json = is_the_loop(BLOCKS, &request);
-    let notes = json["notes"].to_string();
+    let found = is_the_loop(BLOCKS, &request);
+    let notes = found.notes.concat();
     assert!(notes.contains("2 blocks with a head each"), "{notes}");
     assert!(notes.contains("taken as the weight of that mass"), "{notes}");
     // The measured normal force is that of the case: 10197.162 g weigh 100 N.
     assert!(!notes.contains("the measured normal force is"), "{notes}");
-    assert_eq!(json["left_out"]["rows"], 0);
+    assert!(found.bad_rows.is_empty());
     // A second block in other units is another file.
     let (first, second) = BLOCKS.split_at(BLOCKS.rfind("g,g,mm").unwrap());
     let told = refusal(&(first.to_owned() + &second.replacen("g,g,mm", "N,N,mm", 1)), &request);
@@ -159,7 +151,7 @@ fn an_unknown_head_is_shown_and_not_its_units() {
 
 /// One sample that is no number, in the middle of the cycle that is fitted.
 #[test]
-fn a_bad_sample_is_left_out_and_named() {
+fn a_bad_sample_is_skipped_and_named() {
     for bad in ["NaN", "", "OVER"] {
         let lines: Vec<String> = LOOP
             .lines()
@@ -167,24 +159,9 @@ fn a_bad_sample_is_left_out_and_named() {
             .map(|(k, line)| if k == 150 { format!("0.502857,{bad}") } else { line.to_owned() })
             .collect();
         let log = lines.join("\n");
-        let json = is_the_loop(&log, &Request::default());
-        let words = json["left_out"]["rows_in_words"].to_string();
+        let words = is_the_loop(&log, &Request::default()).bad_rows.concat();
         assert!(words.contains("line 151"), "{words}");
         let strict = Request { strict: true, ..Request::default() };
         assert!(refusal(&log, &strict).contains("line 151"), "{bad}");
     }
-}
-
-/// The table of cycles: columns in the order of the page, heads with units, counted cycles.
-#[test]
-fn the_table_of_cycles_has_units_in_its_head() {
-    assert!(CASE.contains("length = \"mm\""));
-    let table = identify(("log.csv", LOOP.as_bytes()), super::case(), &Request::default()).unwrap().table;
-    let mut lines = table.lines();
-    let head = lines.next().unwrap();
-    assert!(
-        head.starts_with("cycle,points,dissipated_energy [N mm],force_amplitude [N],displacement_amplitude [mm],opening [mm],energy_ratio"),
-        "{head}"
-    );
-    assert!(lines.next().unwrap().starts_with("1,"), "{table}");
 }

@@ -1,36 +1,49 @@
 //! What a fit found: the constants with their intervals, what was removed from the log, what the loop cannot tell.
 
 use levenberg_marquardt::LeastSquaresProblem;
-use serde_json::{Value, json};
 
-use super::fit::Fit;
+use super::cycles::MeasuredCycle;
+use super::drift::Bend;
+use super::error::{IdentifyError, refused};
+use super::fit::{Fit, fit};
 use super::intervals::Sureness;
-use super::{TOLD, refused};
-use crate::failure::Failure;
+use super::model::Model;
 
+/// An interval wider than this on either side, relative, tells nothing of its constant.
+const TOLD: f64 = 0.5;
 /// Part of a straight drift that a bend may have: an exponential approach with a time constant of half a cycle.
 const BENT: f64 = 0.25;
 /// An interval is said to be wider from this factor on.
 const WIDER: f64 = 1.2;
 
 /// A fitted constant.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Constant {
+    /// What it is called.
     pub name: String,
-    /// In the words of [`fret_core::case::Units::of`].
+    /// Its unit, in the words of [`crate::case::Units::of`].
     pub unit: &'static str,
+    /// Its value, in the units of the case.
     pub value: f64,
-    /// 95 % interval.
+    /// 95 % interval, linear about the solution; the discretisation error is not in it.
     pub interval: [f64; 2],
-    /// Whether the loop says anything of it.
+    /// Whether the loop determines it. Where it does not, value and interval mean nothing.
     pub told: bool,
 }
 
-impl Constant {
-    pub fn to_json(&self) -> Value {
-        let [low, high] = self.interval;
-        json!({"name": self.name, "unit": self.unit, "value": self.value, "low": low, "high": high, "told": self.told})
-    }
+/// The answer of a fit to a cycle, with the bend of its drift where neighbouring cycles tell it.
+///
+/// # Errors
+/// When the cycle is none of such a contact, or a loop cannot be solved.
+pub fn fitted(
+    name: &str,
+    cycle: &MeasuredCycle,
+    model: &Model<'_>,
+    bend: Option<Bend>,
+) -> Result<Fitted, IdentifyError> {
+    let fit = fit(name, cycle, model, bend)?;
+    let unsure = bend.map(|bend| bend.unsure / fit.units[0]);
+    fit.answer(name, unsure)
 }
 
 /// The answer of a fit.
@@ -73,7 +86,7 @@ impl Fitted {
 
 impl Fit<'_> {
     /// The answer; `bend` is the standard deviation of that of the drift, relative to the amplitude, where neighbouring cycles tell it.
-    pub fn answer(self, name: &str, bend: Option<f64>) -> Result<Fitted, Failure> {
+    pub fn answer(self, name: &str, bend: Option<f64>) -> Result<Fitted, IdentifyError> {
         let lost = || refused(name, "the loop cannot be fitted: its constants do not determine it", "");
         let residuals = self.residuals().ok_or_else(lost)?;
         let freedom = residuals.len() as f64 - self.parameters.len() as f64;

@@ -1,9 +1,8 @@
-//! Cycles of a log: where each begins and ends, which of them are whole, and why the others are left out.
+//! Cycles of a log: where each begins and ends, which of them are whole, and why the others are skipped.
 
+use super::error::{IdentifyError, refused};
 use super::log::Table;
-use super::refused;
 use super::turns::{falls, range, rising_crossings, tops, turns};
-use crate::failure::Failure;
 
 /// Points of a cycle, at the least.
 const FEWEST: usize = 12;
@@ -28,10 +27,8 @@ pub struct MeasuredCycle {
     /// First and last line in the file.
     pub lines: [usize; 2],
     /// Rows, with fractions, at which the displacement is largest and smallest; nothing where there are too few points.
-    pub turns_at: [f64; 2],
-    /// The points next to them.
-    pub turns: [usize; 2],
-    /// Why it is left out.
+    pub(super) turns: [f64; 2],
+    /// Why it is skipped.
     pub fault: Option<Fault>,
 }
 
@@ -56,8 +53,7 @@ pub fn split(table: &Table, [length, force, normal]: [f64; 3]) -> Vec<MeasuredCy
             .map(|column| (normal * column.values[from..to].iter().sum::<f64>() / (to - from) as f64).abs());
         let mut cycle = MeasuredCycle {
             name,
-            turns_at: [0.0; 2],
-            turns: [0, 0],
+            turns: [0.0; 2],
             displacement: displacement[from..to].to_vec(),
             force: forces[from..to].to_vec(),
             normal_force,
@@ -65,7 +61,7 @@ pub fn split(table: &Table, [length, force, normal]: [f64; 3]) -> Vec<MeasuredCy
             fault: None,
         };
         if to - from >= FEWEST {
-            cycle.find_turns();
+            cycle.turns = turns(&cycle.displacement);
         }
         cycle.fault = cycle.fault_of(&table.lines[from..to]);
         cycle
@@ -122,7 +118,7 @@ fn name_ends(cycles: &mut [MeasuredCycle]) {
 ///
 /// # Errors
 /// When it is not there, or is none.
-pub fn choose(cycles: &[MeasuredCycle], number: Option<f64>, name: &str) -> Result<usize, Failure> {
+pub fn choose(cycles: &[MeasuredCycle], number: Option<f64>, name: &str) -> Result<usize, IdentifyError> {
     let whole = |cycle: &MeasuredCycle| cycle.fault.is_none();
     let chosen = match number {
         None => cycles.iter().rposition(whole),
@@ -142,7 +138,7 @@ pub fn choose(cycles: &[MeasuredCycle], number: Option<f64>, name: &str) -> Resu
             Err(refused(name, &fault.what, &help))
         }
         (Some(fault), None) if cycles.len() > 1 => {
-            let what = format!("none of its {} cycles is whole: {}", cycles.len(), left_out(cycles));
+            let what = format!("none of its {} cycles is whole: {}", cycles.len(), skipped(cycles));
             Err(refused(name, &what, &fault.help))
         }
         (Some(fault), _) => Err(refused(name, &fault.what, &fault.help)),
@@ -158,10 +154,10 @@ pub fn choose(cycles: &[MeasuredCycle], number: Option<f64>, name: &str) -> Resu
     }
 }
 
-/// The cycles that are left out, and why: `1234 (does not close), 5000 (ends early)`.
-pub fn left_out(cycles: &[MeasuredCycle]) -> String {
+/// The cycles that are skipped, and why: `1234 (does not close), 5000 (ends early)`.
+pub fn skipped<'a>(cycles: impl IntoIterator<Item = &'a MeasuredCycle>) -> String {
     let all: Vec<String> = cycles
-        .iter()
+        .into_iter()
         .filter_map(|cycle| Some(format!("{} ({})", cycle.name, cycle.fault.as_ref()?.brief)))
         .collect();
     let named = all.iter().take(MOST_NAMED).cloned().collect::<Vec<_>>().join(", ");
@@ -169,13 +165,6 @@ pub fn left_out(cycles: &[MeasuredCycle]) -> String {
 }
 
 impl MeasuredCycle {
-    /// Finds where the displacement turns.
-    pub fn find_turns(&mut self) {
-        let count = self.displacement.len();
-        self.turns_at = turns(&self.displacement);
-        self.turns = self.turns_at.map(|row| row.round() as usize % count);
-    }
-
     /// Why it is no whole loop; `lines` are those of its rows.
     fn fault_of(&self, lines: &[usize]) -> Option<Fault> {
         let place = format!("cycle {} (lines {} to {})", self.name, self.lines[0], self.lines[1]);
@@ -228,8 +217,8 @@ impl MeasuredCycle {
             );
         }
         let [first, last] = self.turns;
-        let between = first.abs_diff(last);
-        if between < 3 || count - between < 3 || high == low || top == bottom {
+        let between = (first - last).abs();
+        if !(between >= 3.0 && count as f64 - between >= 3.0) || high == low || top == bottom {
             return fault(
                 "does not go there and back",
                 format!("{place}: the displacement does not go there and back"),
@@ -240,7 +229,7 @@ impl MeasuredCycle {
     }
 
     /// Whether a point lies on the way down, from the largest displacement to the smallest.
-    pub fn is_falling(&self, row: usize) -> bool {
-        falls(row as f64, self.turns_at)
+    pub(super) fn is_falling(&self, row: usize) -> bool {
+        falls(row as f64, self.turns)
     }
 }

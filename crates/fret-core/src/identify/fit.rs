@@ -19,16 +19,16 @@ use nalgebra::{DMatrix, DVector, Dyn};
 use super::computed::Loop;
 use super::cycles::MeasuredCycle;
 use super::drift::Bend;
-use super::found::Fitted;
+use super::error::{IdentifyError, refused};
 use super::intervals::{Left, Sureness, sureness};
 use super::model::Model;
-use super::refused;
 use super::start::first_guess;
 use super::turns::{calm_range, falls, noise};
-use crate::failure::Failure;
 
 /// Step of the differences by which derivatives by the constants are found, relative.
 const STEP: f64 = 5e-3;
+/// Distance of every point from a loop that cannot be solved, in amplitudes: more than from any other.
+const UNSOLVED: f64 = 1e3;
 /// Rounds in which the feet of the points on the loop follow the solution.
 const ROUNDS: usize = 3;
 /// Points nearer to a turn than so many rows lie next to it: so well the displacement tells it.
@@ -47,11 +47,16 @@ const ALWAYS: usize = 6;
 /// A bend is fitted where it is more than so many of its standard deviations.
 const BENDS: f64 = 3.0;
 
-/// Fits the constants of a model to a cycle, with the bend of its drift where that is known.
+/// The fit of the constants of a model to a cycle, with the bend of its drift where that is known.
 ///
 /// # Errors
 /// When the cycle is none of such a contact, or a loop cannot be solved.
-pub fn fit(name: &str, cycle: &MeasuredCycle, model: &Model, bend: Option<Bend>) -> Result<Fitted, Failure> {
+pub fn fit<'a>(
+    name: &str,
+    cycle: &'a MeasuredCycle,
+    model: &'a Model<'a>,
+    bend: Option<Bend>,
+) -> Result<Fit<'a>, IdentifyError> {
     let (start, first) = first_guess(name, cycle, model)?;
     let [low, high] = calm_range(&cycle.displacement);
     let [bottom, top] = calm_range(&cycle.force);
@@ -73,20 +78,19 @@ pub fn fit(name: &str, cycle: &MeasuredCycle, model: &Model, bend: Option<Bend>)
     fit.parameters[3] = f64::midpoint(low, high) / fit.units[0];
     fit.parameters[5] = f64::midpoint(bottom, top) / fit.units[1];
     fit = fit.minimized(name)?;
-    let known = bend.map(|bend| bend.unsure / units[0]);
-    if known.is_none() && fit.is_bent() {
+    if bend.is_none() && fit.is_bent() {
         fit.bend_is_fitted = true;
         fit.parameters = fit.parameters.clone().push(0.0);
         fit = fit.minimized(name)?;
     }
-    fit.answer(name, known)
+    Ok(fit)
 }
 
 /// The problem of least squares. Parameters: logarithms of friction, stiffness and amplitude over those to start from; offset and drift of
 /// the displacement and offset of the force over the amplitudes; logarithm of the value of a key; bend of the drift, where it is fitted.
 pub struct Fit<'a> {
     pub cycle: &'a MeasuredCycle,
-    pub model: &'a Model,
+    pub model: &'a Model<'a>,
     /// Amplitudes of displacement and force.
     pub units: [f64; 2],
     start: [f64; 3],
@@ -105,7 +109,7 @@ pub struct Fit<'a> {
 }
 
 impl Fit<'_> {
-    fn minimized(mut self, name: &str) -> Result<Self, Failure> {
+    fn minimized(mut self, name: &str) -> Result<Self, IdentifyError> {
         for round in 0..ROUNDS {
             self.find_feet(round);
             let (found, report) =
@@ -178,7 +182,7 @@ impl Fit<'_> {
         let [length, force] = self.noises();
         let level = self.units[1] * self.parameters[5];
         let places: Vec<f64> = self.places().collect();
-        let turns = self.cycle.turns_at;
+        let turns = self.cycle.turns;
         let count = places.len();
         let near_turn = |row: usize| {
             let apart = |turn: f64| {
@@ -289,12 +293,12 @@ fn noises(cycle: &MeasuredCycle, units: [f64; 2]) -> [f64; 2] {
 }
 
 /// Time of a point in its cycle, from -1/2 to 1/2.
-fn time(row: usize, count: usize) -> f64 {
+pub fn time(row: usize, count: usize) -> f64 {
     (row as f64 + 0.5) / count as f64 - 0.5
 }
 
 /// A bend of one, from the middle of the cycle to its ends, without its mean.
-fn bent(time: f64) -> f64 {
+pub fn bent(time: f64) -> f64 {
     4.0 * time * time - 1.0 / 3.0
 }
 
@@ -316,7 +320,11 @@ impl LeastSquaresProblem<f64, Dyn, Dyn> for Fit<'_> {
     }
 
     fn residuals(&self) -> Option<DVector<f64>> {
-        Some(DVector::from_vec(self.distances(self.now.as_ref()?)))
+        let Some(now) = &self.now else {
+            // Too long a step, to a contact that the grid does not hold, say: it is taken back.
+            return Some(DVector::from_element(self.cycle.force.len(), UNSOLVED));
+        };
+        Some(DVector::from_vec(self.distances(now)))
     }
 
     fn jacobian(&self) -> Option<DMatrix<f64>> {
@@ -325,11 +333,14 @@ impl LeastSquaresProblem<f64, Dyn, Dyn> for Fit<'_> {
         let count = here.len();
         let mut jacobian = DMatrix::zeros(count, self.parameters.len());
         for k in self.of_loop() {
-            let mut beside = self.parameters.clone();
-            beside[k] += STEP;
-            let there = self.distances(&self.solve(&beside)?);
+            let beside = |step: f64| {
+                let mut beside = self.parameters.clone();
+                beside[k] += step;
+                self.solve(&beside).map(|of| (step, self.distances(&of)))
+            };
+            let (step, there) = beside(STEP).or_else(|| beside(-STEP))?;
             for row in 0..count {
-                jacobian[(row, k)] = (there[row] - here[row]) / STEP;
+                jacobian[(row, k)] = (there[row] - here[row]) / step;
             }
         }
         let [length, force] = self.units;

@@ -1,16 +1,11 @@
 //! Units of a log, turned into those of the case, and said.
 
-use fret_core::case::{Units, conversion, is_unit, known_units};
+use crate::case::{Units, conversion, known_units};
 
+use super::error::{IdentifyError, refused};
+use super::head::MASSES;
 use super::log::Table;
-use super::{Request, refused};
-use crate::failure::Failure;
-
-/// Units of other columns: known so that a line of units is not taken for names.
-const OTHERS: [&str; 17] =
-    ["s", "sec", "ms", "min", "h", "Hz", "1/s", "°C", "C", "K", "%", "V", "mV", "A", "mm/s", "um/s", "rpm"];
-/// Units of mass, of which many load cells write their weights.
-const MASSES: [&str; 4] = ["g", "kg", "mg", "lb"];
+use super::request::Request;
 
 /// Factors from the columns of a log to the units of the case: of displacements, forces, normal forces.
 ///
@@ -21,7 +16,7 @@ pub fn scales(
     request: &Request,
     units: Option<&Units>,
     notes: &mut Vec<String>,
-) -> Result<[f64; 3], Failure> {
+) -> Result<[f64; 3], IdentifyError> {
     let mut found = [1.0; 3];
     let own = units.cloned().unwrap_or_else(|| Units::new("m", "N"));
     for (slot, role, what, base) in
@@ -70,9 +65,4 @@ pub fn scales(
         ));
     }
     Ok(found)
-}
-
-/// Whether a word is a unit of something that logs hold.
-pub fn is_known(word: &str) -> bool {
-    OTHERS.contains(&word) || MASSES.contains(&word) || is_unit(word)
 }

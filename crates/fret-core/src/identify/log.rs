@@ -1,13 +1,11 @@
 //! A measured log as it comes from a rig: columns of numbers below a head, whatever stands above it, with the line of every row.
 
-use fret_core::case::{NoNumber, is_comment, letters, number};
+use crate::case::{NoNumber, is_comment, letters, number};
 
+use super::error::{IdentifyError, refused};
 use super::head::{Head, find};
-use super::{Request, refused};
-use crate::failure::Failure;
+use super::request::Request;
 
-/// What a column can hold.
-pub const ROLES: [&str; 4] = ["displacement", "force", "cycle", "normal_force"];
 /// Rows of numbers, at the least.
 pub const FEWEST_ROWS: usize = 12;
 /// Letters of a cell that messages repeat, at the most.
@@ -24,7 +22,7 @@ pub struct Column {
     pub values: Vec<f64>,
 }
 
-/// A row that is left out.
+/// A row that is skipped.
 #[derive(Debug, Clone)]
 pub struct BadRow {
     /// Its line and what is wrong there.
@@ -38,7 +36,7 @@ pub struct BadRow {
 pub struct Table {
     /// Its name in messages.
     pub name: String,
-    /// By [`ROLES`].
+    /// By what they hold: displacement, force, cycle, normal force.
     pub columns: [Option<Column>; 4],
     /// Line of every row in the file, from 1.
     pub lines: Vec<usize>,
@@ -59,7 +57,7 @@ impl Table {
 ///
 /// # Errors
 /// What is wrong with it, with the line.
-pub fn read(name: &str, bytes: &[u8], request: &Request) -> Result<Table, Failure> {
+pub fn read(name: &str, bytes: &[u8], request: &Request) -> Result<Table, IdentifyError> {
     let text = letters(bytes)
         .map_err(|error| refused(name, &error.to_string(), "a log is a text file with columns of numbers"))?;
     let head = find(name, &text, request)?;
@@ -114,7 +112,7 @@ struct Rows<'a> {
 }
 
 impl Rows<'_> {
-    fn take(&mut self, row: &csv::StringRecord, line: usize) -> Result<(), Failure> {
+    fn take(&mut self, row: &csv::StringRecord, line: usize) -> Result<(), IdentifyError> {
         let decimal_comma = self.head.delimiter != ',';
         let cells: Vec<(usize, &str)> = self
             .head
@@ -197,7 +195,7 @@ impl Rows<'_> {
 }
 
 /// Whether there are rows for a loop, and something changes in them.
-fn enough(table: &Table) -> Result<(), Failure> {
+fn enough(table: &Table) -> Result<(), IdentifyError> {
     let rows = table.lines.len();
     if rows < FEWEST_ROWS {
         return Err(refused(
@@ -238,7 +236,7 @@ mod tests {
     fn message(text: &str) -> String {
         match read("log.csv", text.as_bytes(), &Request { strict: true, ..Request::default() }) {
             Ok(_) => String::new(),
-            Err(failure) => failure.message(),
+            Err(failure) => failure.to_string(),
         }
     }
 

@@ -72,12 +72,12 @@ impl Trial {
         let all: Vec<[[f64; 2]; 2]> = (0..count)
             .into_par_iter()
             .map(|seed| {
-                let json = identified(
+                let found = identified(
                     &self.log(rig, seed % 2 == 1, seed),
                     &Request { cycle: Some(self.cycles.min(2) as f64), ..Request::default() },
                 );
                 [(0, rig.friction), (1, rig.stiffness)].map(|(place, truth)| {
-                    let [value, _, high] = constant(&json, place);
+                    let [value, _, high] = constant(&found, place);
                     [(value / truth).ln().abs() / (high / value).ln(), (high / value).ln()]
                 })
             })
@@ -104,7 +104,8 @@ fn intervals_hold_beyond_independent_noise() {
     }
 }
 
-/// The promise of the page. 24 logs each, of triangles and sines; 95 % of 24 are 23, and fewer than 20 happen once in a hundred.
+/// The promise of the page, and its table: 317 of 336 for friction, 327 for the stiffness when it was written. 24 logs each, of triangles and
+/// sines; 95 % of 24 are 23, and fewer than 20 happen once in a hundred.
 #[test]
 #[ignore = "long: three hundred identifications"]
 fn intervals_hold_in_nine_of_ten_trials_beyond_independent_noise() {

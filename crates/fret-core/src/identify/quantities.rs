@@ -1,8 +1,5 @@
 //! What is read from a measured cycle: energy, amplitudes, ratios, friction.
 
-use fret_core::case::Units;
-use serde_json::{Value, json};
-
 use super::cycles::MeasuredCycle;
 use super::flanks::Flanks;
 use super::turns::{at_turn, calm_range, falls, noise, parabola, slope};
@@ -16,33 +13,24 @@ const FLAT: f64 = 0.1;
 const FEWEST_OF_A_FLANK: usize = 6;
 const FLANK: f64 = 0.5;
 
-/// Columns of the table of cycles, with their units in the words of [`fret_core::case::Units::of`].
-pub const COLUMNS: [(&str, &str); 13] = [
-    ("cycle", ""),
-    ("points", ""),
-    ("dissipated_energy", "force x length"),
-    ("force_amplitude", "force"),
-    ("displacement_amplitude", "length"),
-    ("opening", "length"),
-    ("energy_ratio", ""),
-    ("sliding_ratio", ""),
-    ("contact_energy_ratio", ""),
-    ("contact_sliding_ratio", ""),
-    ("slope_after_reversal", "force/length"),
-    ("plateau_friction", ""),
-    ("energy_friction", ""),
-];
-
-/// What is read from a cycle.
-#[derive(Debug, Clone, Copy)]
+/// What is read from a cycle, in the units of the case.
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Quantities {
+    /// Dissipated energy, the area of the loop [force x length].
     pub dissipated_energy: f64,
+    /// Amplitude of the tangential force [force].
     pub force_amplitude: f64,
+    /// Amplitude of the displacement of the actuator [length].
     pub displacement_amplitude: f64,
+    /// Half-width of the loop at the middle of the force [length].
     pub opening: f64,
+    /// Energy ratio `A = W_d/(4 Q* delta*)`.
     pub energy_ratio: f64,
+    /// Sliding ratio `D = delta_0/delta*`.
     pub sliding_ratio: f64,
+    /// The energy ratio of the contact without the rig, where its stiffness is told.
     pub contact_energy_ratio: Option<f64>,
+    /// Its sliding ratio.
     pub contact_sliding_ratio: Option<f64>,
     /// Slope directly after reversal [force/length].
     pub slope: Option<f64>,
@@ -82,47 +70,9 @@ pub struct LoopShape {
     pub scatter: f64,
 }
 
-/// The row of a cycle; without numbers where it was left out.
-pub fn row(cycle: &MeasuredCycle, quantities: Option<Quantities>) -> Value {
-    let of = |read: fn(Quantities) -> Option<f64>| quantities.and_then(read);
-    json!({
-        "cycle": cycle.name,
-        "points": cycle.force.len(),
-        "dissipated_energy": of(|all| Some(all.dissipated_energy)),
-        "force_amplitude": of(|all| Some(all.force_amplitude)),
-        "displacement_amplitude": of(|all| Some(all.displacement_amplitude)),
-        "opening": of(|all| Some(all.opening)),
-        "energy_ratio": of(|all| Some(all.energy_ratio)),
-        "sliding_ratio": of(|all| Some(all.sliding_ratio)),
-        "contact_energy_ratio": of(|all| all.contact_energy_ratio),
-        "contact_sliding_ratio": of(|all| all.contact_sliding_ratio),
-        "slope_after_reversal": of(|all| all.slope),
-        "plateau_friction": of(|all| all.plateau_friction),
-        "energy_friction": of(|all| all.energy_friction),
-    })
-}
-
-/// The rows as CSV; heads with units, where there are any.
-pub fn table(rows: &Value, units: Option<&Units>) -> String {
-    let head = COLUMNS.map(|(name, kind)| Units::heading(units, name, kind, false));
-    let mut text = head.join(",") + "\n";
-    for row in rows.as_array().into_iter().flatten() {
-        let cell = |(name, _): (&str, &str)| match &row[name] {
-            Value::Null => String::new(),
-            // A cycle is counted: 7, not 7.0.
-            value => match value.as_f64() {
-                Some(count) if name == "cycle" => count.to_string(),
-                _ => value.to_string(),
-            },
-        };
-        text += &(COLUMNS.map(cell).join(",") + "\n");
-    }
-    text
-}
-
 impl MeasuredCycle {
     /// What is read from the loop; of the contact's own too, with the stiffness of the rig.
-    pub fn quantities(&self, known: Known<'_>) -> Quantities {
+    pub(super) fn quantities(&self, known: Known<'_>) -> Quantities {
         let own = self.loop_of(|row| self.displacement[row]);
         let contact = known
             .stiffness
@@ -157,7 +107,7 @@ impl MeasuredCycle {
     }
 
     /// The loop with displacements of its points.
-    pub fn loop_of(&self, displacement: impl Fn(usize) -> f64) -> LoopShape {
+    pub(super) fn loop_of(&self, displacement: impl Fn(usize) -> f64) -> LoopShape {
         let count = self.force.len();
         let places: Vec<f64> = (0..count).map(&displacement).collect();
         let [high, low] = self.turns.map(|turn| at_turn(&places, turn, [-1, 1]));
@@ -196,7 +146,7 @@ impl MeasuredCycle {
             return Middle { at, compliance: slope / amplitude, scatter };
         }
         let mut crossings: Vec<[f64; 2]> = Vec::new();
-        for row in (0..count).filter(|&row| falls(row as f64 + 0.5, self.turns_at) == falling) {
+        for row in (0..count).filter(|&row| falls(row as f64 + 0.5, self.turns) == falling) {
             let next = (row + 1) % count;
             // Crossings of noise are averaged.
             if (self.force[row] - middle) * (self.force[next] - middle) <= 0.0
@@ -222,7 +172,7 @@ impl MeasuredCycle {
     }
 
     /// Standard deviation of the enclosed work by the noise of the points, whose neighbours are correlated by so much.
-    pub fn unsure_work(&self, correlation: f64) -> f64 {
+    pub(super) fn unsure_work(&self, correlation: f64) -> f64 {
         let count = self.force.len();
         let (mut by_force, mut by_length) = (0.0, 0.0);
         for row in 0..count {
@@ -238,22 +188,22 @@ impl MeasuredCycle {
     /// its extreme on the way.
     fn range_of_force(&self) -> [f64; 2] {
         let [bottom, top] = calm_range(&self.force);
-        let [first, last] = self.turns.map(|turn| at_turn(&self.force, turn, [-1]));
+        // Not beyond the last point of a branch: its force ends there, or rises on.
+        let [first, last] = self.turns.map(|turn| at_turn(&self.force, turn.floor(), [-1]));
         [bottom.min(first).min(last), top.max(first).max(last)]
     }
 
     /// Slope of the loop directly after both reversals: a line through the points of the first third of the change of force.
-    pub fn slope_after_reversal(&self) -> Option<f64> {
+    pub(super) fn slope_after_reversal(&self) -> Option<f64> {
         let [bottom, top] = calm_range(&self.force);
         let count = self.force.len();
-        let slopes: Vec<f64> = self
-            .turns
-            .iter()
-            .filter_map(|&turn| {
-                let begins = if self.is_falling(turn) { top } else { bottom };
+        let slopes: Vec<f64> = [top, bottom]
+            .into_iter()
+            .zip(self.turns)
+            .filter_map(|(begins, turn)| {
                 let mut points = Vec::new();
                 for step in 0..count / 2 {
-                    let row = (turn + step) % count;
+                    let row = (turn.ceil() as usize + step) % count;
                     let share = (self.force[row] - begins).abs() / (top - bottom);
                     if share > 0.4 {
                         break;
@@ -271,7 +221,7 @@ impl MeasuredCycle {
 
     /// Half of the distance of the plateaus of sliding [force], which begin so far behind a turn: means over the last part of the way,
     /// unless they rise.
-    pub fn plateau(&self, steep: f64, flank: f64) -> Option<f64> {
+    pub(super) fn plateau(&self, steep: f64, flank: f64) -> Option<f64> {
         let [high, low] = self.turns.map(|turn| at_turn(&self.displacement, turn, [-1, 1]));
         let from = PLATEAU[0].max(flank / (high - low));
         let side = |falling: bool| {

@@ -6,7 +6,7 @@ use std::ops::Range;
 use nalgebra::{Matrix3, Vector3};
 
 /// Points of a parabola at a turn: this part of those of a cycle, at the least and at the most.
-const POINTS_OF_A_PARABOLA: [usize; 3] = [12, 3, 15];
+const POINTS_OF_A_PARABOLA: [usize; 3] = [12, 4, 15];
 
 /// Points before and behind a turn through which lines are laid: those between these parts of the range of displacement.
 const SIDE: Range<f64> = 0.5..0.9;
@@ -38,21 +38,19 @@ pub fn parabola(points: &[[f64; 2]]) -> Option<[f64; 3]> {
     (value.is_finite() && slope.is_finite() && variance > 0.0).then_some([value, slope, variance])
 }
 
-/// Value at a turn, where a cycle has a corner (a triangle) or a top (a sine): parabolas of least squares through the points before it
-/// (side -1), behind it (1), or the mean of both. Means over a corner would cut it off.
-pub fn at_turn<const N: usize>(values: &[f64], turn: usize, sides: [isize; N]) -> f64 {
-    let count = values.len();
-    let points = (count / POINTS_OF_A_PARABOLA[0]).clamp(POINTS_OF_A_PARABOLA[1], POINTS_OF_A_PARABOLA[2]);
+/// Value at a turn (a row, with a fraction), where a cycle has a corner (a triangle) or a top (a sine): parabolas of least squares through
+/// the points before it (side -1), behind it (1), or the mean of both. Means over a corner would cut it off.
+pub fn at_turn<const N: usize>(values: &[f64], turn: f64, sides: [isize; N]) -> f64 {
+    let count = values.len() as isize;
+    let points =
+        (values.len() / POINTS_OF_A_PARABOLA[0]).clamp(POINTS_OF_A_PARABOLA[1], POINTS_OF_A_PARABOLA[2]);
     let of_side = |side: isize| {
-        let value =
-            |k: usize| values[(turn as isize + side * k as isize).rem_euclid(count as isize) as usize];
-        // Value at the end of the parabola of least squares through points 0, 1, ... n - 1: weights of the discrete orthogonal polynomials.
-        let n = points as f64;
-        let weight = |k: f64| {
-            3.0 * (3.0 * n * n - 3.0 * n + 2.0 - 6.0 * (2.0 * n - 1.0) * k + 10.0 * k * k)
-                / (n * (n + 1.0) * (n + 2.0))
-        };
-        (0..points).map(|k| weight(k as f64) * value(k)).sum::<f64>()
+        let first = if side > 0 { turn.ceil() } else { turn.floor() };
+        let points: Vec<[f64; 2]> = (0..points as isize)
+            .map(|k| first as isize + side * k)
+            .map(|row| [(row as f64 - turn) / points as f64, values[row.rem_euclid(count) as usize]])
+            .collect();
+        parabola(&points).map_or(values[(first as isize).rem_euclid(count) as usize], |[value, ..]| value)
     };
     sides.into_iter().map(of_side).sum::<f64>() / N as f64
 }
@@ -221,8 +219,9 @@ mod tests {
     #[test]
     fn a_parabola_of_least_squares_ends_where_a_parabola_does() {
         let values: Vec<f64> = (0..60).map(|k| 3.0 - 0.2 * f64::from(k) + 0.01 * f64::from(k * k)).collect();
-        for turn in [20, 33] {
-            assert!((at_turn(&values, turn, [-1, 1]) - values[turn]).abs() < 1e-12);
+        for turn in [20.0, 33.4_f64] {
+            let right = 3.0 - 0.2 * turn + 0.01 * turn * turn;
+            assert!((at_turn(&values, turn, [-1, 1]) - right).abs() < 1e-12);
         }
     }
 

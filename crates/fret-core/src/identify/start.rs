@@ -2,11 +2,10 @@
 
 use super::computed::Loop;
 use super::cycles::MeasuredCycle;
+use super::error::{IdentifyError, refused};
 use super::model::Model;
 use super::quantities::Known;
-use super::refused;
 use super::turns::calm_range;
-use crate::failure::Failure;
 
 /// Forces over the normal force outside of which units are wrong.
 const FORCES: [f64; 2] = [1e-3, 5.0];
@@ -16,7 +15,11 @@ const FAR: f64 = 300.0;
 const CARRIED: f64 = 0.2;
 
 /// Friction, stiffness of the rig and amplitude to start from, with their loop; refuses units that cannot be.
-pub fn first_guess(name: &str, cycle: &MeasuredCycle, model: &Model) -> Result<([f64; 3], Loop), Failure> {
+pub fn first_guess(
+    name: &str,
+    cycle: &MeasuredCycle,
+    model: &Model<'_>,
+) -> Result<([f64; 3], Loop), IdentifyError> {
     let [low, high] = calm_range(&cycle.displacement);
     let [bottom, top] = calm_range(&cycle.force);
     let (amplitude, force) = (0.5 * (high - low), 0.5 * (top - bottom));

@@ -1,7 +1,7 @@
-//! Cycles that are no whole loops are left out and named; only that which is to be fitted is refused.
+//! Cycles that are no whole loops are skipped and named; only that which is to be fitted is refused.
 
 use super::exports::rows;
-use super::{Request, case, constant, identified, identify};
+use super::{Request, case, constant, identified, identify, refusal};
 
 /// Fifteen cycles of a hundred points, by number; `change` makes of a row what is written.
 fn numbered(change: impl Fn(usize, usize, String) -> Option<String>) -> String {
@@ -17,20 +17,14 @@ fn numbered(change: impl Fn(usize, usize, String) -> Option<String>) -> String {
     text
 }
 
-fn words(log: &str, request: &Request) -> String {
-    identify(("log.csv", log.as_bytes()), case(), request)
-        .map_or_else(|failure| format!("{} | {failure:?}", failure.message()), |answer| answer.text)
-}
-
 #[track_caller]
-fn is_fitted(log: &str, cycle: f64, left_out: &str) {
-    let json = identified(log, &Request::default());
-    assert_eq!(json["cycle"], cycle);
-    assert!((constant(&json, 0)[0] / 0.45 - 1.0).abs() < 3e-3, "{}", json["parameters"]);
-    let words = json["left_out"]["cycles_in_words"].as_str().unwrap_or("");
-    assert_eq!(words, left_out);
+fn is_fitted(log: &str, cycle: f64, skipped: &str) {
+    let found = identified(log, &Request::default());
+    assert_eq!(found.fitted_cycle().measured.name, cycle);
+    assert!((constant(&found, 0)[0] / 0.45 - 1.0).abs() < 3e-3, "{:?}", found.constants);
+    assert_eq!(found.skipped_in_words().unwrap_or_default(), skipped);
     let strict = Request { strict: true, ..Request::default() };
-    assert_eq!(left_out.is_empty(), identify(("log.csv", log.as_bytes()), case(), &strict).is_ok());
+    assert_eq!(skipped.is_empty(), identify(log, case(), &strict).is_ok());
 }
 
 #[test]
@@ -51,7 +45,7 @@ fn a_log_that_ends_or_begins_inside_a_cycle_is_identified() {
 
 /// A lone row of another cycle at the start or at the end, as a rig that is stopped after it has counted on writes it.
 #[test]
-fn a_lone_row_of_another_cycle_is_left_out() {
+fn a_lone_row_of_another_cycle_is_skipped() {
     let log = numbered(|_, _, line| Some(line));
     is_fitted(&(log.clone() + "99;10.1;60.1\n"), 15.0, "99 (1 point)");
     is_fitted(&log.replacen("force [N]\n", "force [N]\n0;1.0;2.0\n", 1), 15.0, "0 (1 point)");
@@ -61,13 +55,12 @@ fn a_lone_row_of_another_cycle_is_left_out() {
 fn missing_lines_leave_one_cycle_out() {
     let log = numbered(|cycle, row, line| (cycle != 7 || !(20..60).contains(&row)).then_some(line));
     is_fitted(&log, 15.0, "7 (points are missing between lines 621 and 622)");
-    let asked = words(&log, &Request { cycle: Some(7.0), ..Request::default() });
+    let asked = refusal(&log, &Request { cycle: Some(7.0), ..Request::default() });
     assert!(asked.contains("points are missing there"), "{asked}");
     assert!(asked.contains("--cycle 6") || asked.contains("--cycle 8"), "{asked}");
-    let answer = identify(("log.csv", log.as_bytes()), case(), &Request::default()).unwrap();
-    assert!(answer.text.contains("14 of 15 cycles used"), "{}", answer.text);
-    assert!(answer.table.lines().nth(7).unwrap().starts_with("7,60,,,"), "{}", answer.table);
-    assert!(answer.json["cycles"][6]["force_amplitude"].is_null());
+    let found = identified(&log, &Request::default());
+    assert_eq!(found.skipped().count(), 1);
+    assert_eq!((found.cycles[6].measured.force.len(), found.cycles[6].quantities), (60, None));
 }
 
 /// Every row its own cycle, and rows in no order: refused in words.
@@ -79,7 +72,7 @@ fn a_log_without_a_whole_cycle_is_refused_in_words() {
         .fold("cycle;displacement [um];force [N]\n".to_owned(), |text, (k, [d, q])| {
             text + &format!("{k};{d};{q}\n")
         });
-    let told = words(&counted, &Request::default());
+    let told = refusal(&counted, &Request::default());
     assert!(told.contains("none of its 301 cycles is whole: 0 (1 point), 1 (1 point)"), "{told}");
     assert!(told.contains("and 291 more"), "{told}");
 }
@@ -95,12 +88,12 @@ fn parts_of_cycles_around_a_whole_one_are_no_harm() {
     };
     // From nothing to more than one cycle: the turns at the top are at 25, 125, ..., those at the bottom at 75, 175.
     for (from, to) in [(0, 190), (40, 200), (60, 230), (0, 301)] {
-        let json = identified(&of(from, to), &Request::default());
-        assert!((constant(&json, 0)[0] / 0.45 - 1.0).abs() < 5e-3, "{from} {to}: {}", json["parameters"]);
+        let found = identified(&of(from, to), &Request::default());
+        assert!((constant(&found, 0)[0] / 0.45 - 1.0).abs() < 5e-3, "{from} {to}: {:?}", found.constants);
     }
     let mut spiked = of(0, 301).lines().map(str::to_owned).collect::<Vec<_>>();
     spiked[60] = "8000,1".to_owned();
-    let json = identified(&spiked.join("\n"), &Request::default());
-    assert!((constant(&json, 0)[0] / 0.45 - 1.0).abs() < 5e-3);
-    assert!(json["left_out"]["cycles_in_words"].as_str().unwrap().contains("points are missing"));
+    let found = identified(&spiked.join("\n"), &Request::default());
+    assert!((constant(&found, 0)[0] / 0.45 - 1.0).abs() < 5e-3);
+    assert!(found.skipped_in_words().unwrap().contains("points are missing"));
 }

@@ -1,0 +1,54 @@
+//! What is asked of a log.
+
+use crate::case::{Case, CaseError};
+
+/// What a column can hold.
+pub(super) const ROLES: [&str; 4] = ["displacement", "force", "cycle", "normal_force"];
+
+/// What is asked of a log.
+#[derive(Debug, Clone, Default)]
+pub struct Request {
+    /// Columns by what they hold: `displacement`, `force`, `cycle`, `normal_force`; by name, or by number from 1; before those that the
+    /// case names.
+    pub columns: Vec<(String, String)>,
+    /// Units by what they are of: `displacement`, `force`, `normal_force`.
+    pub units: Vec<(String, String)>,
+    /// The cycle that is fitted; default: the last whole one.
+    pub cycle: Option<f64>,
+    /// Whether a log with a cycle that is no whole loop, or a row without a number, is refused; else these are skipped and named.
+    pub strict: bool,
+}
+
+impl Request {
+    /// With the columns that the case names, where none is asked for.
+    pub(super) fn beside(&self, of_case: &[(&str, String)]) -> Self {
+        let mut request = self.clone();
+        for (what, name) in of_case {
+            if !self.columns.iter().any(|(asked, _)| asked == what) {
+                request.columns.push(((*what).to_owned(), name.clone()));
+            }
+        }
+        request
+    }
+}
+
+/// A number of the case that is fitted, too.
+#[derive(Clone, Copy)]
+pub struct Key<'a> {
+    /// What it is called in the case, such as `lower.substrate.young`.
+    pub name: &'a str,
+    /// Its value there, positive.
+    pub value: f64,
+    /// The case with another value.
+    pub case_with: &'a dyn Fn(f64) -> Result<Case, CaseError>,
+}
+
+impl std::fmt::Debug for Key<'_> {
+    fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        formatter
+            .debug_struct("Key")
+            .field("name", &self.name)
+            .field("value", &self.value)
+            .finish_non_exhaustive()
+    }
+}
