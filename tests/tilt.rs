@@ -162,6 +162,41 @@ fn a_dovetails_cycle_holds_every_law_and_the_balance_of_energy() {
     }
 }
 
+/// Tilts are found with all other motions: an increment under a prescribed moment takes about what it takes without.
+#[test]
+fn a_prescribed_moment_costs_hardly_more_than_none() {
+    let line = dovetail("cells = 72\nsize = 5.4e-2", "cylinder]\nradius = 1.0\naxis = \"y\"", false);
+    let plane = dovetail("cells = [32, 32]\nsize = [5.4e-2, 5.4e-2]", "sphere]\nradius = 1.0", true);
+    for text in [line, plane] {
+        let level: String = text
+            .lines()
+            .filter(|line| !line.starts_with("tilt_moment"))
+            .map(|line| line.to_owned() + "\n")
+            .collect();
+        let [tilted, level] = [text, level].map(|text| {
+            run(&text).unwrap().steps.iter().map(|step| step.work.full_grid_convolutions).sum::<f64>()
+        });
+        println!("applications: {tilted:.0} with moments, {level:.0} without");
+        assert!(tilted < 1.3 * level);
+    }
+}
+
+/// The contact of a sphere moves by five of its radii in one increment, as the moment asks.
+#[test]
+fn a_contact_follows_a_large_moment() {
+    let text = format!(
+        "[grid]\ncells = [96, 96]\nsize = [9.6e-2, 9.6e-2]\n{BODY}[profile.sphere]\nradius = 2.0\n[solver]\n\
+         tolerance = 1e-9\n[[load]]\nnormal_force = 1e-7\nincrements = 1\n[[load]]\ntilt_moment = [{:e}, {:e}]\nincrements = 1\n",
+        1e-7 * 2.5e-2,
+        -1e-7 * 1e-2
+    );
+    let history = run(&text).unwrap();
+    let [first, moved] = [&history.steps[0], &history.steps[1]];
+    // By whole cells, 25 and -10 of them: the same contact elsewhere.
+    assert!((moved.max_pressure / first.max_pressure - 1.0).abs() < 1e-7, "{moved:?}");
+    assert!((moved.tilt[0] * 2.0 - 2.5e-2).abs() < 1e-9 && (moved.tilt[1] * 2.0 + 1e-2).abs() < 1e-9);
+}
+
 struct Keeper(Vec<Vec<u8>>);
 
 impl Observer for Keeper {

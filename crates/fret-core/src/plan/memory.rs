@@ -16,10 +16,9 @@ const THINNING: usize = 48;
 /// Bytes a cell of friction that evolves: what is accumulated in two states, collected in a cycle and kept of the last one, the law twice
 /// and its part in front of the mirrors.
 const EVOLVING: usize = 110;
-/// Bytes a cell of a gap that is tilted, and of the solutions on the way to the tilt of a prescribed moment: three increments with what the
-/// solver remembers of them, and the memory before.
+/// Bytes a cell of a gap that is tilted; with a prescribed moment, of places and turned gaps too.
 const TILTED: usize = 16;
-const BY_MOMENT: usize = 560;
+const BY_MOMENT: usize = 100;
 /// Bytes a cell of the tractions and slips of an increment whose stresses are looked at.
 const TRACTIONS: usize = 5 * 8;
 /// Bytes a cell of what fatigue and the fracture of a coating collect of an increment: the stress at the depth at work, sums over depths.

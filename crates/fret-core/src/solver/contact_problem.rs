@@ -6,6 +6,7 @@ use super::laws::friction::FrictionLaw;
 use super::laws::rigid_motions::{CellPositions, RigidMotions};
 use super::laws::slip::TangentialResidual;
 use super::laws::slip_path::SlipPath;
+use super::laws::tilt_motions::TiltMotions;
 use super::prescribed::{NormalLoad, TangentialLoads};
 use crate::fields::{TangentialField, sum};
 
@@ -34,6 +35,11 @@ impl ContactProblem<'_> {
     /// The rigid motions of the cells in contact.
     pub fn motions_of(&self, contact: &ContactSet) -> RigidMotions {
         self.positions.motions_of(contact, self.tangential)
+    }
+
+    /// The motions along the normal of the cells in contact, where a moment of the pressure is prescribed.
+    pub fn tilt_of(&self, contact: &ContactSet) -> Option<TiltMotions> {
+        TiltMotions::of(&self.normal, self.positions, contact.cells())
     }
 
     /// By how much the machine gives under a unit of the summed traction, normally and along x and y [length/pressure].
@@ -86,7 +92,7 @@ impl Solution {
     /// That of so many cells without slip, under motions.
     pub fn without_slip(cells: usize, motion: [f64; 3]) -> Self {
         Self {
-            normal: NormalResidual { approach: 0.0, residual: 0.0 },
+            normal: NormalResidual { approach: 0.0, turned: [0.0; 2], residual: 0.0 },
             tangential: TangentialResidual { motion, residual: 0.0 },
             gap: Vec::new(),
             slip: TangentialField::zeros(cells),

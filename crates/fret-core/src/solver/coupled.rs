@@ -37,14 +37,14 @@ pub fn solve(
     let mut displacements = Displacements::zeros(increment.region.len());
     let before = increment.displacement_before(last.filter(|_| touched), operators);
     // A contact that has shrunk to less than a cell leaves no pressure to go on from: nor does a first one.
-    let goes_on = touched && make_pressure_feasible(&mut tractions, increment.normal.total);
+    let goes_on = touched && make_pressure_feasible(&mut tractions, increment);
     if !goes_on {
         tractions.shear.clear();
         tractions.pressure = increment.first_pressure(operators);
         let rough = SolverSettings { tolerance: ROUGH, ..*settings };
         let fields = [&mut tractions.pressure[..], &mut displacements.normal];
         solve_normal(&increment.normal_equations(), fields, operators, &rough, callback)?;
-        make_pressure_feasible(&mut tractions, increment.normal.total);
+        make_pressure_feasible(&mut tractions, increment);
     }
     let counted_from = increment.counted_from(&before);
     let problem = increment.contact_problem(Pressure::Unknown, &counted_from);
@@ -101,7 +101,8 @@ fn swept(solved: Result<Solution, SolveError>) -> Result<Option<Solution>, Solve
 
 /// Brings predicted pressure to what its laws allow. Shear keeps its ratio to the pressure, and so a cell under `mu p` stays on its circle.
 /// False when a force is prescribed and no pressure is left to carry it.
-fn make_pressure_feasible(tractions: &mut Tractions, total: Option<f64>) -> bool {
+fn make_pressure_feasible(tractions: &mut Tractions, increment: &IncrementProblem<'_>) -> bool {
+    let total = increment.normal.total;
     if let Some(total) = total {
         let found: f64 = tractions.pressure.iter().map(|p| p.max(0.0)).sum();
         if found > 0.0 {
@@ -110,7 +111,7 @@ fn make_pressure_feasible(tractions: &mut Tractions, total: Option<f64>) -> bool
             }
         }
     }
-    project_pressure(&mut tractions.pressure, total)
+    project_pressure(&mut tractions.pressure, total, increment.tilt_motions().as_ref())
 }
 
 /// The pressure without friction, from that of other tractions; as far as it is found.

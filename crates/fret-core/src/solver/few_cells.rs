@@ -160,7 +160,12 @@ impl Asked {
             pressure: Pressure::Unknown,
             undeformed: &self.gap,
             friction: &law,
-            normal: NormalLoad { total: self.total, approach: self.approach, give: self.give },
+            normal: NormalLoad {
+                total: self.total,
+                approach: self.approach,
+                give: self.give,
+                moment: [None; 2],
+            },
             tangential: TangentialLoads {
                 motion: self.motion,
                 resultant: self.resultant,

@@ -66,15 +66,20 @@ impl ContactSolver<'_> {
         // A region may end one cell beyond the contact.
         let region = region.widened(contact_edge::NEAR, self.grid.cells());
         let [pressure, gap] = [pressure, gap].map(|field| region.view(field));
-        let [cells_x, cells_y] = self.symmetry.whole_of(self.grid.cells());
-        let [dx, dy] = self.grid.spacing();
-        let beyond = 0.5 * BEYOND_THE_BODY * (cells_x as f64 * dx).hypot(cells_y as f64 * dy);
+        let beyond = self.beyond_the_body();
         // At a mirror the edge goes on as it does at a side of the region: with the same value in the next cell.
         let axes = self.symmetry.axes();
         let mirrored = [0, 1].map(|axis| axes[axis] && region.origin[axis] == 0);
         let cells = contact_edge::contact_cells(&pressure, &gap, beyond, mirrored);
         let cells = cells * self.symmetry.copies() as f64;
         cells * self.grid.cell_area()
+    }
+
+    /// A gap that no body has: it lies between those of bodies and the one beyond their end [length].
+    pub(super) fn beyond_the_body(&self) -> f64 {
+        let [cells_x, cells_y] = self.symmetry.whole_of(self.grid.cells());
+        let [dx, dy] = self.grid.spacing();
+        0.5 * BEYOND_THE_BODY * (cells_x as f64 * dx).hypot(cells_y as f64 * dy)
     }
 
     /// Whether there is pressure in an outermost row or column, apart from those at a mirror.

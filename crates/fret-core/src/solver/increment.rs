@@ -4,8 +4,9 @@
 use ndarray::Array2;
 
 use super::coupled;
-use super::increment_problem::{IncrementProblem, Solved};
+use super::increment_problem::{IncrementProblem, Solved, centres};
 use super::laws::limit::sliding_fraction;
+use super::laws::rigid_motions::CellPositions;
 use super::linear::preconditioner::CellWaves;
 use super::memory::{Before, Drift, GridTractions, LastIncrement};
 use super::normal::coarse_grids::CoarseGrids;
@@ -26,7 +27,7 @@ use crate::model::{ContactState, Control, Integration, LoadStep, Rig, Scheme};
 const LARGE_CHANGE: f64 = 0.03;
 
 impl ContactSolver<'_> {
-    /// Solves one increment, with its tilt prescribed.
+    /// Solves one increment, from the tilt that the gap has.
     pub(super) fn solve(
         &mut self,
         state: &ContactState,
@@ -51,6 +52,7 @@ impl ContactSolver<'_> {
                 continue;
             }
             let (solved, after, outcome) = solved?;
+            self.set_tilt(after.tilt);
             self.check(load, &after, &outcome, solved.solution.iterations)?;
             let (gap, contact_area) = self.gap_and_area((region, load), &solved, &after)?;
             if self.overlaps_outside(region, &gap) {
@@ -85,8 +87,14 @@ impl ContactSolver<'_> {
         let copies = self.symmetry.copies();
         let bodies = (self.rig.of_part(copies), self.stretch(state, load));
         let (loads, surface) = ((state, load), (&*self.friction, self.coupling));
-        let mut increment =
-            IncrementProblem::new((&grid, copies), &self.undeformed, surface, loads, bodies, region);
+        let mut increment = IncrementProblem::new(
+            (&grid, copies),
+            (&self.undeformed, self.tilt),
+            surface,
+            loads,
+            bodies,
+            region,
+        );
         if let Some(solved) = increment.apart() {
             let (after, outcome) = state_after(&increment, &solved, 0.0, self.settings.integration);
             return Ok((solved, after, outcome));
@@ -285,10 +293,13 @@ impl ContactSolver<'_> {
         if !presses {
             return Ok(None);
         }
-        let normal = NormalLoad::new(state, load, Rig::RIGID, self.grid.cell_area());
         let spacing = self.grid.spacing();
+        let whole = Region::whole(self.grid.cells());
+        let positions =
+            CellPositions::new(centres(&self.grid, whole, 0), centres(&self.grid, whole, 1), false);
+        let normal = NormalLoad::new(state, load, Rig::RIGID, [positions.length, self.grid.cell_area()]);
         let grids = self.coarse.get_or_insert_with(|| {
-            CoarseGrids::below(self.response.get(), &self.undeformed, spacing, self.symmetry)
+            CoarseGrids::below(self.response.get(), &self.undeformed, (&positions, spacing), self.symmetry)
         });
         grids.pressure_above(normal, self.table.as_ref(), &self.settings, &mut self.work, callback)
     }

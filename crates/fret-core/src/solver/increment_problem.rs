@@ -9,6 +9,7 @@ use super::laws::friction::FrictionLaw;
 use super::laws::limit::carried_fraction;
 use super::laws::rigid_motions::CellPositions;
 use super::laws::slip_path::SlipPath;
+use super::laws::tilt_motions::TiltMotions;
 use super::normal::{NormalEquations, first_pressure};
 use super::operators::RegionOperators;
 use super::prescribed::{NormalLoad, TangentialLoads};
@@ -43,8 +44,9 @@ pub struct IncrementProblem<'a> {
     pub coupling: Coupling,
     pub friction: FrictionLaw,
     pub positions: CellPositions,
-    /// Gap before deformation [length].
+    /// Gap before deformation [length], and the tilt of the upper body in it.
     pub undeformed: Vec<f64>,
+    pub tilt: [f64; 2],
     /// What is prescribed along the normal and along the surface.
     pub normal: NormalLoad,
     pub tangential: TangentialLoads,
@@ -54,6 +56,11 @@ pub struct IncrementProblem<'a> {
     pub path: SlipPath,
     /// A pressure to start from, whatever the state before.
     pub start: Option<Vec<f64>>,
+}
+
+/// Where the cells of a region are along an axis [length].
+pub fn centres(grid: &SurfaceGrid, region: Region, axis: usize) -> Vec<f64> {
+    (0..region.shape[axis]).map(|index| grid.centre(axis, region.origin[axis] + index)).collect()
 }
 
 /// A solved region.
@@ -72,17 +79,14 @@ impl<'a> IncrementProblem<'a> {
     /// Gathers what an increment needs inside `region`.
     pub fn new(
         (grid, copies): (&'a SurfaceGrid, usize),
-        undeformed: &Array2<f64>,
+        (undeformed, tilt): (&Array2<f64>, [f64; 2]),
         (friction, coupling): (&CoulombFriction, Coupling),
         (state, load): (&'a ContactState, &'a LoadStep),
         (rig, stretch): (Rig, Stretch),
         region: Region,
     ) -> Self {
-        let centres = |axis: usize| -> Vec<f64> {
-            (0..region.shape[axis]).map(|index| grid.centre(axis, region.origin[axis] + index)).collect()
-        };
         let rotates = state.twist != 0.0 || load.twist != Control::Motion(0.0);
-        let positions = CellPositions::new(centres(0), centres(1), rotates);
+        let positions = CellPositions::new(centres(grid, region, 0), centres(grid, region, 1), rotates);
         let area = grid.cell_area();
         Self {
             grid,
@@ -93,7 +97,8 @@ impl<'a> IncrementProblem<'a> {
             coupling,
             friction: FrictionLaw::in_region(friction, region),
             undeformed: region.gather(undeformed),
-            normal: NormalLoad::new(state, load, rig, area),
+            tilt,
+            normal: NormalLoad::new(state, load, rig, [positions.length, area]),
             tangential: TangentialLoads::new(state, load, rig, [positions.length, area]),
             positions,
             stretch,
@@ -116,7 +121,7 @@ impl<'a> IncrementProblem<'a> {
             displacements: Displacements::zeros(len),
             drift: TangentialField::zeros(len),
             solution: Solution {
-                normal: NormalResidual { approach, residual: 0.0 },
+                normal: NormalResidual { approach, turned: [0.0; 2], residual: 0.0 },
                 gap: self.undeformed.iter().map(|gap| gap - approach).collect(),
                 ..Solution::without_slip(len, self.tangential.motion_apart())
             },
@@ -151,7 +156,12 @@ impl<'a> IncrementProblem<'a> {
 
     /// Those of the frictionless problem.
     pub fn normal_equations(&self) -> NormalEquations<'_> {
-        NormalEquations { undeformed: &self.undeformed, load: self.normal }
+        NormalEquations { undeformed: &self.undeformed, load: self.normal, positions: &self.positions }
+    }
+
+    /// The motions along the normal, where a moment of the pressure is prescribed.
+    pub fn tilt_motions(&self) -> Option<TiltMotions> {
+        self.normal_equations().tilt()
     }
 
     /// Whether the bodies touched in the state before.
@@ -170,7 +180,7 @@ impl<'a> IncrementProblem<'a> {
 
     /// Whether more or less than before is prescribed along the normal.
     pub fn changes_normal_load(&self) -> bool {
-        let NormalLoad { total, approach, give } = self.normal;
+        let NormalLoad { total, approach, give, .. } = self.normal;
         let before: f64 = self.state.pressure.iter().sum();
         match total {
             Some(total) => (total - before).abs() > SAME_LOAD * total,

@@ -5,12 +5,13 @@ use super::contact_problem::{ContactProblem, Pressure, Solution};
 use super::contact_set::ContactSet;
 use super::contact_vector::ContactVector;
 use super::laws::active_sets::ActiveSets;
-use super::laws::complementarity::{NormalResidual, normal_residual};
+use super::laws::complementarity::{NormalResidual, normal_residual, tilted_residual};
 use super::laws::friction::{FrictionBound, FrictionLaw, is_inside, slips};
 use super::laws::projection::{ShearProjection, project_pressure};
 use super::laws::rigid_motions::RigidMotions;
 use super::laws::slip::{SlipIncrement, TangentialProblem, TangentialResidual};
 use super::laws::slip_path::SlipPath;
+use super::laws::tilt_motions::TiltMotions;
 use super::linear::problem::Linearised;
 use super::operators::RegionOperators;
 use super::settings::SolverSettings;
@@ -33,6 +34,9 @@ pub struct Iterate<'a> {
     self_influence: [f64; 2],
     contact: ContactSet,
     motions: RigidMotions,
+    /// The motions along the normal of the region, where a moment of the pressure is prescribed; and of the contact.
+    tilt: Option<TiltMotions>,
+    tilt_of_contact: Option<TiltMotions>,
     /// Of the region [length].
     gap: Vec<f64>,
     normal: NormalResidual,
@@ -88,8 +92,10 @@ impl<'a> Iterate<'a> {
             self_influence: [own.normal, own.tangential],
             contact: ContactSet::default(),
             motions,
+            tilt: problem.tilt_of(&ContactSet::of(problem.undeformed.len(), |_| true)),
+            tilt_of_contact: None,
             gap: Vec::new(),
-            normal: NormalResidual { approach: problem.normal.approach, residual: 0.0 },
+            normal: NormalResidual { approach: problem.normal.approach, turned: [0.0; 2], residual: 0.0 },
             tangential: TangentialResidual { motion: [0.0; 3], residual: 0.0 },
             slip: SlipIncrement::default(),
             sets: ActiveSets::default(),
@@ -105,6 +111,7 @@ impl<'a> Iterate<'a> {
     fn change_contact(&mut self, contact: ContactSet) {
         let Self { problem, packed, .. } = self;
         self.motions = problem.motions_of(&contact);
+        self.tilt_of_contact = problem.tilt_of(&contact);
         packed.law = problem.friction.packed(&contact);
         contact.pack_tangential(problem.before, &mut packed.before);
         packed.path = problem.path.packed(&contact);
@@ -116,10 +123,16 @@ impl<'a> Iterate<'a> {
         let problem = self.problem;
         let mut worst = 0.0;
         if problem.pressure == Pressure::Unknown {
-            let Self { gap, tractions, displacements, self_influence: [own, _], .. } = self;
+            let Self { gap, tilt, tractions, displacements, self_influence: [own, _], .. } = self;
             let (pressure, displacement) = (&tractions.pressure, &displacements.normal);
             let approach = problem.normal.approach_under(pressure);
-            self.normal = normal_residual(pressure, displacement, problem.undeformed, *own, approach, gap);
+            let undeformed = problem.undeformed;
+            self.normal = match tilt {
+                None => normal_residual(pressure, displacement, undeformed, *own, approach, gap),
+                Some(tilt) => {
+                    tilted_residual(pressure, (displacement, undeformed), *own, (approach, tilt), gap)
+                }
+            };
             worst = self.normal.residual;
             let contact =
                 ContactSet::of(gap.len(), |cell| self.tractions.pressure[cell] > 0.0 || self.gap[cell] < 0.0);
@@ -182,6 +195,7 @@ impl<'a> Iterate<'a> {
             gap,
             slip: left_over.parts(),
             holds_force: problem.normal.total.is_some(),
+            tilt: self.tilt_of_contact.as_ref(),
             weight: if steepest > 0.0 { 1.0 / steepest } else { 1.0 },
             give: problem.give(),
             forcing,
@@ -200,7 +214,7 @@ impl<'a> Iterate<'a> {
         let resultant = self.problem.to_restore(shear, &bound.bound);
         if self.problem.pressure == Pressure::Unknown {
             add_scaled(pressure, 1.0, step);
-            if !project_pressure(pressure, self.problem.normal.total) {
+            if !project_pressure(pressure, self.problem.normal.total, self.tilt_of_contact.as_ref()) {
                 return false;
             }
             law.find_bound(pressure, bound);

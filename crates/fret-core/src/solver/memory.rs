@@ -22,8 +22,6 @@ pub struct SolverMemory {
     pub(super) before: Option<Before>,
     /// The load that led to the last state.
     pub(super) last_load: Option<LoadStep>,
-    /// Moment by tilt along x and y [force x length], where a moment was prescribed; zero where nothing is known of it.
-    pub(super) tilt_stiffness: [[f64; 2]; 2],
 }
 
 /// The state before the last one.

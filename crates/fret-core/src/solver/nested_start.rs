@@ -13,7 +13,7 @@ use super::linear::preconditioner::CellWaves;
 use super::normal::grid_transfer::{coarser_heights, coarser_response, interpolated};
 use super::operators::{Method, RegionOperators};
 use super::outcome::Work;
-use super::prescribed::{NormalLoad, TangentialLoads};
+use super::prescribed::TangentialLoads;
 use super::region::Region;
 use super::settings::{IterationCallback, SolveError};
 use super::tractions::Tractions;
@@ -137,16 +137,12 @@ fn of_coarse_cells<'a>(
     (undeformed, friction): (&'a [f64], &'a FrictionLaw),
     (before, positions): (&'a TangentialField, &'a CellPositions),
 ) -> ContactProblem<'a> {
-    let (normal, tangential) = (fine.normal, fine.tangential);
+    let tangential = fine.tangential;
     ContactProblem {
         pressure: Pressure::Unknown,
         undeformed,
         friction,
-        normal: NormalLoad {
-            total: normal.total.map(|total| SHARE * total),
-            give: normal.give / SHARE,
-            ..normal
-        },
+        normal: fine.normal.of_share(SHARE),
         tangential: TangentialLoads {
             resultant: tangential.resultant.map(|sum| SHARE * sum),
             spring: tangential.spring.map(|spring| SHARE * spring),

@@ -13,17 +13,30 @@ pub struct NormalLoad {
     /// By how much the machine gives under a unit of the summed pressure, where its far end is prescribed; 0: the approach is that of the
     /// body [length/pressure].
     pub give: f64,
+    /// Sums of pressure times place along x and y over the length of the positions, where a moment is prescribed [pressure].
+    pub moment: [Option<f64>; 2],
 }
 
 impl NormalLoad {
-    /// The load at the end of an increment from a state, through a machine that gives. `area`: of a cell [length^2].
-    pub fn new(state: &ContactState, load: &LoadStep, rig: Rig, area: f64) -> Self {
+    /// The load at the end of an increment from a state, through a machine that gives. `length`: that of the positions, `area`: of a cell.
+    pub fn new(state: &ContactState, load: &LoadStep, rig: Rig, [length, area]: [f64; 2]) -> Self {
         let (total, approach, give) = match load.normal {
             Control::Force(force) => (Some(force / area), state.approach, 0.0),
             Control::Motion(approach) => (None, approach, 0.0),
             Control::FarEnd(approach) => (None, approach, rig.normal * area),
         };
-        Self { total, approach, give }
+        let moment = load.tilt.map(|tilt| tilt.force().map(|moment| moment / (length * area)));
+        Self { total, approach, give, moment }
+    }
+
+    /// The same on cells of which one is as many as `1 / share` of these.
+    pub fn of_share(self, share: f64) -> Self {
+        Self {
+            total: self.total.map(|total| share * total),
+            give: self.give / share,
+            moment: self.moment.map(|moment| moment.map(|moment| share * moment)),
+            ..self
+        }
     }
 
     /// What the machine gives under pressures, or a change of them [length].

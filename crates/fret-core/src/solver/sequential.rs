@@ -2,7 +2,7 @@
 
 use super::contact_problem::{Pressure, Solution};
 use super::increment_problem::{IncrementProblem, Solved};
-use super::laws::complementarity::normal_residual;
+use super::laws::complementarity::{normal_residual, tilted_residual};
 use super::laws::limit::sliding_fraction;
 use super::laws::projection::project_pressure;
 use super::newton;
@@ -34,7 +34,11 @@ pub fn solve(
         displacements.normal.clone_from(&last.normal);
         pressure_before(increment, &displacements, &tractions, operators)
     } else {
-        let usable = project_pressure(&mut tractions.pressure, increment.normal.total);
+        let usable = project_pressure(
+            &mut tractions.pressure,
+            increment.normal.total,
+            increment.tilt_motions().as_ref(),
+        );
         if increment.start.is_some() || !increment.touched() || !usable {
             tractions.pressure = increment.first_pressure(operators);
         }
@@ -82,6 +86,9 @@ fn pressure_before(
     let mut gap = Vec::new();
     let approach = normal.approach_under(&tractions.pressure);
     let (pressure, displacement) = (&tractions.pressure, &displacements.normal);
-    let residual = normal_residual(pressure, displacement, undeformed, own, approach, &mut gap);
+    let residual = match increment.tilt_motions() {
+        None => normal_residual(pressure, displacement, undeformed, own, approach, &mut gap),
+        Some(tilt) => tilted_residual(pressure, (displacement, undeformed), own, (approach, &tilt), &mut gap),
+    };
     NormalSolution { residual, gap, iterations: 0 }
 }

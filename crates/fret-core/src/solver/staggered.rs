@@ -50,7 +50,8 @@ pub fn solve(
         operators.compliance.full([&unloaded.pressure, x, y], from_shear.parts_mut());
         let mut undeformed = problem.undeformed.to_vec();
         add_scaled(&mut undeformed, 1.0, &from_shear.normal);
-        let equations = NormalEquations { undeformed: &undeformed, load: problem.normal };
+        let equations =
+            NormalEquations { undeformed: &undeformed, load: problem.normal, positions: problem.positions };
         let fields = [&mut tractions.pressure[..], &mut from_pressure.normal];
         solve_normal(&equations, fields, operators, &inner, callback)?;
         // Shear, under that pressure and its tangential displacement.

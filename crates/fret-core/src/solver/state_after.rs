@@ -30,7 +30,7 @@ pub(super) fn state_after(
     let mut state = tractions_and_motions(problem, solved);
     let mut stick_cells = 0;
     let mut moment = 0.0;
-    let mut tilt_moment = [0.0; 2];
+    let (mut tilt_moment, mut second_moment) = ([0.0; 2], [0.0; 2]);
     let mut dissipated = 0.0;
     let mut stored = 0.0;
     let moved = &solved.displacements;
@@ -39,8 +39,9 @@ pub(super) fn state_after(
         let [q, end] = [shear.at(place), end_slip.at(place)];
         moment += grid.centre(0, at[0]) * q[1] - grid.centre(1, at[1]) * q[0];
         for axis in 0..2 {
-            tilt_moment[axis] +=
-                (problem.stretch.middle[axis] + grid.centre(axis, at[axis])) * pressure[cell];
+            let place = problem.stretch.middle[axis] + grid.centre(axis, at[axis]);
+            tilt_moment[axis] += place * pressure[cell];
+            second_moment[axis] += place * place * pressure[cell];
         }
         let [ux, uy] = moved.tangential.at(cell);
         stored += pressure[cell] * moved.normal[cell] + q[0] * ux + q[1] * uy;
@@ -82,7 +83,11 @@ pub(super) fn state_after(
     let residual = Residual {
         complementarity: solution.normal.residual,
         coulomb: solution.tangential.residual,
-        equilibrium: off_equilibrium(problem, &resultants, limit * area),
+        equilibrium: off_equilibrium(problem, &resultants, limit * area).max(off_moments(
+            problem,
+            &resultants,
+            second_moment.map(|sum| sum * area),
+        )),
     };
     let elastic_energy = 0.5 * stored * area_of_copies;
     let contact_cells = contact.len();
@@ -109,8 +114,11 @@ fn tractions_and_motions(problem: &IncrementProblem<'_>, solved: &Solved) -> Con
     state.shift = [before.shift[0] + shift_x, before.shift[1] + shift_y];
     state.twist = before.twist + turned / problem.positions.length;
     let load = problem.load;
-    // Where a moment is prescribed the tilt is found outside, and prescribed here.
-    state.tilt = load.tilt.map(|tilt| tilt.motion().unwrap_or(0.0));
+    let turned = solved.solution.normal.turned;
+    state.tilt = [0, 1].map(|axis| {
+        let found = || problem.tilt[axis] + turned[axis] / problem.positions.length;
+        load.tilt[axis].motion().unwrap_or_else(found)
+    });
     state.bulk_stress = load.bulk_stress;
     state.dissipated_energy = before.dissipated_energy;
     state.bulk_work = before.bulk_work;
@@ -127,6 +135,16 @@ fn bulk_work(problem: &IncrementProblem<'_>, after: &ContactState) -> f64 {
     x.1.indexed_iter().fold(0.0, |work, (at, after)| {
         let [along, across] = stretch.at(grid, [at.0, at.1]);
         work - 0.5 * ((x.0[at] + after) * along + (y.0[at] + y.1[at]) * across)
+    })
+}
+
+/// How far moments of the pressure are from the prescribed ones, relative to the normal force times the radius of gyration of the pressure.
+fn off_moments(problem: &IncrementProblem<'_>, found: &Resultants, second_moment: [f64; 2]) -> f64 {
+    (0..2).fold(0.0, |worst: f64, axis| {
+        let Some(asked) = problem.load.tilt[axis].force() else { return worst };
+        let radius = (second_moment[axis] / found.normal).sqrt().max(0.5 * problem.grid.spacing()[axis]);
+        let off = (found.tilt_moment[axis] - asked).abs();
+        if off == 0.0 { worst } else { worst.max(off / (radius * found.normal)) }
     })
 }
 

@@ -6,6 +6,7 @@ use super::super::laws::active_sets::ActiveSets;
 use super::super::laws::projection::{ShearProjection, project_pressure};
 use super::super::laws::rigid_motions::RigidMotions;
 use super::super::laws::slip::{SlipIncrement, TangentialProblem};
+use super::super::laws::tilt_motions::TiltMotions;
 use super::super::operators::RegionOperators;
 use super::super::tractions::{Displacements, Tractions};
 use super::point::Point;
@@ -18,6 +19,8 @@ pub struct Equations<'a> {
     pub problem: &'a ContactProblem<'a>,
     /// Rigid motions of all cells of the region.
     pub motions: RigidMotions,
+    /// Those along the normal, where a moment of the pressure is prescribed.
+    pub tilt: Option<TiltMotions>,
     /// Self-influence of a cell, normal and tangential [length/pressure].
     pub self_influence: [f64; 2],
     /// Shear counts in units of the pressure that carries it [-].
@@ -43,6 +46,7 @@ impl<'a> Equations<'a> {
         Self {
             problem,
             motions: problem.motions_of(&ContactSet::of(positive.len(), |_| true)),
+            tilt: problem.tilt_of(&ContactSet::of(positive.len(), |_| true)),
             self_influence: [own.normal, own.tangential],
             weight: if steepest > 0.0 { 1.0 / steepest } else { 1.0 },
         }
@@ -63,22 +67,39 @@ impl<'a> Equations<'a> {
         let shear = contact.packed_tangential(&tractions.shear);
         let displacement = contact.packed_tangential(&displacements.tangential);
         let free = SlipIncrement::default().find(&equations, &shear, &displacement, [0.0; 3]).motion;
+        let (approach, turned) = self.approach_under(&tractions.pressure, &displacements.normal, &contact);
         Point {
-            approach: self.approach_under(&tractions.pressure, &displacements.normal, &contact),
+            approach,
+            turned,
             motion: self.motion_under(&tractions.shear, free),
             tractions: tractions.clone(),
             displacements,
         }
     }
 
-    /// The approach: prescribed, what the machine lets it be, or the mean height of a contact.
-    pub fn approach_under(&self, pressure: &[f64], displacement: &[f64], contact: &ContactSet) -> f64 {
-        let Self { problem, .. } = self;
-        let height = |cell: usize| problem.undeformed[cell] + displacement[cell];
-        problem
-            .normal
-            .approach_under(pressure)
-            .unwrap_or_else(|| contact.cells().map(height).sum::<f64>() / contact.len().max(1) as f64)
+    /// The approach: prescribed, what the machine lets it be, or the mean height of a contact; and the tilts of the plane nearest to its heights,
+    /// where moments are prescribed.
+    pub fn approach_under(
+        &self,
+        pressure: &[f64],
+        displacement: &[f64],
+        contact: &ContactSet,
+    ) -> (f64, [f64; 2]) {
+        let Self { problem, tilt, .. } = self;
+        let prescribed = problem.normal.approach_under(pressure);
+        let mut turned = [0.0; 2];
+        let mut level = None;
+        if let Some(tilt) = tilt {
+            let mut inside = vec![0.0; pressure.len()];
+            contact.cells().for_each(|cell| inside[cell] = 1.0);
+            let heights = (displacement, problem.undeformed, prescribed.unwrap_or(0.0));
+            let (found, undeformed) = tilt.turn(|cell| inside[cell], heights);
+            (turned, level) = (found, Some(undeformed));
+        }
+        let undeformed = level.as_deref().unwrap_or(problem.undeformed);
+        let height = |cell: usize| undeformed[cell] + displacement[cell];
+        let mean = || contact.cells().map(height).sum::<f64>() / contact.len().max(1) as f64;
+        (prescribed.unwrap_or_else(mean), turned)
     }
 
     /// The motions: prescribed, what springs let them be, or as given.
@@ -99,8 +120,9 @@ impl<'a> Equations<'a> {
     /// What the equations of a cell are about.
     pub fn at(&self, point: &Point, cell: usize) -> AtCell {
         let Self { problem, self_influence: [normal, tangential], motions, .. } = self;
-        let Point { tractions, displacements, approach, motion } = point;
-        let gap = problem.undeformed[cell] + displacements.normal[cell] - approach;
+        let Point { tractions, displacements, approach, turned, motion } = point;
+        let tilted = self.tilt.as_ref().map_or(0.0, |tilt| tilt.at([0.0, turned[0], turned[1]], cell));
+        let gap = problem.undeformed[cell] + displacements.normal[cell] - approach - tilted;
         let ([u, before], rigid) = (
             [&displacements.tangential, problem.before].map(|field| field.at(cell)),
             motions.at(*motion, cell),
@@ -138,7 +160,10 @@ impl<'a> Equations<'a> {
         }
         // A resultant that is missing is missed by every cell.
         let cells = loaded.max(1) as f64;
-        normal += problem.normal.total.map_or(0.0, |wanted| (total - wanted).powi(2) / cells);
+        normal += match &self.tilt {
+            None => problem.normal.total.map_or(0.0, |wanted| (total - wanted).powi(2) / cells),
+            Some(tilt) => tilt.missing(pressure).map(|missing| missing.powi(2) / cells).iter().sum(),
+        };
         let (loads, held) = (problem.tangential, problem.tangential.held());
         let missing = (0..3).filter(|&mode| held[mode]).map(|mode| sums[mode] - loads.resultant[mode]);
         tangential += missing.map(|missing| missing.powi(2) / cells).sum::<f64>();
@@ -149,7 +174,7 @@ impl<'a> Equations<'a> {
     pub fn project(&self, point: &Point, tractions: &mut Tractions) {
         let Self { problem, self_influence: [_, own], .. } = self;
         tractions.clone_from(&point.tractions);
-        project_pressure(&mut tractions.pressure, problem.normal.total);
+        project_pressure(&mut tractions.pressure, problem.normal.total, self.tilt.as_ref());
         let contact = ContactSet::loaded(&tractions.pressure);
         let bound = problem.friction.packed(&contact).bound(&contact.packed(&tractions.pressure));
         let mut trial = TangentialField::zeros(contact.len());

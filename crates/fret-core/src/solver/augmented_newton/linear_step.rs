@@ -7,6 +7,7 @@ use super::super::contact_vector::ContactVector;
 use super::super::laws::active_sets::ActiveSets;
 use super::super::laws::friction::FrictionBound;
 use super::super::laws::rigid_motions::RigidMotions;
+use super::super::laws::tilt_motions::TiltMotions;
 use super::super::linear::problem::Linearised;
 use super::super::operators::RegionOperators;
 use super::super::settings::SolverSettings;
@@ -25,6 +26,7 @@ struct Active {
     augmented: Vec<f64>,
     bound: FrictionBound,
     motions: RigidMotions,
+    tilt: Option<TiltMotions>,
 }
 
 /// Tractions packed over the contact.
@@ -81,6 +83,7 @@ impl Equations<'_> {
             gap: &gap,
             slip: slip.parts(),
             holds_force: problem.normal.total.is_some(),
+            tilt: active.tilt.as_ref(),
             weight: self.weight,
             give: problem.give(),
             forcing,
@@ -95,7 +98,7 @@ impl Equations<'_> {
         add_scaled(&mut packed.shear.y, 1.0, y);
         active.scatter(&packed, &mut next.tractions);
         operators.compliance.full(next.tractions.parts(), next.displacements.parts_mut());
-        next.approach =
+        (next.approach, next.turned) =
             self.approach_under(&next.tractions.pressure, &next.displacements.normal, &active.contact);
         next.motion = self.motion_of(&active, &packed, &next);
         Some(next)
@@ -118,15 +121,18 @@ impl Equations<'_> {
         let mut sets = ActiveSets::of_trial(&vectors(|at| at.trial), &bound, *own);
         sets.turn(&problem.path.packed(&contact), &vectors(|at| at.slip));
         let motions = problem.motions_of(&contact);
-        Some(Active { contact, sets, augmented, bound, motions })
+        let tilt = problem.tilt_of(&contact);
+        Some(Active { contact, sets, augmented, bound, motions, tilt })
     }
 
     /// What is known of the next point; `None` where nothing carries the normal force.
     fn known_part(&self, here: &Point, active: &Active) -> Option<Packed> {
         let Self { problem, .. } = self;
-        let Active { contact, sets, augmented, bound, motions } = active;
+        let Active { contact, sets, augmented, bound, motions, tilt } = active;
         let mut pressure = contact.packed(&here.tractions.pressure);
-        if let Some(total) = problem.normal.total {
+        if let Some(tilt) = tilt {
+            tilt.lift(&mut pressure, |_, p| p.max(0.0));
+        } else if let Some(total) = problem.normal.total {
             let missing = total - pressure.iter().sum::<f64>();
             let positive: f64 = pressure.iter().map(|p| p.max(0.0)).sum();
             if !(positive > 0.0) {

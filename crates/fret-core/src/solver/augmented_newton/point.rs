@@ -11,6 +11,8 @@ pub struct Point {
     pub displacements: Displacements,
     /// [length]
     pub approach: f64,
+    /// Tilts since the undeformed gap was taken, where a moment of the pressure is prescribed [length].
+    pub turned: [f64; 2],
     /// Increments of shift and twist x length [length].
     pub motion: [f64; 3],
 }
@@ -26,6 +28,8 @@ impl Point {
             tractions: Tractions { pressure: p, shear: TangentialField { x: qx, y: qy } },
             displacements: Displacements { normal, tangential: TangentialField { x, y } },
             approach: self.approach + fraction * (other.approach - self.approach),
+            turned: [0, 1]
+                .map(|axis| self.turned[axis] + fraction * (other.turned[axis] - self.turned[axis])),
             motion: [0, 1, 2].map(|k| self.motion[k] + fraction * (other.motion[k] - self.motion[k])),
         }
     }

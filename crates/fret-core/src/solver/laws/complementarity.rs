@@ -1,5 +1,6 @@
 //! Complementarity of gap and pressure: `g >= 0`, `p >= 0`, `g p = 0` (Signorini). Its residual, for every way of solving.
 
+use super::tilt_motions::TiltMotions;
 use crate::fields::{CellRule, CellSize, Reals, each_cell, largest_of, lower, reset};
 
 /// How well pressure and gap satisfy complementarity, and the approach found on the way.
@@ -7,6 +8,9 @@ use crate::fields::{CellRule, CellSize, Reals, each_cell, largest_of, lower, res
 pub struct NormalResidual {
     /// Rigid approach [length].
     pub approach: f64,
+    /// By how much the body has tilted since the undeformed gap was taken, where a moment of the pressure is prescribed: slope times the
+    /// length of the positions, along x and y [length].
+    pub turned: [f64; 2],
     /// Largest `|min(g, K p)|` over the cells, over [`length_scale`]; K is a cell's self-influence.
     pub residual: f64,
 }
@@ -21,6 +25,7 @@ pub fn normal_residual(
     approach: Option<f64>,
     gap: &mut Vec<f64>,
 ) -> NormalResidual {
+    let turned = [0.0; 2];
     reset(gap, pressure.len());
     let read = [pressure, displacement, undeformed];
     let [load, cells, heights, work, undeformed_work] = each_cell(&Loads, read, [gap]);
@@ -28,13 +33,13 @@ pub fn normal_residual(
         let lowest = gap.iter().copied().fold(f64::INFINITY, f64::min);
         let approach = approach.unwrap_or(lowest);
         lower(gap, approach);
-        return NormalResidual { approach, residual: if lowest >= approach { 0.0 } else { 1.0 } };
+        return NormalResidual { approach, turned, residual: if lowest >= approach { 0.0 } else { 1.0 } };
     }
     let approach = approach.unwrap_or(heights / cells);
     let scale = length_scale((work - undeformed_work) / load, self_influence, load / cells);
     lower(gap, approach);
     let worst = violation(gap, pressure, self_influence);
-    NormalResidual { approach, residual: if scale > 0.0 { worst / scale } else { f64::INFINITY } }
+    NormalResidual { approach, turned, residual: if scale > 0.0 { worst / scale } else { f64::INFINITY } }
 }
 
 /// Displacement of a cell under the mean pressure of the loaded cells, times this: the least that violations are measured by. The digits of
@@ -77,6 +82,20 @@ impl CellSize<2> for Violation {
     }
 }
 
+/// The same where a moment of the pressure is prescribed: approach and tilt are those of the plane nearest to the heights of the loaded cells.
+pub fn tilted_residual(
+    pressure: &[f64],
+    (displacement, undeformed): (&[f64], &[f64]),
+    self_influence: f64,
+    (approach, tilt): (Option<f64>, &TiltMotions),
+    gap: &mut Vec<f64>,
+) -> NormalResidual {
+    let loaded = |cell: usize| f64::from(u8::from(pressure[cell] > 0.0));
+    let (turned, level) = tilt.turn(loaded, (displacement, undeformed, approach.unwrap_or(0.0)));
+    let found = normal_residual(pressure, displacement, &level, self_influence, approach, gap);
+    NormalResidual { turned, ..found }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -92,7 +111,7 @@ mod tests {
         // Mean displacement under the load: 2.
         assert_eq!(
             residual([1.0, 3.0, 0.0], [2.0, 2.0, 1.0], None),
-            NormalResidual { approach: 2.0, residual: 0.0 }
+            NormalResidual { approach: 2.0, turned: [0.0; 2], residual: 0.0 }
         );
         assert_eq!(residual([1.0, 3.0, 0.0], [2.0, 2.0, -4.0], None).residual, 0.5); // overlap of 1
         assert_eq!(residual([1.0, 3.0, 0.0], [2.0, 2.0, 1.0], Some(1.5)).residual, 0.25); // a gap of 0.5 under load
@@ -117,7 +136,7 @@ mod tests {
             |approach| normal_residual(&[0.0; 2], &[0.0; 2], &[1.0, 2.0], 1.0, approach, &mut gap);
         assert_eq!(residual(Some(1.5)).residual, 1.0);
         // Without a prescribed approach bodies apart just touch.
-        assert_eq!(residual(None), NormalResidual { approach: 1.0, residual: 0.0 });
+        assert_eq!(residual(None), NormalResidual { approach: 1.0, turned: [0.0; 2], residual: 0.0 });
         assert_eq!(residual(Some(0.5)).residual, 0.0);
         assert_eq!(gap, [0.5, 1.5]);
     }

@@ -10,3 +10,4 @@ pub mod projection;
 pub mod rigid_motions;
 pub mod slip;
 pub mod slip_path;
+pub mod tilt_motions;

@@ -2,11 +2,15 @@
 
 use super::active_sets::ActiveSets;
 use super::rigid_motions::{RigidMotions, size};
+use super::tilt_motions::TiltMotions;
 use crate::fields::{CellRule, Reals, TangentialField, each_cell, reset, sum};
 
-/// Cuts tension off and restores the total pressure by scaling, which keeps the shape of the edge.
-/// False when nothing is left to scale.
-pub fn project_pressure(pressure: &mut [f64], total: Option<f64>) -> bool {
+/// Cuts tension off and restores the total pressure by scaling, which keeps the shape of the edge; where moments are prescribed, these too.
+/// False when nothing is left to scale, or nothing that carries the moments.
+pub fn project_pressure(pressure: &mut [f64], total: Option<f64>, tilt: Option<&TiltMotions>) -> bool {
+    if let Some(tilt) = tilt {
+        return tilt.restore(pressure);
+    }
     for p in pressure.iter_mut() {
         *p = p.max(0.0);
     }

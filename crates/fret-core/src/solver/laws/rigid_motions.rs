@@ -2,6 +2,7 @@
 
 use super::super::contact_set::ContactSet;
 use super::super::prescribed::TangentialLoads;
+use super::super::region::Region;
 use crate::model::TangentialField;
 
 /// The three rigid tangential motions of the cells in contact: fields (1, 0), (0, 1) and (-y, x) / length.
@@ -39,6 +40,19 @@ impl CellPositions {
             centres.chunks(2).map(|pair| 0.5 * (pair[0] + pair[pair.len() - 1])).collect()
         };
         Self { x: pairs(&self.x), y: pairs(&self.y), ..*self }
+    }
+
+    /// Place of a cell along x and y, over the length.
+    pub fn place(&self, cell: usize) -> [f64; 2] {
+        [self.x[cell / self.y.len()] / self.length, self.y[cell % self.y.len()] / self.length]
+    }
+
+    /// Those of a region of the cells.
+    pub fn of_region(&self, region: Region) -> Self {
+        let part = |axis: usize, all: &[f64]| {
+            all[region.origin[axis]..region.origin[axis] + region.shape[axis]].to_vec()
+        };
+        Self { x: part(0, &self.x), y: part(1, &self.y), ..*self }
     }
 
     /// How many cells there are along x and y.

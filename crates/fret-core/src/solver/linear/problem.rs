@@ -6,6 +6,7 @@ use super::super::contact_set::ContactSet;
 use super::super::contact_vector::ContactVector;
 use super::super::laws::active_sets::ActiveSets;
 use super::super::laws::rigid_motions::RigidMotions;
+use super::super::laws::tilt_motions::TiltMotions;
 use super::inverse::Precision;
 use super::preconditioner::{Preconditioner, SlipWeights};
 use super::rigid_projector::{RigidProjector, SetFields, free_part, products, rigid};
@@ -28,6 +29,8 @@ pub struct Linearised<'a> {
     pub slip: [&'a [f64]; 2],
     /// The normal force is prescribed: the mean gap follows.
     pub holds_force: bool,
+    /// Where a moment of the pressure is prescribed, the motions that follow, the approach among them.
+    pub tilt: Option<&'a TiltMotions>,
     /// Weight of the tangential equations: shear counts in units of the pressure that carries it [-].
     pub weight: f64,
     /// Displacement that the machine gives by a unit of the summed traction, normally and along x and y [length/pressure].
@@ -36,6 +39,18 @@ pub struct Linearised<'a> {
     pub forcing: f64,
     /// Size of a residual that is small beside the tolerance [length].
     pub floor: f64,
+}
+
+impl Linearised<'_> {
+    /// Takes off a normal field what motions along the normal that follow from resultants can do.
+    fn without_motions<N: Number>(&self, field: &mut [N]) {
+        match self.tilt {
+            _ if field.is_empty() => {}
+            Some(tilt) => tilt.remove(field),
+            None if self.holds_force => remove_mean(field),
+            None => {}
+        }
+    }
 }
 
 /// Active sets and what goes with them, packed, in the precision of a linear problem.
@@ -158,9 +173,7 @@ impl<'a, N: Number> LinearProblem<'a, N> {
             return;
         }
         preconditioner.pressure(normal, pressure, slip_weights);
-        if self.linearised.holds_force {
-            remove_mean(pressure);
-        }
+        self.linearised.without_motions(pressure);
         let read = [stick, slip, along_x, along_y, &sets.slope, &*pressure, around_x, around_y];
         let resultant = each_cell(&FreeAndFollow, read, [&mut *x, &mut *y]);
         let amounts = self.tractions.amounts(resultant);
@@ -186,9 +199,7 @@ impl<'a, N: Number> LinearProblem<'a, N> {
     pub fn complete(&self, displacements: &mut ContactVector<N>) {
         let Self { linearised, sets, .. } = self;
         let (normal, [x, y]) = displacements.parts_mut();
-        if linearised.holds_force && !normal.is_empty() {
-            remove_mean(normal);
-        }
+        linearised.without_motions(normal);
         let [stick, weight, row_x, row_y, around_x, around_y] = sets.fields_of_equations();
         let turning = &self.workspace.turning;
         let read = [stick, weight, row_x, row_y, &sets.slip_compliance, turning, around_x, around_y];
@@ -199,13 +210,11 @@ impl<'a, N: Number> LinearProblem<'a, N> {
 
 /// The right side of the equations in double precision.
 pub fn right_side(linearised: &Linearised<'_>, right: &mut ContactVector<f64>) {
-    let Linearised { sets, motions, gap, slip, holds_force, weight, .. } = *linearised;
+    let Linearised { sets, motions, gap, slip, weight, .. } = *linearised;
     right.reset(if gap.is_empty() { 2 } else { 3 }, sets.len());
     let (normal, [x, y]) = right.parts_mut();
     convert(gap, -1.0, normal);
-    if holds_force && !normal.is_empty() {
-        remove_mean(normal);
-    }
+    linearised.without_motions(normal);
     convert(slip[0], weight, x);
     convert(slip[1], weight, y);
     let ([row_x, row_y], [around_x, around_y]) = (sets.rows(), motions.rotation.parts());

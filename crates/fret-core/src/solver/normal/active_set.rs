@@ -5,7 +5,6 @@
 //! to four changes; it need not in general (rough surfaces cycle), so it gives up when its violations stop falling.
 
 use super::super::laws::complementarity::{NormalResidual, length_scale};
-use super::super::laws::projection::project_pressure;
 use super::super::settings::SolveError;
 use super::problem::{Ending, NormalIteration};
 use crate::fields::{CellRule, CellSize, Reals, add_scaled, dot, each_cell, largest_of, sum};
@@ -52,7 +51,11 @@ pub fn iterate(problem: &mut NormalIteration<'_>) -> Result<Ending, SolveError> 
         loop {
             problem.report(here.residual)?;
             if here.residual < problem.tolerance && here.tense == 0.0 {
-                let residual = NormalResidual { approach: here.approach, residual: here.residual };
+                let residual = NormalResidual {
+                    approach: here.approach,
+                    turned: problem.turned,
+                    residual: here.residual,
+                };
                 return Ok(Ending::Solved(residual));
             }
             let settled = here.inner_square < SMALL_BESIDE * SMALL_BESIDE * here.outer_square;
@@ -88,7 +91,9 @@ pub fn iterate(problem: &mut NormalIteration<'_>) -> Result<Ending, SolveError> 
 /// Gap everywhere, residual on the contact, and what is wrong.
 fn examine(problem: &mut NormalIteration<'_>) -> Violations {
     let own = problem.self_influence;
-    let read = [&*problem.displacement, problem.task.undeformed, &*problem.pressure, &problem.active];
+    problem.turn(|problem, cell| problem.active[cell]);
+    let undeformed = problem.level.as_deref().unwrap_or(problem.task.undeformed);
+    let read = [&*problem.displacement, undeformed, &*problem.pressure, &problem.active];
     let [heights, count, work, load] = each_cell(&Heights, read, [&mut problem.gap]);
     let approach =
         if problem.task.load.total.is_some() { heights / count } else { problem.task.load.approach };
@@ -113,6 +118,9 @@ fn examine(problem: &mut NormalIteration<'_>) -> Violations {
 /// Preconditioned residual on the contact, without its mean where the force stays; its product with the residual.
 fn steepest(problem: &mut NormalIteration<'_>, count: Option<f64>) -> f64 {
     problem.precondition();
+    if let Some(tilt) = &problem.tilt {
+        tilt.take_off(&mut problem.steepest, &problem.active);
+    }
     let mean = count.map_or(0.0, |count| dot(&problem.steepest, &problem.active) / count);
     let read = [&problem.active[..], &problem.residual];
     let [slope] = each_cell(&WithoutMean { mean }, read, [&mut problem.steepest]);
@@ -126,7 +134,9 @@ fn change_contact(problem: &mut NormalIteration<'_>, any_tense: bool) {
     if !any_tense {
         return;
     }
-    if let Some(total) = problem.task.load.total {
+    if let Some(tilt) = &problem.tilt {
+        tilt.lift(problem.pressure, |cell, _| problem.active[cell]);
+    } else if let Some(total) = problem.task.load.total {
         let lift = if count > 0.0 { (total - kept) / count } else { 0.0 };
         add_scaled(problem.pressure, lift, &problem.active);
     }
@@ -135,7 +145,7 @@ fn change_contact(problem: &mut NormalIteration<'_>, any_tense: bool) {
 
 /// Leaves pressures feasible, with their displacements.
 fn give_up(problem: &mut NormalIteration<'_>) -> Ending {
-    project_pressure(problem.pressure, problem.task.load.total);
+    problem.project_pressure();
     problem.convolve_pressure();
     Ending::Stalled
 }

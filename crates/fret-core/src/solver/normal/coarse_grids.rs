@@ -3,6 +3,7 @@
 
 use ndarray::Array2;
 
+use super::super::laws::rigid_motions::CellPositions;
 use super::super::linear::preconditioner::CellWaves;
 use super::super::operators::RegionOperators;
 use super::super::outcome::Work;
@@ -33,6 +34,7 @@ pub const MARGIN: usize = 2;
 struct Level {
     response: SurfaceResponse,
     undeformed: Array2<f64>,
+    positions: CellPositions,
     spacing: [f64; 2],
 }
 
@@ -49,15 +51,15 @@ impl CoarseGrids {
     pub fn below(
         response: &SurfaceResponse,
         undeformed: &Array2<f64>,
-        spacing: [f64; 2],
+        (positions, spacing): (&CellPositions, [f64; 2]),
         symmetry: Symmetry,
     ) -> Self {
         let (nx, ny) = undeformed.dim();
         let mut levels: Vec<Level> = Vec::new();
         loop {
-            let (response, undeformed, spacing) =
-                levels.last().map_or((response, undeformed, spacing), |last| {
-                    (&last.response, &last.undeformed, last.spacing)
+            let (response, undeformed, positions, spacing) =
+                levels.last().map_or((response, undeformed, positions, spacing), |last| {
+                    (&last.response, &last.undeformed, &last.positions, last.spacing)
                 });
             let (nx, ny) = undeformed.dim();
             let cells = symmetry.whole_of([nx, ny]);
@@ -70,6 +72,7 @@ impl CoarseGrids {
             let level = Level {
                 response: coarser_response(response, cells, Components::NORMAL),
                 undeformed: coarser_heights(undeformed),
+                positions: positions.coarser(),
                 spacing: spacing.map(|side| 2.0 * side),
             };
             levels.push(level);
@@ -92,9 +95,8 @@ impl CoarseGrids {
     ) -> Result<Option<Array2<f64>>, SolveError> {
         let mut start: Option<Array2<f64>> = None;
         for (index, level) in self.levels.iter().enumerate().rev() {
-            let total = load.total.map(|total| total * 0.25_f64.powi(index as i32 + 1));
+            let load = load.of_share(0.25_f64.powi(index as i32 + 1));
             let above = if index == 0 { self.cells } else { self.levels[index - 1].cells() };
-            let load = NormalLoad { total, ..load };
             let waves = table.map(|table| CellWaves { table, spacing: level.spacing });
             let solved = match level.solve((start.take(), self.symmetry), load, waves, settings, callback) {
                 Ok(solved) => solved,
@@ -105,7 +107,7 @@ impl CoarseGrids {
             let full_grid_convolutions = solved.work.full_grid_convolutions / cells;
             *work += Work { full_grid_convolutions, ..solved.work };
             let SolvedLevel { region, pressure, gap, shift, .. } = solved;
-            let total = total.map(|total| 4.0 * total);
+            let total = load.total.map(|total| 4.0 * total);
             start = prolonged((region, &pressure, &gap), shift, above, total);
             if start.is_none() {
                 return Ok(None);
@@ -153,7 +155,11 @@ impl Level {
             let workspace = SharedWorkspace::default();
             let mut operators = RegionOperators::new(&self.response, waves, region, wanted, &workspace)?;
             let undeformed = region.gather(&self.undeformed);
-            let task = NormalEquations { undeformed: &undeformed, load };
+            let task = NormalEquations {
+                undeformed: &undeformed,
+                load,
+                positions: &self.positions.of_region(region),
+            };
             let mut pressure = match &start {
                 Some(start) => region.gather(start),
                 None => first_pressure(&task, operators.compliance.self_influence().normal),

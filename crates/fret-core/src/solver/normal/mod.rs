@@ -28,7 +28,7 @@ pub struct NormalSolution {
 /// Iterations of projected conjugate gradients that need not halve the residual before the active set is tried.
 const MAX_STALLED: usize = 20;
 
-/// Solves the normal equations from a feasible pressure. Both fields end at the solution: pressure [pressure] and its normal displacement
+/// Solves the normal equations from a pressure without tension and with the force prescribed. Both fields end at the solution: pressure [pressure] and its normal displacement
 /// [length].
 ///
 /// Projected conjugate gradients come first, the active set where the response is stiff; each takes over when the other stalls.
@@ -37,11 +37,21 @@ const MAX_STALLED: usize = 20;
 /// When the iteration does not converge or is stopped.
 pub fn solve_normal(
     task: &NormalEquations<'_>,
-    fields: [&mut [f64]; 2],
+    [pressure, displacement]: [&mut [f64]; 2],
     operators: &mut RegionOperators,
     settings: &SolverSettings,
     callback: IterationCallback<'_>,
 ) -> Result<NormalSolution, SolveError> {
+    if let Some(tilt) = task.tilt()
+        && !tilt.restore(pressure)
+    {
+        // Nothing of it carries the moment; of all cells some do.
+        pressure.fill(1.0);
+        if !tilt.restore(pressure) {
+            return Err(SolveError::NotConverged { reached: f64::INFINITY, iterations: 0 });
+        }
+    }
+    let fields = [pressure, displacement];
     let mut by_active_set = operators.preconditioner.is_stiff();
     let mut problem = NormalIteration::new(task, fields, operators, settings.tolerance, callback);
     let mut max_stalled = MAX_STALLED;

@@ -1,6 +1,9 @@
 //! The frictionless problem in a region: its equations, the fields both iterations work on, and how they report.
 
 use super::super::laws::complementarity::{NormalResidual, length_scale};
+use super::super::laws::projection::project_pressure;
+use super::super::laws::rigid_motions::CellPositions;
+use super::super::laws::tilt_motions::TiltMotions;
 use super::super::operators::RegionOperators;
 use super::super::prescribed::NormalLoad;
 use super::super::settings::{IterationCallback, SolveError};
@@ -17,6 +20,15 @@ pub struct NormalEquations<'a> {
     pub undeformed: &'a [f64],
     /// What is prescribed. What the machine gives is in the displacements while the problem is solved.
     pub load: NormalLoad,
+    /// Where the cells are.
+    pub positions: &'a CellPositions,
+}
+
+impl NormalEquations<'_> {
+    /// The motions along the normal, where a moment is prescribed.
+    pub fn tilt(&self) -> Option<TiltMotions> {
+        TiltMotions::of(&self.load, self.positions, 0..self.undeformed.len())
+    }
 }
 
 /// How an iteration ended.
@@ -54,6 +66,10 @@ pub struct NormalIteration<'a> {
     pub self_influence: f64,
     pub tolerance: f64,
     callback: IterationCallback<'a>,
+    /// Where a moment is prescribed: the motions, the tilts found last [length], and the gap before deformation turned by them.
+    pub tilt: Option<TiltMotions>,
+    pub turned: [f64; 2],
+    pub level: Option<Vec<f64>>,
     /// Iterations so far.
     pub iterations: usize,
     /// Least residual so far.
@@ -83,6 +99,9 @@ impl<'a> NormalIteration<'a> {
             last_image: field(),
             self_influence: operators.compliance.self_influence().normal,
             tolerance,
+            tilt: task.tilt(),
+            turned: [0.0; 2],
+            level: None,
             iterations: 0,
             best: f64::INFINITY,
             task,
@@ -127,10 +146,26 @@ impl<'a> NormalIteration<'a> {
         self.operators.preconditioner.normal(&self.residual, &mut self.steepest);
     }
 
+    /// Tilts the body so that the cells with weights are nearest to one height, where a moment is prescribed.
+    pub fn turn(&mut self, weights: impl Fn(&Self, usize) -> f64) {
+        if let Some(tilt) = &self.tilt {
+            let heights = (&*self.displacement, self.task.undeformed, self.task.load.approach);
+            let (turned, level) = tilt.turn(|cell| weights(self, cell), heights);
+            (self.turned, self.level) = (turned, Some(level));
+        }
+    }
+
+    /// Brings pressure to what is allowed.
+    pub fn project_pressure(&mut self) {
+        project_pressure(self.pressure, self.task.load.total, self.tilt.as_ref());
+    }
+
     /// Height `u + g0` into `gap`; the approach (mean height of the loaded cells under a force) and what violations are
     /// measured by. `None` when no cell is loaded.
     pub fn measure(&mut self) -> (f64, Option<f64>) {
-        let read = [&*self.displacement, self.task.undeformed, &*self.pressure];
+        self.turn(|problem, cell| f64::from(u8::from(problem.pressure[cell] > 0.0)));
+        let undeformed = self.level.as_deref().unwrap_or(self.task.undeformed);
+        let read = [&*self.displacement, undeformed, &*self.pressure];
         let [heights, count, work, load] = each_cell(&Measure, read, [&mut self.gap]);
         let approach = match self.task.load.total {
             Some(_) if count > 0.0 => heights / count,

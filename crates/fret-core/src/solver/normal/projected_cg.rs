@@ -31,7 +31,7 @@ pub fn iterate(problem: &mut NormalIteration<'_>, max_stalled: usize) -> Result<
         let residual = scale.map_or(if worst > 0.0 { 1.0 } else { 0.0 }, |scale| worst / scale);
         problem.report(residual)?;
         if residual < problem.tolerance {
-            return Ok(Ending::Solved(NormalResidual { approach, residual }));
+            return Ok(Ending::Solved(NormalResidual { approach, turned: problem.turned, residual }));
         }
         waited += 1;
         if residual < 0.5 * best {
@@ -41,10 +41,15 @@ pub fn iterate(problem: &mut NormalIteration<'_>, max_stalled: usize) -> Result<
             return Ok(Ending::Stalled);
         }
         let mean = if by_force { gaps / count.max(1.0) } else { 0.0 };
-        if mean != 0.0 {
+        if let Some(tilt) = &problem.tilt {
+            tilt.take_off(&mut problem.residual, &problem.active);
+        } else if mean != 0.0 {
             add_scaled(&mut problem.residual, -mean, &problem.active);
         }
         problem.precondition();
+        if let Some(tilt) = &problem.tilt {
+            tilt.take_off(&mut problem.steepest, &problem.active);
+        }
         let along = Direction::new(problem, conjugate, by_force.then_some(count.max(1.0)));
         if !along.clip(problem, step) {
             return Ok(Ending::Stalled);
@@ -104,9 +109,16 @@ impl Direction {
     /// prescribed force. False when no pressure would be left.
     fn clip(&self, problem: &mut NormalIteration<'_>, step: f64) -> bool {
         let Self { beta, constant } = *self;
-        let NormalIteration { steepest, active, last_change, pressure, change, .. } = &mut *problem;
+        let NormalIteration { steepest, active, last_change, pressure, change, tilt, .. } = &mut *problem;
         let target = Target { step, constant, beta };
         let [found] = each_cell(&target, [steepest, active, last_change, pressure], [change]);
+        if let Some(tilt) = tilt {
+            if !tilt.restore(change) {
+                return false;
+            }
+            each_cell(&ChangeTo { fraction: 1.0 }, [&*problem.pressure], [&mut problem.change]);
+            return true;
+        }
         let fraction = match problem.task.load.total {
             Some(_) if !(found > 0.0) => return false,
             Some(total) => total / found,

@@ -113,13 +113,14 @@ fn a_part_of_a_step_is_that_part_of_every_unknown() {
             tractions: Tractions { pressure: values(2), shear },
             displacements: Displacements { normal: values(2), tangential },
             approach: values(1)[0],
+            turned: [values(1)[0], values(1)[0]],
             motion: [0, 1, 2].map(|_| values(1)[0]),
         }
     };
     let numbers = |point: &Point| {
         let parts = point.tractions.parts().into_iter().chain(point.displacements.parts());
         let fields: Vec<f64> = parts.flatten().copied().collect();
-        fields.into_iter().chain([point.approach]).chain(point.motion).collect::<Vec<_>>()
+        fields.into_iter().chain([point.approach]).chain(point.turned).chain(point.motion).collect::<Vec<_>>()
     };
     let (here, there) = (point(0.0), point(40.0));
     // whole numbers and a quarter: nothing is rounded

@@ -8,14 +8,14 @@ use crate::random::Random;
 #[test]
 fn tension_is_cut_off_and_the_load_stays() {
     let mut pressure = [3.0, -2.0, 1.0];
-    assert!(project_pressure(&mut pressure, Some(8.0)));
+    assert!(project_pressure(&mut pressure, Some(8.0), None));
     assert_eq!(pressure, [6.0, 0.0, 2.0]);
     let mut free = [3.0, -2.0, 1.0];
-    assert!(project_pressure(&mut free, None));
+    assert!(project_pressure(&mut free, None, None));
     assert_eq!(free, [3.0, 0.0, 1.0]);
     // Nothing is left that could carry a load; no load is carried by nothing.
-    assert!(!project_pressure(&mut [-1.0, 0.0], Some(1.0)));
-    assert!(project_pressure(&mut [-1.0, 0.0], Some(0.0)));
+    assert!(!project_pressure(&mut [-1.0, 0.0], Some(1.0), None));
+    assert!(project_pressure(&mut [-1.0, 0.0], Some(0.0), None));
 }
 
 /// A contact of 5 x 5 cells about the origin under the bounds `bound(cell)`, and its shear projected.

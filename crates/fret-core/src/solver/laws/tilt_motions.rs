@@ -1,0 +1,250 @@
+//! Rigid motions along the normal where moments of the pressure are prescribed: approach and tilts that follow from resultants, all at once, as the
+//! three motions along the surface do. The tilt is that of the plane nearest to the heights of the cells in contact; pressure is brought to its
+//! resultants by factors that are exponentials of planes, which keep it positive and the shape of its edge, and are unique where there are any
+//! (Csiszar 1975: the nearest pressure in the sense of relative entropy).
+
+use super::super::prescribed::NormalLoad;
+use super::rigid_motions::{CellPositions, RigidMotions};
+use crate::fields::Number;
+
+/// Resultants are off by no more than this, of the pressure.
+const EXACT: f64 = 4e-16;
+/// Resultants that are further off than this after all steps cannot be had from cells under pressure.
+const CLOSE: f64 = 1e-11;
+/// Newton steps at the most, and halvings of one.
+const MOST_STEPS: usize = 60;
+const MOST_HALVINGS: usize = 20;
+
+/// The motions of some cells, packed, and what is prescribed of them.
+#[derive(Debug, Clone)]
+pub struct TiltMotions {
+    /// Places along x and y, over the length that makes them of order one.
+    places: [Vec<f64>; 2],
+    /// Which of approach and tilts follow from resultants.
+    held: [bool; 3],
+    /// Sums of pressure times motion that are prescribed [pressure]; zero for the others.
+    sums: [f64; 3],
+}
+
+impl TiltMotions {
+    /// Those of some cells; `None` where no moment is prescribed.
+    pub fn of(
+        load: &NormalLoad,
+        positions: &CellPositions,
+        cells: impl Iterator<Item = usize>,
+    ) -> Option<Self> {
+        let NormalLoad { total, moment, .. } = *load;
+        if moment == [None; 2] {
+            return None;
+        }
+        let (x, y) = cells.map(|cell| positions.place(cell).into()).unzip();
+        let held = [total.is_some(), moment[0].is_some(), moment[1].is_some()];
+        let sums = [total, moment[0], moment[1]].map(|sum| sum.unwrap_or(0.0));
+        Some(Self { places: [x, y], held, sums })
+    }
+
+    fn modes(&self, cell: usize) -> [f64; 3] {
+        [1.0, self.places[0][cell], self.places[1][cell]]
+    }
+
+    /// A motion of these amounts at a cell.
+    pub fn at(&self, amounts: [f64; 3], cell: usize) -> f64 {
+        let modes = self.modes(cell);
+        amounts[0] + amounts[1] * modes[1] + amounts[2] * modes[2]
+    }
+
+    /// Sums of a field times the motions.
+    fn products(&self, field: impl Iterator<Item = f64>) -> [f64; 3] {
+        field.enumerate().fold([0.0; 3], |sums, (cell, value)| {
+            let modes = self.modes(cell);
+            [0, 1, 2].map(|k| sums[k] + value * modes[k])
+        })
+    }
+
+    /// Amounts of the motions whose sums with weights are these; those that follow from no resultant are zero.
+    fn amounts(&self, weights: impl Iterator<Item = f64>, products: [f64; 3]) -> [f64; 3] {
+        let mut gram = [0.0; 6];
+        for (cell, weight) in weights.enumerate().filter(|(_, weight)| *weight != 0.0) {
+            let modes = self.modes(cell);
+            for (sum, [k, l]) in gram.iter_mut().zip([[0, 0], [1, 1], [2, 2], [0, 1], [0, 2], [1, 2]]) {
+                *sum += weight * modes[k] * modes[l];
+            }
+        }
+        RigidMotions::solve_of(self.held, gram, products)
+    }
+
+    /// Takes off a field of displacements what the motions can do to the cells of a set; zero elsewhere.
+    pub fn take_off(&self, field: &mut [f64], active: &[f64]) {
+        let inside = field.iter().zip(active).map(|(value, active)| value * active);
+        let amounts = self.amounts(active.iter().copied(), self.products(inside));
+        for (cell, (value, active)) in field.iter_mut().zip(active).enumerate() {
+            *value = active * (*value - self.at(amounts, cell));
+        }
+    }
+
+    /// Takes off a field of all cells what the motions can do.
+    pub fn remove<N: Number>(&self, field: &mut [N]) {
+        let values = |field: &[N]| field.iter().map(|value| value.to_double(1.0)).collect::<Vec<f64>>();
+        let before = values(field);
+        let amounts = self.amounts(before.iter().map(|_| 1.0), self.products(before.iter().copied()));
+        for (cell, (value, before)) in field.iter_mut().zip(before).enumerate() {
+            *value = N::of(before - self.at(amounts, cell), 1.0);
+        }
+    }
+
+    /// The tilts that bring the `active` cells nearest to one height [length], and the undeformed gap turned by them.
+    pub fn turn(
+        &self,
+        active: impl Fn(usize) -> f64,
+        (displacement, undeformed, approach): (&[f64], &[f64], f64),
+    ) -> ([f64; 2], Vec<f64>) {
+        let height = |cell: usize| active(cell) * (displacement[cell] + undeformed[cell] - approach);
+        let cells = undeformed.len();
+        let [_, x, y] = self.amounts((0..cells).map(&active), self.products((0..cells).map(height)));
+        ([x, y], (0..cells).map(|cell| undeformed[cell] - self.at([0.0, x, y], cell)).collect())
+    }
+
+    /// What resultants lack.
+    pub fn missing(&self, pressure: &[f64]) -> [f64; 3] {
+        let found = self.products(pressure.iter().copied());
+        [0, 1, 2].map(|k| if self.held[k] { self.sums[k] - found[k] } else { 0.0 })
+    }
+
+    /// Adds weights times the motions that bring pressure to its resultants.
+    pub fn lift(&self, pressure: &mut [f64], weights: impl Fn(usize, f64) -> f64) {
+        let weights: Vec<f64> = pressure.iter().enumerate().map(|(cell, p)| weights(cell, *p)).collect();
+        let amounts = self.amounts(weights.iter().copied(), self.missing(pressure));
+        for (cell, (p, weight)) in pressure.iter_mut().zip(weights).enumerate() {
+            *p += weight * self.at(amounts, cell);
+        }
+    }
+
+    /// Cuts tension off and brings the rest to its resultants. False where it cannot be: nothing is changed but the tension.
+    pub fn restore(&self, pressure: &mut [f64]) -> bool {
+        for p in pressure.iter_mut() {
+            *p = p.max(0.0);
+        }
+        let mut amounts = [0.0; 3];
+        let mut here = self.scaled(pressure, amounts);
+        for _ in 0..MOST_STEPS {
+            let off = self.off(&here);
+            if off <= EXACT {
+                break;
+            }
+            let right = self.missing(&here);
+            let step = self.amounts(here.iter().copied(), right);
+            // The convex function whose gradient is what resultants have too much.
+            let value = |pressure: &[f64], amounts: [f64; 3]| {
+                pressure.iter().sum::<f64>() - (0..3).map(|k| amounts[k] * self.sums[k]).sum::<f64>()
+            };
+            let now = value(&here, amounts);
+            let along: f64 = (0..3).map(|k| step[k] * right[k]).sum();
+            let mut share = 1.0;
+            let mut next = None;
+            for _ in 0..MOST_HALVINGS {
+                let tried = [0, 1, 2].map(|k| amounts[k] + share * step[k]);
+                let there = self.scaled(pressure, tried);
+                let falls = value(&there, tried) <= now - 1e-4 * share * along;
+                if there.iter().all(|p| p.is_finite()) && (falls || self.off(&there) < off) {
+                    next = Some((tried, there));
+                    break;
+                }
+                share *= 0.5;
+            }
+            let Some((tried, there)) = next else { break };
+            (amounts, here) = (tried, there);
+        }
+        let done = self.off(&here) <= CLOSE;
+        if done {
+            pressure.copy_from_slice(&here);
+        }
+        done
+    }
+
+    fn scaled(&self, pressure: &[f64], amounts: [f64; 3]) -> Vec<f64> {
+        let factor = |cell: usize| self.at(amounts, cell).exp();
+        pressure.iter().enumerate().map(|(cell, p)| if *p > 0.0 { p * factor(cell) } else { 0.0 }).collect()
+    }
+
+    /// The largest resultant that is missing, of the pressure.
+    fn off(&self, pressure: &[f64]) -> f64 {
+        let total = pressure.iter().sum::<f64>().max(self.sums[0]);
+        let missing =
+            self.missing(pressure).into_iter().fold(0.0, |most: f64, missing| most.max(missing.abs()));
+        if total > 0.0 {
+            missing / total
+        } else if missing > 0.0 {
+            f64::INFINITY
+        } else {
+            0.0
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Cells at -2, -1, 0, 1, 2 along x.
+    fn row(total: Option<f64>, moment: f64) -> TiltMotions {
+        let positions = CellPositions::new(vec![-2.0, -1.0, 0.0, 1.0, 2.0], vec![0.0], false);
+        // Places count in the length 2.
+        let load = NormalLoad { total, approach: 0.0, give: 0.0, moment: [Some(moment / 2.0), None] };
+        TiltMotions::of(&load, &positions, 0..5).unwrap()
+    }
+
+    fn force_and_moment(pressure: &[f64]) -> [f64; 2] {
+        pressure
+            .iter()
+            .zip([-2.0, -1.0, 0.0, 1.0, 2.0])
+            .fold([0.0; 2], |[force, moment], (p, x)| [force + p, moment + p * x])
+    }
+
+    #[test]
+    fn pressure_gets_its_force_and_moment() {
+        for (start, total, moment) in [
+            ([1.0, 1.0, 1.0, 1.0, -3.0], Some(10.0), 4.0),
+            ([0.0, 0.0, 1.0, 1.0, 1.0], Some(1.0), 1.999),
+            ([1.0, 0.0, 0.0, 1.0, 0.0], None, 0.0),
+        ] {
+            let mut pressure = start;
+            assert!(row(total, moment).restore(&mut pressure));
+            let [force, found] = force_and_moment(&pressure);
+            let size = pressure.iter().sum::<f64>();
+            assert!(
+                (found - moment).abs() < 1e-14 * size
+                    && total.is_none_or(|total| (force - total).abs() < 1e-14 * size)
+            );
+            assert!(pressure.iter().zip(start).all(|(p, start)| *p >= 0.0 && (*p == 0.0) == (start <= 0.0)));
+        }
+    }
+
+    /// No pressure on cells at 0, 1 and 2 has its centre at -1 or 2.5.
+    #[test]
+    fn what_cells_under_pressure_cannot_carry_is_said() {
+        for centre in [-1.0, 2.5] {
+            let mut pressure = [0.0, -1.0, 1.0, 1.0, 1.0];
+            assert!(!row(Some(3.0), 3.0 * centre).restore(&mut pressure));
+            assert_eq!(pressure, [0.0, 0.0, 1.0, 1.0, 1.0]);
+        }
+    }
+
+    /// Heights 3 + 0.5 x on the cells in contact and anything elsewhere: the turned gap is level there, and no sum or moment is left.
+    #[test]
+    fn a_plane_is_taken_off() {
+        let motions = row(Some(1.0), 0.0);
+        let undeformed = [9.0, 2.5, 3.0, 3.5, -7.0];
+        let active = [0.0, 1.0, 1.0, 1.0, 0.0];
+        let (amounts, turned) = motions.turn(|cell| active[cell], (&[0.0; 5], &undeformed, 0.25));
+        assert!((amounts[0] - 1.0).abs() < 1e-12 && amounts[1] == 0.0, "{amounts:?}");
+        assert!((1..4).all(|cell| (turned[cell] - 3.0).abs() < 1e-12) && (turned[0] - 10.0).abs() < 1e-12);
+        let mut field = [5.0, 1.0, 4.0, 2.0, 8.0];
+        motions.take_off(&mut field, &active);
+        let [force, moment] = force_and_moment(&field);
+        assert!(force.abs() < 1e-12 && moment.abs() < 1e-12 && field[0] == 0.0 && field[4] == 0.0);
+        let mut all = [5.0, 1.0, 4.0, 2.0, 8.0];
+        motions.remove(&mut all);
+        let [force, moment] = force_and_moment(&all);
+        assert!(force.abs() < 1e-11 && moment.abs() < 1e-11);
+    }
+}
