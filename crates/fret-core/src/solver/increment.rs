@@ -51,12 +51,19 @@ impl ContactSolver<'_> {
                 ratio = None;
                 continue;
             }
+            let whole = Region::whole(self.grid.cells());
+            let by_moment = load.tilt.iter().any(|tilt| tilt.force().is_some());
+            if let (true, Err(SolveError::NotConverged { .. })) = (by_moment && region != whole, &solved) {
+                // The centre of the pressure may lie anywhere.
+                (region, start) = (whole, None);
+                continue;
+            }
             let (solved, after, outcome) = solved?;
             self.set_tilt(after.tilt);
             self.check(load, &after, &outcome, solved.solution.iterations)?;
             let (gap, contact_area) = self.gap_and_area((region, load), &solved, &after)?;
             if self.overlaps_outside(region, &gap) {
-                region = Region::whole(self.grid.cells());
+                region = whole;
                 start = start.map(|_| after.pressure);
                 continue;
             }

@@ -73,10 +73,21 @@ impl TiltMotions {
         RigidMotions::solve_of(self.held, gram, products)
     }
 
+    /// Amounts of the motions nearest to a field, by least squares with weights. Found twice: a contact far from the middle has motions that are
+    /// nearly the same, and of a large field the digits of what is left over count.
+    fn nearest(&self, weights: &[f64], field: &[f64]) -> [f64; 3] {
+        let mut amounts = [0.0; 3];
+        for _ in 0..2 {
+            let left = (0..field.len()).map(|cell| weights[cell] * (field[cell] - self.at(amounts, cell)));
+            let more = self.amounts(weights.iter().copied(), self.products(left));
+            amounts = [0, 1, 2].map(|k| amounts[k] + more[k]);
+        }
+        amounts
+    }
+
     /// Takes off a field of displacements what the motions can do to the cells of a set; zero elsewhere.
     pub fn take_off(&self, field: &mut [f64], active: &[f64]) {
-        let inside = field.iter().zip(active).map(|(value, active)| value * active);
-        let amounts = self.amounts(active.iter().copied(), self.products(inside));
+        let amounts = self.nearest(active, field);
         for (cell, (value, active)) in field.iter_mut().zip(active).enumerate() {
             *value = active * (*value - self.at(amounts, cell));
         }
@@ -84,9 +95,8 @@ impl TiltMotions {
 
     /// Takes off a field of all cells what the motions can do.
     pub fn remove<N: Number>(&self, field: &mut [N]) {
-        let values = |field: &[N]| field.iter().map(|value| value.to_double(1.0)).collect::<Vec<f64>>();
-        let before = values(field);
-        let amounts = self.amounts(before.iter().map(|_| 1.0), self.products(before.iter().copied()));
+        let before: Vec<f64> = field.iter().map(|value| value.to_double(1.0)).collect();
+        let amounts = self.nearest(&vec![1.0; before.len()], &before);
         for (cell, (value, before)) in field.iter_mut().zip(before).enumerate() {
             *value = N::of(before - self.at(amounts, cell), 1.0);
         }
@@ -98,9 +108,11 @@ impl TiltMotions {
         active: impl Fn(usize) -> f64,
         (displacement, undeformed, approach): (&[f64], &[f64], f64),
     ) -> ([f64; 2], Vec<f64>) {
-        let height = |cell: usize| active(cell) * (displacement[cell] + undeformed[cell] - approach);
         let cells = undeformed.len();
-        let [_, x, y] = self.amounts((0..cells).map(&active), self.products((0..cells).map(height)));
+        let heights: Vec<f64> =
+            (0..cells).map(|cell| displacement[cell] + undeformed[cell] - approach).collect();
+        let weights: Vec<f64> = (0..cells).map(active).collect();
+        let [_, x, y] = self.nearest(&weights, &heights);
         ([x, y], (0..cells).map(|cell| undeformed[cell] - self.at([0.0, x, y], cell)).collect())
     }
 
@@ -113,10 +125,19 @@ impl TiltMotions {
     /// Adds weights times the motions that bring pressure to its resultants.
     pub fn lift(&self, pressure: &mut [f64], weights: impl Fn(usize, f64) -> f64) {
         let weights: Vec<f64> = pressure.iter().enumerate().map(|(cell, p)| weights(cell, *p)).collect();
-        let amounts = self.amounts(weights.iter().copied(), self.missing(pressure));
-        for (cell, (p, weight)) in pressure.iter_mut().zip(weights).enumerate() {
-            *p += weight * self.at(amounts, cell);
+        for _ in 0..2 {
+            let amounts = self.amounts(weights.iter().copied(), self.missing(pressure));
+            for (cell, (p, weight)) in pressure.iter_mut().zip(&weights).enumerate() {
+                *p += weight * self.at(amounts, cell);
+            }
         }
+    }
+
+    /// The same pressure on all cells, of the size of what is prescribed, brought to its resultants. False where no pressure has them.
+    pub fn on_all_cells(&self, pressure: &mut [f64]) -> bool {
+        let size = self.sums.into_iter().fold(0.0, |most: f64, sum| most.max(sum.abs()));
+        pressure.fill(if size > 0.0 { size / pressure.len() as f64 } else { 1.0 });
+        self.restore(pressure)
     }
 
     /// Cuts tension off and brings the rest to its resultants. False where it cannot be: nothing is changed but the tension.
@@ -124,13 +145,17 @@ impl TiltMotions {
         for p in pressure.iter_mut() {
             *p = p.max(0.0);
         }
-        let mut amounts = [0.0; 3];
+        let (found, total) = (pressure.iter().sum::<f64>(), self.sums[0]);
+        let first = if self.held[0] && found > 0.0 && total > 0.0 { (total / found).ln() } else { 0.0 };
+        let mut amounts = [first, 0.0, 0.0];
         let mut here = self.scaled(pressure, amounts);
+        let mut last = f64::INFINITY;
         for _ in 0..MOST_STEPS {
             let off = self.off(&here);
-            if off <= EXACT {
+            if off <= EXACT || off <= CLOSE && off > 0.5 * last {
                 break;
             }
+            last = off;
             let right = self.missing(&here);
             let step = self.amounts(here.iter().copied(), right);
             // The convex function whose gradient is what resultants have too much.
@@ -154,11 +179,16 @@ impl TiltMotions {
             let Some((tried, there)) = next else { break };
             (amounts, here) = (tried, there);
         }
-        let done = self.off(&here) <= CLOSE;
+        let done = self.is_held_by(&here);
         if done {
             pressure.copy_from_slice(&here);
         }
         done
+    }
+
+    /// Whether pressure has these resultants.
+    pub fn is_held_by(&self, pressure: &[f64]) -> bool {
+        self.off(pressure) <= CLOSE
     }
 
     fn scaled(&self, pressure: &[f64], amounts: [f64; 3]) -> Vec<f64> {

@@ -84,7 +84,13 @@ pub fn iterate(problem: &mut NormalIteration<'_>) -> Result<Ending, SolveError> 
         if changes > MAX_STALLED {
             return Ok(give_up(problem));
         }
+        let before = problem.tilt.is_some().then(|| problem.pressure.to_vec());
         change_contact(problem, here.tense > 0.0);
+        if let Some(before) = before.filter(|_| !problem.has_moments()) {
+            // Fewer cells than the moment needs.
+            problem.pressure.copy_from_slice(&before);
+            return Ok(give_up(problem));
+        }
     }
 }
 

@@ -46,8 +46,7 @@ pub fn solve_normal(
         && !tilt.restore(pressure)
     {
         // Nothing of it carries the moment; of all cells some do.
-        pressure.fill(1.0);
-        if !tilt.restore(pressure) {
+        if !tilt.on_all_cells(pressure) {
             return Err(SolveError::NotConverged { reached: f64::INFINITY, iterations: 0 });
         }
     }

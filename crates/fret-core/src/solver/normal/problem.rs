@@ -155,9 +155,17 @@ impl<'a> NormalIteration<'a> {
         }
     }
 
-    /// Brings pressure to what is allowed.
+    /// Brings pressure to what is allowed; pressure on all cells, where what there is carries no such moment.
     pub fn project_pressure(&mut self) {
-        project_pressure(self.pressure, self.task.load.total, self.tilt.as_ref());
+        let carried = project_pressure(self.pressure, self.task.load.total, self.tilt.as_ref());
+        if let (Some(tilt), false) = (&self.tilt, carried) {
+            tilt.on_all_cells(self.pressure);
+        }
+    }
+
+    /// Whether pressure has the moments that are prescribed.
+    pub fn has_moments(&self) -> bool {
+        self.tilt.as_ref().is_none_or(|tilt| tilt.is_held_by(self.pressure))
     }
 
     /// Height `u + g0` into `gap`; the approach (mean height of the loaded cells under a force) and what violations are

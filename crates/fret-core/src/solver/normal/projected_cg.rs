@@ -114,7 +114,11 @@ impl Direction {
         let [found] = each_cell(&target, [steepest, active, last_change, pressure], [change]);
         if let Some(tilt) = tilt {
             if !tilt.restore(change) {
-                return false;
+                // Cells that would leave are needed for the moment.
+                add_scaled(change, 1.0, pressure);
+                if !tilt.restore(change) {
+                    return false;
+                }
             }
             each_cell(&ChangeTo { fraction: 1.0 }, [&*problem.pressure], [&mut problem.change]);
             return true;

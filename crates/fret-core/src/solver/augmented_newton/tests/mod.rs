@@ -128,7 +128,7 @@ fn a_part_of_a_step_is_that_part_of_every_unknown() {
     let exact: Vec<f64> =
         numbers(&here).iter().zip(numbers(&there)).map(|(a, b)| 0.75 * a + 0.25 * b).collect();
     assert_eq!(found, exact);
-    assert_eq!(found.len(), 16);
+    assert_eq!(found.len(), 18);
 }
 
 #[test]
